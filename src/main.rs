@@ -1,0 +1,2 @@
+//! The `foldwell` command.
+fn main() {}

@@ -1,0 +1,5 @@
+//! One cell of a sheet on the torus (or a finite sheet), with its files and its generators.
+
+pub mod cell;
+
+pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
