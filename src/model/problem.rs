@@ -216,8 +216,6 @@ impl Model {
             let mut local = self.soft[term].local(element, &self.domain, all, full);
             let force = spring.stiffness * (local.value - spring.rest);
             local.hessian.iter_mut().for_each(|h| *h *= force);
-            local.hessian.resize(local.gradient.len() * (local.gradient.len() + 1) / 2, 0.0);
-            add_outer(spring.stiffness, &local.gradient, &mut local.hessian);
             (spring, force, local)
         };
         parallel::ordered(count(&self.soft), compute, |k, (spring, force, local)| {
@@ -230,8 +228,10 @@ impl Model {
                     out.gradient[member as usize] += force * g;
                 }
             }
+            out.add_metric(k, spring.stiffness, &local.gradient);
             out.add_soft(k, &local.hessian);
         });
+        out.add_metric_to_hessian();
     }
 
     fn linearize_stiff(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
@@ -252,13 +252,3 @@ impl Model {
     }
 }
 
-/// Adds the lower triangle of `weight g g^T`.
-fn add_outer(weight: f64, g: &[f64], block: &mut [f64]) {
-    let mut k = 0;
-    for p in 0..g.len() {
-        for q in 0..=p {
-            block[k] += weight * g[p] * g[q];
-            k += 1;
-        }
-    }
-}

@@ -243,17 +243,16 @@ impl<P: Problem> Newton<'_, P> {
 
     /// Factors with the smallest shift, from the last one's tenth upwards, at which the Hessian is that of a minimum.
     fn factor(&mut self) -> Result<(), Failure> {
-        let scale = Saddle::scale(&self.at).max(f64::MIN_POSITIVE);
-        let mut shift = if self.shift > 1e-10 { self.shift / 10.0 } else { 0.0 };
+        let mut shift = if self.shift > 2e-2 { self.shift / 4.0 } else { 0.0 };
         for _ in 0..40 {
-            let found = self.saddle.factor(self.problem.layout(), &self.at, self.problem.compliance(), shift * scale);
+            let found = self.saddle.factor(self.problem.layout(), &self.at, self.problem.compliance(), shift);
             match found {
                 Ok(inertia) if inertia.negative == 0 => {
                     self.shift = shift;
                     return Ok(());
                 }
                 Err(error @ FactorError::NotFinite) => return Err(error.into()),
-                _ => shift = if shift == 0.0 { 1e-8 } else { 4.0 * shift },
+                _ => shift = if shift == 0.0 { 1e-2 } else { 4.0 * shift },
             }
         }
         Err(FactorError::Singular { ratio: 0.0 }.into())
@@ -272,7 +271,7 @@ impl<P: Problem> Newton<'_, P> {
                 }
                 fraction /= 2.0;
             }
-            self.shift = (10.0 * self.shift).max(1e-4) * 10.0;
+            self.shift = (16.0 * self.shift).max(1.0);
             self.factor()?;
         }
         Err(Failure::Stuck { force: last.residual_force, length: last.residual_length })

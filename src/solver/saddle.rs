@@ -11,17 +11,19 @@
 
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{Factor, FactorError, Inertia};
-use crate::numerics::sparse::diagonal_slot;
+use crate::numerics::sparse::{diagonal_slot, symmetric_product};
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
 const GAMMA: f64 = 1e6;
+/// What of the identity is added to the metric, over the largest entry of the Hessian.
+const LEAST_METRIC: f64 = 1e-10;
 
 /// A factorization of `S` and what is needed to solve with it.
 pub struct Saddle {
     factor: Factor,
+    shifted: Vec<f64>,
     values: Vec<f64>,
     weights: Vec<f64>,
-    shift: f64,
     /// Factorizations made.
     pub factorizations: usize,
     /// Solves with a factorization made.
@@ -34,8 +36,9 @@ impl Saddle {
         let pattern = linearization.pattern();
         let factor = Factor::new(pattern, &layout.node, &[&layout.soft, &layout.stiff])?;
         let values = vec![0.0; pattern.entries()];
+        let shifted = values.clone();
         let weights = vec![0.0; layout.stiff.len()];
-        Ok(Self { factor, values, weights, shift: 0.0, factorizations: 0, solves: 0 })
+        Ok(Self { factor, shifted, values, weights, factorizations: 0, solves: 0 })
     }
 
     /// Size of the Hessian's diagonal, the unit in which shifts and weights are chosen.
@@ -54,12 +57,15 @@ impl Saddle {
         shift: f64,
     ) -> Result<Inertia, FactorError> {
         let pattern = at.pattern();
-        self.shift = shift;
-        self.values.copy_from_slice(&at.hessian);
-        for k in 0..pattern.size() {
-            self.values[diagonal_slot(pattern, k)] += shift;
-        }
         let scale = Self::scale(at);
+        self.shifted.copy_from_slice(&at.hessian);
+        if shift > 0.0 {
+            self.shifted.iter_mut().zip(&at.metric).for_each(|(v, m)| *v += shift * m);
+            for k in 0..pattern.size() {
+                self.shifted[diagonal_slot(pattern, k)] += shift * LEAST_METRIC * scale;
+            }
+        }
+        self.values.copy_from_slice(&self.shifted);
         for (row, &c) in compliance.iter().enumerate() {
             let gradient = &at.jacobian[layout.stiff.range(row)];
             let largest = gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
@@ -121,7 +127,7 @@ impl Saddle {
     ) -> (Vec<f64>, Vec<f64>) {
         let rows = at.rows(layout);
         let (mut ra, mut rb) = (vec![0.0; a.len()], vec![0.0; b.len()]);
-        at.hessian_product(self.shift, dx, &mut ra);
+        symmetric_product(at.pattern(), &self.shifted, dx, &mut ra);
         rows.add_transpose_product(dt, &mut ra);
         ra.iter_mut().zip(a).for_each(|(r, a)| *r = a - *r);
         rows.product(dx, &mut rb);
