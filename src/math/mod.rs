@@ -1,4 +1,7 @@
 //! Small mathematics that every floor uses: points, rotations, the sinc family.
 
+pub mod rotation;
+pub mod sinc;
+
 /// A point or a vector in space, in the user's unit of length.
 pub type Vec3 = nalgebra::Vector3<f64>;
