@@ -1,5 +1,6 @@
-//! Small mathematics that every floor uses: points, rotations, the sinc family.
+//! Small mathematics that every floor uses: points, the fold angle, rotations, the sinc family.
 
+pub mod fold_angle;
 pub mod rotation;
 pub mod sinc;
 

@@ -1,1 +1,16 @@
-//! (to be written)
+//! Bars and hinges as energies: measures, laws, terms and the domains in which their points stand.
+//!
+//! An energy is a *measure* (a scalar of some points: the length of a bar, the fold angle of a hinge) and a *law*
+//! (what a value of that scalar costs). A [`term::Term`] is a list of elements with one measure. A
+//! [`domain::Domain`] says where the points of an element come from; its chain rule stands in one place. The
+//! [`Model`] puts terms on a domain and is the [`crate::solver::Problem`] that the solver minimises.
+
+pub mod domain;
+pub mod gauge;
+pub mod measure;
+pub mod problem;
+pub mod term;
+
+pub use domain::{Domain, Site};
+pub use problem::Model;
+pub use term::{Element, Spring, Term};

@@ -1,7 +1,11 @@
-//! Linear algebra on dense and sparse matrices, and the checks of hand-written derivatives.
+//! Sparse and dense linear algebra, and the check of derivatives. The only module that names `faer`.
 
 pub mod dense;
 pub mod derivatives;
+pub mod factor;
+pub mod order;
+pub mod parallel;
+pub mod sparse;
 
 /// The dense matrix that modules hand to each other.
 pub type DenseMatrix = nalgebra::DMatrix<f64>;

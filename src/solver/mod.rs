@@ -1,1 +1,8 @@
-//! (to be written)
+//! Minimisation of a soft energy under stiff measures, for any stiffness up to exactly rigid. Knows no origami.
+
+pub mod newton;
+pub mod problem;
+pub mod saddle;
+
+pub use newton::{Equilibrium, Failure, NewtonError, Options, minimize};
+pub use problem::{Curvature, Layout, Linearization, Problem};

@@ -1,0 +1,142 @@
+//! The fold angle of four points, with its gradient and Hessian.
+//!
+//! With `e = j - i`, `a = left - i`, `b = right - i` and the face normals `n = e x a` (left) and `m = b x e` (right),
+//! `rho = atan2(|e| a.m, n.m)`: zero where the faces lie in one plane, positive for a valley, that is where the faces
+//! rise towards the side of their normals. `atan2` keeps all digits at 0 and at pi and knows the sign.
+//!
+//! In the variables `(e, a, b)` the derivatives are short. With `N = n/|n|^2` and `s = a.e/|e|^2` (where the foot of
+//! `left` divides the hinge), and likewise `M`, `r` for the right side,
+//! `d rho/da = |e| N`, `d rho/db = |e| M`, `d rho/de = -s |e| N - r |e| M`;
+//! the Hessian follows with `dN = (I - 2 n n^T/|n|^2) dn / |n|^2`. The lengths and angles in these formulas are those
+//! of R. Tamstorf and E. Grinspun, "Discrete bending forces and their Jacobians", Graphical Models 75 (2013) 362-370.
+
+use super::Vec3;
+use nalgebra::{Matrix3, SMatrix, SVector};
+
+/// Gradient over the twelve coordinates of `[i, j, left, right]`.
+pub type HingeGradient = SVector<f64, 12>;
+/// Hessian over the twelve coordinates of `[i, j, left, right]`.
+pub type HingeHessian = SMatrix<f64, 12, 12>;
+
+/// Fold angle of the hinge `[i, j, left, right]`, in radians, in `(-pi, pi]`.
+///
+/// ```text
+///           left
+///          /    \
+///         i ---- j        both faces counter-clockwise: (i, j, left) and (j, i, right)
+///          \    /
+///           right
+/// ```
+///
+/// Not a number where a point is; zero where a face has no area.
+pub fn fold_angle(points: &[Vec3; 4]) -> f64 {
+    Hinge::new(points).angle()
+}
+
+/// Fold angle and its gradient, in radians per unit length. Infinite where a face has no area.
+pub fn fold_angle_gradient(points: &[Vec3; 4]) -> (f64, HingeGradient) {
+    let hinge = Hinge::new(points);
+    (hinge.angle(), hinge.gradient())
+}
+
+/// Fold angle, its gradient and its Hessian.
+pub fn fold_angle_hessian(points: &[Vec3; 4]) -> (f64, HingeGradient, HingeHessian) {
+    let hinge = Hinge::new(points);
+    (hinge.angle(), hinge.gradient(), hinge.hessian())
+}
+
+/// The hinge in the variables of the module's formulas: one side for `left`, one for `right`.
+struct Hinge {
+    e: Vec3,
+    length: f64,
+    left: Side,
+    right: Side,
+}
+
+/// A face beside the hinge: `wing` is `a` or `b`, `foot` is `s` or `r`.
+struct Side {
+    wing: Vec3,
+    normal: Vec3,
+    /// `N` or `M`: the normal over its squared length.
+    inverse: Vec3,
+    foot: f64,
+}
+
+impl Side {
+    fn new(wing: Vec3, normal: Vec3, e: &Vec3) -> Self {
+        Self { wing, normal, inverse: normal / normal.norm_squared(), foot: wing.dot(e) / e.norm_squared() }
+    }
+
+    /// `(I - 2 n n^T/|n|^2) / |n|^2`, the derivative of `n/|n|^2`.
+    fn inverse_derivative(&self) -> Matrix3<f64> {
+        Matrix3::identity() / self.normal.norm_squared() - 2.0 * self.inverse * self.inverse.transpose()
+    }
+
+    /// Derivative of `foot` with respect to `e`.
+    fn foot_derivative(&self, e: &Vec3) -> Vec3 {
+        (self.wing - 2.0 * self.foot * e) / e.norm_squared()
+    }
+}
+
+impl Hinge {
+    fn new([i, j, left, right]: &[Vec3; 4]) -> Self {
+        let (e, a, b) = (j - i, left - i, right - i);
+        Self { e, length: e.norm(), left: Side::new(a, e.cross(&a), &e), right: Side::new(b, b.cross(&e), &e) }
+    }
+
+    fn angle(&self) -> f64 {
+        let (n, m) = (&self.left.normal, &self.right.normal);
+        (self.length * self.left.wing.dot(m)).atan2(n.dot(m))
+    }
+
+    fn gradient(&self) -> HingeGradient {
+        let (ga, gb) = (self.length * self.left.inverse, self.length * self.right.inverse);
+        let ge = -self.left.foot * ga - self.right.foot * gb;
+        let gi = -(ga + gb) - ge;
+        let mut gradient = HingeGradient::zeros();
+        for (k, block) in [gi, ge, ga, gb].iter().enumerate() {
+            gradient.fixed_rows_mut::<3>(3 * k).copy_from(block);
+        }
+        gradient
+    }
+
+    fn hessian(&self) -> HingeHessian {
+        let (e, unit) = (&self.e, self.e / self.length);
+        let cross_e = self.length * e.cross_matrix();
+        let (dn, dm) = (self.left.inverse_derivative(), self.right.inverse_derivative());
+        let aa = dn * cross_e;
+        let bb = -dm * cross_e;
+        let ae = self.left.inverse * unit.transpose() - self.length * dn * self.left.wing.cross_matrix();
+        let be = self.right.inverse * unit.transpose() + self.length * dm * self.right.wing.cross_matrix();
+        let slope = |side: &Side| self.length * side.inverse * side.foot_derivative(e).transpose();
+        let ee = -slope(&self.left) - self.left.foot * ae - slope(&self.right) - self.right.foot * be;
+        spread(&aa, &bb, &ae, &be, &ee)
+    }
+}
+
+/// From blocks in `(e, a, b)` to the twelve coordinates: `e = j - i`, `a = left - i`, `b = right - i`.
+fn spread(
+    aa: &Matrix3<f64>,
+    bb: &Matrix3<f64>,
+    ae: &Matrix3<f64>,
+    be: &Matrix3<f64>,
+    ee: &Matrix3<f64>,
+) -> HingeHessian {
+    let (ei, ai, bi) = (-(ee + ae.transpose() + be.transpose()), -(ae + aa), -(be + bb));
+    let ii = -(ei + ai + bi);
+    let mut hessian = HingeHessian::zeros();
+    let mut put = |row: usize, column: usize, block: &Matrix3<f64>| {
+        hessian.fixed_view_mut::<3, 3>(3 * row, 3 * column).copy_from(block);
+        hessian.fixed_view_mut::<3, 3>(3 * column, 3 * row).copy_from(&block.transpose());
+    };
+    put(0, 0, &ii);
+    put(1, 1, ee);
+    put(2, 2, aa);
+    put(3, 3, bb);
+    put(1, 0, &ei);
+    put(2, 0, &ai);
+    put(3, 0, &bi);
+    put(2, 1, ae);
+    put(3, 1, be);
+    hessian
+}

@@ -1,0 +1,245 @@
+//! Domains: where the points of an element come from, and the chain rule through them.
+//!
+//! The coordinates of a state are three for each vertex, and after them the *shared* coordinates of the domain:
+//! none on a patch or on a torus with fixed lattice, the six components of the lattice vectors on a free torus, and
+//! `kappa, b1, b2, h1, h2` on a screw. A point of an element is a vertex of some cell, a [`Site`].
+//!
+//! Screw (commuting screw motions about an axis along x, written so that the axis may go to infinity): with
+//! `b = n1 b1 + n2 b2`, `h = n1 h1 + n2 h2`, `t = kappa b` the copy of `(x, y, z)` in cell `(n1, n2)` is
+//! `x + h` and, with `w = y + i z`, `e^(it) w + b phi(t)` where `phi(t) = (e^(it) - 1)/(it)`. At `kappa = 0` it is a
+//! translation by `(h, b, 0)`; the derivatives with respect to `kappa` are as smooth there as elsewhere.
+
+use crate::math::{Vec3, sinc};
+use nalgebra::{Complex, Matrix3, SMatrix, SVector};
+
+/// A vertex of the model together with the translate in which it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Site {
+    /// Number of the vertex.
+    pub vertex: usize,
+    /// How many lattice vectors away; always zero on a patch.
+    pub shift: [i32; 2],
+}
+
+/// Most shared coordinates that a domain has.
+pub const MOST_SHARED: usize = 6;
+type SharedMatrix = SMatrix<f64, 3, MOST_SHARED>;
+
+/// Where points come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Domain {
+    /// Vertices, free edges.
+    Patch,
+    /// Periodic, with this lattice.
+    FixedTorus([Vec3; 2]),
+    /// Periodic, the lattice vectors are coordinates.
+    FreeTorus,
+    /// One cell moved by commuting screw motions about an axis along x.
+    Screw,
+}
+
+/// A measure pulled back to the coordinates of one element: `3 N` of its vertices, then the shared ones.
+#[derive(Clone, Debug)]
+pub struct Pulled {
+    /// Value of the measure.
+    pub value: f64,
+    /// Gradient, `size` numbers.
+    pub gradient: Vec<f64>,
+    /// Lower triangle of the Hessian row by row; empty where it was not asked for.
+    pub hessian: Vec<f64>,
+}
+
+/// A point with its derivatives: `vertex` with respect to the vertex, `shared` to the shared coordinates.
+struct Placed {
+    point: Vec3,
+    vertex: Matrix3<f64>,
+    shared: SharedMatrix,
+}
+
+impl Domain {
+    /// Number of shared coordinates.
+    pub fn shared(&self) -> usize {
+        match self {
+            Self::Patch | Self::FixedTorus(_) => 0,
+            Self::FreeTorus => 6,
+            Self::Screw => 5,
+        }
+    }
+
+    /// Where a site is. `x` holds all coordinates, the shared ones last.
+    pub fn point(&self, x: &[f64], site: Site) -> Vec3 {
+        let v = vertex(x, site);
+        let [n1, n2] = site.shift.map(f64::from);
+        let shared = &x[x.len() - self.shared()..];
+        match self {
+            Self::Patch => v,
+            Self::FixedTorus([l1, l2]) => v + n1 * l1 + n2 * l2,
+            Self::FreeTorus => {
+                v + n1 * Vec3::from_column_slice(&shared[..3]) + n2 * Vec3::from_column_slice(&shared[3..])
+            }
+            Self::Screw => Screw::new(shared, site).point(&v),
+        }
+    }
+
+    fn place(&self, x: &[f64], site: Site) -> Placed {
+        let (mut vertex_part, mut shared_part) = (Matrix3::identity(), SharedMatrix::zeros());
+        match self {
+            Self::Patch | Self::FixedTorus(_) => {}
+            Self::FreeTorus => {
+                for axis in 0..3 {
+                    shared_part[(axis, axis)] = f64::from(site.shift[0]);
+                    shared_part[(axis, 3 + axis)] = f64::from(site.shift[1]);
+                }
+            }
+            Self::Screw => {
+                let screw = Screw::new(&x[x.len() - 5..], site);
+                vertex_part = screw.rotation();
+                shared_part = screw.shared_derivative(&vertex(x, site));
+            }
+        }
+        Placed { point: self.point(x, site), vertex: vertex_part, shared: shared_part }
+    }
+
+    /// Gradient in the element's coordinates of a function whose gradient in its points is `g`.
+    pub fn pull_gradient<const N: usize, const D: usize>(
+        &self,
+        x: &[f64],
+        sites: &[Site; N],
+        g: &SVector<f64, D>,
+    ) -> Vec<f64> {
+        let shared = self.shared();
+        if shared == 0 {
+            return g.as_slice().to_vec();
+        }
+        let mut pulled = vec![0.0; D + shared];
+        for (k, &site) in sites.iter().enumerate() {
+            let (placed, force) = (self.place(x, site), Vec3::from_column_slice(&g.as_slice()[3 * k..3 * k + 3]));
+            pulled[3 * k..3 * k + 3].copy_from_slice((placed.vertex.transpose() * force).as_slice());
+            let part = placed.shared.transpose() * force;
+            (0..shared).for_each(|s| pulled[D + s] += part[s]);
+        }
+        pulled
+    }
+
+    /// Lower triangle, row by row, of the Hessian in the element's coordinates of a function with gradient `g` and
+    /// Hessian `h` in its points: `J^T h J` plus the curvature of the map itself, weighted by `g`.
+    pub fn pull_hessian<const N: usize, const D: usize>(
+        &self,
+        x: &[f64],
+        sites: &[Site; N],
+        g: &SVector<f64, D>,
+        h: &SMatrix<f64, D, D>,
+    ) -> Vec<f64> {
+        let size = D + self.shared();
+        let mut full = nalgebra::DMatrix::<f64>::zeros(size, size);
+        if self.shared() == 0 {
+            return lower(D, |row, column| h[(row, column)]);
+        }
+        let mut jacobian = nalgebra::DMatrix::<f64>::zeros(D, size);
+        for (k, &site) in sites.iter().enumerate() {
+            let placed = self.place(x, site);
+            jacobian.view_mut((3 * k, 3 * k), (3, 3)).copy_from(&placed.vertex);
+            jacobian.view_mut((3 * k, D), (3, size - D)).copy_from(&placed.shared.columns(0, size - D));
+            if matches!(self, Self::Screw) {
+                let force = Vec3::from_column_slice(&g.as_slice()[3 * k..3 * k + 3]);
+                Screw::new(&x[x.len() - 5..], site).add_curvature(&vertex(x, site), &force, 3 * k, D, &mut full);
+            }
+        }
+        full += jacobian.transpose() * h * jacobian;
+        lower(size, |row, column| full[(row, column)])
+    }
+
+    /// All points of one element.
+    pub fn points<const N: usize>(&self, x: &[f64], sites: &[Site; N]) -> [Vec3; N] {
+        sites.map(|site| self.point(x, site))
+    }
+}
+
+fn lower(size: usize, entry: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+    let mut out = Vec::with_capacity(size * (size + 1) / 2);
+    for row in 0..size {
+        out.extend((0..=row).map(|column| entry(row, column)));
+    }
+    out
+}
+
+fn vertex(x: &[f64], site: Site) -> Vec3 {
+    Vec3::from_column_slice(&x[3 * site.vertex..3 * site.vertex + 3])
+}
+
+/// The screw motion of one cell.
+struct Screw {
+    kappa: f64,
+    b: f64,
+    h: f64,
+    n: [f64; 2],
+    turn: Complex<f64>,
+    phi: sinc::Phi,
+}
+
+const I: Complex<f64> = Complex::new(0.0, 1.0);
+
+impl Screw {
+    fn new(shared: &[f64], site: Site) -> Self {
+        let n = site.shift.map(f64::from);
+        let (kappa, b, h) = (shared[0], n[0] * shared[1] + n[1] * shared[2], n[0] * shared[3] + n[1] * shared[4]);
+        let (sin, cos) = (kappa * b).sin_cos();
+        Self { kappa, b, h, n, turn: Complex::new(cos, sin), phi: sinc::phi(kappa * b) }
+    }
+
+    fn point(&self, v: &Vec3) -> Vec3 {
+        let w = self.turn * Complex::new(v.y, v.z) + self.b * self.phi.value;
+        Vec3::new(v.x + self.h, w.re, w.im)
+    }
+
+    fn rotation(&self) -> Matrix3<f64> {
+        let (c, s) = (self.turn.re, self.turn.im);
+        Matrix3::new(1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c)
+    }
+
+    /// `d w'/d kappa` and `d w'/d b`.
+    fn first(&self, w: Complex<f64>) -> [Complex<f64>; 2] {
+        let by_kappa = I * self.b * self.turn * w + self.b * self.b * self.phi.first;
+        let by_b = self.turn * (I * self.kappa * w + 1.0);
+        [by_kappa, by_b]
+    }
+
+    fn shared_derivative(&self, v: &Vec3) -> SharedMatrix {
+        let [by_kappa, by_b] = self.first(Complex::new(v.y, v.z));
+        let mut out = SharedMatrix::zeros();
+        let mut column = |k: usize, w: Complex<f64>| (out[(1, k)], out[(2, k)]) = (w.re, w.im);
+        column(0, by_kappa);
+        column(1, self.n[0] * by_b);
+        column(2, self.n[1] * by_b);
+        (out[(0, 3)], out[(0, 4)]) = (self.n[0], self.n[1]);
+        out
+    }
+
+    /// Adds `force . d^2 P` to the block of this point's vertex (at `at`) and the shared coordinates (at `shared`).
+    fn add_curvature(&self, v: &Vec3, force: &Vec3, at: usize, shared: usize, hessian: &mut nalgebra::DMatrix<f64>) {
+        let w = Complex::new(v.y, v.z);
+        let along = |z: Complex<f64>| force.y * z.re + force.z * z.im;
+        let mut add = |p: usize, q: usize, value: f64| {
+            hessian[(p, q)] += value;
+            if p != q {
+                hessian[(q, p)] += value;
+            }
+        };
+        let turn_rate = [self.b, self.n[0] * self.kappa, self.n[1] * self.kappa];
+        for (s, rate) in turn_rate.into_iter().enumerate() {
+            add(at + 1, shared + s, along(I * rate * self.turn));
+            add(at + 2, shared + s, along(-rate * self.turn));
+        }
+        let (b, kappa) = (self.b, self.kappa);
+        let by_kappa_kappa = along(b * b * (b * self.phi.second - self.turn * w));
+        let by_kappa_b = along(self.turn * (I * b * (I * kappa * w + 1.0) + I * w));
+        let by_b_b = along(I * kappa * self.turn * (I * kappa * w + 1.0));
+        add(shared, shared, by_kappa_kappa);
+        for p in 0..2 {
+            add(shared, shared + 1 + p, self.n[p] * by_kappa_b);
+            for q in 0..=p {
+                add(shared + 1 + q, shared + 1 + p, self.n[p] * self.n[q] * by_b_b);
+            }
+        }
+    }
+}

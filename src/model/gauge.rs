@@ -1,0 +1,72 @@
+//! Gauge: which coordinates to hold so that a free sheet does not drift, without holding anything else.
+//!
+//! Rigid motions that no pin prevents cost nothing, so the energy's Hessian is singular along them. Holding one
+//! coordinate for each removes the drift and changes no shape. The coordinates are chosen greedily so that the rigid
+//! motions are well separated by them (Gram-Schmidt with pivoting on the rows of the matrix of rigid motions).
+
+use super::domain::Domain;
+use crate::math::Vec3;
+use nalgebra::SVector;
+
+type Motion = SVector<f64, 6>;
+
+/// Rates of every coordinate under the rigid motions: translations in columns 0 to 2, rotations about the centroid,
+/// scaled by the size of the sheet, in columns 3 to 5. A screw's axis is part of its chart: it has no rigid motion
+/// that its coordinates could express with vertex 0 held.
+pub fn rigid_motions(domain: &Domain, x: &[f64]) -> Vec<Motion> {
+    let vertices = (x.len() - domain.shared()) / 3;
+    let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
+    let centre = (0..vertices).map(point).sum::<Vec3>() / vertices as f64;
+    let size = (0..vertices).map(|k| (point(k) - centre).norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let turn = if matches!(domain, Domain::FixedTorus(_)) { 0.0 } else { 1.0 / size };
+    let mut rows: Vec<Motion> = (0..vertices).flat_map(|k| rows(1.0, turn * (point(k) - centre))).collect();
+    match domain {
+        Domain::FreeTorus => {
+            let lattice = &x[3 * vertices..];
+            for l in [&lattice[..3], &lattice[3..]] {
+                rows.extend(rows_of(0.0, turn * Vec3::from_column_slice(l)));
+            }
+        }
+        Domain::Screw => rows.extend([Motion::zeros(); 5]),
+        Domain::Patch | Domain::FixedTorus(_) => {}
+    }
+    rows
+}
+
+fn rows(translation: f64, arm: Vec3) -> [Motion; 3] {
+    rows_of(translation, arm)
+}
+
+/// Velocity of a point: `translation + omega x arm`, one row a component.
+fn rows_of(translation: f64, arm: Vec3) -> [Motion; 3] {
+    let cross = -arm.cross_matrix();
+    [0, 1, 2].map(|axis| {
+        let mut row = Motion::zeros();
+        row[axis] = translation;
+        (0..3).for_each(|k| row[3 + k] = cross[(axis, k)]);
+        row
+    })
+}
+
+/// Coordinates to hold, besides those already `held`, so that no rigid motion is left.
+pub fn choose(motions: &[Motion], held: &[bool]) -> Vec<usize> {
+    let mut rows = motions.to_vec();
+    let scale = rows.iter().map(|r| r.norm()).fold(0.0, f64::max);
+    let mut chosen = Vec::new();
+    for wanted in [true, false] {
+        while let Some((k, row)) = largest(&rows, held, wanted).filter(|(_, row)| row.norm() > 1e-6 * scale) {
+            let unit = row.normalize();
+            rows.iter_mut().for_each(|r| *r -= unit * unit.dot(r));
+            if !wanted {
+                chosen.push(k);
+            }
+        }
+    }
+    chosen
+}
+
+/// The longest row among those that are held, or among those that are not.
+fn largest(rows: &[Motion], held: &[bool], wanted: bool) -> Option<(usize, Motion)> {
+    let candidates = rows.iter().enumerate().filter(|(k, _)| held[*k] == wanted);
+    candidates.max_by(|a, b| a.1.norm().total_cmp(&b.1.norm())).map(|(k, row)| (k, *row))
+}

@@ -1,0 +1,69 @@
+//! Measures: scalars of a few points, with gradient and Hessian.
+
+use crate::math::{Vec3, fold_angle};
+use nalgebra::{Matrix3, SMatrix, SVector};
+
+/// A scalar of `N` points. `D = 3 N` is the number of their coordinates.
+pub trait Measure<const N: usize, const D: usize> {
+    /// Whether values are angles, known modulo 2 pi, that must continue from the last accepted state.
+    const ANGLE: bool;
+    /// The scalar.
+    fn value(points: &[Vec3; N]) -> f64;
+    /// The scalar and its gradient.
+    fn gradient(points: &[Vec3; N]) -> (f64, SVector<f64, D>);
+    /// The scalar, its gradient and its Hessian.
+    fn hessian(points: &[Vec3; N]) -> (f64, SVector<f64, D>, SMatrix<f64, D, D>);
+}
+
+/// Length of the bar between two points; not differentiable where they coincide.
+#[derive(Clone, Copy, Debug)]
+pub struct Length;
+
+impl Measure<2, 6> for Length {
+    const ANGLE: bool = false;
+
+    fn value([a, b]: &[Vec3; 2]) -> f64 {
+        (b - a).norm()
+    }
+
+    fn gradient(points: &[Vec3; 2]) -> (f64, SVector<f64, 6>) {
+        let length = Self::value(points);
+        let unit = (points[1] - points[0]) / length;
+        let mut gradient = SVector::<f64, 6>::zeros();
+        gradient.fixed_rows_mut::<3>(0).copy_from(&-unit);
+        gradient.fixed_rows_mut::<3>(3).copy_from(&unit);
+        (length, gradient)
+    }
+
+    /// The Hessian is `(I - u u^T)/L` between the ends, `u` the direction of the bar.
+    fn hessian(points: &[Vec3; 2]) -> (f64, SVector<f64, 6>, SMatrix<f64, 6, 6>) {
+        let (length, gradient) = Self::gradient(points);
+        let unit = gradient.fixed_rows::<3>(3);
+        let block = (Matrix3::identity() - unit * unit.transpose()) / length;
+        let mut hessian = SMatrix::<f64, 6, 6>::zeros();
+        for (row, column, sign) in [(0, 0, 1.0), (3, 3, 1.0), (0, 3, -1.0), (3, 0, -1.0)] {
+            hessian.fixed_view_mut::<3, 3>(row, column).copy_from(&(sign * block));
+        }
+        (length, gradient, hessian)
+    }
+}
+
+/// Fold angle of the hinge `[i, j, left, right]`, see [`crate::math::fold_angle`].
+#[derive(Clone, Copy, Debug)]
+pub struct FoldAngle;
+
+impl Measure<4, 12> for FoldAngle {
+    const ANGLE: bool = true;
+
+    fn value(points: &[Vec3; 4]) -> f64 {
+        fold_angle::fold_angle(points)
+    }
+
+    fn gradient(points: &[Vec3; 4]) -> (f64, SVector<f64, 12>) {
+        fold_angle::fold_angle_gradient(points)
+    }
+
+    fn hessian(points: &[Vec3; 4]) -> (f64, SVector<f64, 12>, SMatrix<f64, 12, 12>) {
+        fold_angle::fold_angle_hessian(points)
+    }
+}

@@ -1,0 +1,264 @@
+//! The model: terms on a domain, as the problem that the solver minimises.
+
+use super::domain::Domain;
+use super::gauge;
+use super::term::{Elements, Spring};
+use crate::numerics::parallel;
+use crate::numerics::sparse::{Cliques, FIXED};
+use crate::solver::{Curvature, Layout, Linearization, Problem};
+
+/// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is
+/// closer to rest than that, residuals are relative to the force of a milliradian instead of to round-off.
+const LEAST_ANGLE: f64 = 1e-3;
+
+/// Bars and hinges of a sheet, with what is held and what pulls.
+pub struct Model {
+    domain: Domain,
+    /// Coordinates of the drawn state, those that are held included.
+    drawn: Vec<f64>,
+    /// Coordinate of each unknown.
+    free: Vec<u32>,
+    soft: Vec<Box<dyn Elements>>,
+    stiff: Vec<Box<dyn Elements>>,
+    loads: Vec<f64>,
+    layout: Layout,
+    compliance: Vec<f64>,
+    gap_scale: Vec<f64>,
+}
+
+/// What a model is made of.
+pub struct Parts {
+    /// Where points come from.
+    pub domain: Domain,
+    /// Coordinates of the drawn state.
+    pub drawn: Vec<f64>,
+    /// Terms that enter with their energy.
+    pub soft: Vec<Box<dyn Elements>>,
+    /// Terms that enter with a tension for each element.
+    pub stiff: Vec<Box<dyn Elements>>,
+    /// Coordinates held by pins.
+    pub pinned: Vec<usize>,
+    /// Force on each coordinate; empty: none.
+    pub loads: Vec<f64>,
+    /// Unit of length for gaps of lengths: the mean edge.
+    pub mean_edge: f64,
+}
+
+impl Model {
+    /// Puts the parts together; where nothing pulls and nothing pins, rigid motions are taken out by a gauge.
+    pub fn new(parts: Parts) -> Self {
+        let Parts { domain, drawn, soft, stiff, pinned, loads, mean_edge } = parts;
+        let mut held = vec![false; drawn.len()];
+        pinned.iter().for_each(|&k| held[k] = true);
+        if loads.iter().all(|f| *f == 0.0) {
+            let motions = gauge::rigid_motions(&domain, &drawn);
+            gauge::choose(&motions, &held).into_iter().for_each(|k| held[k] = true);
+        }
+        let free: Vec<u32> = (0..drawn.len() as u32).filter(|&k| !held[k as usize]).collect();
+        let mut number = vec![FIXED; drawn.len()];
+        free.iter().enumerate().for_each(|(unknown, &k)| number[k as usize] = unknown as u32);
+        let layout = layout(&domain, &drawn, &free, &number, &soft, &stiff);
+        let springs = || stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term.is_angle(), term.spring(k))));
+        let compliance = springs().map(|(_, spring)| 1.0 / spring.stiffness).collect();
+        let gap_scale = springs().map(|(angle, _)| if angle { 1.0 } else { mean_edge }).collect();
+        Self { domain, drawn, free, soft, stiff, loads, layout, compliance, gap_scale }
+    }
+
+    /// The unknowns of the drawn state.
+    pub fn start(&self) -> Vec<f64> {
+        self.free.iter().map(|&k| self.drawn[k as usize]).collect()
+    }
+
+    /// All coordinates of a state.
+    pub fn coordinates(&self, x: &[f64]) -> Vec<f64> {
+        let mut all = self.drawn.clone();
+        self.free.iter().zip(x).for_each(|(&k, value)| all[k as usize] = *value);
+        all
+    }
+
+    /// Where points come from.
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    /// Terms that enter with their energy.
+    pub fn soft(&self) -> &[Box<dyn Elements>] {
+        &self.soft
+    }
+
+    /// Terms that enter with tensions.
+    pub fn stiff(&self) -> &[Box<dyn Elements>] {
+        &self.stiff
+    }
+
+    /// Changes the rest value of an element of the soft terms.
+    pub fn set_rest(&mut self, term: usize, element: usize, rest: f64) {
+        let spring = self.soft[term].spring(element);
+        self.soft[term].set_spring(element, Spring { rest, ..spring });
+    }
+}
+
+/// Members of element `k`: the coordinates of its points, then the shared ones, as unknowns.
+fn members(term: &dyn Elements, k: usize, domain: &Domain, number: &[u32]) -> Vec<u32> {
+    let points = term.sites(k).iter().flat_map(|site| 3 * site.vertex..3 * site.vertex + 3);
+    let shared = number.len() - domain.shared()..number.len();
+    points.chain(shared).map(|coordinate| number[coordinate]).collect()
+}
+
+fn layout(
+    domain: &Domain,
+    drawn: &[f64],
+    free: &[u32],
+    number: &[u32],
+    soft: &[Box<dyn Elements>],
+    stiff: &[Box<dyn Elements>],
+) -> Layout {
+    let collect = |terms: &[Box<dyn Elements>]| {
+        let mut cliques = Cliques::new();
+        for term in terms {
+            (0..term.len()).for_each(|k| cliques.push(members(term.as_ref(), k, domain, number)));
+        }
+        cliques
+    };
+    let vertices = (drawn.len() - domain.shared()) / 3;
+    let mut blocks: Vec<u32> = free.iter().map(|&k| (k / 3).min(vertices as u32)).collect();
+    let mut used = blocks.clone();
+    used.dedup();
+    blocks.iter_mut().for_each(|b| *b = used.binary_search(b).unwrap_or(0) as u32);
+    Layout { unknowns: free.len(), node: blocks, soft: collect(soft), stiff: collect(stiff) }
+}
+
+/// Term and element of the `k`-th element of all terms together.
+fn locate(terms: &[Box<dyn Elements>]) -> impl Fn(usize) -> (usize, usize) + use<> {
+    let mut ends = Vec::new();
+    let mut end = 0;
+    for term in terms {
+        end += term.len();
+        ends.push(end);
+    }
+    move |k| {
+        let term = ends.partition_point(|&e| e <= k);
+        (term, if term == 0 { k } else { k - ends[term - 1] })
+    }
+}
+
+fn count(terms: &[Box<dyn Elements>]) -> usize {
+    terms.iter().map(|term| term.len()).sum()
+}
+
+impl Problem for Model {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn compliance(&self) -> &[f64] {
+        &self.compliance
+    }
+
+    fn gap_scale(&self) -> &[f64] {
+        &self.gap_scale
+    }
+
+    fn evaluate(&self, x: &[f64], gaps: &mut [f64]) -> f64 {
+        let all = self.coordinates(x);
+        let at = locate(&self.stiff);
+        let gap = |k: usize| {
+            let (term, element) = at(k);
+            self.stiff[term].value(element, &self.domain, &all) - self.stiff[term].spring(element).rest
+        };
+        parallel::ordered(count(&self.stiff), gap, |k, value| gaps[k] = value);
+        let at = locate(&self.soft);
+        let cost = |k: usize| {
+            let (term, element) = at(k);
+            let spring = self.soft[term].spring(element);
+            let off = self.soft[term].value(element, &self.domain, &all) - spring.rest;
+            0.5 * spring.stiffness * off * off
+        };
+        let mut energy = -self.loads.iter().zip(&all).map(|(f, x)| f * x).sum::<f64>();
+        parallel::ordered(count(&self.soft), cost, |_, value| energy += value);
+        energy
+    }
+
+    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
+        let all = self.coordinates(x);
+        out.clear();
+        self.linearize_loads(&all, out);
+        self.linearize_soft(&all, curvature, out);
+        self.linearize_stiff(&all, tension, out);
+    }
+
+    fn accept(&mut self, x: &mut [f64]) -> bool {
+        let all = self.coordinates(x);
+        for term in self.soft.iter_mut().chain(&mut self.stiff) {
+            term.accept(&self.domain, &all);
+        }
+        false
+    }
+}
+
+impl Model {
+    fn linearize_loads(&self, all: &[f64], out: &mut Linearization) {
+        for (coordinate, force) in self.loads.iter().enumerate() {
+            out.energy -= force * all[coordinate];
+            out.largest_force = out.largest_force.max(force.abs());
+        }
+        if !self.loads.is_empty() {
+            self.free.iter().zip(&mut out.gradient).for_each(|(&k, g)| *g -= self.loads[k as usize]);
+        }
+    }
+
+    fn linearize_soft(&self, all: &[f64], curvature: Curvature, out: &mut Linearization) {
+        let at = locate(&self.soft);
+        let full = curvature == Curvature::Full;
+        let compute = |k: usize| {
+            let (term, element) = at(k);
+            let spring = self.soft[term].spring(element);
+            let mut local = self.soft[term].local(element, &self.domain, all, full);
+            let force = spring.stiffness * (local.value - spring.rest);
+            local.hessian.iter_mut().for_each(|h| *h *= force);
+            local.hessian.resize(local.gradient.len() * (local.gradient.len() + 1) / 2, 0.0);
+            add_outer(spring.stiffness, &local.gradient, &mut local.hessian);
+            (spring, force, local)
+        };
+        parallel::ordered(count(&self.soft), compute, |k, (spring, force, local)| {
+            let off = local.value - spring.rest;
+            out.energy += 0.5 * force * off;
+            let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+            out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
+            for (&member, g) in self.layout.soft.members(k).iter().zip(&local.gradient) {
+                if member != FIXED {
+                    out.gradient[member as usize] += force * g;
+                }
+            }
+            out.add_soft(k, &local.hessian);
+        });
+    }
+
+    fn linearize_stiff(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
+        let at = locate(&self.stiff);
+        let compute = |k: usize| {
+            let (term, element) = at(k);
+            let mut local = self.stiff[term].local(element, &self.domain, all, true);
+            local.hessian.iter_mut().for_each(|h| *h *= tension[k]);
+            (local, self.stiff[term].spring(element).rest)
+        };
+        parallel::ordered(count(&self.stiff), compute, |k, (local, rest)| {
+            out.gaps[k] = local.value - rest;
+            let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+            out.largest_force = out.largest_force.max(largest * tension[k].abs());
+            out.jacobian[self.layout.stiff.range(k)].copy_from_slice(&local.gradient);
+            out.add_stiff(k, &local.hessian);
+        });
+    }
+}
+
+/// Adds the lower triangle of `weight g g^T`.
+fn add_outer(weight: f64, g: &[f64], block: &mut [f64]) {
+    let mut k = 0;
+    for p in 0..g.len() {
+        for q in 0..=p {
+            block[k] += weight * g[p] * g[q];
+            k += 1;
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Terms: elements of one measure, each with a spring law.
+
+use super::domain::{Domain, Site};
+use super::measure::Measure;
+use std::f64::consts::TAU;
+use std::marker::PhantomData;
+
+/// The spring law `E = stiffness (value - rest)^2 / 2`; infinite stiffness: `value = rest` exactly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// Spring constant: force per length for a bar, torque per radian for a hinge. May be infinite.
+    pub stiffness: f64,
+    /// Value without force, in units of the measure.
+    pub rest: f64,
+}
+
+/// One element: its points, its law, and the edge of the sheet to which it belongs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element<const N: usize> {
+    /// Its points in the order that the measure wants.
+    pub sites: [Site; N],
+    /// Its law.
+    pub spring: Spring,
+    /// Number of the edge in the list of edges of the model.
+    pub edge: usize,
+}
+
+/// Elements with one measure.
+#[derive(Clone, Debug)]
+pub struct Term<M, const N: usize, const D: usize> {
+    /// Name, as in the scene: bars, creases, facets, locks.
+    pub name: &'static str,
+    /// The elements.
+    pub elements: Vec<Element<N>>,
+    /// Values in the last accepted state, from which angles continue; empty for lengths.
+    last: Vec<f64>,
+    measure: PhantomData<M>,
+}
+
+/// A measure of one element in the element's coordinates.
+pub struct Local {
+    /// Value of the measure, continued from the last accepted state.
+    pub value: f64,
+    /// Gradient in the element's coordinates.
+    pub gradient: Vec<f64>,
+    /// Lower triangle of the Hessian of the measure; empty where not asked for.
+    pub hessian: Vec<f64>,
+}
+
+/// What the model asks of a term, whatever its measure.
+pub trait Elements: Send + Sync {
+    /// Name, as in the scene.
+    fn name(&self) -> &'static str;
+    /// Number of elements.
+    fn len(&self) -> usize;
+    /// Whether there is none.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// Whether values are angles.
+    fn is_angle(&self) -> bool;
+    /// Points of element `k`.
+    fn sites(&self, k: usize) -> &[Site];
+    /// Law of element `k`.
+    fn spring(&self, k: usize) -> Spring;
+    /// Changes the law of element `k`.
+    fn set_spring(&mut self, k: usize, spring: Spring);
+    /// Number of the edge to which element `k` belongs.
+    fn edge(&self, k: usize) -> usize;
+    /// Value of element `k`, continued from the last accepted state.
+    fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64;
+    /// Value and gradient of element `k`, and its Hessian where wanted.
+    fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool) -> Local;
+    /// Makes `x` the state from which angles continue.
+    fn accept(&mut self, domain: &Domain, x: &[f64]);
+    /// Angles of the last accepted state; empty for lengths.
+    fn angles(&self) -> &[f64];
+    /// Sets the angles from which values continue.
+    fn set_angles(&mut self, angles: &[f64]);
+}
+
+impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
+    /// A term of these elements; angles continue from their values at `x`.
+    pub fn new(name: &'static str, elements: Vec<Element<N>>, domain: &Domain, x: &[f64]) -> Self {
+        let mut term = Self { name, elements, last: Vec::new(), measure: PhantomData };
+        if M::ANGLE {
+            term.last = term.elements.iter().map(|e| M::value(&domain.points(x, &e.sites))).collect();
+        }
+        term
+    }
+
+    fn continued(&self, k: usize, value: f64) -> f64 {
+        match self.last.get(k) {
+            Some(last) => value + TAU * ((last - value) / TAU).round(),
+            None => value,
+        }
+    }
+}
+
+impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements for Term<M, N, D> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn is_angle(&self) -> bool {
+        M::ANGLE
+    }
+
+    fn sites(&self, k: usize) -> &[Site] {
+        &self.elements[k].sites
+    }
+
+    fn spring(&self, k: usize) -> Spring {
+        self.elements[k].spring
+    }
+
+    fn set_spring(&mut self, k: usize, spring: Spring) {
+        self.elements[k].spring = spring;
+    }
+
+    fn edge(&self, k: usize) -> usize {
+        self.elements[k].edge
+    }
+
+    fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64 {
+        self.continued(k, M::value(&domain.points(x, &self.elements[k].sites)))
+    }
+
+    fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool) -> Local {
+        let sites = &self.elements[k].sites;
+        let points = domain.points(x, sites);
+        let (value, gradient, hessian) = if want_hessian {
+            let (value, g, h) = M::hessian(&points);
+            (value, g, domain.pull_hessian(x, sites, &g, &h))
+        } else {
+            let (value, g) = M::gradient(&points);
+            (value, g, Vec::new())
+        };
+        Local { value: self.continued(k, value), gradient: domain.pull_gradient(x, sites, &gradient), hessian }
+    }
+
+    fn accept(&mut self, domain: &Domain, x: &[f64]) {
+        for k in 0..self.last.len() {
+            self.last[k] = self.value(k, domain, x);
+        }
+    }
+
+    fn angles(&self) -> &[f64] {
+        &self.last
+    }
+
+    fn set_angles(&mut self, angles: &[f64]) {
+        self.last.copy_from_slice(angles);
+    }
+}

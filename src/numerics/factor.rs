@@ -1,0 +1,231 @@
+//! `L D L^T` factorization of symmetric matrices, with inertia, for one pattern and many sets of numbers.
+//!
+//! Sparse: faer's supernodal `L D L^T` without pivoting, on one thread. The pattern is analysed once. Small matrices
+//! go through a dense Bunch-Kaufman factorization, which is as fast there and pivots. Sylvester's law of inertia:
+//! the signs of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
+
+use super::sparse::{Cliques, Pattern, symmetric_product};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::solvers::Solve;
+use faer::perm::PermRef;
+use faer::prelude::{ReborrowMut, default};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::{Conj, Mat, MatMut, Par, Side};
+use thiserror::Error;
+
+/// Matrices up to this size are factored dense (measured: `benches/solver.rs`).
+pub const DENSE_LIMIT: usize = 64;
+
+/// Why a factorization cannot be used.
+#[derive(Debug, Error, Clone, Copy, PartialEq)]
+pub enum FactorError {
+    /// An entry of the matrix is infinite or not a number.
+    #[error("the matrix has an entry that is not finite")]
+    NotFinite,
+    /// A pivot vanished.
+    #[error("the matrix is singular to working precision (smallest over largest pivot {ratio:.1e})")]
+    Singular {
+        /// Smallest pivot over largest pivot, in magnitude.
+        ratio: f64,
+    },
+    /// The factorization does not solve the system.
+    #[error("the factorization does not solve its system (relative residual {residual:.1e})")]
+    Inaccurate {
+        /// Norm of the residual over norm of the right-hand side.
+        residual: f64,
+    },
+    /// The symbolic analysis ran out of memory or indices.
+    #[error("the matrix of {size} unknowns is too large to factor")]
+    TooLarge {
+        /// Number of unknowns.
+        size: usize,
+    },
+}
+
+/// Signs and range of the pivots of the last factorization.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertia {
+    /// Number of negative eigenvalues.
+    pub negative: usize,
+    /// Smallest pivot in magnitude over the largest.
+    pub ratio: f64,
+}
+
+/// A factorization of one pattern, refilled with numbers as often as wanted.
+pub struct Factor {
+    kind: Kind,
+    size: usize,
+}
+
+enum Kind {
+    Dense(Option<faer::linalg::solvers::Lblt<f64>>),
+    Sparse(Box<Sparse>),
+}
+
+struct Sparse {
+    symbolic: SymbolicCholesky<u32>,
+    values: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl Factor {
+    /// Analyses a pattern. `node` groups unknowns into blocks for the ordering, see [`super::order`].
+    pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
+        let size = pattern.size();
+        let kind = if size <= DENSE_LIMIT {
+            Kind::Dense(None)
+        } else {
+            let order = super::order::nested_dissection(node, cliques);
+            Kind::Sparse(Box::new(Sparse::new(pattern, &order)?))
+        };
+        Ok(Self { kind, size })
+    }
+
+    /// Factors the matrix with these values.
+    pub fn factor(&mut self, pattern: &Pattern, values: &[f64]) -> Result<Inertia, FactorError> {
+        if values.iter().any(|v| !v.is_finite()) {
+            return Err(FactorError::NotFinite);
+        }
+        let inertia = match &mut self.kind {
+            Kind::Dense(factor) => dense_factor(pattern, values, factor),
+            Kind::Sparse(sparse) => sparse.factor(pattern, values),
+        }?;
+        let singular = !(inertia.ratio > f64::EPSILON * f64::EPSILON);
+        if singular { Err(FactorError::Singular { ratio: inertia.ratio }) } else { Ok(inertia) }
+    }
+
+    /// Solves with the last factorization, in place.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        match &mut self.kind {
+            Kind::Dense(Some(factor)) => {
+                let n = self.size;
+                factor.solve_in_place(MatMut::from_column_major_slice_mut(x, n, 1));
+            }
+            Kind::Dense(None) => unreachable!("solve is called after factor"),
+            Kind::Sparse(sparse) => sparse.solve(x),
+        }
+    }
+
+    /// Solves for a right-hand side of ones and compares: catches a factorization that silently went wrong.
+    pub fn check(&mut self, pattern: &Pattern, values: &[f64], limit: f64) -> Result<(), FactorError> {
+        let ones = vec![1.0; self.size];
+        let (mut right, mut product) = (vec![0.0; self.size], vec![0.0; self.size]);
+        symmetric_product(pattern, values, &ones, &mut right);
+        let mut x = right.clone();
+        self.solve(&mut x);
+        symmetric_product(pattern, values, &x, &mut product);
+        let norm = |v: &[f64]| v.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let difference: Vec<f64> = product.iter().zip(&right).map(|(a, b)| a - b).collect();
+        let residual = norm(&difference) / norm(&right).max(f64::MIN_POSITIVE);
+        if residual <= limit { Ok(()) } else { Err(FactorError::Inaccurate { residual }) }
+    }
+
+    /// Numbers stored in the factor.
+    pub fn stored(&self) -> usize {
+        match &self.kind {
+            Kind::Dense(_) => self.size * (self.size + 1) / 2,
+            Kind::Sparse(sparse) => sparse.values.len(),
+        }
+    }
+}
+
+impl Sparse {
+    fn new(pattern: &Pattern, order: &[u32]) -> Result<Self, FactorError> {
+        let n = pattern.size();
+        let mut inverse = vec![0u32; n];
+        for (new, &old) in order.iter().enumerate() {
+            inverse[old as usize] = new as u32;
+        }
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..default()
+        };
+        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, n));
+        let symbolic = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, ordering, params)
+            .map_err(|_| FactorError::TooLarge { size: n })?;
+        let memory = MemBuffer::try_new(
+            symbolic
+                .factorize_numeric_ldlt_scratch::<f64>(Par::Seq, default())
+                .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq)),
+        )
+        .map_err(|_| FactorError::TooLarge { size: n })?;
+        Ok(Self { values: vec![0.0; symbolic.len_val()], symbolic, memory })
+    }
+
+    fn factor(&mut self, pattern: &Pattern, values: &[f64]) -> Result<Inertia, FactorError> {
+        let matrix = pattern.with_values(values);
+        let stack = MemStack::new(&mut self.memory);
+        self.symbolic
+            .factorize_numeric_ldlt(&mut self.values, matrix, Side::Lower, default(), Par::Seq, stack, default())
+            .map_err(|_| FactorError::Singular { ratio: 0.0 })?;
+        Ok(inertia(self.pivots()))
+    }
+
+    /// The entries of D, which stand on the diagonals of the supernodes.
+    fn pivots(&self) -> impl Iterator<Item = f64> + '_ {
+        let SymbolicCholeskyRaw::Supernodal(nodes) = self.symbolic.raw() else {
+            unreachable!("the analysis is forced to be supernodal")
+        };
+        (0..nodes.n_supernodes()).flat_map(move |k| {
+            let columns = (nodes.supernode_end()[k] - nodes.supernode_begin()[k]) as usize;
+            let start = nodes.col_ptr_for_val()[k] as usize;
+            let rows = (nodes.col_ptr_for_val()[k + 1] as usize - start) / columns;
+            (0..columns).map(move |j| self.values[start + j * rows + j])
+        })
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        let n = x.len();
+        let stack = MemStack::new(&mut self.memory);
+        let mut x = MatMut::from_column_major_slice_mut(x, n, 1);
+        LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(Conj::No, x.rb_mut(), Par::Seq, stack);
+    }
+}
+
+fn inertia(pivots: impl Iterator<Item = f64>) -> Inertia {
+    let (mut negative, mut least, mut most) = (0, f64::INFINITY, 0.0f64);
+    for pivot in pivots {
+        negative += usize::from(pivot < 0.0);
+        least = if pivot.is_nan() { 0.0 } else { least.min(pivot.abs()) };
+        most = most.max(pivot.abs());
+    }
+    Inertia { negative, ratio: if most > 0.0 { least / most } else { 0.0 } }
+}
+
+/// Bunch-Kaufman factorization; the eigenvalues of its 1 x 1 and 2 x 2 diagonal blocks give the inertia.
+fn dense_factor(
+    pattern: &Pattern,
+    values: &[f64],
+    factor: &mut Option<faer::linalg::solvers::Lblt<f64>>,
+) -> Result<Inertia, FactorError> {
+    let n = pattern.size();
+    let mut matrix = Mat::<f64>::zeros(n, n);
+    let mut entry = values.iter();
+    for column in 0..n {
+        for (&row, &value) in pattern.column(column).iter().zip(&mut entry) {
+            matrix[(row as usize, column)] = value;
+            matrix[(column, row as usize)] = value;
+        }
+    }
+    let found = faer::linalg::solvers::Lblt::new(matrix.as_ref(), Side::Lower);
+    let (diagonal, below) = (found.B_diag().column_vector(), found.B_subdiag().column_vector());
+    let mut pivots = Vec::with_capacity(n);
+    let mut k = 0;
+    while k < n {
+        if k + 1 < n && below[k] != 0.0 {
+            let (mean, half) = ((diagonal[k] + diagonal[k + 1]) / 2.0, (diagonal[k] - diagonal[k + 1]) / 2.0);
+            let spread = half.hypot(below[k]);
+            pivots.extend([mean - spread, mean + spread]);
+            k += 2;
+        } else {
+            pivots.push(diagonal[k]);
+            k += 1;
+        }
+    }
+    *factor = Some(found);
+    Ok(inertia(pivots.into_iter()))
+}

@@ -1,0 +1,130 @@
+//! What the solver asks of a problem.
+//!
+//! Minimise `E(x) + sum_r m_r(x)^2 / (2 c_r)`: a soft energy `E` and stiff measures with gaps `m_r` (the measure less
+//! its rest value) and compliances `c_r = 1/k_r >= 0`. A compliance of zero is the constraint `m_r(x) = 0`. The
+//! tension `t_r` of a measure is an unknown of its own, `m_r = c_r t_r`, so nothing is ever multiplied by `k_r`.
+
+use crate::numerics::sparse::{Cliques, Pattern, Rows, Slots, symmetric_product};
+
+/// Which unknowns there are and which are coupled.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// Block of each unknown (a vertex, say), numbered without gaps: blocks stay together in the order of elimination.
+    pub node: Vec<u32>,
+    /// Unknowns of each soft element.
+    pub soft: Cliques,
+    /// Unknowns of each stiff measure.
+    pub stiff: Cliques,
+}
+
+/// How much of the soft Hessian to take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Curvature {
+    /// Only `k g g^T` of each soft element: positive semidefinite.
+    GaussNewton,
+    /// All of it.
+    Full,
+}
+
+/// A soft energy with stiff measures.
+pub trait Problem {
+    /// Unknowns and couplings; the same at every state.
+    fn layout(&self) -> &Layout;
+    /// `1/k >= 0` of each stiff measure.
+    fn compliance(&self) -> &[f64];
+    /// Natural size of each stiff measure's gap: a length for lengths, 1 for angles.
+    fn gap_scale(&self) -> &[f64];
+    /// Soft energy at `x`; fills `gaps`.
+    fn evaluate(&self, x: &[f64], gaps: &mut [f64]) -> f64;
+    /// Fills `out` at `(x, tension)`: all but the products with the tension of the Jacobian.
+    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization);
+    /// Called with every accepted state; may move `x` along a gauge direction, then returns true.
+    fn accept(&mut self, x: &mut [f64]) -> bool;
+}
+
+/// A problem's numbers at one state.
+pub struct Linearization {
+    /// Soft energy.
+    pub energy: f64,
+    /// Its gradient.
+    pub gradient: Vec<f64>,
+    /// Gaps of the stiff measures.
+    pub gaps: Vec<f64>,
+    /// Gradients of the stiff measures, laid out as the members of `Layout::stiff`.
+    pub jacobian: Vec<f64>,
+    /// Soft Hessian plus the tension-weighted Hessians of the stiff measures, in the slots of the pattern.
+    pub hessian: Vec<f64>,
+    /// Largest force of a single element on a single unknown.
+    pub largest_force: f64,
+    pattern: Pattern,
+    soft: Slots,
+    stiff: Slots,
+}
+
+impl Linearization {
+    /// Space for a problem of this layout.
+    pub fn new(layout: &Layout) -> Self {
+        let pattern = Pattern::new(layout.unknowns, &[&layout.soft, &layout.stiff]);
+        Self {
+            energy: 0.0,
+            gradient: vec![0.0; layout.unknowns],
+            gaps: vec![0.0; layout.stiff.len()],
+            jacobian: vec![0.0; layout.stiff.total()],
+            hessian: vec![0.0; pattern.entries()],
+            largest_force: 0.0,
+            soft: Slots::new(&pattern, &layout.soft),
+            stiff: Slots::new(&pattern, &layout.stiff),
+            pattern,
+        }
+    }
+
+    /// Sets all numbers that are summed to zero.
+    pub fn clear(&mut self) {
+        self.energy = 0.0;
+        self.largest_force = 0.0;
+        self.gradient.fill(0.0);
+        self.hessian.fill(0.0);
+    }
+
+    /// Adds the lower triangle (row by row) of a soft element's Hessian.
+    pub fn add_soft(&mut self, element: usize, block: &[f64]) {
+        self.soft.add_block(element, block, &mut self.hessian);
+    }
+
+    /// Adds the lower triangle (row by row) of a stiff measure's Hessian times its tension.
+    pub fn add_stiff(&mut self, measure: usize, block: &[f64]) {
+        self.stiff.add_block(measure, block, &mut self.hessian);
+    }
+
+    /// Adds `weight g g^T` of stiff measure `measure` to `values`.
+    pub fn add_outer(&self, layout: &Layout, measure: usize, weight: f64, values: &mut [f64]) {
+        let gradient = &self.jacobian[layout.stiff.range(measure)];
+        self.stiff.add_outer(measure, weight, gradient, values);
+    }
+
+    /// Pattern of the Hessian; it has room for the outer products of the stiff gradients.
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    /// The Jacobian of the stiff measures.
+    pub fn rows<'a>(&'a self, layout: &'a Layout) -> Rows<'a> {
+        Rows { cliques: &layout.stiff, values: &self.jacobian }
+    }
+
+    /// `y = (H + shift) x`.
+    pub fn hessian_product(&self, shift: f64, x: &[f64], y: &mut [f64]) {
+        symmetric_product(&self.pattern, &self.hessian, x, y);
+        y.iter_mut().zip(x).for_each(|(y, x)| *y += shift * x);
+    }
+
+    /// Unbalanced force `-(gradient + R^T t)` on every unknown.
+    pub fn force(&self, layout: &Layout, tension: &[f64]) -> Vec<f64> {
+        let mut force = self.gradient.clone();
+        self.rows(layout).add_transpose_product(tension, &mut force);
+        force.iter_mut().for_each(|f| *f = -*f);
+        force
+    }
+}
