@@ -20,6 +20,12 @@ pub enum KinematicsError {
         /// Number of independent loops that no vertex closes.
         loops: usize,
     },
+    /// The faces of the cell do not hang together in both directions of the lattice.
+    #[error("the {faces} faces of the cell do not hang together in both directions of the lattice")]
+    Disconnected {
+        /// Number of triangles of the cell.
+        faces: usize,
+    },
     /// Different ways over the faces of the cell end in different rotations.
     #[error("a folding mode does not close over the cell: two ways over the faces differ by {difference:.2e}")]
     WaysDisagree {

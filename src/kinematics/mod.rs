@@ -4,10 +4,10 @@
 
 pub mod closure;
 pub mod error;
-//Mpub mod folding_modes;
+pub mod folding_modes;
 #[cfg(test)]
 mod test_sheets;
 
 pub use closure::{Closure, HingedEdge, drawn_fold_angles};
 pub use error::KinematicsError;
-//Mpub use folding_modes::{FoldingModes, folding_modes};
+pub use folding_modes::{FoldingModes, folding_modes};

@@ -55,11 +55,11 @@ pub fn finite_grid(m: usize, n: usize, height: f64) -> Sheet {
 pub fn ring() -> Sheet {
     let place = |k: usize| {
         let turn = std::f64::consts::TAU * k as f64 / 6.0;
-        Vec3::new(turn.cos(), turn.sin(), 0.0) * if k % 2 == 0 { 1.0 } else { 2.0 }
+        Vec3::new(turn.cos(), turn.sin(), 0.0) * if k.is_multiple_of(2) { 1.0 } else { 2.0 }
     };
     let face = |k: usize| {
         let [a, b, c] = [k, (k + 1) % 6, (k + 2) % 6].map(Corner::home);
-        if k % 2 == 0 { [a, b, c] } else { [b, a, c] }
+        if k.is_multiple_of(2) { [a, b, c] } else { [b, a, c] }
     };
     sheet("ring", (0..6).map(place).collect(), None, &[0, 1, 2, 3, 4, 5].map(face))
 }
@@ -127,12 +127,6 @@ fn floats(value: &Value) -> Vec<f64> {
 /// The numbers that an independent program found for `open-star`.
 pub struct Reference(Value);
 
-/// A folded cylinder, or a ray that leaves the drawn state.
-pub struct State {
-    pub fold_angles: Vec<f64>,
-    pub kappa: f64,
-}
-
 pub fn open_star_reference() -> Reference {
     Reference(serde_json::from_str(include_str!("../../tests/cases/open-star.json")).unwrap())
 }
@@ -153,12 +147,10 @@ impl Reference {
         sheet.edges.iter().map(find).collect()
     }
 
-    pub fn states(&self, sheet: &Sheet) -> Vec<State> {
-        let read = |state: &Value| State {
-            fold_angles: self.in_sheet_order(sheet, &floats(&state["fold_angles"])),
-            kappa: state["kappa"].as_f64().unwrap(),
-        };
-        self.0["states"].as_array().unwrap().iter().map(read).collect()
+    /// Fold angles of folded cylinders.
+    pub fn cylinders(&self, sheet: &Sheet) -> Vec<Vec<f64>> {
+        let states = self.0["states"].as_array().unwrap();
+        states.iter().map(|state| self.in_sheet_order(sheet, &floats(&state["fold_angles"]))).collect()
     }
 
     /// The directions in which folding leaves the drawn state, with the signs of the curvature they lead to.
