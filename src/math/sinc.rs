@@ -59,6 +59,7 @@ mod tests {
     /// `t` and the real and imaginary parts of phi, phi' and phi'', by quadrature with 40 digits; the last row from the
     /// closed form with 60 digits.
     #[rustfmt::skip]
+    #[allow(clippy::excessive_precision)]
     const REFERENCE: [(f64, [f64; 6]); 13] = [
         (0.0, [1.0, 0.0, 0.0, 0.5, -0.3333333333333333333, 0.0]),
         (1e-8, [0.9999999999999999833, 5.000000000000000063e-9, -3.33333333333333337e-9, 0.4999999999999999875, -0.3333333333333333233, -2.500000000000000025e-9]),

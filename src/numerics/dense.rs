@@ -2,14 +2,12 @@
 //!
 //! Matrices come and go as [`DenseMatrix`]; everything runs on the calling thread.
 
+use super::DenseMatrix;
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{ColMut, MatMut, MatRef, Par, Spec};
-use nalgebra::DVector;
-
-use super::DenseMatrix;
 
 /// The smallest gap between kept and dropped singular values at which a rank is believed.
 pub const SMALLEST_GAP: f64 = 1e3;
@@ -35,12 +33,12 @@ pub enum DenseError {
         /// Number of columns.
         columns: usize,
     },
-    /// The right-hand side does not fit the matrix.
-    #[error("a right-hand side of {found} entries for a matrix of {rows} rows")]
+    /// The right-hand sides do not fit the matrix.
+    #[error("right-hand sides of {found} entries for a matrix of {rows} rows")]
     RightHandSide {
         /// Number of rows of the matrix.
         rows: usize,
-        /// Number of entries of the right-hand side.
+        /// Number of entries of a right-hand side.
         found: usize,
     },
     /// The iteration inside the decomposition did not end.
@@ -113,13 +111,13 @@ pub struct SymmetricEigen {
     pub vectors: DenseMatrix,
 }
 
-/// The shortest among the vectors with the least residual.
+/// For every right-hand side the shortest among the vectors with the least residual.
 #[derive(Clone, Debug)]
 pub struct LeastSquares {
-    /// The vector.
-    pub solution: DVector<f64>,
-    /// `|matrix * solution - right-hand side|`.
-    pub residual: f64,
+    /// The vectors, as columns.
+    pub solution: DenseMatrix,
+    /// `matrix * solution - right`.
+    pub residual: DenseMatrix,
     /// The rank that was used.
     pub rank: Rank,
 }
@@ -172,18 +170,19 @@ pub fn null_space(matrix: &DenseMatrix) -> Result<NullSpace, DenseError> {
     Ok(NullSpace { basis, singular_values, rank, gap })
 }
 
-/// The minimal-norm least-squares solution of `matrix * x = right`, the rank chosen by [`rank_at_largest_gap`].
-pub fn least_squares(matrix: &DenseMatrix, right: &DVector<f64>) -> Result<LeastSquares, DenseError> {
-    if right.len() != matrix.nrows() {
-        return Err(DenseError::RightHandSide { rows: matrix.nrows(), found: right.len() });
+/// The minimal-norm least-squares solutions of `matrix * x = right`, a column for each of `right`, the rank chosen by
+/// [`rank_at_largest_gap`].
+pub fn least_squares(matrix: &DenseMatrix, right: &DenseMatrix) -> Result<LeastSquares, DenseError> {
+    if right.nrows() != matrix.nrows() {
+        return Err(DenseError::RightHandSide { rows: matrix.nrows(), found: right.nrows() });
     }
+    check_finite(right)?;
     let Svd { u, singular_values, v } = full_svd(matrix)?;
     let rank = rank_at_largest_gap(&singular_values)?;
-    let mut solution = DVector::zeros(matrix.ncols());
-    for (k, value) in singular_values.iter().enumerate().take(rank.rank) {
-        solution.axpy(u.column(k).dot(right) / value, &v.column(k), 1.0);
-    }
-    let residual = (matrix * &solution - right).norm();
+    let mut parts = u.columns(0, rank.rank).tr_mul(right);
+    parts.row_iter_mut().zip(&singular_values).for_each(|(mut part, value)| part /= *value);
+    let solution = v.columns(0, rank.rank) * parts;
+    let residual = matrix * &solution - right;
     Ok(LeastSquares { solution, residual, rank })
 }
 
@@ -367,13 +366,13 @@ mod tests {
     #[test]
     fn least_squares_is_the_shortest() {
         let matrix = scrambled(9, 4, 5) * scrambled(4, 7, 6);
-        let right = DVector::from_column_slice(scrambled(9, 1, 7).as_slice());
+        let right = scrambled(9, 2, 7);
         let found = least_squares(&matrix, &right).unwrap();
         let rest = &matrix * &found.solution - &right;
         assert_eq!(found.rank.rank, 4);
         assert!((matrix.transpose() * &rest).amax() <= 1e-12);
         assert!((null_space(&matrix).unwrap().basis.transpose() * &found.solution).amax() <= 1e-12);
-        assert!((found.residual - rest.norm()).abs() <= 1e-13 && found.residual > 0.1);
+        assert!((found.residual - &rest).amax() <= 1e-13 && rest.norm() > 0.1);
     }
 
     /// Claim: what is not finite or does not fit is refused by name, never computed with.
@@ -381,7 +380,7 @@ mod tests {
     fn bad_input_is_refused() {
         let mut matrix = DenseMatrix::identity(3, 4);
         assert_eq!(symmetric_eigen(&matrix).unwrap_err(), DenseError::NotSquare { rows: 3, columns: 4 });
-        let short = DVector::zeros(2);
+        let short = DenseMatrix::zeros(2, 1);
         assert_eq!(least_squares(&matrix, &short).unwrap_err(), DenseError::RightHandSide { rows: 3, found: 2 });
         matrix[(1, 3)] = f64::INFINITY;
         let refused = DenseError::NotFinite { row: 1, column: 3, value: f64::INFINITY };

@@ -1,0 +1,376 @@
+//! Closure of the faces around vertices: the exact conditions on fold angles.
+//!
+//! Around an interior vertex, counter-clockwise seen from the side of the face normals, edges with fold angles `rho_k`
+//! alternate with sectors `alpha_k` of the faces. A frame with x along an edge and z along the normal of the face
+//! before it goes over into that of the next edge by `R_x(rho_k) R_z(alpha_k)`; going round, the product is the
+//! identity (s.-m. belcastro and T. C. Hull, "Modelling the folding of paper into three dimensions using affine
+//! transformations", Linear Algebra and its Applications 348 (2002) 273-282). Nothing but the sectors of the drawn
+//! faces enters; positions follow from the angles.
+
+use super::KinematicsError;
+use crate::math::{Vec3, fold_angle::fold_angle, rotation};
+use crate::numerics::DenseMatrix;
+use crate::sheet::{Corner, Edge, Sheet};
+use nalgebra::{DVector, Matrix3, Rotation3};
+
+/// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
+///
+/// Corners may stand in any cell, those of one edge in the same frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HingedEdge {
+    /// First and second end.
+    pub ends: [Corner; 2],
+    /// Opposite vertices of the left and of the right face; without one of them the edge does not fold.
+    pub wings: [Option<Corner>; 2],
+}
+
+/// The closure conditions of the interior vertices of a sheet: three for each.
+///
+/// A vertex is interior when each of its edges has two faces. On a torus these are all; on a finite sheet those off
+/// the rim, and there the conditions are complete only where [`unchecked_loops`](Self::unchecked_loops) is zero.
+#[derive(Clone, Debug)]
+pub struct Closure {
+    rounds: Vec<Round>,
+    /// Edge of every column of the Jacobian.
+    folding: Vec<usize>,
+    edges: usize,
+    unchecked_loops: usize,
+}
+
+/// An interior vertex with its edges, counter-clockwise.
+#[derive(Clone, Debug)]
+struct Round {
+    vertex: usize,
+    spokes: Vec<Spoke>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Spoke {
+    edge: usize,
+    /// Angle from this edge to the next.
+    sector: f64,
+}
+
+/// An edge seen from one of its ends, which stands in cell (0, 0).
+#[derive(Clone, Copy, Debug)]
+struct HalfEdge {
+    edge: usize,
+    to: Corner,
+    /// The other end of the next edge counter-clockwise, and of the one before.
+    wings: [Option<Corner>; 2],
+}
+
+impl HingedEdge {
+    /// The edge seen from its first (0) or second (1) end.
+    fn half(&self, edge: usize, side: usize) -> HalfEdge {
+        let back = self.ends[side].shift.map(|n| -n);
+        let seen = |corner: Corner| corner.translated(back);
+        let wings = [self.wings[side].map(seen), self.wings[1 - side].map(seen)];
+        HalfEdge { edge, to: seen(self.ends[1 - side]), wings }
+    }
+
+    fn folds(&self) -> bool {
+        self.wings.iter().all(Option::is_some)
+    }
+}
+
+impl From<&Edge> for HingedEdge {
+    fn from(edge: &Edge) -> Self {
+        Self { ends: edge.key.ends(), wings: edge.wings }
+    }
+}
+
+impl Closure {
+    /// The closure of one cell of a periodic sheet, or of a finite sheet; edges are numbered as in the sheet.
+    ///
+    /// Fails where the faces at an interior vertex do not form one round.
+    pub fn of_cell(sheet: &Sheet) -> Result<Self, KinematicsError> {
+        let edges: Vec<HingedEdge> = sheet.edges.iter().map(HingedEdge::from).collect();
+        Self::of_edges(&edges, |corner| sheet.position(corner))
+    }
+
+    /// The closure of any list of edges, say those of several cells; edges are numbered as in the list, vertices as in
+    /// their corners. `position` says where a corner is in a state in which the faces have their shape.
+    ///
+    /// Fails where the faces at an interior vertex do not form one round.
+    pub fn of_edges(edges: &[HingedEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
+        let halves = halves_by_vertex(edges);
+        let mut rounds = Vec::new();
+        for (vertex, halves) in halves.iter().enumerate() {
+            let interior = halves.iter().all(|half| half.wings.iter().all(Option::is_some));
+            if interior && !halves.is_empty() {
+                rounds.push(Round::new(vertex, halves, &position)?);
+            }
+        }
+        let folding = (0..edges.len()).filter(|&edge| edges[edge].folds()).collect();
+        let vertices = halves.iter().filter(|halves| !halves.is_empty()).count();
+        Ok(Self { rounds, folding, edges: edges.len(), unchecked_loops: unchecked_loops(edges, vertices) })
+    }
+
+    /// The same conditions with some edges kept from folding: their columns are left out.
+    pub fn with_locked(mut self, locked: &[usize]) -> Self {
+        self.folding.retain(|edge| !locked.contains(edge));
+        self
+    }
+
+    /// Edge of every column of the Jacobian: those with two faces that are not locked, ascending.
+    pub fn folding_edges(&self) -> &[usize] {
+        &self.folding
+    }
+
+    /// The interior vertices, in the order of their rows.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+        self.rounds.iter().map(|round| round.vertex)
+    }
+
+    /// Number of independent loops that no interior vertex closes, the two of a torus apart: openings of a connected
+    /// sheet beyond the one rim that a finite sheet has. Where it is not zero, more conditions exist than these.
+    pub fn unchecked_loops(&self) -> usize {
+        self.unchecked_loops
+    }
+
+    /// How far the faces are from closing: the rotation vector of the product, three numbers per interior vertex.
+    ///
+    /// `angles` holds the fold angle of every edge, valley positive, in radians; those of the rim are not read.
+    /// # Panics
+    /// Where `angles` has another length than the list of edges.
+    pub fn residual(&self, angles: &[f64]) -> DVector<f64> {
+        assert_eq!(angles.len(), self.edges, "one fold angle for every edge");
+        let mut residual = DVector::zeros(3 * self.rounds.len());
+        for (row, round) in self.rounds.iter().enumerate() {
+            let product = round.walk(angles, |_, _| {});
+            residual.fixed_rows_mut::<3>(3 * row).copy_from(&rotation::log(&product));
+        }
+        residual
+    }
+
+    /// The derivative of [`residual`](Self::residual): three rows per interior vertex, a column per folding edge.
+    ///
+    /// Where the faces close, a column holds the direction of the edge, seen from the vertices at its ends in the frame
+    /// of their first edge: null vectors are self stresses of the edges.
+    /// # Panics
+    /// As [`residual`](Self::residual).
+    pub fn jacobian(&self, angles: &[f64]) -> DenseMatrix {
+        assert_eq!(angles.len(), self.edges, "one fold angle for every edge");
+        let mut column_of = vec![None; self.edges];
+        self.folding.iter().enumerate().for_each(|(column, &edge)| column_of[edge] = Some(column));
+        let mut jacobian = DenseMatrix::zeros(3 * self.rounds.len(), self.folding.len());
+        for (row, round) in self.rounds.iter().enumerate() {
+            let mut columns = Vec::with_capacity(round.spokes.len());
+            let product = round.walk(angles, |edge, direction| columns.push((column_of[edge], direction)));
+            let chart = rotation::inverse_left_jacobian(&rotation::log(&product));
+            for (column, direction) in columns {
+                if let Some(column) = column {
+                    let mut place = jacobian.fixed_view_mut::<3, 1>(3 * row, column);
+                    place += chart * direction;
+                }
+            }
+        }
+        jacobian
+    }
+}
+
+impl Round {
+    fn new(vertex: usize, halves: &[HalfEdge], position: &impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
+        let broken = || KinematicsError::BrokenRound { vertex };
+        let center = position(Corner::home(vertex));
+        let mut spokes = Vec::with_capacity(halves.len());
+        let mut half = halves.first().ok_or_else(broken)?;
+        for _ in halves {
+            let next = half.wings[0].ok_or_else(broken)?;
+            spokes.push(Spoke { edge: half.edge, sector: angle(position(half.to) - center, position(next) - center) });
+            half = halves.iter().find(|other| other.to == next).ok_or_else(broken)?;
+            if half.to == halves[0].to {
+                break;
+            }
+        }
+        if spokes.len() == halves.len() { Ok(Self { vertex, spokes }) } else { Err(broken()) }
+    }
+
+    /// Goes round once, shows every edge with its direction in the frame of the first, and returns the product.
+    fn walk(&self, angles: &[f64], mut visit: impl FnMut(usize, Vec3)) -> Matrix3<f64> {
+        let mut frame = Rotation3::identity();
+        for spoke in &self.spokes {
+            visit(spoke.edge, frame.matrix().column(0).into());
+            frame *= Rotation3::from_axis_angle(&Vec3::x_axis(), angles[spoke.edge])
+                * Rotation3::from_axis_angle(&Vec3::z_axis(), spoke.sector);
+        }
+        frame.into_inner()
+    }
+}
+
+/// Fold angles of all edges of a sheet as drawn, in radians, valley positive; zero on the rim.
+pub fn drawn_fold_angles(sheet: &Sheet) -> Vec<f64> {
+    let angle_of = |edge: &Edge| {
+        let ([i, j], [Some(left), Some(right)]) = (edge.key.ends(), edge.wings) else { return 0.0 };
+        fold_angle(&[i, j, left, right].map(|corner| sheet.position(corner)))
+    };
+    sheet.edges.iter().map(angle_of).collect()
+}
+
+fn halves_by_vertex(edges: &[HingedEdge]) -> Vec<Vec<HalfEdge>> {
+    let vertices = edges.iter().flat_map(|edge| edge.ends).map(|end| end.vertex + 1).max().unwrap_or(0);
+    let mut halves = vec![Vec::new(); vertices];
+    for (number, edge) in edges.iter().enumerate() {
+        for side in [0, 1] {
+            halves[edge.ends[side].vertex].push(edge.half(number, side));
+        }
+    }
+    halves
+}
+
+/// From the Euler characteristic: 0 for a torus, 1 for a disk, one less for every opening.
+fn unchecked_loops(edges: &[HingedEdge], vertices: usize) -> usize {
+    let sides = edges.iter().flat_map(|edge| edge.wings).flatten().count();
+    let periodic = edges.iter().any(|edge| edge.ends[0].shift != edge.ends[1].shift);
+    let euler_of_whole = if periodic { 0 } else { 1 };
+    (euler_of_whole + edges.len()).saturating_sub(vertices + sides / 3)
+}
+
+fn angle(a: Vec3, b: Vec3) -> f64 {
+    a.cross(&b).norm().atan2(a.dot(&b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_sheets::*;
+    use super::*;
+    use crate::numerics::dense::null_space;
+    use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
+
+    fn nullity(closure: &Closure, angles: &[f64]) -> usize {
+        null_space(&closure.jacobian(angles)).unwrap().basis.ncols()
+    }
+
+    /// Claim: drawn sheets close, in one cell and in several, and so do finite ones. Tolerance: rounding of products of
+    /// some six rotations.
+    #[test]
+    fn drawn_sheets_close() {
+        for sheet in [open_star(), open_flat(), miura(), finite_grid(3, 4, 0.3)] {
+            let closure = Closure::of_cell(&sheet).unwrap();
+            assert!(closure.residual(&drawn_fold_angles(&sheet)).amax() <= 5e-15, "{}", sheet.title);
+            assert_eq!(closure.unchecked_loops(), 0);
+        }
+    }
+
+    /// Claim: the drawn fold angles, and the folded cylinders that an independent program found, are solutions, in that
+    /// program's sign and order; and the null space there has dimension 3, on the cylinders 2 (theory: 3 at a generic
+    /// spatially periodic state, 2 on a cylinder). Tolerance 1e-12: what that program asked of its states.
+    #[test]
+    fn stored_states_of_open_star() {
+        let (sheet, reference) = (open_star(), open_star_reference());
+        let closure = Closure::of_cell(&sheet).unwrap();
+        let drawn = reference.in_sheet_order(&sheet, &reference.numbers("rest_fold_angles"));
+        let difference = drawn_fold_angles(&sheet).iter().zip(&drawn).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(difference <= 1e-14);
+        assert!(closure.residual(&drawn).amax() <= 5e-15);
+        assert_eq!(nullity(&closure, &drawn), 3);
+        for folded in reference.cylinders(&sheet) {
+            assert!(closure.residual(&folded).amax() <= 1e-12);
+            assert_eq!(nullity(&closure, &folded), 2);
+            let mirrored: Vec<f64> = folded.iter().map(|angle| -angle).collect();
+            assert!(closure.residual(&mirrored).amax() <= 1e-12, "the mirror image closes too");
+            let mut wrong = folded.clone();
+            wrong[3] = -wrong[3];
+            assert!(closure.residual(&wrong).amax() > 1e-2);
+        }
+    }
+
+    /// Claim: Nv + 2 null vectors at a flat developable state; each lock takes one away.
+    #[test]
+    fn flat_sheet_has_two_more_than_vertices() {
+        let sheet = open_flat();
+        let closure = Closure::of_cell(&sheet).unwrap();
+        let flat = vec![0.0; sheet.edges.len()];
+        assert_eq!(nullity(&closure, &flat), sheet.vertices.len() + 2);
+        let locked = closure.with_locked(&[0]);
+        assert_eq!(locked.folding_edges(), (1..12).collect::<Vec<_>>());
+        assert_eq!(nullity(&locked, &flat), sheet.vertices.len() + 1);
+    }
+
+    /// Claim: a finite sheet without flat vertices has as many folding modes as rim vertices less three: each interior
+    /// vertex takes three, and E = 3 V - 3 - b for a triangulated disk with b rim vertices.
+    #[test]
+    fn finite_sheet_counts_its_rim() {
+        let sheet = finite_grid(4, 5, 0.3);
+        let closure = Closure::of_cell(&sheet).unwrap();
+        assert_eq!(closure.vertices().len(), 3 * 4);
+        assert_eq!(closure.folding_edges().len(), sheet.edges.len() - 18);
+        assert_eq!(nullity(&closure, &drawn_fold_angles(&sheet)), 18 - 3);
+    }
+
+    /// Claim: two by two cells close with the angles of one cell in each. They have the three modes of one cell: no mode
+    /// of open-star has a wavelength of just two cells (its Bloch determinant is not zero there).
+    #[test]
+    fn several_cells_as_one() {
+        let sheet = open_star();
+        let (edges, cell_edge, lattice) = tile(&sheet, 2);
+        let position = |corner: Corner| {
+            let home = sheet.position(unfold(corner.vertex, 2, 4));
+            home + lattice[0] * f64::from(corner.shift[0]) + lattice[1] * f64::from(corner.shift[1])
+        };
+        let closure = Closure::of_edges(&edges, position).unwrap();
+        let drawn = drawn_fold_angles(&sheet);
+        let angles: Vec<f64> = cell_edge.iter().map(|&edge| drawn[edge]).collect();
+        assert_eq!(closure.vertices().len(), 16);
+        assert!(closure.residual(&angles).amax() <= 5e-15);
+        assert_eq!(nullity(&closure, &angles), 3);
+    }
+
+    /// Claim: every entry of the Jacobian is the derivative of the residual, at closed states and at random angles,
+    /// where nothing closes; on a torus, on a finite sheet, and with locked edges.
+    #[test]
+    fn jacobian_is_the_derivative() {
+        for (seed, sheet) in [open_star(), open_flat(), finite_grid(3, 3, 0.4)].into_iter().enumerate() {
+            let closure = Closure::of_cell(&sheet).unwrap().with_locked(&[0, 7]);
+            let drawn = drawn_fold_angles(&sheet);
+            for amplitude in [0.0, 0.3, 1.2] {
+                let mut angles = drawn.clone();
+                random_numbers(seed as u64, angles.len())
+                    .iter()
+                    .zip(&mut angles)
+                    .for_each(|(r, a)| *a += amplitude * r);
+                let folding = closure.folding_edges();
+                let residual = |moved: &[f64]| {
+                    let mut angles = angles.clone();
+                    folding.iter().zip(moved).for_each(|(&edge, &angle)| angles[edge] = angle);
+                    closure.residual(&angles).as_slice().to_vec()
+                };
+                let point: Vec<f64> = folding.iter().map(|&edge| angles[edge]).collect();
+                check_jacobian(residual, &point, &closure.jacobian(&angles), TOLERANCE).unwrap();
+            }
+        }
+    }
+
+    /// Claim (duality): null vectors of the Jacobian at the drawn state are self stresses of the bars on the torus with
+    /// fixed lattice: around every vertex, rate times unit edge direction adds up to zero.
+    #[test]
+    fn null_vectors_are_self_stresses() {
+        let sheet = open_star();
+        let closure = Closure::of_cell(&sheet).unwrap();
+        let basis = null_space(&closure.jacobian(&drawn_fold_angles(&sheet))).unwrap().basis;
+        for rates in basis.column_iter() {
+            let mut forces = vec![Vec3::zeros(); sheet.vertices.len()];
+            for (edge, rate) in sheet.edges.iter().zip(rates.iter()) {
+                let [i, j] = edge.key.ends();
+                let pull = (sheet.position(j) - sheet.position(i)).normalize() * *rate;
+                forces[i.vertex] += pull;
+                forces[j.vertex] -= pull;
+            }
+            assert!(forces.iter().all(|force| force.norm() <= 1e-14));
+        }
+    }
+
+    /// Claim: a vertex where two rounds touch is refused by number; an opening is counted as a loop.
+    #[test]
+    fn broken_rounds_and_openings() {
+        let mut edges: Vec<HingedEdge> = finite_grid(2, 2, 0.3).edges.iter().map(HingedEdge::from).collect();
+        let at_center = |edge: &HingedEdge| edge.ends.iter().any(|end| end.vertex == 4);
+        let spoke = edges.iter().position(at_center).unwrap();
+        edges[spoke].wings = [Some(Corner::home(0)); 2];
+        let position = |corner: Corner| Vec3::new(corner.vertex as f64, (corner.vertex as f64).cos(), 0.0);
+        let error = Closure::of_edges(&edges, position).unwrap_err();
+        assert_eq!(error, KinematicsError::BrokenRound { vertex: 4 });
+        assert_eq!(Closure::of_cell(&ring()).unwrap().unchecked_loops(), 1);
+    }
+}

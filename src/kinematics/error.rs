@@ -1,0 +1,56 @@
+//! What can be wrong with a question about exact folding.
+
+use crate::numerics::dense::DenseError;
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum KinematicsError {
+    /// The faces at a vertex do not form one round.
+    #[error("the faces around vertex {vertex} do not form one closed round")]
+    BrokenRound {
+        /// Number of the vertex.
+        vertex: usize,
+    },
+    /// A finite sheet was asked for something that only a periodic one has.
+    #[error("a finite sheet has no curvature tensor: linear folding modes belong to sheets with a lattice")]
+    NoLattice,
+    /// The sheet has openings, whose rims the closure of the vertices does not see.
+    #[error("the sheet has {loops} opening(s): closing its vertices does not close their rims")]
+    Openings {
+        /// Number of independent loops that no vertex closes.
+        loops: usize,
+    },
+    /// The faces of the cell do not hang together in both directions of the lattice.
+    #[error("the {faces} faces of the cell do not hang together in both directions of the lattice")]
+    Disconnected {
+        /// Number of triangles of the cell.
+        faces: usize,
+    },
+    /// Different ways over the faces of the cell end in different rotations.
+    #[error("a folding mode does not close over the cell: two ways over the faces differ by {difference:.2e}")]
+    WaysDisagree {
+        /// Largest difference of angular velocities, for a mode of norm 1.
+        difference: f64,
+    },
+    /// A mode was named by its curvatures, but the sheet has not just three modes.
+    #[error(
+        "curvatures name a mode only where there are 3 linear folding modes; this sheet has {modes} (a flat sheet has \
+         one more for each vertex). Name the mode by its rates: {{ rates = \"file.csv\" }}"
+    )]
+    NotThreeModes {
+        /// Number of linear folding modes.
+        modes: usize,
+    },
+    /// A mode was named by its curvatures, but the three modes do not make all curvatures.
+    #[error(
+        "curvatures do not name a mode of this sheet: modes and curvature tensors are not one to one (condition number \
+         {condition:.1e}). Name the mode by its rates: {{ rates = \"file.csv\" }}"
+    )]
+    SingularCurvatures {
+        /// Condition number of the map from modes to curvature tensors.
+        condition: f64,
+    },
+    /// A decomposition failed, or no rank stands out.
+    #[error("closure of the vertices: {0}")]
+    Decomposition(#[from] DenseError),
+}

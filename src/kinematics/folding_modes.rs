@@ -1,0 +1,381 @@
+//! Linear folding modes of a periodic sheet, and the curvature tensor each of them makes.
+//!
+//! A mode is a null vector of the closure Jacobian at the drawn state: a rate of the fold angle of every edge of the
+//! cell. Walking over the faces, crossing an edge from its right to its left face turns the face at that rate about the
+//! edge (valley positive); after one lattice vector `l_a` the faces turn at `Omega_a` relative to where one started.
+//! The sheet as a whole then bends by the curvature tensor
+//!
+//! `K = a^-T M a^-1`, `M_ab = (Omega_a x l_b) . n`, `a` upper triangular with `a^T a` the metric of the lattice,
+//!
+//! which is symmetric because the lattice motions commute to first order. `K` refers to x along the first lattice
+//! vector and y in the plane of the lattice towards the second; the displacement along the unit normal `n`, on the
+//! side of the face normals, is `(k11 x^2 + k22 y^2 + 2 k12 x y)/2`.
+
+use super::{Closure, KinematicsError, drawn_fold_angles};
+use crate::math::Vec3;
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::{NullSpace, least_squares, null_space, singular_values};
+use crate::sheet::{Corner, EdgeKey, Sheet};
+use nalgebra::{DVector, Matrix2, Matrix3};
+use std::collections::HashMap;
+
+/// Largest condition number of the map from modes to curvature tensors with which curvatures still name a mode.
+const LARGEST_CONDITION: f64 = 1e8;
+
+/// Largest disagreement between two ways over the faces, for a mode of norm 1.
+const LARGEST_DIFFERENCE: f64 = 1e-9;
+
+/// The linear folding modes of one cell of a periodic sheet in the drawn state.
+#[derive(Clone, Debug)]
+pub struct FoldingModes {
+    /// Orthonormal modes as columns, `Ne x m`: rates of the fold angles of the cell's edges, diagonals included.
+    pub basis: DenseMatrix,
+    /// Curvature tensors of the modes as columns, `3 x m`: `k11`, `k22`, `k12`, each per unit of the mode's amplitude,
+    /// in radians per length.
+    pub curvatures: DenseMatrix,
+    /// Angular velocities at which the faces turn from a cell to the next along the two lattice vectors, by mode.
+    pub lattice_rotations: Vec<[Vec3; 2]>,
+    /// Smallest kept over largest dropped singular value of the closure Jacobian.
+    pub gap: f64,
+}
+
+/// The linear folding modes of a sheet with a lattice, no edge locked.
+///
+/// Three of them at a generic spatially periodic state, `Nv + 2` at a flat developable one. Fails for a finite sheet, for
+/// one with openings, and where the number of modes is not clear.
+pub fn folding_modes(sheet: &Sheet) -> Result<FoldingModes, KinematicsError> {
+    let lattice = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
+    let closure = Closure::of_cell(sheet)?;
+    match closure.unchecked_loops() {
+        0 if sheet.holes.is_empty() => {}
+        loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }),
+    }
+    let NullSpace { basis, gap, .. } = null_space(&closure.jacobian(&drawn_fold_angles(sheet)))?;
+    let lattice_rotations = lattice_rotations(sheet, &basis)?;
+    let frame = LatticeFrame::new(lattice, sheet);
+    let tensors: Vec<Vec3> = lattice_rotations.iter().map(|omega| frame.curvature(omega)).collect();
+    let curvatures = DenseMatrix::from_fn(3, tensors.len(), |row, mode| tensors[mode][row]);
+    Ok(FoldingModes { basis, curvatures, lattice_rotations, gap })
+}
+
+impl FoldingModes {
+    /// Number of modes.
+    pub fn count(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// The fold rates of the mode that makes the curvature tensor `[k11, k22, k12]`.
+    ///
+    /// Fails where there are not three modes, and where they do not map one to one onto curvature tensors.
+    pub fn named(&self, curvature: [f64; 3]) -> Result<Vec<f64>, KinematicsError> {
+        if self.count() != 3 {
+            return Err(KinematicsError::NotThreeModes { modes: self.count() });
+        }
+        let condition = condition(&self.curvatures)?;
+        let invertible = condition <= LARGEST_CONDITION;
+        let map = Matrix3::from_fn(|row, mode| self.curvatures[(row, mode)]);
+        let amplitudes = map.lu().solve(&Vec3::from(curvature)).filter(|_| invertible);
+        let amplitudes = amplitudes.ok_or(KinematicsError::SingularCurvatures { condition })?;
+        Ok((&self.basis * DVector::from_column_slice(amplitudes.as_slice())).as_slice().to_vec())
+    }
+}
+
+fn condition(map: &DenseMatrix) -> Result<f64, KinematicsError> {
+    let values = singular_values(map)?;
+    Ok(values[0] / values[values.len() - 1])
+}
+
+/// The lattice as a frame for curvature tensors.
+struct LatticeFrame {
+    lattice: [Vec3; 2],
+    normal: Vec3,
+    inverse: Matrix2<f64>,
+}
+
+impl LatticeFrame {
+    fn new(lattice: [Vec3; 2], sheet: &Sheet) -> Self {
+        let [l1, l2] = lattice;
+        let upwards = l1.cross(&l2);
+        let normal = upwards.normalize() * vector_area(sheet).dot(&upwards).signum();
+        let along = l1.normalize();
+        let root = Matrix2::new(l1.norm(), along.dot(&l2), 0.0, along.cross(&l2).norm());
+        let inverse = Matrix2::new(1.0 / root.m11, -root.m12 / (root.m11 * root.m22), 0.0, 1.0 / root.m22);
+        Self { lattice, normal, inverse }
+    }
+
+    /// `(k11, k22, k12)` of the lattice rotations of a mode.
+    fn curvature(&self, omega: &[Vec3; 2]) -> Vec3 {
+        let turned = Matrix2::from_fn(|a, b| omega[a].cross(&self.lattice[b]).dot(&self.normal));
+        let tensor = self.inverse.transpose() * turned * self.inverse;
+        Vec3::new(tensor.m11, tensor.m22, 0.5 * (tensor.m12 + tensor.m21))
+    }
+}
+
+/// Twice the sum of the face areas along their normals.
+fn vector_area(sheet: &Sheet) -> Vec3 {
+    let area = |corners: &[Corner; 3]| {
+        let [a, b, c] = corners.map(|corner| sheet.position(corner));
+        (b - a).cross(&(c - a))
+    };
+    sheet.triangles.iter().map(|triangle| area(&triangle.corners)).sum()
+}
+
+/// Angular velocities from a cell to the next, along both lattice vectors, for every column of fold rates.
+///
+/// With `w_f` the angular velocity of face `f` of cell (0, 0), and `w_f + n1 Omega_1 + n2 Omega_2` that of its copies,
+/// every edge is one equation: left face less right face is the fold rate times the direction of the edge. There are
+/// more edges than unknowns; what is left over tells whether all ways over the faces agree.
+fn lattice_rotations(sheet: &Sheet, rates: &DenseMatrix) -> Result<Vec<[Vec3; 2]>, KinematicsError> {
+    let faces = sheet.triangles.len();
+    let turns = DenseMatrix::from_fn(sheet.edges.len(), 3 * rates.ncols(), |edge, column| {
+        let [i, j] = sheet.edges[edge].key.ends().map(|end| sheet.position(end));
+        rates[(edge, column / 3)] * (j - i).normalize()[column % 3]
+    });
+    // The first face stands still: without its column.
+    let found = least_squares(&face_differences(sheet).columns(1, faces + 1).into_owned(), &turns)?;
+    let difference = found.residual.amax();
+    if found.rank.rank != faces + 1 {
+        return Err(KinematicsError::Disconnected { faces });
+    }
+    if difference > LARGEST_DIFFERENCE {
+        return Err(KinematicsError::WaysDisagree { difference });
+    }
+    let omega = |mode: usize, a: usize| found.solution.fixed_view::<1, 3>(faces - 1 + a, 3 * mode).transpose();
+    Ok((0..rates.ncols()).map(|mode| [omega(mode, 0), omega(mode, 1)]).collect())
+}
+
+/// The matrix that takes the angular velocities of faces, and then `Omega_1` and `Omega_2`, to left face less right face
+/// of every edge.
+fn face_differences(sheet: &Sheet) -> DenseMatrix {
+    let number: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
+    let faces = sheet.triangles.len();
+    let mut matrix = DenseMatrix::zeros(sheet.edges.len(), faces + 2);
+    for (face, triangle) in sheet.triangles.iter().enumerate() {
+        for side in 0..3 {
+            let [a, b] = [triangle.corners[side], triangle.corners[(side + 1) % 3]];
+            let (key, reversed) = EdgeKey::new(a, b);
+            let Some(&edge) = number.get(&key) else { continue };
+            // This copy of the face is beside the edge whose first vertex stands in cell (0, 0).
+            let copy = if reversed { b.shift } else { a.shift }.map(|n| -f64::from(n));
+            let sign = if reversed { -1.0 } else { 1.0 };
+            matrix[(edge, face)] += sign;
+            matrix[(edge, faces)] += sign * copy[0];
+            matrix[(edge, faces + 1)] += sign * copy[1];
+        }
+    }
+    matrix
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_sheets::*;
+    use super::*;
+    use std::collections::VecDeque;
+
+    /// The three positions of a face, the third beyond the edge from the first to the second.
+    struct Placed {
+        face: usize,
+        cell: [i32; 2],
+    }
+
+    /// Positions of the vertices of cells -2 to 2, from the shapes of the faces and fold angles alone: each new face is
+    /// put onto an edge of one that stands.
+    fn embed(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec3> {
+        let first = sheet.triangles[0];
+        let mut places: HashMap<Corner, Vec3> = first.corners.map(|c| (c, sheet.position(c))).into_iter().collect();
+        let mut queue = VecDeque::from([Placed { face: 0, cell: [0, 0] }]);
+        while let Some(Placed { face, cell }) = queue.pop_front() {
+            let corners = sheet.triangles[face].corners.map(|corner| corner.translated(cell));
+            for side in 0..3 {
+                let [a, b, known] = [0, 1, 2].map(|k| corners[(side + k) % 3]);
+                let (key, reversed) = EdgeKey::new(a, b);
+                let edge = sheet.edges.iter().position(|edge| edge.key == key).unwrap();
+                let home = if reversed { b } else { a };
+                let across = sheet.edges[edge].wings[usize::from(!reversed)].unwrap().translated(home.shift);
+                if places.contains_key(&across) || across.shift.iter().any(|n| n.abs() > 2) {
+                    continue;
+                }
+                places.insert(across, hinge(sheet, [a, b, known, across], &places, angles[edge]));
+                queue.push_back(find_face(sheet, [b, a, across]));
+            }
+        }
+        places
+    }
+
+    /// Where the vertex `across` comes to stand when the edge from `a` to `b`, with the known face on its left, has a
+    /// fold angle: its foot on the edge and its distance are as drawn.
+    fn hinge(sheet: &Sheet, [a, b, known, across]: [Corner; 4], at: &HashMap<Corner, Vec3>, angle: f64) -> Vec3 {
+        let drawn = sheet.position(across) - sheet.position(a);
+        let drawn_along = (sheet.position(b) - sheet.position(a)).normalize();
+        let (foot, height) = (drawn.dot(&drawn_along), drawn.cross(&drawn_along).norm());
+        let along = (at[&b] - at[&a]).normalize();
+        let inner = at[&known] - at[&a];
+        let inwards = (inner - along * inner.dot(&along)).normalize();
+        let normal = along.cross(&inwards);
+        at[&a] + along * foot + (normal * angle.sin() - inwards * angle.cos()) * height
+    }
+
+    fn find_face(sheet: &Sheet, corners: [Corner; 3]) -> Placed {
+        for (face, triangle) in sheet.triangles.iter().enumerate() {
+            for turn in 0..3 {
+                let [from, to] = [triangle.corners[turn].shift, corners[0].shift];
+                let cell = [to[0] - from[0], to[1] - from[1]];
+                if (0..3).all(|k| triangle.corners[(turn + k) % 3].translated(cell) == corners[k]) {
+                    return Placed { face, cell };
+                }
+            }
+        }
+        panic!("no face with corners {corners:?}")
+    }
+
+    /// Curvature tensor by fitting `c + bx + dy + (k11 x^2 + k22 y^2 + 2 k12 xy)/2` to the normal displacements of the
+    /// copies of vertex 0, and the largest misfit.
+    fn fitted_curvature(sheet: &Sheet, rates: &[f64]) -> (Vec3, f64) {
+        let step = 1e-4;
+        let drawn = drawn_fold_angles(sheet);
+        let moved = [-step, step].map(|step| {
+            let angles: Vec<f64> = drawn.iter().zip(rates).map(|(angle, rate)| angle + step * rate).collect();
+            embed(sheet, &angles)
+        });
+        let [l1, l2] = sheet.lattice.unwrap();
+        let (x, n) = (l1.normalize(), l1.cross(&l2).normalize());
+        let y = n.cross(&x);
+        let copies: Vec<Corner> = (-2..=2)
+            .flat_map(|n1| (-2..=2).map(move |n2| [n1, n2]))
+            .map(|shift| Corner { vertex: 0, shift })
+            .filter(|c| moved[0].contains_key(c))
+            .collect();
+        assert!(copies.len() >= 20);
+        let heights = copies.iter().map(|c| (moved[1][c] - moved[0][c]).dot(&n) / (2.0 * step));
+        let heights = DenseMatrix::from_iterator(copies.len(), 1, heights);
+        let terms = DenseMatrix::from_fn(copies.len(), 6, |row, term| {
+            let place = sheet.position(copies[row]) - sheet.position(copies[0]);
+            let (x, y) = (place.dot(&x), place.dot(&y));
+            [0.5 * x * x, 0.5 * y * y, x * y, x, y, 1.0][term]
+        });
+        let fit = least_squares(&terms, &heights).unwrap();
+        (Vec3::new(fit.solution[0], fit.solution[1], fit.solution[2]), fit.residual.amax())
+    }
+
+    fn random_modes(modes: &FoldingModes, count: u64) -> impl Iterator<Item = (Vec<f64>, Vec3)> + '_ {
+        (0..count).map(|seed| {
+            let amplitudes = DVector::from_vec(random_numbers(seed, modes.count()));
+            let rates = &modes.basis * &amplitudes;
+            (rates.as_slice().to_vec(), Vec3::from_column_slice((&modes.curvatures * amplitudes).as_slice()))
+        })
+    }
+
+    /// Claim: curvature tensors have the contract's sign and factor: faces put together one by one with fold angles a
+    /// little beside the drawn ones displace the copies of vertex 0 by the quadratic form. Tolerance 1e-5: the step is
+    /// 1e-4, the error of central differences its square times the size of the patch.
+    #[test]
+    fn curvature_is_that_of_faces_put_together() {
+        let sheet = open_star();
+        let modes = folding_modes(&sheet).unwrap();
+        assert_eq!(modes.count(), 3);
+        for (rates, curvature) in random_modes(&modes, 3) {
+            let (fitted, misfit) = fitted_curvature(&sheet, &rates);
+            assert!((fitted - curvature).norm() <= 1e-5 * curvature.norm(), "{fitted} for {curvature}");
+            assert!(misfit <= 1e-5 * curvature.norm());
+        }
+    }
+
+    /// Claim: the lattice motions of a mode commute to first order, `Omega_1 x l_2 = Omega_2 x l_1`, so that the
+    /// curvature tensor is symmetric. Tolerance: rounding.
+    #[test]
+    fn lattice_motions_commute() {
+        for sheet in [open_star(), open_flat(), miura()] {
+            let [l1, l2] = sheet.lattice.unwrap();
+            for [omega1, omega2] in folding_modes(&sheet).unwrap().lattice_rotations {
+                assert!((omega1.cross(&l2) - omega2.cross(&l1)).norm() <= 1e-12);
+            }
+        }
+    }
+
+    /// Claim: the rays along which an independent program left the drawn state are linear modes with curvature tensors of
+    /// rank one, of the sign of the curvature that program found further on. Tolerance 1e-8: its directions solve
+    /// quadratic equations to that accuracy or better.
+    #[test]
+    fn rays_are_on_the_cone_of_cylinders() {
+        let sheet = open_star();
+        let modes = folding_modes(&sheet).unwrap();
+        let rays = open_star_reference().rays(&sheet);
+        assert_eq!(rays.len(), 4);
+        for (start, kappa) in rays {
+            let amplitudes = modes.basis.transpose() * DVector::from_vec(start.clone());
+            assert!((&modes.basis * &amplitudes - DVector::from_vec(start)).amax() <= 1e-12);
+            let k = &modes.curvatures * amplitudes;
+            let (determinant, trace) = (k[0] * k[1] - k[2] * k[2], k[0] + k[1]);
+            assert!(determinant.abs() <= 1e-8 * trace * trace, "{k}");
+            assert!(trace * kappa > 0.0);
+        }
+    }
+
+    /// Claim: a named mode is a null vector of closure and has the curvature tensor of its name.
+    #[test]
+    fn named_modes_have_their_curvature() {
+        let sheet = open_star();
+        let modes = folding_modes(&sheet).unwrap();
+        let jacobian = Closure::of_cell(&sheet).unwrap().jacobian(&drawn_fold_angles(&sheet));
+        for name in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.25, 1.0, 0.5], [1.0, -1.0, 0.0]] {
+            let rates = DVector::from_vec(modes.named(name).unwrap());
+            assert!((&jacobian * &rates).amax() <= 1e-13 * rates.norm());
+            let curvature = &modes.curvatures * (modes.basis.transpose() * rates);
+            assert!((curvature - DVector::from_row_slice(&name)).amax() <= 1e-12);
+        }
+    }
+
+    /// Claim: names do not know which side one looks from. Turning the sheet over (faces listed the other way round) turns
+    /// all fold angles and the normal over, so that valleys still bend it positively: the same rates have the same
+    /// name. With the lattice vectors `l1, -l2` x stays and y turns round: only `k12` changes sign.
+    #[test]
+    fn names_follow_the_face_normals() {
+        let sheet = open_star();
+        let named = |sheet: &Sheet, name| DVector::from_vec(folding_modes(sheet).unwrap().named(name).unwrap());
+        let rates = named(&sheet, [0.3, -0.2, 0.9]);
+        let mut over = sheet.clone();
+        over.triangles.iter_mut().for_each(|face| face.corners.reverse());
+        over.edges.iter_mut().for_each(|edge| edge.wings.reverse());
+        assert!((named(&over, [0.3, -0.2, 0.9]) - &rates).amax() <= 1e-12 * rates.norm());
+        let mirrored = with_second_lattice_vector_reversed(&sheet);
+        assert!((named(&mirrored, [0.3, -0.2, -0.9]) - &rates).amax() <= 1e-12 * rates.norm());
+    }
+
+    fn with_second_lattice_vector_reversed(sheet: &Sheet) -> Sheet {
+        let [l1, l2] = sheet.lattice.unwrap();
+        let turn = |corner: Corner| Corner { shift: [corner.shift[0], -corner.shift[1]], ..corner };
+        let mut turned = sheet.clone();
+        turned.lattice = Some([l1, -l2]);
+        turned.triangles.iter_mut().for_each(|face| face.corners = face.corners.map(turn));
+        for edge in &mut turned.edges {
+            let [i, j] = edge.key.ends().map(turn);
+            let (key, reversed) = EdgeKey::new(i, j);
+            let back = if reversed { j.shift } else { i.shift }.map(|n| -n);
+            edge.key = key;
+            edge.wings = edge.wings.map(|wing| wing.map(|corner| turn(corner).translated(back)));
+            if reversed {
+                edge.wings.reverse();
+            }
+        }
+        turned
+    }
+
+    /// Claim: what cannot be named says why: a flat sheet has Nv + 2 modes, triangulated Miura-ori has three that do
+    /// not make all curvature tensors, a finite sheet and one with openings have no modes of this kind.
+    #[test]
+    fn what_cannot_be_named() {
+        let flat = folding_modes(&open_flat()).unwrap();
+        assert_eq!(flat.named([1.0, 0.0, 0.0]).unwrap_err(), KinematicsError::NotThreeModes { modes: 6 });
+        let miura = folding_modes(&miura()).unwrap();
+        assert_eq!(miura.count(), 3);
+        match miura.named([1.0, 0.0, 0.0]).unwrap_err() {
+            KinematicsError::SingularCurvatures { condition } => assert!(condition > 1e8),
+            other => panic!("{other:?}"),
+        }
+        assert_eq!(folding_modes(&finite_grid(2, 2, 0.3)).unwrap_err(), KinematicsError::NoLattice);
+        let whole = open_star();
+        let kept: Vec<[Corner; 3]> = whole.triangles[1..].iter().map(|face| face.corners).collect();
+        let torn = sheet("torn", whole.vertices, whole.lattice, &kept);
+        assert_eq!(folding_modes(&torn).unwrap_err(), KinematicsError::Openings { loops: 1 });
+    }
+}

@@ -1,0 +1,191 @@
+//! Sheets for the tests of this folder.
+
+use crate::math::Vec3;
+use crate::sheet::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
+use rand::{RngExt, SeedableRng};
+use serde_json::Value;
+
+use super::closure::HingedEdge;
+
+/// Numbers of [-1, 1).
+pub fn random_numbers(seed: u64, count: usize) -> Vec<f64> {
+    let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
+    (0..count).map(|_| rng.random_range(-1.0..1.0)).collect()
+}
+
+pub fn open_star() -> Sheet {
+    from_fold(include_str!("../../tests/cases/open-star.fold"))
+}
+
+pub fn open_flat() -> Sheet {
+    from_fold(include_str!("../../tests/cases/open-flat.fold"))
+}
+
+/// Miura-ori, one cell of four triangulated parallelograms (sides 2, angle 60 degrees, folded by 15 degrees).
+pub fn miura() -> Sheet {
+    let (a, t, g) = (2.0, 60f64.to_radians(), 15f64.to_radians());
+    let (q, h) = ((1.0 + (g.cos() * t.tan()).powi(2)).sqrt(), a * t.sin() * g.sin());
+    let (s, v, l) = (a * g.cos() * t.tan() / q, a / q, a * (1.0 - (g.sin() * t.sin()).powi(2)).sqrt());
+    let place = |i: usize, j: usize| Vec3::new(s * i as f64, l * j as f64 + v * (i % 2) as f64, h * (j % 2) as f64);
+    let vertices = [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[i, j]| place(i, j)).to_vec();
+    let corner = |[i, j]: [usize; 2]| Corner { vertex: i % 2 + 2 * (j % 2), shift: [(i / 2) as i32, (j / 2) as i32] };
+    let mut faces = Vec::new();
+    for (i, j) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+        let quad = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]].map(corner);
+        let shorter = if i % 2 == 0 { [[1, 2, 3], [1, 3, 0]] } else { [[0, 1, 2], [0, 2, 3]] };
+        faces.extend(shorter.map(|face| face.map(|k: usize| quad[k])));
+    }
+    sheet("miura", vertices, Some([place(2, 0), place(0, 2)]), &faces)
+}
+
+/// `m` x `n` squares, each of two triangles, with heights at random; no lattice.
+pub fn finite_grid(m: usize, n: usize, height: f64) -> Sheet {
+    let heights = random_numbers(5, (m + 1) * (n + 1));
+    let number = |i: usize, j: usize| i + (m + 1) * j;
+    let place = |k: usize| Vec3::new((k % (m + 1)) as f64, (k / (m + 1)) as f64, height * heights[k]);
+    let mut faces = Vec::new();
+    for (i, j) in (0..m * n).map(|k| (k % m, k / m)) {
+        let [a, b, c, d] = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)].map(Corner::home);
+        faces.extend([[a, b, c], [a, c, d]]);
+    }
+    sheet("grid", (0..(m + 1) * (n + 1)).map(place).collect(), None, &faces)
+}
+
+/// A ring of six triangles: an opening that no vertex closes.
+pub fn ring() -> Sheet {
+    let place = |k: usize| {
+        let turn = std::f64::consts::TAU * k as f64 / 6.0;
+        Vec3::new(turn.cos(), turn.sin(), 0.0) * if k.is_multiple_of(2) { 1.0 } else { 2.0 }
+    };
+    let face = |k: usize| {
+        let [a, b, c] = [k, (k + 1) % 6, (k + 2) % 6].map(Corner::home);
+        if k.is_multiple_of(2) { [a, b, c] } else { [b, a, c] }
+    };
+    sheet("ring", (0..6).map(place).collect(), None, &[0, 1, 2, 3, 4, 5].map(face))
+}
+
+/// A sheet of triangles.
+pub fn sheet(title: &str, vertices: Vec<Vec3>, lattice: Option<[Vec3; 2]>, faces: &[[Corner; 3]]) -> Sheet {
+    let triangles: Vec<Triangle> =
+        faces.iter().enumerate().map(|(polygon, &corners)| Triangle { corners, polygon }).collect();
+    let mut edges: Vec<Edge> = Vec::new();
+    for corners in faces {
+        for k in 0..3 {
+            let [a, b, c] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
+            let (key, reversed) = EdgeKey::new(a, b);
+            let back = if reversed { b.shift } else { a.shift }.map(|n| -n);
+            let number = edges.iter().position(|edge| edge.key == key).unwrap_or_else(|| {
+                edges.push(Edge { key, kind: EdgeKind::Boundary, wings: [None; 2] });
+                edges.len() - 1
+            });
+            edges[number].wings[usize::from(reversed)] = Some(c.translated(back));
+            if edges[number].wings.iter().all(Option::is_some) {
+                edges[number].kind = EdgeKind::Crease;
+            }
+        }
+    }
+    let polygons = faces.iter().map(|face| face.to_vec()).collect();
+    Sheet { title: title.to_string(), vertices, lattice, polygons, triangles, edges, holes: Vec::new() }
+}
+
+fn from_fold(text: &str) -> Sheet {
+    let file: Value = serde_json::from_str(text).unwrap();
+    let drawn: Vec<Vec3> = points(&file["vertices_coords"]);
+    let lattice: [Vec3; 2] = points(&file["foldwell:lattice"]).try_into().unwrap();
+    let mut vertices: Vec<Vec3> = Vec::new();
+    let corners: Vec<Corner> = drawn.iter().map(|point| identify(&mut vertices, *point, &lattice)).collect();
+    let faces: Vec<[Corner; 3]> = file["faces_vertices"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|face| [0, 1, 2].map(|k| corners[face[k].as_u64().unwrap() as usize]))
+        .collect();
+    sheet(file["file_title"].as_str().unwrap(), vertices, Some(lattice), &faces)
+}
+
+fn identify(vertices: &mut Vec<Vec3>, point: Vec3, lattice: &[Vec3; 2]) -> Corner {
+    for (vertex, home) in vertices.iter().enumerate() {
+        for shift in (-1..=1).flat_map(|n1| [-1, 0, 1].map(|n2| [n1, n2])) {
+            let copy = home + lattice[0] * f64::from(shift[0]) + lattice[1] * f64::from(shift[1]);
+            if (copy - point).norm() < 1e-6 {
+                return Corner { vertex, shift };
+            }
+        }
+    }
+    vertices.push(point);
+    Corner::home(vertices.len() - 1)
+}
+
+fn points(value: &Value) -> Vec<Vec3> {
+    value.as_array().unwrap().iter().map(|point| Vec3::from_row_slice(&floats(point))).collect()
+}
+
+fn floats(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+}
+
+/// The numbers that an independent program found for `open-star`.
+pub struct Reference(Value);
+
+pub fn open_star_reference() -> Reference {
+    Reference(serde_json::from_str(include_str!("../../tests/cases/open-star.json")).unwrap())
+}
+
+impl Reference {
+    pub fn numbers(&self, key: &str) -> Vec<f64> {
+        floats(&self.0[key])
+    }
+
+    /// Numbers per edge in the order of the reference, brought into that of the sheet.
+    pub fn in_sheet_order(&self, sheet: &Sheet, numbers: &[f64]) -> Vec<f64> {
+        let list = self.0["edge_list"].as_array().unwrap();
+        let find = |edge: &Edge| {
+            let EdgeKey { i, j, shift: [n1, n2] } = edge.key;
+            let name = serde_json::json!([i, j, n1, n2]);
+            numbers[list.iter().position(|entry| *entry == name).unwrap()]
+        };
+        sheet.edges.iter().map(find).collect()
+    }
+
+    /// Fold angles of folded cylinders.
+    pub fn cylinders(&self, sheet: &Sheet) -> Vec<Vec<f64>> {
+        let states = self.0["states"].as_array().unwrap();
+        states.iter().map(|state| self.in_sheet_order(sheet, &floats(&state["fold_angles"]))).collect()
+    }
+
+    /// The directions in which folding leaves the drawn state, with the signs of the curvature they lead to.
+    pub fn rays(&self, sheet: &Sheet) -> Vec<(Vec<f64>, f64)> {
+        let loops = self.0["loops"].as_array().unwrap();
+        let states = self.0["states"].as_array().unwrap();
+        let same = |a: &Value, b: &Value| a["branch"] == b["branch"] && a["sign"] == b["sign"];
+        let ray = |start: &Value| {
+            let state = states.iter().find(|state| same(state, start)).unwrap();
+            (self.in_sheet_order(sheet, &floats(&start["start"])), state["kappa"].as_f64().unwrap())
+        };
+        loops.iter().map(ray).collect()
+    }
+}
+
+/// `n` x `n` cells as one: their edges, the edge of the sheet that each is a copy of, and the large lattice.
+pub fn tile(sheet: &Sheet, n: i32) -> (Vec<HingedEdge>, Vec<usize>, [Vec3; 2]) {
+    let count = sheet.vertices.len();
+    let fold = |corner: Corner| {
+        let [c1, c2] = corner.shift.map(|c| c.rem_euclid(n) as usize);
+        Corner { vertex: corner.vertex + count * (c1 + n as usize * c2), shift: corner.shift.map(|c| c.div_euclid(n)) }
+    };
+    let (mut edges, mut cell_edge) = (Vec::new(), Vec::new());
+    for cell in (0..n).flat_map(|c2| (0..n).map(move |c1| [c1, c2])) {
+        for (number, edge) in sheet.edges.iter().enumerate() {
+            let moved = |corner: Corner| fold(corner.translated(cell));
+            edges.push(HingedEdge { ends: edge.key.ends().map(moved), wings: edge.wings.map(|wing| wing.map(moved)) });
+            cell_edge.push(number);
+        }
+    }
+    (edges, cell_edge, sheet.lattice.unwrap().map(|l| l * f64::from(n)))
+}
+
+/// Vertex of the sheet and cell of a vertex of [`tile`].
+pub fn unfold(vertex: usize, n: usize, count: usize) -> Corner {
+    let cell = vertex / count;
+    Corner { vertex: vertex % count, shift: [(cell % n) as i32, (cell / n) as i32] }
+}
