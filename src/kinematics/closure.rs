@@ -203,7 +203,7 @@ impl Round {
 pub fn drawn_fold_angles(sheet: &Sheet) -> Vec<f64> {
     let angle_of = |edge: &Edge| {
         let ([i, j], [Some(left), Some(right)]) = (edge.key.ends(), edge.wings) else { return 0.0 };
-        fold_angle(&[i, j, left, right].map(|corner| sheet.position(corner)))
+        fold_angle([i, j, left, right].map(|corner| sheet.position(corner)))
     };
     sheet.edges.iter().map(angle_of).collect()
 }

@@ -1,0 +1,293 @@
+//! Modes of the drawn state: motions and stresses of its bars, linear foldings, and the spectrum of its energy.
+//!
+//! The rank of the rigidity matrix is found by singular values (dense, small sheets) or by counting them against
+//! thresholds (sparse, large sheets), and is believed only when a second way agrees: the count of eigenvalues of one
+//! sign of a factorization, and, where the topology allows it, the null space of the closure conditions in fold angles,
+//! which share no equation with the bars.
+
+use crate::kinematics::KinematicsError;
+use crate::kinematics::closure::{Closure, HingedEdge};
+use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
+use crate::model::{Model, gauge};
+use crate::numerics::dense::{self, DenseError};
+use crate::numerics::factor::FactorError;
+use crate::numerics::sparse::{FIXED, Rows};
+use crate::numerics::{DenseMatrix, eigen, rank};
+use crate::sheet::tiling::{Site, Tiling};
+use crate::sheet::{Corner, EdgeKind, Sheet};
+use crate::solver::saddle::Saddle;
+use crate::solver::{Curvature, Linearization, Problem};
+use thiserror::Error;
+
+/// Rigidity matrices of more rows or columns than this are not decomposed dense.
+pub const DENSE_LIMIT: usize = 1200;
+/// Smallest ratio of kept to dropped singular values at which a rank is believed.
+pub const LEAST_GAP: f64 = 1e3;
+
+/// Modes of a drawn state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modes {
+    /// Motions that change no bar's length (and no rigid polygon's shape), rigid motions included.
+    pub zero_modes: usize,
+    /// Tensions in equilibrium without load.
+    pub self_stresses: usize,
+    /// Rigid motions that the domain and the pins allow.
+    pub rigid_motions: usize,
+    /// Null space of the closure conditions; `None` where they are too many to decompose or do not say all.
+    pub folding_modes: Option<usize>,
+    /// Columns less rows of the rigidity matrix.
+    pub maxwell_count: i64,
+    /// Smallest kept over largest dropped singular value; a lower bound by a factor of ten for large sheets.
+    pub gap: f64,
+    /// Lowest eigenvalues of the energy's Hessian on what rigid terms leave free, ascending.
+    pub eigenvalues: Vec<f64>,
+    /// The eigenvectors, as velocities of all coordinates, one for each eigenvalue.
+    pub vectors: Vec<Vec<f64>>,
+}
+
+/// Why there are no modes.
+#[derive(Debug, Error)]
+pub enum ModesError {
+    /// A dense decomposition failed.
+    #[error(transparent)]
+    Dense(#[from] DenseError),
+    /// A factorization failed.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+    /// The closure conditions could not be set up.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// No rank stands out.
+    #[error("the rank of the rigidity matrix is not certain: kept over dropped singular value {gap:.1e}, less than {LEAST_GAP:e}")]
+    NoGap {
+        /// Smallest kept over largest dropped singular value.
+        gap: f64,
+    },
+    /// Two ways to the rank disagree.
+    #[error("the rank of the rigidity matrix is {by_values} by singular values and {by_inertia} by counting signs")]
+    RankDisagrees {
+        /// Rank by singular values.
+        by_values: usize,
+        /// Rank by inertia.
+        by_inertia: usize,
+    },
+    /// Bars and closure disagree.
+    #[error("{bars} motions or stresses of the bars, but {closure} by the closure of the vertices")]
+    ClosureDisagrees {
+        /// From the rigidity matrix.
+        bars: usize,
+        /// From the closure conditions.
+        closure: usize,
+    },
+}
+
+/// What to look at.
+pub struct Question<'a> {
+    /// The sheet.
+    pub sheet: &'a Sheet,
+    /// Its cells.
+    pub tiling: &'a Tiling,
+    /// What surrounds them.
+    pub surroundings: Surroundings,
+    /// What it is made of.
+    pub recipe: &'a Recipe,
+    /// How many eigenvalues of the energy are wanted.
+    pub eigenvalues: usize,
+}
+
+/// Finds the modes.
+pub fn modes(question: &Question<'_>) -> Result<Modes, ModesError> {
+    let Question { sheet, tiling, surroundings, recipe, .. } = *question;
+    let drawn = Drawn::new(sheet, tiling, surroundings);
+    let bars = assemble(&drawn, tiling, &rigid_part(recipe)).without_gauge();
+    let (rank, gap) = rank_of(&bars)?;
+    let (columns, rows) = (bars.layout().unknowns, bars.layout().stiff.len());
+    let rigid_motions = rigid_motions(&drawn, &bars);
+    let (zero_modes, self_stresses) = (columns - rank, rows - rank);
+    let folding_modes = folding_modes(question, &drawn)?;
+    if let Some(closure) = folding_modes {
+        let predicted = match surroundings {
+            Surroundings::Patch if recipe.pins.is_empty() => Some(zero_modes - rigid_motions),
+            Surroundings::FixedTorus if recipe.pins.is_empty() && !has_rigid_facets(recipe) => Some(self_stresses),
+            _ => None,
+        };
+        if let Some(bars) = predicted.filter(|&bars| bars != closure) {
+            return Err(ModesError::ClosureDisagrees { bars, closure });
+        }
+    }
+    let (eigenvalues, vectors) = if question.eigenvalues > 0 {
+        lowest(&assemble(&drawn, tiling, recipe).without_gauge(), question.eigenvalues)?
+    } else {
+        (vec![], vec![])
+    };
+    Ok(Modes {
+        zero_modes,
+        self_stresses,
+        rigid_motions,
+        folding_modes,
+        maxwell_count: columns as i64 - rows as i64,
+        gap,
+        eigenvalues,
+        vectors,
+    })
+}
+
+/// Bars and rigid polygons only, all rigid; pins as they are.
+fn rigid_part(recipe: &Recipe) -> Recipe {
+    let facets = recipe.facets.as_ref().filter(|hinges| hinges.stiffness.is_infinite()).cloned();
+    Recipe { bars: Some(f64::INFINITY), facets, pins: recipe.pins.clone(), ..Recipe::default() }
+}
+
+fn has_rigid_facets(recipe: &Recipe) -> bool {
+    recipe.facets.as_ref().is_some_and(|hinges: &Hinges| hinges.stiffness.is_infinite())
+}
+
+fn rigid_motions(drawn: &Drawn, bars: &Model) -> usize {
+    let motions = gauge::rigid_motions(&drawn.domain, &drawn.coordinates, true);
+    gauge::choose(&motions, &bars.held()).len()
+}
+
+/// Rank of the Jacobian of a model's stiff measures at the drawn state, and the gap.
+fn rank_of(model: &Model) -> Result<(usize, f64), ModesError> {
+    let (layout, at) = (model.layout(), linearized(model));
+    let rows = at.rows(layout);
+    if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
+        return rank_by_counting(&rows, layout.unknowns, &layout.node);
+    }
+    let found = dense::rank_at_largest_gap(&dense::singular_values(&to_dense(&rows, layout.unknowns))?)?;
+    let largest = rows.values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let threshold = threshold(&dense::singular_values(&to_dense(&rows, layout.unknowns))?, found.rank) / largest;
+    let by_inertia = rank::count_above(&rows, layout.unknowns, &layout.node, threshold)?;
+    if by_inertia == found.rank {
+        Ok((found.rank, found.gap))
+    } else {
+        Err(ModesError::RankDisagrees { by_values: found.rank, by_inertia })
+    }
+}
+
+/// A threshold between the last kept and the first dropped singular value, far from both where it can be.
+fn threshold(values: &[f64], rank: usize) -> f64 {
+    let kept = values[rank - 1];
+    let dropped = values.get(rank).copied().unwrap_or(0.0);
+    (kept * dropped.max(1e-8 * kept)).sqrt()
+}
+
+/// Counts singular values above thresholds a decade apart; the longest run of equal counts is the gap.
+fn rank_by_counting(rows: &Rows<'_>, columns: usize, node: &[u32]) -> Result<(usize, f64), ModesError> {
+    let counts: Result<Vec<usize>, FactorError> =
+        (1..=8).map(|decade| rank::count_above(rows, columns, node, 10f64.powi(-decade))).collect();
+    let counts = counts?;
+    let mut best = (0, 0);
+    for start in 0..counts.len() {
+        let run = counts[start..].iter().take_while(|count| **count == counts[start]).count();
+        if run > best.1 {
+            best = (counts[start], run);
+        }
+    }
+    let gap = 10f64.powi(best.1 as i32 - 1);
+    if gap >= LEAST_GAP { Ok((best.0, gap)) } else { Err(ModesError::NoGap { gap }) }
+}
+
+fn linearized(model: &Model) -> Linearization {
+    let mut at = Linearization::new(model.layout());
+    model.linearize(&model.start(), &vec![0.0; model.layout().stiff.len()], Curvature::Full, &mut at);
+    at
+}
+
+fn to_dense(rows: &Rows<'_>, columns: usize) -> DenseMatrix {
+    let mut matrix = DenseMatrix::zeros(rows.cliques.len(), columns);
+    for row in 0..rows.cliques.len() {
+        let values = &rows.values[rows.cliques.range(row)];
+        for (&member, value) in rows.cliques.members(row).iter().zip(values) {
+            if member != FIXED {
+                matrix[(row, member as usize)] += value;
+            }
+        }
+    }
+    matrix
+}
+
+/// Null space of the closure conditions of the tiling, rigid facets locked.
+fn folding_modes(question: &Question<'_>, drawn: &Drawn) -> Result<Option<usize>, ModesError> {
+    let tiling = question.tiling;
+    let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };
+    let hinged: Vec<HingedEdge> = tiling
+        .edges
+        .iter()
+        .map(|edge| HingedEdge { ends: edge.ends.map(corner), wings: edge.wings.map(|wing| wing.map(corner)) })
+        .collect();
+    let at = |corner: Corner| {
+        drawn.domain.point(&drawn.coordinates, Site { vertex: corner.vertex, shift: corner.shift })
+    };
+    let closure = Closure::of_edges(&hinged, at)?;
+    if closure.unchecked_loops() > 0 || closure.folding_edges().len() > DENSE_LIMIT || dangling(tiling) {
+        return Ok(None);
+    }
+    let rigid = has_rigid_facets(question.recipe);
+    let locked: Vec<usize> =
+        (0..tiling.edges.len()).filter(|&e| rigid && tiling.edges[e].kind == EdgeKind::Facet).collect();
+    let angles: Vec<f64> = crate::model::assemble::drawn_angles(drawn, tiling)
+        .into_iter()
+        .map(|angle| if angle.is_nan() { 0.0 } else { angle })
+        .collect();
+    let null = dense::null_space(&closure.with_locked(&locked).jacobian(&angles))?;
+    Ok(Some(null.basis.ncols()))
+}
+
+/// Whether an edge of a patch has no face: then vertices hang on the sheet that no fold angle moves.
+fn dangling(tiling: &Tiling) -> bool {
+    tiling.edges.iter().any(|edge| edge.wings == [None, None])
+}
+
+/// Lowest eigenvalues and eigenvectors of the energy's Hessian on what the rigid terms leave free.
+fn lowest(model: &Model, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>), ModesError> {
+    let count = count.min(model.layout().unknowns);
+    let (values, vectors) =
+        if model.layout().unknowns <= DENSE_LIMIT { lowest_dense(model, count)? } else { lowest_sparse(model, count)? };
+    Ok((values, vectors.iter().map(|v| model.velocity(v)).collect()))
+}
+
+type Pairs = (Vec<f64>, Vec<Vec<f64>>);
+
+fn lowest_dense(model: &Model, count: usize) -> Result<Pairs, ModesError> {
+    let (layout, mut at) = (model.layout(), linearized(model));
+    let compliance = model.compliance();
+    let mut values = std::mem::take(&mut at.hessian);
+    for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
+        at.add_outer(layout, row, 1.0 / c, &mut values);
+    }
+    let hessian = at.pattern().to_dense(&values);
+    let full = to_dense(&at.rows(layout), layout.unknowns);
+    let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
+    let free = if rigid.is_empty() {
+        DenseMatrix::identity(layout.unknowns, layout.unknowns)
+    } else {
+        dense::null_space(&full.select_rows(&rigid))?.basis
+    };
+    let found = dense::symmetric_eigen(&(free.transpose() * hessian * &free))?;
+    let count = count.min(found.values.len());
+    let vectors = (0..count).map(|k| (&free * found.vectors.column(k)).as_slice().to_vec()).collect();
+    Ok((found.values[..count].to_vec(), vectors))
+}
+
+/// By shift and invert: the largest eigenvalues of `(H + shift)^-1` on the null space of the rigid measures.
+fn lowest_sparse(model: &Model, count: usize) -> Result<Pairs, ModesError> {
+    let (layout, mut at) = (model.layout(), linearized(model));
+    let compliance = model.compliance();
+    let mut saddle = Saddle::new(layout, &at)?;
+    let unit = at.largest_diagonal();
+    let mut shift = 0.0;
+    for power in 0..30 {
+        let next = 1e-7 * unit * 4f64.powi(power);
+        at.add_to_diagonal(next - shift);
+        shift = next;
+        if saddle.factor(layout, &at, compliance, 0.0).is_ok_and(|inertia| inertia.negative == 0) {
+            break;
+        }
+    }
+    let zero = vec![0.0; layout.stiff.len()];
+    let (inverse, vectors) = eigen::largest(layout.unknowns, count, |v| {
+        saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx
+    })?;
+    Ok((inverse.iter().map(|mu| 1.0 / mu - shift).collect(), vectors))
+}
