@@ -1,5 +1,5 @@
 //! Questions about states: equilibria, modes and spectra. State in, result out; nothing here reads or writes files.
 
-
+pub mod modes;
 pub mod relax;
 pub mod state;

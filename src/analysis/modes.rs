@@ -8,13 +8,12 @@
 use crate::kinematics::KinematicsError;
 use crate::kinematics::closure::{Closure, HingedEdge};
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
-use crate::model::{Model, gauge};
+use crate::model::{Gauge, Model, gauge};
 use crate::numerics::dense::{self, DenseError};
 use crate::numerics::factor::FactorError;
 use crate::numerics::sparse::{FIXED, Rows};
 use crate::numerics::{DenseMatrix, eigen, rank};
-use crate::sheet::tiling::{Site, Tiling};
-use crate::sheet::{Corner, EdgeKind, Sheet};
+use crate::sheet::{Corner, EdgeKind, Sheet, Site, Tiling};
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Problem};
 use thiserror::Error;
@@ -99,7 +98,7 @@ pub struct Question<'a> {
 pub fn modes(question: &Question<'_>) -> Result<Modes, ModesError> {
     let Question { sheet, tiling, surroundings, recipe, .. } = *question;
     let drawn = Drawn::new(sheet, tiling, surroundings);
-    let bars = assemble(&drawn, tiling, &rigid_part(recipe)).without_gauge();
+    let bars = assemble(&drawn, tiling, &rigid_part(recipe), Gauge::Free);
     let (rank, gap) = rank_of(&bars)?;
     let (columns, rows) = (bars.layout().unknowns, bars.layout().stiff.len());
     let rigid_motions = rigid_motions(&drawn, &bars);
@@ -116,7 +115,7 @@ pub fn modes(question: &Question<'_>) -> Result<Modes, ModesError> {
         }
     }
     let (eigenvalues, vectors) = if question.eigenvalues > 0 {
-        lowest(&assemble(&drawn, tiling, recipe).without_gauge(), question.eigenvalues)?
+        lowest(&assemble(&drawn, tiling, recipe, Gauge::Free), question.eigenvalues)?
     } else {
         (vec![], vec![])
     };
@@ -154,9 +153,10 @@ fn rank_of(model: &Model) -> Result<(usize, f64), ModesError> {
     if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
         return rank_by_counting(&rows, layout.unknowns, &layout.node);
     }
-    let found = dense::rank_at_largest_gap(&dense::singular_values(&to_dense(&rows, layout.unknowns))?)?;
+    let values = dense::singular_values(&to_dense(&rows, layout.unknowns))?;
+    let found = dense::rank_at_largest_gap(&values)?;
     let largest = rows.values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let threshold = threshold(&dense::singular_values(&to_dense(&rows, layout.unknowns))?, found.rank) / largest;
+    let threshold = threshold(&values, found.rank) / largest;
     let by_inertia = rank::count_above(&rows, layout.unknowns, &layout.node, threshold)?;
     if by_inertia == found.rank {
         Ok((found.rank, found.gap))
@@ -275,11 +275,11 @@ fn lowest_sparse(model: &Model, count: usize) -> Result<Pairs, ModesError> {
     let (layout, mut at) = (model.layout(), linearized(model));
     let compliance = model.compliance();
     let mut saddle = Saddle::new(layout, &at)?;
-    let unit = at.largest_diagonal();
+    let unit = at.pattern().largest_diagonal(&at.hessian);
     let mut shift = 0.0;
     for power in 0..30 {
         let next = 1e-7 * unit * 4f64.powi(power);
-        at.add_to_diagonal(next - shift);
+        at.add_identity(next - shift);
         shift = next;
         if saddle.factor(layout, &at, compliance, 0.0).is_ok_and(|inertia| inertia.negative == 0) {
             break;

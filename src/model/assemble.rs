@@ -5,7 +5,7 @@
 
 use super::domain::Domain;
 use super::measure::{FoldAngle, Length};
-use super::problem::{Model, Parts};
+use super::problem::{Gauge, Model, Parts};
 use super::term::{Element, Elements, Spring, Term};
 use crate::math::{Vec3, fold_angle::fold_angle};
 use crate::sheet::tiling::{Site, Tiling};
@@ -108,7 +108,7 @@ fn area_vector(sheet: &Sheet) -> Vec3 {
 }
 
 /// Builds the model of a tiling. Hinges of a kind for which the recipe has nothing are not built.
-pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe) -> Model {
+pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -> Model {
     let (mut soft, mut stiff): (Vec<Box<dyn Elements>>, Vec<Box<dyn Elements>>) = (vec![], vec![]);
     let mean_edge = mean_edge(drawn, tiling);
     if let Some(stiffness) = recipe.bars {
@@ -151,6 +151,7 @@ pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe) -> Model {
         pinned: drawn.held.iter().copied().chain(pins).collect(),
         loads,
         mean_edge,
+        gauge,
     })
 }
 

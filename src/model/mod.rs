@@ -13,5 +13,5 @@ pub mod problem;
 pub mod term;
 
 pub use domain::{Domain, Site};
-pub use problem::Model;
+pub use problem::{Gauge, Model};
 pub use term::{Element, Elements, Spring, Term};

@@ -14,8 +14,9 @@ const LEAST_ANGLE: f64 = 1e-3;
 /// Bars and hinges of a sheet, with what is held and what pulls.
 pub struct Model {
     domain: Domain,
-    /// Coordinates of the drawn state, those that are held included.
-    drawn: Vec<f64>,
+    /// Coordinates of the drawn state, or of the one put in its place; those held keep these values.
+    base: Vec<f64>,
+    pinned: Vec<usize>,
     /// Coordinate of each unknown.
     free: Vec<u32>,
     soft: Vec<Box<dyn Elements>>,
@@ -24,6 +25,16 @@ pub struct Model {
     layout: Layout,
     compliance: Vec<f64>,
     gap_scale: Vec<f64>,
+}
+
+/// What is done about the rigid motions that no pin prevents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gauge {
+    /// As many coordinates are held: for minimisation. Rotations stay free where loads pull; translations are held,
+    /// since loads must balance along them.
+    Held,
+    /// Nothing is held: for spectra and ranks.
+    Free,
 }
 
 /// What a model is made of.
@@ -42,18 +53,20 @@ pub struct Parts {
     pub loads: Vec<f64>,
     /// Unit of length for gaps of lengths: the mean edge.
     pub mean_edge: f64,
+    /// What is done about rigid motions.
+    pub gauge: Gauge,
 }
 
 impl Model {
-    /// Puts the parts together. Rigid motions that no pin prevents are taken out by a gauge: translations always (loads
-    /// must balance along them), rotations where nothing pulls.
+    /// Puts the parts together.
     pub fn new(parts: Parts) -> Self {
-        let Parts { domain, drawn, soft, stiff, pinned, loads, mean_edge } = parts;
+        let Parts { domain, drawn, soft, stiff, pinned, loads, mean_edge, gauge } = parts;
         let mut held = vec![false; drawn.len()];
         pinned.iter().for_each(|&k| held[k] = true);
-        let free_to_turn = loads.is_empty();
-        let motions = gauge::rigid_motions(&domain, &drawn, free_to_turn);
-        gauge::choose(&motions, &held).into_iter().for_each(|k| held[k] = true);
+        if gauge == Gauge::Held {
+            let motions = gauge::rigid_motions(&domain, &drawn, loads.is_empty());
+            gauge::choose(&motions, &held).into_iter().for_each(|k| held[k] = true);
+        }
         let free: Vec<u32> = (0..drawn.len() as u32).filter(|&k| !held[k as usize]).collect();
         let mut number = vec![FIXED; drawn.len()];
         free.iter().enumerate().for_each(|(unknown, &k)| number[k as usize] = unknown as u32);
@@ -61,17 +74,46 @@ impl Model {
         let springs = || stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term.is_angle(), term.spring(k))));
         let compliance = springs().map(|(_, spring)| 1.0 / spring.stiffness).collect();
         let gap_scale = springs().map(|(angle, _)| if angle { 1.0 } else { mean_edge }).collect();
-        Self { domain, drawn, free, soft, stiff, loads, layout, compliance, gap_scale }
+        Self { domain, base: drawn, pinned, free, soft, stiff, loads, layout, compliance, gap_scale }
     }
 
     /// The unknowns of the drawn state.
     pub fn start(&self) -> Vec<f64> {
-        self.free.iter().map(|&k| self.drawn[k as usize]).collect()
+        self.unknowns(&self.base)
+    }
+
+    /// The unknowns among all coordinates, or among rates of all coordinates.
+    pub fn unknowns(&self, coordinates: &[f64]) -> Vec<f64> {
+        self.free.iter().map(|&k| coordinates[k as usize]).collect()
+    }
+
+    /// Rates of all coordinates when the unknowns have these rates: zero where a coordinate is held.
+    pub fn velocity(&self, rates: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.base.len()];
+        self.free.iter().zip(rates).for_each(|(&k, rate)| all[k as usize] = *rate);
+        all
+    }
+
+    /// Puts another state in the place of the drawn one: the gauge holds it where it is, pins stay as drawn, angles
+    /// continue from the last accepted state. Returns its unknowns.
+    pub fn start_from(&mut self, mut coordinates: Vec<f64>) -> Vec<f64> {
+        self.pinned.iter().for_each(|&k| coordinates[k] = self.base[k]);
+        self.base = coordinates;
+        let mut x = self.start();
+        self.accept(&mut x);
+        x
+    }
+
+    /// Which coordinates are held.
+    pub fn held(&self) -> Vec<bool> {
+        let mut held = vec![true; self.base.len()];
+        self.free.iter().for_each(|&k| held[k as usize] = false);
+        held
     }
 
     /// All coordinates of a state.
     pub fn coordinates(&self, x: &[f64]) -> Vec<f64> {
-        let mut all = self.drawn.clone();
+        let mut all = self.base.clone();
         self.free.iter().zip(x).for_each(|(&k, value)| all[k as usize] = *value);
         all
     }

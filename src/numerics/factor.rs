@@ -14,7 +14,7 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::{Conj, Mat, MatMut, Par, Side};
+use faer::{Conj, MatMut, MatRef, Par, Side};
 use thiserror::Error;
 
 /// Matrices up to this size are factored dense (measured: `benches/solver.rs`).
@@ -37,6 +37,14 @@ pub enum FactorError {
     Inaccurate {
         /// Norm of the residual over norm of the right-hand side.
         residual: f64,
+    },
+    /// An iteration for eigenpairs ended early.
+    #[error("{found} of {wanted} eigenpairs were found")]
+    Eigenpairs {
+        /// Asked for.
+        wanted: usize,
+        /// Found.
+        found: usize,
     },
     /// The symbolic analysis ran out of memory or indices.
     #[error("the matrix of {size} unknowns is too large to factor")]
@@ -203,15 +211,9 @@ fn dense_factor(
     factor: &mut Option<faer::linalg::solvers::Lblt<f64>>,
 ) -> Result<Inertia, FactorError> {
     let n = pattern.size();
-    let mut matrix = Mat::<f64>::zeros(n, n);
-    let mut entry = values.iter();
-    for column in 0..n {
-        for (&row, &value) in pattern.column(column).iter().zip(&mut entry) {
-            matrix[(row as usize, column)] = value;
-            matrix[(column, row as usize)] = value;
-        }
-    }
-    let found = faer::linalg::solvers::Lblt::new(matrix.as_ref(), Side::Lower);
+    let dense = pattern.to_dense(values);
+    let matrix = MatRef::from_column_major_slice(dense.as_slice(), n, n);
+    let found = faer::linalg::solvers::Lblt::new(matrix, Side::Lower);
     let (diagonal, below) = (found.B_diag().column_vector(), found.B_subdiag().column_vector());
     let mut pivots = Vec::with_capacity(n);
     let mut k = 0;

@@ -2,6 +2,7 @@
 
 pub mod dense;
 pub mod derivatives;
+pub mod eigen;
 pub mod factor;
 pub mod order;
 pub mod parallel;

@@ -24,9 +24,7 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
         return Ok(0);
     }
     let mut values = vec![0.0; pattern.entries()];
-    for column in 0..size {
-        values[super::sparse::diagonal_slot(&pattern, column)] = -tau * scale;
-    }
+    pattern.add_to_diagonal(&mut values, -tau * scale);
     for row in 0..count {
         let gradient = &rows.values[rows.cliques.range(row)];
         let width = gradient.len();
@@ -51,9 +49,7 @@ pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) ->
         slots.add_outer(row, 1.0, &rows.values[rows.cliques.range(row)], &mut values);
     }
     let scale = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    for column in 0..columns {
-        values[super::sparse::diagonal_slot(&pattern, column)] += 1e-10 * scale;
-    }
+    pattern.add_to_diagonal(&mut values, 1e-10 * scale);
     let mut factor = Factor::new(&pattern, node, &[rows.cliques])?;
     factor.factor(&pattern, &values)?;
     let (mut out, mut open) = (vec![0.0; t.len()], t.to_vec());

@@ -117,6 +117,34 @@ impl Pattern {
         &self.rows[self.columns[k] as usize..self.columns[k + 1] as usize]
     }
 
+    /// Adds `amount` to every diagonal entry.
+    pub fn add_to_diagonal(&self, values: &mut [f64], amount: f64) {
+        self.diagonal().for_each(|slot| values[slot] += amount);
+    }
+
+    /// Largest magnitude on the diagonal.
+    pub fn largest_diagonal(&self, values: &[f64]) -> f64 {
+        self.diagonal().map(|slot| values[slot].abs()).fold(0.0, f64::max)
+    }
+
+    /// Slots of the diagonal: the first of every column.
+    fn diagonal(&self) -> impl Iterator<Item = usize> + '_ {
+        self.columns[..self.n].iter().map(|&slot| slot as usize)
+    }
+
+    /// The whole symmetric matrix with these values.
+    pub fn to_dense(&self, values: &[f64]) -> super::DenseMatrix {
+        let mut matrix = super::DenseMatrix::zeros(self.n, self.n);
+        let mut value = values.iter();
+        for column in 0..self.n {
+            for (&row, &value) in self.column(column).iter().zip(&mut value) {
+                matrix[(row as usize, column)] = value;
+                matrix[(column, row as usize)] = value;
+            }
+        }
+        matrix
+    }
+
     /// Slots of the lower triangles of all cliques' blocks, row by row.
     fn slots(&self, cliques: &Cliques) -> Vec<u32> {
         let total = cliques.iter().map(|c| c.len() * (c.len() + 1) / 2).sum();
@@ -224,11 +252,6 @@ pub fn symmetric_product(pattern: &Pattern, values: &[f64], x: &[f64], y: &mut [
         }
         y[column] += sum;
     }
-}
-
-/// Where the diagonal entry of a column stands in the values.
-pub fn diagonal_slot(pattern: &Pattern, column: usize) -> usize {
-    pattern.columns[column] as usize
 }
 
 /// A sparse matrix with one row a clique; an unknown that occurs twice in a clique has the sum of its entries.

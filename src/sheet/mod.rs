@@ -1,6 +1,11 @@
 //! One cell of a sheet on the torus (or a finite sheet), with its files and its generators.
 
+pub mod build;
 pub mod cell;
+pub mod error;
+pub mod fold;
 pub mod tiling;
 
 pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
+pub use error::{Problem, SheetError};
+pub use tiling::{Site, TiledEdge, TiledTriangle, Tiling, tile};

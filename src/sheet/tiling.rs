@@ -170,3 +170,65 @@ fn flanks(sheet: &Sheet) -> Vec<[Option<Flank>; 2]> {
     }
     flanks
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::fold;
+
+    fn star() -> Sheet {
+        fold::parse(include_str!("../../tests/cases/open-star.fold"), "open-star.fold").unwrap()
+    }
+
+    fn place(tiling: &Tiling, sheet: &Sheet, site: Site) -> Vec3 {
+        let [l1, l2] = sheet.lattice.unwrap();
+        let [s1, s2] = [0, 1].map(|k| (site.shift[k] * tiling.cells[k] as i32) as f64);
+        tiling.positions[site.vertex] + l1 * s1 + l2 * s2
+    }
+
+    /// Claim: on a torus every cell has all its edges and triangles, and every one is a translated copy of the cell's: ends
+    /// and wings stand where the lattice puts them. Also for cells narrower than a face. Tolerance: sums of a few
+    /// vectors of length 10.
+    #[test]
+    fn torus_is_complete_and_in_place() {
+        let sheet = star();
+        for cells in [[1, 1], [2, 3], [4, 1]] {
+            let tiling = tile(&sheet, cells, true);
+            let count = cells[0] * cells[1];
+            assert_eq!(
+                (tiling.positions.len(), tiling.edges.len(), tiling.triangles.len()),
+                (4 * count, 12 * count, 8 * count)
+            );
+            for edge in &tiling.edges {
+                let drawn = &sheet.edges[edge.edge];
+                let [i, j] = drawn.key.ends();
+                let corners = [i, j, drawn.wings[0].unwrap(), drawn.wings[1].unwrap()];
+                let sites = [edge.ends[0], edge.ends[1], edge.wings[0].unwrap(), edge.wings[1].unwrap()];
+                for (corner, site) in corners.into_iter().zip(sites) {
+                    let there = sheet.position(corner.translated(edge.cell.map(|c| c as i32)));
+                    assert!((place(&tiling, &sheet, site) - there).norm() < 1e-13);
+                }
+            }
+            for t in &tiling.triangles {
+                for (corner, site) in sheet.triangles[t.triangle].corners.iter().zip(t.corners) {
+                    assert!((place(&tiling, &sheet, site) - sheet.position(corner.translated(t.cell))).norm() < 1e-13);
+                }
+            }
+        }
+    }
+
+    /// Claim: a patch keeps the triangles whose corners all exist, an edge's wing exactly where such a triangle is, and
+    /// satisfies Euler's formula of a disc, V - E + F = 1 (loose edges at its corners hang on and change nothing).
+    #[test]
+    fn patch_is_a_disc() {
+        let sheet = star();
+        for n in [1, 2, 5] {
+            let tiling = tile(&sheet, [n, n], false);
+            let (v, e, f) = (tiling.positions.len(), tiling.edges.len(), tiling.triangles.len());
+            assert_eq!(v + f, e + 1, "{n}");
+            let wings = tiling.edges.iter().flat_map(|e| e.wings).flatten().count();
+            assert_eq!(wings, 3 * f);
+            assert!(tiling.edges.iter().all(|e| (e.kind == EdgeKind::Boundary) == e.wings.contains(&None)));
+        }
+    }
+}

@@ -118,6 +118,11 @@ impl Linearization {
         self.stiff.add_outer(measure, weight, gradient, values);
     }
 
+    /// Adds `amount` times the identity to the Hessian.
+    pub fn add_identity(&mut self, amount: f64) {
+        self.pattern.add_to_diagonal(&mut self.hessian, amount);
+    }
+
     /// Pattern of the Hessian; it has room for the outer products of the stiff gradients.
     pub fn pattern(&self) -> &Pattern {
         &self.pattern

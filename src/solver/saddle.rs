@@ -11,7 +11,7 @@
 
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{Factor, FactorError, Inertia};
-use crate::numerics::sparse::{diagonal_slot, symmetric_product};
+use crate::numerics::sparse::symmetric_product;
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
 const GAMMA: f64 = 1e6;
@@ -77,19 +77,19 @@ impl Saddle {
         compliance: &[f64],
     ) -> Result<Inertia, FactorError> {
         self.fill(layout, at, compliance, 0.0);
-        let neutral = NEUTRAL * largest_diagonal(at, &self.values);
-        add_to_diagonal(at, &mut self.values, neutral);
+        let neutral = NEUTRAL * at.pattern().largest_diagonal(&self.values);
+        at.pattern().add_to_diagonal(&mut self.values, neutral);
         self.factorizations += 1;
         self.factor.factor(at.pattern(), &self.values)
     }
 
     fn fill(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64], shift: f64) {
-        let scale = largest_diagonal(at, &at.hessian);
+        let scale = at.pattern().largest_diagonal(&at.hessian);
         let unit = if scale > 0.0 { scale } else { 1.0 };
         self.shifted.copy_from_slice(&at.hessian);
         if shift > 0.0 {
             self.shifted.iter_mut().zip(&at.metric).for_each(|(v, m)| *v += shift * m);
-            add_to_diagonal(at, &mut self.shifted, shift * LEAST_METRIC * unit);
+            at.pattern().add_to_diagonal(&mut self.shifted, shift * LEAST_METRIC * unit);
         }
         self.values.copy_from_slice(&self.shifted);
         for (row, &c) in compliance.iter().enumerate() {
@@ -157,16 +157,6 @@ impl Saddle {
         }
         (ra, rb)
     }
-}
-
-fn largest_diagonal(at: &Linearization, values: &[f64]) -> f64 {
-    let pattern = at.pattern();
-    (0..pattern.size()).map(|k| values[diagonal_slot(pattern, k)].abs()).fold(0.0, f64::max)
-}
-
-fn add_to_diagonal(at: &Linearization, values: &mut [f64], amount: f64) {
-    let pattern = at.pattern();
-    (0..pattern.size()).for_each(|k| values[diagonal_slot(pattern, k)] += amount);
 }
 
 fn norm(v: &[f64]) -> f64 {

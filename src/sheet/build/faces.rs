@@ -1,0 +1,131 @@
+//! Checks of faces one by one, and of the fans that they form round vertices.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::planar::PlacedSide;
+use super::{Defect, Drawn, Identified, Place, Problem};
+use crate::sheet::cell::{Corner, Sheet};
+
+/// Corners exist, no vertex twice in a face, no face twice in the cell, every vertex in a face.
+pub(super) fn check(drawn: &Drawn, identified: &Identified) -> Result<(), Defect> {
+    for (h, hole) in drawn.holes.iter().enumerate() {
+        check_indices(drawn, hole, Place::Hole(h), || format!("opening {h}"))?;
+    }
+    let mut seen: BTreeMap<Vec<Corner>, (usize, [i32; 2])> = BTreeMap::new();
+    let mut used = vec![false; identified.homes.len()];
+    for (f, face) in drawn.faces.iter().enumerate() {
+        check_indices(drawn, face, Place::Face(f), || format!("face {}", drawn.name(f)))?;
+        check_corners(drawn, f, face)?;
+        let (canonical, base) = canonical(&identified.corners(face));
+        if let Some((other, there)) = seen.insert(canonical, (f, base)) {
+            let cell = [base[0] - there[0], base[1] - there[1]];
+            let problem = Problem::DuplicateFace { face: drawn.name(f), other: drawn.name(other), cell };
+            return Err(Defect::new(Place::Face(f), problem));
+        }
+        face.iter().for_each(|&v| used[identified.corner[v].vertex] = true);
+    }
+    match used.iter().position(|&u| !u) {
+        Some(v) => {
+            let home = identified.homes[v];
+            Err(Defect::new(Place::Vertex(home), Problem::UnusedVertex { vertex: drawn.name(home) }))
+        }
+        None => Ok(()),
+    }
+}
+
+pub(super) fn check_indices(
+    drawn: &Drawn,
+    list: &[usize],
+    place: Place,
+    what: impl Fn() -> String,
+) -> Result<(), Defect> {
+    match list.iter().find(|&&v| v >= drawn.coords.len()) {
+        Some(&v) => {
+            let problem = Problem::Index {
+                what: what(),
+                found: drawn.name(v).to_string(),
+                first: drawn.first,
+                last: drawn.name(drawn.coords.len() - 1),
+            };
+            Err(Defect::new(place, problem))
+        }
+        None => Ok(()),
+    }
+}
+
+fn check_corners(drawn: &Drawn, f: usize, face: &[usize]) -> Result<(), Defect> {
+    if face.len() < 3 {
+        let problem = Problem::FewCorners { face: drawn.name(f), corners: face.len() };
+        return Err(Defect::new(Place::Face(f), problem));
+    }
+    let mut seen = BTreeSet::new();
+    match face.iter().find(|&&v| !seen.insert(v)) {
+        Some(&v) => {
+            let problem = Problem::RepeatedVertex { face: drawn.name(f), vertex: drawn.name(v) };
+            Err(Defect::new(Place::Face(f), problem))
+        }
+        None => Ok(()),
+    }
+}
+
+/// The corners sorted, moved so that one of the lowest vertices is in cell (0, 0); the cell it came from. The same for
+/// every copy, every first corner and both directions of a face.
+fn canonical(corners: &[Corner]) -> (Vec<Corner>, [i32; 2]) {
+    let lowest = corners.iter().map(|c| c.vertex).min().unwrap_or_default();
+    let candidates = corners.iter().filter(|c| c.vertex == lowest).map(|base| {
+        let back = [-base.shift[0], -base.shift[1]];
+        let mut moved: Vec<_> = corners.iter().map(|c| c.translated(back)).collect();
+        moved.sort_unstable();
+        (moved, base.shift)
+    });
+    candidates.min().unwrap_or_default()
+}
+
+/// Drawn sides of all faces, each once, in file order.
+pub(crate) fn sides(drawn: &Drawn) -> Vec<PlacedSide> {
+    let mut seen = BTreeSet::new();
+    let mut sides = Vec::new();
+    for (f, face) in drawn.faces.iter().enumerate() {
+        for (k, &a) in face.iter().enumerate() {
+            let b = face[(k + 1) % face.len()];
+            if seen.insert([a.min(b), a.max(b)]) {
+                sides.push(([a, b], Place::Face(f)));
+            }
+        }
+    }
+    sides
+}
+
+/// The triangles round every vertex form one fan, open at a rim and closed elsewhere.
+pub(super) fn check_fans(drawn: &Drawn, identified: &Identified, sheet: &Sheet) -> Result<(), Defect> {
+    for (v, steps) in fans(sheet).iter().enumerate() {
+        let ends: BTreeSet<_> = steps.values().collect();
+        let start = steps.keys().find(|c| !ends.contains(c)).or(steps.keys().next());
+        let mut count = 0;
+        let mut at = start;
+        while let Some(next) = at.and_then(|c| steps.get(c)) {
+            count += 1;
+            at = (Some(next) != start).then_some(next);
+        }
+        if count != steps.len() {
+            let home = identified.homes[v];
+            let problem = Problem::NonManifoldVertex { vertex: drawn.name(home) };
+            return Err(Defect::new(Place::Vertex(home), problem));
+        }
+    }
+    Ok(())
+}
+
+/// For every vertex, seen from its copy in cell (0, 0): the step from one neighbour to the next that each triangle makes,
+/// counter-clockwise.
+fn fans(sheet: &Sheet) -> Vec<BTreeMap<Corner, Corner>> {
+    let mut fans = vec![BTreeMap::new(); sheet.vertices.len()];
+    for triangle in &sheet.triangles {
+        for k in 0..3 {
+            let [at, next, last] = [0, 1, 2].map(|d| triangle.corners[(k + d) % 3]);
+            let back = [-at.shift[0], -at.shift[1]];
+            fans[at.vertex].insert(next.translated(back), last.translated(back));
+        }
+    }
+    fans
+}

@@ -1,0 +1,175 @@
+//! Which drawn vertices are the same vertex of the cell.
+//!
+//! Two drawn vertices that differ by a lattice vector within 1e-6 of the shorter lattice vector are one vertex; the one
+//! that comes first in the file stands in cell (0, 0) and gives the position. In a finite sheet no two vertices
+//! may stand within 1e-9 of the sheet's extent.
+
+use std::collections::HashMap;
+
+use super::{Defect, Drawn, Place, Problem};
+use crate::math::Vec3;
+use crate::sheet::cell::Corner;
+
+/// Largest number of cells between a drawn vertex and its first appearance.
+const FARTHEST: f64 = 1e6;
+
+/// The corner of every drawn vertex, and the first appearance of every vertex of the cell.
+#[derive(Clone, Debug)]
+pub(crate) struct Identified {
+    /// Corner in which a drawn vertex stands.
+    pub corner: Vec<Corner>,
+    /// Drawn vertex that is the first appearance of a vertex of the cell.
+    pub homes: Vec<usize>,
+}
+
+impl Identified {
+    /// The corners of a list of drawn vertices.
+    pub fn corners(&self, drawn: &[usize]) -> Vec<Corner> {
+        drawn.iter().map(|&v| self.corner[v]).collect()
+    }
+}
+
+/// Identifies the vertices of `drawn`.
+pub(super) fn identify(drawn: &Drawn) -> Result<Identified, Defect> {
+    let metric = Metric::new(drawn);
+    let mut buckets: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
+    let mut taken: HashMap<Corner, usize> = HashMap::new();
+    let mut found = Identified { corner: Vec::with_capacity(drawn.coords.len()), homes: Vec::new() };
+    for (v, &x) in drawn.coords.iter().enumerate() {
+        let bucket = metric.bucket(x);
+        let near = metric.around(bucket).into_iter().filter_map(|b| buckets.get(&b)).flatten();
+        let copy = near.copied().filter(|&c| metric.shift(drawn, x, found.homes[c]).is_some()).min();
+        let corner = match copy {
+            Some(c) => copy_corner(drawn, &metric, v, c, found.homes[c])?,
+            None => {
+                buckets.entry(bucket).or_default().push(found.homes.len());
+                found.homes.push(v);
+                Corner::home(found.homes.len() - 1)
+            }
+        };
+        if let Some(other) = taken.insert(corner, v) {
+            let problem = Problem::DuplicateVertex { vertex: drawn.name(v), other: drawn.name(other) };
+            return Err(Defect::new(Place::Vertex(v), problem));
+        }
+        found.corner.push(corner);
+    }
+    Ok(found)
+}
+
+/// The corner of drawn vertex `v`, a copy of vertex `c` of the cell, which first appears as drawn vertex `home`.
+fn copy_corner(drawn: &Drawn, metric: &Metric, v: usize, c: usize, home: usize) -> Result<Corner, Defect> {
+    let [n1, n2] = metric.shift(drawn, drawn.coords[v], home).unwrap_or([0.0, 0.0]);
+    if n1.abs() > FARTHEST || n2.abs() > FARTHEST {
+        let problem = Problem::FarAway { vertex: drawn.name(v), other: drawn.name(home), n1, n2 };
+        return Err(Defect::new(Place::Vertex(v), problem));
+    }
+    Ok(Corner { vertex: c, shift: [n1 as i32, n2 as i32] })
+}
+
+/// Coordinates in which close vertices fall into the same or neighbouring buckets.
+struct Metric {
+    tolerance: f64,
+    /// Three covectors: lattice coordinates and height, or x, y, z.
+    axes: [Vec3; 3],
+    /// Width of a bucket along each covector.
+    width: [f64; 3],
+    /// Number of buckets after which a periodic coordinate repeats.
+    period: [Option<i64>; 3],
+}
+
+impl Metric {
+    fn new(drawn: &Drawn) -> Self {
+        match drawn.lattice {
+            Some(lattice) => Self::periodic(lattice),
+            None => Self::finite(&drawn.coords),
+        }
+    }
+
+    fn finite(coords: &[Vec3]) -> Self {
+        let low = coords.iter().fold(coords[0], |m, x| m.inf(x));
+        let high = coords.iter().fold(coords[0], |m, x| m.sup(x));
+        let tolerance = (1e-9 * (high - low).norm()).max(f64::MIN_POSITIVE);
+        Self { tolerance, axes: [Vec3::x(), Vec3::y(), Vec3::z()], width: [2.0 * tolerance; 3], period: [None; 3] }
+    }
+
+    fn periodic([l1, l2]: [Vec3; 2]) -> Self {
+        let tolerance = 1e-6 * l1.norm().min(l2.norm());
+        let normal = l1.cross(&l2).normalize();
+        let (c1, c2) = (l2.cross(&normal), normal.cross(&l1));
+        let axes = [c1 / c1.dot(&l1), c2 / c2.dot(&l2), normal];
+        let count = |axis: &Vec3| (1.0 / (2.0 * tolerance * axis.norm())).floor().clamp(1.0, 1e6);
+        let counts = [count(&axes[0]), count(&axes[1])];
+        let width = [1.0 / counts[0], 1.0 / counts[1], 2.0 * tolerance];
+        Self { tolerance, axes, width, period: [Some(counts[0] as i64), Some(counts[1] as i64), None] }
+    }
+
+    fn bucket(&self, x: Vec3) -> [i64; 3] {
+        std::array::from_fn(|k| {
+            let u = self.axes[k].dot(&x);
+            match self.period[k] {
+                Some(p) => (((u - u.floor()) / self.width[k]) as i64).rem_euclid(p),
+                None => (u / self.width[k]).floor() as i64,
+            }
+        })
+    }
+
+    fn around(&self, b: [i64; 3]) -> Vec<[i64; 3]> {
+        let mut all = Vec::with_capacity(27);
+        for d in 0..27i64 {
+            let step = [d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1];
+            all.push(std::array::from_fn(|k| {
+                let moved = b[k].saturating_add(step[k]);
+                self.period[k].map_or(moved, |p| moved.rem_euclid(p))
+            }));
+        }
+        all
+    }
+
+    /// Whole numbers of lattice vectors from the drawn vertex `home` to `x`, if `x` is a copy of it.
+    fn shift(&self, drawn: &Drawn, x: Vec3, home: usize) -> Option<[f64; 2]> {
+        let d = x - drawn.coords[home];
+        let n: [f64; 2] = match drawn.lattice {
+            Some(_) => [self.axes[0].dot(&d).round(), self.axes[1].dot(&d).round()],
+            None => [0.0, 0.0],
+        };
+        let [l1, l2] = drawn.lattice.unwrap_or_default();
+        ((d - l1 * n[0] - l2 * n[1]).norm() <= self.tolerance).then_some(n)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(coords: &[[f64; 3]], lattice: Option<[[f64; 3]; 2]>) -> Drawn {
+        Drawn {
+            coords: coords.iter().map(|&c| c.into()).collect(),
+            lattice: lattice.map(|l| l.map(Into::into)),
+            ..Drawn::default()
+        }
+    }
+
+    /// Claim: copies are found across the wrap of a skew lattice, inside the tolerance and not outside
+    /// (contract: 1e-6 of the shorter vector, here 1).
+    #[test]
+    fn copies_within_the_tolerance() {
+        let lattice = Some([[1.0, 0.0, 0.0], [0.9, 3.0, 0.0]]);
+        let near = drawn(&[[1e-9, 0.0, 0.0], [1.9 - 9e-7, 3.0, 0.0], [-1.0, 0.0, 5e-7]], lattice);
+        let found = identify(&near).unwrap();
+        assert_eq!(found.homes, [0]);
+        assert_eq!(found.corner[1].shift, [1, 1]);
+        assert_eq!(found.corner[2].shift, [-1, 0]);
+        let far = drawn(&[[0.0; 3], [1.9, 3.0, 1.1e-6]], lattice);
+        assert_eq!(identify(&far).unwrap().homes, [0, 1]);
+    }
+
+    /// Claim: two vertices at one place are refused, with and without a lattice.
+    #[test]
+    fn one_place_one_vertex() {
+        for lattice in [None, Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])] {
+            let twice = drawn(&[[0.0; 3], [0.5, 0.5, 0.0], [0.5, 0.5, 1e-12]], lattice);
+            let defect = identify(&twice).unwrap_err();
+            assert_eq!(*defect.problem, Problem::DuplicateVertex { vertex: 2, other: 1 });
+        }
+    }
+}

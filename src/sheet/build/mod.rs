@@ -1,0 +1,113 @@
+//! From a drawn mesh to a sheet: one builder and one set of checks for every file format and every generator.
+//!
+//! Vertices are identified by lattice vectors ([`identify`]), faces become polygons of the cell ([`faces`]), polygons are
+//! split ([`split`]), and edges with their wings follow ([`edges`]).
+
+mod draw;
+mod edges;
+mod faces;
+mod identify;
+pub(crate) mod planar;
+mod split;
+
+use super::cell::Sheet;
+use super::error::{Defect, DrawnEdge, Place, Problem};
+use crate::math::Vec3;
+pub use draw::draw;
+pub(crate) use faces::sides as drawn_sides;
+pub(crate) use identify::Identified;
+
+/// A mesh as a file draws it.
+#[derive(Clone, Debug, Default)]
+pub struct Drawn {
+    /// Name of the sheet.
+    pub title: String,
+    /// Source and units.
+    pub description: String,
+    /// Positions of the drawn vertices, copies included.
+    pub coords: Vec<Vec3>,
+    /// Whether the mesh is drawn in the plane, where edges must not cross.
+    pub planar: bool,
+    /// Faces by numbers into `coords`, counter-clockwise.
+    pub faces: Vec<Vec<usize>>,
+    /// The two lattice vectors.
+    pub lattice: Option<[Vec3; 2]>,
+    /// Openings by numbers into `coords`.
+    pub holes: Vec<Vec<usize>>,
+    /// Number that the file gives to its first vertex and face: 0 in FOLD, 1 in OBJ. Only messages use it.
+    pub first: usize,
+}
+
+impl Drawn {
+    pub(crate) fn name(&self, number: usize) -> usize {
+        number + self.first
+    }
+
+    pub(crate) fn edge_name(&self, ends: [usize; 2]) -> DrawnEdge {
+        DrawnEdge(self.name(ends[0]), self.name(ends[1]))
+    }
+}
+
+/// The sheet that `drawn` draws.
+///
+/// # Errors
+/// A [`Defect`] with the vertex, face, edge or opening that is wrong: see [`Problem`] for all of them.
+pub fn build(drawn: &Drawn) -> Result<Sheet, Defect> {
+    build_identified(drawn).map(|(sheet, _)| sheet)
+}
+
+/// As [`build`], together with the corner of the cell in which every drawn vertex stands.
+pub(crate) fn build_identified(drawn: &Drawn) -> Result<(Sheet, Identified), Defect> {
+    check_numbers(drawn)?;
+    let identified = identify::identify(drawn)?;
+    faces::check(drawn, &identified)?;
+    if drawn.planar {
+        planar::check_crossings(drawn, &faces::sides(drawn))?;
+    }
+    let polygons: Vec<_> = drawn.faces.iter().map(|face| identified.corners(face)).collect();
+    let holes: Vec<_> = drawn.holes.iter().map(|hole| identified.corners(hole)).collect();
+    let sides = edges::sides(drawn, &polygons)?;
+    edges::check_rims(drawn, &sides, &holes)?;
+    let parts = split::triangles(drawn, &identified, &polygons)?;
+    let edges = edges::with_wings(drawn, sides, &parts)?;
+    let triangles = parts.into_iter().map(|part| part.triangle).collect();
+    let sheet = Sheet {
+        title: drawn.title.clone(),
+        description: drawn.description.clone(),
+        vertices: identified.homes.iter().map(|&v| drawn.coords[v]).collect(),
+        lattice: drawn.lattice,
+        polygons,
+        triangles,
+        edges,
+        holes,
+    };
+    faces::check_fans(drawn, &identified, &sheet)?;
+    Ok((sheet, identified))
+}
+
+/// Everything is there, finite, and the lattice spans an area.
+fn check_numbers(drawn: &Drawn) -> Result<(), Defect> {
+    if drawn.coords.is_empty() {
+        return Err(Defect::new(Place::Mesh, Problem::Empty { what: "vertices" }));
+    }
+    for (v, x) in drawn.coords.iter().enumerate() {
+        if let Some(&value) = x.iter().find(|c| !(c.abs() <= 1e50)) {
+            return Err(Defect::new(Place::Vertex(v), Problem::Coordinate { vertex: drawn.name(v), value }));
+        }
+    }
+    if drawn.faces.is_empty() {
+        return Err(Defect::new(Place::Mesh, Problem::Empty { what: "faces" }));
+    }
+    match drawn.lattice {
+        Some(lattice) => check_lattice(lattice),
+        None if drawn.holes.is_empty() => Ok(()),
+        None => Err(Defect::new(Place::Hole(0), Problem::HolesWithoutLattice)),
+    }
+}
+
+fn check_lattice([l1, l2]: [Vec3; 2]) -> Result<(), Defect> {
+    let lengths = [l1.norm(), l2.norm()];
+    let area = l1.cross(&l2).norm();
+    let good = lengths.iter().all(|l| (1e-50..=1e50).contains(l)) && area > 1e-6 * lengths[0] * lengths[1];
+    if good { Ok(()) } else { Err(Defect::new(Place::Lattice, Problem::Lattice { area, lengths })) }
+}

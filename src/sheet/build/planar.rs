@@ -1,0 +1,177 @@
+//! Edges seen along z: whether they cross, and which faces they bound.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use super::{Defect, Drawn, Place, Problem};
+use crate::math::Vec3;
+
+/// Sine of the angle below which three points count as lying on one line.
+const ALIGNED: f64 = 1e-12;
+
+/// A side to be compared with all others: its ends and what to blame.
+pub(crate) type PlacedSide = ([usize; 2], Place);
+
+/// No two edges meet in the plane other than at common ends.
+pub(crate) fn check_crossings(drawn: &Drawn, sides: &[PlacedSide]) -> Result<(), Defect> {
+    let span = |s: &PlacedSide, k: usize| {
+        let [a, b] = s.0.map(|v| drawn.coords[v][k]);
+        (a.min(b), a.max(b))
+    };
+    let mut order: Vec<&PlacedSide> = sides.iter().collect();
+    order.sort_by(|a, b| span(a, 0).0.total_cmp(&span(b, 0).0));
+    let mut open: Vec<&PlacedSide> = Vec::new();
+    for side in order {
+        let (left, (low, high)) = (span(side, 0).0, span(side, 1));
+        open.retain(|o| span(o, 0).1 >= left);
+        let near = open.iter().filter(|o| span(o, 1).0 <= high && span(o, 1).1 >= low);
+        if let Some(other) = near.copied().find(|o| meet(&drawn.coords, o.0, side.0)) {
+            let (a, b) = (drawn.edge_name(other.0), drawn.edge_name(side.0));
+            return Err(Defect::new(side.1, Problem::Crossing { a, b }));
+        }
+        open.push(side);
+    }
+    Ok(())
+}
+
+/// -1, 0 or 1: the turn from `a` over `b` to `c` seen from above, 0 within [`ALIGNED`].
+fn turn(a: Vec3, b: Vec3, c: Vec3) -> f64 {
+    let (u, v) = ((b - a).xy(), (c - a).xy());
+    let area = u.perp(&v);
+    if area.abs() <= ALIGNED * u.norm() * v.norm() { 0.0 } else { area.signum() }
+}
+
+/// Whether `c` lies on the segment `a b`, ends included.
+fn touches(a: Vec3, b: Vec3, c: Vec3) -> bool {
+    turn(a, b, c) == 0.0 && (a - c).xy().dot(&(b - c).xy()) <= 0.0
+}
+
+fn meet(x: &[Vec3], p: [usize; 2], q: [usize; 2]) -> bool {
+    if let Some(common) = p.iter().find(|v| q.contains(v)) {
+        let [b, c] = [p, q].map(|s| x[if s[0] == *common { s[1] } else { s[0] }]);
+        let a = x[*common];
+        return turn(a, b, c) == 0.0 && (b - a).xy().dot(&(c - a).xy()) > 0.0;
+    }
+    let ([a, b], [c, d]) = (p.map(|v| x[v]), q.map(|v| x[v]));
+    let crosses = turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
+    crosses || touches(a, b, c) || touches(a, b, d) || touches(c, d, a) || touches(c, d, b)
+}
+
+/// The faces that `edges` bound, counter-clockwise seen from above.
+///
+/// Every edge is walked once in both directions, turning as far left as possible; the one walk that runs clockwise is the
+/// outside. Edges must hang together, must not cross, and must separate two faces (or a face from the outside).
+///
+/// # Errors
+/// A [`Defect`] that names the edge.
+pub(crate) fn faces_of(drawn: &Drawn, edges: &[[usize; 2]]) -> Result<Vec<Vec<usize>>, Defect> {
+    let x = &drawn.coords;
+    let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, Place::Edge(e))).collect();
+    if let Some(&([a, b], place)) = placed.iter().find(|([a, b], _)| (x[*a] - x[*b]).xy().norm() == 0.0) {
+        return Err(Defect::new(place, Problem::Upright { edge: drawn.edge_name([a, b]) }));
+    }
+    check_crossings(drawn, &placed)?;
+    let (walks, owner) = walks(&rounds(x, edges), edges);
+    if let Some((e, &[a, b])) = edges.iter().enumerate().find(|(_, [a, b])| owner[&(*a, *b)] == owner[&(*b, *a)]) {
+        let problem = Problem::LooseEdge { edge: e, ends: drawn.edge_name([a, b]) };
+        return Err(Defect::new(Place::Edge(e), problem));
+    }
+    let (faces, outside): (Vec<_>, Vec<_>) = walks.into_iter().partition(|walk| area(x, walk) > 0.0);
+    match outside.len() {
+        1 => Ok(faces),
+        pieces => Err(Defect::new(Place::Mesh, Problem::Pieces { pieces })),
+    }
+}
+
+/// Neighbours of every vertex, counter-clockwise.
+fn rounds(x: &[Vec3], edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    let mut rounds = vec![Vec::new(); x.len()];
+    for &[a, b] in edges {
+        rounds[a].push(b);
+        rounds[b].push(a);
+    }
+    for (v, round) in rounds.iter_mut().enumerate() {
+        round.sort_by(|&a, &b| by_angle(x[a] - x[v], x[b] - x[v]));
+    }
+    rounds
+}
+
+/// Order of directions in the plane by angle in `[0, 2 pi)`, without trigonometry.
+fn by_angle(a: Vec3, b: Vec3) -> Ordering {
+    let lower = |d: Vec3| d.y < 0.0 || (d.y == 0.0 && d.x < 0.0);
+    lower(a).cmp(&lower(b)).then_with(|| 0.0f64.total_cmp(&a.xy().perp(&b.xy())))
+}
+
+type Owner = BTreeMap<(usize, usize), usize>;
+
+/// All closed walks that turn as far left as possible, and the walk that owns every directed edge.
+fn walks(rounds: &[Vec<usize>], edges: &[[usize; 2]]) -> (Vec<Vec<usize>>, Owner) {
+    let mut place = BTreeMap::new();
+    for (v, round) in rounds.iter().enumerate() {
+        place.extend(round.iter().enumerate().map(|(k, &from)| ((from, v), k)));
+    }
+    let next = |(from, at): (usize, usize)| {
+        let round = &rounds[at];
+        (at, round[(place[&(from, at)] + round.len() - 1) % round.len()])
+    };
+    let mut owner = Owner::new();
+    let mut walks = Vec::new();
+    for start in edges.iter().flat_map(|&[a, b]| [(a, b), (b, a)]) {
+        let mut walk = Vec::new();
+        let mut at = start;
+        while !owner.contains_key(&at) {
+            owner.insert(at, walks.len());
+            walk.push(at.0);
+            at = next(at);
+        }
+        if !walk.is_empty() {
+            walks.push(walk);
+        }
+    }
+    (walks, owner)
+}
+
+/// Area of a closed walk seen from above, counter-clockwise positive.
+fn area(x: &[Vec3], walk: &[usize]) -> f64 {
+    let origin = x[walk[0]];
+    let pairs = walk.iter().zip(walk.iter().cycle().skip(1));
+    pairs.map(|(&a, &b)| (x[a] - origin).xy().perp(&(x[b] - origin).xy())).sum::<f64>() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(xy: &[[f64; 2]]) -> Drawn {
+        Drawn { coords: xy.iter().map(|p| Vec3::new(p[0], p[1], 0.0)).collect(), ..Drawn::default() }
+    }
+
+    /// Claim: the two triangles and nothing else, counter-clockwise, although one edge is listed against its direction.
+    #[test]
+    fn faces_of_a_split_square() {
+        let square = drawn(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        let faces = faces_of(&square, &[[0, 1], [2, 1], [2, 3], [3, 0], [0, 2]]).unwrap();
+        assert_eq!(faces, [vec![0, 1, 2], vec![2, 3, 0]]);
+    }
+
+    /// Claim: crossing, a vertex on an edge, and one edge along another are all found; neighbours are not.
+    #[test]
+    fn crossings() {
+        let five = drawn(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0]]);
+        assert!(meet(&five.coords, [0, 2], [1, 3]));
+        assert!(meet(&five.coords, [0, 2], [1, 4]));
+        assert!(meet(&five.coords, [0, 2], [0, 4]));
+        assert!(!meet(&five.coords, [0, 4], [4, 2]));
+        assert!(!meet(&five.coords, [0, 1], [4, 2]));
+    }
+
+    /// Claim: an edge with the outside on both sides bounds no face, and two islands are not one sheet.
+    #[test]
+    fn loose_edges_and_islands() {
+        let xy = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 0.0], [6.0, 0.0], [5.0, 1.0]];
+        let loose = faces_of(&drawn(&xy), &[[0, 1], [1, 2], [2, 0], [1, 3]]).unwrap_err();
+        assert!(matches!(*loose.problem, Problem::LooseEdge { edge: 3, .. }), "{loose}");
+        let islands = faces_of(&drawn(&xy), &[[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3]]).unwrap_err();
+        assert_eq!(*islands.problem, Problem::Pieces { pieces: 2 });
+    }
+}

@@ -1,0 +1,109 @@
+//! The list of edges of a FOLD file, and what it says about them.
+
+use std::collections::BTreeMap;
+
+use serde_json::value::RawValue;
+
+use super::locate::Source;
+use super::read::Keys;
+use crate::sheet::build::Identified;
+use crate::sheet::cell::{EdgeKey, EdgeKind, Sheet};
+use crate::sheet::error::{Defect, DrawnEdge, Place, Problem, SheetError};
+
+/// Largest difference, in degrees, between a fold angle given and the one drawn.
+const ANGLE_TOLERANCE: f64 = 1e-3;
+
+/// What the file says about its edges; the lists are empty where it says nothing.
+#[derive(Default)]
+pub(super) struct Edges<'a> {
+    /// Where each edge stands in the text.
+    pub rows: Vec<&'a RawValue>,
+    /// The vertices that it joins.
+    pub ends: Vec<[usize; 2]>,
+    /// Fold angles in degrees.
+    angles: Vec<Option<f64>>,
+}
+
+/// Reads the list of edges, for a mesh of `count` drawn vertices.
+pub(super) fn read<'a>(source: &Source<'a>, keys: &Keys<'a>, count: usize) -> Result<Edges<'a>, SheetError> {
+    let mut edges = Edges::default();
+    if let Some(value) = keys.edges_vertices {
+        edges.rows = source.list(value, || "`edges_vertices`".into(), "a list of edges, [[0, 1], ...]")?;
+    }
+    let mut seen = BTreeMap::new();
+    for (e, row) in edges.rows.iter().enumerate() {
+        let [a, b] = ends(source, row, e, count)?;
+        if let Some(other) = seen.insert([a.min(b), a.max(b)], e) {
+            let problem = Problem::DuplicateEdge { edge: e, other, ends: DrawnEdge(a, b) };
+            return Err(source.at(row, problem));
+        }
+        edges.ends.push([a, b]);
+    }
+    edges.angles = angles(source, keys, edges.rows.len())?;
+    check_letters(source, keys, edges.rows.len())?;
+    Ok(edges)
+}
+
+fn ends(source: &Source, row: &RawValue, e: usize, count: usize) -> Result<[usize; 2], SheetError> {
+    let what = || format!("edge {e} of the list");
+    match source.indices(row, what, count)?[..] {
+        [a, b] if a == b => Err(source.at(row, Problem::Loop { edge: e, vertex: a })),
+        [a, b] => Ok([a, b]),
+        _ => Err(source.mistyped(row, what(), "a pair of vertex numbers")),
+    }
+}
+
+fn angles(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Option<f64>>, SheetError> {
+    let Some(value) = keys.edges_fold_angle else { return Ok(Vec::new()) };
+    let rows = source.list(value, || "`edges_foldAngle`".into(), "a list of degrees and nulls")?;
+    check_length(source, value, "edges_foldAngle", rows.len(), count)?;
+    let read = |(e, row): (usize, &'_ &RawValue)| {
+        source.typed(row, || format!("the fold angle of edge {e} of the list"), "a number of degrees or null")
+    };
+    rows.iter().enumerate().map(read).collect()
+}
+
+fn check_letters(source: &Source, keys: &Keys, count: usize) -> Result<(), SheetError> {
+    let Some(value) = keys.edges_assignment else { return Ok(()) };
+    let rows = source.list(value, || "`edges_assignment`".into(), "a list of letters")?;
+    check_length(source, value, "edges_assignment", rows.len(), count)?;
+    for (e, row) in rows.iter().enumerate() {
+        let right = "one of \"B\", \"M\", \"V\", \"F\", \"U\", \"C\", \"J\"";
+        let what = || format!("the assignment of edge {e} of the list");
+        let letter: String = source.typed(row, what, right)?;
+        if !["B", "M", "V", "F", "U", "C", "J"].contains(&letter.as_str()) {
+            return Err(source.mistyped(row, what(), right));
+        }
+    }
+    Ok(())
+}
+
+fn check_length(
+    source: &Source,
+    value: &RawValue,
+    key: &'static str,
+    found: usize,
+    right: usize,
+) -> Result<(), SheetError> {
+    if found == right { Ok(()) } else { Err(source.at(value, Problem::Length { key, found, right })) }
+}
+
+/// Every listed edge is a side of a face, and every fold angle given is the one drawn.
+pub(super) fn check(edges: &Edges, sheet: &Sheet, identified: &Identified) -> Result<(), Defect> {
+    let known: BTreeMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(n, edge)| (edge.key, n)).collect();
+    for (e, ends) in edges.ends.iter().enumerate() {
+        let names = DrawnEdge(ends[0], ends[1]);
+        let [a, b] = ends.map(|v| identified.corner[v]);
+        let found = known.get(&EdgeKey::new(a, b).0).map(|&n| &sheet.edges[n]);
+        let Some(edge) = found.filter(|edge| edge.kind != EdgeKind::Facet) else {
+            return Err(Defect::new(Place::Edge(e), Problem::LooseEdge { edge: e, ends: names }));
+        };
+        let Some(given) = edges.angles.get(e).copied().flatten() else { continue };
+        let drawn = sheet.drawn_angle(edge).unwrap_or(0.0).to_degrees();
+        let off = (given - drawn).rem_euclid(360.0);
+        if off.min(360.0 - off) > ANGLE_TOLERANCE {
+            return Err(Defect::new(Place::Edge(e), Problem::FoldAngle { edge: e, ends: names, given, drawn }));
+        }
+    }
+    Ok(())
+}

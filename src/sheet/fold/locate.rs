@@ -1,0 +1,100 @@
+//! Values of a JSON text that know where they stand.
+
+use serde_json::value::RawValue;
+
+use crate::sheet::error::{Problem, SheetError};
+
+/// A text and its name, for messages.
+pub(super) struct Source<'a> {
+    pub name: &'a str,
+    pub text: &'a str,
+}
+
+impl<'a> Source<'a> {
+    /// `problem` at a value of the text.
+    pub fn at(&self, value: &RawValue, problem: Problem) -> SheetError {
+        let offset = (value.get().as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
+        self.at_offset(offset.min(self.text.len()), problem)
+    }
+
+    /// `problem` at the start of the text.
+    pub fn at_start(&self, problem: Problem) -> SheetError {
+        self.at_offset(0, problem)
+    }
+
+    fn at_offset(&self, offset: usize, problem: Problem) -> SheetError {
+        let before = &self.text.as_bytes()[..offset];
+        let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
+        let start = before.iter().rposition(|&b| b == b'\n').map_or(0, |k| k + 1);
+        let column = String::from_utf8_lossy(&before[start..]).chars().count() + 1;
+        SheetError::Bad { name: self.name.to_owned(), line, column, problem: Box::new(problem) }
+    }
+
+    /// The parser's own complaint, where it has a position.
+    pub fn syntax(&self, error: &serde_json::Error) -> SheetError {
+        let full = error.to_string();
+        let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned();
+        let problem = Box::new(Problem::Syntax { message });
+        SheetError::Bad { name: self.name.to_owned(), line: error.line(), column: error.column(), problem }
+    }
+
+    /// The value as a `T`.
+    pub fn typed<T: serde::Deserialize<'a>>(
+        &self,
+        value: &'a RawValue,
+        what: impl Fn() -> String,
+        right: &'static str,
+    ) -> Result<T, SheetError> {
+        serde_json::from_str(value.get()).map_err(|_| self.mistyped(value, what(), right))
+    }
+
+    /// `value` is of the right kind of JSON and yet not what it should be.
+    pub fn mistyped(&self, value: &RawValue, what: String, right: &'static str) -> SheetError {
+        self.at(value, Problem::Type { what, found: shortened(value.get()), right })
+    }
+
+    /// The entries of a list.
+    pub fn list(
+        &self,
+        value: &'a RawValue,
+        what: impl Fn() -> String,
+        right: &'static str,
+    ) -> Result<Vec<&'a RawValue>, SheetError> {
+        self.typed(value, what, right)
+    }
+
+    /// A list of numbers of vertices, out of `count`.
+    pub fn indices(
+        &self,
+        value: &'a RawValue,
+        what: impl Fn() -> String,
+        count: usize,
+    ) -> Result<Vec<usize>, SheetError> {
+        let entries = self.list(value, &what, "a list of vertex numbers")?;
+        entries.into_iter().map(|entry| self.index(entry, &what, count)).collect()
+    }
+
+    fn index(&self, entry: &RawValue, what: impl Fn() -> String, count: usize) -> Result<usize, SheetError> {
+        let text = entry.get();
+        match text.parse::<usize>() {
+            Ok(number) if number < count => Ok(number),
+            _ if !text.is_empty() && text.trim_start_matches('-').bytes().all(|b| b.is_ascii_digit()) => {
+                let last = count.saturating_sub(1);
+                Err(self.at(entry, Problem::Index { what: what(), found: shortened(text), first: 0, last }))
+            }
+            _ => {
+                let what = format!("a vertex number of {}", what());
+                Err(self.at(entry, Problem::Type { what, found: shortened(text), right: "a whole number" }))
+            }
+        }
+    }
+}
+
+/// A value's text on one line of at most 40 characters.
+fn shortened(text: &str) -> String {
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match words.char_indices().nth(40) {
+        Some((end, _)) => format!("{}...", &words[..end]),
+        None => words,
+    }
+}

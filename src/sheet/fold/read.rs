@@ -1,0 +1,189 @@
+//! Reading FOLD.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_json::value::RawValue;
+
+use super::edges::{self, Edges};
+use super::locate::Source;
+use crate::math::Vec3;
+use crate::sheet::build::{Drawn, build_identified, planar};
+use crate::sheet::cell::Sheet;
+use crate::sheet::error::{Defect, Place, Problem, SheetError};
+
+/// The keys that are read, not yet looked into.
+#[derive(Deserialize)]
+#[serde(expecting = "a FOLD file, one JSON object in braces")]
+pub(super) struct Keys<'a> {
+    #[serde(borrow)]
+    file_title: Option<&'a RawValue>,
+    #[serde(borrow)]
+    file_description: Option<&'a RawValue>,
+    #[serde(borrow)]
+    vertices_coords: Option<&'a RawValue>,
+    #[serde(borrow)]
+    faces_vertices: Option<&'a RawValue>,
+    #[serde(borrow)]
+    pub edges_vertices: Option<&'a RawValue>,
+    #[serde(borrow)]
+    pub edges_assignment: Option<&'a RawValue>,
+    #[serde(borrow, rename = "edges_foldAngle")]
+    pub edges_fold_angle: Option<&'a RawValue>,
+    #[serde(borrow, rename = "foldwell:lattice")]
+    lattice: Option<&'a RawValue>,
+    #[serde(borrow, rename = "foldwell:holes")]
+    holes: Option<&'a RawValue>,
+}
+
+/// Where the parts of the mesh stand in the text.
+#[derive(Default)]
+struct Rows<'a> {
+    vertices: Vec<&'a RawValue>,
+    faces: Vec<&'a RawValue>,
+    holes: Vec<&'a RawValue>,
+}
+
+/// The sheet in the file at `path`.
+///
+/// # Errors
+/// [`SheetError::Read`] when there is no such file or it cannot be read, else as [`parse`].
+pub fn read(path: &Path) -> Result<Sheet, SheetError> {
+    let text = std::fs::read_to_string(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
+    parse(&text, &path.display().to_string())
+}
+
+/// The sheet in a FOLD text; `name` is that of its file, for messages, and for the title where the file has none.
+///
+/// # Errors
+/// [`SheetError::Bad`] with line, column, and the vertex, face or edge that is wrong.
+pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
+    let source = Source { name, text };
+    let keys: Keys = serde_json::from_str(text).map_err(|e| source.syntax(&e))?;
+    let mut rows = Rows::default();
+    let mut drawn = head(&source, &keys)?;
+    read_vertices(&source, &keys, &mut drawn, &mut rows)?;
+    let edges = edges::read(&source, &keys, drawn.coords.len())?;
+    read_faces(&source, &keys, &mut drawn, &mut rows, &edges)?;
+    read_holes(&source, &keys, &mut drawn, &mut rows)?;
+    let locate = |defect| located(&source, &keys, &rows, &edges, defect);
+    if keys.faces_vertices.is_none() {
+        drawn.faces = planar::faces_of(&drawn, &edges.ends).map_err(locate)?;
+        drop_openings(&mut drawn);
+    }
+    let (sheet, identified) = build_identified(&drawn).map_err(locate)?;
+    edges::check(&edges, &sheet, &identified).map_err(locate)?;
+    Ok(sheet)
+}
+
+fn head(source: &Source, keys: &Keys) -> Result<Drawn, SheetError> {
+    let string = |value: Option<&RawValue>, key: &str| -> Result<Option<String>, SheetError> {
+        value.map(|v| source.typed(v, || format!("`{key}`"), "a text in quotes")).transpose()
+    };
+    let stem = || Path::new(source.name).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    Ok(Drawn {
+        title: string(keys.file_title, "file_title")?.unwrap_or_else(stem),
+        description: string(keys.file_description, "file_description")?.unwrap_or_default(),
+        lattice: keys.lattice.map(|value| lattice(source, value)).transpose()?,
+        ..Drawn::default()
+    })
+}
+
+fn lattice(source: &Source, value: &RawValue) -> Result<[Vec3; 2], SheetError> {
+    let right = "two lists of three numbers, [[x, y, z], [x, y, z]]";
+    let [l1, l2]: [[f64; 3]; 2] = source.typed(value, || "`foldwell:lattice`".into(), right)?;
+    Ok([l1.into(), l2.into()])
+}
+
+fn read_vertices<'a>(
+    source: &Source<'a>,
+    keys: &Keys<'a>,
+    drawn: &mut Drawn,
+    rows: &mut Rows<'a>,
+) -> Result<(), SheetError> {
+    let right = "a list of points, [[x, y, z], ...]";
+    let missing =
+        || source.at_start(Problem::Missing { key: "vertices_coords", right: "it should be a list of points" });
+    rows.vertices = source.list(keys.vertices_coords.ok_or_else(missing)?, || "`vertices_coords`".into(), right)?;
+    let mut dimension = None;
+    for (v, row) in rows.vertices.iter().enumerate() {
+        let point = source.list(row, || format!("vertex {v}"), "a list of 2 or 3 numbers")?;
+        let numbers =
+            point.iter().map(|c| source.typed(c, || format!("a coordinate of vertex {v}"), "a finite number"));
+        let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+        let first = *dimension.get_or_insert(if numbers.len() == 2 { 2 } else { 3 });
+        if numbers.len() != first {
+            let problem = Problem::Dimension { vertex: v, found: numbers.len(), right: first };
+            return Err(source.at(row, problem));
+        }
+        drawn.coords.push(Vec3::new(numbers[0], numbers[1], numbers.get(2).copied().unwrap_or(0.0)));
+    }
+    drawn.planar = dimension == Some(2);
+    Ok(())
+}
+
+fn read_faces<'a>(
+    source: &Source<'a>,
+    keys: &Keys<'a>,
+    drawn: &mut Drawn,
+    rows: &mut Rows<'a>,
+    edges: &Edges<'a>,
+) -> Result<(), SheetError> {
+    match keys.faces_vertices {
+        Some(value) => {
+            rows.faces = source.list(value, || "`faces_vertices`".into(), "a list of faces, [[0, 1, 2], ...]")?;
+            let count = drawn.coords.len();
+            let faces =
+                rows.faces.iter().enumerate().map(|(f, row)| source.indices(row, || format!("face {f}"), count));
+            drawn.faces = faces.collect::<Result<_, _>>()?;
+            Ok(())
+        }
+        None if edges.ends.is_empty() => Err(source.at_start(Problem::Missing {
+            key: "faces_vertices",
+            right: "it, or at least `edges_vertices`, should list the faces",
+        })),
+        None => Ok(()),
+    }
+}
+
+fn read_holes<'a>(
+    source: &Source<'a>,
+    keys: &Keys<'a>,
+    drawn: &mut Drawn,
+    rows: &mut Rows<'a>,
+) -> Result<(), SheetError> {
+    let Some(value) = keys.holes else { return Ok(()) };
+    rows.holes = source.list(value, || "`foldwell:holes`".into(), "a list of openings, [[0, 1, 2], ...]")?;
+    let count = drawn.coords.len();
+    let holes = rows.holes.iter().enumerate().map(|(h, row)| source.indices(row, || format!("opening {h}"), count));
+    drawn.holes = holes.collect::<Result<_, _>>()?;
+    Ok(())
+}
+
+/// Takes away rebuilt faces that are listed as openings.
+fn drop_openings(drawn: &mut Drawn) {
+    let sorted = |list: &Vec<usize>| {
+        let mut list = list.clone();
+        list.sort_unstable();
+        list
+    };
+    let holes: Vec<_> = drawn.holes.iter().map(sorted).collect();
+    drawn.faces.retain(|face| !holes.contains(&sorted(face)));
+}
+
+/// A defect of the mesh with the line of the text that draws it.
+fn located(source: &Source, keys: &Keys, rows: &Rows, edges: &Edges, defect: Defect) -> SheetError {
+    let row = match defect.place {
+        Place::Mesh => None,
+        Place::Vertex(v) => rows.vertices.get(v).copied(),
+        Place::Face(f) => rows.faces.get(f).copied(),
+        Place::Edge(e) => edges.rows.get(e).copied(),
+        Place::Lattice => keys.lattice,
+        Place::Hole(h) => rows.holes.get(h).copied(),
+    };
+    let whole = keys.faces_vertices.or(keys.edges_vertices).or(keys.vertices_coords);
+    match row.or(whole) {
+        Some(value) => source.at(value, *defect.problem),
+        None => source.at_start(*defect.problem),
+    }
+}

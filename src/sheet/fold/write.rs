@@ -1,0 +1,88 @@
+//! Writing FOLD.
+
+use std::collections::BTreeMap;
+use std::fmt::{Display, Write};
+
+use crate::sheet::build::{Drawn, draw, drawn_sides};
+use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
+
+/// Fold angles below this many degrees are written as flat.
+const FLAT: f64 = 1e-9;
+
+/// `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with assignment and drawn
+/// fold angle, lattice and openings. Numbers are written so that [`parse`](super::parse) gives the same sheet back, bit by
+/// bit.
+pub fn write(sheet: &Sheet) -> String {
+    let drawn = draw(sheet);
+    let mut text = String::from("{\n");
+    field(&mut text, "file_spec", "1.2");
+    field(&mut text, "file_creator", &quoted("foldwell"));
+    field(&mut text, "file_title", &quoted(&drawn.title));
+    if !drawn.description.is_empty() {
+        field(&mut text, "file_description", &quoted(&drawn.description));
+    }
+    field(&mut text, "file_classes", "[\"singleModel\"]");
+    field(&mut text, "frame_classes", if drawn.planar { "[\"creasePattern\"]" } else { "[\"foldedForm\"]" });
+    field(&mut text, "frame_attributes", if drawn.planar { "[\"2D\"]" } else { "[\"3D\"]" });
+    if let Some(lattice) = drawn.lattice {
+        field(&mut text, "foldwell:lattice", &rows(lattice.iter().map(|l| numbers(l.iter()))));
+    }
+    if !drawn.holes.is_empty() {
+        field(&mut text, "foldwell:holes", &rows(drawn.holes.iter().map(|h| numbers(h))));
+    }
+    let size = if drawn.planar { 2 } else { 3 };
+    field(&mut text, "vertices_coords", &rows(drawn.coords.iter().map(|x| numbers(x.iter().take(size)))));
+    write_edges(&mut text, sheet, &drawn);
+    let _ = write!(text, "  \"faces_vertices\": {}\n}}\n", rows(drawn.faces.iter().map(|f| numbers(f))));
+    text
+}
+
+fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawn) {
+    let known: BTreeMap<EdgeKey, &Edge> = sheet.edges.iter().map(|edge| (edge.key, edge)).collect();
+    let corners = corners(sheet, drawn);
+    let sides = drawn_sides(drawn);
+    let edge = |ends: [usize; 2]| known.get(&EdgeKey::new(corners[ends[0]], corners[ends[1]]).0).copied();
+    let angles: Vec<_> = sides.iter().map(|&(ends, _)| edge(ends).and_then(|e| degrees(sheet, e))).collect();
+    field(text, "edges_vertices", &rows(sides.iter().map(|(ends, _)| numbers(ends))));
+    let letters = angles.iter().map(|angle| match angle {
+        None => "\"B\"",
+        Some(a) if *a > 0.0 => "\"V\"",
+        Some(a) if *a < 0.0 => "\"M\"",
+        Some(_) => "\"F\"",
+    });
+    field(text, "edges_assignment", &format!("[{}]", letters.collect::<Vec<_>>().join(", ")));
+    let angles = angles.iter().map(|angle| angle.map_or("null".to_owned(), |a| format!("{a:?}")));
+    field(text, "edges_foldAngle", &format!("[{}]", angles.collect::<Vec<_>>().join(", ")));
+}
+
+/// The corner in which every drawn vertex stands.
+fn corners(sheet: &Sheet, drawn: &Drawn) -> Vec<Corner> {
+    let mut corners: Vec<_> = (0..drawn.coords.len()).map(Corner::home).collect();
+    let lists = drawn.faces.iter().chain(&drawn.holes).zip(sheet.polygons.iter().chain(&sheet.holes));
+    for (numbers, there) in lists {
+        numbers.iter().zip(there).for_each(|(&v, &corner)| corners[v] = corner);
+    }
+    corners
+}
+
+/// Drawn fold angle to 9 decimals, which is more than the reader compares and less than mathematical libraries differ in.
+fn degrees(sheet: &Sheet, edge: &Edge) -> Option<f64> {
+    let angle = sheet.drawn_angle(edge).filter(|_| edge.kind != EdgeKind::Boundary)?.to_degrees();
+    Some(if angle.abs() < FLAT { 0.0 } else { (angle * 1e9).round() / 1e9 })
+}
+
+fn field(text: &mut String, key: &str, value: &str) {
+    let _ = writeln!(text, "  \"{key}\": {value},");
+}
+
+fn rows(rows: impl Iterator<Item = String>) -> String {
+    format!("[\n    {}\n  ]", rows.collect::<Vec<_>>().join(",\n    "))
+}
+
+fn numbers<'n, T: std::fmt::Debug + 'n>(list: impl IntoIterator<Item = &'n T>) -> String {
+    format!("[{}]", list.into_iter().map(|n| format!("{n:?}")).collect::<Vec<_>>().join(", "))
+}
+
+fn quoted(text: impl Display) -> String {
+    serde_json::Value::String(text.to_string()).to_string()
+}
