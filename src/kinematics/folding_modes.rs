@@ -293,8 +293,8 @@ mod tests {
     }
 
     /// Claim: the rays along which an independent program left the drawn state are linear modes with curvature tensors of
-    /// rank one, of the sign of the curvature that program found further on. Tolerance 1e-8: its directions solve
-    /// quadratic equations to that accuracy or better.
+    /// rank one, of the sign of the curvature that program found further on. Tolerance 1e-8: its directions satisfy the
+    /// quadratic condition to 7e-9.
     #[test]
     fn rays_are_on_the_cone_of_cylinders() {
         let sheet = open_star();
