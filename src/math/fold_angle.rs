@@ -29,8 +29,8 @@ pub type HingeHessian = SMatrix<f64, 12, 12>;
 /// ```
 ///
 /// Not a number where a point is; zero where a face has no area.
-pub fn fold_angle(points: &[Vec3; 4]) -> f64 {
-    Hinge::new(points).angle()
+pub fn fold_angle(points: [Vec3; 4]) -> f64 {
+    Hinge::new(&points).angle()
 }
 
 /// Fold angle and its gradient, in radians per unit length. Infinite where a face has no area.

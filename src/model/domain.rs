@@ -12,14 +12,7 @@
 use crate::math::{Vec3, sinc};
 use nalgebra::{Complex, Matrix3, SMatrix, SVector};
 
-/// A vertex of the model together with the translate in which it stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Site {
-    /// Number of the vertex.
-    pub vertex: usize,
-    /// How many lattice vectors away; always zero on a patch.
-    pub shift: [i32; 2],
-}
+pub use crate::sheet::tiling::Site;
 
 /// Most shared coordinates that a domain has.
 pub const MOST_SHARED: usize = 6;
@@ -38,20 +31,8 @@ pub enum Domain {
     Screw,
 }
 
-/// A measure pulled back to the coordinates of one element: `3 N` of its vertices, then the shared ones.
-#[derive(Clone, Debug)]
-pub struct Pulled {
-    /// Value of the measure.
-    pub value: f64,
-    /// Gradient, `size` numbers.
-    pub gradient: Vec<f64>,
-    /// Lower triangle of the Hessian row by row; empty where it was not asked for.
-    pub hessian: Vec<f64>,
-}
-
-/// A point with its derivatives: `vertex` with respect to the vertex, `shared` to the shared coordinates.
+/// Derivatives of a point: `vertex` with respect to the vertex, `shared` with respect to the shared coordinates.
 struct Placed {
-    point: Vec3,
     vertex: Matrix3<f64>,
     shared: SharedMatrix,
 }
@@ -97,7 +78,7 @@ impl Domain {
                 shared_part = screw.shared_derivative(&vertex(x, site));
             }
         }
-        Placed { point: self.point(x, site), vertex: vertex_part, shared: shared_part }
+        Placed { vertex: vertex_part, shared: shared_part }
     }
 
     /// Gradient in the element's coordinates of a function whose gradient in its points is `g`.

@@ -11,15 +11,17 @@ use nalgebra::SVector;
 type Motion = SVector<f64, 6>;
 
 /// Rates of every coordinate under the rigid motions: translations in columns 0 to 2, rotations about the centroid,
-/// scaled by the size of the sheet, in columns 3 to 5. A screw's axis is part of its chart: it has no rigid motion
+/// scaled by the size of the sheet, in columns 3 to 5 (zero where not wanted or where the
+/// domain cannot turn). A screw's axis is part of its chart: it has no rigid motion
 /// that its coordinates could express with vertex 0 held.
-pub fn rigid_motions(domain: &Domain, x: &[f64]) -> Vec<Motion> {
+pub fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
     let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
     let centre = (0..vertices).map(point).sum::<Vec3>() / vertices as f64;
     let size = (0..vertices).map(|k| (point(k) - centre).norm()).fold(f64::MIN_POSITIVE, f64::max);
-    let turn = if matches!(domain, Domain::FixedTorus(_)) { 0.0 } else { 1.0 / size };
-    let mut rows: Vec<Motion> = (0..vertices).flat_map(|k| rows(1.0, turn * (point(k) - centre))).collect();
+    let turns = rotations && matches!(domain, Domain::Patch | Domain::FreeTorus);
+    let turn = if turns { 1.0 / size } else { 0.0 };
+    let mut rows: Vec<Motion> = (0..vertices).flat_map(|k| rows_of(1.0, turn * (point(k) - centre))).collect();
     match domain {
         Domain::FreeTorus => {
             let lattice = &x[3 * vertices..];
@@ -31,10 +33,6 @@ pub fn rigid_motions(domain: &Domain, x: &[f64]) -> Vec<Motion> {
         Domain::Patch | Domain::FixedTorus(_) => {}
     }
     rows
-}
-
-fn rows(translation: f64, arm: Vec3) -> [Motion; 3] {
-    rows_of(translation, arm)
 }
 
 /// Velocity of a point: `translation + omega x arm`, one row a component.

@@ -56,7 +56,7 @@ impl Measure<4, 12> for FoldAngle {
     const ANGLE: bool = true;
 
     fn value(points: &[Vec3; 4]) -> f64 {
-        fold_angle::fold_angle(points)
+        fold_angle::fold_angle(*points)
     }
 
     fn gradient(points: &[Vec3; 4]) -> (f64, SVector<f64, 12>) {

@@ -5,6 +5,7 @@
 //! [`domain::Domain`] says where the points of an element come from; its chain rule stands in one place. The
 //! [`Model`] puts terms on a domain and is the [`crate::solver::Problem`] that the solver minimises.
 
+pub mod assemble;
 pub mod domain;
 pub mod gauge;
 pub mod measure;
@@ -13,4 +14,4 @@ pub mod term;
 
 pub use domain::{Domain, Site};
 pub use problem::Model;
-pub use term::{Element, Spring, Term};
+pub use term::{Element, Elements, Spring, Term};

@@ -45,15 +45,15 @@ pub struct Parts {
 }
 
 impl Model {
-    /// Puts the parts together; where nothing pulls and nothing pins, rigid motions are taken out by a gauge.
+    /// Puts the parts together. Rigid motions that no pin prevents are taken out by a gauge: translations always (loads
+    /// must balance along them), rotations where nothing pulls.
     pub fn new(parts: Parts) -> Self {
         let Parts { domain, drawn, soft, stiff, pinned, loads, mean_edge } = parts;
         let mut held = vec![false; drawn.len()];
         pinned.iter().for_each(|&k| held[k] = true);
-        if loads.iter().all(|f| *f == 0.0) {
-            let motions = gauge::rigid_motions(&domain, &drawn);
-            gauge::choose(&motions, &held).into_iter().for_each(|k| held[k] = true);
-        }
+        let free_to_turn = loads.is_empty();
+        let motions = gauge::rigid_motions(&domain, &drawn, free_to_turn);
+        gauge::choose(&motions, &held).into_iter().for_each(|k| held[k] = true);
         let free: Vec<u32> = (0..drawn.len() as u32).filter(|&k| !held[k as usize]).collect();
         let mut number = vec![FIXED; drawn.len()];
         free.iter().enumerate().for_each(|(unknown, &k)| number[k as usize] = unknown as u32);
@@ -91,11 +91,48 @@ impl Model {
         &self.stiff
     }
 
-    /// Changes the rest value of an element of the soft terms.
-    pub fn set_rest(&mut self, term: usize, element: usize, rest: f64) {
-        let spring = self.soft[term].spring(element);
-        self.soft[term].set_spring(element, Spring { rest, ..spring });
+    /// Rest values of all elements, soft terms first.
+    pub fn rests(&self) -> Vec<f64> {
+        self.terms().flat_map(|term| (0..term.len()).map(|k| term.spring(k).rest)).collect()
     }
+
+    /// Values of the measures of all elements at `x`, soft terms first.
+    pub fn values(&self, x: &[f64]) -> Vec<f64> {
+        let all = self.coordinates(x);
+        self.terms().flat_map(|term| (0..term.len()).map(|k| term.value(k, &self.domain, &all))).collect()
+    }
+
+    /// Sets the rest values to `origin + part (target - origin)`; the targets themselves at `part = 1`.
+    pub fn set_rests(&mut self, origin: &[f64], target: &[f64], part: f64) {
+        let mut at = 0;
+        for term in self.soft.iter_mut().chain(&mut self.stiff) {
+            for k in 0..term.len() {
+                let rest = if part == 1.0 { target[at] } else { origin[at] + part * (target[at] - origin[at]) };
+                term.set_spring(k, Spring { rest, ..term.spring(k) });
+                at += 1;
+            }
+        }
+    }
+
+    /// Angles of the last accepted state, from which angles continue.
+    pub fn angles(&self) -> Vec<f64> {
+        self.terms().flat_map(|term| term.angles().iter().copied()).collect()
+    }
+
+    /// Sets the angles from which angles continue.
+    pub fn set_angles(&mut self, angles: &[f64]) {
+        let mut at = 0;
+        for term in self.soft.iter_mut().chain(&mut self.stiff) {
+            let count = term.angles().len();
+            term.set_angles(&angles[at..at + count]);
+            at += count;
+        }
+    }
+
+    fn terms(&self) -> impl Iterator<Item = &dyn Elements> {
+        self.soft.iter().chain(&self.stiff).map(AsRef::as_ref)
+    }
+
 }
 
 /// Members of element `k`: the coordinates of its points, then the shared ones, as unknowns.
@@ -216,8 +253,6 @@ impl Model {
             let mut local = self.soft[term].local(element, &self.domain, all, full);
             let force = spring.stiffness * (local.value - spring.rest);
             local.hessian.iter_mut().for_each(|h| *h *= force);
-            local.hessian.resize(local.gradient.len() * (local.gradient.len() + 1) / 2, 0.0);
-            add_outer(spring.stiffness, &local.gradient, &mut local.hessian);
             (spring, force, local)
         };
         parallel::ordered(count(&self.soft), compute, |k, (spring, force, local)| {
@@ -230,8 +265,10 @@ impl Model {
                     out.gradient[member as usize] += force * g;
                 }
             }
+            out.add_metric(k, spring.stiffness, &local.gradient);
             out.add_soft(k, &local.hessian);
         });
+        out.add_metric_to_hessian();
     }
 
     fn linearize_stiff(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
@@ -252,13 +289,3 @@ impl Model {
     }
 }
 
-/// Adds the lower triangle of `weight g g^T`.
-fn add_outer(weight: f64, g: &[f64], block: &mut [f64]) {
-    let mut k = 0;
-    for p in 0..g.len() {
-        for q in 0..=p {
-            block[k] += weight * g[p] * g[q];
-            k += 1;
-        }
-    }
-}

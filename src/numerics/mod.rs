@@ -5,6 +5,7 @@ pub mod derivatives;
 pub mod factor;
 pub mod order;
 pub mod parallel;
+pub mod rank;
 pub mod sparse;
 
 /// The dense matrix that modules hand to each other.

@@ -1,6 +1,6 @@
 //! The cell: vertices, lattice, polygons, their triangles, and the edges between them.
 
-use crate::math::Vec3;
+use crate::math::{Vec3, fold_angle::fold_angle};
 
 /// A vertex of the cell together with the lattice translate in which it stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -64,6 +64,19 @@ pub struct Triangle {
     pub polygon: usize,
 }
 
+/// A side of a [`Triangle`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TriangleSide {
+    /// The edge.
+    pub key: EdgeKey,
+    /// The triangle lies on its left (0) or on its right (1).
+    pub side: usize,
+    /// The edge's vertex `i`, as a corner of the triangle.
+    pub base: Corner,
+    /// The opposite vertex, in the frame in which `i` stands in cell (0, 0).
+    pub opposite: Corner,
+}
+
 /// A sheet: one cell drawn in full and, where it is periodic, two lattice vectors.
 ///
 /// Vertices are numbered by first appearance in the file; edges by first appearance along the polygons (`(a, b)`,
@@ -72,6 +85,8 @@ pub struct Triangle {
 pub struct Sheet {
     /// Name of the sheet.
     pub title: String,
+    /// Where it comes from, and its units.
+    pub description: String,
     /// Positions of the cell's vertices as drawn, each in the cell where it first appears.
     pub vertices: Vec<Vec3>,
     /// The two lattice vectors; `None`: a finite sheet.
@@ -116,7 +131,27 @@ impl EdgeKey {
     }
 }
 
+impl Triangle {
+    /// Its sides `(a, b)`, `(b, c)`, `(c, a)`.
+    pub fn sides(&self) -> [TriangleSide; 3] {
+        std::array::from_fn(|k| {
+            let [a, b, opposite] = [0, 1, 2].map(|d| self.corners[(k + d) % 3]);
+            let (key, reversed) = EdgeKey::new(a, b);
+            let base = if reversed { b } else { a };
+            let opposite = opposite.translated([-base.shift[0], -base.shift[1]]);
+            TriangleSide { key, side: usize::from(reversed), base, opposite }
+        })
+    }
+}
+
 impl Sheet {
+    /// Fold angle of an edge in the drawn state, in radians, valley positive; `None` on a boundary.
+    pub fn drawn_angle(&self, edge: &Edge) -> Option<f64> {
+        let [left, right] = [edge.wings[0]?, edge.wings[1]?];
+        let [i, j] = edge.key.ends();
+        Some(fold_angle([i, j, left, right].map(|corner| self.position(corner))))
+    }
+
     /// Where a corner is in the drawn state.
     pub fn position(&self, corner: Corner) -> Vec3 {
         let home = self.vertices[corner.vertex];

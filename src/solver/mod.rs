@@ -3,6 +3,7 @@
 pub mod newton;
 pub mod problem;
 pub mod saddle;
+pub mod tension;
 
-pub use newton::{Equilibrium, Failure, NewtonError, Options, minimize};
+pub use newton::{Equilibrium, Failure, NewtonError, Options, Step, minimize};
 pub use problem::{Curvature, Layout, Linearization, Problem};

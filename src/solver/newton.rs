@@ -8,8 +8,22 @@
 
 use super::problem::{Curvature, Linearization, Problem};
 use super::saddle::Saddle;
+use super::tension::{nan_max, residuals};
 use crate::numerics::factor::FactorError;
 use thiserror::Error;
+
+/// Largest scaled gap of a start.
+const FEASIBLE: f64 = 1e-10;
+/// Chord corrections allowed for a start, and for a trial.
+const START_CHORDS: usize = 50;
+const CHORDS: usize = 12;
+/// Shortest fraction of a step is `0.5^(HALVINGS - 1)`; then the shift is raised, at most `SHIFTS` times.
+const HALVINGS: i32 = 5;
+const SHIFTS: usize = 12;
+/// Relative residual of a Newton step's linear system.
+const ACCURACY: f64 = 1e-8;
+/// Rise of the merit, relative, that is taken for rounding error.
+const NOISE: f64 = 1e-13;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -35,13 +49,13 @@ pub struct Step {
     pub residual_force: f64,
     /// Largest scaled gap.
     pub residual_length: f64,
-    /// Fraction of the Newton step taken to get here.
+    /// Fraction of the Newton step taken to get here; 0 for a start.
     pub fraction: f64,
     /// Shift of the Hessian, relative to its largest diagonal entry.
     pub shift: f64,
-    /// Factorizations made so far.
+    /// Factorizations made for it.
     pub factorizations: usize,
-    /// Solves made so far, chord corrections included.
+    /// Solves made for it, chord corrections included.
     pub solves: usize,
 }
 
@@ -56,8 +70,6 @@ pub struct Equilibrium {
     pub energy: f64,
     /// Negative eigenvalues of the energy's Hessian on what the rigid measures leave free.
     pub negative_eigenvalues: usize,
-    /// Smallest over largest pivot of the last factorization: tiny where the equilibrium is not isolated.
-    pub pivot_ratio: f64,
     /// Steps, the start first.
     pub history: Vec<Step>,
 }
@@ -134,7 +146,6 @@ struct Trial {
     x: Vec<f64>,
     tension: Vec<f64>,
     merit: f64,
-    fraction: f64,
 }
 
 /// Minimises from `x`. `observe` sees every accepted step and returns false to stop.
@@ -163,12 +174,11 @@ pub fn minimize<P: Problem>(
         history: vec![],
     };
     match newton.run(options, observe) {
-        Ok((negative_eigenvalues, pivot_ratio)) => Ok(Equilibrium {
-            energy: newton.merit(&newton.x, &newton.tension).0,
+        Ok(negative_eigenvalues) => Ok(Equilibrium {
+            energy: newton.merit(&newton.x, &newton.tension),
             x: newton.x,
             tension: newton.tension,
             negative_eigenvalues,
-            pivot_ratio,
             history: newton.history,
         }),
         Err(failure) => Err(NewtonError { failure, x: newton.x, tension: newton.tension, history: newton.history }),
@@ -176,10 +186,10 @@ pub fn minimize<P: Problem>(
 }
 
 impl<P: Problem> Newton<'_, P> {
-    fn run(&mut self, options: Options, observe: &mut dyn FnMut(&Step) -> bool) -> Result<(usize, f64), Failure> {
+    fn run(&mut self, options: Options, observe: &mut dyn FnMut(&Step) -> bool) -> Result<usize, Failure> {
         self.linearize();
         self.start()?;
-        let mut fraction = 1.0;
+        let mut fraction = 0.0;
         loop {
             self.linearize();
             let step = self.step(fraction);
@@ -204,8 +214,11 @@ impl<P: Problem> Newton<'_, P> {
 
     /// Pulls the start onto the stiff measures.
     fn start(&mut self) -> Result<(), Failure> {
+        if residuals(self.problem, &self.at, &self.tension).1 <= FEASIBLE {
+            return Ok(());
+        }
         self.factor()?;
-        let trial = self.retract(self.x.clone(), self.tension.clone(), 1e-10, 50);
+        let trial = self.retract(self.x.clone(), self.tension.clone(), FEASIBLE, START_CHORDS);
         let trial = trial.map_err(|gap| Failure::Infeasible { gap })?;
         (self.x, self.tension) = (trial.x, trial.tension);
         self.problem.accept(&mut self.x);
@@ -213,47 +226,41 @@ impl<P: Problem> Newton<'_, P> {
     }
 
     fn step(&self, fraction: f64) -> Step {
-        let force = self.at.force(self.problem.layout(), &self.tension);
-        let unbalanced = force.iter().fold(0.0f64, |m, f| m.max(f.abs()));
-        let (energy, gap) = self.merit(&self.x, &self.tension);
+        let (residual_force, residual_length) = residuals(self.problem, &self.at, &self.tension);
+        let before = |count: fn(&Step) -> usize| self.history.iter().map(count).sum::<usize>();
         Step {
-            energy,
-            residual_force: if unbalanced > 0.0 { unbalanced / self.at.largest_force } else { 0.0 },
-            residual_length: gap,
+            energy: self.merit(&self.x, &self.tension),
+            residual_force,
+            residual_length,
             fraction,
             shift: self.shift,
-            factorizations: self.saddle.factorizations,
-            solves: self.saddle.solves,
+            factorizations: self.saddle.factorizations - before(|step| step.factorizations),
+            solves: self.saddle.solves - before(|step| step.solves),
         }
     }
 
-    /// Merit and largest scaled gap of a state. The gaps still open enter with their tension, to first order.
-    fn merit(&self, x: &[f64], tension: &[f64]) -> (f64, f64) {
+    /// Merit of a state. Gaps still open enter with their tension, to first order.
+    fn merit(&self, x: &[f64], tension: &[f64]) -> f64 {
         let mut gaps = vec![0.0; tension.len()];
         let mut merit = self.problem.evaluate(x, &mut gaps);
-        let mut largest = 0.0f64;
-        let (compliance, scale) = (self.problem.compliance(), self.problem.gap_scale());
-        for (k, (gap, t)) in gaps.iter().zip(tension).enumerate() {
-            let open = gap - compliance[k] * t;
-            merit += t * (compliance[k] * t / 2.0 + open);
-            largest = nan_max(largest, open.abs() / scale[k]);
+        for ((gap, t), c) in gaps.iter().zip(tension).zip(self.problem.compliance()) {
+            merit += t * (gap - c * t / 2.0);
         }
-        (merit, largest)
+        merit
     }
 
     /// Factors with the smallest shift, from the last one's tenth upwards, at which the Hessian is that of a minimum.
     fn factor(&mut self) -> Result<(), Failure> {
-        let scale = Saddle::scale(&self.at).max(f64::MIN_POSITIVE);
-        let mut shift = if self.shift > 1e-10 { self.shift / 10.0 } else { 0.0 };
+        let mut shift = if self.shift > 2e-2 { self.shift / 4.0 } else { 0.0 };
         for _ in 0..40 {
-            let found = self.saddle.factor(self.problem.layout(), &self.at, self.problem.compliance(), shift * scale);
+            let found = self.saddle.factor(self.problem.layout(), &self.at, self.problem.compliance(), shift);
             match found {
                 Ok(inertia) if inertia.negative == 0 => {
                     self.shift = shift;
                     return Ok(());
                 }
                 Err(error @ FactorError::NotFinite) => return Err(error.into()),
-                _ => shift = if shift == 0.0 { 1e-8 } else { 4.0 * shift },
+                _ => shift = if shift == 0.0 { 1e-2 } else { 4.0 * shift },
             }
         }
         Err(FactorError::Singular { ratio: 0.0 }.into())
@@ -262,51 +269,52 @@ impl<P: Problem> Newton<'_, P> {
     /// One accepted step; returns the fraction of the Newton step that was taken.
     fn advance(&mut self, last: &Step) -> Result<f64, Failure> {
         self.factor()?;
-        for _ in 0..12 {
+        for _ in 0..SHIFTS {
             let (dx, dt) = self.direction();
-            let mut fraction = 1.0;
-            for _ in 0..5 {
-                if let Some(trial) = self.attempt(&dx, &dt, fraction, last) {
-                    self.take(trial, last);
+            for halving in 0..HALVINGS {
+                let fraction = 0.5f64.powi(halving);
+                if let Some(trial) = self.attempt((&dx, &dt), fraction, last) {
+                    self.take(trial, fraction, last);
                     return Ok(fraction);
                 }
-                fraction /= 2.0;
             }
-            self.shift = (10.0 * self.shift).max(1e-4) * 10.0;
+            if self.history.len() == 1 && self.obstructed(&dx) {
+                return Err(Failure::SingularStart);
+            }
+            self.shift = (16.0 * self.shift).max(1.0);
             self.factor()?;
         }
         Err(Failure::Stuck { force: last.residual_force, length: last.residual_length })
     }
 
+    /// The Newton step in unknowns and tensions.
     fn direction(&mut self) -> (Vec<f64>, Vec<f64>) {
-        let layout = self.problem.layout();
-        let compliance = self.problem.compliance();
+        let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
         let force = self.at.force(layout, &self.tension);
-        let gaps: Vec<f64> =
-            self.at.gaps.iter().zip(&self.tension).zip(compliance).map(|((m, t), c)| c * t - m).collect();
-        let (dx, dt, size) = self.saddle.solve(layout, &self.at, compliance, (&force, &gaps), 1e-8);
-        if std::env::var("FW_DEBUG").is_ok() {
-            eprintln!(
-                "  solve residual {size:.1e} solves {} |dx| {:.2e}",
-                self.saddle.solves,
-                dx.iter().fold(0.0f64, |m, v| m.max(v.abs()))
-            );
-        }
-        (dx, dt)
+        let open = open(&self.at.gaps, &self.tension, compliance);
+        let solved = self.saddle.solve(layout, &self.at, compliance, (&force, &open), ACCURACY);
+        (solved.dx, solved.dt)
     }
 
-    fn attempt(&mut self, dx: &[f64], dt: &[f64], fraction: f64, last: &Step) -> Option<Trial> {
+    /// Whether the stretch that a step makes beyond its linear part cannot be taken back by any motion: then the rigid
+    /// measures hold the sheet at second order, as in the flat state.
+    fn obstructed(&mut self, dx: &[f64]) -> bool {
+        let length = dx.iter().fold(0.0f64, |m, d| m.max(d.abs()));
+        let x: Vec<f64> = self.x.iter().zip(dx).map(|(x, d)| x + 1e-3 / length * d).collect();
+        let mut gaps = vec![0.0; self.tension.len()];
+        self.problem.evaluate(&x, &mut gaps);
+        let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
+        let open = open(&gaps, &self.tension, compliance);
+        let zero = vec![0.0; x.len()];
+        self.saddle.solve(layout, &self.at, compliance, (&zero, &open), 1e-3).residual > 1e-2
+    }
+
+    fn attempt(&mut self, (dx, dt): (&[f64], &[f64]), fraction: f64, last: &Step) -> Option<Trial> {
         let x = self.x.iter().zip(dx).map(|(x, d)| x + fraction * d).collect();
         let tension = self.tension.iter().zip(dt).map(|(t, d)| t + fraction * d).collect();
         let wanted = (1e-3 * last.residual_force).clamp(1e-14, 1e-8);
-        let trial = self.retract(x, tension, wanted, 12);
-        if std::env::var("FW_DEBUG").is_ok() {
-            eprintln!("   fraction {fraction} retract {:?} merit {} ", trial.as_ref().map(|t| t.merit), last.energy);
-        }
-        let mut trial = trial.ok()?;
-        trial.fraction = fraction;
-        let noise = 1e-13 * last.energy.abs();
-        (trial.merit <= last.energy + noise).then_some(trial)
+        let trial = self.retract(x, tension, wanted, CHORDS).ok()?;
+        (trial.merit <= last.energy + NOISE * last.energy.abs()).then_some(trial)
     }
 
     /// Chord corrections onto `m = c t` until the largest scaled gap is `wanted` or no longer falls at `wanted`'s
@@ -316,16 +324,12 @@ impl<P: Problem> Newton<'_, P> {
         let mut last = f64::INFINITY;
         for _ in 0..=most {
             self.problem.evaluate(&x, &mut gaps);
-            let compliance = self.problem.compliance();
-            let open: Vec<f64> = gaps.iter().zip(&tension).zip(compliance).map(|((m, t), c)| c * t - m).collect();
+            let open = open(&gaps, &tension, self.problem.compliance());
             let scale = self.problem.gap_scale();
             let size = open.iter().zip(scale).fold(0.0, |m, (o, s)| nan_max(m, o.abs() / s));
-            if std::env::var("FW_DEBUG").is_ok_and(|v| v == "2") {
-                eprintln!("     gap {size:.2e}");
-            }
             if size <= wanted || (size <= 1e-12 && size > 0.5 * last) {
-                let merit = self.merit(&x, &tension).0;
-                return Ok(Trial { x, tension, merit, fraction: 1.0 });
+                let merit = self.merit(&x, &tension);
+                return Ok(Trial { x, tension, merit });
             }
             if !(size < 0.9 * last) {
                 return Err(size);
@@ -339,25 +343,24 @@ impl<P: Problem> Newton<'_, P> {
         Err(last)
     }
 
-    fn take(&mut self, trial: Trial, last: &Step) {
-        let fell = last.energy - trial.merit;
-        (self.x, self.tension) = (trial.x, trial.tension);
-        self.problem.accept(&mut self.x);
-        if trial.fraction == 1.0 && fell < 0.5 * last.energy.abs() {
+    /// Accepts a trial; from the first whole step that contracts on, soft elements enter with their full Hessian.
+    fn take(&mut self, trial: Trial, fraction: f64, last: &Step) {
+        if fraction == 1.0 && last.energy - trial.merit < 0.5 * last.energy.abs() {
             self.curvature = Curvature::Full;
         }
+        (self.x, self.tension) = (trial.x, trial.tension);
+        self.problem.accept(&mut self.x);
     }
 
-    /// Inertia of the full Hessian at the converged state.
-    fn certify(&mut self) -> Result<(usize, f64), Failure> {
+    /// Negative eigenvalues of the full Hessian at the converged state.
+    fn certify(&mut self) -> Result<usize, Failure> {
         self.curvature = Curvature::Full;
         self.linearize();
-        let inertia = self.saddle.factor(self.problem.layout(), &self.at, self.problem.compliance(), 0.0)?;
-        Ok((inertia.negative, inertia.ratio))
+        Ok(self.saddle.inertia(self.problem.layout(), &self.at, self.problem.compliance())?.negative)
     }
 }
 
-/// Like `f64::max`, but a NaN wins.
-fn nan_max(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
+/// What is missing to `m = c t`.
+fn open(gaps: &[f64], tension: &[f64], compliance: &[f64]) -> Vec<f64> {
+    gaps.iter().zip(tension).zip(compliance).map(|((m, t), c)| c * t - m).collect()
 }

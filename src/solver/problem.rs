@@ -4,7 +4,7 @@
 //! its rest value) and compliances `c_r = 1/k_r >= 0`. A compliance of zero is the constraint `m_r(x) = 0`. The
 //! tension `t_r` of a measure is an unknown of its own, `m_r = c_r t_r`, so nothing is ever multiplied by `k_r`.
 
-use crate::numerics::sparse::{Cliques, Pattern, Rows, Slots, symmetric_product};
+use crate::numerics::sparse::{Cliques, Pattern, Rows, Slots};
 
 /// Which unknowns there are and which are coupled.
 #[derive(Clone, Debug)]
@@ -56,6 +56,8 @@ pub struct Linearization {
     pub jacobian: Vec<f64>,
     /// Soft Hessian plus the tension-weighted Hessians of the stiff measures, in the slots of the pattern.
     pub hessian: Vec<f64>,
+    /// Gauss-Newton part of the soft Hessian, the metric in which steps are held back.
+    pub metric: Vec<f64>,
     /// Largest force of a single element on a single unknown.
     pub largest_force: f64,
     pattern: Pattern,
@@ -73,6 +75,7 @@ impl Linearization {
             gaps: vec![0.0; layout.stiff.len()],
             jacobian: vec![0.0; layout.stiff.total()],
             hessian: vec![0.0; pattern.entries()],
+            metric: vec![0.0; pattern.entries()],
             largest_force: 0.0,
             soft: Slots::new(&pattern, &layout.soft),
             stiff: Slots::new(&pattern, &layout.stiff),
@@ -86,11 +89,22 @@ impl Linearization {
         self.largest_force = 0.0;
         self.gradient.fill(0.0);
         self.hessian.fill(0.0);
+        self.metric.fill(0.0);
     }
 
     /// Adds the lower triangle (row by row) of a soft element's Hessian.
     pub fn add_soft(&mut self, element: usize, block: &[f64]) {
         self.soft.add_block(element, block, &mut self.hessian);
+    }
+
+    /// Adds `weight g g^T` of a soft element to the metric.
+    pub fn add_metric(&mut self, element: usize, weight: f64, gradient: &[f64]) {
+        self.soft.add_outer(element, weight, gradient, &mut self.metric);
+    }
+
+    /// Completes the Hessian with the metric.
+    pub fn add_metric_to_hessian(&mut self) {
+        self.hessian.iter_mut().zip(&self.metric).for_each(|(h, m)| *h += m);
     }
 
     /// Adds the lower triangle (row by row) of a stiff measure's Hessian times its tension.
@@ -112,12 +126,6 @@ impl Linearization {
     /// The Jacobian of the stiff measures.
     pub fn rows<'a>(&'a self, layout: &'a Layout) -> Rows<'a> {
         Rows { cliques: &layout.stiff, values: &self.jacobian }
-    }
-
-    /// `y = (H + shift) x`.
-    pub fn hessian_product(&self, shift: f64, x: &[f64], y: &mut [f64]) {
-        symmetric_product(&self.pattern, &self.hessian, x, y);
-        y.iter_mut().zip(x).for_each(|(y, x)| *y += shift * x);
     }
 
     /// Unbalanced force `-(gradient + R^T t)` on every unknown.

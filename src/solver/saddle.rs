@@ -11,17 +11,34 @@
 
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{Factor, FactorError, Inertia};
-use crate::numerics::sparse::diagonal_slot;
+use crate::numerics::sparse::{diagonal_slot, symmetric_product};
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
 const GAMMA: f64 = 1e6;
+/// What of the identity is added to the metric, over the largest entry of the Hessian.
+const LEAST_METRIC: f64 = 1e-10;
+
+/// Corrections go on while each makes the residual at least this much smaller.
+const SLOWEST: f64 = 0.7;
+/// Eigenvalues this much smaller than the largest entry of `S` count as zero.
+const NEUTRAL: f64 = 1e-14;
+
+/// A solution of the system.
+pub struct Solved {
+    /// Unknowns.
+    pub dx: Vec<f64>,
+    /// Tensions.
+    pub dt: Vec<f64>,
+    /// Relative residual reached: the larger one of the two block rows.
+    pub residual: f64,
+}
 
 /// A factorization of `S` and what is needed to solve with it.
 pub struct Saddle {
     factor: Factor,
+    shifted: Vec<f64>,
     values: Vec<f64>,
     weights: Vec<f64>,
-    shift: f64,
     /// Factorizations made.
     pub factorizations: usize,
     /// Solves with a factorization made.
@@ -34,18 +51,12 @@ impl Saddle {
         let pattern = linearization.pattern();
         let factor = Factor::new(pattern, &layout.node, &[&layout.soft, &layout.stiff])?;
         let values = vec![0.0; pattern.entries()];
+        let shifted = values.clone();
         let weights = vec![0.0; layout.stiff.len()];
-        Ok(Self { factor, values, weights, shift: 0.0, factorizations: 0, solves: 0 })
+        Ok(Self { factor, shifted, values, weights, factorizations: 0, solves: 0 })
     }
 
-    /// Size of the Hessian's diagonal, the unit in which shifts and weights are chosen.
-    pub fn scale(linearization: &Linearization) -> f64 {
-        let pattern = linearization.pattern();
-        let diagonal = (0..pattern.size()).map(|k| linearization.hessian[diagonal_slot(pattern, k)].abs());
-        diagonal.fold(0.0, f64::max)
-    }
-
-    /// Factors `S` with this shift.
+    /// Factors `S` with `shift` times the metric added to the Hessian.
     pub fn factor(
         &mut self,
         layout: &Layout,
@@ -53,22 +64,40 @@ impl Saddle {
         compliance: &[f64],
         shift: f64,
     ) -> Result<Inertia, FactorError> {
-        let pattern = at.pattern();
-        self.shift = shift;
-        self.values.copy_from_slice(&at.hessian);
-        for k in 0..pattern.size() {
-            self.values[diagonal_slot(pattern, k)] += shift;
+        self.fill(layout, at, compliance, shift);
+        self.factorizations += 1;
+        self.factor.factor(at.pattern(), &self.values)
+    }
+
+    /// Inertia of `S`, with eigenvalues that are zero to rounding error counted as positive.
+    pub fn inertia(
+        &mut self,
+        layout: &Layout,
+        at: &Linearization,
+        compliance: &[f64],
+    ) -> Result<Inertia, FactorError> {
+        self.fill(layout, at, compliance, 0.0);
+        let neutral = NEUTRAL * largest_diagonal(at, &self.values);
+        add_to_diagonal(at, &mut self.values, neutral);
+        self.factorizations += 1;
+        self.factor.factor(at.pattern(), &self.values)
+    }
+
+    fn fill(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64], shift: f64) {
+        let scale = largest_diagonal(at, &at.hessian);
+        let unit = if scale > 0.0 { scale } else { 1.0 };
+        self.shifted.copy_from_slice(&at.hessian);
+        if shift > 0.0 {
+            self.shifted.iter_mut().zip(&at.metric).for_each(|(v, m)| *v += shift * m);
+            add_to_diagonal(at, &mut self.shifted, shift * LEAST_METRIC * unit);
         }
-        let scale = Self::scale(at);
+        self.values.copy_from_slice(&self.shifted);
         for (row, &c) in compliance.iter().enumerate() {
             let gradient = &at.jacobian[layout.stiff.range(row)];
             let largest = gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-            let gamma = GAMMA * if scale > 0.0 { scale } else { 1.0 } / (largest * largest);
-            self.weights[row] = gamma.min(1.0 / c);
+            self.weights[row] = f64::min(GAMMA * unit / (largest * largest), 1.0 / c);
             at.add_outer(layout, row, self.weights[row], &mut self.values);
         }
-        self.factorizations += 1;
-        self.factor.factor(pattern, &self.values)
     }
 
     /// Solves with `-1/w` in the place of `-C`.
@@ -93,18 +122,16 @@ impl Saddle {
         compliance: &[f64],
         (a, b): (&[f64], &[f64]),
         tolerance: f64,
-    ) -> (Vec<f64>, Vec<f64>, f64) {
+    ) -> Solved {
         let (mut dx, mut dt) = self.apply(layout, at, a, b);
-        let start = norm(a).max(f64::MIN_POSITIVE);
-        let start_b = norm(b).max(f64::MIN_POSITIVE);
         let mut last = f64::INFINITY;
         loop {
             let (ra, rb) = self.residual(layout, at, compliance, (a, b), (&dx, &dt));
-            let size = (norm(&ra) / start).max(norm(&rb) / start_b);
-            if size <= tolerance || !(size < 0.7 * last) {
-                return (dx, dt, size);
+            let residual = f64::max(norm(&ra) / norm(a).max(f64::MIN_POSITIVE), norm(&rb) / norm(b).max(f64::MIN_POSITIVE));
+            if residual <= tolerance || !(residual < SLOWEST * last) {
+                return Solved { dx, dt, residual };
             }
-            last = size;
+            last = residual;
             let (ddx, ddt) = self.apply(layout, at, &ra, &rb);
             dx.iter_mut().zip(&ddx).for_each(|(x, d)| *x += d);
             dt.iter_mut().zip(&ddt).for_each(|(t, d)| *t += d);
@@ -121,7 +148,7 @@ impl Saddle {
     ) -> (Vec<f64>, Vec<f64>) {
         let rows = at.rows(layout);
         let (mut ra, mut rb) = (vec![0.0; a.len()], vec![0.0; b.len()]);
-        at.hessian_product(self.shift, dx, &mut ra);
+        symmetric_product(at.pattern(), &self.shifted, dx, &mut ra);
         rows.add_transpose_product(dt, &mut ra);
         ra.iter_mut().zip(a).for_each(|(r, a)| *r = a - *r);
         rows.product(dx, &mut rb);
@@ -130,6 +157,16 @@ impl Saddle {
         }
         (ra, rb)
     }
+}
+
+fn largest_diagonal(at: &Linearization, values: &[f64]) -> f64 {
+    let pattern = at.pattern();
+    (0..pattern.size()).map(|k| values[diagonal_slot(pattern, k)].abs()).fold(0.0, f64::max)
+}
+
+fn add_to_diagonal(at: &Linearization, values: &mut [f64], amount: f64) {
+    let pattern = at.pattern();
+    (0..pattern.size()).for_each(|k| values[diagonal_slot(pattern, k)] += amount);
 }
 
 fn norm(v: &[f64]) -> f64 {

@@ -1,0 +1,129 @@
+//! A state of a model, edge by edge and as a cylinder.
+
+use crate::math::Vec3;
+use crate::model::{Domain, Elements, Model};
+use crate::solver::Problem;
+
+/// What an equilibrium, or any other state, looks like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// All coordinates in the domain's frame, shared ones last.
+    pub coordinates: Vec<f64>,
+    /// Energy of the bars.
+    pub energy_bars: f64,
+    /// Energy of the creases.
+    pub energy_creases: f64,
+    /// Energy of the facets.
+    pub energy_facets: f64,
+    /// Fold angle of every edge that has a hinge in the model, in radians, continued through pi; else NaN.
+    pub fold_angle: Vec<f64>,
+    /// Rest angle of the same hinges; NaN where there is none.
+    pub rest_angle: Vec<f64>,
+    /// Strain of every bar; NaN where there is none.
+    pub strain: Vec<f64>,
+    /// Energy of every edge, bar and hinge together.
+    pub energy: Vec<f64>,
+}
+
+impl State {
+    /// Reads off a state of `edges` edges. Stiff measures have the energy of their tensions, without cancellation.
+    pub fn new(model: &Model, x: &[f64], tension: &[f64], edges: usize) -> Self {
+        let coordinates = model.coordinates(x);
+        let mut state = Self {
+            energy_bars: 0.0,
+            energy_creases: 0.0,
+            energy_facets: 0.0,
+            fold_angle: vec![f64::NAN; edges],
+            rest_angle: vec![f64::NAN; edges],
+            strain: vec![f64::NAN; edges],
+            energy: vec![0.0; edges],
+            coordinates,
+        };
+        for term in model.soft() {
+            for k in 0..term.len() {
+                let spring = term.spring(k);
+                let off = term.value(k, model.domain(), &state.coordinates) - spring.rest;
+                state.add(model, term.as_ref(), k, 0.5 * spring.stiffness * off * off);
+            }
+        }
+        let mut row = 0;
+        for term in model.stiff() {
+            for k in 0..term.len() {
+                state.add(model, term.as_ref(), k, 0.5 * model.compliance()[row] * tension[row] * tension[row]);
+                row += 1;
+            }
+        }
+        state
+    }
+
+    fn add(&mut self, model: &Model, term: &dyn Elements, k: usize, energy: f64) {
+        let (edge, spring) = (term.edge(k), term.spring(k));
+        let value = term.value(k, model.domain(), &self.coordinates);
+        if term.is_angle() {
+            (self.fold_angle[edge], self.rest_angle[edge]) = (value, spring.rest);
+        } else {
+            self.strain[edge] = value / spring.rest - 1.0;
+        }
+        self.energy[edge] += energy;
+        match term.name() {
+            "bars" => self.energy_bars += energy,
+            "creases" => self.energy_creases += energy,
+            "facets" => self.energy_facets += energy,
+            _ => {}
+        }
+    }
+
+    /// Energy of all terms.
+    pub fn total(&self) -> f64 {
+        self.energy_bars + self.energy_creases + self.energy_facets
+    }
+}
+
+/// A sheet periodic up to screw motions, as seen from vertex 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cylinder {
+    /// Signed curvature, 1/(distance of vertex 0 from the axis): positive when the axis lies on the side of the normals.
+    pub curvature: f64,
+    /// Rotation angles of the two lattice rotations about their common axis, in radians. The axis is directed so that
+    /// the larger of the two in magnitude is positive.
+    pub theta: [f64; 2],
+    /// Strain `a^-T g a^-1 - I` of the chords from vertex 0 to its copies: components 11, 22, 12.
+    pub strain: [f64; 3],
+}
+
+/// The cylinder of a periodic state; `None` on a patch. `drawn` are the coordinates of the drawn state.
+pub fn cylinder(domain: &Domain, drawn: &[f64], x: &[f64]) -> Option<Cylinder> {
+    let chords = chords(domain, x)?;
+    let (curvature, theta) = match domain {
+        Domain::Screw => {
+            let shared = &x[x.len() - 5..];
+            let (kappa, theta) = (shared[0], [shared[0] * shared[1], shared[0] * shared[2]]);
+            let larger = if theta[0].abs() >= theta[1].abs() { theta[0] } else { theta[1] };
+            let sign = if larger < 0.0 { -1.0 } else { 1.0 };
+            (kappa / (1.0 - kappa * x[2]), theta.map(|t| t * sign))
+        }
+        _ => (0.0, [0.0; 2]),
+    };
+    Some(Cylinder { curvature, theta, strain: strain(self::chords(domain, drawn)?, chords) })
+}
+
+/// Chords from vertex 0 to its copies in the next cells.
+fn chords(domain: &Domain, x: &[f64]) -> Option<[Vec3; 2]> {
+    if matches!(domain, Domain::Patch) {
+        return None;
+    }
+    let site = |shift| crate::model::Site { vertex: 0, shift };
+    let origin = domain.point(x, site([0, 0]));
+    Some([[1, 0], [0, 1]].map(|shift| domain.point(x, site(shift)) - origin))
+}
+
+fn strain(drawn: [Vec3; 2], now: [Vec3; 2]) -> [f64; 3] {
+    let metric = |l: [Vec3; 2]| nalgebra::Matrix2::new(l[0].dot(&l[0]), l[0].dot(&l[1]), l[1].dot(&l[0]), l[1].dot(&l[1]));
+    let g = metric(drawn);
+    let a11 = g[(0, 0)].sqrt();
+    let a12 = g[(0, 1)] / a11;
+    let a22 = (g[(1, 1)] - a12 * a12).sqrt();
+    let inverse = nalgebra::Matrix2::new(1.0 / a11, -a12 / (a11 * a22), 0.0, 1.0 / a22);
+    let e = inverse.transpose() * metric(now) * inverse;
+    [e[(0, 0)] - 1.0, e[(1, 1)] - 1.0, e[(0, 1)]]
+}

@@ -1,0 +1,202 @@
+//! From a sheet and the stiffnesses of its parts to a model: the only place that decides what is built.
+//!
+//! A term that nothing asks for is not built. Bars always carry tensions. A hinge term carries tensions too when it is
+//! rigid, or so much stiffer than the softest term that its forces would drown in its own rounding error.
+
+use super::domain::Domain;
+use super::measure::{FoldAngle, Length};
+use super::problem::{Model, Parts};
+use super::term::{Element, Elements, Spring, Term};
+use crate::math::{Vec3, fold_angle::fold_angle};
+use crate::sheet::tiling::{Site, Tiling};
+use crate::sheet::{EdgeKind, Sheet};
+use nalgebra::Matrix3;
+
+/// Hinges stiffer than this times the softest term carry tensions.
+const STIFF_RATIO: f64 = 1e4;
+
+/// What surrounds the cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surroundings {
+    /// Free edges.
+    Patch,
+    /// Periodic, lattice as drawn.
+    FixedTorus,
+    /// Periodic, lattice free.
+    FreeTorus,
+    /// One cell, moved by screw motions.
+    Screw,
+}
+
+/// Hinges of one kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hinges {
+    /// Torque per radian and unit length; infinite: rigid.
+    pub stiffness: f64,
+    /// Rest angle of every edge of the tiling, in radians; read where there is a hinge of this kind.
+    pub rest: Vec<f64>,
+}
+
+/// What the sheet is made of and what acts on it. Everything absent is not built.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recipe {
+    /// Stiffness `EA` of all bars; infinite: rigid.
+    pub bars: Option<f64>,
+    /// Creases.
+    pub creases: Option<Hinges>,
+    /// Diagonals of polygons.
+    pub facets: Option<Hinges>,
+    /// Edges of the tiling whose fold angle is kept, and that angle.
+    pub locks: Vec<(usize, f64)>,
+    /// Vertices of the tiling and the axes (x, y, z) that are held.
+    pub pins: Vec<(usize, [bool; 3])>,
+    /// Vertices of the tiling and the forces on them.
+    pub loads: Vec<(usize, Vec3)>,
+}
+
+/// The drawn state in the coordinates of its domain.
+pub struct Drawn {
+    /// Where points come from.
+    pub domain: Domain,
+    /// All coordinates.
+    pub coordinates: Vec<f64>,
+    /// Coordinates that the domain itself holds: vertex 0 of a screw.
+    pub held: Vec<usize>,
+    /// Rotation from the file's frame to the domain's, about vertex 0 where it is not the identity.
+    pub frame: Matrix3<f64>,
+}
+
+impl Drawn {
+    /// Coordinates of the drawn tiling. A sheet without lattice must be a patch.
+    pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings) -> Self {
+        let flat = |points: &[Vec3]| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
+        let lattice = sheet.lattice.map(|[l1, l2]| [l1 * tiling.cells[0] as f64, l2 * tiling.cells[1] as f64]);
+        let frame = Matrix3::identity();
+        let (domain, coordinates) = match (surroundings, lattice) {
+            (Surroundings::FixedTorus, Some(lattice)) => (Domain::FixedTorus(lattice), flat(&tiling.positions)),
+            (Surroundings::FreeTorus, Some(lattice)) => {
+                (Domain::FreeTorus, [flat(&tiling.positions), flat(&lattice)].concat())
+            }
+            (Surroundings::Screw, Some(lattice)) => return Self::screw(sheet, lattice),
+            _ => (Domain::Patch, flat(&tiling.positions)),
+        };
+        Self { domain, coordinates, held: vec![], frame }
+    }
+
+    /// Vertex 0 at the origin, first lattice vector along x, face normals along +z, no curvature.
+    fn screw(sheet: &Sheet, [l1, l2]: [Vec3; 2]) -> Self {
+        let x = l1.normalize();
+        let across = l1.cross(&l2);
+        let z = if across.dot(&area_vector(sheet)) < 0.0 { -across.normalize() } else { across.normalize() };
+        let frame = Matrix3::from_rows(&[x.transpose(), z.cross(&x).transpose(), z.transpose()]);
+        let origin = sheet.vertices[0];
+        let mut coordinates: Vec<f64> =
+            sheet.vertices.iter().flat_map(|p| <[f64; 3]>::from(frame * (p - origin))).collect();
+        let (l1, l2) = (frame * l1, frame * l2);
+        coordinates.extend([0.0, l1.y, l2.y, l1.x, l2.x]);
+        Self { domain: Domain::Screw, coordinates, held: vec![0, 1, 2], frame }
+    }
+}
+
+/// Sum of the area vectors of the triangles: points to the side of the face normals.
+fn area_vector(sheet: &Sheet) -> Vec3 {
+    let area = |corners: [crate::sheet::Corner; 3]| {
+        let [a, b, c] = corners.map(|corner| sheet.position(corner));
+        (b - a).cross(&(c - a))
+    };
+    sheet.triangles.iter().map(|t| area(t.corners)).sum()
+}
+
+/// Builds the model of a tiling. Hinges of a kind for which the recipe has nothing are not built.
+pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe) -> Model {
+    let (mut soft, mut stiff): (Vec<Box<dyn Elements>>, Vec<Box<dyn Elements>>) = (vec![], vec![]);
+    let mean_edge = mean_edge(drawn, tiling);
+    if let Some(stiffness) = recipe.bars {
+        stiff.push(Box::new(bars(drawn, tiling, stiffness)));
+    }
+    let given = [recipe.creases.as_ref().map(|h| h.stiffness), recipe.facets.as_ref().map(|h| h.stiffness), recipe.bars];
+    let softest = given.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    for (name, kind, hinges) in
+        [("creases", EdgeKind::Crease, &recipe.creases), ("facets", EdgeKind::Facet, &recipe.facets)]
+    {
+        let Some(hinges) = hinges else { continue };
+        let term = Box::new(hinge_term(name, drawn, tiling, |edge| tiling.edges[edge].kind == kind, hinges));
+        let list = if hinges.stiffness > STIFF_RATIO * softest || hinges.stiffness.is_infinite() {
+            &mut stiff
+        } else {
+            &mut soft
+        };
+        if !term.is_empty() {
+            list.push(term);
+        }
+    }
+    if !recipe.locks.is_empty() {
+        let mut rest = vec![f64::NAN; tiling.edges.len()];
+        recipe.locks.iter().for_each(|&(edge, angle)| rest[edge] = angle);
+        let locked: Vec<bool> = rest.iter().map(|angle| !angle.is_nan()).collect();
+        let rigid = Hinges { stiffness: f64::INFINITY, rest };
+        stiff.push(Box::new(hinge_term("locks", drawn, tiling, |edge| locked[edge], &rigid)));
+    }
+    let pins = recipe.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
+    let mut loads = Vec::new();
+    if !recipe.loads.is_empty() {
+        loads = vec![0.0; drawn.coordinates.len()];
+        recipe.loads.iter().for_each(|(v, f)| (0..3).for_each(|axis| loads[3 * v + axis] += f[axis]));
+    }
+    Model::new(Parts {
+        domain: drawn.domain.clone(),
+        drawn: drawn.coordinates.clone(),
+        soft,
+        stiff,
+        pinned: drawn.held.iter().copied().chain(pins).collect(),
+        loads,
+        mean_edge,
+    })
+}
+
+fn mean_edge(drawn: &Drawn, tiling: &Tiling) -> f64 {
+    let total: f64 = tiling.edges.iter().map(|e| length(drawn, &e.ends)).sum();
+    total / tiling.edges.len() as f64
+}
+
+fn length(drawn: &Drawn, ends: &[Site; 2]) -> f64 {
+    let [a, b] = drawn.domain.points(&drawn.coordinates, ends);
+    (b - a).norm()
+}
+
+fn bars(drawn: &Drawn, tiling: &Tiling, stiffness: f64) -> Term<Length, 2, 6> {
+    let element = |(edge, tiled): (usize, &crate::sheet::tiling::TiledEdge)| {
+        let rest = length(drawn, &tiled.ends);
+        Element { sites: tiled.ends, spring: Spring { stiffness: stiffness / rest, rest }, edge }
+    };
+    let elements = tiling.edges.iter().enumerate().map(element).collect();
+    Term::new("bars", elements, &drawn.domain, &drawn.coordinates)
+}
+
+/// The sites of the hinge over an edge; `None` where a face is missing.
+pub fn hinge(tiling: &Tiling, edge: usize) -> Option<[Site; 4]> {
+    let tiled = &tiling.edges[edge];
+    Some([tiled.ends[0], tiled.ends[1], tiled.wings[0]?, tiled.wings[1]?])
+}
+
+/// Drawn fold angle of every edge of the tiling, in radians; NaN where there is no hinge.
+pub fn drawn_angles(drawn: &Drawn, tiling: &Tiling) -> Vec<f64> {
+    let angle = |edge| hinge(tiling, edge).map(|sites| fold_angle(drawn.domain.points(&drawn.coordinates, &sites)));
+    (0..tiling.edges.len()).map(|edge| angle(edge).unwrap_or(f64::NAN)).collect()
+}
+
+fn hinge_term(
+    name: &'static str,
+    drawn: &Drawn,
+    tiling: &Tiling,
+    wanted: impl Fn(usize) -> bool,
+    hinges: &Hinges,
+) -> Term<FoldAngle, 4, 12> {
+    let element = |edge: usize| {
+        let sites = hinge(tiling, edge)?;
+        let spring = Spring { stiffness: hinges.stiffness * length(drawn, &tiling.edges[edge].ends), rest: hinges.rest[edge] };
+        Some(Element { sites, spring, edge })
+    };
+    let elements = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(element).collect();
+    Term::new(name, elements, &drawn.domain, &drawn.coordinates)
+}

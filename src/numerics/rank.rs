@@ -1,0 +1,71 @@
+//! Rank of a sparse matrix by counting: Sylvester's law instead of singular values.
+//!
+//! The symmetric matrix `[[0, R^T], [R, 0]]` has the eigenvalues `+sigma` and `-sigma` for every singular value of `R`
+//! and zeros besides. Shifted by `-tau` it has as many positive eigenvalues as `R` has singular values above `tau`,
+//! and an `L D L^T` factorization counts them.
+
+use super::factor::{Factor, FactorError};
+use super::sparse::{Cliques, Pattern, Rows, Slots};
+
+/// Number of singular values of `rows` (a matrix of `columns` columns) above `tau`, a fraction of the largest entry.
+pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> Result<usize, FactorError> {
+    let count = rows.cliques.len();
+    let size = columns + count;
+    let mut cliques = Cliques::new();
+    for (row, members) in rows.cliques.iter().enumerate() {
+        cliques.push(members.iter().copied().chain([(columns + row) as u32]));
+    }
+    let blocks = node.iter().max().map_or(0, |last| last + 1);
+    let node: Vec<u32> = node.iter().copied().chain((0..count as u32).map(|row| blocks + row)).collect();
+    let pattern = Pattern::new(size, &[&cliques]);
+    let slots = Slots::new(&pattern, &cliques);
+    let scale = rows.values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    if scale == 0.0 {
+        return Ok(0);
+    }
+    let mut values = vec![0.0; pattern.entries()];
+    for column in 0..size {
+        values[super::sparse::diagonal_slot(&pattern, column)] = -tau * scale;
+    }
+    for row in 0..count {
+        let gradient = &rows.values[rows.cliques.range(row)];
+        let width = gradient.len();
+        let mut block = vec![0.0; (width + 1) * (width + 2) / 2];
+        block[width * (width + 1) / 2..][..width].copy_from_slice(gradient);
+        slots.add_block(row, &block, &mut values);
+    }
+    let mut factor = Factor::new(&pattern, &node, &[&cliques])?;
+    let inertia = factor.factor(&pattern, &values)?;
+    Ok(size - inertia.negative)
+}
+
+/// The part of `t` that is not a self stress: the shortest vector with the same `R^T t`.
+///
+/// `R^T R y = R^T t` is solved by corrections with a factorization of `R^T R` regularised by 1e-10 of its size, so
+/// that zero modes of `R` do no harm; then `R y` is the answer.
+pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) -> Result<Vec<f64>, FactorError> {
+    let pattern = Pattern::new(columns, &[rows.cliques]);
+    let slots = Slots::new(&pattern, rows.cliques);
+    let mut values = vec![0.0; pattern.entries()];
+    for row in 0..rows.cliques.len() {
+        slots.add_outer(row, 1.0, &rows.values[rows.cliques.range(row)], &mut values);
+    }
+    let scale = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    for column in 0..columns {
+        values[super::sparse::diagonal_slot(&pattern, column)] += 1e-10 * scale;
+    }
+    let mut factor = Factor::new(&pattern, node, &[rows.cliques])?;
+    factor.factor(&pattern, &values)?;
+    let (mut out, mut open) = (vec![0.0; t.len()], t.to_vec());
+    for _ in 0..8 {
+        let mut y = vec![0.0; columns];
+        rows.add_transpose_product(&open, &mut y);
+        factor.solve(&mut y);
+        let mut part = vec![0.0; t.len()];
+        rows.product(&y, &mut part);
+        out.iter_mut().zip(&part).for_each(|(o, p)| *o += p);
+        open.iter_mut().zip(&part).for_each(|(o, p)| *o -= p);
+    }
+    Ok(out)
+}
+

@@ -1,0 +1,172 @@
+//! `n1 x n2` cells of a sheet, as a patch with free edges or as a torus.
+
+use super::cell::{Corner, EdgeKey, EdgeKind, Sheet, TriangleSide};
+use crate::math::Vec3;
+
+/// A vertex of a [`Tiling`] and the copy of it that is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Site {
+    /// Number in [`Tiling::positions`].
+    pub vertex: usize,
+    /// Copy, in superlattice vectors `(n1 l1, n2 l2)`; always `[0, 0]` on a patch.
+    pub shift: [i32; 2],
+}
+
+/// An edge of a [`Tiling`]: bar, and hinge where it has both wings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TiledEdge {
+    /// The edge of the cell of which it is a copy.
+    pub edge: usize,
+    /// Cell of its first vertex.
+    pub cell: [usize; 2],
+    /// As in the cell, but a crease that lacks a wing here is a boundary. A diagonal always has both.
+    pub kind: EdgeKind,
+    /// Its ends `i`, `j`.
+    pub ends: [Site; 2],
+    /// Opposite vertices of the left and of the right triangle, where these exist.
+    pub wings: [Option<Site>; 2],
+}
+
+/// A triangle of a [`Tiling`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TiledTriangle {
+    /// The triangle of the cell of which it is a copy.
+    pub triangle: usize,
+    /// Cells by which it was moved from where the sheet has it: the first corner of its polygon is then in the patch.
+    pub cell: [i32; 2],
+    /// Its corners, counter-clockwise.
+    pub corners: [Site; 3],
+}
+
+/// `n1 x n2` cells of a sheet.
+///
+/// **Patch**: exactly `n1 n2 Nv` vertices and no copies; an edge exists when both its vertices do; a polygon exists when all
+/// its vertices do, and its diagonals and triangles with it; a wing exists when its polygon does. **Torus**: everything
+/// exists, and vertices beyond the last cell are copies, shifted by superlattice vectors. A finite sheet is the patch of
+/// one cell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tiling {
+    /// `[n1, n2]`.
+    pub cells: [usize; 2],
+    /// A torus, not a patch.
+    pub periodic: bool,
+    /// Drawn positions; vertex `v` of cell `(c1, c2)` has number `(c2 n1 + c1) Nv + v`.
+    pub positions: Vec<Vec3>,
+    /// Edges, cell by cell (`c1` runs faster), in each cell in the order of the sheet.
+    pub edges: Vec<TiledEdge>,
+    /// Triangles, cell by cell in the same way.
+    pub triangles: Vec<TiledTriangle>,
+}
+
+/// The `cells[0] x cells[1]` cells of `sheet`, joined to a torus when `periodic`. A sheet without lattice is one cell and
+/// not periodic, whatever is asked.
+pub fn tile(sheet: &Sheet, cells: [usize; 2], periodic: bool) -> Tiling {
+    let finite = sheet.lattice.is_none();
+    let grid = Grid {
+        cells: if finite { [1, 1] } else { cells },
+        periodic: periodic && !finite,
+        vertices: sheet.vertices.len(),
+    };
+    let (edges, triangles) = if grid.cells.contains(&0) { Default::default() } else { grid.elements(sheet) };
+    Tiling { cells: grid.cells, periodic: grid.periodic, positions: grid.positions(sheet), edges, triangles }
+}
+
+/// The polygon on one side of an edge, seen from the edge's first vertex.
+struct Flank {
+    polygon: usize,
+    /// Cell of the polygon's frame when the first vertex is in cell (0, 0).
+    frame: [i32; 2],
+    opposite: Corner,
+}
+
+struct Grid {
+    cells: [usize; 2],
+    periodic: bool,
+    vertices: usize,
+}
+
+impl Grid {
+    fn positions(&self, sheet: &Sheet) -> Vec<Vec3> {
+        let mut positions = Vec::with_capacity(self.cells[0] * self.cells[1] * self.vertices);
+        for cell in self.all_cells() {
+            positions.extend((0..self.vertices).map(|vertex| sheet.position(Corner { vertex, shift: cell })));
+        }
+        positions
+    }
+
+    fn all_cells(&self) -> impl Iterator<Item = [i32; 2]> + use<> {
+        let [n1, n2] = self.cells.map(|n| n as i32);
+        (0..n2).flat_map(move |c2| (0..n1).map(move |c1| [c1, c2]))
+    }
+
+    /// Where a corner stands when its frame is moved by `cell`; `None` outside of a patch.
+    fn site(&self, corner: Corner, cell: [i32; 2]) -> Option<Site> {
+        let at = corner.translated(cell).shift;
+        let n = self.cells.map(|n| n as i32);
+        let [in1, in2] = [0, 1].map(|k| at[k].rem_euclid(n[k]) as usize);
+        let shift = [0, 1].map(|k| at[k].div_euclid(n[k]));
+        let site = Site { vertex: (in2 * self.cells[0] + in1) * self.vertices + corner.vertex, shift };
+        (self.periodic || shift == [0, 0]).then_some(site)
+    }
+
+    fn exists(&self, polygon: &[Corner], cell: [i32; 2]) -> bool {
+        self.periodic || polygon.iter().all(|&c| self.site(c, cell).is_some())
+    }
+
+    fn elements(&self, sheet: &Sheet) -> (Vec<TiledEdge>, Vec<TiledTriangle>) {
+        let flanks = flanks(sheet);
+        let edges = self.all_cells().flat_map(|cell| {
+            let numbered = sheet.edges.iter().zip(&flanks).enumerate();
+            numbered.filter_map(move |(e, (edge, flank))| self.edge(sheet, e, (edge.key, edge.kind), flank, cell))
+        });
+        let edges = edges.collect();
+        let triangles = self.all_cells().flat_map(|cell| {
+            let moved = sheet.triangles.iter().enumerate().map(move |(triangle, t)| {
+                let first = sheet.polygons[t.polygon][0].shift;
+                (triangle, t, [cell[0] - first[0], cell[1] - first[1]])
+            });
+            let there = moved.filter(|(_, t, frame)| self.exists(&sheet.polygons[t.polygon], *frame));
+            there.filter_map(|(triangle, t, cell)| {
+                let [a, b, c] = t.corners.map(|corner| self.site(corner, cell));
+                Some(TiledTriangle { triangle, cell, corners: [a?, b?, c?] })
+            })
+        });
+        (edges, triangles.collect())
+    }
+
+    fn edge(
+        &self,
+        sheet: &Sheet,
+        edge: usize,
+        (key, kind): (EdgeKey, EdgeKind),
+        flanks: &[Option<Flank>; 2],
+        cell: [i32; 2],
+    ) -> Option<TiledEdge> {
+        let [i, j] = key.ends().map(|end| self.site(end, cell));
+        let wings = [0, 1].map(|side| {
+            let flank = flanks[side].as_ref()?;
+            let frame = [cell[0] + flank.frame[0], cell[1] + flank.frame[1]];
+            let exists = self.exists(&sheet.polygons[flank.polygon], frame);
+            if exists { self.site(flank.opposite, cell) } else { None }
+        });
+        let kind = match (kind, wings) {
+            (EdgeKind::Facet, [Some(_), Some(_)]) => EdgeKind::Facet,
+            (EdgeKind::Facet, _) => return None,
+            (EdgeKind::Crease, [Some(_), Some(_)]) => EdgeKind::Crease,
+            _ => EdgeKind::Boundary,
+        };
+        Some(TiledEdge { edge, cell: cell.map(|c| c as usize), kind, ends: [i?, j?], wings })
+    }
+}
+
+fn flanks(sheet: &Sheet) -> Vec<[Option<Flank>; 2]> {
+    let numbers: std::collections::BTreeMap<_, _> = sheet.edges.iter().enumerate().map(|(e, x)| (x.key, e)).collect();
+    let mut flanks: Vec<[Option<Flank>; 2]> = sheet.edges.iter().map(|_| [None, None]).collect();
+    for triangle in &sheet.triangles {
+        for TriangleSide { key, side, base, opposite } in triangle.sides() {
+            let frame = [-base.shift[0], -base.shift[1]];
+            flanks[numbers[&key]][side] = Some(Flank { polygon: triangle.polygon, frame, opposite });
+        }
+    }
+    flanks
+}

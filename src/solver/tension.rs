@@ -1,0 +1,52 @@
+//! Tensions of a converged state: least norm where they are not unique, and the residuals that hold with them.
+
+use super::problem::{Curvature, Linearization, Problem};
+use crate::numerics::rank;
+
+/// Singular values of the stiff Jacobian below this, relative to its largest entry, count as zero.
+const NULL: f64 = 1e-6;
+
+/// A converged state's tensions.
+#[derive(Clone, Debug)]
+pub struct Settled {
+    /// Tensions, without self stress where rigid measures leave one free.
+    pub tension: Vec<f64>,
+    /// Self stresses of the rigid measures; `None` where no measure is rigid or they could not be counted.
+    pub self_stresses: Option<usize>,
+    /// Largest unbalanced force over the largest force of an element.
+    pub residual_force: f64,
+    /// Largest scaled gap.
+    pub residual_length: f64,
+}
+
+/// Takes self stresses out of the tensions of a state at which all or some measures are rigid.
+pub fn settle<P: Problem>(problem: &P, x: &[f64], tension: &[f64]) -> Settled {
+    let layout = problem.layout();
+    let mut at = Linearization::new(layout);
+    problem.linearize(x, tension, Curvature::GaussNewton, &mut at);
+    let rigid = problem.compliance().contains(&0.0);
+    let rows = at.rows(layout);
+    let count = || rank::count_above(&rows, layout.unknowns, &layout.node, NULL).ok();
+    let self_stresses = if rigid { count().map(|rank| tension.len() - rank) } else { None };
+    let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
+    let mut settled = tension.to_vec();
+    if all_rigid && self_stresses.is_some_and(|count| count > 0) {
+        settled = rank::without_null(&rows, layout.unknowns, &layout.node, tension).unwrap_or(settled);
+    }
+    let (residual_force, residual_length) = residuals(problem, &at, &settled);
+    Settled { tension: settled, self_stresses, residual_force, residual_length }
+}
+
+/// Scaled residuals of force and length.
+pub fn residuals<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> (f64, f64) {
+    let force = at.force(problem.layout(), tension);
+    let unbalanced = force.iter().fold(0.0f64, |m, f| nan_max(m, f.abs()));
+    let open = at.gaps.iter().zip(tension).zip(problem.compliance()).map(|((m, t), c)| m - c * t);
+    let gap = open.zip(problem.gap_scale()).fold(0.0, |m, (o, s)| nan_max(m, o.abs() / s));
+    (if unbalanced == 0.0 { 0.0 } else { unbalanced / at.largest_force }, gap)
+}
+
+/// Like `f64::max`, but a NaN wins.
+pub(super) fn nan_max(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
