@@ -5,8 +5,6 @@ use crate::sheet::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 
-use super::closure::HingedEdge;
-
 /// Numbers of [-1, 1).
 pub fn random_numbers(seed: u64, count: usize) -> Vec<f64> {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
@@ -69,23 +67,19 @@ pub fn sheet(title: &str, vertices: Vec<Vec3>, lattice: Option<[Vec3; 2]>, faces
     let triangles: Vec<Triangle> =
         faces.iter().enumerate().map(|(polygon, &corners)| Triangle { corners, polygon }).collect();
     let mut edges: Vec<Edge> = Vec::new();
-    for corners in faces {
-        for k in 0..3 {
-            let [a, b, c] = [corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]];
-            let (key, reversed) = EdgeKey::new(a, b);
-            let back = if reversed { b.shift } else { a.shift }.map(|n| -n);
-            let number = edges.iter().position(|edge| edge.key == key).unwrap_or_else(|| {
-                edges.push(Edge { key, kind: EdgeKind::Boundary, wings: [None; 2] });
-                edges.len() - 1
-            });
-            edges[number].wings[usize::from(reversed)] = Some(c.translated(back));
-            if edges[number].wings.iter().all(Option::is_some) {
-                edges[number].kind = EdgeKind::Crease;
-            }
+    for side in triangles.iter().flat_map(Triangle::sides) {
+        let number = edges.iter().position(|edge| edge.key == side.key).unwrap_or_else(|| {
+            edges.push(Edge { key: side.key, kind: EdgeKind::Boundary, wings: [None; 2] });
+            edges.len() - 1
+        });
+        edges[number].wings[side.side] = Some(side.opposite);
+        if edges[number].wings.iter().all(Option::is_some) {
+            edges[number].kind = EdgeKind::Crease;
         }
     }
     let polygons = faces.iter().map(|face| face.to_vec()).collect();
-    Sheet { title: title.to_string(), vertices, lattice, polygons, triangles, edges, holes: Vec::new() }
+    let (title, description) = (title.to_string(), String::new());
+    Sheet { title, description, vertices, lattice, polygons, triangles, edges, holes: Vec::new() }
 }
 
 fn from_fold(text: &str) -> Sheet {
@@ -164,28 +158,4 @@ impl Reference {
         };
         loops.iter().map(ray).collect()
     }
-}
-
-/// `n` x `n` cells as one: their edges, the edge of the sheet that each is a copy of, and the large lattice.
-pub fn tile(sheet: &Sheet, n: i32) -> (Vec<HingedEdge>, Vec<usize>, [Vec3; 2]) {
-    let count = sheet.vertices.len();
-    let fold = |corner: Corner| {
-        let [c1, c2] = corner.shift.map(|c| c.rem_euclid(n) as usize);
-        Corner { vertex: corner.vertex + count * (c1 + n as usize * c2), shift: corner.shift.map(|c| c.div_euclid(n)) }
-    };
-    let (mut edges, mut cell_edge) = (Vec::new(), Vec::new());
-    for cell in (0..n).flat_map(|c2| (0..n).map(move |c1| [c1, c2])) {
-        for (number, edge) in sheet.edges.iter().enumerate() {
-            let moved = |corner: Corner| fold(corner.translated(cell));
-            edges.push(HingedEdge { ends: edge.key.ends().map(moved), wings: edge.wings.map(|wing| wing.map(moved)) });
-            cell_edge.push(number);
-        }
-    }
-    (edges, cell_edge, sheet.lattice.unwrap().map(|l| l * f64::from(n)))
-}
-
-/// Vertex of the sheet and cell of a vertex of [`tile`].
-pub fn unfold(vertex: usize, n: usize, count: usize) -> Corner {
-    let cell = vertex / count;
-    Corner { vertex: vertex % count, shift: [(cell % n) as i32, (cell / n) as i32] }
 }

@@ -3,7 +3,7 @@
 //! `phi(t)` is the integral of `e^{itu}` over `u` from 0 to 1, so that its real part is `sin(t)/t`, its imaginary part
 //! `(1 - cos t)/t`, and its derivatives are `i^d m_d` with the moments `m_d(t)`, the integral of `u^d e^{itu}`:
 //!
-//! - `|t|` at most [`SWITCH`]: the power series `m_d = sum over k of (it)^k / (k! (k + d + 1))`;
+//! - `|t|` at most 1.5: the power series `m_d = sum over k of (it)^k / (k! (k + d + 1))`;
 //! - beyond: integration by parts, `m_d = (e^{it} - d m_{d-1}) / (it)`.
 //!
 //! Both are good to some units in the last place at the switch, so that nothing jumps there.
