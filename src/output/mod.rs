@@ -1,1 +1,1 @@
-//! (to be written)
+//! What the user gets.
