@@ -1,7 +1,7 @@
 //! Tables of rest angles and of fold-angle rates: CSV, one row per edge.
 //!
-//! The header is `i,j,n1,n2,angle`, one row per crease of the cell, or `cell1,cell2,i,j,n1,n2,angle`, one row per crease
-//! of a patch; tables of rates have `rate` for the last column. Angles are radians.
+//! The header is `i,j,n1,n2,angle`, one row per crease of the cell, or `cell1,cell2,i,j,n1,n2,angle`, one row per
+//! crease of a patch; tables of rates have `rate` for the last column. Angles are radians.
 
 use std::collections::HashMap;
 use std::path::Path;

@@ -103,7 +103,8 @@ impl<'de> Deserialize<'de> for Rest {
             type Value = Rest;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"drawn\", \"flat\", an angle, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }")
+                f.write_str("\"drawn\", \"flat\", an angle, { mode = [k11, k22, k12], amplitude = e } ")?;
+                f.write_str("or { file = \"angles.csv\" }")
             }
 
             fn visit_str<E: Error>(self, word: &str) -> Result<Rest, E> {
