@@ -1,2 +1,11 @@
 //! The `foldwell` command.
-fn main() {}
+
+mod cli;
+mod parameters;
+mod progress;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::main()
+}

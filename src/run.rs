@@ -1,1 +1,193 @@
-//! (to be written)
+//! The pipeline: read a scene, build it, study it, write files.
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::output::OutputError;
+use crate::output::summary::{SheetInfo, Summary};
+use crate::scene::SceneError;
+
+/// How far a study is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// Name of the study.
+    pub study: String,
+    /// Steps taken.
+    pub step: usize,
+    /// Steps in all, where that is known.
+    pub of: Option<usize>,
+    /// The residual that has to become small.
+    pub residual: f64,
+}
+
+/// Whoever watches a run: called after every step, it says whether to go on.
+pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
+
+/// What the command line can change about a run.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RunOptions {
+    /// Folder for the files; `None`: the scene's name without its ending, in the current folder.
+    pub out: Option<PathBuf>,
+    /// Number of threads; `None`: as many as the machine has.
+    pub threads: Option<usize>,
+    /// Keep the studies that an interrupted run finished.
+    pub resume: bool,
+}
+
+/// What a run did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunReport {
+    /// What is in `summary.json`.
+    pub summary: Summary,
+    /// Where the files are.
+    pub out: PathBuf,
+    /// Whether the observer stopped it.
+    pub interrupted: bool,
+}
+
+/// What the command line can change about the validation.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ValidateOptions {
+    /// Leave out the claims that take long.
+    pub quick: bool,
+    /// Folder for the reports; `None`: `validation-report`.
+    pub out: Option<PathBuf>,
+}
+
+/// Why there is no answer.
+#[derive(Debug, Error, Diagnostic)]
+pub enum RunError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
+    /// A file could not be written or read.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A file of a kind that is not known.
+    #[error("{}: files ending in `{ending}` are not known here", path.display())]
+    #[diagnostic(help("expected one of {expected}"))]
+    Ending {
+        /// The file.
+        path: PathBuf,
+        /// Its ending.
+        ending: String,
+        /// The endings that are known.
+        expected: &'static str,
+    },
+    /// Something that a later version does.
+    #[error("{0} is not available in this version")]
+    NotAvailable(Feature),
+}
+
+/// What a later version does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// A command of the command line.
+    Command(&'static str),
+    /// A kind of study.
+    StudyKind(&'static str),
+}
+
+impl fmt::Display for Feature {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Command(name) => write!(f, "command `{name}`"),
+            Self::StudyKind(kind) => write!(f, "study kind `{kind}`"),
+        }
+    }
+}
+
+impl RunError {
+    /// The exit status of the program: 2 where the input is wrong, 3 where an existing place cannot be read or written.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Scene(SceneError::Read { source, .. }) | Self::Output(OutputError::Read { source, .. }) => {
+                if wrong_input(source) {
+                    2
+                } else {
+                    3
+                }
+            }
+            Self::Output(OutputError::Write { .. }) => 3,
+            Self::Scene(_) | Self::Output(_) | Self::Ending { .. } | Self::NotAvailable(_) => 2,
+        }
+    }
+}
+
+/// Whether a file could not be read because of what was named: nothing is there, or it is no text.
+fn wrong_input(error: &std::io::Error) -> bool {
+    use std::io::ErrorKind::{InvalidData, IsADirectory, NotADirectory, NotFound};
+    matches!(error.kind(), NotFound | InvalidData | IsADirectory | NotADirectory)
+}
+
+/// Reads a scene, computes its studies and writes their files.
+///
+/// # Errors
+/// [`RunError`] where nothing could be computed; a study that fails is part of the report instead.
+pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Result<RunReport, RunError> {
+    let file = crate::scene::read(scene)?;
+    let _ = (file, options, observer);
+    Err(RunError::NotAvailable(Feature::Command("run")))
+}
+
+/// Generates a pattern, `{ pattern = "miura", .. }`, and writes it as a FOLD file.
+///
+/// # Errors
+/// [`RunError`] where a parameter is wrong or the file cannot be written.
+pub fn new_mesh(generate: &toml::Table, out: &Path) -> Result<(), RunError> {
+    let _ = (generate, out);
+    Err(RunError::NotAvailable(Feature::Command("new")))
+}
+
+/// Counts and measures of the sheet of a mesh or a scene.
+///
+/// # Errors
+/// [`RunError`] where the file cannot be read or is wrong.
+pub fn info(mesh_or_scene: &Path) -> Result<SheetInfo, RunError> {
+    let _ = mesh_or_scene;
+    Err(RunError::NotAvailable(Feature::Command("info")))
+}
+
+/// Converts a mesh between FOLD, OBJ and VTU, by the endings of the names.
+///
+/// # Errors
+/// [`RunError`] where a file cannot be read, is wrong, has an unknown ending or cannot be written.
+pub fn convert(from: &Path, to: &Path) -> Result<(), RunError> {
+    let _ = (from, to);
+    Err(RunError::NotAvailable(Feature::Command("convert")))
+}
+
+/// Checks the claims of the validation; gives whether all passed.
+///
+/// # Errors
+/// [`RunError`] where the reports cannot be written.
+pub fn validate(options: &ValidateOptions, observer: Observer) -> Result<bool, RunError> {
+    let _ = (options, observer);
+    Err(RunError::NotAvailable(Feature::Command("validate")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io;
+
+    /// A file that is not there is wrong input (2); one that cannot be read, or written, is not the user's scene (3).
+    #[test]
+    fn exit_statuses() {
+        let read = |kind: io::ErrorKind| SceneError::Read { path: "a".into(), source: kind.into() };
+        assert_eq!(RunError::from(read(io::ErrorKind::NotFound)).exit_status(), 2);
+        assert_eq!(RunError::from(read(io::ErrorKind::PermissionDenied)).exit_status(), 3);
+        let write = OutputError::Write { path: "a".into(), source: io::ErrorKind::StorageFull.into() };
+        assert_eq!(RunError::from(write).exit_status(), 3);
+        let later = RunError::NotAvailable(Feature::StudyKind("trace"));
+        assert_eq!(
+            (later.exit_status(), later.to_string().as_str()),
+            (2, "study kind `trace` is not available in this version")
+        );
+    }
+}

@@ -1,1 +1,15 @@
-//! (to be written)
+//! What the user gets: tables, files for ParaView, pictures and the summary of a run.
+//!
+//! Every writer goes through [`files`]: a file appears whole or not at all.
+
+pub mod error;
+pub mod files;
+pub mod picture;
+pub mod plot;
+mod projection;
+pub mod summary;
+pub mod table;
+pub mod vtk;
+
+pub use error::OutputError;
+pub use picture::Picture;

@@ -1,1 +1,19 @@
-//! (to be written)
+//! What the user writes: scene files, their checks and the tables of angles they name.
+//!
+//! A scene is TOML. [`read`] gives a [`SceneFile`]: typed values ([`spec`]), each with its place in the text, so that
+//! whoever finds a fault later can point at it with [`SceneFile::error_at`].
+
+pub mod angles;
+mod checks;
+pub mod error;
+mod file;
+pub mod forms;
+mod located;
+mod schema;
+pub mod spec;
+pub mod values;
+
+pub use error::SceneError;
+pub use file::{SceneFile, parse, read};
+pub use located::Located;
+pub use schema::schema;

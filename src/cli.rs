@@ -1,0 +1,299 @@
+//! The words of the command line and the exit status.
+//!
+//! | status | meaning |
+//! |---|---|
+//! | 0 | every study gave its answer |
+//! | 1 | a study failed; what was computed is on disk and `summary.json` says which and why |
+//! | 2 | the input is wrong; nothing is written |
+//! | 3 | reading or writing an existing place failed |
+//! | 130 | stopped by Ctrl-C; what is finished is on disk |
+
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+use foldwell::output::summary::{SheetInfo, StudyResult, StudySummary, to_json};
+use foldwell::run::{self, RunError, RunOptions, RunReport, ValidateOptions};
+use miette::{Diagnostic, GraphicalReportHandler};
+
+use crate::parameters::{self, ParameterError};
+use crate::progress::Watch;
+
+const FAILED: u8 = 1;
+const WRONG_INPUT: u8 = 2;
+const BROKEN_PLACE: u8 = 3;
+const INTERRUPTED: u8 = 130;
+
+/// Energy wells of folding sheets.
+#[derive(Parser)]
+#[command(version, about, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Compute the studies of a scene and write their files
+    Run {
+        /// The scene
+        scene: PathBuf,
+        /// Folder for the files [default: the scene's name without its ending]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Number of threads [default: as many as the machine has]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        threads: Option<u16>,
+        /// Keep the studies that an interrupted run finished
+        #[arg(long)]
+        resume: bool,
+        /// Say nothing but errors
+        #[arg(long)]
+        quiet: bool,
+        /// Print the summary as JSON on standard output
+        #[arg(long)]
+        json: bool,
+    },
+    /// Counts and measures of the sheet of a mesh or a scene
+    Info {
+        /// A mesh (.fold) or a scene (.toml)
+        mesh_or_scene: PathBuf,
+        /// Print JSON
+        #[arg(long)]
+        json: bool,
+    },
+    /// Generate a pattern
+    #[command(override_usage = "foldwell new <PATTERN> [--key value]... -o <FILE.fold>")]
+    New {
+        /// miura, eggbox, waterbomb, ...
+        pattern: String,
+        /// Parameters of the pattern, --key value, and -o FILE.fold for the mesh
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        parameters: Vec<String>,
+    },
+    /// Convert a mesh between FOLD, OBJ and VTU
+    Convert {
+        /// The file that is there
+        from: PathBuf,
+        /// The file to write
+        to: PathBuf,
+    },
+    /// Check the claims about this program, and write a report
+    Validate {
+        /// Leave out what takes long
+        #[arg(long)]
+        quick: bool,
+        /// Folder for the reports
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
+    /// Print the JSON schema of a scene
+    Schema,
+    /// Print a script that completes commands in a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+/// Why a command did not give its answer.
+enum Failure {
+    Run(RunError),
+    Parameters(ParameterError),
+    StandardOutput(io::Error),
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        Self::Run(error)
+    }
+}
+
+impl Failure {
+    fn exit_status(&self) -> u8 {
+        match self {
+            Self::Run(error) => error.exit_status(),
+            Self::Parameters(_) => WRONG_INPUT,
+            Self::StandardOutput(_) => BROKEN_PLACE,
+        }
+    }
+}
+
+/// Runs the command line.
+pub fn main() -> ExitCode {
+    let status = dispatch(Cli::parse().command).unwrap_or_else(|failure| {
+        report(&failure);
+        failure.exit_status()
+    });
+    ExitCode::from(status)
+}
+
+fn dispatch(command: Command) -> Result<u8, Failure> {
+    match command {
+        Command::Run { scene, out, threads, resume, quiet, json } => {
+            let options = RunOptions { out, threads: threads.map(usize::from), resume };
+            run_scene(&scene, &options, quiet, json)
+        }
+        Command::Info { mesh_or_scene, json } => {
+            let info = run::info(&mesh_or_scene)?;
+            say(&if json { to_json(&info) } else { describe_sheet(&info) })
+        }
+        Command::New { pattern, parameters } => {
+            let (table, out) = parameters::parse(&pattern, &parameters).map_err(Failure::Parameters)?;
+            run::new_mesh(&table, &out)?;
+            Ok(0)
+        }
+        Command::Convert { from, to } => {
+            run::convert(&from, &to)?;
+            Ok(0)
+        }
+        Command::Validate { quick, out } => {
+            let watch = Watch::new(false);
+            let passed = run::validate(&ValidateOptions { quick, out }, &|progress| watch.step(progress));
+            watch.finish();
+            Ok(if passed? { 0 } else { FAILED })
+        }
+        Command::Schema => say(&foldwell::scene::schema()),
+        Command::Completions { shell } => say(&completions(shell)),
+    }
+}
+
+fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Result<u8, Failure> {
+    let watch = Watch::new(quiet);
+    let report = run::run_scene(scene, options, &|progress| watch.step(progress));
+    watch.finish();
+    let report = report?;
+    if json {
+        say(&report.summary.to_json())?;
+    } else if !quiet {
+        say(&describe_run(&report))?;
+    }
+    Ok(match (report.interrupted, report.summary.converged()) {
+        (true, _) => INTERRUPTED,
+        (false, true) => 0,
+        (false, false) => FAILED,
+    })
+}
+
+/// Prints on standard output; a reader that has gone away is no failure.
+fn say(text: &str) -> Result<u8, Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput(error)),
+        _ => Ok(0),
+    }
+}
+
+fn completions(shell: Shell) -> String {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "foldwell", &mut script);
+    String::from_utf8_lossy(&script).into_owned()
+}
+
+/// Prints a failure on standard error: what is wrong, the place in the scene, what would be right.
+fn report(failure: &Failure) {
+    let text = match failure {
+        Failure::Run(error) => fancy(error),
+        Failure::Parameters(error) => format!("Error: {error}\n"),
+        Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),
+    };
+    // there is nobody left to tell where standard error is closed
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
+/// With a drawing of the place; lines are not wrapped, so that `file:line:column` stays in one piece.
+fn fancy(error: &dyn Diagnostic) -> String {
+    let terminal = io::IsTerminal::is_terminal(&io::stderr()) && std::env::var_os("NO_COLOR").is_none();
+    let theme = if terminal { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() };
+    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_cause_chain();
+    let mut text = String::from("Error:");
+    match handler.render_report(&mut text, error) {
+        Ok(()) => text + "\n",
+        Err(_) => format!("Error: {error}\n"),
+    }
+}
+
+fn describe_run(report: &RunReport) -> String {
+    let mut text = String::new();
+    for study in &report.summary.studies {
+        // writing to a string does not fail
+        let _ = writeln!(text, "{}", describe_study(study));
+    }
+    let _ = writeln!(text, "files in {}", report.out.display());
+    text
+}
+
+fn describe_study(study: &StudySummary) -> String {
+    let what = match &study.result {
+        Some(StudyResult::Relax(relax)) => format!(
+            "energy {:.9e}, {} iterations, residuals {:.1e} (force) {:.1e} (length)",
+            relax.energy.total, relax.iterations, relax.residual_force, relax.residual_length
+        ),
+        Some(StudyResult::Modes(modes)) => format!(
+            "{} zero modes ({} rigid, {} folding), {} self stresses",
+            modes.zero_modes, modes.rigid_motions, modes.folding_modes, modes.self_stresses
+        ),
+        None => String::from("no result"),
+    };
+    let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();
+    format!("{} ({}): {what}, {:.2} s{failed}", study.name, study.kind, study.seconds)
+}
+
+fn describe_sheet(info: &SheetInfo) -> String {
+    let lattice = match info.lattice {
+        Some([a, b]) => format!("{a:?}, {b:?}"),
+        None => "none: a finite sheet".into(),
+    };
+    let rows = [
+        ("sheet", info.title.clone()),
+        ("lattice", lattice),
+        ("vertices", info.vertices.to_string()),
+        (
+            "edges",
+            format!("{} ({} creases, {} facets, {} boundary)", info.edges, info.creases, info.facets, info.boundary),
+        ),
+        ("faces", format!("{} triangles of {} polygons", info.faces, info.polygons)),
+        ("holes", info.holes.to_string()),
+        ("Euler characteristic", info.euler_characteristic.to_string()),
+        ("Maxwell count", info.maxwell_count.to_string()),
+        (
+            "developable",
+            format!("{} (largest angle defect {:.3e} rad)", yes(info.developable), info.largest_angle_defect),
+        ),
+        ("edge lengths", format!("{:.6} to {:.6}", info.shortest_edge, info.longest_edge)),
+        ("worst triangle", format!("quality {:.4} of 1", info.worst_triangle_quality)),
+    ];
+    rows.iter().map(|(name, value)| format!("{name:<21}{value}\n")).collect()
+}
+
+fn yes(truth: bool) -> &'static str {
+    if truth { "yes" } else { "no" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// clap finds nothing to complain about in the definition itself.
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    /// Parameters of patterns and `-o` reach the pattern wherever they stand.
+    #[test]
+    fn parameters_pass_through() {
+        let cli = Cli::try_parse_from("foldwell new miura --height -0.5 -o a.fold".split(' ')).ok().unwrap();
+        let Command::New { pattern, parameters } = cli.command else { panic!("another command") };
+        assert_eq!((pattern.as_str(), parameters.join(" ").as_str()), ("miura", "--height -0.5 -o a.fold"));
+    }
+
+    /// No threads at all cannot be asked for.
+    #[test]
+    fn there_is_at_least_one_thread() {
+        assert!(Cli::try_parse_from("foldwell run a.toml --threads 0".split(' ')).is_err());
+    }
+}

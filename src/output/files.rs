@@ -1,0 +1,103 @@
+//! Files that appear whole or not at all.
+//!
+//! A file is written beside its place under a name of its own and then renamed, which is one step for whoever looks at
+//! the folder. What is on its way when a write fails is removed. (Nothing is forced to the disk: this guards against
+//! programs that stop, not against a loss of power.)
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::OutputError;
+
+/// Writes a file, with the folders it needs.
+///
+/// # Errors
+/// [`OutputError::Write`]; then the file is as it was before.
+pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), OutputError> {
+    write_with(path, |file| file.write_all(contents.as_ref()))
+}
+
+/// Writes what `fill` puts into a file, with the folders it needs.
+///
+/// # Errors
+/// [`OutputError::Write`], also where `fill` fails; then the file is as it was before.
+pub fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
+    replace(path, fill).map_err(|source| OutputError::Write { path: path.into(), source })
+}
+
+fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    let draft = Draft(draft_name(path)?);
+    let mut file = BufWriter::new(File::create_new(&draft.0)?);
+    fill(&mut file)?;
+    file.into_inner().map_err(io::IntoInnerError::into_error)?;
+    fs::rename(&draft.0, path)
+}
+
+/// A file on its way; removed when dropped before it was renamed.
+struct Draft(PathBuf);
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+/// A name beside `path` that nobody else uses: process and count.
+fn draft_name(path: &Path) -> io::Result<PathBuf> {
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let name = path.file_name().ok_or_else(|| io::Error::from(io::ErrorKind::InvalidFilename))?;
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
+    Ok(path.with_file_name(format!(".{}.{}-{count}.part", name.to_string_lossy(), std::process::id())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    }
+
+    /// A write makes its folders and leaves one file.
+    #[test]
+    fn a_file_appears_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a/b.txt");
+        write(&path, "one").unwrap();
+        write(&path, "two").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "two");
+        assert_eq!(names(&folder.path().join("a")), ["b.txt"]);
+    }
+
+    /// A write that fails half-way leaves the old file and nothing else.
+    #[test]
+    fn a_failed_write_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("b.txt");
+        write(&path, "old").unwrap();
+        let result = write_with(&path, |file| {
+            file.write_all(&[b'x'; 100_000])?;
+            Err(io::Error::from(io::ErrorKind::StorageFull))
+        });
+        assert!(matches!(result, Err(OutputError::Write { .. })));
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(names(folder.path()), ["b.txt"]);
+    }
+
+    /// A folder in the place of the file, and a file in the place of a folder, are errors that name the file.
+    #[test]
+    fn places_that_cannot_be_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = write(folder.path(), "x").unwrap_err().to_string();
+        assert!(message.contains(folder.path().to_str().unwrap()), "{message}");
+        write(&folder.path().join("file"), "x").unwrap();
+        assert!(write(&folder.path().join("file/below"), "x").is_err());
+        assert_eq!(names(folder.path()), ["file"]);
+    }
+}

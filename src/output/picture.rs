@@ -1,0 +1,144 @@
+//! A state of a sheet as it is drawn or written: points, triangles, lines and what is known on them.
+
+use thiserror::Error;
+
+use crate::math::Vec3;
+use crate::sheet::EdgeKind;
+
+/// A state of a sheet, flattened: no cells and no lattice any more.
+///
+/// Everything on lines has one entry per line, NaN where it does not apply.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Picture {
+    /// Positions in this state.
+    pub points: Vec<Vec3>,
+    /// This state minus the drawn one, at each point.
+    pub displacement: Vec<Vec3>,
+    /// Triangles, counter-clockwise seen from the side of the face normals.
+    pub triangles: Vec<[usize; 3]>,
+    /// Whether a triangle passes through another one (1) or not (0).
+    pub self_intersecting: Vec<u8>,
+    /// Edges between two points.
+    pub lines: Vec<[usize; 2]>,
+    /// What each edge is.
+    pub line_kinds: Vec<EdgeKind>,
+    /// The edge of the sheet's cell of which each line is a copy.
+    pub line_edges: Vec<i32>,
+    /// Fold angle in radians, valley positive.
+    pub fold_angle: Vec<f64>,
+    /// Fold angle at which the hinge rests.
+    pub rest_angle: Vec<f64>,
+    /// Relative change of length, L / L0 - 1.
+    pub strain: Vec<f64>,
+    /// Energy of bar and hinge together.
+    pub energy: Vec<f64>,
+}
+
+/// Parts of a picture that do not fit together.
+#[derive(Debug, Error, PartialEq, Eq)]
+pub enum ShapeError {
+    /// An array has the wrong length.
+    #[error("array `{array}` has {found} entries, expected {expected}")]
+    Length {
+        /// Name of the array.
+        array: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it should have.
+        expected: usize,
+    },
+    /// A triangle or a line names a point that is not there.
+    #[error("point {point} is used, but there are {count}")]
+    NoSuchPoint {
+        /// The point.
+        point: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A row of a table has the wrong length.
+    #[error("row {row} has {found} values, expected {expected} as in the header")]
+    Row {
+        /// The row, counted from 0.
+        row: usize,
+        /// Its length.
+        found: usize,
+        /// The number of columns.
+        expected: usize,
+    },
+}
+
+impl Picture {
+    /// Whether all arrays fit together: readers crash where they do not.
+    ///
+    /// # Errors
+    /// The first array or index that does not fit.
+    pub fn check(&self) -> Result<(), ShapeError> {
+        let (points, faces, lines) = (self.points.len(), self.triangles.len(), self.lines.len());
+        let arrays = [
+            ("displacement", self.displacement.len(), points),
+            ("self_intersecting", self.self_intersecting.len(), faces),
+            ("line_kinds", self.line_kinds.len(), lines),
+            ("line_edges", self.line_edges.len(), lines),
+            ("fold_angle", self.fold_angle.len(), lines),
+            ("rest_angle", self.rest_angle.len(), lines),
+            ("strain", self.strain.len(), lines),
+            ("energy", self.energy.len(), lines),
+        ];
+        if let Some(&(array, found, expected)) = arrays.iter().find(|(_, found, expected)| found != expected) {
+            return Err(ShapeError::Length { array, found, expected });
+        }
+        let mut used = self.triangles.iter().flatten().chain(self.lines.iter().flatten());
+        match used.find(|&&point| point >= points) {
+            Some(&point) => Err(ShapeError::NoSuchPoint { point, count: points }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Sheets for the tests of writers.
+#[cfg(test)]
+pub(super) mod samples {
+    use super::*;
+
+    /// Two triangles folded by `angle` along an edge of unit length: a crease and four edges of the boundary.
+    pub fn hinge(angle: f64) -> Picture {
+        let points = vec![
+            Vec3::zeros(),
+            Vec3::new(0.0, 1.0, 0.0),
+            Vec3::new(-1.0, 0.5, 0.0),
+            Vec3::new(angle.cos(), 0.5, angle.sin()),
+        ];
+        let none = f64::NAN;
+        Picture {
+            displacement: points.iter().map(|p| Vec3::new(0.0, 0.0, p.z)).collect(),
+            points,
+            triangles: vec![[0, 1, 2], [1, 0, 3]],
+            self_intersecting: vec![0, 1],
+            lines: vec![[0, 1], [1, 2], [2, 0], [0, 3], [3, 1]],
+            line_kinds: [vec![EdgeKind::Crease], vec![EdgeKind::Boundary; 4]].concat(),
+            line_edges: vec![0, 1, 2, 3, 4],
+            fold_angle: vec![angle, none, none, none, none],
+            rest_angle: vec![0.0, none, none, none, none],
+            strain: vec![1e-3, 0.0, 0.0, -2e-5, 0.0],
+            energy: vec![0.5 * angle * angle, 0.0, 0.0, 0.0, 0.0],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The check lets a right picture pass and names the array or point that is wrong.
+    #[test]
+    fn parts_that_do_not_fit_are_named() {
+        let right = samples::hinge(0.3);
+        assert_eq!(right.check(), Ok(()));
+        let mut short = right.clone();
+        short.strain.pop();
+        assert_eq!(short.check(), Err(ShapeError::Length { array: "strain", found: 4, expected: 5 }));
+        let mut wild = right;
+        wild.lines[4] = [3, 7];
+        assert_eq!(wild.check(), Err(ShapeError::NoSuchPoint { point: 7, count: 4 }));
+    }
+}

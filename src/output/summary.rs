@@ -1,0 +1,298 @@
+//! The summary of a run (`summary.json`) and of a sheet (`foldwell info`).
+//!
+//! Numbers that were not computed, NaN and infinity are `null`.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::OutputError;
+use super::files;
+
+/// `summary.json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Version of the program.
+    pub version: &'static str,
+    /// The scene file, as it was named.
+    pub scene: String,
+    /// The sheet.
+    pub sheet: SheetSummary,
+    /// The terms of the energy, and the locks, that were built.
+    pub terms: Vec<String>,
+    /// What the scene made unnecessary.
+    pub left_out: Vec<String>,
+    /// The studies, in the order of the scene.
+    pub studies: Vec<StudySummary>,
+}
+
+/// Counts of one cell, and of the model.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SheetSummary {
+    /// Vertices of a cell.
+    pub vertices: usize,
+    /// Edges of a cell, diagonals of polygons included.
+    pub edges: usize,
+    /// Triangles of a cell.
+    pub faces: usize,
+    /// Polygons of a cell, as the mesh has them.
+    pub polygons: usize,
+    /// Whether the sheet can be laid flat: no angle defect at any vertex.
+    pub developable: bool,
+    /// Cells of the model.
+    pub cells: [usize; 2],
+    /// Unknowns of the model.
+    pub degrees_of_freedom: usize,
+}
+
+/// What came out of a study.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StudySummary {
+    /// Its name.
+    pub name: String,
+    /// Its kind.
+    pub kind: &'static str,
+    /// Whether it gave its answer.
+    pub converged: bool,
+    /// Time, drawing and writing excluded.
+    pub seconds: f64,
+    /// The study's own error estimate.
+    pub error: Option<f64>,
+    /// Why it did not converge.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// The keys of its kind; `None` where it did not get so far.
+    #[serde(flatten)]
+    pub result: Option<StudyResult>,
+}
+
+/// The keys of each kind of study.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum StudyResult {
+    /// `kind = "relax"`.
+    Relax(RelaxSummary),
+    /// `kind = "modes"`.
+    Modes(ModesSummary),
+}
+
+/// Energy by terms; `None`: the term is not there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct EnergySummary {
+    /// Stretching.
+    pub bars: Option<f64>,
+    /// Folding.
+    pub creases: Option<f64>,
+    /// Bending of polygons.
+    pub facets: Option<f64>,
+    /// All of it, loads included.
+    pub total: f64,
+}
+
+/// An equilibrium.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct RelaxSummary {
+    /// Energy of the last state.
+    pub energy: EnergySummary,
+    /// Accepted Newton steps.
+    pub iterations: usize,
+    /// Factorizations.
+    pub factorizations: usize,
+    /// Solves with a factorization that was there already.
+    pub chord_solves: usize,
+    /// Largest unbalanced force over the largest force of any term.
+    pub residual_force: f64,
+    /// Largest error of a length over the mean edge.
+    pub residual_length: f64,
+    /// Negative eigenvalues of the energy's Hessian on what the rigid terms leave free.
+    pub negative_eigenvalues: Option<usize>,
+    /// Redundant rigid terms.
+    pub self_stresses: Option<usize>,
+    /// Largest difference of a fold angle to the exact solver.
+    pub error_to_kinematic: Option<f64>,
+    /// A row per iteration.
+    pub history: Vec<IterationSummary>,
+}
+
+/// One iteration of a relaxation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct IterationSummary {
+    /// Number of the iteration; 0 is the start.
+    pub iteration: usize,
+    /// The merit: the energy, with the stiff terms through their tensions.
+    pub energy: f64,
+    /// Largest unbalanced force over the largest force of any term.
+    pub residual_force: f64,
+    /// Largest error of a length over the mean edge.
+    pub residual_length: f64,
+    /// Fraction of the Newton step that was taken.
+    pub step: f64,
+    /// Shift added to the Hessian.
+    pub shift: f64,
+}
+
+/// Modes of a state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ModesSummary {
+    /// Null space of the rigidity matrix of the bars.
+    pub zero_modes: usize,
+    /// Left null space of the rigidity matrix of the bars.
+    pub self_stresses: usize,
+    /// Zero modes that move the sheet as a whole.
+    pub rigid_motions: usize,
+    /// Zero modes that fold it.
+    pub folding_modes: usize,
+    /// Columns minus rows of the rigidity matrix.
+    pub maxwell_count: i64,
+    /// Smallest singular value that was kept over the largest that was dropped.
+    pub gap: Option<f64>,
+    /// Lowest eigenvalues of the energy's Hessian, ascending.
+    pub eigenvalues: Vec<f64>,
+}
+
+/// What `foldwell info` says about a sheet.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SheetInfo {
+    /// Name of the sheet.
+    pub title: String,
+    /// Vertices of a cell.
+    pub vertices: usize,
+    /// Edges of a cell, diagonals of polygons included.
+    pub edges: usize,
+    /// Edges between two polygons.
+    pub creases: usize,
+    /// Diagonals of polygons.
+    pub facets: usize,
+    /// Edges with one face.
+    pub boundary: usize,
+    /// Triangles of a cell.
+    pub faces: usize,
+    /// Polygons of a cell, as the mesh has them.
+    pub polygons: usize,
+    /// Openings of a periodic sheet.
+    pub holes: usize,
+    /// The two lattice vectors; `None`: a finite sheet.
+    pub lattice: Option<[[f64; 3]; 2]>,
+    /// Vertices - edges + faces.
+    pub euler_characteristic: i64,
+    /// Unknown coordinates minus edges: 3 V - E.
+    pub maxwell_count: i64,
+    /// Whether the sheet can be laid flat.
+    pub developable: bool,
+    /// Largest angle defect of a vertex, in radians.
+    pub largest_angle_defect: f64,
+    /// Length of the shortest edge.
+    pub shortest_edge: f64,
+    /// Length of the longest edge.
+    pub longest_edge: f64,
+    /// Worst quality of a triangle: twice the inscribed over the circumscribed radius, 1 for an equilateral one.
+    pub worst_triangle_quality: f64,
+}
+
+impl Summary {
+    /// Whether every study gave its answer.
+    pub fn converged(&self) -> bool {
+        self.studies.iter().all(|study| study.converged)
+    }
+
+    /// The text of `summary.json`.
+    pub fn to_json(&self) -> String {
+        to_json(self)
+    }
+
+    /// Writes `summary.json`.
+    ///
+    /// # Errors
+    /// [`OutputError::Write`].
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        files::write(path, self.to_json())
+    }
+}
+
+/// Pretty JSON with a newline at its end.
+pub fn to_json(value: &impl Serialize) -> String {
+    // the types above have string keys and no own serializers: nothing in them can fail
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn sample() -> Summary {
+        let study = |name: &str, kind, result| StudySummary {
+            name: name.into(),
+            kind,
+            converged: true,
+            seconds: 0.25,
+            error: Some(1e-13),
+            reason: None,
+            result,
+        };
+        let relax = RelaxSummary { residual_force: f64::NAN, history: vec![<_>::default()], ..<_>::default() };
+        let modes = ModesSummary { gap: Some(f64::INFINITY), eigenvalues: vec![0.1, 1e-300], ..<_>::default() };
+        Summary {
+            version: "0",
+            scene: "scene.toml".into(),
+            sheet: SheetSummary {
+                vertices: 4,
+                edges: 12,
+                faces: 8,
+                polygons: 8,
+                developable: false,
+                cells: [6, 6],
+                degrees_of_freedom: 432,
+            },
+            terms: vec!["bars".into()],
+            left_out: vec!["facets".into()],
+            studies: vec![
+                study("a", "relax", Some(StudyResult::Relax(relax))),
+                study("b", "modes", Some(StudyResult::Modes(modes))),
+                StudySummary { converged: false, reason: Some("why".into()), ..study("c", "relax", None) },
+            ],
+        }
+    }
+
+    fn keys(value: &Value) -> Vec<&str> {
+        value.as_object().unwrap().keys().map(String::as_str).collect()
+    }
+
+    /// The keys that readers of summaries rely on.
+    #[test]
+    fn the_summary_has_its_keys() {
+        let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
+        assert_eq!(keys(&json), ["left_out", "scene", "sheet", "studies", "terms", "version"]);
+        let sheet = ["cells", "degrees_of_freedom", "developable", "edges", "faces", "polygons", "vertices"];
+        assert_eq!(keys(&json["sheet"]), sheet);
+        for key in ["name", "kind", "converged", "seconds", "error", "energy", "iterations", "factorizations"] {
+            assert!(json["studies"][0].get(key).is_some(), "{key}");
+        }
+        for key in ["residual_force", "residual_length", "negative_eigenvalues", "error_to_kinematic", "history"] {
+            assert!(json["studies"][0].get(key).is_some(), "{key}");
+        }
+        for key in ["zero_modes", "self_stresses", "rigid_motions", "folding_modes", "maxwell_count", "gap"] {
+            assert!(json["studies"][1].get(key).is_some(), "{key}");
+        }
+        assert_eq!(keys(&json["studies"][0]["energy"]), ["bars", "creases", "facets", "total"]);
+        assert_eq!(keys(&json["studies"][2]), ["converged", "error", "kind", "name", "reason", "seconds"]);
+    }
+
+    /// Not a number and infinity are null; finite numbers read back exactly.
+    #[test]
+    fn numbers_that_json_lacks_are_null() {
+        let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
+        assert!(json["studies"][0]["residual_force"].is_null());
+        assert!(json["studies"][1]["gap"].is_null());
+        assert_eq!(json["studies"][1]["eigenvalues"], json!([0.1, 1e-300]));
+    }
+
+    /// A run gave its answer when all its studies did.
+    #[test]
+    fn one_failed_study_fails_the_run() {
+        let mut summary = sample();
+        assert!(!summary.converged());
+        summary.studies.pop();
+        assert!(summary.converged());
+    }
+}

@@ -1,0 +1,344 @@
+//! Files for ParaView: VTU (one state), PVD (the states of a study in their order), and reading VTU back.
+//!
+//! Arrays are uncompressed, since ParaView has failed to open compressed files of several writers; their lengths are
+//! checked before, since a short one makes it crash.
+
+use std::fmt::Write as _;
+use std::io;
+use std::path::Path;
+
+use thiserror::Error;
+use vtkio::IOBuffer;
+use vtkio::model::{
+    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, ElementType, UnstructuredGridPiece, Version,
+    VertexNumbers, Vtk,
+};
+
+use super::picture::Picture;
+use super::{OutputError, files};
+use crate::math::Vec3;
+
+/// What is wrong with a VTU file.
+#[derive(Debug, Error, PartialEq, Eq)]
+pub enum VtuFault {
+    /// No XML file of VTK.
+    #[error("not a readable VTU file: {0}")]
+    Format(String),
+    /// Another kind of data set.
+    #[error("not an unstructured grid")]
+    NotUnstructured,
+    /// Points that are no numbers.
+    #[error("the coordinates of the points are no floating-point numbers")]
+    Coordinates,
+    /// A cell other than a triangle or a line.
+    #[error("cell {cell} is a {kind}, expected triangles and lines only")]
+    CellKind {
+        /// The cell, counted from 0.
+        cell: usize,
+        /// What it is.
+        kind: String,
+    },
+    /// Connectivity and offsets do not fit.
+    #[error("cell {cell} has {found} points, expected {expected}")]
+    CellSize {
+        /// The cell, counted from 0.
+        cell: usize,
+        /// Its number of points.
+        found: usize,
+        /// The number it should have.
+        expected: usize,
+    },
+    /// A cell names a point that is not there.
+    #[error("cell {cell} uses point {point}, but there are {count}")]
+    NoSuchPoint {
+        /// The cell, counted from 0.
+        cell: usize,
+        /// The point.
+        point: u64,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+/// What a VTU file says about a sheet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VtuMesh {
+    /// Positions.
+    pub points: Vec<Vec3>,
+    /// Triangles.
+    pub triangles: Vec<[usize; 3]>,
+    /// Edges between two points.
+    pub lines: Vec<[usize; 2]>,
+    /// Fold angle of each line, where the file has them.
+    pub fold_angle: Option<Vec<f64>>,
+}
+
+/// Writes a state: triangles, then lines.
+///
+/// Point array `displacement`; cell arrays `fold_angle`, `rest_angle`, `strain`, `energy` (NaN on triangles),
+/// `self_intersecting` (0 on lines) and `edge`, the edge of the cell of which a line is a copy (-1 on triangles).
+///
+/// # Errors
+/// [`OutputError::Shape`] where the picture's arrays do not fit together, [`OutputError::Write`].
+pub fn write_vtu(path: &Path, picture: &Picture) -> Result<(), OutputError> {
+    picture.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
+    let vtk = Vtk {
+        version: Version::Auto,
+        title: String::new(),
+        byte_order: ByteOrder::LittleEndian,
+        file_path: None,
+        data: DataSet::inline(UnstructuredGridPiece {
+            points: coordinates(&picture.points),
+            cells: cells(picture),
+            data: attributes(picture),
+        }),
+    };
+    files::write_with(path, |file| vtk.write_xml(file).map_err(io::Error::other))
+}
+
+fn coordinates(points: &[Vec3]) -> IOBuffer {
+    IOBuffer::F64(points.iter().flat_map(|p| [p.x, p.y, p.z]).collect())
+}
+
+fn cells(picture: &Picture) -> Cells {
+    let (faces, lines) = (picture.triangles.len(), picture.lines.len());
+    let used = picture.triangles.iter().flatten().chain(picture.lines.iter().flatten());
+    let ends = (1..=faces).map(|face| 3 * face).chain((1..=lines).map(|line| 3 * faces + 2 * line));
+    let types = [vec![CellType::Triangle; faces], vec![CellType::Line; lines]].concat();
+    let cell_verts = VertexNumbers::XML {
+        connectivity: used.map(|&point| point as u64).collect(),
+        offsets: ends.map(|end| end as u64).collect(),
+    };
+    Cells { cell_verts, types }
+}
+
+fn attributes(picture: &Picture) -> Attributes {
+    let faces = picture.triangles.len();
+    let on_lines = |values: &[f64]| IOBuffer::F64([&vec![f64::NAN; faces], values].concat());
+    let crossing = [&picture.self_intersecting[..], &vec![0; picture.lines.len()]].concat();
+    let edges = [&vec![-1; faces], &picture.line_edges[..]].concat();
+    Attributes {
+        point: vec![array("displacement", ElementType::Vectors, coordinates(&picture.displacement))],
+        cell: vec![
+            scalars("fold_angle", on_lines(&picture.fold_angle)),
+            scalars("rest_angle", on_lines(&picture.rest_angle)),
+            scalars("strain", on_lines(&picture.strain)),
+            scalars("energy", on_lines(&picture.energy)),
+            scalars("self_intersecting", IOBuffer::U8(crossing)),
+            scalars("edge", IOBuffer::I32(edges)),
+        ],
+    }
+}
+
+fn scalars(name: &str, data: IOBuffer) -> Attribute {
+    array(name, ElementType::Scalars { num_comp: 1, lookup_table: None }, data)
+}
+
+fn array(name: &str, elem: ElementType, data: IOBuffer) -> Attribute {
+    Attribute::DataArray(DataArray { name: name.into(), elem, data })
+}
+
+/// Writes a collection: times (any increasing numbers) and files relative to the collection.
+///
+/// # Errors
+/// [`OutputError::Write`].
+pub fn write_pvd(path: &Path, states: &[(f64, String)]) -> Result<(), OutputError> {
+    files::write(path, pvd(states))
+}
+
+fn pvd(states: &[(f64, String)]) -> String {
+    let mut text = String::from("<?xml version=\"1.0\"?>\n");
+    text.push_str("<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n");
+    for (time, file) in states {
+        let file = file.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+        // writing to a string does not fail
+        let _ = writeln!(text, "    <DataSet timestep=\"{time:?}\" group=\"\" part=\"0\" file=\"{file}\"/>");
+    }
+    text.push_str("  </Collection>\n</VTKFile>\n");
+    text
+}
+
+/// Reads a VTU file of triangles and lines, uncompressed or compressed with zlib.
+///
+/// # Errors
+/// [`OutputError::Read`] where there is no such file, [`OutputError::Vtu`] where it holds something else.
+pub fn read_vtu(path: &Path) -> Result<VtuMesh, OutputError> {
+    let bytes = std::fs::read(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
+    parse_vtu(&bytes).map_err(|fault| OutputError::Vtu { path: path.into(), fault })
+}
+
+fn parse_vtu(bytes: &[u8]) -> Result<VtuMesh, VtuFault> {
+    // vtkio panics on a grid without points: it is not asked about one, nor trusted with what else may be missing
+    if !bytes.windows(7).any(|tag| tag == b"<Points") {
+        return Err(VtuFault::Format("it has no points".into()));
+    }
+    let piece = std::panic::catch_unwind(|| parse_piece(bytes));
+    let piece = piece.unwrap_or_else(|_| Err(VtuFault::Format("the XML is not complete".into())))?;
+    let coordinates: Vec<f64> = piece.points.cast_into().ok_or(VtuFault::Coordinates)?;
+    let mut mesh =
+        VtuMesh { points: coordinates.chunks_exact(3).map(Vec3::from_column_slice).collect(), ..<_>::default() };
+    let line_cells = mesh.add_cells(piece.cells)?;
+    mesh.fold_angle = fold_angles(&piece.data, &line_cells);
+    Ok(mesh)
+}
+
+fn parse_piece(bytes: &[u8]) -> Result<UnstructuredGridPiece, VtuFault> {
+    let format = |error: &dyn std::error::Error| VtuFault::Format(error.to_string());
+    let vtk = Vtk::parse_xml(bytes).map_err(|error| format(&error))?;
+    match vtk.data {
+        data @ DataSet::UnstructuredGrid { .. } => {
+            UnstructuredGridPiece::try_from(data).map_err(|error| format(&error))
+        }
+        _ => Err(VtuFault::NotUnstructured),
+    }
+}
+
+impl VtuMesh {
+    /// Sorts cells into triangles and lines; gives the cells that are lines.
+    fn add_cells(&mut self, cells: Cells) -> Result<Vec<usize>, VtuFault> {
+        let types = cells.types;
+        let (connectivity, offsets) = cells.cell_verts.into_xml();
+        let mut line_cells = Vec::new();
+        let mut start = 0;
+        for (cell, (kind, end)) in types.iter().zip(offsets).enumerate() {
+            let end = end as usize;
+            let used = connectivity.get(start..end).unwrap_or_default();
+            start = end;
+            match kind {
+                CellType::Triangle => self.triangles.push(self.points_of(cell, used)?),
+                CellType::Line => {
+                    self.lines.push(self.points_of(cell, used)?);
+                    line_cells.push(cell);
+                }
+                other => return Err(VtuFault::CellKind { cell, kind: format!("{other:?}") }),
+            }
+        }
+        Ok(line_cells)
+    }
+
+    fn points_of<const N: usize>(&self, cell: usize, used: &[u64]) -> Result<[usize; N], VtuFault> {
+        let wrong_size = VtuFault::CellSize { cell, found: used.len(), expected: N };
+        let used: [u64; N] = used.try_into().map_err(|_| wrong_size)?;
+        let count = self.points.len();
+        match used.iter().find(|&&point| point >= count as u64) {
+            Some(&point) => Err(VtuFault::NoSuchPoint { cell, point, count }),
+            None => Ok(used.map(|point| point as usize)),
+        }
+    }
+}
+
+fn fold_angles(data: &Attributes, line_cells: &[usize]) -> Option<Vec<f64>> {
+    let array = data.cell.iter().find_map(|attribute| match attribute {
+        Attribute::DataArray(array) if array.name == "fold_angle" => array.data.cast_into::<f64>(),
+        _ => None,
+    })?;
+    line_cells.iter().map(|&cell| array.get(cell).copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::picture::{ShapeError, samples};
+    use super::*;
+    use proptest::prelude::*;
+
+    fn written(picture: &Picture) -> Vec<u8> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.vtu");
+        write_vtu(&path, picture).unwrap();
+        std::fs::read(path).unwrap()
+    }
+
+    /// What is written is read back bit for bit.
+    #[test]
+    fn a_state_reads_back() {
+        let picture = samples::hinge(0.3);
+        let mesh = parse_vtu(&written(&picture)).unwrap();
+        assert_eq!((&mesh.points, &mesh.triangles, &mesh.lines), (&picture.points, &picture.triangles, &picture.lines));
+        let bits = |angles: &[f64]| angles.iter().map(|a| a.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&mesh.fold_angle.unwrap()), bits(&picture.fold_angle));
+    }
+
+    /// Every array of the contract is there with a value for every cell.
+    #[test]
+    fn every_array_has_its_length() {
+        let picture = samples::hinge(0.3);
+        let vtk = Vtk::parse_xml(&written(&picture)[..]).unwrap();
+        let piece = UnstructuredGridPiece::try_from(vtk.data).unwrap();
+        let lengths = |attributes: &[Attribute]| -> Vec<(String, usize)> {
+            let length = |a: &Attribute| match a {
+                Attribute::DataArray(array) => (array.name.clone(), array.data.len()),
+                Attribute::Field { .. } => panic!("no fields are written"),
+            };
+            attributes.iter().map(length).collect()
+        };
+        assert_eq!(lengths(&piece.data.point), [("displacement".to_owned(), 12)]);
+        let names = ["fold_angle", "rest_angle", "strain", "energy", "self_intersecting", "edge"];
+        assert_eq!(lengths(&piece.data.cell), names.map(|name| (name.to_owned(), 7)));
+    }
+
+    /// A picture whose arrays do not fit is not written.
+    #[test]
+    fn a_short_array_is_not_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.vtu");
+        let mut picture = samples::hinge(0.3);
+        picture.energy.pop();
+        let error = write_vtu(&path, &picture).unwrap_err();
+        let expected = ShapeError::Length { array: "energy", found: 4, expected: 5 };
+        assert!(matches!(error, OutputError::Shape { fault, .. } if fault == expected));
+        assert!(!path.exists());
+    }
+
+    /// An empty sheet is a file like any other.
+    #[test]
+    fn an_empty_picture_reads_back() {
+        assert_eq!(
+            parse_vtu(&written(&Picture::default())).unwrap(),
+            VtuMesh { fold_angle: Some(vec![]), ..<_>::default() }
+        );
+    }
+
+    /// Collections are XML with the states in their order; names are escaped.
+    #[test]
+    fn collections_list_their_states() {
+        let text = pvd(&[(0.0, "a/0.vtu".into()), (0.5, "a/<&\".vtu".into())]);
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[3], "    <DataSet timestep=\"0.0\" group=\"\" part=\"0\" file=\"a/0.vtu\"/>");
+        assert!(lines[4].contains("file=\"a/&lt;&amp;&quot;.vtu\""), "{}", lines[4]);
+    }
+
+    /// Files that are something else are refused in words.
+    #[test]
+    fn other_files_are_refused() {
+        for bad in ["", "solid", "<VTKFile/>", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>"] {
+            assert!(parse_vtu(bad.as_bytes()).is_err(), "{bad}");
+        }
+        let text = String::from_utf8(written(&samples::hinge(0.3))).unwrap();
+        let fault = parse_vtu(text.replace("UnstructuredGrid", "PolyData").as_bytes()).unwrap_err();
+        assert!(matches!(fault, VtuFault::Format(_) | VtuFault::NotUnstructured), "{fault}");
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        /// A spoiled file is read or refused; nothing panics.
+        #[test]
+        fn spoiled_files_do_not_panic(start in 0..6000usize, length in 0..30usize, new in "[0-9A-Za-z<>/=\" ]{0,12}") {
+            let bytes = written(&samples::hinge(0.3));
+            let start = start % bytes.len();
+            let end = (start + length).min(bytes.len());
+            let _ = parse_vtu(&[&bytes[..start], new.as_bytes(), &bytes[end..]].concat());
+        }
+
+        /// The same, aimed at the numbers that say how much there is.
+        #[test]
+        fn wrong_counts_do_not_panic(which in 0..6usize, count in proptest::num::u64::ANY) {
+            let text = String::from_utf8(written(&samples::hinge(0.3))).unwrap();
+            let old = ["NumberOfPoints=\"4\"", "NumberOfCells=\"7\"", "NumberOfComponents=\"3\"", "UInt64", "Float64", "Points"];
+            let (name, _) = old[which].split_once('=').unwrap_or((old[which], ""));
+            let new = if which < 3 { format!("{name}=\"{count}\"") } else { ["Int8", "UInt8", "Float32", ""][count as usize % 4].into() };
+            prop_assert!(text.contains(old[which]));
+            let _ = parse_vtu(text.replace(old[which], &new).as_bytes());
+        }
+    }
+}

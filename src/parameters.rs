@@ -1,0 +1,101 @@
+//! Parameters of a pattern from the command line: `--height 0.5 --cells 3,3` becomes a table.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+use toml::{Table, Value};
+
+/// What is wrong with the words after a pattern.
+#[derive(Debug, Error, PartialEq, Eq)]
+pub enum ParameterError {
+    /// A word where a key should stand.
+    #[error("`{0}` stands where a parameter was expected; write --key value, and -o FILE for the mesh")]
+    NoKey(String),
+    /// A key at the end.
+    #[error("parameter `--{0}` has no value; write --{0} value")]
+    NoValue(String),
+    /// A key that was given before.
+    #[error("parameter `--{0}` is given twice")]
+    Twice(String),
+    /// No place for the mesh.
+    #[error("there is no file for the mesh; add -o FILE.fold")]
+    NoOutput,
+}
+
+/// The table `{ pattern, key = value, .. }` and the file of `-o`.
+///
+/// Keys may have `-` for `_` and `=` before the value. A value is a whole number, a number, `true`, `false`, a list with
+/// commas between, or else a word.
+pub fn parse(pattern: &str, words: &[String]) -> Result<(Table, PathBuf), ParameterError> {
+    let mut table = Table::new();
+    table.insert("pattern".into(), pattern.into());
+    let mut output = None;
+    let mut words = words.iter();
+    while let Some(word) = words.next() {
+        let (key, inline) = split(word)?;
+        let value = match inline {
+            Some(value) => value,
+            None => words.next().ok_or_else(|| ParameterError::NoValue(key.clone()))?,
+        };
+        let before = match key.as_str() {
+            "o" => output.replace(PathBuf::from(value)).is_some(),
+            _ => table.insert(key.replace('-', "_"), parse_value(value)).is_some(),
+        };
+        if before {
+            return Err(ParameterError::Twice(key));
+        }
+    }
+    Ok((table, output.ok_or(ParameterError::NoOutput)?))
+}
+
+/// `--key`, `--key=value` or `-o`.
+fn split(word: &str) -> Result<(String, Option<&str>), ParameterError> {
+    if word == "-o" || word == "--output" {
+        return Ok(("o".into(), None));
+    }
+    let rest = word.strip_prefix("--").filter(|rest| !rest.is_empty() && !rest.starts_with('='));
+    let rest = rest.filter(|rest| *rest != "o").ok_or_else(|| ParameterError::NoKey(word.into()))?;
+    Ok(match rest.split_once('=') {
+        Some((key, value)) => (key.into(), Some(value)),
+        None => (rest.into(), None),
+    })
+}
+
+fn parse_value(text: &str) -> Value {
+    if text.contains(',') {
+        return text.split(',').map(|item| parse_value(item.trim())).collect::<Vec<_>>().into();
+    }
+    let whole = text.parse::<i64>().ok().map(Value::from);
+    let number = || text.parse::<f64>().ok().map(Value::from);
+    let truth = || text.parse::<bool>().ok().map(Value::from);
+    whole.or_else(number).or_else(truth).unwrap_or_else(|| text.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(text: &str) -> Vec<String> {
+        text.split(' ').map(str::to_owned).collect()
+    }
+
+    /// Every form of a value, negative numbers included, becomes what a scene would say.
+    #[test]
+    fn parameters_become_a_table() {
+        let (table, out) =
+            parse("miura", &words("--cells 3,3 --height -0.5 -o a.fold --seed=7 --bar-x foo --on true")).unwrap();
+        let expected = "pattern = 'miura'\ncells = [3, 3]\nheight = -0.5\nseed = 7\nbar_x = 'foo'\non = true";
+        assert_eq!((table, out), (expected.parse().unwrap(), PathBuf::from("a.fold")));
+    }
+
+    /// What is missing or too much is named.
+    #[test]
+    fn wrong_parameters_are_named() {
+        let fault = |text: &str| parse("miura", &words(text)).unwrap_err();
+        assert_eq!(fault("-o a.fold 3"), ParameterError::NoKey("3".into()));
+        assert_eq!(fault("-o a.fold --seed"), ParameterError::NoValue("seed".into()));
+        assert_eq!(fault("-o a.fold --seed 1 --seed 2"), ParameterError::Twice("seed".into()));
+        assert_eq!(fault("-o a.fold --pattern x"), ParameterError::Twice("pattern".into()));
+        assert_eq!(fault("--seed 1"), ParameterError::NoOutput);
+    }
+}

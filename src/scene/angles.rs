@@ -1,0 +1,153 @@
+//! Tables of rest angles and of fold-angle rates: CSV, one row per edge.
+//!
+//! The header is `i,j,n1,n2,angle`, one row per crease of the cell, or `cell1,cell2,i,j,n1,n2,angle`, one row per
+//! crease of a patch; tables of rates have `rate` for the last column. Angles are radians.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use super::error::{SceneError, TableFault};
+use super::values::directed_edge;
+use crate::sheet::EdgeKey;
+
+/// A row of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AngleRow {
+    /// The cell in which the crease `key` starts (at its vertex `key.i`); `None`: every cell.
+    pub cell: Option<[usize; 2]>,
+    /// The edge, by its canonical name.
+    pub key: EdgeKey,
+    /// The angle in radians, or the rate.
+    pub value: f64,
+    /// The line of the table, for messages about it.
+    pub line: usize,
+}
+
+/// Reads a table of rest angles, last column `angle`.
+///
+/// # Errors
+/// [`SceneError::Read`], or [`SceneError::Table`] with the line.
+pub fn read_angles(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
+    read(path, "angle")
+}
+
+/// Reads a table of fold-angle rates, last column `rate`.
+///
+/// # Errors
+/// As [`read_angles`].
+pub fn read_rates(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
+    read(path, "rate")
+}
+
+fn read(path: &Path, value: &'static str) -> Result<Vec<AngleRow>, SceneError> {
+    let text = std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
+    parse(&text, value).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })
+}
+
+type Fault = (usize, TableFault);
+
+fn parse(text: &str, value: &'static str) -> Result<Vec<AngleRow>, Fault> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut lines = text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, l)| !l.trim().is_empty());
+    let (at, header) = lines.next().ok_or((1, TableFault::Empty))?;
+    let columns = columns(header, value).ok_or((at, TableFault::Header { found: header.trim().into(), value }))?;
+    let mut rows = Vec::new();
+    let mut seen = HashMap::new();
+    for (line, text) in lines {
+        let row = row(text, columns, line).map_err(|fault| (line, fault))?;
+        if let Some(&first) = seen.get(&(row.cell, row.key)) {
+            return Err((line, TableFault::Twice { first }));
+        }
+        seen.insert((row.cell, row.key), line);
+        rows.push(row);
+    }
+    if rows.is_empty() { Err((at, TableFault::Empty)) } else { Ok(rows) }
+}
+
+/// The columns of a header, or `None` where it is not one of the two that there are.
+fn columns(header: &str, value: &'static str) -> Option<&'static [&'static str]> {
+    const ANGLE: [&str; 7] = ["cell1", "cell2", "i", "j", "n1", "n2", "angle"];
+    const RATE: [&str; 7] = ["cell1", "cell2", "i", "j", "n1", "n2", "rate"];
+    let all: &'static [&'static str] = if value == "rate" { &RATE } else { &ANGLE };
+    let found: Vec<&str> = header.split(',').map(str::trim).collect();
+    [all, &all[2..]].into_iter().find(|columns| **columns == *found)
+}
+
+fn row(text: &str, columns: &[&'static str], line: usize) -> Result<AngleRow, TableFault> {
+    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    let (Some((last, names)), [numbers @ .., number]) = (columns.split_last(), fields.as_slice()) else {
+        return Err(TableFault::Fields { found: fields.len(), expected: columns.len() });
+    };
+    if fields.len() != columns.len() {
+        return Err(TableFault::Fields { found: fields.len(), expected: columns.len() });
+    }
+    let whole: Vec<i64> =
+        names.iter().zip(numbers).map(|(column, field)| integer(field, column)).collect::<Result<_, _>>()?;
+    let value = finite(number, last)?;
+    let (cell, name) = match whole[..] {
+        [c1, c2, i, j, n1, n2] => (Some([c1, c2]), [i, j, n1, n2]),
+        [i, j, n1, n2] => (None, [i, j, n1, n2]),
+        _ => return Err(TableFault::Fields { found: fields.len(), expected: columns.len() }),
+    };
+    let (key, reversed) = directed_edge(name).map_err(|fault| TableFault::Edge(fault.to_string()))?;
+    let cell = cell.map(|cell| start_cell(cell, name, reversed)).transpose()?;
+    Ok(AngleRow { cell, key, value, line })
+}
+
+fn integer(field: &str, column: &'static str) -> Result<i64, TableFault> {
+    field.parse().map_err(|_| TableFault::Whole { field: field.into(), column })
+}
+
+fn finite(field: &str, column: &'static str) -> Result<f64, TableFault> {
+    let number = field.parse().ok().filter(|x: &f64| x.is_finite());
+    number.ok_or_else(|| TableFault::Number { field: field.into(), column })
+}
+
+/// The cell where the canonical name starts: the cell of the other end, when the row names the edge backwards.
+fn start_cell([c1, c2]: [i64; 2], [.., n1, n2]: [i64; 4], reversed: bool) -> Result<[usize; 2], TableFault> {
+    let [s1, s2] = if reversed { [c1.saturating_add(n1), c2.saturating_add(n2)] } else { [c1, c2] };
+    match (usize::try_from(s1), usize::try_from(s2)) {
+        (Ok(c1), Ok(c2)) => Ok([c1, c2]),
+        _ => Err(TableFault::Outside(s1, s2)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn angles(text: &str) -> Result<Vec<AngleRow>, Fault> {
+        parse(text, "angle")
+    }
+
+    /// Both headers; the backward name [2, 0, 1, 0] of cell (3, 4) starts at vertex 2 of (3, 4), so the canonical
+    /// [0, 2, -1, 0] starts at vertex 0 of cell (4, 4).
+    #[test]
+    fn rows_come_back_with_their_lines() {
+        let key = EdgeKey { i: 0, j: 2, shift: [-1, 0] };
+        let cell = angles("i,j,n1,n2,angle\r\n0, 2, -1, 0, 0.25\r\n").unwrap();
+        assert_eq!(cell, [AngleRow { cell: None, key, value: 0.25, line: 2 }]);
+        let patch = angles("cell1,cell2,i,j,n1,n2,angle\n\n3,4,2,0,1,0,-1e-3\n").unwrap();
+        assert_eq!(patch, [AngleRow { cell: Some([4, 4]), key, value: -1e-3, line: 3 }]);
+    }
+
+    /// Each fault with its line.
+    #[test]
+    fn faults_name_the_line() {
+        let cases: [(&str, usize, &str); 9] = [
+            ("", 1, "no rows"),
+            ("i,j,n1,n2,angle\n", 1, "no rows"),
+            ("i,j,n1,n2,rate\n0,1,0,0,1\n", 1, "expected `i,j,n1,n2,angle`"),
+            ("i,j,n1,n2,angle\n0,1,0,1\n", 2, "4 fields, expected 5"),
+            ("i,j,n1,n2,angle\n0,x,0,0,1\n", 2, "`x` in column `j`"),
+            ("i,j,n1,n2,angle\n0,1,0,0,nan\n", 2, "`nan` in column `angle` is not a finite"),
+            ("i,j,n1,n2,angle\n1,1,0,0,1\n", 2, "from vertex 1 to itself"),
+            ("i,j,n1,n2,angle\n0,1,0,0,1\n1,0,0,0,2\n", 3, "first in line 2"),
+            ("cell1,cell2,i,j,n1,n2,angle\n0,0,1,0,-1,0,1\n", 2, "cell [-1, 0]"),
+        ];
+        for (text, line, message) in cases {
+            let (at, fault) = angles(text).unwrap_err();
+            assert!(at == line && fault.to_string().contains(message), "{text:?}: line {at}: {fault}");
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! What values of a scene get wrong together, as far as the scene alone can tell.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::ops::Range;
+
+use super::forms::Start;
+use super::spec::{Domain, LandscapeSpec, StopSpec, StudyKind, StudySpec};
+use super::values::CellIndex;
+use super::{Located, SceneError, SceneFile};
+
+type Checked = Result<(), SceneError>;
+
+/// Refuses the first combination of values that cannot be meant.
+pub(super) fn check(file: &SceneFile) -> Checked {
+    sheet(file)?;
+    locks(file)?;
+    places(file)?;
+    studies(file)
+}
+
+fn sheet(file: &SceneFile) -> Checked {
+    let sheet = &file.scene.sheet;
+    let help = "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }";
+    match (&sheet.mesh, &sheet.generate) {
+        (Some(_), Some(both)) => {
+            return Err(file.error_at(both.span(), "the sheet has both a mesh and a pattern", help));
+        }
+        (None, None) => {
+            return Err(file.error_at(sheet_header(file), "the sheet has neither a mesh nor a pattern", help));
+        }
+        _ => {}
+    }
+    match &sheet.lattice {
+        Some(lattice) if sheet.domain() != Domain::Torus => {
+            let help = "it belongs to domain = \"torus\"; leave it out otherwise";
+            Err(file.error_at(lattice.span(), format!("`lattice` is given for a {}", domain_name(file)), help))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The bytes of `[sheet]`, for faults of the whole table.
+fn sheet_header(file: &SceneFile) -> Range<usize> {
+    let start = file.text().find("[sheet]").unwrap_or(0);
+    start..(start + "[sheet]".len()).min(file.text().len())
+}
+
+fn domain_name(file: &SceneFile) -> &'static str {
+    match file.scene.sheet.domain() {
+        Domain::Screw => "screw domain",
+        Domain::Patch => "patch",
+        Domain::Torus => "torus",
+    }
+}
+
+/// Refuses the second of two equal keys, with a message made for the key.
+fn unique<K: Eq + Hash>(
+    file: &SceneFile,
+    keys: impl Iterator<Item = (K, Range<usize>)>,
+    fault: impl Fn(&K, usize) -> [String; 2],
+) -> Checked {
+    let mut first = HashMap::new();
+    for (key, span) in keys {
+        if let Some(&before) = first.get(&key) {
+            let [message, help] = fault(&key, file.line_of(before));
+            return Err(file.error_at(span, message, help));
+        }
+        first.insert(key, span.start);
+    }
+    Ok(())
+}
+
+fn locks(file: &SceneFile) -> Checked {
+    let keys = file.scene.locks.iter().map(|lock| (*lock.crease, lock.crease.span()));
+    unique(file, keys, |_, line| {
+        [
+            "the crease is locked twice".into(),
+            format!("it is locked in line {line} already; [i, j, n1, n2] and [j, i, -n1, -n2] are the same crease"),
+        ]
+    })
+}
+
+fn places(file: &SceneFile) -> Checked {
+    let scene = &file.scene;
+    for load in &scene.loads {
+        place(file, "a load", load.vertex.span(), load.cell.as_ref())?;
+    }
+    for pin in &scene.pins {
+        place(file, "a pin", pin.vertex.span(), pin.cell.as_ref())?;
+    }
+    let keys = scene.pins.iter().map(|pin| ((*pin.vertex, pin.cell()), pin.vertex.span()));
+    unique(file, keys, |(vertex, cell), line| {
+        [
+            format!("vertex {vertex} of cell {cell:?} is pinned twice"),
+            format!("name all its axes in the pin of line {line}"),
+        ]
+    })
+}
+
+fn place(file: &SceneFile, what: &str, span: Range<usize>, cell: Option<&Located<CellIndex>>) -> Checked {
+    let sheet = &file.scene.sheet;
+    if sheet.domain() != Domain::Patch {
+        let help = "loads and pins need domain = \"patch\"";
+        return Err(file.error_at(span, format!("{what} on a {}", domain_name(file)), help));
+    }
+    let cells = sheet.cells();
+    match cell {
+        Some(cell) if cell.0[0] >= cells[0] || cell.0[1] >= cells[1] => {
+            let help = format!("cells of this patch run from [0, 0] to [{}, {}]", cells[0] - 1, cells[1] - 1);
+            Err(file.error_at(cell.span(), format!("there is no cell {:?}", cell.0), help))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn studies(file: &SceneFile) -> Checked {
+    let studies = &file.scene.studies;
+    let names = studies.iter().map(|study| (&*study.name, study.name.span()));
+    unique(file, names, |name, line| {
+        [
+            format!("two studies have the name `{}`", name.0),
+            format!("choose another: line {line} has it, and it names files"),
+        ]
+    })?;
+    studies.iter().enumerate().try_for_each(|(at, study)| kind(file, study, &studies[..at]))
+}
+
+fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {
+    match &*study.kind {
+        StudyKind::Relax(relax) => relax.start.as_ref().map_or(Ok(()), |start| earlier_study(file, start, earlier)),
+        StudyKind::Trace(trace) => trace.stop.as_ref().map_or(Ok(()), |stop| some_condition(file, stop)),
+        StudyKind::Landscape(landscape) => not_empty(file, landscape),
+        StudyKind::Surface(_) | StudyKind::Modes(_) | StudyKind::Branches(_) | StudyKind::Bloch(_) => Ok(()),
+    }
+}
+
+fn earlier_study(file: &SceneFile, start: &Located<Start>, earlier: &[StudySpec]) -> Checked {
+    let Start::Study(name) = &**start else { return Ok(()) };
+    let with_states: Vec<_> = earlier.iter().filter(|study| has_states(&study.kind)).collect();
+    if with_states.iter().any(|study| study.name.0 == *name) {
+        return Ok(());
+    }
+    let names: Vec<_> = with_states.iter().map(|study| format!("\"{}\"", study.name.0)).collect();
+    let known = if names.is_empty() { "there are none".into() } else { format!("here {}", names.join(", ")) };
+    let help =
+        format!("\"drawn\", the name of an earlier study with states ({known}), {{ random, seed }} or a .vtu file");
+    let message = match earlier.iter().find(|study| study.name.0 == *name) {
+        Some(study) => format!("`{name}` is a study of kind {}, which ends in no state", study.kind.name()),
+        None => format!("no earlier study is called `{name}`"),
+    };
+    Err(file.error_at(start.span(), message, help))
+}
+
+/// Whether studies of a kind end in a state from which another can start.
+fn has_states(kind: &StudyKind) -> bool {
+    matches!(kind, StudyKind::Relax(_) | StudyKind::Trace(_) | StudyKind::Surface(_))
+}
+
+fn some_condition(file: &SceneFile, stop: &Located<StopSpec>) -> Checked {
+    let none = stop.arc_length.is_none()
+        && stop.curvature.is_none()
+        && stop.crease_angle.is_none()
+        && stop.self_intersection != Some(true);
+    let help = "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true";
+    if none { Err(file.error_at(stop.span(), "no condition to stop at", help)) } else { Ok(()) }
+}
+
+fn not_empty(file: &SceneFile, landscape: &LandscapeSpec) -> Checked {
+    if landscape.modes.is_empty() {
+        return Err(file.error_at(landscape.modes.span(), "no modes", "give at least one, as in [[1, 0, 0]]"));
+    }
+    if landscape.amplitudes.is_empty() {
+        return Err(file.error_at(landscape.amplitudes.span(), "no amplitudes", "give at least one, as in [0.01]"));
+    }
+    Ok(())
+}

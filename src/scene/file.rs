@@ -1,0 +1,189 @@
+//! From the text of a scene to its types, keeping the text for messages.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use miette::NamedSource;
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::SceneError;
+use super::schema::{common_study_keys, kinds, kinds_with_key};
+use super::spec::Scene;
+
+/// A scene with the text from which it was read.
+#[derive(Clone, Debug)]
+pub struct SceneFile {
+    /// The scene.
+    pub scene: Scene,
+    path: PathBuf,
+    text: Arc<NamedSource<String>>,
+}
+
+/// Reads and checks a scene file.
+///
+/// # Errors
+/// [`SceneError::Read`] when the file cannot be read, [`SceneError::At`] for everything that is wrong in it.
+pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
+    let text = std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
+    parse(&text, path)
+}
+
+/// Reads and checks the text of a scene; `name` stands in messages and is what paths in the scene are relative to.
+///
+/// # Errors
+/// [`SceneError::At`] for the first thing that is wrong.
+pub fn parse(text: &str, name: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
+    let path = name.as_ref().to_path_buf();
+    let source = Arc::new(NamedSource::new(path.display().to_string(), text.to_owned()).with_language("TOML"));
+    let scene = deserialize(&source)?;
+    let file = SceneFile { scene, path, text: source };
+    super::checks::check(&file)?;
+    Ok(file)
+}
+
+impl SceneFile {
+    /// The scene file, as it was named to [`read`] or [`parse`].
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A path of the scene, which is relative to the scene file.
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// The title, or the name of the file without its ending.
+    pub fn title(&self) -> String {
+        let stem = || self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        self.scene.title.clone().unwrap_or_else(stem)
+    }
+
+    pub(super) fn text(&self) -> &str {
+        self.text.inner()
+    }
+
+    /// The line of a byte offset, counted from 1.
+    pub(super) fn line_of(&self, offset: usize) -> usize {
+        line_and_column(self.text(), offset).0
+    }
+
+    /// An error that points at a place of the scene ([`super::Located::span`]): what is wrong and what would be right.
+    pub fn error_at(&self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> SceneError {
+        error_at(&self.text, span, message.into(), Some(help.into()))
+    }
+}
+
+fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String, help: Option<String>) -> SceneError {
+    let (line, column) = line_and_column(text.inner(), span.start);
+    SceneError::At { file: text.name().into(), line, column, message, help, text: text.clone(), span: span.into() }
+}
+
+/// Line and column of a byte offset, both counted from 1, the column in characters.
+fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = &text.as_bytes()[..offset.min(text.len())];
+    let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
+    let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
+    (line, String::from_utf8_lossy(&before[line_start..]).chars().count() + 1)
+}
+
+fn deserialize(text: &Arc<NamedSource<String>>) -> Result<Scene, SceneError> {
+    let mut root = DeTable::parse(text.inner()).map_err(|fault| from_toml(text, &fault))?;
+    if let Some(DeValue::Array(studies)) = root.get_mut().get_mut("study").map(Spanned::get_mut) {
+        for study in studies.iter_mut() {
+            if let DeValue::Table(table) = study.get_mut() {
+                nest_kind(table).map_err(|span| not_a_kind(text, span))?;
+            }
+        }
+    }
+    Scene::deserialize(toml::de::Deserializer::from(root)).map_err(|fault| from_toml(text, &fault))
+}
+
+/// Turns `kind = "relax"` and the keys of that kind into `kind = { relax = { .. } }`, the form that serde can read
+/// without losing places. A missing kind is left for serde to refuse; one that is no word gives its place.
+fn nest_kind(study: &mut DeTable<'_>) -> Result<(), Range<usize>> {
+    let common = common_study_keys();
+    let (mut kept, mut own) = (DeTable::new(), DeTable::new());
+    for (key, value) in std::mem::take(study) {
+        let target = if common.contains(&key.get_ref().as_ref()) { &mut kept } else { &mut own };
+        target.insert(key, value);
+    }
+    if let Some(kind) = kept.get_mut("kind") {
+        let span = kind.span();
+        let DeValue::String(word) = kind.get_mut() else { return Err(span) };
+        let word = Spanned::new(span.clone(), std::mem::take(word));
+        *kind.get_mut() = DeValue::Table([(word, Spanned::new(span, DeValue::Table(own)))].into_iter().collect());
+    }
+    *study = kept;
+    Ok(())
+}
+
+fn not_a_kind(text: &Arc<NamedSource<String>>, span: Range<usize>) -> SceneError {
+    let help = format!("expected one of {}", kinds().map(|kind| format!("\"{kind}\"")).join(", "));
+    error_at(text, span, "the kind of a study is a word".into(), Some(help))
+}
+
+/// Says a fault found by the TOML reader or by serde in the words of this program.
+fn from_toml(text: &Arc<NamedSource<String>>, fault: &toml::de::Error) -> SceneError {
+    let span = fault.span().unwrap_or(0..0);
+    let (wrong, right) = match fault.message().split_once(", expected ") {
+        Some((wrong, right)) => (wrong, Some(plain_words(right))),
+        None => (fault.message(), None),
+    };
+    if let Some(key) = quoted_after(wrong, "unknown field ") {
+        let help = unknown_key_help(&key, right);
+        return error_at(text, span, format!("unknown key `{key}`"), Some(help));
+    }
+    if let Some(key) = quoted_after(wrong, "missing field ") {
+        return error_at(text, span, format!("missing key `{key}`"), Some(format!("`{key}` has to be given here")));
+    }
+    let message = wrong.replace("unknown variant", "unknown word");
+    error_at(text, span, message, right.map(|right| format!("expected {right}")))
+}
+
+fn quoted_after(text: &str, start: &str) -> Option<String> {
+    Some(text.strip_prefix(start)?.strip_prefix('`')?.split_once('`')?.0.to_owned())
+}
+
+/// Which keys there are, and which kinds of study have the unknown one.
+fn unknown_key_help(key: &str, right: Option<String>) -> String {
+    let here = right.map_or("no keys are expected here".into(), |right| {
+        format!("the keys here are {}", right.trim_start_matches("one of "))
+    });
+    match kinds_with_key(key).as_slice() {
+        [] => here,
+        kinds => format!("`{key}` is a key of studies of kind {}; {here}", kinds.join(", ")),
+    }
+}
+
+/// Replaces serde's names of Rust types by words.
+fn plain_words(expected: &str) -> String {
+    match expected {
+        "f64" => "a number".into(),
+        "usize" | "u64" | "u32" => "a whole number, 0 or more".into(),
+        "i64" => "a whole number".into(),
+        "a boolean" => "true or false".into(),
+        "a sequence" => "a list [..]".into(),
+        "map" | "a map" => "a table".into(),
+        struct_name if struct_name.starts_with("struct ") => "a table".into(),
+        "path string" => "a path in quotes".into(),
+        other => other.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Columns count characters, so that an accent before the place does not move it; counted by hand.
+    #[test]
+    fn line_and_column_of_an_offset() {
+        let text = "a = 1\n# \u{e9}\u{e9} b = 2\n";
+        assert_eq!(line_and_column(text, 0), (1, 1));
+        assert_eq!(line_and_column(text, 4), (1, 5));
+        assert_eq!(line_and_column(text, text.find('b').unwrap()), (2, 6));
+        assert_eq!(line_and_column(text, text.len() + 9), (3, 1));
+    }
+}

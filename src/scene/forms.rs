@@ -1,0 +1,259 @@
+//! Values of a scene that can be written in more than one form: a word, a number or a table.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::path::PathBuf;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Unexpected, Visitor};
+use serde::{Deserialize, Deserializer};
+
+use super::Located;
+use super::values::{Finite, Positive, Triple};
+
+/// Rest angles of creases.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Rest {
+    /// The drawn fold angles.
+    Drawn,
+    /// Zero.
+    Flat,
+    /// One angle for all creases, in radians.
+    Angle(f64),
+    /// The drawn fold angles plus an amplitude along a mode.
+    Mode(ModeRest),
+    /// A table with a row per crease.
+    File(FileName),
+}
+
+/// `{ mode = .., amplitude = .. }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModeRest {
+    /// The linear folding mode.
+    pub mode: Located<Mode>,
+    /// How far along it.
+    pub amplitude: Located<Finite>,
+}
+
+/// `{ file = "angles.csv" }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FileName {
+    /// Path relative to the scene file; see [`crate::scene::angles`].
+    pub file: Located<PathBuf>,
+}
+
+/// A linear folding mode.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Mode {
+    /// `[k11, k22, k12]`: the curvature tensor it makes at unit amplitude.
+    Curvature([f64; 3]),
+    /// A table of fold-angle rates, a row per edge.
+    Rates(RatesFile),
+}
+
+/// `{ rates = "file.csv" }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RatesFile {
+    /// Path relative to the scene file; see [`crate::scene::angles`].
+    pub rates: Located<PathBuf>,
+}
+
+/// The state from which a relaxation starts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Start {
+    /// As drawn.
+    #[default]
+    Drawn,
+    /// The last state of an earlier study of the same scene.
+    Study(String),
+    /// The drawn state with random displacements.
+    Random(RandomStart),
+    /// A `.vtu` file of an earlier run, relative to the scene file.
+    File(PathBuf),
+}
+
+/// `{ random = amplitude, seed = n }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RandomStart {
+    /// Amplitude of the displacements, in the unit of length.
+    pub random: Located<Positive>,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+/// The branches that a trace follows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BranchChoice {
+    /// Every one.
+    #[default]
+    All,
+    /// The one with this number.
+    Number(usize),
+}
+
+impl<'de> Deserialize<'de> for Rest {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Form;
+        impl<'de> Visitor<'de> for Form {
+            type Value = Rest;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("\"drawn\", \"flat\", an angle, { mode = [k11, k22, k12], amplitude = e } ")?;
+                f.write_str("or { file = \"angles.csv\" }")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<Rest, E> {
+                match word {
+                    "drawn" => Ok(Rest::Drawn),
+                    "flat" => Ok(Rest::Flat),
+                    _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
+                }
+            }
+
+            fn visit_f64<E: Error>(self, angle: f64) -> Result<Rest, E> {
+                Finite::try_from(angle).map(|angle| Rest::Angle(angle.0)).map_err(E::custom)
+            }
+
+            fn visit_i64<E: Error>(self, angle: i64) -> Result<Rest, E> {
+                Ok(Rest::Angle(angle as f64))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Rest, A::Error> {
+                RestTable::deserialize(MapAccessDeserializer::new(map))?.into_rest().map_err(A::Error::custom)
+            }
+        }
+        deserializer.deserialize_any(Form)
+    }
+}
+
+/// The two tables of [`Rest`] in one, to see which of them was meant.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RestTable {
+    mode: Option<Located<Mode>>,
+    amplitude: Option<Located<Finite>>,
+    file: Option<Located<PathBuf>>,
+}
+
+impl RestTable {
+    fn into_rest(self) -> Result<Rest, &'static str> {
+        match (self.mode, self.amplitude, self.file) {
+            (Some(mode), Some(amplitude), None) => Ok(Rest::Mode(ModeRest { mode, amplitude })),
+            (None, None, Some(file)) => Ok(Rest::File(FileName { file })),
+            (Some(_), None, None) => Err("`amplitude` is missing, expected { mode = [k11, k22, k12], amplitude = e }"),
+            (None, Some(_), None) => Err("`mode` is missing, expected { mode = [k11, k22, k12], amplitude = e }"),
+            (None, None, None) => Err("the table is empty, expected { mode, amplitude } or { file }"),
+            _ => Err("rest angles come from a mode and from a file at once, expected one of the two"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Mode {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Form;
+        impl<'de> Visitor<'de> for Form {
+            type Value = Mode;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a curvature tensor [k11, k22, k12] or { rates = \"file.csv\" }")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Mode, A::Error> {
+                match Triple::deserialize(SeqAccessDeserializer::new(seq))?.0 {
+                    [0.0, 0.0, 0.0] => {
+                        Err(A::Error::custom("the mode is zero, expected a curvature tensor [k11, k22, k12]"))
+                    }
+                    tensor => Ok(Mode::Curvature(tensor)),
+                }
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Mode, A::Error> {
+                RatesFile::deserialize(MapAccessDeserializer::new(map)).map(Mode::Rates)
+            }
+        }
+        deserializer.deserialize_any(Form)
+    }
+}
+
+impl<'de> Deserialize<'de> for Start {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Form;
+        impl<'de> Visitor<'de> for Form {
+            type Value = Start;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("\"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<Start, E> {
+                Ok(match word {
+                    "drawn" => Start::Drawn,
+                    file if file.ends_with(".vtu") => Start::File(file.into()),
+                    name => Start::Study(name.into()),
+                })
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Start, A::Error> {
+                RandomStart::deserialize(MapAccessDeserializer::new(map)).map(Start::Random)
+            }
+        }
+        deserializer.deserialize_any(Form)
+    }
+}
+
+impl<'de> Deserialize<'de> for BranchChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Form;
+        impl Visitor<'_> for Form {
+            type Value = BranchChoice;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("\"all\" or the number of a branch, counted from 0")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<BranchChoice, E> {
+                if word == "all" { Ok(BranchChoice::All) } else { Err(E::invalid_value(Unexpected::Str(word), &self)) }
+            }
+
+            fn visit_i64<E: Error>(self, number: i64) -> Result<BranchChoice, E> {
+                let number =
+                    usize::try_from(number).map_err(|_| E::invalid_value(Unexpected::Signed(number), &self))?;
+                Ok(BranchChoice::Number(number))
+            }
+        }
+        deserializer.deserialize_any(Form)
+    }
+}
+
+/// Gives a type the schema "any of these", next to the visitor that reads them.
+macro_rules! schema_any_of {
+    ($type:ident, $generator:ident, $forms:tt) => {
+        impl JsonSchema for $type {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($type).into()
+            }
+
+            fn json_schema($generator: &mut SchemaGenerator) -> Schema {
+                json_schema!({ "anyOf": $forms })
+            }
+        }
+    };
+}
+
+schema_any_of!(Rest, generator, [
+    { "enum": ["drawn", "flat"] },
+    { "type": "number", "description": "one angle for all creases, in radians" },
+    generator.subschema_for::<ModeRest>(),
+    generator.subschema_for::<FileName>(),
+]);
+schema_any_of!(Mode, generator, [generator.subschema_for::<[f64; 3]>(), generator.subschema_for::<RatesFile>()]);
+schema_any_of!(Start, generator, [
+    { "type": "string", "description": "\"drawn\", the name of an earlier study, or a .vtu file" },
+    generator.subschema_for::<RandomStart>(),
+]);
+schema_any_of!(BranchChoice, _generator, [{ "const": "all" }, { "type": "integer", "minimum": 0 }]);

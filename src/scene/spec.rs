@@ -1,0 +1,375 @@
+//! The scene as its file says it: one type per table, one field per key.
+//!
+//! Paths are relative to the scene file ([`crate::scene::SceneFile::resolve`]). What a value alone can get wrong is
+//! refused by its type ([`super::values`], [`super::forms`]); what values get wrong together, by the checks that
+//! [`crate::scene::parse`] ends with.
+
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::Located;
+use super::forms::{BranchChoice, Mode, Rest, Start};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Name, Positive, Stiffness, Triple};
+
+/// A whole scene.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "foldwell scene")]
+pub struct Scene {
+    /// What the scene is about.
+    pub title: Option<String>,
+    /// The sheet and its boundary conditions.
+    pub sheet: SheetSpec,
+    /// The terms of the energy; a term that is absent is not built.
+    #[serde(default)]
+    pub energy: EnergySpec,
+    /// Creases that keep their fold angle in every cell.
+    #[serde(default, rename = "lock")]
+    pub locks: Vec<LockSpec>,
+    /// Forces on vertices of a patch.
+    #[serde(default, rename = "load")]
+    pub loads: Vec<LoadSpec>,
+    /// Vertices of a patch that are held.
+    #[serde(default, rename = "pin")]
+    pub pins: Vec<PinSpec>,
+    /// What to compute, in this order.
+    #[serde(default, rename = "study")]
+    pub studies: Vec<StudySpec>,
+}
+
+/// `[sheet]`: exactly one of `mesh` and `generate`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SheetSpec {
+    /// A FOLD file with one cell of the sheet.
+    pub mesh: Option<Located<PathBuf>>,
+    /// A pattern and its parameters, `{ pattern = "miura", .. }`, as `foldwell new` takes them.
+    #[schemars(with = "Option<std::collections::BTreeMap<String, serde_json::Value>>")]
+    pub generate: Option<Located<toml::Table>>,
+    /// Boundary conditions; left out: `patch`.
+    pub domain: Option<Located<Domain>>,
+    /// Patch and torus: cells of the model, [1, 1] when left out. Screw: cells of the pictures, [6, 6] when left out.
+    pub cells: Option<Located<Cells>>,
+    /// Torus only: whether the lattice vectors are unknowns (`free`, when left out) or stay as drawn (`fixed`).
+    pub lattice: Option<Located<Lattice>>,
+}
+
+/// Where the cell's neighbours are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Domain {
+    /// One cell, its copies moved by two commuting screw motions.
+    Screw,
+    /// n1 x n2 cells with free edges.
+    #[default]
+    Patch,
+    /// n1 x n2 cells, spatially periodic.
+    Torus,
+}
+
+/// Lattice vectors of a torus.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Lattice {
+    /// Unknowns of the model.
+    #[default]
+    Free,
+    /// As drawn.
+    Fixed,
+}
+
+impl SheetSpec {
+    /// The domain; a scene that says nothing means a patch.
+    pub fn domain(&self) -> Domain {
+        self.domain.as_deref().copied().unwrap_or_default()
+    }
+
+    /// The numbers of cells, with the default of the domain.
+    pub fn cells(&self) -> [usize; 2] {
+        match (self.cells.as_deref(), self.domain()) {
+            (Some(cells), _) => cells.0,
+            (None, Domain::Screw) => [6, 6],
+            (None, Domain::Patch | Domain::Torus) => [1, 1],
+        }
+    }
+
+    /// Whether the lattice vectors of a torus are unknowns.
+    pub fn lattice(&self) -> Lattice {
+        self.lattice.as_deref().copied().unwrap_or_default()
+    }
+}
+
+/// `[energy]`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EnergySpec {
+    /// Bars along all edges, diagonals of polygons included.
+    pub bars: Option<BarsSpec>,
+    /// Hinges at the creases.
+    pub creases: Option<CreasesSpec>,
+    /// Hinges at the diagonals of polygons; left out, polygons are rigid.
+    pub facets: Option<FacetsSpec>,
+}
+
+/// `bars = { stiffness }`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BarsSpec {
+    /// EA, a force; the spring constant is EA / L0; `inf`: exactly rigid.
+    pub stiffness: Located<Stiffness>,
+}
+
+/// `creases = { stiffness, rest }`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CreasesSpec {
+    /// Torque per radian and per length of crease; the spring constant is stiffness * L0.
+    pub stiffness: Located<Stiffness>,
+    /// Rest angles; left out: as drawn.
+    pub rest: Option<Located<Rest>>,
+}
+
+/// `facets = { stiffness }`; they rest as drawn.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FacetsSpec {
+    /// Torque per radian and per length of diagonal; the spring constant is stiffness * L0.
+    pub stiffness: Located<Stiffness>,
+}
+
+/// `[[lock]]`: a crease that keeps its fold angle in every cell.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LockSpec {
+    /// The crease `[i, j, n1, n2]`.
+    pub crease: Located<EdgeName>,
+    /// The fold angle in radians; left out: the drawn one.
+    pub angle: Option<Located<Finite>>,
+}
+
+/// `[[load]]`: a force on a vertex of a patch.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadSpec {
+    /// Number of the vertex in its cell.
+    pub vertex: Located<usize>,
+    /// The cell; left out: [0, 0].
+    pub cell: Option<Located<CellIndex>>,
+    /// The force `[x, y, z]`.
+    pub force: Located<Triple>,
+}
+
+/// `[[pin]]`: a vertex of a patch that is held.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PinSpec {
+    /// Number of the vertex in its cell.
+    pub vertex: Located<usize>,
+    /// The cell; left out: [0, 0].
+    pub cell: Option<Located<CellIndex>>,
+    /// The coordinates that stay as drawn, letters of "xyz"; left out: all.
+    #[serde(default)]
+    #[schemars(with = "String")]
+    pub axes: Axes,
+}
+
+impl LoadSpec {
+    /// The cell of the vertex.
+    pub fn cell(&self) -> [usize; 2] {
+        self.cell.as_deref().copied().unwrap_or_default().0
+    }
+}
+
+impl PinSpec {
+    /// The cell of the vertex.
+    pub fn cell(&self) -> [usize; 2] {
+        self.cell.as_deref().copied().unwrap_or_default().0
+    }
+}
+
+/// `[[study]]`: a question about the sheet. Every kind has these keys and its own.
+///
+/// In the file `kind` is a word and the keys of the kind stand beside it; [`crate::scene::parse`] moves them into a
+/// table `kind = { relax = { .. } }` before the types see them.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudySpec {
+    /// Names its files: letters, digits, `_` and `-`, different for each study.
+    pub name: Located<Name>,
+    /// What is asked, with the keys that belong to it.
+    #[schemars(flatten)]
+    pub kind: Located<StudyKind>,
+    /// What is checked at every state.
+    #[serde(default)]
+    pub check: Vec<Check>,
+    /// The pictures: left out, all of them; empty, tables only.
+    #[serde(default = "every_picture")]
+    pub draw: Vec<Draw>,
+}
+
+fn every_picture() -> Vec<Draw> {
+    vec![Draw::Vtk, Draw::Svg]
+}
+
+/// A check at every state of a study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Check {
+    /// Whether faces pass through each other.
+    SelfIntersection,
+}
+
+/// A kind of picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Draw {
+    /// Files for ParaView.
+    Vtk,
+    /// One SVG.
+    Svg,
+}
+
+/// The kinds of studies.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(tag = "kind")]
+pub enum StudyKind {
+    /// An equilibrium of the energy.
+    Relax(RelaxSpec),
+    /// The trajectories along which the sheet folds.
+    Trace(TraceSpec),
+    /// The surface of folded states.
+    Surface(SurfaceSpec),
+    /// Zero modes, self stresses and the lowest eigenvalues.
+    Modes(ModesSpec),
+    /// The directions in which folding leaves a state.
+    Branches(BranchesSpec),
+    /// Energy along modes.
+    Landscape(LandscapeSpec),
+    /// Modes of nonzero wavenumber.
+    Bloch(BlochSpec),
+}
+
+/// `kind = "relax"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RelaxSpec {
+    /// Where it starts; left out: as drawn.
+    pub start: Option<Located<Start>>,
+    /// Bound on both scaled residuals.
+    pub tolerance: Option<Located<Positive>>,
+}
+
+/// `kind = "trace"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TraceSpec {
+    /// What is solved at every step; left out: `kinematic`.
+    #[serde(default)]
+    pub engine: Engine,
+    /// Which branches are followed; left out: all.
+    pub branch: Option<Located<BranchChoice>>,
+    /// Longest step in arc length.
+    pub max_step: Option<Located<Positive>>,
+    /// Bound on the residual.
+    pub tolerance: Option<Located<Positive>>,
+    /// The first of these that is met ends a trajectory.
+    pub stop: Option<Located<StopSpec>>,
+}
+
+/// What a trace solves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Engine {
+    /// Closure of the fold angles round the vertices.
+    #[default]
+    Kinematic,
+    /// The relaxation.
+    Energy,
+    /// Both, compared at every step.
+    Both,
+}
+
+/// `stop = { .. }`, with at least one condition.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StopSpec {
+    /// Length of the trajectory in fold angles.
+    pub arc_length: Option<Located<Positive>>,
+    /// Magnitude of the curvature.
+    pub curvature: Option<Located<Positive>>,
+    /// A crease and the angle at which to stop.
+    pub crease_angle: Option<CreaseAngle>,
+    /// Whether to stop when faces first pass through each other.
+    pub self_intersection: Option<bool>,
+}
+
+/// `{ crease, angle }`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CreaseAngle {
+    /// The crease `[i, j, n1, n2]`.
+    pub crease: Located<EdgeName>,
+    /// Its fold angle in radians.
+    pub angle: Located<Finite>,
+}
+
+/// `kind = "surface"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSpec {
+    /// Number of states along each direction.
+    pub resolution: Option<Located<u32>>,
+    /// Largest curvature shown.
+    pub max_curvature: Option<Located<Positive>>,
+}
+
+/// `kind = "modes"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModesSpec {
+    /// How many of the lowest eigenvalues of the energy's Hessian; left out: none.
+    pub eigenvalues: Option<Located<usize>>,
+}
+
+/// `kind = "branches"`: no keys of its own.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BranchesSpec {}
+
+/// `kind = "landscape"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LandscapeSpec {
+    /// The modes, each `[k11, k22, k12]` or `{ rates = "file.csv" }`.
+    pub modes: Located<Vec<Located<Mode>>>,
+    /// The amplitudes along each.
+    pub amplitudes: Located<Vec<Positive>>,
+}
+
+/// `kind = "bloch"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlochSpec {
+    /// Wavenumbers sampled along each direction.
+    pub grid: Option<Located<Cells>>,
+    /// First wavenumbers at which decay rates are wanted, in radians per cell.
+    pub q1: Option<Located<Vec<Finite>>>,
+}
+
+impl StudyKind {
+    /// The word in the scene.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Relax(_) => "relax",
+            Self::Trace(_) => "trace",
+            Self::Surface(_) => "surface",
+            Self::Modes(_) => "modes",
+            Self::Branches(_) => "branches",
+            Self::Landscape(_) => "landscape",
+            Self::Bloch(_) => "bloch",
+        }
+    }
+}

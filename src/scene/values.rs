@@ -1,0 +1,242 @@
+//! Values that a scene can get wrong: each type here can only hold what is right.
+//!
+//! Every message has the form `what is wrong, expected what would be right`; [`crate::scene::SceneError`] prints the
+//! second half as help.
+
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+use thiserror::Error;
+
+use crate::sheet::{Corner, EdgeKey};
+
+/// Why a value of a scene is refused.
+#[derive(Debug, Error)]
+pub enum ValueError {
+    /// A list that is too short or too long.
+    #[error("the list has {0} values, expected {1}")]
+    Length(usize, usize),
+    /// A stiffness that is zero, negative or not a number.
+    #[error("the stiffness is {0}, expected a positive number or `inf` (exactly rigid)")]
+    Stiffness(f64),
+    /// Infinity or NaN where a finite number is needed.
+    #[error("the number is {0}, expected a finite number")]
+    NotFinite(f64),
+    /// A number that has to be positive and finite.
+    #[error("the number is {0}, expected a finite number above 0")]
+    NotPositive(f64),
+    /// Fewer than one cell.
+    #[error("there are {0} x {1} cells, expected at least 1 in either direction")]
+    NoCells(i64, i64),
+    /// More cells than indices.
+    #[error("{0} x {1} cells are more than can be numbered, expected at most {max} in all", max = Cells::MOST)]
+    TooManyCells(i64, i64),
+    /// Characters that do not go into a file name everywhere.
+    #[error("`{0}` is not a name for a study, expected letters, digits, `_` and `-` only")]
+    Name(String),
+    /// A name that means something else.
+    #[error("`{0}` cannot name a study because `start = \"{0}\"` means the drawn state, expected another name")]
+    ReservedName(String),
+    /// Axes other than x, y, z, or one of them twice, or none.
+    #[error("`{0}` names no axes, expected one or more of the letters x, y, z, each once, as in \"xz\"")]
+    Axes(String),
+    /// A negative vertex number in the name of an edge.
+    #[error("an edge cannot start or end at vertex {0}, expected [i, j, n1, n2] with i and j counted from 0")]
+    Vertex(i64),
+    /// A shift of an edge out of range.
+    #[error("cell {0} of an edge is out of range, expected n1 and n2 of [i, j, n1, n2] to be small whole numbers")]
+    Shift(i64),
+    /// An edge from a vertex to itself.
+    #[error("the edge runs from vertex {0} to itself, expected two different ends in [i, j, n1, n2]")]
+    Loop(usize),
+}
+
+/// A list of exactly `N` values: arrays alone would leave out what is too much without a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exactly<T, const N: usize>(pub [T; N]);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let values = Vec::<T>::deserialize(deserializer)?;
+        values.try_into().map(Self).map_err(|values: Vec<T>| D::Error::custom(ValueError::Length(values.len(), N)))
+    }
+}
+
+impl<T, const N: usize> JsonSchema for Exactly<T, N>
+where
+    [T; N]: JsonSchema,
+{
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        <[T; N]>::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        <[T; N]>::json_schema(generator)
+    }
+}
+
+/// Stiffness of a term: a positive number, infinity included.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+pub struct Stiffness(pub f64);
+
+impl TryFrom<f64> for Stiffness {
+    type Error = ValueError;
+
+    fn try_from(value: f64) -> Result<Self, ValueError> {
+        if value > 0.0 { Ok(Self(value)) } else { Err(ValueError::Stiffness(value)) }
+    }
+}
+
+/// A finite number.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+pub struct Finite(pub f64);
+
+impl TryFrom<f64> for Finite {
+    type Error = ValueError;
+
+    fn try_from(value: f64) -> Result<Self, ValueError> {
+        if value.is_finite() { Ok(Self(value)) } else { Err(ValueError::NotFinite(value)) }
+    }
+}
+
+/// A finite number above zero.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+pub struct Positive(pub f64);
+
+impl TryFrom<f64> for Positive {
+    type Error = ValueError;
+
+    fn try_from(value: f64) -> Result<Self, ValueError> {
+        if value > 0.0 && value.is_finite() { Ok(Self(value)) } else { Err(ValueError::NotPositive(value)) }
+    }
+}
+
+/// Three finite numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "Exactly<f64, 3>")]
+pub struct Triple(pub [f64; 3]);
+
+impl TryFrom<Exactly<f64, 3>> for Triple {
+    type Error = ValueError;
+
+    fn try_from(Exactly(value): Exactly<f64, 3>) -> Result<Self, ValueError> {
+        match value.iter().find(|x| !x.is_finite()) {
+            Some(&bad) => Err(ValueError::NotFinite(bad)),
+            None => Ok(Self(value)),
+        }
+    }
+}
+
+/// A cell of a patch, counted from [0, 0].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Deserialize, JsonSchema)]
+#[serde(from = "Exactly<usize, 2>")]
+pub struct CellIndex(pub [usize; 2]);
+
+impl From<Exactly<usize, 2>> for CellIndex {
+    fn from(Exactly(cell): Exactly<usize, 2>) -> Self {
+        Self(cell)
+    }
+}
+
+/// Numbers of cells along the two lattice vectors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(try_from = "Exactly<i64, 2>")]
+pub struct Cells(pub [usize; 2]);
+
+impl Cells {
+    /// The largest number of cells: their indices fit into 32 bits, signs included.
+    pub const MOST: i64 = i32::MAX as i64;
+}
+
+impl TryFrom<Exactly<i64, 2>> for Cells {
+    type Error = ValueError;
+
+    fn try_from(Exactly([n1, n2]): Exactly<i64, 2>) -> Result<Self, ValueError> {
+        if n1 < 1 || n2 < 1 {
+            return Err(ValueError::NoCells(n1, n2));
+        }
+        match n1.checked_mul(n2) {
+            Some(count) if count <= Self::MOST => Ok(Self([n1 as usize, n2 as usize])),
+            _ => Err(ValueError::TooManyCells(n1, n2)),
+        }
+    }
+}
+
+/// Name of a study: it names files too, so it has letters, digits, `_` and `-` only.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(try_from = "String")]
+pub struct Name(pub String);
+
+impl TryFrom<String> for Name {
+    type Error = ValueError;
+
+    fn try_from(value: String) -> Result<Self, ValueError> {
+        let legal = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if value == "drawn" {
+            Err(ValueError::ReservedName(value))
+        } else if value.is_empty() || !value.chars().all(legal) {
+            Err(ValueError::Name(value))
+        } else {
+            Ok(Self(value))
+        }
+    }
+}
+
+/// Coordinate axes: `[x, y, z]`, true where the letter is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(try_from = "String")]
+pub struct Axes(pub [bool; 3]);
+
+impl Default for Axes {
+    fn default() -> Self {
+        Self([true; 3])
+    }
+}
+
+impl TryFrom<String> for Axes {
+    type Error = ValueError;
+
+    fn try_from(value: String) -> Result<Self, ValueError> {
+        let mut axes = [false; 3];
+        for letter in value.chars() {
+            match "xyz".find(letter) {
+                Some(axis) if !axes[axis] => axes[axis] = true,
+                _ => return Err(ValueError::Axes(value)),
+            }
+        }
+        if value.is_empty() { Err(ValueError::Axes(value)) } else { Ok(Self(axes)) }
+    }
+}
+
+/// The name `[i, j, n1, n2]` of an edge of the cell; `[j, i, -n1, -n2]` gives the same value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(try_from = "Exactly<i64, 4>")]
+pub struct EdgeName(#[schemars(with = "[i64; 4]")] pub EdgeKey);
+
+impl TryFrom<Exactly<i64, 4>> for EdgeName {
+    type Error = ValueError;
+
+    fn try_from(Exactly(name): Exactly<i64, 4>) -> Result<Self, ValueError> {
+        directed_edge(name).map(|(key, _)| Self(key))
+    }
+}
+
+/// The edge `[i, j, n1, n2]` and whether its canonical name runs the other way.
+pub(super) fn directed_edge([i, j, n1, n2]: [i64; 4]) -> Result<(EdgeKey, bool), ValueError> {
+    let vertex = |v: i64| usize::try_from(v).map_err(|_| ValueError::Vertex(v));
+    let shift = |n: i64| match i32::try_from(n) {
+        Ok(n) if n != i32::MIN => Ok(n),
+        _ => Err(ValueError::Shift(n)),
+    };
+    let (start, end) = (Corner::home(vertex(i)?), Corner { vertex: vertex(j)?, shift: [shift(n1)?, shift(n2)?] });
+    if start == end { Err(ValueError::Loop(start.vertex)) } else { Ok(EdgeKey::new(start, end)) }
+}

@@ -1,0 +1,255 @@
+//! Malformed scenes, each with its message: where (`scene.toml:line:column`), what is wrong, what would be right.
+
+use foldwell::scene::{SceneError, parse};
+use miette::Diagnostic;
+use proptest::prelude::*;
+
+/// A scene with every table and every kind of study; it is right.
+const GOOD: &str = r#"title = "every key"
+[sheet]
+mesh = "star.fold"
+domain = "patch"
+cells = [4, 6]
+[energy]
+bars = { stiffness = inf }
+creases = { stiffness = 1.0, rest = { mode = [1, 0, 0], amplitude = 0.1 } }
+facets = { stiffness = 10 }
+[[lock]]
+crease = [0, 1, 0, 0]
+angle = 0.3
+[[load]]
+vertex = 0
+cell = [2, 3]
+force = [0.0, 0.0, -1.0]
+[[pin]]
+vertex = 1
+axes = "xz"
+[[study]]
+name = "first"
+kind = "relax"
+start = { random = 0.1, seed = 7 }
+tolerance = 1e-12
+[[study]]
+name = "second"
+kind = "relax"
+start = "first"
+check = ["self-intersection"]
+draw = []
+[[study]]
+name = "third"
+kind = "relax"
+start = "old/first.vtu"
+[[study]]
+name = "loop"
+kind = "trace"
+engine = "both"
+branch = "all"
+max_step = 0.1
+stop = { arc_length = 10.0, crease_angle = { crease = [0, 1, 0, 0], angle = 1 } }
+[[study]]
+name = "modes"
+kind = "modes"
+eigenvalues = 12
+[[study]]
+name = "well"
+kind = "landscape"
+modes = [[1, 1, 0], { rates = "mode.csv" }]
+amplitudes = [0.01, 0.02]
+[[study]]
+name = "waves"
+kind = "bloch"
+grid = [32, 32]
+q1 = [0.5]
+[[study]]
+name = "rays"
+kind = "branches"
+[[study]]
+name = "sheet"
+kind = "surface"
+resolution = 20
+max_curvature = 3
+"#;
+
+/// The message of a scene that has to be refused, and its help.
+fn refusal(text: &str) -> (String, String) {
+    let error = parse(text, "scene.toml").expect_err("the scene should be refused");
+    assert!(matches!(error, SceneError::At { .. }), "{error}");
+    (error.to_string(), error.help().map(|help| help.to_string()).unwrap_or_default())
+}
+
+/// One fault in an otherwise right scene: the line that is replaced, by what, and what is said about it.
+struct Fault {
+    line: usize,
+    new: &'static str,
+    at: &'static str,
+    message: &'static str,
+    help: &'static str,
+}
+
+const fn fault(line: usize, new: &'static str, at: &'static str, message: &'static str, help: &'static str) -> Fault {
+    Fault { line, new, at, message, help }
+}
+
+#[rustfmt::skip]
+const FAULTS: &[Fault] = &[
+    // the language
+    fault(2, "[sheet", "2:7", "unclosed table", "expected `]`"),
+    fault(5, "cells = [4, 6", "6:1", "missing comma between array elements", "expected `,`"),
+    fault(1, "title = \"a\"\ntitle = \"b\"", "2:1", "duplicate key", ""),
+    fault(1, "title = 3", "1:9", "invalid type: integer `3`", "expected a string"),
+    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "the keys here are `title`, `sheet`, `energy`, `lock`, `load`, `pin`, `study`"),
+    // the sheet
+    fault(3, "", "2:1", "the sheet has neither a mesh nor a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
+    fault(3, "mesh = \"a.fold\"\ngenerate = { pattern = \"miura\" }", "4:12", "the sheet has both a mesh and a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
+    fault(3, "mesh = 3", "3:8", "invalid type: integer `3`", "expected a path in quotes"),
+    fault(4, "domain = \"tube\"", "4:10", "unknown word `tube`", "expected one of `screw`, `patch`, `torus`"),
+    fault(5, "cells = [0, 6]", "5:9", "there are 0 x 6 cells", "expected at least 1 in either direction"),
+    fault(5, "cells = [4, 6, 2]", "5:9", "the list has 3 values", "expected 2"),
+    fault(5, "cells = [4000000000, 4000000000]", "5:9", "4000000000 x 4000000000 cells are more than can be numbered", "expected at most 2147483647 in all"),
+    fault(5, "cells = [99999999999999999999, 1]", "5:10", "invalid type: integer `99999999999999999999` as i128", "expected a whole number"),
+    fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "the keys here are `mesh`, `generate`, `domain`, `cells`, `lattice`"),
+    fault(5, "cells = [4, 6]\nlattice = \"free\"", "6:11", "`lattice` is given for a patch", "it belongs to domain = \"torus\"; leave it out otherwise"),
+    fault(4, "domain = \"screw\"", "14:10", "a load on a screw domain", "loads and pins need domain = \"patch\""),
+    // the energy
+    fault(7, "bars = { stiffness = 0 }", "7:22", "the stiffness is 0", "expected a positive number or `inf` (exactly rigid)"),
+    fault(7, "bars = { stiffness = -3.0 }", "7:22", "the stiffness is -3", "expected a positive number or `inf` (exactly rigid)"),
+    fault(7, "bars = { stiffness = nan }", "7:22", "the stiffness is NaN", "expected a positive number or `inf` (exactly rigid)"),
+    fault(7, "bars = { stiffness = \"soft\" }", "7:22", "invalid type: string \"soft\"", "expected a number"),
+    fault(7, "bars = { stifness = 1 }", "7:10", "unknown key `stifness`", "the keys here are `stiffness`"),
+    fault(7, "bars = {}", "7:8", "missing key `stiffness`", "`stiffness` has to be given here"),
+    fault(7, "bars = 1000", "7:8", "invalid type: integer `1000`", "expected a table"),
+    fault(8, "creases = { stiffness = 1.0, rest = \"folded\" }", "8:37", "invalid value: string \"folded\"", "expected \"drawn\", \"flat\", an angle, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }"),
+    fault(8, "creases = { stiffness = 1.0, rest = inf }", "8:37", "the number is inf", "expected a finite number"),
+    fault(8, "creases = { stiffness = 1.0, rest = true }", "8:37", "invalid type: boolean `true`", "expected \"drawn\", \"flat\", an angle, { mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }"),
+    fault(8, "creases = { stiffness = 1.0, rest = { mode = [1, 0], amplitude = 0.1 } }", "8:46", "the list has 2 values", "expected 3"),
+    fault(8, "creases = { stiffness = 1.0, rest = { mode = [0, 0, 0], amplitude = 0.1 } }", "8:46", "the mode is zero", "expected a curvature tensor [k11, k22, k12]"),
+    fault(8, "creases = { stiffness = 1.0, rest = { mode = [1, nan, 0], amplitude = 0.1 } }", "8:46", "the number is NaN", "expected a finite number"),
+    fault(8, "creases = { stiffness = 1.0, rest = { mode = [1, 0, 0], amplitude = inf } }", "8:69", "the number is inf", "expected a finite number"),
+    fault(8, "creases = { stiffness = 1.0, rest = { mode = [1, 0, 0] } }", "8:37", "`amplitude` is missing", "expected { mode = [k11, k22, k12], amplitude = e }"),
+    fault(8, "creases = { stiffness = 1.0, rest = { amplitude = 0.1 } }", "8:37", "`mode` is missing", "expected { mode = [k11, k22, k12], amplitude = e }"),
+    fault(8, "creases = { stiffness = 1.0, rest = {} }", "8:37", "the table is empty", "expected { mode, amplitude } or { file }"),
+    fault(8, "creases = { stiffness = 1.0, rest = { file = \"a.csv\", amplitude = 0.1 } }", "8:37", "rest angles come from a mode and from a file at once", "expected one of the two"),
+    fault(9, "facets = { stiffness = 10, rest = \"flat\" }", "9:28", "unknown key `rest`", "the keys here are `stiffness`"),
+    // locks, loads, pins
+    fault(11, "crease = [0, 1, 0]", "11:10", "the list has 3 values", "expected 4"),
+    fault(11, "crease = [0, 0.5, 0, 0]", "11:14", "invalid type: floating point `0.5`", "expected a whole number"),
+    fault(11, "crease = [0, -1, 0, 0]", "11:10", "an edge cannot start or end at vertex -1", "expected [i, j, n1, n2] with i and j counted from 0"),
+    fault(11, "crease = [1, 1, 0, 0]", "11:10", "the edge runs from vertex 1 to itself", "expected two different ends in [i, j, n1, n2]"),
+    fault(11, "crease = [1, 1, 9999999999, 0]", "11:10", "cell 9999999999 of an edge is out of range", "expected n1 and n2 of [i, j, n1, n2] to be small whole numbers"),
+    fault(11, "crease = [0, 1, 0, -1]\n[[lock]]\ncrease = [1, 0, 0, 1]", "13:10", "the crease is locked twice", "it is locked in line 11 already; [i, j, n1, n2] and [j, i, -n1, -n2] are the same crease"),
+    fault(12, "angle = nan", "12:9", "the number is NaN", "expected a finite number"),
+    fault(14, "vertex = -1", "14:10", "invalid value: integer `-1`", "expected a whole number, 0 or more"),
+    fault(15, "cell = [4, 0]", "15:8", "there is no cell [4, 0]", "cells of this patch run from [0, 0] to [3, 5]"),
+    fault(15, "cell = [-1, 0]", "15:9", "invalid value: integer `-1`", "expected a whole number, 0 or more"),
+    fault(16, "force = [0.0, 0.0, inf]", "16:9", "the number is inf", "expected a finite number"),
+    fault(15, "cell = [1, 2, 3]", "15:8", "the list has 3 values", "expected 2"),
+    fault(16, "force = [0.0, 0.0, 1.0, 2.0]", "16:9", "the list has 4 values", "expected 3"),
+    fault(16, "", "13:1", "missing key `force`", "`force` has to be given here"),
+    fault(19, "axes = \"xw\"", "19:8", "`xw` names no axes", "expected one or more of the letters x, y, z, each once, as in \"xz\""),
+    fault(19, "axes = \"xx\"", "19:8", "`xx` names no axes", "expected one or more of the letters x, y, z, each once, as in \"xz\""),
+    fault(19, "axes = \"\"", "19:8", "`` names no axes", "expected one or more of the letters x, y, z, each once, as in \"xz\""),
+    fault(19, "[[pin]]\nvertex = 1\ncell = [0, 0]", "20:10", "vertex 1 of cell [0, 0] is pinned twice", "name all its axes in the pin of line 18"),
+    // studies
+    fault(21, "name = \"a b\"", "21:8", "`a b` is not a name for a study", "expected letters, digits, `_` and `-` only"),
+    fault(21, "name = \"\"", "21:8", "`` is not a name for a study", "expected letters, digits, `_` and `-` only"),
+    fault(21, "name = \"drawn\"", "21:8", "`drawn` cannot name a study because `start = \"drawn\"` means the drawn state", "expected another name"),
+    fault(21, "name = \"second\"", "26:8", "two studies have the name `second`", "choose another: line 21 has it, and it names files"),
+    fault(21, "", "20:1", "missing key `name`", "`name` has to be given here"),
+    fault(22, "kind = \"relaxx\"", "22:8", "unknown word `relaxx`", "expected one of `relax`, `trace`, `surface`, `modes`, `branches`, `landscape`, `bloch`"),
+    fault(22, "kind = { relax = {} }", "22:8", "the kind of a study is a word", "expected one of \"relax\", \"trace\", \"surface\", \"modes\", \"branches\", \"landscape\", \"bloch\""),
+    fault(22, "kind = 3", "22:8", "the kind of a study is a word", "expected one of \"relax\", \"trace\", \"surface\", \"modes\", \"branches\", \"landscape\", \"bloch\""),
+    fault(22, "", "20:1", "missing key `kind`", "`kind` has to be given here"),
+    fault(23, "start = { random = 0.1 }", "23:9", "missing key `seed`", "`seed` has to be given here"),
+    fault(23, "start = { random = -0.1, seed = 1 }", "23:20", "the number is -0.1", "expected a finite number above 0"),
+    fault(23, "start = \"second\"", "23:9", "no earlier study is called `second`", "\"drawn\", the name of an earlier study with states (there are none), { random, seed } or a .vtu file"),
+    fault(23, "start = 3", "23:9", "invalid type: integer `3`", "expected \"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file"),
+    fault(24, "tolerance = 0", "24:13", "the number is 0", "expected a finite number above 0"),
+    fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace; the keys here are `start` or `tolerance`"),
+    fault(28, "start = \"third\"", "28:9", "no earlier study is called `third`", "\"drawn\", the name of an earlier study with states (here \"first\"), { random, seed } or a .vtu file"),
+    fault(29, "check = [\"overlap\"]", "29:10", "unknown word `overlap`", "expected `self-intersection`"),
+    fault(30, "draw = [\"png\"]", "30:9", "unknown word `png`", "expected `vtk` or `svg`"),
+    fault(38, "engine = \"fast\"", "38:10", "unknown word `fast`", "expected one of `kinematic`, `energy`, `both`"),
+    fault(39, "branch = -2", "39:10", "invalid value: integer `-2`", "expected \"all\" or the number of a branch, counted from 0"),
+    fault(41, "stop = {}", "41:8", "no condition to stop at", "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true"),
+    fault(41, "stop = { curvature = 0 }", "41:22", "the number is 0", "expected a finite number above 0"),
+    fault(45, "[[study]]\nname = \"late\"\nkind = \"relax\"\nstart = \"modes\"", "48:9", "`modes` is a study of kind modes, which ends in no state", "\"drawn\", the name of an earlier study with states (here \"first\", \"second\", \"third\", \"loop\"), { random, seed } or a .vtu file"),
+    fault(45, "eigenvalues = 1.5", "45:15", "invalid type: floating point `1.5`", "expected a whole number, 0 or more"),
+    fault(49, "modes = []", "49:9", "no modes", "give at least one, as in [[1, 0, 0]]"),
+    fault(50, "amplitudes = []", "50:14", "no amplitudes", "give at least one, as in [0.01]"),
+    fault(54, "grid = [0, 4]", "54:8", "there are 0 x 4 cells", "expected at least 1 in either direction"),
+    fault(58, "kind = \"branches\"\nstart = \"drawn\"", "59:1", "unknown key `start`", "`start` is a key of studies of kind relax; no keys are expected here"),
+];
+
+fn with_line(line: usize, new: &str) -> String {
+    GOOD.lines().enumerate().map(|(at, old)| if at + 1 == line { new } else { old }).collect::<Vec<_>>().join("\n")
+}
+
+/// Each fault is found where it is: the place counted by hand, the words as they stand here.
+#[test]
+fn every_fault_has_its_message() {
+    for fault in FAULTS {
+        let (message, help) = refusal(&with_line(fault.line, fault.new));
+        let expected = format!("scene.toml:{}: {}", fault.at, fault.message);
+        assert_eq!((message.as_str(), help.as_str()), (expected.as_str(), fault.help), "{}", fault.new);
+    }
+}
+
+/// The faults are the only ones: the scene that they spoil is right.
+#[test]
+fn the_good_scene_is_good() {
+    let file = parse(GOOD, "scenes/scene.toml").expect("the scene is right");
+    assert_eq!(file.scene.studies.len(), 9);
+    assert_eq!(file.resolve("star.fold".as_ref()), std::path::Path::new("scenes/star.fold"));
+}
+
+/// A check that comes later points at the scene in the same way as those made here.
+#[test]
+fn later_faults_point_at_the_scene() {
+    let file = parse(GOOD, "scene.toml").expect("the scene is right");
+    let lock = &file.scene.locks[0];
+    let error = file.error_at(lock.crease.span(), "edge [0, 1, 0, 0] is no edge of this sheet", "its edges are ..");
+    assert_eq!(error.to_string(), "scene.toml:11:10: edge [0, 1, 0, 0] is no edge of this sheet");
+}
+
+/// A file that is not there is an error of reading, with its name.
+#[test]
+fn a_missing_scene_is_named() {
+    let error = foldwell::scene::read("no/such/scene.toml".as_ref()).expect_err("there is no such file");
+    assert!(
+        matches!(error, SceneError::Read { .. }) && error.to_string().starts_with("no/such/scene.toml: "),
+        "{error}"
+    );
+}
+
+fn fancy(error: &SceneError) -> String {
+    let mut text = String::new();
+    let handler = miette::GraphicalReportHandler::new_themed(miette::GraphicalTheme::unicode_nocolor());
+    handler.render_report(&mut text, error).expect("writing to a string");
+    text
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// Whatever is cut out of a scene and put in its place, there is an answer or an error that can be shown.
+    #[test]
+    fn mutated_scenes_do_not_panic(
+        start in 0..GOOD.len(),
+        length in 0..40usize,
+        new in prop_oneof![
+            "\\PC{0,12}",
+            r#"[0-9.,\[\]{}="a-z\n# -]{0,12}"#,
+            Just("[[study]]\n".to_owned()),
+            Just("nan".to_owned()),
+            Just("-9223372036854775808".to_owned()),
+            Just("\u{feff}\r\n".to_owned()),
+        ],
+    ) {
+        let end = (start + length).min(GOOD.len());
+        let text = format!("{}{new}{}", &GOOD[..start], &GOOD[end..]);
+        if let Err(error) = parse(&text, "scene.toml") {
+            prop_assert!(error.to_string().starts_with("scene.toml:"));
+            prop_assert!(!fancy(&error).is_empty());
+        }
+    }
+}
