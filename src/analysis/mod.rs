@@ -3,3 +3,4 @@
 pub mod modes;
 pub mod relax;
 pub mod state;
+pub mod view;

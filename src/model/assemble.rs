@@ -62,8 +62,10 @@ pub struct Drawn {
     pub coordinates: Vec<f64>,
     /// Coordinates that the domain itself holds: vertex 0 of a screw.
     pub held: Vec<usize>,
-    /// Rotation from the file's frame to the domain's, about vertex 0 where it is not the identity.
+    /// Rotation from the file's frame to the domain's, about `origin`.
     pub frame: Matrix3<f64>,
+    /// What stands at the origin of the domain's frame.
+    pub origin: Vec3,
 }
 
 impl Drawn {
@@ -80,7 +82,7 @@ impl Drawn {
             (Surroundings::Screw, Some(lattice)) => return Self::screw(sheet, lattice),
             _ => (Domain::Patch, flat(&tiling.positions)),
         };
-        Self { domain, coordinates, held: vec![], frame }
+        Self { domain, coordinates, held: vec![], frame, origin: Vec3::zeros() }
     }
 
     /// Vertex 0 at the origin, first lattice vector along x, face normals along +z, no curvature.
@@ -94,7 +96,7 @@ impl Drawn {
             sheet.vertices.iter().flat_map(|p| <[f64; 3]>::from(frame * (p - origin))).collect();
         let (l1, l2) = (frame * l1, frame * l2);
         coordinates.extend([0.0, l1.y, l2.y, l1.x, l2.x]);
-        Self { domain: Domain::Screw, coordinates, held: vec![0, 1, 2], frame }
+        Self { domain: Domain::Screw, coordinates, held: vec![0, 1, 2], frame, origin }
     }
 }
 

@@ -2,7 +2,10 @@
 
 use thiserror::Error;
 
+use crate::analysis::state::State;
+use crate::analysis::view::View;
 use crate::math::Vec3;
+use crate::model::assemble::Drawn;
 use crate::sheet::EdgeKind;
 
 /// A state of a sheet, flattened: no cells and no lattice any more.
@@ -68,6 +71,26 @@ pub enum ShapeError {
 }
 
 impl Picture {
+    /// A state on the patch of a view.
+    pub fn of_state(view: &View, drawn: &Drawn, state: &State) -> Self {
+        let on_lines = |values: &[f64]| view.edges.iter().map(|&edge| values[edge]).collect();
+        let points = view.positions(drawn, &state.coordinates);
+        let start = view.positions(drawn, &drawn.coordinates);
+        Self {
+            displacement: points.iter().zip(&start).map(|(now, then)| now - then).collect(),
+            points,
+            triangles: view.patch.triangles.iter().map(|t| t.corners.map(|site| site.vertex)).collect(),
+            self_intersecting: vec![0; view.patch.triangles.len()],
+            lines: view.patch.edges.iter().map(|edge| edge.ends.map(|site| site.vertex)).collect(),
+            line_kinds: view.patch.edges.iter().map(|edge| edge.kind).collect(),
+            line_edges: view.patch.edges.iter().map(|edge| edge.edge as i32).collect(),
+            fold_angle: on_lines(&state.fold_angle),
+            rest_angle: on_lines(&state.rest_angle),
+            strain: on_lines(&state.strain),
+            energy: on_lines(&state.energy),
+        }
+    }
+
     /// Whether all arrays fit together: readers crash where they do not.
     ///
     /// # Errors

@@ -39,6 +39,9 @@ pub enum SceneError {
         #[label]
         span: SourceSpan,
     },
+    /// The mesh is wrong.
+    #[error(transparent)]
+    Mesh(#[from] crate::sheet::SheetError),
     /// A line of a table of angles or rates is wrong.
     #[error("{}:{line}: {fault}", path.display())]
     Table {

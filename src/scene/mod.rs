@@ -4,6 +4,7 @@
 //! whoever finds a fault later can point at it with [`SceneFile::error_at`].
 
 pub mod angles;
+pub mod build;
 mod checks;
 pub mod error;
 mod file;

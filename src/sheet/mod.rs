@@ -4,6 +4,7 @@ pub mod build;
 pub mod cell;
 pub mod error;
 pub mod fold;
+pub mod generate;
 pub mod tiling;
 
 pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};

@@ -1,0 +1,59 @@
+//! Which copies of the cell a picture shows, and where they are in a state.
+
+use crate::math::Vec3;
+use crate::model::assemble::{Drawn, Surroundings};
+use crate::model::{Domain, Site};
+use crate::sheet::{Sheet, Tiling, tile};
+
+/// A patch of cells on which a state is shown: the patch itself, one period of a torus, some cells of a screw.
+pub struct View {
+    /// The cells shown, as a patch: no vertex is added at its rim.
+    pub patch: Tiling,
+    /// Edge of the model's tiling of which each line of the patch is a copy.
+    pub edges: Vec<usize>,
+    /// Vertex of the model, and the copy of it, at each point of the patch.
+    sites: Vec<Site>,
+}
+
+impl View {
+    /// The view of a tiling; of a screw `shown` cells.
+    pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, shown: [usize; 2]) -> Self {
+        let cells = if surroundings == Surroundings::Screw { shown } else { tiling.cells };
+        let patch = tile(sheet, cells, false);
+        let vertices = sheet.vertices.len();
+        let [n1, n2] = tiling.cells;
+        let site = |k: usize| {
+            let (vertex, cell) = (k % vertices, k / vertices);
+            let (c1, c2) = (cell % cells[0], cell / cells[0]);
+            Site { vertex: (c2 % n2 * n1 + c1 % n1) * vertices + vertex, shift: [(c1 / n1) as i32, (c2 / n2) as i32] }
+        };
+        let sites = (0..patch.positions.len()).map(site).collect();
+        let number: std::collections::HashMap<(usize, [usize; 2]), usize> =
+            tiling.edges.iter().enumerate().map(|(k, edge)| ((edge.edge, edge.cell), k)).collect();
+        let edges = patch.edges.iter().map(|e| number[&(e.edge, [e.cell[0] % n1, e.cell[1] % n2])]).collect();
+        Self { patch, edges, sites }
+    }
+
+    /// Positions of all points in the frame of the mesh file.
+    pub fn positions(&self, drawn: &Drawn, coordinates: &[f64]) -> Vec<Vec3> {
+        let back = drawn.frame.transpose();
+        self.sites.iter().map(|&site| back * drawn.domain.point(coordinates, site) + drawn.origin).collect()
+    }
+
+    /// Velocities of all points when the coordinates have these rates, by central differences.
+    pub fn velocities(&self, drawn: &Drawn, rates: &[f64]) -> Vec<Vec3> {
+        let step = 1e-5;
+        let moved = |sign: f64| {
+            let x: Vec<f64> = drawn.coordinates.iter().zip(rates).map(|(x, v)| x + sign * step * v).collect();
+            self.positions(drawn, &x)
+        };
+        moved(1.0).iter().zip(moved(-1.0)).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+    }
+
+    /// The coordinates of a state whose points are these; `None` where points do not say all (a free lattice, a screw)
+    /// or their number is another one.
+    pub fn coordinates(&self, drawn: &Drawn, points: &[Vec3]) -> Option<Vec<f64>> {
+        let known = matches!(drawn.domain, Domain::Patch | Domain::FixedTorus(_));
+        (known && points.len() == self.sites.len()).then(|| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect())
+    }
+}

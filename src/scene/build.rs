@@ -1,0 +1,287 @@
+//! From a scene to what is computed: reads the mesh, and checks everything that a scene says about its sheet.
+
+use super::angles::{AngleRow, read_angles, read_rates};
+use super::error::TableFault;
+use super::forms::{Mode, ModeRest, Rest};
+use super::spec::{Domain, Lattice};
+use super::values::{CellIndex, EdgeName};
+use super::{Located, SceneError, SceneFile};
+use crate::kinematics::folding_modes::folding_modes;
+use crate::math::Vec3;
+use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, drawn_angles};
+use crate::sheet::{EdgeKey, EdgeKind, Sheet, Tiling, fold, generate, tile};
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+use std::path::Path;
+
+/// Unknowns beyond this would overflow the indices of the sparse matrices.
+const MOST_VERTICES: usize = 30_000_000;
+
+/// A scene made ready.
+pub struct Built {
+    /// The sheet.
+    pub sheet: Sheet,
+    /// Its cells as the studies see them.
+    pub tiling: Tiling,
+    /// What surrounds them.
+    pub surroundings: Surroundings,
+    /// The drawn state.
+    pub drawn: Drawn,
+    /// What the sheet is made of and what acts on it.
+    pub recipe: Recipe,
+    /// How many cells pictures of a screw show.
+    pub shown: [usize; 2],
+}
+
+/// Reads the mesh of a scene and builds what its studies need.
+pub fn build(file: &SceneFile) -> Result<Built, SceneError> {
+    let sheet = sheet(file)?;
+    let spec = &file.scene.sheet;
+    let surroundings = surroundings(file, &sheet)?;
+    let screw = surroundings == Surroundings::Screw;
+    let cells = if screw || sheet.lattice.is_none() { [1, 1] } else { spec.cells() };
+    size(file, &sheet, cells)?;
+    let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
+    let drawn = Drawn::new(&sheet, &tiling, surroundings);
+    let builder = Builder { file, sheet: &sheet, tiling: &tiling, names: names(&sheet), angles: drawn_angles(&drawn, &tiling) };
+    let recipe = builder.recipe()?;
+    Ok(Built { surroundings, drawn, recipe, shown: spec.cells(), tiling, sheet })
+}
+
+/// The sheet of a scene, from its mesh or its generator.
+pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
+    let spec = &file.scene.sheet;
+    if let Some(mesh) = &spec.mesh {
+        return Ok(fold::read(&file.resolve(mesh))?);
+    }
+    let Some(table) = &spec.generate else {
+        return Err(file.error_at(0..0, "the sheet has no mesh", "give `mesh = \"file.fold\"` or `generate = { .. }`"));
+    };
+    let wrong = |message: String| file.error_at(table.span(), message, "see `foldwell new --help` for the patterns");
+    let pattern: generate::Pattern = (**table).clone().try_into().map_err(|e: toml::de::Error| wrong(e.message().into()))?;
+    generate::generate(&pattern).map_err(|error| wrong(error.to_string()))
+}
+
+fn surroundings(file: &SceneFile, sheet: &Sheet) -> Result<Surroundings, SceneError> {
+    let spec = &file.scene.sheet;
+    let periodic = match spec.domain() {
+        Domain::Patch => return Ok(Surroundings::Patch),
+        Domain::Torus if spec.lattice() == Lattice::Fixed => Surroundings::FixedTorus,
+        Domain::Torus => Surroundings::FreeTorus,
+        Domain::Screw => Surroundings::Screw,
+    };
+    if sheet.lattice.is_some() {
+        return Ok(periodic);
+    }
+    let span = spec.domain.as_ref().map_or(0..0, Located::span);
+    let help = "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh";
+    Err(file.error_at(span, "the mesh has no lattice", help))
+}
+
+fn size(file: &SceneFile, sheet: &Sheet, cells: [usize; 2]) -> Result<(), SceneError> {
+    let vertices = sheet.vertices.len().saturating_mul(cells[0]).saturating_mul(cells[1]);
+    if vertices <= MOST_VERTICES {
+        return Ok(());
+    }
+    let span = file.scene.sheet.cells.as_ref().map_or(0..0, Located::span);
+    let message = format!("the model has {vertices} vertices");
+    Err(file.error_at(span, message, format!("at most {MOST_VERTICES} can be indexed")))
+}
+
+fn names(sheet: &Sheet) -> HashMap<EdgeKey, usize> {
+    sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect()
+}
+
+/// What the parts of the energy are built from.
+struct Builder<'a> {
+    file: &'a SceneFile,
+    sheet: &'a Sheet,
+    tiling: &'a Tiling,
+    /// Number of each edge of the cell.
+    names: HashMap<EdgeKey, usize>,
+    /// Drawn fold angle of every edge of the tiling; NaN where there is no hinge.
+    angles: Vec<f64>,
+}
+
+impl Builder<'_> {
+    fn recipe(&self) -> Result<Recipe, SceneError> {
+        let energy = &self.file.scene.energy;
+        let creases = match &energy.creases {
+            Some(spec) => Some(Hinges { stiffness: spec.stiffness.0, rest: self.rest(spec.rest.as_ref())? }),
+            None => None,
+        };
+        let stiffness = energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0);
+        let has_facets = self.tiling.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
+        let facets = has_facets.then(|| Hinges { stiffness, rest: self.angles.clone() });
+        let recipe = Recipe {
+            bars: energy.bars.as_ref().map(|spec| spec.stiffness.0),
+            creases,
+            facets,
+            locks: self.locks()?,
+            pins: self.pins()?,
+            loads: self.loads()?,
+        };
+        self.balance(&recipe)?;
+        Ok(recipe)
+    }
+
+    /// Rest angle of every edge of the tiling.
+    fn rest(&self, rest: Option<&Located<Rest>>) -> Result<Vec<f64>, SceneError> {
+        let Some(rest) = rest else { return Ok(self.angles.clone()) };
+        match &**rest {
+            Rest::Drawn => Ok(self.angles.clone()),
+            Rest::Flat => Ok(vec![0.0; self.angles.len()]),
+            Rest::Angle(angle) => Ok(vec![*angle; self.angles.len()]),
+            Rest::Mode(mode) => self.along_mode(mode),
+            Rest::File(name) => {
+                let path = self.file.resolve(&name.file);
+                let rows = read_angles(&path)?;
+                self.table(&path, &rows, EdgeKind::Crease, name.file.span())
+            }
+        }
+    }
+
+    fn along_mode(&self, rest: &ModeRest) -> Result<Vec<f64>, SceneError> {
+        let rates = match &*rest.mode {
+            Mode::Rates(name) => {
+                let path = self.file.resolve(&name.rates);
+                self.table(&path, &read_rates(&path)?, EdgeKind::Crease, name.rates.span())?
+            }
+            Mode::Curvature(curvature) => {
+                let mode = folding_modes(self.sheet).and_then(|modes| modes.named(*curvature));
+                let help = "name the mode by its rates: { rates = \"file.csv\" }";
+                let mode = mode.map_err(|e| self.file.error_at(rest.mode.span(), e.to_string(), help))?;
+                self.tiling.edges.iter().map(|edge| mode[edge.edge]).collect()
+            }
+        };
+        let amplitude = rest.amplitude.0;
+        Ok(self.angles.iter().zip(&rates).map(|(angle, rate)| angle + amplitude * rate).collect())
+    }
+
+    /// Values of a table on the edges of the tiling: every hinge of this kind must have one.
+    fn table(&self, path: &Path, rows: &[AngleRow], kind: EdgeKind, span: Range<usize>) -> Result<Vec<f64>, SceneError> {
+        let mut values = vec![f64::NAN; self.tiling.edges.len()];
+        for row in rows {
+            let fault = |fault| SceneError::Table { path: path.into(), line: row.line, fault };
+            let edge = self.hinge(row.key, kind).ok_or_else(|| {
+                fault(TableFault::Edge(format!("the sheet has no crease {}", name(row.key))))
+            })?;
+            let mut found = false;
+            for (k, tiled) in self.tiling.edges.iter().enumerate() {
+                if tiled.edge == edge && row.cell.is_none_or(|cell| cell == tiled.cell) {
+                    (values[k], found) = (row.value, true);
+                }
+            }
+            if !found {
+                let [c1, c2] = row.cell.unwrap_or_default();
+                return Err(fault(TableFault::Edge(format!("there is no crease {} in cell [{c1}, {c2}]", name(row.key)))));
+            }
+        }
+        let missing = |k: &usize| self.tiling.edges[*k].kind == kind && values[*k].is_nan();
+        match (0..values.len()).find(missing) {
+            None => Ok(values),
+            Some(k) => {
+                let (tiled, key) = (&self.tiling.edges[k], self.sheet.edges[self.tiling.edges[k].edge].key);
+                let message = format!("{} has no row for crease {} of cell {:?}", path.display(), name(key), tiled.cell);
+                Err(self.file.error_at(span, message, "give one row for each crease"))
+            }
+        }
+    }
+
+    /// Number of an edge of the cell that is a hinge of this kind.
+    fn hinge(&self, key: EdgeKey, kind: EdgeKind) -> Option<usize> {
+        self.names.get(&key).copied().filter(|&k| self.sheet.edges[k].kind == kind)
+    }
+
+    fn locks(&self) -> Result<Vec<(usize, f64)>, SceneError> {
+        let mut locks = Vec::new();
+        for lock in &self.file.scene.locks {
+            let edge = self.crease(&lock.crease)?;
+            for (k, tiled) in self.tiling.edges.iter().enumerate() {
+                if tiled.edge == edge && !self.angles[k].is_nan() {
+                    locks.push((k, lock.angle.as_ref().map_or(self.angles[k], |angle| angle.0)));
+                }
+            }
+        }
+        Ok(locks)
+    }
+
+    fn crease(&self, crease: &Located<EdgeName>) -> Result<usize, SceneError> {
+        let key = crease.0;
+        self.hinge(key, EdgeKind::Crease).ok_or_else(|| {
+            let known: Vec<String> =
+                self.sheet.edges.iter().filter(|e| e.kind == EdgeKind::Crease).take(4).map(|e| name(e.key)).collect();
+            let help = format!("the creases are {}, ...; `foldwell info` counts them", known.join(", "));
+            self.file.error_at(crease.span(), format!("the sheet has no crease {}", name(key)), help)
+        })
+    }
+
+    fn vertex(&self, vertex: &Located<usize>, cell: [usize; 2], span: Range<usize>) -> Result<usize, SceneError> {
+        let count = self.sheet.vertices.len();
+        if **vertex >= count {
+            let help = format!("the vertices of a cell are 0 to {}", count - 1);
+            return Err(self.file.error_at(vertex.span(), format!("there is no vertex {}", **vertex), help));
+        }
+        let [n1, n2] = self.tiling.cells;
+        if cell[0] >= n1 || cell[1] >= n2 {
+            let help = format!("the cells are [0, 0] to [{}, {}]", n1 - 1, n2 - 1);
+            return Err(self.file.error_at(span, format!("there is no cell {cell:?}"), help));
+        }
+        Ok((cell[1] * n1 + cell[0]) * count + **vertex)
+    }
+
+    fn pins(&self) -> Result<Vec<(usize, [bool; 3])>, SceneError> {
+        let place = |cell: &Option<Located<CellIndex>>| cell.as_ref().map_or(0..0, Located::span);
+        let pins = &self.file.scene.pins;
+        pins.iter().map(|pin| Ok((self.vertex(&pin.vertex, pin.cell(), place(&pin.cell))?, pin.axes.0))).collect()
+    }
+
+    fn loads(&self) -> Result<Vec<(usize, Vec3)>, SceneError> {
+        let place = |cell: &Option<Located<CellIndex>>| cell.as_ref().map_or(0..0, Located::span);
+        let loads = &self.file.scene.loads;
+        let load = |load: &super::spec::LoadSpec| {
+            Ok((self.vertex(&load.vertex, load.cell(), place(&load.cell))?, Vec3::from(load.force.0)))
+        };
+        loads.iter().map(load).collect()
+    }
+
+    /// Loads must balance along every axis on which no vertex is pinned: otherwise there is no equilibrium.
+    fn balance(&self, recipe: &Recipe) -> Result<(), SceneError> {
+        let total: Vec3 = recipe.loads.iter().map(|(_, force)| force).sum();
+        let largest = recipe.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max);
+        for (axis, letter) in ["x", "y", "z"].iter().enumerate() {
+            let pinned = recipe.pins.iter().any(|(_, axes)| axes[axis]);
+            if !pinned && total[axis].abs() > 1e-12 * largest {
+                let span = self.file.scene.loads[0].force.span();
+                let message = format!("the loads push the whole sheet along {letter} with a force of {}", total[axis]);
+                return Err(self.file.error_at(span, message, "balance the loads, or pin a vertex along that axis"));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn name(key: EdgeKey) -> String {
+    format!("[{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1])
+}
+
+impl Built {
+    /// Terms that are built, and what this scene made unnecessary, each with its reason.
+    pub fn terms(&self) -> (Vec<String>, Vec<String>) {
+        let recipe = &self.recipe;
+        let kinds: HashSet<EdgeKind> = self.tiling.edges.iter().map(|edge| edge.kind).collect();
+        let no_facets =
+            if kinds.contains(&EdgeKind::Facet) { "" } else { "facets: every face is a triangle" };
+        let table = [
+            ("bars", recipe.bars.is_some(), "bars: not in [energy]"),
+            ("creases", recipe.creases.is_some(), "creases: not in [energy]"),
+            ("facets", recipe.facets.is_some(), no_facets),
+            ("locks", !recipe.locks.is_empty(), "locks: none given"),
+            ("pins", !recipe.pins.is_empty(), "pins: none given"),
+            ("loads", !recipe.loads.is_empty(), "loads: none given"),
+        ];
+        let (there, missing): (Vec<_>, Vec<_>) = table.into_iter().partition(|(_, there, _)| *there);
+        let terms = there.into_iter().map(|(term, ..)| term.to_owned()).collect();
+        (terms, missing.into_iter().map(|(_, _, why)| why.to_owned()).collect())
+    }
+}
