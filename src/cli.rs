@@ -208,7 +208,7 @@ fn report(failure: &Failure) {
 fn fancy(error: &dyn Diagnostic) -> String {
     let terminal = io::IsTerminal::is_terminal(&io::stderr()) && std::env::var_os("NO_COLOR").is_none();
     let theme = if terminal { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() };
-    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).with_cause_chain();
+    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).without_cause_chain();
     let mut text = String::from("Error:");
     match handler.render_report(&mut text, error) {
         Ok(()) => text + "\n",

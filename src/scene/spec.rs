@@ -170,9 +170,7 @@ pub struct PinSpec {
     /// The cell; left out: [0, 0].
     pub cell: Option<Located<CellIndex>>,
     /// The coordinates that stay as drawn, letters of "xyz"; left out: all.
-    #[serde(default)]
-    #[schemars(with = "String")]
-    pub axes: Axes,
+    pub axes: Option<Located<Axes>>,
 }
 
 impl LoadSpec {
@@ -183,6 +181,11 @@ impl LoadSpec {
 }
 
 impl PinSpec {
+    /// Which of x, y, z are held.
+    pub fn axes(&self) -> [bool; 3] {
+        self.axes.as_deref().map_or([true; 3], |axes| axes.0)
+    }
+
     /// The cell of the vertex.
     pub fn cell(&self) -> [usize; 2] {
         self.cell.as_deref().copied().unwrap_or_default().0

@@ -84,6 +84,7 @@ where
 /// Stiffness of a term: a positive number, infinity included.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(try_from = "f64")]
+#[schemars(extend("exclusiveMinimum" = 0))]
 pub struct Stiffness(pub f64);
 
 impl TryFrom<f64> for Stiffness {
@@ -110,6 +111,7 @@ impl TryFrom<f64> for Finite {
 /// A finite number above zero.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(try_from = "f64")]
+#[schemars(extend("exclusiveMinimum" = 0))]
 pub struct Positive(pub f64);
 
 impl TryFrom<f64> for Positive {
@@ -150,6 +152,7 @@ impl From<Exactly<usize, 2>> for CellIndex {
 /// Numbers of cells along the two lattice vectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(try_from = "Exactly<i64, 2>")]
+#[schemars(extend("items" = { "type": "integer", "minimum": 1 }))]
 pub struct Cells(pub [usize; 2]);
 
 impl Cells {
@@ -174,6 +177,7 @@ impl TryFrom<Exactly<i64, 2>> for Cells {
 /// Name of a study: it names files too, so it has letters, digits, `_` and `-` only.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(try_from = "String")]
+#[schemars(extend("pattern" = "^[A-Za-z0-9_-]+$"))]
 pub struct Name(pub String);
 
 impl TryFrom<String> for Name {
@@ -194,13 +198,8 @@ impl TryFrom<String> for Name {
 /// Coordinate axes: `[x, y, z]`, true where the letter is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(try_from = "String")]
+#[schemars(extend("pattern" = "^[xyz]{1,3}$"))]
 pub struct Axes(pub [bool; 3]);
-
-impl Default for Axes {
-    fn default() -> Self {
-        Self([true; 3])
-    }
-}
 
 impl TryFrom<String> for Axes {
     type Error = ValueError;

@@ -1,0 +1,216 @@
+#!/usr/bin/env python3
+"""Opens what a run wrote with the readers other people use, and compares it with what the run says about itself.
+
+    python .ci/check_files.py OUT [--render PICTURE.png]        needs: vtk, pyvista, meshio, numpy
+
+OUT is the folder of a run. Every .vtu is opened by VTK and by meshio, every .pvd by PyVista; counts, cell arrays, tables
+and summary.json have to agree. --render draws the last state off-screen with PyVista. The exit status is 1 where a check
+fails. The screw domain and one-cell sheets repeat their fold angles in every cell, so there each line of the last picture
+is compared with the column of its edge in the last row of the table.
+"""
+import argparse
+import csv
+import json
+import sys
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pyvista
+import vtk
+from vtk.util.numpy_support import vtk_to_numpy
+
+TRIANGLE, LINE = 5, 3
+ON_LINES = ["fold_angle", "rest_angle", "strain", "energy"]
+CELL_ARRAYS = ON_LINES + ["self_intersecting", "edge"]
+SUMMARY = {"version", "scene", "sheet", "terms", "left_out", "studies"}
+SHEET = {"vertices", "edges", "faces", "polygons", "developable", "cells", "degrees_of_freedom"}
+STUDY = {"name", "kind", "converged", "seconds", "error"}
+KINDS = {
+    "relax": {"energy", "iterations", "factorizations", "residual_force", "residual_length", "negative_eigenvalues",
+              "error_to_kinematic", "history"},
+    "modes": {"zero_modes", "self_stresses", "rigid_motions", "folding_modes", "maxwell_count", "gap", "eigenvalues"},
+}
+STATE_COLUMNS = ("branch,sign,step,arc_length,curvature,theta1,theta2,strain11,strain22,strain12,energy_bars,"
+                 "energy_creases,energy_facets,energy_total,residual_force,residual_length,self_intersecting").split(",")
+
+
+class Checks:
+    """Counts what holds and prints what does not."""
+
+    def __init__(self):
+        self.passed = self.failed = 0
+
+    def that(self, truth, claim):
+        if truth:
+            self.passed += 1
+        else:
+            self.failed += 1
+            print(f"FAILED {claim}")
+        return bool(truth)
+
+
+def read_vtk(path):
+    """Points, cell types, connectivity, offsets and arrays, as VTK reads them."""
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    if reader.GetErrorCode() or grid.GetPoints() is None:
+        return None
+    cells = grid.GetCells()
+    arrays = lambda data: {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    types = np.array([grid.GetCellType(i) for i in range(grid.GetNumberOfCells())])
+    return {
+        "points": vtk_to_numpy(grid.GetPoints().GetData()),
+        "types": types,
+        "connectivity": vtk_to_numpy(cells.GetConnectivityArray()),
+        "point_arrays": arrays(grid.GetPointData()),
+        "cell_arrays": arrays(grid.GetCellData()),
+    }
+
+
+def check_vtu(checks, path):
+    """One state: both readers, every array, everything where it belongs."""
+    grid = read_vtk(path)
+    if not checks.that(grid is not None, f"{path}: VTK opens it"):
+        return None
+    types, cell_arrays = grid["types"], grid["cell_arrays"]
+    faces, lines = types == TRIANGLE, types == LINE
+    checks.that(np.all(faces | lines), f"{path}: triangles and lines only")
+    checks.that(np.all(np.isfinite(grid["points"])), f"{path}: finite points")
+    used = grid["connectivity"]
+    checks.that(used.size == 0 or (used.min() >= 0 and used.max() < len(grid["points"])), f"{path}: indices of points")
+    displacement = grid["point_arrays"].get("displacement")
+    checks.that(displacement is not None and displacement.shape == grid["points"].shape, f"{path}: array displacement")
+    for name in CELL_ARRAYS:
+        if not checks.that(name in cell_arrays and len(cell_arrays[name]) == len(types), f"{path}: array {name}"):
+            return None
+    for name in ON_LINES:
+        checks.that(np.all(np.isnan(cell_arrays[name][faces])), f"{path}: {name} is NaN on triangles")
+    checks.that(np.all(cell_arrays["self_intersecting"][lines] == 0), f"{path}: self_intersecting is 0 on lines")
+    checks.that(np.all(np.isin(cell_arrays["self_intersecting"], [0, 1])), f"{path}: self_intersecting is 0 or 1")
+    checks.that(np.all(cell_arrays["edge"][faces] == -1), f"{path}: edge is -1 on triangles")
+    checks.that(np.all(cell_arrays["edge"][lines] >= 0), f"{path}: every line has an edge")
+    check_meshio(checks, path, grid)
+    return grid
+
+
+def check_meshio(checks, path, grid):
+    """The second reader sees the same."""
+    mesh = meshio.read(path)
+    checks.that(np.array_equal(mesh.points, grid["points"]), f"{path}: meshio has VTK's points")
+    counts = {kind: sum(len(block.data) for block in mesh.cells if block.type == kind) for kind in ["triangle", "line"]}
+    expected = {"triangle": int(np.sum(grid["types"] == TRIANGLE)), "line": int(np.sum(grid["types"] == LINE))}
+    checks.that(counts == expected, f"{path}: meshio has {counts}, VTK {expected}")
+    for name in CELL_ARRAYS:
+        blocks = mesh.cell_data.get(name)
+        same = blocks is not None and np.array_equal(np.concatenate(blocks), grid["cell_arrays"][name], equal_nan=True)
+        checks.that(same, f"{path}: meshio has VTK's {name}")
+
+
+def read_table(path):
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    return rows[0], rows[1:]
+
+
+def check_table(checks, path, kind, edges):
+    """Header, widths, and numbers that are numbers; gives the fold angles of the last row."""
+    if not checks.that(path.exists(), f"{path} is there"):
+        return None
+    header, rows = read_table(path)
+    checks.that(rows and all(len(row) == len(header) for row in rows), f"{path}: rows as wide as the header")
+    for row in rows:
+        for column, field in zip(header, row):
+            try:
+                float(field or 0)
+            except ValueError:
+                checks.that(False, f"{path}: `{field}` in column {column} is a number")
+    if kind not in ("relax", "trace", "surface"):
+        return None
+    checks.that(header[: len(STATE_COLUMNS)] == STATE_COLUMNS, f"{path}: the first columns")
+    fold = header[len(STATE_COLUMNS):]
+    checks.that(len(fold) == edges and all(name.startswith("fold_") for name in fold), f"{path}: a column for every edge")
+    return [float(field) if field else np.nan for field in rows[-1][len(STATE_COLUMNS):]] if rows else None
+
+
+def check_angles(checks, where, grid, table):
+    """Lines of an edge whose copies agree have the angle that the table has for it."""
+    edge, angle = grid["cell_arrays"]["edge"], grid["cell_arrays"]["fold_angle"]
+    for number in np.unique(edge[edge >= 0]):
+        if not checks.that(number < len(table), f"{where}: edge {number} is in the table"):
+            return
+        copies = angle[(edge == number) & np.isfinite(angle)]
+        if len(copies) and np.ptp(copies) <= 1e-9:
+            same = abs(copies[0] - table[number]) <= 1e-9
+            checks.that(same, f"{where}: edge {number} folds by {copies[0]} in the picture, {table[number]} in the table")
+
+
+def check_collection(checks, out, name):
+    """The collection lists the states there are; gives the last one."""
+    path = out / f"{name}.pvd"
+    files = [out / entry.get("file") for entry in xml.parse(path).getroot().iter("DataSet")]
+    checks.that(files and all(file.exists() for file in files), f"{path}: its files are there")
+    checks.that(sorted(files) == sorted((out / name).glob("*.vtu")), f"{path}: lists every state of {name}/")
+    reader = pyvista.get_reader(str(path))
+    times = list(reader.time_values)
+    checks.that(len(times) == len(files) and times == sorted(times), f"{path}: PyVista finds {len(times)} times")
+    reader.set_active_time_value(times[-1])
+    last = reader.read()
+    checks.that(sum(block.n_cells for block in last) == len(read_vtk(files[-1])["types"]), f"{path}: PyVista's last state")
+    return files[-1]
+
+
+def check_study(checks, out, study, edges):
+    """All files of one study; gives the last picture."""
+    name, kind = study["name"], study["kind"]
+    missing = (STUDY | KINDS.get(kind, set())) - set(study)
+    checks.that(not missing or not study["converged"], f"summary of {name}: keys {sorted(missing)}")
+    checks.that(study["converged"] or "reason" in study, f"summary of {name}: a failure has a reason")
+    table = check_table(checks, out / f"{name}.csv", kind, edges) if study["converged"] else None
+    grids = {path: check_vtu(checks, path) for path in sorted((out / name).glob("*.vtu"))}
+    if (out / f"{name}.svg").exists():
+        root = xml.parse(out / f"{name}.svg").getroot()
+        checks.that(root.tag.endswith("svg") and len(root) > 3, f"{name}.svg: a picture")
+    if not (out / f"{name}.pvd").exists():
+        checks.that(not grids, f"{name}.pvd collects the states of {name}/")
+        return None
+    last = check_collection(checks, out, name)
+    if table is not None and grids.get(last) is not None:
+        check_angles(checks, last, grids[last], table)
+    return last
+
+
+def render(path, picture):
+    pyvista.OFF_SCREEN = True
+    grid = pyvista.read(path)
+    plotter = pyvista.Plotter(off_screen=True)
+    plotter.add_mesh(grid.extract_cells(grid.celltypes == TRIANGLE), color="ivory")
+    lines = grid.extract_cells(grid.celltypes == LINE)
+    sharpest = np.nanmax(np.abs(lines["fold_angle"]), initial=1e-9)
+    plotter.add_mesh(lines, scalars="fold_angle", cmap="coolwarm_r", clim=[-sharpest, sharpest], line_width=4)
+    plotter.screenshot(picture)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--render", metavar="PICTURE")
+    arguments = parser.parse_args()
+    out, checks = arguments.out, Checks()
+    summary = json.loads((out / "summary.json").read_text())
+    checks.that(SUMMARY <= set(summary), "summary.json: its keys")
+    checks.that(SHEET <= set(summary["sheet"]), "summary.json: keys of the sheet")
+    checks.that(not list(out.rglob("*.part")), "no half-written files")
+    lasts = [check_study(checks, out, study, summary["sheet"]["edges"]) for study in summary["studies"]]
+    pictures = [last for last in lasts if last]
+    if arguments.render and checks.that(pictures, "there is a state to render"):
+        render(pictures[-1], arguments.render)
+    print(f"{checks.passed} passed, {checks.failed} failed")
+    return 1 if checks.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

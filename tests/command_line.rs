@@ -1,0 +1,48 @@
+//! The command line from outside: exit statuses and which stream says what.
+
+use std::process::Output;
+
+use assert_cmd::Command;
+
+fn foldwell(folder: &std::path::Path, words: &str) -> Output {
+    let mut command = Command::cargo_bin("foldwell").expect("the binary is built with its tests");
+    command.current_dir(folder).args(words.split(' ')).output().expect("the binary starts")
+}
+
+/// A wrong scene: status 2, the place on standard error, nothing on standard output and nothing written.
+#[test]
+fn a_wrong_scene_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("my-scene.toml"), "[sheet]\nmesh = \"a.fold\"\ncells = [0, 1]\n").unwrap();
+    for words in ["run my-scene.toml", "run my-scene.toml --json --threads 2"] {
+        let output = foldwell(folder.path(), words);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+        for part in ["my-scene.toml:3:9: there are 0 x 1 cells", "cells = [0, 1]", "help: expected at least 1"] {
+            assert!(message.contains(part), "{message}");
+        }
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+/// A scene that is not there is wrong input; so is a command line that makes no sense.
+#[test]
+fn wrong_words_are_wrong_input() {
+    let folder = tempfile::tempdir().unwrap();
+    for words in ["run none.toml", "run", "fold", "run a.toml --threads 0", "new miura", "new miura --seed -o"] {
+        let output = foldwell(folder.path(), words);
+        assert_eq!(output.status.code(), Some(2), "{words}");
+        assert!(!output.stderr.is_empty() && output.stdout.is_empty(), "{words}");
+    }
+}
+
+/// The schema is JSON and the completions are a script, both on standard output.
+#[test]
+fn schema_and_completions() {
+    let folder = tempfile::tempdir().unwrap();
+    let schema = foldwell(folder.path(), "schema");
+    let json: serde_json::Value = serde_json::from_slice(&schema.stdout).expect("the schema is JSON");
+    assert_eq!((schema.status.code(), json["title"].as_str()), (Some(0), Some("foldwell scene")));
+    let script = foldwell(folder.path(), "completions bash");
+    assert!(script.status.success() && String::from_utf8_lossy(&script.stdout).contains("_foldwell()"));
+}
