@@ -233,7 +233,7 @@ impl Builder<'_> {
     fn pins(&self) -> Result<Vec<(usize, [bool; 3])>, SceneError> {
         let place = |cell: &Option<Located<CellIndex>>| cell.as_ref().map_or(0..0, Located::span);
         let pins = &self.file.scene.pins;
-        pins.iter().map(|pin| Ok((self.vertex(&pin.vertex, pin.cell(), place(&pin.cell))?, pin.axes.0))).collect()
+        pins.iter().map(|pin| Ok((self.vertex(&pin.vertex, pin.cell(), place(&pin.cell))?, pin.axes()))).collect()
     }
 
     fn loads(&self) -> Result<Vec<(usize, Vec3)>, SceneError> {
