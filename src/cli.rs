@@ -15,7 +15,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use foldwell::output::summary::{SheetInfo, StudyResult, StudySummary, to_json};
+use foldwell::output::summary::{StudyResult, StudySummary, to_json};
 use foldwell::run::{self, RunError, RunOptions, RunReport, ValidateOptions};
 use miette::{Diagnostic, GraphicalReportHandler};
 
@@ -139,7 +139,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         }
         Command::Info { mesh_or_scene, json } => {
             let info = run::info(&mesh_or_scene)?;
-            say(&if json { to_json(&info) } else { describe_sheet(&info) })
+            say(&if json { to_json(&info) } else { format!("{info}\n") })
         }
         Command::New { pattern, parameters } => {
             let (table, out) = parameters::parse(&pattern, &parameters).map_err(Failure::Parameters)?;
@@ -234,43 +234,16 @@ fn describe_study(study: &StudySummary) -> String {
         ),
         Some(StudyResult::Modes(modes)) => format!(
             "{} zero modes ({} rigid, {} folding), {} self stresses",
-            modes.zero_modes, modes.rigid_motions, modes.folding_modes, modes.self_stresses
+            modes.zero_modes,
+            modes.rigid_motions,
+            modes.folding_modes.map_or("?".into(), |count| count.to_string()),
+            modes.self_stresses
         ),
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();
     format!("{} ({}): {what}, {:.2} s{failed}", study.name, study.kind, study.seconds)
 }
-
-fn describe_sheet(info: &SheetInfo) -> String {
-    let lattice = match info.lattice {
-        Some([a, b]) => format!("{a:?}, {b:?}"),
-        None => "none: a finite sheet".into(),
-    };
-    let rows = [
-        ("sheet", info.title.clone()),
-        ("lattice", lattice),
-        ("vertices", info.vertices.to_string()),
-        (
-            "edges",
-            format!("{} ({} creases, {} facets, {} boundary)", info.edges, info.creases, info.facets, info.boundary),
-        ),
-        ("faces", format!("{} triangles of {} polygons", info.faces, info.polygons)),
-        ("holes", info.holes.to_string()),
-        ("Euler characteristic", info.euler_characteristic.to_string()),
-        ("Maxwell count", info.maxwell_count.to_string()),
-        (
-            "developable",
-            format!("{} (largest angle defect {:.3e} rad)", yes(info.developable), info.largest_angle_defect),
-        ),
-        ("edge lengths", format!("{:.6} to {:.6}", info.shortest_edge, info.longest_edge)),
-        ("worst triangle", format!("quality {:.4} of 1", info.worst_triangle_quality)),
-    ];
-    rows.iter().map(|(name, value)| format!("{name:<21}{value}\n")).collect()
-}
-
-fn yes(truth: bool) -> &'static str {
-    if truth { "yes" } else { "no" }
 }
 
 #[cfg(test)]

@@ -7,9 +7,19 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::output::OutputError;
-use crate::output::summary::{SheetInfo, Summary};
+use crate::output::picture::Picture;
+use crate::output::summary::Summary;
+use crate::output::{OutputError, files, vtk};
 use crate::scene::SceneError;
+use crate::sheet::build::{self, Drawn};
+use crate::sheet::error::Defect;
+use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
+
+mod draw;
+mod runner;
+mod studies;
+
+use runner::Runner;
 
 /// How far a study is.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +78,26 @@ pub enum RunError {
     /// A file could not be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// A mesh is wrong.
+    #[error(transparent)]
+    Mesh(#[from] SheetError),
+    /// The triangles of a VTU file make no sheet.
+    #[error("{}: {defect}", path.display())]
+    NoSheet {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        defect: Defect,
+    },
+    /// A pattern has no sheet for its parameters.
+    #[error("{message}")]
+    #[diagnostic(help("the patterns are {names}; angles are in degrees only where a parameter says so"))]
+    Pattern {
+        /// What is wrong.
+        message: String,
+        /// The patterns there are.
+        names: String,
+    },
     /// A file of a kind that is not known.
     #[error("{}: files ending in `{ending}` are not known here", path.display())]
     #[diagnostic(help("expected one of {expected}"))]
@@ -106,7 +136,9 @@ impl RunError {
     /// The exit status of the program: 2 where the input is wrong, 3 where an existing place cannot be read or written.
     pub fn exit_status(&self) -> u8 {
         match self {
-            Self::Scene(SceneError::Read { source, .. }) | Self::Output(OutputError::Read { source, .. }) => {
+            Self::Scene(SceneError::Read { source, .. } | SceneError::Mesh(SheetError::Read { source, .. }))
+            | Self::Mesh(SheetError::Read { source, .. })
+            | Self::Output(OutputError::Read { source, .. }) => {
                 if wrong_input(source) {
                     2
                 } else {
@@ -114,7 +146,7 @@ impl RunError {
                 }
             }
             Self::Output(OutputError::Write { .. }) => 3,
-            Self::Scene(_) | Self::Output(_) | Self::Ending { .. } | Self::NotAvailable(_) => 2,
+            _ => 2,
         }
     }
 }
@@ -131,26 +163,41 @@ fn wrong_input(error: &std::io::Error) -> bool {
 /// [`RunError`] where nothing could be computed; a study that fails is part of the report instead.
 pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Result<RunReport, RunError> {
     let file = crate::scene::read(scene)?;
-    let _ = (file, options, observer);
-    Err(RunError::NotAvailable(Feature::Command("run")))
+    let built = crate::scene::build::build(&file)?;
+    let mut runner = Runner::new(&file, &built, options, observer)?;
+    for study in &file.scene.studies {
+        runner.study(study)?;
+        if runner.interrupted() {
+            break;
+        }
+    }
+    runner.finish()
 }
 
 /// Generates a pattern, `{ pattern = "miura", .. }`, and writes it as a FOLD file.
 ///
 /// # Errors
 /// [`RunError`] where a parameter is wrong or the file cannot be written.
-pub fn new_mesh(generate: &toml::Table, out: &Path) -> Result<(), RunError> {
-    let _ = (generate, out);
-    Err(RunError::NotAvailable(Feature::Command("new")))
+pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
+    let pattern: Pattern = table.clone().try_into().map_err(|error: toml::de::Error| RunError::Pattern {
+        message: error.message().to_owned(),
+        names: Pattern::names().join(", "),
+    })?;
+    let sheet = generate(&pattern)
+        .map_err(|error| RunError::Pattern { message: error.to_string(), names: Pattern::names().join(", ") })?;
+    Ok(files::write(out, fold::write(&sheet))?)
 }
 
 /// Counts and measures of the sheet of a mesh or a scene.
 ///
 /// # Errors
 /// [`RunError`] where the file cannot be read or is wrong.
-pub fn info(mesh_or_scene: &Path) -> Result<SheetInfo, RunError> {
-    let _ = mesh_or_scene;
-    Err(RunError::NotAvailable(Feature::Command("info")))
+pub fn info(mesh_or_scene: &Path) -> Result<Info, RunError> {
+    let sheet = match ending(mesh_or_scene).as_str() {
+        "toml" => crate::scene::build::sheet(&crate::scene::read(mesh_or_scene)?)?,
+        _ => read_mesh(mesh_or_scene, ".fold, .obj, .vtu or .toml")?,
+    };
+    Ok(Info::new(&sheet))
 }
 
 /// Converts a mesh between FOLD, OBJ and VTU, by the endings of the names.
@@ -158,8 +205,35 @@ pub fn info(mesh_or_scene: &Path) -> Result<SheetInfo, RunError> {
 /// # Errors
 /// [`RunError`] where a file cannot be read, is wrong, has an unknown ending or cannot be written.
 pub fn convert(from: &Path, to: &Path) -> Result<(), RunError> {
-    let _ = (from, to);
-    Err(RunError::NotAvailable(Feature::Command("convert")))
+    let sheet = read_mesh(from, MESHES)?;
+    match ending(to).as_str() {
+        "fold" => files::write(to, fold::write(&sheet))?,
+        "obj" => files::write(to, obj::write(&sheet))?,
+        "vtu" => vtk::write_vtu(to, &Picture::drawn(&sheet))?,
+        other => return Err(RunError::Ending { path: to.into(), ending: other.into(), expected: MESHES }),
+    }
+    Ok(())
+}
+
+const MESHES: &str = ".fold, .obj or .vtu";
+
+fn ending(path: &Path) -> String {
+    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
+}
+
+fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
+    match ending(path).as_str() {
+        "fold" => Ok(fold::read(path)?),
+        "obj" => Ok(obj::read(path)?),
+        "vtu" => {
+            let mesh = vtk::read_vtu(path)?;
+            let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let faces = mesh.triangles.iter().map(|t| t.to_vec()).collect();
+            let drawn = Drawn { title, coords: mesh.points, faces, ..Drawn::default() };
+            build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
+        }
+        other => Err(RunError::Ending { path: path.into(), ending: other.into(), expected }),
+    }
 }
 
 /// Checks the claims of the validation; gives whether all passed.

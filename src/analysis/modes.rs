@@ -57,7 +57,9 @@ pub enum ModesError {
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
     /// No rank stands out.
-    #[error("the rank of the rigidity matrix is not certain: kept over dropped singular value {gap:.1e}, less than {LEAST_GAP:e}")]
+    #[error(
+        "the rank of the rigidity matrix is not certain: kept over dropped singular value {gap:.1e}, less than {LEAST_GAP:e}"
+    )]
     NoGap {
         /// Smallest kept over largest dropped singular value.
         gap: f64,
@@ -216,9 +218,8 @@ fn folding_modes(question: &Question<'_>, drawn: &Drawn) -> Result<Option<usize>
         .iter()
         .map(|edge| HingedEdge { ends: edge.ends.map(corner), wings: edge.wings.map(|wing| wing.map(corner)) })
         .collect();
-    let at = |corner: Corner| {
-        drawn.domain.point(&drawn.coordinates, Site { vertex: corner.vertex, shift: corner.shift })
-    };
+    let at =
+        |corner: Corner| drawn.domain.point(&drawn.coordinates, Site { vertex: corner.vertex, shift: corner.shift });
     let closure = Closure::of_edges(&hinged, at)?;
     if closure.unchecked_loops() > 0 || closure.folding_edges().len() > DENSE_LIMIT || dangling(tiling) {
         return Ok(None);
@@ -286,8 +287,7 @@ fn lowest_sparse(model: &Model, count: usize) -> Result<Pairs, ModesError> {
         }
     }
     let zero = vec![0.0; layout.stiff.len()];
-    let (inverse, vectors) = eigen::largest(layout.unknowns, count, |v| {
-        saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx
-    })?;
+    let (inverse, vectors) =
+        eigen::largest(layout.unknowns, count, |v| saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx)?;
     Ok((inverse.iter().map(|mu| 1.0 / mu - shift).collect(), vectors))
 }

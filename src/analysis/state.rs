@@ -118,7 +118,8 @@ fn chords(domain: &Domain, x: &[f64]) -> Option<[Vec3; 2]> {
 }
 
 fn strain(drawn: [Vec3; 2], now: [Vec3; 2]) -> [f64; 3] {
-    let metric = |l: [Vec3; 2]| nalgebra::Matrix2::new(l[0].dot(&l[0]), l[0].dot(&l[1]), l[1].dot(&l[0]), l[1].dot(&l[1]));
+    let metric =
+        |l: [Vec3; 2]| nalgebra::Matrix2::new(l[0].dot(&l[0]), l[0].dot(&l[1]), l[1].dot(&l[0]), l[1].dot(&l[1]));
     let g = metric(drawn);
     let a11 = g[(0, 0)].sqrt();
     let a12 = g[(0, 1)] / a11;

@@ -116,7 +116,8 @@ pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -
     if let Some(stiffness) = recipe.bars {
         stiff.push(Box::new(bars(drawn, tiling, stiffness)));
     }
-    let given = [recipe.creases.as_ref().map(|h| h.stiffness), recipe.facets.as_ref().map(|h| h.stiffness), recipe.bars];
+    let given =
+        [recipe.creases.as_ref().map(|h| h.stiffness), recipe.facets.as_ref().map(|h| h.stiffness), recipe.bars];
     let softest = given.into_iter().flatten().fold(f64::INFINITY, f64::min);
     for (name, kind, hinges) in
         [("creases", EdgeKind::Crease, &recipe.creases), ("facets", EdgeKind::Facet, &recipe.facets)]
@@ -197,7 +198,8 @@ fn hinge_term(
 ) -> Term<FoldAngle, 4, 12> {
     let element = |edge: usize| {
         let sites = hinge(tiling, edge)?;
-        let spring = Spring { stiffness: hinges.stiffness * length(drawn, &tiling.edges[edge].ends), rest: hinges.rest[edge] };
+        let spring =
+            Spring { stiffness: hinges.stiffness * length(drawn, &tiling.edges[edge].ends), rest: hinges.rest[edge] };
         Some(Element { sites, spring, edge })
     };
     let elements = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(element).collect();

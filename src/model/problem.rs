@@ -174,7 +174,6 @@ impl Model {
     fn terms(&self) -> impl Iterator<Item = &dyn Elements> {
         self.soft.iter().chain(&self.stiff).map(AsRef::as_ref)
     }
-
 }
 
 /// Members of element `k`: the coordinates of its points, then the shared ones, as unknowns.
@@ -330,4 +329,3 @@ impl Model {
         });
     }
 }
-

@@ -64,4 +64,3 @@ pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) ->
     }
     Ok(out)
 }
-

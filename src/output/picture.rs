@@ -6,7 +6,8 @@ use crate::analysis::state::State;
 use crate::analysis::view::View;
 use crate::math::Vec3;
 use crate::model::assemble::Drawn;
-use crate::sheet::EdgeKind;
+use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
+use std::collections::HashMap;
 
 /// A state of a sheet, flattened: no cells and no lattice any more.
 ///
@@ -89,6 +90,49 @@ impl Picture {
             strain: on_lines(&state.strain),
             energy: on_lines(&state.energy),
         }
+    }
+
+    /// The drawn state of a sheet: one cell, or all of a finite sheet, with the images its faces need.
+    pub fn drawn(sheet: &Sheet) -> Self {
+        let mut corners: Vec<Corner> = sheet.triangles.iter().flat_map(|t| t.corners).collect();
+        corners.sort_unstable_by_key(|corner| (corner.shift, corner.vertex));
+        corners.dedup();
+        let numbers: HashMap<Corner, usize> = corners.iter().enumerate().map(|(k, corner)| (*corner, k)).collect();
+        let number = |corner: Corner| numbers[&corner];
+        let names: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
+        let triangles: Vec<[usize; 3]> = sheet.triangles.iter().map(|t| t.corners.map(number)).collect();
+        let mut lines: Vec<([usize; 2], usize)> = Vec::new();
+        for triangle in &sheet.triangles {
+            for side in triangle.sides() {
+                let ends = side.key.ends().map(|end| number(end.translated(side.base.shift)));
+                lines.push((ends, names[&side.key]));
+            }
+        }
+        lines.sort_unstable();
+        lines.dedup();
+        let nan = vec![f64::NAN; lines.len()];
+        let angle = |edge: usize| sheet.drawn_angle(&sheet.edges[edge]).unwrap_or(f64::NAN);
+        Self {
+            points: corners.iter().map(|corner| sheet.position(*corner)).collect(),
+            displacement: vec![Vec3::zeros(); corners.len()],
+            self_intersecting: vec![0; triangles.len()],
+            triangles,
+            line_kinds: lines.iter().map(|(_, edge)| sheet.edges[*edge].kind).collect(),
+            line_edges: lines.iter().map(|(_, edge)| *edge as i32).collect(),
+            fold_angle: lines.iter().map(|(_, edge)| angle(*edge)).collect(),
+            lines: lines.into_iter().map(|(ends, _)| ends).collect(),
+            rest_angle: nan.clone(),
+            strain: nan.clone(),
+            energy: nan,
+        }
+    }
+
+    /// The picture with its points moved along their displacements, the largest of them by `part` of the sheet's size.
+    pub fn displaced(&self, part: f64) -> Self {
+        let size = self.points.iter().map(|p| (p - self.points[0]).norm()).fold(0.0, f64::max);
+        let largest = self.displacement.iter().map(Vec3::norm).fold(f64::MIN_POSITIVE, f64::max);
+        let moved = self.points.iter().zip(&self.displacement).map(|(p, u)| p + u * (part * size / largest));
+        Self { points: moved.collect(), ..self.clone() }
     }
 
     /// Whether all arrays fit together: readers crash where they do not.

@@ -85,7 +85,7 @@ pub struct EnergySummary {
     pub creases: Option<f64>,
     /// Bending of polygons.
     pub facets: Option<f64>,
-    /// All of it, loads included.
+    /// Their sum: the elastic energy.
     pub total: f64,
 }
 
@@ -140,53 +140,14 @@ pub struct ModesSummary {
     pub self_stresses: usize,
     /// Zero modes that move the sheet as a whole.
     pub rigid_motions: usize,
-    /// Zero modes that fold it.
-    pub folding_modes: usize,
+    /// Null space of the closure conditions in fold angles; `None` where these do not say all, or are too many.
+    pub folding_modes: Option<usize>,
     /// Columns minus rows of the rigidity matrix.
     pub maxwell_count: i64,
     /// Smallest singular value that was kept over the largest that was dropped.
     pub gap: Option<f64>,
     /// Lowest eigenvalues of the energy's Hessian, ascending.
     pub eigenvalues: Vec<f64>,
-}
-
-/// What `foldwell info` says about a sheet.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SheetInfo {
-    /// Name of the sheet.
-    pub title: String,
-    /// Vertices of a cell.
-    pub vertices: usize,
-    /// Edges of a cell, diagonals of polygons included.
-    pub edges: usize,
-    /// Edges between two polygons.
-    pub creases: usize,
-    /// Diagonals of polygons.
-    pub facets: usize,
-    /// Edges with one face.
-    pub boundary: usize,
-    /// Triangles of a cell.
-    pub faces: usize,
-    /// Polygons of a cell, as the mesh has them.
-    pub polygons: usize,
-    /// Openings of a periodic sheet.
-    pub holes: usize,
-    /// The two lattice vectors; `None`: a finite sheet.
-    pub lattice: Option<[[f64; 3]; 2]>,
-    /// Vertices - edges + faces.
-    pub euler_characteristic: i64,
-    /// Unknown coordinates minus edges: 3 V - E.
-    pub maxwell_count: i64,
-    /// Whether the sheet can be laid flat.
-    pub developable: bool,
-    /// Largest angle defect of a vertex, in radians.
-    pub largest_angle_defect: f64,
-    /// Length of the shortest edge.
-    pub shortest_edge: f64,
-    /// Length of the longest edge.
-    pub longest_edge: f64,
-    /// Worst quality of a triangle: twice the inscribed over the circumscribed radius, 1 for an equilateral one.
-    pub worst_triangle_quality: f64,
 }
 
 impl Summary {

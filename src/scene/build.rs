@@ -43,7 +43,8 @@ pub fn build(file: &SceneFile) -> Result<Built, SceneError> {
     size(file, &sheet, cells)?;
     let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
     let drawn = Drawn::new(&sheet, &tiling, surroundings);
-    let builder = Builder { file, sheet: &sheet, tiling: &tiling, names: names(&sheet), angles: drawn_angles(&drawn, &tiling) };
+    let builder =
+        Builder { file, sheet: &sheet, tiling: &tiling, names: names(&sheet), angles: drawn_angles(&drawn, &tiling) };
     let recipe = builder.recipe()?;
     Ok(Built { surroundings, drawn, recipe, shown: spec.cells(), tiling, sheet })
 }
@@ -58,7 +59,8 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
         return Err(file.error_at(0..0, "the sheet has no mesh", "give `mesh = \"file.fold\"` or `generate = { .. }`"));
     };
     let wrong = |message: String| file.error_at(table.span(), message, "see `foldwell new --help` for the patterns");
-    let pattern: generate::Pattern = (**table).clone().try_into().map_err(|e: toml::de::Error| wrong(e.message().into()))?;
+    let pattern: generate::Pattern =
+        (**table).clone().try_into().map_err(|e: toml::de::Error| wrong(e.message().into()))?;
     generate::generate(&pattern).map_err(|error| wrong(error.to_string()))
 }
 
@@ -159,13 +161,19 @@ impl Builder<'_> {
     }
 
     /// Values of a table on the edges of the tiling: every hinge of this kind must have one.
-    fn table(&self, path: &Path, rows: &[AngleRow], kind: EdgeKind, span: Range<usize>) -> Result<Vec<f64>, SceneError> {
+    fn table(
+        &self,
+        path: &Path,
+        rows: &[AngleRow],
+        kind: EdgeKind,
+        span: Range<usize>,
+    ) -> Result<Vec<f64>, SceneError> {
         let mut values = vec![f64::NAN; self.tiling.edges.len()];
         for row in rows {
             let fault = |fault| SceneError::Table { path: path.into(), line: row.line, fault };
-            let edge = self.hinge(row.key, kind).ok_or_else(|| {
-                fault(TableFault::Edge(format!("the sheet has no crease {}", name(row.key))))
-            })?;
+            let edge = self
+                .hinge(row.key, kind)
+                .ok_or_else(|| fault(TableFault::Edge(format!("the sheet has no crease {}", name(row.key)))))?;
             let mut found = false;
             for (k, tiled) in self.tiling.edges.iter().enumerate() {
                 if tiled.edge == edge && row.cell.is_none_or(|cell| cell == tiled.cell) {
@@ -174,7 +182,10 @@ impl Builder<'_> {
             }
             if !found {
                 let [c1, c2] = row.cell.unwrap_or_default();
-                return Err(fault(TableFault::Edge(format!("there is no crease {} in cell [{c1}, {c2}]", name(row.key)))));
+                return Err(fault(TableFault::Edge(format!(
+                    "there is no crease {} in cell [{c1}, {c2}]",
+                    name(row.key)
+                ))));
             }
         }
         let missing = |k: &usize| self.tiling.edges[*k].kind == kind && values[*k].is_nan();
@@ -182,7 +193,8 @@ impl Builder<'_> {
             None => Ok(values),
             Some(k) => {
                 let (tiled, key) = (&self.tiling.edges[k], self.sheet.edges[self.tiling.edges[k].edge].key);
-                let message = format!("{} has no row for crease {} of cell {:?}", path.display(), name(key), tiled.cell);
+                let message =
+                    format!("{} has no row for crease {} of cell {:?}", path.display(), name(key), tiled.cell);
                 Err(self.file.error_at(span, message, "give one row for each crease"))
             }
         }
@@ -270,8 +282,7 @@ impl Built {
     pub fn terms(&self) -> (Vec<String>, Vec<String>) {
         let recipe = &self.recipe;
         let kinds: HashSet<EdgeKind> = self.tiling.edges.iter().map(|edge| edge.kind).collect();
-        let no_facets =
-            if kinds.contains(&EdgeKind::Facet) { "" } else { "facets: every face is a triangle" };
+        let no_facets = if kinds.contains(&EdgeKind::Facet) { "" } else { "facets: every face is a triangle" };
         let table = [
             ("bars", recipe.bars.is_some(), "bars: not in [energy]"),
             ("creases", recipe.creases.is_some(), "creases: not in [energy]"),

@@ -5,8 +5,12 @@ pub mod cell;
 pub mod error;
 pub mod fold;
 pub mod generate;
+pub mod info;
+pub mod obj;
 pub mod tiling;
 
 pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
 pub use error::{Problem, SheetError};
+pub use generate::{GenerateError, Pattern, generate};
+pub use info::Info;
 pub use tiling::{Site, TiledEdge, TiledTriangle, Tiling, tile};

@@ -70,12 +70,7 @@ impl Saddle {
     }
 
     /// Inertia of `S`, with eigenvalues that are zero to rounding error counted as positive.
-    pub fn inertia(
-        &mut self,
-        layout: &Layout,
-        at: &Linearization,
-        compliance: &[f64],
-    ) -> Result<Inertia, FactorError> {
+    pub fn inertia(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64]) -> Result<Inertia, FactorError> {
         self.fill(layout, at, compliance, 0.0);
         let neutral = NEUTRAL * at.pattern().largest_diagonal(&self.values);
         at.pattern().add_to_diagonal(&mut self.values, neutral);
@@ -127,7 +122,8 @@ impl Saddle {
         let mut last = f64::INFINITY;
         loop {
             let (ra, rb) = self.residual(layout, at, compliance, (a, b), (&dx, &dt));
-            let residual = f64::max(norm(&ra) / norm(a).max(f64::MIN_POSITIVE), norm(&rb) / norm(b).max(f64::MIN_POSITIVE));
+            let residual =
+                f64::max(norm(&ra) / norm(a).max(f64::MIN_POSITIVE), norm(&rb) / norm(b).max(f64::MIN_POSITIVE));
             if residual <= tolerance || !(residual < SLOWEST * last) {
                 return Solved { dx, dt, residual };
             }

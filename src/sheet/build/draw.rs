@@ -23,7 +23,7 @@ pub fn draw(sheet: &Sheet) -> Drawn {
     Drawn {
         title: sheet.title.clone(),
         description: sheet.description.clone(),
-        planar: coords.iter().all(|x| x.z == 0.0),
+        planar: false,
         coords,
         faces,
         lattice: sheet.lattice,

@@ -91,7 +91,7 @@ fn check_numbers(drawn: &Drawn) -> Result<(), Defect> {
         return Err(Defect::new(Place::Mesh, Problem::Empty { what: "vertices" }));
     }
     for (v, x) in drawn.coords.iter().enumerate() {
-        if let Some(&value) = x.iter().find(|c| !(c.abs() <= 1e50)) {
+        if let Some(&value) = x.iter().find(|c| !(0.0..=1e50).contains(&c.abs())) {
             return Err(Defect::new(Place::Vertex(v), Problem::Coordinate { vertex: drawn.name(v), value }));
         }
     }

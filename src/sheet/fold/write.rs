@@ -10,7 +10,7 @@ use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
 const FLAT: f64 = 1e-9;
 
 /// `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with assignment and drawn
-/// fold angle, lattice and openings. Numbers are written so that [`parse`](super::parse) gives the same sheet back, bit by
+/// fold angle, lattice and openings. Always in three dimensions, since a sheet folded flat has edges that cross. Numbers are written so that [`parse`](super::parse) gives the same sheet back, bit by
 /// bit.
 pub fn write(sheet: &Sheet) -> String {
     let drawn = draw(sheet);
@@ -22,18 +22,16 @@ pub fn write(sheet: &Sheet) -> String {
         field(&mut text, "file_description", &quoted(&drawn.description));
     }
     field(&mut text, "file_classes", "[\"singleModel\"]");
-    field(&mut text, "frame_classes", if drawn.planar { "[\"creasePattern\"]" } else { "[\"foldedForm\"]" });
-    field(&mut text, "frame_attributes", if drawn.planar { "[\"2D\"]" } else { "[\"3D\"]" });
+    field(&mut text, "frame_attributes", "[\"3D\"]");
     if let Some(lattice) = drawn.lattice {
         field(&mut text, "foldwell:lattice", &rows(lattice.iter().map(|l| numbers(l.iter()))));
     }
     if !drawn.holes.is_empty() {
-        field(&mut text, "foldwell:holes", &rows(drawn.holes.iter().map(|h| numbers(h))));
+        field(&mut text, "foldwell:holes", &rows(drawn.holes.iter().map(numbers)));
     }
-    let size = if drawn.planar { 2 } else { 3 };
-    field(&mut text, "vertices_coords", &rows(drawn.coords.iter().map(|x| numbers(x.iter().take(size)))));
+    field(&mut text, "vertices_coords", &rows(drawn.coords.iter().map(|x| numbers(x.iter()))));
     write_edges(&mut text, sheet, &drawn);
-    let _ = write!(text, "  \"faces_vertices\": {}\n}}\n", rows(drawn.faces.iter().map(|f| numbers(f))));
+    let _ = write!(text, "  \"faces_vertices\": {}\n}}\n", rows(drawn.faces.iter().map(numbers)));
     text
 }
 

@@ -1,0 +1,91 @@
+//! Files of states: tables, VTK series and pictures, as far as a study asks for them.
+
+use super::{RunError, Runner};
+use crate::analysis::state::{Cylinder, State, cylinder};
+use crate::output::picture::Picture;
+use crate::output::table::{StateRow, Table};
+use crate::output::{plot, vtk};
+use crate::scene::spec::{Draw, StudySpec};
+
+/// A state with the residuals that hold at it.
+pub struct Shown<'a> {
+    /// The state.
+    pub state: &'a State,
+    /// Scaled residuals of force and length; `None` where they were not computed.
+    pub residuals: Option<[f64; 2]>,
+}
+
+/// Writes the table of states of a study: one row each.
+pub fn table(runner: &Runner<'_>, study: &StudySpec, states: &[Shown<'_>]) -> Result<(), RunError> {
+    let keys: Vec<_> = runner.built.sheet.edges.iter().map(|edge| edge.key).collect();
+    let rows: Vec<StateRow> = states.iter().enumerate().map(|(step, shown)| row(runner, step, shown)).collect();
+    Ok(Table::of_states(&keys, &rows).write(&runner.path(format!("{}.csv", study.name.0)))?)
+}
+
+fn row(runner: &Runner<'_>, step: usize, shown: &Shown<'_>) -> StateRow {
+    let (built, state) = (runner.built, shown.state);
+    let shape = cylinder(&built.drawn.domain, &built.drawn.coordinates, &state.coordinates);
+    let of = |get: fn(&Cylinder) -> f64| shape.as_ref().map(get);
+    let recipe = &built.recipe;
+    StateRow {
+        step: Some(step as i64),
+        curvature: of(|c| c.curvature),
+        theta: [of(|c| c.theta[0]), of(|c| c.theta[1])],
+        strain: [of(|c| c.strain[0]), of(|c| c.strain[1]), of(|c| c.strain[2])],
+        energy: [
+            recipe.bars.map(|_| state.energy_bars),
+            recipe.creases.as_ref().map(|_| state.energy_creases),
+            recipe.facets.as_ref().map(|_| state.energy_facets),
+            Some(state.total()),
+        ],
+        residual_force: shown.residuals.map(|r| r[0]),
+        residual_length: shown.residuals.map(|r| r[1]),
+        fold: cell_angles(runner, state),
+        ..StateRow::default()
+    }
+}
+
+/// Fold angles of the edges of the cell: of a patch or a torus, those of the cell in its middle.
+fn cell_angles(runner: &Runner<'_>, state: &State) -> Vec<f64> {
+    let tiling = &runner.built.tiling;
+    let middle = tiling.cells.map(|n| (n - 1) / 2);
+    let mut angles = vec![f64::NAN; runner.built.sheet.edges.len()];
+    for (edge, &angle) in tiling.edges.iter().zip(&state.fold_angle) {
+        if edge.cell == middle {
+            angles[edge.edge] = angle;
+        }
+    }
+    angles
+}
+
+/// Writes the VTK series and the picture of the last state, as the study asks.
+pub fn series(runner: &Runner<'_>, study: &StudySpec, states: &[&State]) -> Result<(), RunError> {
+    let drawn = &runner.built.drawn;
+    let pictures: Vec<Picture> = states.iter().map(|state| Picture::of_state(&runner.view, drawn, state)).collect();
+    write(runner, study, &pictures)?;
+    if let (true, Some(last)) = (study.draw.contains(&Draw::Svg), pictures.last()) {
+        svg(runner, study, last)?;
+    }
+    Ok(())
+}
+
+/// Writes pictures as a VTK series, time being their number.
+pub fn write(runner: &Runner<'_>, study: &StudySpec, pictures: &[Picture]) -> Result<(), RunError> {
+    if !study.draw.contains(&Draw::Vtk) {
+        return Ok(());
+    }
+    let name = &study.name.0;
+    let mut entries = Vec::new();
+    for (k, picture) in pictures.iter().enumerate() {
+        let file = format!("{name}/{name}_{k:04}.vtu");
+        vtk::write_vtu(&runner.path(&file), picture)?;
+        entries.push((k as f64, file));
+    }
+    Ok(vtk::write_pvd(&runner.path(format!("{name}.pvd")), &entries)?)
+}
+
+/// Writes one picture as SVG.
+pub fn svg(runner: &Runner<'_>, study: &StudySpec, picture: &Picture) -> Result<(), RunError> {
+    let title = runner.file.title();
+    Ok(plot::write_svg(&runner.path(format!("{}.svg", study.name.0)), picture, &title)?)
+}

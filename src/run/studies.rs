@@ -1,0 +1,264 @@
+//! The kinds of study: ask the analysis, write its files, summarise.
+
+use super::draw::{self, Shown};
+use super::runner::{Kept, Runner};
+use super::{Feature, RunError};
+use crate::analysis::modes::{Modes, Question, modes as find_modes};
+use crate::analysis::relax::{RelaxError, Relaxed, relax as find_equilibrium};
+use crate::analysis::state::State;
+use crate::model::assemble::assemble;
+use crate::model::{Gauge, Model};
+use crate::output::picture::Picture;
+use crate::output::summary::{EnergySummary, IterationSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary};
+use crate::output::table::{Table, Value};
+use crate::output::vtk;
+use crate::scene::SceneFile;
+use crate::scene::build::Built;
+use crate::scene::forms::{RandomStart, Start};
+use crate::scene::spec::{Draw, ModesSpec, RelaxSpec, StudyKind, StudySpec};
+use crate::solver::{Options, Step};
+use rand::{RngExt, SeedableRng};
+use std::time::Instant;
+
+/// Checks what a study says before anything is written.
+pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+    if !study.check.is_empty() {
+        let message = "`check` is not available in this version";
+        return Err(file.error_at(study.name.span(), message, "leave the key out").into());
+    }
+    match &*study.kind {
+        StudyKind::Relax(_) if built.terms().0.iter().all(|term| term == "pins") => {
+            let help = "give bars, creases or facets a stiffness";
+            Err(file.error_at(study.kind.span(), "there is no energy to relax", help).into())
+        }
+        StudyKind::Relax(_) | StudyKind::Modes(_) => Ok(()),
+        other => Err(RunError::NotAvailable(Feature::StudyKind(other.name()))),
+    }
+}
+
+/// `kind = "relax"`.
+pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Result<StudySummary, RunError> {
+    let built = runner.built;
+    let mut model = assemble(&built.drawn, &built.tiling, &built.recipe, Gauge::Held);
+    let x = start(runner, spec, &mut model)?;
+    let edges = built.tiling.edges.len();
+    let first = State::new(&model, &x, &vec![0.0; crate::solver::Problem::layout(&model).stiff.len()], edges);
+    let mut options = Options::default();
+    if let Some(tolerance) = &spec.tolerance {
+        options.tolerance = tolerance.0;
+    }
+    let (clock, mut step) = (Instant::now(), 0);
+    let found = find_equilibrium(&mut model, x, options, edges, &mut |last: &Step| {
+        step += 1;
+        runner.watch(&study.name.0, step, None, last.residual_force.max(last.residual_length))
+    });
+    let seconds = clock.elapsed().as_secs_f64();
+    match found {
+        Ok(relaxed) => {
+            let residuals = Some([relaxed.residual_force, relaxed.residual_length]);
+            let shown = Shown { state: &relaxed.state, residuals };
+            draw::table(runner, study, &[Shown { state: &first, residuals: None }, shown])?;
+            draw::series(runner, study, &[&first, &relaxed.state])?;
+            let coordinates = relaxed.state.coordinates.clone();
+            runner.kept.insert(study.name.0.clone(), Kept { coordinates, angles: model.angles() });
+            Ok(relaxed_summary(built, study, seconds, &relaxed))
+        }
+        Err(error) => {
+            let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
+            let shown = Shown { state: &error.state, residuals };
+            draw::table(runner, study, &[Shown { state: &first, residuals: None }, shown])?;
+            Ok(failed_summary(built, study, seconds, &error))
+        }
+    }
+}
+
+/// The unknowns from which a relaxation starts.
+fn start(runner: &Runner<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Vec<f64>, RunError> {
+    let Some(start) = &spec.start else { return Ok(model.start()) };
+    match &**start {
+        Start::Drawn => Ok(model.start()),
+        Start::Study(name) => {
+            let Some(kept) = runner.kept.get(name) else {
+                let message = format!("study `{name}` has no state to start from");
+                return Err(runner.file.error_at(start.span(), message, "it did not converge").into());
+            };
+            model.set_angles(&kept.angles);
+            Ok(model.start_from(kept.coordinates.clone()))
+        }
+        Start::Random(random) => Ok(random_start(random, model)),
+        Start::File(path) => {
+            let mesh = vtk::read_vtu(&runner.file.resolve(path))?;
+            let built = runner.built;
+            match runner.view.coordinates(&built.drawn, &mesh.points) {
+                Some(coordinates) => Ok(model.start_from(coordinates)),
+                None => {
+                    let count = built.drawn.coordinates.len() / 3;
+                    let message = format!("{} does not say where this sheet is", path.display());
+                    let help =
+                        format!("a start file has the {count} points of a patch or of a torus with fixed lattice");
+                    Err(runner.file.error_at(start.span(), message, help).into())
+                }
+            }
+        }
+    }
+}
+
+/// The drawn state with every unknown moved by a random amount up to the amplitude.
+fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
+    let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(random.seed);
+    let amplitude = random.random.0;
+    let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * (2.0 * numbers.random::<f64>() - 1.0)).collect();
+    let coordinates = model.coordinates(&x);
+    model.start_from(coordinates)
+}
+
+fn relaxed_summary(built: &Built, study: &StudySpec, seconds: f64, relaxed: &Relaxed) -> StudySummary {
+    let result = RelaxSummary {
+        energy: energy(built, &relaxed.state),
+        iterations: relaxed.iterations,
+        factorizations: relaxed.factorizations,
+        chord_solves: relaxed.solves,
+        residual_force: relaxed.residual_force,
+        residual_length: relaxed.residual_length,
+        negative_eigenvalues: Some(relaxed.negative_eigenvalues),
+        self_stresses: relaxed.self_stresses,
+        error_to_kinematic: None,
+        history: history(&relaxed.history),
+    };
+    StudySummary {
+        name: study.name.0.clone(),
+        kind: study.kind.name(),
+        converged: true,
+        seconds,
+        error: Some(f64::max(relaxed.residual_force, relaxed.residual_length)),
+        reason: None,
+        result: Some(StudyResult::Relax(result)),
+    }
+}
+
+fn failed_summary(built: &Built, study: &StudySpec, seconds: f64, error: &RelaxError) -> StudySummary {
+    let last = error.history.last();
+    let result = RelaxSummary {
+        energy: energy(built, &error.state),
+        iterations: error.history.iter().filter(|step| step.fraction > 0.0).count(),
+        factorizations: error.history.iter().map(|step| step.factorizations).sum(),
+        chord_solves: error.history.iter().map(|step| step.solves).sum(),
+        residual_force: last.map_or(f64::NAN, |step| step.residual_force),
+        residual_length: last.map_or(f64::NAN, |step| step.residual_length),
+        history: history(&error.history),
+        ..RelaxSummary::default()
+    };
+    StudySummary {
+        name: study.name.0.clone(),
+        kind: study.kind.name(),
+        converged: false,
+        seconds,
+        error: None,
+        reason: Some(error.failure.to_string()),
+        result: Some(StudyResult::Relax(result)),
+    }
+}
+
+fn energy(built: &Built, state: &State) -> EnergySummary {
+    EnergySummary {
+        bars: built.recipe.bars.map(|_| state.energy_bars),
+        creases: built.recipe.creases.as_ref().map(|_| state.energy_creases),
+        facets: built.recipe.facets.as_ref().map(|_| state.energy_facets),
+        total: state.total(),
+    }
+}
+
+fn history(steps: &[Step]) -> Vec<IterationSummary> {
+    let row = |(iteration, step): (usize, &Step)| IterationSummary {
+        iteration,
+        energy: step.energy,
+        residual_force: step.residual_force,
+        residual_length: step.residual_length,
+        step: step.fraction,
+        shift: step.shift,
+    };
+    steps.iter().enumerate().map(row).collect()
+}
+
+/// `kind = "modes"`.
+pub fn modes(runner: &mut Runner<'_>, study: &StudySpec, spec: &ModesSpec) -> Result<StudySummary, RunError> {
+    let built = runner.built;
+    runner.watch(&study.name.0, 0, None, f64::NAN);
+    let clock = Instant::now();
+    let found = find_modes(&Question {
+        sheet: &built.sheet,
+        tiling: &built.tiling,
+        surroundings: built.surroundings,
+        recipe: &built.recipe,
+        eigenvalues: spec.eigenvalues.as_ref().map_or(0, |n| **n),
+    });
+    let seconds = clock.elapsed().as_secs_f64();
+    let mut summary = StudySummary {
+        name: study.name.0.clone(),
+        kind: study.kind.name(),
+        converged: found.is_ok(),
+        seconds,
+        error: None,
+        reason: None,
+        result: None,
+    };
+    match found {
+        Ok(modes) => {
+            write_modes(runner, study, &modes)?;
+            summary.error = Some(1.0 / modes.gap);
+            summary.result = Some(StudyResult::Modes(modes_summary(&modes)));
+        }
+        Err(error) => summary.reason = Some(error.to_string()),
+    }
+    Ok(summary)
+}
+
+fn modes_summary(modes: &Modes) -> ModesSummary {
+    ModesSummary {
+        zero_modes: modes.zero_modes,
+        self_stresses: modes.self_stresses,
+        rigid_motions: modes.rigid_motions,
+        folding_modes: modes.folding_modes,
+        maxwell_count: modes.maxwell_count,
+        gap: Some(modes.gap),
+        eigenvalues: modes.eigenvalues.clone(),
+    }
+}
+
+/// A table of the eigenvalues; the drawn state with each mode as displacement; a picture of the softest mode that is no
+/// rigid motion, drawn at a tenth of the sheet's size.
+fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<(), RunError> {
+    let mut table = Table::new(vec!["mode".into(), "eigenvalue".into()]);
+    for (k, value) in modes.eigenvalues.iter().enumerate() {
+        table.push(vec![Value::Whole(k as i64), Value::Number(*value)]);
+    }
+    table.write(&runner.path(format!("{}.csv", study.name.0)))?;
+    if modes.vectors.is_empty() || study.draw.is_empty() {
+        return Ok(());
+    }
+    let pictures: Vec<Picture> = modes.vectors.iter().map(|rates| mode_picture(runner, rates)).collect();
+    draw::write(runner, study, &pictures)?;
+    if study.draw.contains(&Draw::Svg) {
+        let softest = modes.rigid_motions.min(pictures.len() - 1);
+        draw::svg(runner, study, &pictures[softest].displaced(0.1))?;
+    }
+    Ok(())
+}
+
+fn mode_picture(runner: &Runner<'_>, rates: &[f64]) -> Picture {
+    let built = runner.built;
+    let edges = built.tiling.edges.len();
+    let nan = || vec![f64::NAN; edges];
+    let state = State {
+        coordinates: built.drawn.coordinates.clone(),
+        energy_bars: 0.0,
+        energy_creases: 0.0,
+        energy_facets: 0.0,
+        fold_angle: crate::model::assemble::drawn_angles(&built.drawn, &built.tiling),
+        rest_angle: nan(),
+        strain: nan(),
+        energy: nan(),
+    };
+    let displacement = runner.view.velocities(&built.drawn, rates);
+    Picture { displacement, ..Picture::of_state(&runner.view, &built.drawn, &state) }
+}

@@ -1,0 +1,68 @@
+//! Kresling's pattern: twisted prisms on top of each other.
+
+use std::f64::consts::{FRAC_PI_6, PI, TAU};
+
+use serde::{Deserialize, Serialize};
+
+use super::grid::Grid;
+use super::{GenerateError, Parts, between, count, length};
+use crate::math::Vec3;
+use crate::sheet::cell::{Corner, Sheet};
+
+const SOURCE: &str = "Kresling pattern: B. Kresling, Natural twist buckling in shells: from the hawkmoth's bellows to the \
+                      deployable Kresling-pattern and cylindrical Miura-ori, IASS-IACM (2008).";
+
+/// A finite ring of Kresling's pattern about the z axis, with both ends open; no lattice.
+///
+/// Vertex `(k, j)` is at radius `radius`, angle `2 pi k / sides + j twist` and height `j height`. Each storey has the edges
+/// `(k, j)`-`(k, j+1)` and the diagonals `(k+1, j)`-`(k, j+1)`; face normals point outwards. A twist of `pi / sides` makes
+/// all triangles isosceles: that is the Yoshimura pattern.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Kresling {
+    /// Corners of the polygons, 3 to 1000. Default 6.
+    pub sides: usize,
+    /// Storeys, 1 to 1000. Default 3.
+    pub levels: usize,
+    /// Height of a storey. Default 0.8.
+    pub height: f64,
+    /// Turn of a storey, in `(-pi, pi)`. Default pi/6.
+    pub twist: f64,
+    /// Radius of the polygons. Default 1.
+    pub radius: f64,
+}
+
+impl Default for Kresling {
+    fn default() -> Self {
+        Self { sides: 6, levels: 3, height: 0.8, twist: FRAC_PI_6, radius: 1.0 }
+    }
+}
+
+impl Kresling {
+    pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
+        let sides = count("sides", self.sides, 3, 1000)?;
+        let levels = count("levels", self.levels, 1, 1000)?;
+        let (height, radius) = (length("height", self.height)?, length("radius", self.radius)?);
+        let twist = between("twist", self.twist, -PI, PI)?;
+        let vertex = |[k, j]: [usize; 2]| {
+            let angle = TAU * k as f64 / sides as f64 + twist * j as f64;
+            Vec3::new(radius * libm::cos(angle), radius * libm::sin(angle), height * j as f64)
+        };
+        let at = |k: usize, j: usize| Corner::home(j * sides + k % sides);
+        let storeys = Grid { size: [sides, levels] };
+        let pair = |[k, j]: [usize; 2]| {
+            let (left, right, over, across) = (at(k, j), at(k + 1, j), at(k, j + 1), at(k + 1, j + 1));
+            [vec![left, right, over], vec![right, across, over]]
+        };
+        let parts = Parts {
+            title: "kresling",
+            source: SOURCE,
+            vertices: Grid { size: [sides, levels + 1] }.all().map(vertex).collect(),
+            lattice: None,
+            polygons: storeys.all().flat_map(pair).collect(),
+        };
+        parts.sheet(format!(
+            "sides = {sides}, levels = {levels}, height = {height}, twist = {twist}, radius = {radius}."
+        ))
+    }
+}

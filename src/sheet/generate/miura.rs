@@ -1,0 +1,113 @@
+//! Miura-ori: equal parallelograms, one way to fold rigidly.
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
+
+use serde::{Deserialize, Serialize};
+
+use super::grid::Grid;
+use super::{GenerateError, Parts, between, count, from, length};
+use crate::math::Vec3;
+use crate::sheet::cell::Sheet;
+
+const SOURCE: &str = "Miura-ori: K. Miura, Method of packaging and deployment of large membranes in space, ISAS Report \
+                      618 (1985); coordinates as in M. Schenk, S. D. Guest, PNAS 110, 3276 (2013).";
+
+/// One cell of Miura-ori, 2 x 2 parallelograms, partially folded.
+///
+/// Vertex `(i, j)` is `(s i, l j + v [i odd], h [j odd])` with `h = a sin t sin g`, `q = sqrt(1 + cos^2 g tan^2 t)`,
+/// `s = b cos g tan t / q`, `v = b / q`, `l = a sqrt(1 - sin^2 g sin^2 t)`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Miura {
+    /// Side `a` of the parallelograms, across the zigzags. Default 1.
+    pub a: f64,
+    /// Side `b` of the parallelograms, along the zigzags. Default 1.
+    pub b: f64,
+    /// Acute angle `t` of the parallelograms, in `(0, pi/2)`. Default pi/3.
+    pub sector: f64,
+    /// Angle `g` between the faces and the plane of the sheet, in `[0, pi/2)`; 0 is flat. Default pi/12.
+    pub fold: f64,
+}
+
+/// A finite Miura-ori of `cells` cells with finished edges: `(2 n1 + 1) x (2 n2 + 1)` vertices, parameters as [`Miura`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MiuraPatch {
+    /// Side `a` of the parallelograms, across the zigzags. Default 1.
+    pub a: f64,
+    /// Side `b` of the parallelograms, along the zigzags. Default 1.
+    pub b: f64,
+    /// Acute angle `t` of the parallelograms, in `(0, pi/2)`. Default pi/3.
+    pub sector: f64,
+    /// Angle `g` between the faces and the plane of the sheet, in `[0, pi/2)`; 0 is flat. Default pi/12.
+    pub fold: f64,
+    /// Cells along the two directions, 1 to 500 each. Default `[5, 5]`.
+    pub cells: [usize; 2],
+}
+
+impl Default for Miura {
+    fn default() -> Self {
+        Self { a: 1.0, b: 1.0, sector: FRAC_PI_3, fold: PI / 12.0 }
+    }
+}
+
+impl Default for MiuraPatch {
+    fn default() -> Self {
+        let Miura { a, b, sector, fold } = Miura::default();
+        Self { a, b, sector, fold, cells: [5, 5] }
+    }
+}
+
+/// The four lengths that place every vertex.
+struct Shape {
+    s: f64,
+    l: f64,
+    v: f64,
+    h: f64,
+}
+
+impl Shape {
+    fn vertex(&self, [i, j]: [usize; 2]) -> Vec3 {
+        let odd = |n: usize| (n % 2) as f64;
+        Vec3::new(self.s * i as f64, self.l * j as f64 + self.v * odd(i), self.h * odd(j))
+    }
+}
+
+impl Miura {
+    fn shape(&self) -> Result<Shape, GenerateError> {
+        let (a, b) = (length("a", self.a)?, length("b", self.b)?);
+        let t = between("sector", self.sector, 0.0, FRAC_PI_2)?;
+        let g = from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let rise = libm::sin(t) * libm::sin(g);
+        let run = libm::cos(g) * libm::tan(t);
+        let q = (1.0 + run * run).sqrt();
+        Ok(Shape { s: b * run / q, l: a * (1.0 - rise * rise).sqrt(), v: b / q, h: a * rise })
+    }
+
+    fn parameters(&self) -> String {
+        format!("a = {}, b = {}, sector = {}, fold = {}.", self.a, self.b, self.sector, self.fold)
+    }
+
+    pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
+        let shape = self.shape()?;
+        let grid = Grid { size: [2, 2] };
+        let lattice = Some([Vec3::new(2.0 * shape.s, 0.0, 0.0), Vec3::new(0.0, 2.0 * shape.l, 0.0)]);
+        let vertices = grid.all().map(|at| shape.vertex(at)).collect();
+        let polygons = grid.all().map(|at| grid.quad(at).to_vec()).collect();
+        Parts { title: "miura", source: SOURCE, vertices, lattice, polygons }.sheet(self.parameters())
+    }
+}
+
+impl MiuraPatch {
+    pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
+        let cell = Miura { a: self.a, b: self.b, sector: self.sector, fold: self.fold };
+        let shape = cell.shape()?;
+        let [n1, n2] = [count("cells[0]", self.cells[0], 1, 500)?, count("cells[1]", self.cells[1], 1, 500)?];
+        let grid = Grid { size: [2 * n1 + 1, 2 * n2 + 1] };
+        let vertices = grid.all().map(|at| shape.vertex(at)).collect();
+        let inner = grid.all().filter(|[i, j]| *i < 2 * n1 && *j < 2 * n2);
+        let polygons = inner.map(|at| grid.quad(at).to_vec()).collect();
+        let parameters = format!("{n1} x {n2} cells, {}", cell.parameters());
+        Parts { title: "miura-patch", source: SOURCE, vertices, lattice: None, polygons }.sheet(parameters)
+    }
+}

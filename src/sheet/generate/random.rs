@@ -1,0 +1,103 @@
+//! Random triangulated cells.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
+
+use super::grid::Grid;
+use super::{GenerateError, Parts, between, count, from};
+use crate::math::Vec3;
+use crate::sheet::cell::{Corner, Sheet};
+
+const SOURCE: &str = "Random triangulated cell as in J. McInerney, B. G. Chen, L. Theran, C. D. Santangelo, D. Z. Rocklin, \
+                      PNAS 117, 30252 (2020).";
+
+/// A generic random cell that cannot be flattened: `size[0] x size[1]` vertices on a skew lattice of unit spacing, each moved
+/// in the plane by at most `jitter` of the spacing along both lattice directions and by at most `height` along z (vertex 0
+/// back to the origin, with all others), quadrilaterals split along a random diagonal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Random {
+    /// Vertices along the two lattice vectors, 1 to 1000 each. Default `[2, 2]`.
+    pub size: [usize; 2],
+    /// Largest displacement along z, in `[0, 100)`. Default 0.3.
+    pub height: f64,
+    /// Largest displacement in the plane, in `[0, 0.25)`: below a quarter every triangle keeps a positive area seen from above,
+    /// whichever diagonal splits it. Default 0.2.
+    pub jitter: f64,
+    /// How far a row is moved along x against the row below, in `(-10, 10)`. Default 0.3.
+    pub skew: f64,
+    /// Seed of the random numbers. Default 0.
+    pub seed: u64,
+}
+
+/// A generic random flat cell: as [`Random`] with height 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RandomDevelopable {
+    /// Vertices along the two lattice vectors, 1 to 1000 each. Default `[2, 2]`.
+    pub size: [usize; 2],
+    /// Largest displacement in the plane, in `[0, 0.25)`. Default 0.2.
+    pub jitter: f64,
+    /// How far a row is moved along x against the row below, in `(-10, 10)`. Default 0.3.
+    pub skew: f64,
+    /// Seed of the random numbers. Default 0.
+    pub seed: u64,
+}
+
+impl Default for Random {
+    fn default() -> Self {
+        Self { size: [2, 2], height: 0.3, jitter: 0.2, skew: 0.3, seed: 0 }
+    }
+}
+
+impl Default for RandomDevelopable {
+    fn default() -> Self {
+        let Random { size, jitter, skew, seed, .. } = Random::default();
+        Self { size, jitter, skew, seed }
+    }
+}
+
+impl RandomDevelopable {
+    pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
+        let Self { size, jitter, skew, seed } = self.clone();
+        Random { size, height: 0.0, jitter, skew, seed }.titled("random-developable")
+    }
+}
+
+impl Random {
+    pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
+        self.titled("random")
+    }
+
+    fn titled(&self, title: &'static str) -> Result<Sheet, GenerateError> {
+        let [m1, m2] = [count("size[0]", self.size[0], 1, 1000)?, count("size[1]", self.size[1], 1, 1000)?];
+        let height = from("height", self.height, 0.0, 100.0)?;
+        let jitter = from("jitter", self.jitter, 0.0, 0.25)?;
+        let skew = between("skew", self.skew, -10.0, 10.0)?;
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        let grid = Grid { size: [m1, m2] };
+        let place = |u: f64, v: f64, z: f64| Vec3::new(u + skew * v, v, z);
+        let mut vertices: Vec<Vec3> = Vec::with_capacity(m1 * m2);
+        for [i, j] in grid.all() {
+            let [u, v, z] = [(); 3].map(|()| symmetric(&mut random));
+            vertices.push(place(i as f64 + jitter * u, j as f64 + jitter * v, height * z));
+        }
+        let origin = vertices[0];
+        vertices.iter_mut().for_each(|x| *x -= origin);
+        let polygons = grid.all().flat_map(|at| split(grid.quad(at), random.next_u64() >> 63 == 0)).collect();
+        let lattice = Some([place(m1 as f64, 0.0, 0.0), place(0.0, m2 as f64, 0.0)]);
+        let Self { size, seed, .. } = self;
+        Parts { title, source: SOURCE, vertices, lattice, polygons }
+            .sheet(format!("size = {size:?}, height = {height}, jitter = {jitter}, skew = {skew}, seed = {seed}."))
+    }
+}
+
+/// Uniform in `[-1, 1)`, from the upper 53 bits of one number of the stream.
+fn symmetric(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0
+}
+
+fn split([a, b, c, d]: [Corner; 4], rising: bool) -> [Vec<Corner>; 2] {
+    if rising { [vec![a, b, c], vec![a, c, d]] } else { [vec![a, b, d], vec![b, c, d]] }
+}

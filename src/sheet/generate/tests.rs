@@ -1,0 +1,159 @@
+//! Claims about all patterns, and the files in `meshes/`.
+
+use std::f64::consts::{FRAC_PI_3, PI};
+use std::path::PathBuf;
+
+use super::*;
+use crate::sheet::{EdgeKind, Info, fold};
+
+fn edge_lengths(sheet: &Sheet) -> Vec<f64> {
+    sheet.edges.iter().map(|e| e.key.ends().map(|c| sheet.position(c))).map(|[i, j]| (j - i).norm()).collect()
+}
+
+/// The pattern with some parameters, as a scene gives them.
+fn with(json: &str) -> Pattern {
+    serde_json::from_str(json).unwrap()
+}
+
+fn sheet(json: &str) -> Sheet {
+    generate(&with(json)).unwrap()
+}
+
+/// Claim: folding keeps the length of every edge, diagonals included. Tolerance: rounding of coordinates below 10.
+#[test]
+fn folded_states_are_isometric() {
+    for name in ["miura", "waterbomb", "yoshimura", "square-twist", "miura-patch"] {
+        let flat = edge_lengths(&sheet(&format!(r#"{{"pattern": "{name}", "fold": 0}}"#)));
+        for fold in [1e-6, 0.2, 0.7, 1.2, 1.5] {
+            let folded = sheet(&format!(r#"{{"pattern": "{name}", "fold": {fold}}}"#));
+            for (k, (a, b)) in flat.iter().zip(edge_lengths(&folded)).enumerate() {
+                assert!((a - b).abs() < 1e-13, "{name} at {fold}, edge {k}: {a} {b}");
+            }
+            assert!(Info::new(&folded).developable, "{name} at {fold}");
+        }
+    }
+}
+
+/// Claim: the polygons are planar (fold angles of their diagonals vanish). Tolerance: rounding, over heights of 0.1.
+#[test]
+fn polygons_are_planar() {
+    for name in Pattern::names() {
+        let sheet = generate(&Pattern::named(name).unwrap()).unwrap();
+        for edge in sheet.edges.iter().filter(|e| e.kind == EdgeKind::Facet) {
+            assert!(sheet.drawn_angle(edge).unwrap().abs() < 1e-14, "{name} {edge:?}");
+        }
+    }
+}
+
+/// Claim: the acute angle of every parallelogram is `sector`, its sides `a` and `b`. Tolerance: rounding.
+#[test]
+fn sector_angles_and_sides() {
+    for (name, fold) in [("miura", 0.9), ("eggbox", 1.1)] {
+        let sheet = sheet(&format!(r#"{{"pattern": "{name}", "a": 1.3, "b": 0.8, "fold": {fold}}}"#));
+        for polygon in &sheet.polygons {
+            let x: Vec<Vec3> = polygon.iter().map(|&c| sheet.position(c)).collect();
+            let (b, a) = (x[1] - x[0], x[3] - x[0]);
+            let (a, b) = if name == "eggbox" { (b, a) } else { (a, b) };
+            assert!((a.norm() - 1.3).abs() < 1e-14 && (b.norm() - 0.8).abs() < 1e-14, "{name}");
+            let angle = a.angle(&b);
+            assert!((angle.min(PI - angle) - FRAC_PI_3).abs() < 1e-14, "{name}: {angle}");
+        }
+    }
+}
+
+/// Claim: rigidly folded square twists do fold: the creases round the square are neither flat nor all equal, and `fold`
+/// is the angle of the right one.
+#[test]
+fn square_twist_folds() {
+    let sheet = sheet(r#"{"pattern": "square-twist", "fold": 0.5}"#);
+    let angles: Vec<f64> = sheet.edges[..4].iter().map(|e| sheet.drawn_angle(e).unwrap()).collect();
+    assert!((angles[1] - 0.5).abs() < 1e-14, "{angles:?}");
+    assert!(angles.iter().all(|a| a.abs() > 0.1), "{angles:?}");
+}
+
+/// Claim: random cells are triangulated, generic where they should be and flat where they should be, differ by seed, and keep
+/// positive areas seen from above up to the largest jitter.
+#[test]
+fn random_cells() {
+    for seed in 0..50 {
+        let cell = sheet(&format!(
+            r#"{{"pattern": "random", "size": [3, 4], "height": 0.5, "jitter": 0.2499, "seed": {seed}}}"#
+        ));
+        assert_eq!((cell.vertices.len(), cell.edges.len(), cell.triangles.len()), (12, 36, 24));
+        for t in &cell.triangles {
+            let [a, b, c] = t.corners.map(|c| cell.position(c).xy());
+            assert!((b - a).perp(&(c - a)) > 0.0, "seed {seed}");
+        }
+        assert!(!Info::new(&cell).developable);
+        let flat = sheet(&format!(r#"{{"pattern": "random-developable", "size": [1, 1], "seed": {seed}}}"#));
+        assert!(Info::new(&flat).developable);
+    }
+    assert_ne!(sheet(r#"{"pattern": "random", "seed": 1}"#).vertices, sheet(r#"{"pattern": "random"}"#).vertices);
+}
+
+/// Claim: every pattern has the Euler characteristic of its surface: torus and ring 0, disc 1.
+#[test]
+fn euler_characteristics() {
+    for name in Pattern::names() {
+        let info = Info::new(&generate(&Pattern::named(name).unwrap()).unwrap());
+        assert_eq!(info.euler_characteristic, i64::from(*name == "miura-patch"), "{name}");
+        assert_eq!(info.maxwell_count_screw.is_some(), info.periodic);
+    }
+}
+
+/// Claim: every name is a pattern, and the pattern says its own name.
+#[test]
+fn names() {
+    for name in Pattern::names() {
+        let json = serde_json::to_value(Pattern::named(name).unwrap()).unwrap();
+        assert_eq!(json["pattern"], *name);
+    }
+    assert!(Pattern::named("no-such-pattern").is_none());
+    assert!(serde_json::from_str::<Pattern>(r#"{"pattern": "miura", "angle": 1}"#).is_err());
+}
+
+/// Claim: parameters out of range are refused with the number and the range.
+#[test]
+fn bad_parameters() {
+    let cases = [
+        (r#"{"pattern": "miura", "a": -1}"#, "`a` is -1; it should be above 0 and below 1000000"),
+        (r#"{"pattern": "miura", "fold": 2}"#, "`fold` is 2; it should be at least 0 and below 1.57"),
+        (r#"{"pattern": "miura-patch", "cells": [5, 0]}"#, "`cells[1]` is 0; it should be from 1 to 500"),
+        (r#"{"pattern": "eggbox", "fold": 0.1}"#, "`fold` is 0.1; it should be above 0.5235"),
+        (r#"{"pattern": "waterbomb", "b": 0}"#, "`b` is 0; it should be above 0"),
+        (r#"{"pattern": "yoshimura", "fold": -0.1}"#, "`fold` is -0.1; it should be at least 0"),
+        (r#"{"pattern": "kresling", "sides": 2}"#, "`sides` is 2; it should be from 3 to 1000"),
+        (r#"{"pattern": "square-twist", "twist": 0}"#, "`twist` is 0; it should be above 0"),
+        (r#"{"pattern": "random", "jitter": 0.25}"#, "`jitter` is 0.25; it should be at least 0 and below 0.25"),
+        (r#"{"pattern": "random-developable", "size": [0, 2]}"#, "`size[0]` is 0; it should be from 1 to 1000"),
+    ];
+    for (json, message) in cases {
+        let found = generate(&with(json)).unwrap_err().to_string();
+        assert!(found.starts_with(message), "{json}: {found}");
+    }
+}
+
+fn mesh_path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("meshes/{name}.fold"))
+}
+
+/// Claim: the files in `meshes/` are what the generators make now, byte by byte, and read back as the same sheets.
+#[test]
+fn mesh_files_are_up_to_date() {
+    for name in Pattern::names() {
+        let sheet = generate(&Pattern::named(name).unwrap()).unwrap();
+        let text = std::fs::read_to_string(mesh_path(name)).unwrap();
+        assert_eq!(text, fold::write(&sheet), "{name}: run `cargo test write_mesh_files -- --ignored`");
+        assert_eq!(fold::parse(&text, name).unwrap(), sheet);
+    }
+}
+
+/// Writes the files in `meshes/` anew.
+#[test]
+#[ignore = "changes files of the repository"]
+fn write_mesh_files() {
+    for name in Pattern::names() {
+        let sheet = generate(&Pattern::named(name).unwrap()).unwrap();
+        std::fs::write(mesh_path(name), fold::write(&sheet)).unwrap();
+    }
+}

@@ -1,0 +1,58 @@
+//! The Yoshimura pattern: diamonds with their long diagonals.
+
+use std::f64::consts::FRAC_PI_2;
+
+use serde::{Deserialize, Serialize};
+
+use super::{GenerateError, Parts, from, length};
+use crate::math::Vec3;
+use crate::sheet::cell::{Corner, Sheet};
+
+const SOURCE: &str = "Yoshimura pattern: Y. Yoshimura, On the mechanism of buckling of a circular cylindrical shell under \
+                      axial compression, NACA TM 1390 (1955).";
+
+/// One cell of the Yoshimura pattern: two rows of isosceles triangles with base `a` and height `b`, every other row
+/// moved by `a / 2`.
+///
+/// Folded evenly this sheet rolls up to a cylinder, which a drawing with a flat lattice cannot show. `fold` is the fold
+/// that a flat lattice allows, pleats along the bases; 0 is the crease pattern. As rings of a cylinder see
+/// [`Kresling`](super::Kresling) with a twist of `pi / sides`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Yoshimura {
+    /// Base of the triangles. Default 2.
+    pub a: f64,
+    /// Height of the triangles. Default 1.
+    pub b: f64,
+    /// Slope of the rows, alternately up and down, in `[0, pi/2)`. Default 0.
+    pub fold: f64,
+}
+
+impl Default for Yoshimura {
+    fn default() -> Self {
+        Self { a: 2.0, b: 1.0, fold: 0.0 }
+    }
+}
+
+impl Yoshimura {
+    pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
+        let (a, b) = (length("a", self.a)?, length("b", self.b)?);
+        let fold = from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let (run, rise) = (b * libm::cos(fold), b * libm::sin(fold));
+        let low = |n1, n2| Corner { vertex: 0, shift: [n1, n2] };
+        let high = |n1, n2| Corner { vertex: 1, shift: [n1, n2] };
+        let parts = Parts {
+            title: "yoshimura",
+            source: SOURCE,
+            vertices: vec![Vec3::zeros(), Vec3::new(a / 2.0, run, rise)],
+            lattice: Some([Vec3::new(a, 0.0, 0.0), Vec3::new(0.0, 2.0 * run, 0.0)]),
+            polygons: vec![
+                vec![low(0, 0), low(1, 0), high(0, 0)],
+                vec![low(1, 0), high(1, 0), high(0, 0)],
+                vec![high(0, 0), high(1, 0), low(1, 1)],
+                vec![high(0, 0), low(1, 1), low(0, 1)],
+            ],
+        };
+        parts.sheet(format!("a = {a}, b = {b}, fold = {fold}."))
+    }
+}

@@ -1,0 +1,180 @@
+//! What there is to know about a sheet before anything is computed with it.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::cell::{Corner, EdgeKind, Sheet};
+use crate::math::Vec3;
+
+/// Largest angle defect of a sheet that is called developable.
+const DEVELOPABLE: f64 = 1e-9;
+
+/// Counts and measures of one cell, or of a finite sheet.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Info {
+    /// Name of the sheet.
+    pub title: String,
+    /// Whether it has lattice vectors.
+    pub periodic: bool,
+    /// Vertices `Nv`.
+    pub vertices: usize,
+    /// Edges `Ne`, diagonals of polygons included.
+    pub edges: usize,
+    /// Edges that fold.
+    pub creases: usize,
+    /// Diagonals of polygons.
+    pub facets: usize,
+    /// Edges of one face.
+    pub boundary: usize,
+    /// Triangles.
+    pub faces: usize,
+    /// Polygons.
+    pub polygons: usize,
+    /// `vertices - edges + faces`: 0 for a cell of a periodic sheet without openings, 1 for a disc, 0 for a ring.
+    pub euler_characteristic: i64,
+    /// Columns minus rows of the bars' rigidity matrix: `3 Nv - Ne`, on a fixed torus or with free edges.
+    pub maxwell_count: i64,
+    /// The same for the screw domain with vertex 0 pinned: `3 (Nv - 1) + 5 - Ne`. Only of a periodic sheet.
+    pub maxwell_count_screw: Option<i64>,
+    /// The same on a torus with free lattice vectors: `3 Nv + 6 - Ne`. Only of a periodic sheet.
+    pub maxwell_count_free_torus: Option<i64>,
+    /// Whether no vertex inside has an angle defect over 1e-9, so that the sheet can be flattened without stretching.
+    pub developable: bool,
+    /// Largest `|2 pi - sum of the angles of triangles|` over vertices inside, in radians.
+    pub largest_angle_defect: f64,
+    /// Length of the shortest edge.
+    pub shortest_edge: f64,
+    /// Length of the longest edge.
+    pub longest_edge: f64,
+    /// Least `4 sqrt(3) area / (sum of squared sides)` of a triangle: 1 equilateral, 0 without area.
+    pub worst_triangle_quality: f64,
+}
+
+impl Info {
+    /// Looks at `sheet`.
+    pub fn new(sheet: &Sheet) -> Self {
+        let count = |kind| sheet.edges.iter().filter(|e| e.kind == kind).count();
+        let free = 3 * sheet.vertices.len() as i64 - sheet.edges.len() as i64;
+        let lengths =
+            || sheet.edges.iter().map(|e| e.key.ends().map(|c| sheet.position(c))).map(|[i, j]| (j - i).norm());
+        let defect = largest_angle_defect(sheet);
+        Self {
+            title: sheet.title.clone(),
+            periodic: sheet.lattice.is_some(),
+            vertices: sheet.vertices.len(),
+            edges: sheet.edges.len(),
+            creases: count(EdgeKind::Crease),
+            facets: count(EdgeKind::Facet),
+            boundary: count(EdgeKind::Boundary),
+            faces: sheet.triangles.len(),
+            polygons: sheet.polygons.len(),
+            euler_characteristic: (sheet.vertices.len() + sheet.triangles.len()) as i64 - sheet.edges.len() as i64,
+            maxwell_count: free,
+            maxwell_count_screw: sheet.lattice.map(|_| free + 2),
+            maxwell_count_free_torus: sheet.lattice.map(|_| free + 6),
+            developable: defect < DEVELOPABLE,
+            largest_angle_defect: defect,
+            shortest_edge: lengths().fold(f64::INFINITY, f64::min),
+            longest_edge: lengths().fold(0.0, f64::max),
+            worst_triangle_quality: points(sheet).map(quality).fold(1.0, f64::min),
+        }
+    }
+}
+
+fn points(sheet: &Sheet) -> impl Iterator<Item = [Vec3; 3]> + '_ {
+    sheet.triangles.iter().map(|t| t.corners.map(|c: Corner| sheet.position(c)))
+}
+
+fn quality([a, b, c]: [Vec3; 3]) -> f64 {
+    let doubled = (b - a).cross(&(c - a)).norm();
+    let squares = (b - a).norm_squared() + (c - b).norm_squared() + (a - c).norm_squared();
+    2.0 * 3.0f64.sqrt() * doubled / squares
+}
+
+fn largest_angle_defect(sheet: &Sheet) -> f64 {
+    let mut sums = vec![0.0; sheet.vertices.len()];
+    for (triangle, x) in sheet.triangles.iter().zip(points(sheet)) {
+        for k in 0..3 {
+            let (u, v) = (x[(k + 1) % 3] - x[k], x[(k + 2) % 3] - x[k]);
+            sums[triangle.corners[k].vertex] += u.cross(&v).norm().atan2(u.dot(&v));
+        }
+    }
+    let mut inside = vec![true; sheet.vertices.len()];
+    for edge in sheet.edges.iter().filter(|e| e.kind == EdgeKind::Boundary) {
+        inside[edge.key.i] = false;
+        inside[edge.key.j] = false;
+    }
+    let defects =
+        sums.iter().zip(inside).filter(|(_, inside)| *inside).map(|(sum, _)| (std::f64::consts::TAU - sum).abs());
+    defects.fold(0.0, f64::max)
+}
+
+impl fmt::Display for Info {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{}: {}",
+            self.title,
+            if self.periodic { "one cell of a periodic sheet" } else { "a finite sheet" }
+        )?;
+        writeln!(f, "vertices               {}", self.vertices)?;
+        let (creases, facets, boundary) = (self.creases, self.facets, self.boundary);
+        writeln!(f, "edges                  {} ({creases} creases, {facets} facets, {boundary} boundary)", self.edges)?;
+        writeln!(f, "triangles              {} (of {} polygons)", self.faces, self.polygons)?;
+        writeln!(f, "Euler characteristic   {}", self.euler_characteristic)?;
+        write!(f, "Maxwell count          {}", self.maxwell_count)?;
+        match (self.maxwell_count_screw, self.maxwell_count_free_torus) {
+            (Some(screw), Some(free)) => writeln!(f, " (fixed torus), {screw} (screw), {free} (free torus)")?,
+            _ => writeln!(f)?,
+        }
+        let developable = if self.developable { "yes" } else { "no" };
+        writeln!(
+            f,
+            "developable            {developable}, largest angle defect {:.3e} rad",
+            self.largest_angle_defect
+        )?;
+        writeln!(f, "edge lengths           {:.6} to {:.6}", self.shortest_edge, self.longest_edge)?;
+        write!(f, "worst triangle         quality {:.4} (1: equilateral)", self.worst_triangle_quality)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::{Pattern, fold, generate};
+
+    /// Claim: the counts of a triangulated cell (contract: Ne = 3 Nv, Nf = 2 Nv, Maxwell counts 0, 2, 6); an unfolded star
+    /// has angle defects.
+    #[test]
+    fn triangulated_cell() {
+        let star = fold::parse(include_str!("../../tests/cases/open-star.fold"), "open-star.fold").unwrap();
+        let info = Info::new(&star);
+        assert_eq!((info.vertices, info.edges, info.faces, info.euler_characteristic), (4, 12, 8, 0));
+        assert_eq!(
+            (info.maxwell_count, info.maxwell_count_screw, info.maxwell_count_free_torus),
+            (0, Some(2), Some(6))
+        );
+        assert!(!info.developable && info.largest_angle_defect > 0.1);
+        assert!(info.to_string().contains("fixed torus"));
+    }
+
+    /// Claim: a folded Miura-ori is developable and an eggbox is not: four angles of 60 degrees at its tops leave
+    /// a defect of 2 pi / 3. Tolerance: rounding of a sum of eight angles.
+    #[test]
+    fn developable_or_not() {
+        let miura = Info::new(&generate(&Pattern::named("miura").unwrap()).unwrap());
+        assert!(miura.developable && miura.largest_angle_defect < 1e-14, "{miura}");
+        assert_eq!((miura.polygons, miura.facets, miura.creases), (4, 4, 8));
+        let eggbox = Info::new(&generate(&Pattern::named("eggbox").unwrap()).unwrap());
+        assert!((eggbox.largest_angle_defect - std::f64::consts::TAU / 3.0).abs() < 1e-14, "{eggbox}");
+    }
+
+    /// Claim: an equilateral triangle has quality 1, a right isosceles one sqrt(3)/2.
+    #[test]
+    fn qualities() {
+        let h = 3.0f64.sqrt() / 2.0;
+        assert!((quality([Vec3::zeros(), Vec3::x(), Vec3::new(0.5, h, 0.0)]) - 1.0).abs() < 1e-15);
+        assert!((quality([Vec3::zeros(), Vec3::x(), Vec3::y()]) - h).abs() < 1e-15);
+    }
+}

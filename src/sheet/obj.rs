@@ -1,0 +1,203 @@
+//! Wavefront OBJ files: vertices and faces, with the lattice kept in comments.
+//!
+//! `v x y z` and `f a b c ...` are read, also `a/t/n` corners and negative numbers that count back from the last vertex.
+//! Other keywords are ignored. What OBJ has no word for stands in comments:
+//!
+//! ```text
+//! # foldwell:lattice x y z            (twice, for the two lattice vectors)
+//! # foldwell:hole a b c ...           (once for every opening of a periodic sheet)
+//! # foldwell:description "text"
+//! ```
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::build::{Drawn, build, draw};
+use super::cell::Sheet;
+use super::error::{Defect, Place, Problem, SheetError};
+use crate::math::Vec3;
+
+/// The sheet in the file at `path`.
+///
+/// # Errors
+/// [`SheetError::Read`] when there is no such file or it cannot be read, else as [`parse`].
+pub fn read(path: &Path) -> Result<Sheet, SheetError> {
+    let text = std::fs::read_to_string(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
+    parse(&text, &path.display().to_string())
+}
+
+/// The sheet in an OBJ text; `name` is that of its file, for messages, and for the title where the file has no `o` line.
+/// Messages number vertices and faces from 1, as OBJ does.
+///
+/// # Errors
+/// [`SheetError::Bad`] with the line, and the vertex, face or edge that is wrong.
+pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
+    let stem = Path::new(name).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let mut reader = Reader { drawn: Drawn { title: stem, first: 1, ..Drawn::default() }, ..Reader::default() };
+    for (number, line) in text.lines().enumerate() {
+        reader.line = number + 1;
+        reader.read(line).map_err(|problem| bad(name, reader.line, problem))?;
+    }
+    reader.drawn.lattice = reader.lattice().map_err(|problem| bad(name, reader.line, problem))?;
+    build(&reader.drawn).map_err(|defect| reader.located(name, defect))
+}
+
+fn bad(name: &str, line: usize, problem: Problem) -> SheetError {
+    SheetError::Bad { name: name.to_owned(), line: line.max(1), column: 1, problem: Box::new(problem) }
+}
+
+/// The mesh read so far, and the lines of its parts.
+#[derive(Default)]
+struct Reader {
+    line: usize,
+    drawn: Drawn,
+    lattice_vectors: Vec<Vec3>,
+    vertex_lines: Vec<usize>,
+    face_lines: Vec<usize>,
+    hole_lines: Vec<usize>,
+    lattice_line: usize,
+}
+
+impl Reader {
+    fn read(&mut self, line: &str) -> Result<(), Problem> {
+        let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
+        match word {
+            "v" => {
+                self.drawn.coords.push(point(rest)?);
+                self.vertex_lines.push(self.line);
+            }
+            "f" => {
+                self.drawn.faces.push(self.corners(rest, "face", self.drawn.faces.len() + 1)?);
+                self.face_lines.push(self.line);
+            }
+            "o" => self.drawn.title = rest.trim().to_owned(),
+            "#" => self.read_comment(rest.trim())?,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn read_comment(&mut self, comment: &str) -> Result<(), Problem> {
+        let (word, rest) = comment.split_once(char::is_whitespace).unwrap_or((comment, ""));
+        match word {
+            "foldwell:lattice" => {
+                self.lattice_vectors.push(point(rest)?);
+                self.lattice_line = self.line;
+            }
+            "foldwell:hole" => {
+                self.drawn.holes.push(self.corners(rest, "opening", self.drawn.holes.len())?);
+                self.hole_lines.push(self.line);
+            }
+            "foldwell:description" => {
+                self.drawn.description = serde_json::from_str(rest)
+                    .map_err(|_| wrong(rest, "description", "one text in quotes, with quotes inside as \\\""))?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Vertices named by a face or an opening, counted from 0.
+    fn corners(&self, list: &str, what: &str, number: usize) -> Result<Vec<usize>, Problem> {
+        let count = self.drawn.coords.len();
+        let corner = |word: &str| {
+            let first = word.split('/').next().unwrap_or_default();
+            let right = "a whole number, such as 3, -1 or 3/1/2";
+            let n: i128 = first.parse().map_err(|_| wrong(word, "vertex number", right))?;
+            let from_zero = if n < 0 { n + count as i128 } else { n - 1 };
+            usize::try_from(from_zero).ok().filter(|v| *v < count).ok_or_else(|| Problem::Index {
+                what: format!("{what} {number}"),
+                found: first.to_owned(),
+                first: 1,
+                last: count,
+            })
+        };
+        list.split_whitespace().map(corner).collect()
+    }
+
+    fn lattice(&self) -> Result<Option<[Vec3; 2]>, Problem> {
+        match self.lattice_vectors[..] {
+            [] => Ok(None),
+            [l1, l2] => Ok(Some([l1, l2])),
+            _ => {
+                let found = format!("{} lines `# foldwell:lattice`", self.lattice_vectors.len());
+                Err(wrong(&found, "lattice", "two lines, one for each lattice vector"))
+            }
+        }
+    }
+
+    fn located(&self, name: &str, defect: Defect) -> SheetError {
+        let line = match defect.place {
+            Place::Vertex(v) => self.vertex_lines.get(v),
+            Place::Face(f) => self.face_lines.get(f),
+            Place::Hole(h) => self.hole_lines.get(h),
+            Place::Lattice => Some(&self.lattice_line),
+            Place::Mesh | Place::Edge(_) => None,
+        };
+        bad(name, line.copied().unwrap_or(self.line), *defect.problem)
+    }
+}
+
+fn wrong(found: &str, what: &'static str, right: &'static str) -> Problem {
+    Problem::ObjLine { found: found.chars().take(40).collect(), what, right }
+}
+
+fn point(words: &str) -> Result<Vec3, Problem> {
+    let bad = || wrong(words.trim(), "point", "three finite numbers, `x y z`");
+    let numbers: Vec<f64> = words.split_whitespace().map(str::parse).collect::<Result<_, _>>().map_err(|_| bad())?;
+    match numbers[..] {
+        [x, y, z, ..] if numbers.iter().all(|n| n.is_finite()) => Ok(Vec3::new(x, y, z)),
+        _ => Err(bad()),
+    }
+}
+
+/// `sheet` as an OBJ text, one cell drawn in full. [`parse`] gives the same sheet back; a title keeps its words, but
+/// not the white space between them.
+pub fn write(sheet: &Sheet) -> String {
+    let drawn = draw(sheet);
+    let mut text = format!("o {}\n", drawn.title.split_whitespace().collect::<Vec<_>>().join(" "));
+    if !drawn.description.is_empty() {
+        let quoted = serde_json::Value::String(drawn.description);
+        let _ = writeln!(text, "# foldwell:description {quoted}");
+    }
+    for l in drawn.lattice.iter().flatten() {
+        let _ = writeln!(text, "# foldwell:lattice {:?} {:?} {:?}", l.x, l.y, l.z);
+    }
+    for x in &drawn.coords {
+        let _ = writeln!(text, "v {:?} {:?} {:?}", x.x, x.y, x.z);
+    }
+    for (word, lists) in [("# foldwell:hole", &drawn.holes), ("f", &drawn.faces)] {
+        for list in lists {
+            let numbers: Vec<_> = list.iter().map(|v| (v + 1).to_string()).collect();
+            let _ = writeln!(text, "{word} {}", numbers.join(" "));
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::{Pattern, fold, generate};
+
+    /// Claim: writing and reading gives the same sheet, bit by bit, also for polygons and for finite sheets.
+    #[test]
+    fn round_trip() {
+        let star = fold::parse(include_str!("../../tests/cases/open-star.fold"), "open-star.fold").unwrap();
+        let mut sheets = vec![star];
+        sheets.extend(["miura", "kresling"].map(|name| generate(&Pattern::named(name).unwrap()).unwrap()));
+        for sheet in sheets {
+            assert_eq!(parse(&write(&sheet), "again.obj").unwrap(), sheet);
+        }
+    }
+
+    /// Claim: texture and normal numbers, numbers from the end, and unknown words are read as OBJ means them.
+    #[test]
+    fn forms_of_corners() {
+        let text = "mtllib a.mtl\nv 0 0 0 1.0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1/1 -2//1 3/2/1\nv 1 1 0\nf 2 -1 -2\n";
+        let sheet = parse(text, "dir/two.obj").unwrap();
+        let plain = parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n", "two.obj").unwrap();
+        assert_eq!(sheet, plain);
+        assert_eq!(sheet.title, "two");
+    }
+}
