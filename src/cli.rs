@@ -244,7 +244,6 @@ fn describe_study(study: &StudySummary) -> String {
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();
     format!("{} ({}): {what}, {:.2} s{failed}", study.name, study.kind, study.seconds)
 }
-}
 
 #[cfg(test)]
 mod tests {

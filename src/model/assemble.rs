@@ -15,6 +15,8 @@ use nalgebra::Matrix3;
 /// Hinges stiffer than this times the softest term carry tensions.
 const STIFF_RATIO: f64 = 1e4;
 
+type Terms = Vec<Box<dyn Elements>>;
+
 /// What surrounds the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Surroundings {
@@ -111,7 +113,7 @@ fn area_vector(sheet: &Sheet) -> Vec3 {
 
 /// Builds the model of a tiling. Hinges of a kind for which the recipe has nothing are not built.
 pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -> Model {
-    let (mut soft, mut stiff): (Vec<Box<dyn Elements>>, Vec<Box<dyn Elements>>) = (vec![], vec![]);
+    let (mut soft, mut stiff): (Terms, Terms) = (vec![], vec![]);
     let mean_edge = mean_edge(drawn, tiling);
     if let Some(stiffness) = recipe.bars {
         stiff.push(Box::new(bars(drawn, tiling, stiffness)));
