@@ -1,4 +1,5 @@
 //! Malformed meshes: each is refused with file, line, what is wrong and what would be right, and none makes the reader panic.
+#![allow(clippy::unwrap_used)]
 
 use foldwell::sheet::{Pattern, SheetError, fold, generate, obj};
 use proptest::prelude::*;
@@ -201,6 +202,7 @@ fn wrong_lattices() {
             "opening 0 passes along [0, 1], which is an edge of 2 faces",
         ),
         (ring(&["\"foldwell:holes\": [[5, 6, 10, 99]]"]), 31, "opening 0 names vertex 99"),
+        (ring(&["\"foldwell:holes\": [[]]"]), 31, "opening 0 has 0 corners"),
         (square(&["\"foldwell:holes\": [[0, 1, 2]]"]), 12, "a finite sheet needs no list of its openings"),
     ];
     check(cases, "bad.fold", fold::parse);

@@ -231,4 +231,18 @@ mod tests {
             assert!(tiling.edges.iter().all(|e| (e.kind == EdgeKind::Boundary) == e.wings.contains(&None)));
         }
     }
+
+    /// Claim: a triangle goes with its polygon: here three corners of each parallelogram are in the patch and the fourth is
+    /// not, so that three sides stay as bars and there is no diagonal, no triangle, no wing.
+    #[test]
+    fn a_polygon_is_whole_or_absent() {
+        let text = r#"{"vertices_coords": [[0, 0, 0], [1, 0, 0], [1.2, 1, 0], [0.2, 1, 0]],
+            "faces_vertices": [[0, 1, 2, 3]], "foldwell:lattice": [[1, 0, 0], [-0.8, 1, 0]]}"#;
+        let sheet = fold::parse(text, "leaning.fold").unwrap();
+        assert_eq!(sheet.edges[2].key.shift, [0, 1]);
+        let tiling = tile(&sheet, [2, 2], false);
+        assert!(tiling.triangles.is_empty());
+        assert_eq!(tiling.edges.len(), 3);
+        assert!(tiling.edges.iter().all(|e| e.kind == EdgeKind::Boundary && e.wings == [None, None]));
+    }
 }

@@ -135,7 +135,7 @@ mod tests {
     /// Claim: at a reflex corner the diagonal inside is taken though the one outside is shorter.
     #[test]
     fn arrowhead() {
-        let arrow = points(&[[0.0, 0.0], [4.0, -1.0], [1.0, 0.1], [4.0, 1.2]]);
+        let arrow = points(&[[0.0, 0.0], [4.0, -1.0], [3.5, 0.1], [4.0, 1.2]]);
         assert_eq!(ears(&arrow).unwrap(), [[0, 1, 2], [0, 2, 3]]);
     }
 
