@@ -1,4 +1,5 @@
-//! Malformed meshes: each is refused with file, line, what is wrong and what would be right, and none makes the reader panic.
+//! Malformed meshes: each is refused with file, line, what is wrong and what would be right, and none makes the reader
+//! panic.
 #![allow(clippy::unwrap_used)]
 
 use foldwell::sheet::{Pattern, SheetError, fold, generate, obj};

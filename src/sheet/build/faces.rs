@@ -114,8 +114,8 @@ pub(super) fn check_fans(drawn: &Drawn, identified: &Identified, sheet: &Sheet) 
     Ok(())
 }
 
-/// For every vertex, seen from its copy in cell (0, 0): the step from one neighbour to the next that each triangle makes,
-/// counter-clockwise.
+/// For every vertex, seen from its copy in cell (0, 0): the step from one neighbour to the next that each triangle
+/// makes, counter-clockwise.
 fn fans(sheet: &Sheet) -> Vec<BTreeMap<Corner, Corner>> {
     let mut fans = vec![BTreeMap::new(); sheet.vertices.len()];
     for triangle in &sheet.triangles {
