@@ -300,6 +300,14 @@ pub enum Problem {
         /// Faces there.
         faces: usize,
     },
+    /// An opening with less than three corners.
+    #[error("opening {hole} has {corners} corners; it should go round, with at least 3")]
+    SmallHole {
+        /// The opening.
+        hole: usize,
+        /// Its corners.
+        corners: usize,
+    },
     /// Openings of a sheet that is not periodic.
     #[error("`foldwell:holes` without `foldwell:lattice`; a finite sheet needs no list of its openings")]
     HolesWithoutLattice,

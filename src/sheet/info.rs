@@ -144,8 +144,8 @@ mod tests {
     use super::*;
     use crate::sheet::{Pattern, fold, generate};
 
-    /// Claim: the counts of a triangulated cell (contract: Ne = 3 Nv, Nf = 2 Nv, Maxwell counts 0, 2, 6); an unfolded star
-    /// has angle defects.
+    /// Claim: the counts of a triangulated cell (contract: Ne = 3 Nv, Nf = 2 Nv, Maxwell counts 0, 2, 6); an unfolded
+    /// star has angle defects.
     #[test]
     fn triangulated_cell() {
         let star = fold::parse(include_str!("../../tests/cases/open-star.fold"), "open-star.fold").unwrap();

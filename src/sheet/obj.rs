@@ -1,7 +1,7 @@
 //! Wavefront OBJ files: vertices and faces, with the lattice kept in comments.
 //!
-//! `v x y z` and `f a b c ...` are read, also `a/t/n` corners and negative numbers that count back from the last vertex.
-//! Other keywords are ignored. What OBJ has no word for stands in comments:
+//! `v x y z` and `f a b c ...` are read, also `a/t/n` corners and negative numbers that count back from the last
+//! vertex. Other keywords are ignored. What OBJ has no word for stands in comments:
 //!
 //! ```text
 //! # foldwell:lattice x y z            (twice, for the two lattice vectors)
@@ -26,8 +26,8 @@ pub fn read(path: &Path) -> Result<Sheet, SheetError> {
     parse(&text, &path.display().to_string())
 }
 
-/// The sheet in an OBJ text; `name` is that of its file, for messages, and for the title where the file has no `o` line.
-/// Messages number vertices and faces from 1, as OBJ does.
+/// The sheet in an OBJ text; `name` is that of its file, for messages, and for the title where the file has no `o`
+/// line. Messages number vertices and faces from 1, as OBJ does.
 ///
 /// # Errors
 /// [`SheetError::Bad`] with the line, and the vertex, face or edge that is wrong.

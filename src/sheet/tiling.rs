@@ -40,10 +40,10 @@ pub struct TiledTriangle {
 
 /// `n1 x n2` cells of a sheet.
 ///
-/// **Patch**: exactly `n1 n2 Nv` vertices and no copies; an edge exists when both its vertices do; a polygon exists when all
-/// its vertices do, and its diagonals and triangles with it; a wing exists when its polygon does. **Torus**: everything
-/// exists, and vertices beyond the last cell are copies, shifted by superlattice vectors. A finite sheet is the patch of
-/// one cell.
+/// **Patch**: exactly `n1 n2 Nv` vertices and no copies; an edge exists when both its vertices do; a polygon exists
+/// when all its vertices do, and its diagonals and triangles with it; a wing exists when its polygon does. **Torus**:
+/// everything exists, and vertices beyond the last cell are copies, shifted by superlattice vectors. A finite sheet is
+/// the patch of one cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tiling {
     /// `[n1, n2]`.
@@ -58,8 +58,8 @@ pub struct Tiling {
     pub triangles: Vec<TiledTriangle>,
 }
 
-/// The `cells[0] x cells[1]` cells of `sheet`, joined to a torus when `periodic`. A sheet without lattice is one cell and
-/// not periodic, whatever is asked.
+/// The `cells[0] x cells[1]` cells of `sheet`, joined to a torus when `periodic`. A sheet without lattice is one cell
+/// and not periodic, whatever is asked.
 pub fn tile(sheet: &Sheet, cells: [usize; 2], periodic: bool) -> Tiling {
     let finite = sheet.lattice.is_none();
     let grid = Grid {
@@ -186,8 +186,8 @@ mod tests {
         tiling.positions[site.vertex] + l1 * s1 + l2 * s2
     }
 
-    /// Claim: on a torus every cell has all its edges and triangles, and every one is a translated copy of the cell's: ends
-    /// and wings stand where the lattice puts them. Also for cells narrower than a face. Tolerance: sums of a few
+    /// Claim: on a torus every cell has all its edges and triangles, and every one is a translated copy of the cell's:
+    /// ends and wings stand where the lattice puts them. Also for cells narrower than a face. Tolerance: sums of a few
     /// vectors of length 10.
     #[test]
     fn torus_is_complete_and_in_place() {
@@ -230,5 +230,19 @@ mod tests {
             assert_eq!(wings, 3 * f);
             assert!(tiling.edges.iter().all(|e| (e.kind == EdgeKind::Boundary) == e.wings.contains(&None)));
         }
+    }
+
+    /// Claim: a triangle goes with its polygon: here three corners of each parallelogram are in the patch and the
+    /// fourth is not, so that three sides stay as bars and there is no diagonal, no triangle, no wing.
+    #[test]
+    fn a_polygon_is_whole_or_absent() {
+        let text = r#"{"vertices_coords": [[0, 0, 0], [1, 0, 0], [1.2, 1, 0], [0.2, 1, 0]],
+            "faces_vertices": [[0, 1, 2, 3]], "foldwell:lattice": [[1, 0, 0], [-0.8, 1, 0]]}"#;
+        let sheet = fold::parse(text, "leaning.fold").unwrap();
+        assert_eq!(sheet.edges[2].key.shift, [0, 1]);
+        let tiling = tile(&sheet, [2, 2], false);
+        assert!(tiling.triangles.is_empty());
+        assert_eq!(tiling.edges.len(), 3);
+        assert!(tiling.edges.iter().all(|e| e.kind == EdgeKind::Boundary && e.wings == [None, None]));
     }
 }

@@ -15,7 +15,8 @@ pub(super) struct Side {
     uses: Vec<(usize, bool)>,
 }
 
-/// Sides of polygons in order of first appearance, each of one polygon or of two that run along it in opposite directions.
+/// Sides of polygons in order of first appearance, each of one polygon or of two that run along it in opposite
+/// directions.
 pub(super) fn sides(drawn: &Drawn, polygons: &[Vec<Corner>]) -> Result<Vec<Side>, Defect> {
     let mut numbers: BTreeMap<EdgeKey, usize> = BTreeMap::new();
     let mut sides: Vec<Side> = Vec::new();

@@ -10,6 +10,9 @@ use crate::sheet::cell::{Corner, Sheet};
 pub(super) fn check(drawn: &Drawn, identified: &Identified) -> Result<(), Defect> {
     for (h, hole) in drawn.holes.iter().enumerate() {
         check_indices(drawn, hole, Place::Hole(h), || format!("opening {h}"))?;
+        if hole.len() < 3 {
+            return Err(Defect::new(Place::Hole(h), Problem::SmallHole { hole: h, corners: hole.len() }));
+        }
     }
     let mut seen: BTreeMap<Vec<Corner>, (usize, [i32; 2])> = BTreeMap::new();
     let mut used = vec![false; identified.homes.len()];
@@ -33,12 +36,7 @@ pub(super) fn check(drawn: &Drawn, identified: &Identified) -> Result<(), Defect
     }
 }
 
-pub(super) fn check_indices(
-    drawn: &Drawn,
-    list: &[usize],
-    place: Place,
-    what: impl Fn() -> String,
-) -> Result<(), Defect> {
+fn check_indices(drawn: &Drawn, list: &[usize], place: Place, what: impl Fn() -> String) -> Result<(), Defect> {
     match list.iter().find(|&&v| v >= drawn.coords.len()) {
         Some(&v) => {
             let problem = Problem::Index {
@@ -116,8 +114,8 @@ pub(super) fn check_fans(drawn: &Drawn, identified: &Identified, sheet: &Sheet) 
     Ok(())
 }
 
-/// For every vertex, seen from its copy in cell (0, 0): the step from one neighbour to the next that each triangle makes,
-/// counter-clockwise.
+/// For every vertex, seen from its copy in cell (0, 0): the step from one neighbour to the next that each triangle
+/// makes, counter-clockwise.
 fn fans(sheet: &Sheet) -> Vec<BTreeMap<Corner, Corner>> {
     let mut fans = vec![BTreeMap::new(); sheet.vertices.len()];
     for triangle in &sheet.triangles {

@@ -1,7 +1,7 @@
 //! From a drawn mesh to a sheet: one builder and one set of checks for every file format and every generator.
 //!
-//! Vertices are identified by lattice vectors ([`identify`]), faces become polygons of the cell ([`faces`]), polygons are
-//! split ([`split`]), and edges with their wings follow ([`edges`]).
+//! Vertices are identified by lattice vectors (`identify`), faces become polygons of the cell (`faces`), polygons are
+//! split (`split`), and edges with their wings follow (`edges`).
 
 mod draw;
 mod edges;

@@ -59,8 +59,8 @@ fn meet(x: &[Vec3], p: [usize; 2], q: [usize; 2]) -> bool {
 
 /// The faces that `edges` bound, counter-clockwise seen from above.
 ///
-/// Every edge is walked once in both directions, turning as far left as possible; the one walk that runs clockwise is the
-/// outside. Edges must hang together, must not cross, and must separate two faces (or a face from the outside).
+/// Every edge is walked once in both directions, turning as far left as possible; the one walk that runs clockwise is
+/// the outside. Edges must hang together, must not cross, and must separate two faces (or a face from the outside).
 ///
 /// # Errors
 /// A [`Defect`] that names the edge.

@@ -1,8 +1,8 @@
 //! Polygons into triangles, by their shorter diagonals.
 //!
-//! A quadrilateral is split by the shorter of its diagonals; a tie (1e-9 relative) goes to the diagonal through the vertex
-//! listed first. Larger polygons lose, again and again, the ear with the shortest diagonal, by the same tie rule. An ear is
-//! a corner that turns left seen along the polygon's normal and whose triangle holds no other corner.
+//! A quadrilateral is split by the shorter of its diagonals; a tie (1e-9 relative) goes to the diagonal through the
+//! vertex listed first. Larger polygons lose, again and again, the ear with the shortest diagonal, by the same tie
+//! rule. An ear is a corner that turns left seen along the polygon's normal and whose triangle holds no other corner.
 
 use super::{Defect, Drawn, Identified, Place, Problem};
 use crate::math::Vec3;
@@ -135,7 +135,7 @@ mod tests {
     /// Claim: at a reflex corner the diagonal inside is taken though the one outside is shorter.
     #[test]
     fn arrowhead() {
-        let arrow = points(&[[0.0, 0.0], [4.0, -1.0], [1.0, 0.1], [4.0, 1.2]]);
+        let arrow = points(&[[0.0, 0.0], [4.0, -1.0], [3.5, 0.1], [4.0, 1.2]]);
         assert_eq!(ears(&arrow).unwrap(), [[0, 1, 2], [0, 2, 3]]);
     }
 

@@ -8,7 +8,7 @@ use super::locate::Source;
 use super::read::Keys;
 use crate::sheet::build::Identified;
 use crate::sheet::cell::{EdgeKey, EdgeKind, Sheet};
-use crate::sheet::error::{Defect, DrawnEdge, Place, Problem, SheetError};
+use crate::sheet::error::{DrawnEdge, Problem, SheetError};
 
 /// Largest difference, in degrees, between a fold angle given and the one drawn.
 const ANGLE_TOLERANCE: f64 = 1e-3;
@@ -20,8 +20,8 @@ pub(super) struct Edges<'a> {
     pub rows: Vec<&'a RawValue>,
     /// The vertices that it joins.
     pub ends: Vec<[usize; 2]>,
-    /// Fold angles in degrees.
-    angles: Vec<Option<f64>>,
+    /// Fold angles in degrees, and where they stand.
+    angles: Vec<(&'a RawValue, Option<f64>)>,
 }
 
 /// Reads the list of edges, for a mesh of `count` drawn vertices.
@@ -53,12 +53,17 @@ fn ends(source: &Source, row: &RawValue, e: usize, count: usize) -> Result<[usiz
     }
 }
 
-fn angles(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Option<f64>>, SheetError> {
+fn angles<'a>(
+    source: &Source<'a>,
+    keys: &Keys<'a>,
+    count: usize,
+) -> Result<Vec<(&'a RawValue, Option<f64>)>, SheetError> {
     let Some(value) = keys.edges_fold_angle else { return Ok(Vec::new()) };
     let rows = source.list(value, || "`edges_foldAngle`".into(), "a list of degrees and nulls")?;
     check_length(source, value, "edges_foldAngle", rows.len(), count)?;
-    let read = |(e, row): (usize, &'_ &RawValue)| {
-        source.typed(row, || format!("the fold angle of edge {e} of the list"), "a number of degrees or null")
+    let read = |(e, row): (usize, &&'a RawValue)| {
+        let right = "a number of degrees or null";
+        Ok((*row, source.typed(row, || format!("the fold angle of edge {e} of the list"), right)?))
     };
     rows.iter().enumerate().map(read).collect()
 }
@@ -89,20 +94,20 @@ fn check_length(
 }
 
 /// Every listed edge is a side of a face, and every fold angle given is the one drawn.
-pub(super) fn check(edges: &Edges, sheet: &Sheet, identified: &Identified) -> Result<(), Defect> {
+pub(super) fn check(source: &Source, edges: &Edges, sheet: &Sheet, identified: &Identified) -> Result<(), SheetError> {
     let known: BTreeMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(n, edge)| (edge.key, n)).collect();
-    for (e, ends) in edges.ends.iter().enumerate() {
-        let names = DrawnEdge(ends[0], ends[1]);
+    for (e, (row, ends)) in edges.rows.iter().zip(&edges.ends).enumerate() {
         let [a, b] = ends.map(|v| identified.corner[v]);
         let found = known.get(&EdgeKey::new(a, b).0).map(|&n| &sheet.edges[n]);
+        let ends = DrawnEdge(ends[0], ends[1]);
         let Some(edge) = found.filter(|edge| edge.kind != EdgeKind::Facet) else {
-            return Err(Defect::new(Place::Edge(e), Problem::LooseEdge { edge: e, ends: names }));
+            return Err(source.at(row, Problem::LooseEdge { edge: e, ends }));
         };
-        let Some(given) = edges.angles.get(e).copied().flatten() else { continue };
+        let Some(&(row, Some(given))) = edges.angles.get(e) else { continue };
         let drawn = sheet.drawn_angle(edge).unwrap_or(0.0).to_degrees();
         let off = (given - drawn).rem_euclid(360.0);
         if off.min(360.0 - off) > ANGLE_TOLERANCE {
-            return Err(Defect::new(Place::Edge(e), Problem::FoldAngle { edge: e, ends: names, given, drawn }));
+            return Err(source.at(row, Problem::FoldAngle { edge: e, ends, given, drawn }));
         }
     }
     Ok(())

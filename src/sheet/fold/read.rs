@@ -72,7 +72,7 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
         drop_openings(&mut drawn);
     }
     let (sheet, identified) = build_identified(&drawn).map_err(locate)?;
-    edges::check(&edges, &sheet, &identified).map_err(locate)?;
+    edges::check(&source, &edges, &sheet, &identified)?;
     Ok(sheet)
 }
 

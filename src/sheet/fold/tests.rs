@@ -16,7 +16,8 @@ fn names(sheet: &Sheet) -> Vec<[i64; 4]> {
     sheet.edges.iter().map(|e| name(e.key)).collect()
 }
 
-/// Claim: vertices and edges are numbered as in the reference's list for these cells, which other programs name them by.
+/// Claim: vertices and edges are numbered as in the reference's list for these cells, which other programs name them
+/// by.
 #[test]
 fn edges_are_numbered_as_in_the_reference() {
     let star = parse(STAR, "open-star.fold").unwrap();
@@ -27,8 +28,8 @@ fn edges_are_numbered_as_in_the_reference() {
     assert!(star.edges.iter().all(|e| e.kind == EdgeKind::Crease));
 }
 
-/// Claim: the drawn fold angles are the reference's, valley positive. Source: `rest_fold_angles` of the case, computed by
-/// closure of vertices. Tolerance: both are a few roundings from the same coordinates.
+/// Claim: the drawn fold angles are the reference's, valley positive. Source: `rest_fold_angles` of the case, computed
+/// by closure of vertices. Tolerance: both are a few roundings from the same coordinates.
 #[test]
 fn drawn_angles_are_the_references() {
     let case: serde_json::Value = serde_json::from_str(include_str!("../../../tests/cases/open-star.json")).unwrap();

@@ -9,9 +9,9 @@ use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
 /// Fold angles below this many degrees are written as flat.
 const FLAT: f64 = 1e-9;
 
-/// `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with assignment and drawn
-/// fold angle, lattice and openings. Always in three dimensions, since a sheet folded flat has edges that cross. Numbers are written so that [`parse`](super::parse) gives the same sheet back, bit by
-/// bit.
+/// `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with assignment and
+/// drawn fold angle, lattice and openings. Always in three dimensions, since a sheet folded flat has edges that cross.
+/// Numbers are written so that [`parse`](super::parse) gives the same sheet back, bit by bit.
 pub fn write(sheet: &Sheet) -> String {
     let drawn = draw(sheet);
     let mut text = String::from("{\n");
@@ -63,7 +63,8 @@ fn corners(sheet: &Sheet, drawn: &Drawn) -> Vec<Corner> {
     corners
 }
 
-/// Drawn fold angle to 9 decimals, which is more than the reader compares and less than mathematical libraries differ in.
+/// Drawn fold angle to 9 decimals, which is more than the reader compares and less than mathematical libraries differ
+/// in.
 fn degrees(sheet: &Sheet, edge: &Edge) -> Option<f64> {
     let angle = sheet.drawn_angle(edge).filter(|_| edge.kind != EdgeKind::Boundary)?.to_degrees();
     Some(if angle.abs() < FLAT { 0.0 } else { (angle * 1e9).round() / 1e9 })

@@ -14,9 +14,9 @@ const SOURCE: &str = "Eggbox: M. Schenk, S. D. Guest, PNAS 110, 3276 (2013); H. 
 
 /// One cell of the eggbox, 2 x 2 parallelograms with sides `a`, `b` and acute angle `sector`.
 ///
-/// Vertex `(i, j)` is `(a cos(f) i, b cos(e) j, -a sin(f) [i odd] - b sin(e) [j odd])`: zigzags of slope `f` along x and of
-/// slope `e` along y, with `sin(f) sin(e) = cos(sector)` so that the angle between the sides is kept. Tops and bottoms
-/// have four acute or four obtuse angles: the sheet is not developable and has no flat state.
+/// Vertex `(i, j)` is `(a cos(f) i, b cos(e) j, -a sin(f) [i odd] - b sin(e) [j odd])`: zigzags of slope `f` along x
+/// and of slope `e` along y, with `sin(f) sin(e) = cos(sector)` so that the angle between the sides is kept. Tops and
+/// bottoms have four acute or four obtuse angles: the sheet is not developable and has no flat state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Eggbox {

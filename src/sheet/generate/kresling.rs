@@ -14,9 +14,9 @@ const SOURCE: &str = "Kresling pattern: B. Kresling, Natural twist buckling in s
 
 /// A finite ring of Kresling's pattern about the z axis, with both ends open; no lattice.
 ///
-/// Vertex `(k, j)` is at radius `radius`, angle `2 pi k / sides + j twist` and height `j height`. Each storey has the edges
-/// `(k, j)`-`(k, j+1)` and the diagonals `(k+1, j)`-`(k, j+1)`; face normals point outwards. A twist of `pi / sides` makes
-/// all triangles isosceles: that is the Yoshimura pattern.
+/// Vertex `(k, j)` is at radius `radius`, angle `2 pi k / sides + j twist` and height `j height`. Each storey has the
+/// edges `(k, j)`-`(k, j+1)` and the diagonals `(k+1, j)`-`(k, j+1)`; face normals point outwards. A twist of `pi /
+/// sides` makes all triangles isosceles: that is the Yoshimura pattern.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Kresling {

@@ -29,7 +29,8 @@ pub struct Miura {
     pub fold: f64,
 }
 
-/// A finite Miura-ori of `cells` cells with finished edges: `(2 n1 + 1) x (2 n2 + 1)` vertices, parameters as [`Miura`].
+/// A finite Miura-ori of `cells` cells with finished edges: `(2 n1 + 1) x (2 n2 + 1)` vertices, parameters as
+/// [`Miura`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MiuraPatch {

@@ -12,9 +12,9 @@ use crate::sheet::cell::{Corner, Sheet};
 const SOURCE: &str = "Random triangulated cell as in J. McInerney, B. G. Chen, L. Theran, C. D. Santangelo, D. Z. Rocklin, \
                       PNAS 117, 30252 (2020).";
 
-/// A generic random cell that cannot be flattened: `size[0] x size[1]` vertices on a skew lattice of unit spacing, each moved
-/// in the plane by at most `jitter` of the spacing along both lattice directions and by at most `height` along z (vertex 0
-/// back to the origin, with all others), quadrilaterals split along a random diagonal.
+/// A generic random cell that cannot be flattened: `size[0] x size[1]` vertices on a skew lattice of unit spacing,
+/// each moved in the plane by at most `jitter` of the spacing along both lattice directions and by at most `height`
+/// along z (vertex 0 back to the origin, with all others), quadrilaterals split along a random diagonal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Random {
@@ -22,8 +22,8 @@ pub struct Random {
     pub size: [usize; 2],
     /// Largest displacement along z, in `[0, 100)`. Default 0.3.
     pub height: f64,
-    /// Largest displacement in the plane, in `[0, 0.25)`: below a quarter every triangle keeps a positive area seen from above,
-    /// whichever diagonal splits it. Default 0.2.
+    /// Largest displacement in the plane, in `[0, 0.25)`: below a quarter every triangle keeps a positive area seen
+    /// from above, whichever diagonal splits it. Default 0.2.
     pub jitter: f64,
     /// How far a row is moved along x against the row below, in `(-10, 10)`. Default 0.3.
     pub skew: f64,

@@ -14,8 +14,8 @@ const SOURCE: &str = "Square twists: J. L. Silverberg et al., Nature Materials 1
 /// One cell of a tessellation by square twists: a square of side `a`, a square of side `b`, and two parallelograms
 /// between them with the angle `twist`, rigidly folded by `fold`.
 ///
-/// The vertices are the corners of the square `a`, which lies in the plane. The sides of square `b` that leave its right
-/// and its upper side are, with `t = pi/2 - twist`,
+/// The vertices are the corners of the square `a`, which lies in the plane. The sides of square `b` that leave its
+/// right and its upper side are, with `t = pi/2 - twist`,
 ///
 /// ```text
 /// e = b ( cos t cos u,  sin t,         cos t sin u )       lattice vectors:  (a, 0, 0) + e
@@ -43,8 +43,8 @@ impl Default for SquareTwist {
     }
 }
 
-/// The root `w` of `T cos w + sin u sin w = T cos u` that starts from 0 at `u = 0` and has the opposite sign of `u`; the
-/// other root that starts there folds the pattern seen in a mirror.
+/// The root `w` of `T cos w + sin u sin w = T cos u` that starts from 0 at `u = 0` and has the opposite sign of `u`;
+/// the other root that starts there folds the pattern seen in a mirror.
 fn partner(u: f64, tangent: f64) -> f64 {
     let s = libm::sin(u);
     let lead = libm::atan2(s, tangent);

@@ -71,8 +71,8 @@ fn square_twist_folds() {
     assert!(angles.iter().all(|a| a.abs() > 0.1), "{angles:?}");
 }
 
-/// Claim: random cells are triangulated, generic where they should be and flat where they should be, differ by seed, and keep
-/// positive areas seen from above up to the largest jitter.
+/// Claim: random cells are triangulated, generic where they should be and flat where they should be, differ by seed,
+/// and keep positive areas seen from above up to the largest jitter.
 #[test]
 fn random_cells() {
     for seed in 0..50 {

@@ -11,8 +11,8 @@ use crate::sheet::cell::{Corner, Sheet};
 const SOURCE: &str = "Waterbomb tessellation: traditional; Y. Chen, H. Feng, J. Ma, R. Peng, Z. You, Proc. R. Soc. A 472, \
                       20150846 (2016).";
 
-/// One cell of the waterbomb tessellation: two bases of `2a x 2b`, one above the other and moved by `a`; every vertex has
-/// six creases.
+/// One cell of the waterbomb tessellation: two bases of `2a x 2b`, one above the other and moved by `a`; every vertex
+/// has six creases.
 ///
 /// ```text
 ///     x---x---x       a base: two diagonals and the upright middle line; rows alternate between bases
@@ -22,9 +22,9 @@ const SOURCE: &str = "Waterbomb tessellation: traditional; Y. Chen, H. Feng, J. 
 ///     x---x---x
 /// ```
 ///
-/// Folded evenly this sheet rolls up to a cylinder, and no drawing with a flat lattice can show that: with equal square bases,
-/// each its own mirror image, the six edge lengths leave the flat state alone. `fold` is therefore the fold that a flat
-/// lattice allows, pleats along the lines between rows; 0 is the crease pattern.
+/// Folded evenly this sheet rolls up to a cylinder, and no drawing with a flat lattice can show that: with equal
+/// square bases, each its own mirror image, the six edge lengths leave the flat state alone. `fold` is therefore the
+/// fold that a flat lattice allows, pleats along the lines between rows; 0 is the crease pattern.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Waterbomb {
