@@ -237,14 +237,8 @@ impl Problem for Model {
         &self.gap_scale
     }
 
-    fn evaluate(&self, x: &[f64], gaps: &mut [f64]) -> f64 {
+    fn energy(&self, x: &[f64]) -> f64 {
         let all = self.coordinates(x);
-        let at = locate(&self.stiff);
-        let gap = |k: usize| {
-            let (term, element) = at(k);
-            self.stiff[term].value(element, &self.domain, &all) - self.stiff[term].spring(element).rest
-        };
-        parallel::ordered(count(&self.stiff), gap, |k, value| gaps[k] = value);
         let at = locate(&self.soft);
         let cost = |k: usize| {
             let (term, element) = at(k);
@@ -255,6 +249,18 @@ impl Problem for Model {
         let mut energy = -self.loads.iter().zip(&all).map(|(f, x)| f * x).sum::<f64>();
         parallel::ordered(count(&self.soft), cost, |_, value| energy += value);
         energy
+    }
+
+    fn gaps(&self, x: &[f64]) -> Vec<f64> {
+        let all = self.coordinates(x);
+        let at = locate(&self.stiff);
+        let gap = |k: usize| {
+            let (term, element) = at(k);
+            self.stiff[term].value(element, &self.domain, &all) - self.stiff[term].spring(element).rest
+        };
+        let mut gaps = vec![0.0; self.compliance.len()];
+        parallel::ordered(gaps.len(), gap, |k, value| gaps[k] = value);
+        gaps
     }
 
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
