@@ -54,15 +54,16 @@ fn rounds() -> usize {
 struct Timed<'a> {
     model: &'a mut Model,
     linearize: Cell<f64>,
-    evaluate: Cell<f64>,
-    evaluations: Cell<usize>,
+    energy: Cell<f64>,
+    gaps: Cell<f64>,
+    retractions: Cell<usize>,
     accept: f64,
 }
 
 impl<'a> Timed<'a> {
     fn new(model: &'a mut Model) -> Self {
         let zero = || Cell::new(0.0);
-        Self { model, linearize: zero(), evaluate: zero(), evaluations: Cell::new(0), accept: 0.0 }
+        Self { model, linearize: zero(), energy: zero(), gaps: zero(), retractions: Cell::new(0), accept: 0.0 }
     }
 }
 
@@ -79,12 +80,19 @@ impl Problem for Timed<'_> {
         self.model.gap_scale()
     }
 
-    fn evaluate(&self, x: &[f64], gaps: &mut [f64]) -> f64 {
+    fn energy(&self, x: &[f64]) -> f64 {
         let mut energy = 0.0;
-        let time = seconds(|| energy = self.model.evaluate(x, gaps));
-        self.evaluate.set(self.evaluate.get() + time);
-        self.evaluations.set(self.evaluations.get() + 1);
+        let time = seconds(|| energy = self.model.energy(x));
+        self.energy.set(self.energy.get() + time);
         energy
+    }
+
+    fn gaps(&self, x: &[f64]) -> Vec<f64> {
+        let mut gaps = Vec::new();
+        let time = seconds(|| gaps = self.model.gaps(x));
+        self.gaps.set(self.gaps.get() + time);
+        self.retractions.set(self.retractions.get() + 1);
+        gaps
     }
 
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
@@ -104,12 +112,13 @@ impl Problem for Timed<'_> {
 struct Spent {
     whole: f64,
     linearize: f64,
-    evaluate: f64,
+    energy: f64,
+    gaps: f64,
     accept: f64,
     iterations: f64,
     factorizations: f64,
     solves: f64,
-    evaluations: f64,
+    gap_counts: f64,
 }
 
 fn minimise(star: &Star) -> (Spent, Equilibrium, Model) {
@@ -123,12 +132,13 @@ fn minimise(star: &Star) -> (Spent, Equilibrium, Model) {
     let spent = Spent {
         whole,
         linearize: timed.linearize.get(),
-        evaluate: timed.evaluate.get(),
+        energy: timed.energy.get(),
+        gaps: timed.gaps.get(),
         accept: timed.accept,
         iterations: sum(|step| usize::from(step.fraction > 0.0)),
         factorizations: sum(|step| step.factorizations),
         solves: sum(|step| step.solves),
-        evaluations: timed.evaluations.get() as f64,
+        gap_counts: timed.retractions.get() as f64,
     };
     (spent, found, model)
 }
@@ -138,23 +148,17 @@ struct Step {
     model: Model,
     at: Linearization,
     saddle: Saddle,
-    x: Vec<f64>,
-    tension: Vec<f64>,
     right: (Vec<f64>, Vec<f64>),
 }
 
 impl Step {
-    fn new(model: Model, x: Vec<f64>, tension: Vec<f64>) -> Self {
+    fn new(model: Model, x: &[f64], tension: &[f64]) -> Self {
         let mut at = Linearization::new(model.layout());
-        model.linearize(&x, &tension, Curvature::Full, &mut at);
+        model.linearize(x, tension, Curvature::Full, &mut at);
         let saddle = Saddle::new(model.layout(), &at).unwrap();
         let (unknowns, measures) = size(&model);
         let right = (vector(2, unknowns, 1.0), vector(3, measures, 1e-2));
-        Self { model, at, saddle, x, tension, right }
-    }
-
-    fn linearize(&mut self) -> f64 {
-        seconds(|| self.model.linearize(&self.x, &self.tension, Curvature::Full, &mut self.at))
+        Self { model, at, saddle, right }
     }
 
     /// Adding up `S` and factoring it.
@@ -200,15 +204,15 @@ impl Bare {
 fn split(sizes: &[usize]) {
     println!(
         "ratio: one iteration over factorization + solve alone. In parts of factorization + solve, per iteration; \
-         set-up (once per run) is apart.\n{:>3} {:>7} {:>5} {:>8} {:>6} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} | \
+         set-up (once per run) is apart.\n{:>3} {:>7} {:>5} {:>8} {:>6} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} | \
          {:>5} {:>5} {:>5} | {:>6}",
-        "n", "unknown", "steps", "f+s ms", "ratio", "assem", "fill", "factor", "solves", "evals", "accept", "rest",
-        "fact", "solve", "eval", "set-up"
+        "n", "unknown", "steps", "f+s ms", "ratio", "assem", "fill", "factor", "solves", "energy", "gaps", "accept", "rest",
+        "fact", "solve", "gaps", "set-up"
     );
     for &n in sizes {
         let star = Star::new(n);
         let (first, found, model) = minimise(&star);
-        let mut step = Step::new(model, found.x, found.tension);
+        let mut step = Step::new(model, &found.x, &found.tension);
         step.factor();
         let mut bare = Bare::new(&step);
         bare.factor(&step);
@@ -244,14 +248,15 @@ fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], [f, s, factor, sol
         run.factorizations * (factor - f).max(0.0),
         run.factorizations * f,
         run.solves * solve,
-        run.evaluate,
+        run.energy,
+        run.gaps,
         run.accept,
     ];
     let rest = iterations - parts.iter().sum::<f64>();
     print!("{n:3} {unknowns:7} {:5} {:8.2} {:6.2} |", run.iterations, 1e3 * (f + s), iterations / unit);
     parts.iter().chain([&rest]).for_each(|part| print!(" {:6.2}", part / unit));
     let per = |count: f64| count / run.iterations;
-    let counts = [run.factorizations, run.solves, run.evaluations].map(per);
+    let counts = [run.factorizations, run.solves, run.gap_counts].map(per);
     println!(" | {:5.2} {:5.2} {:5.2} | {:6.2}", counts[0], counts[1], counts[2], setup / (f + s));
 }
 
@@ -296,14 +301,13 @@ fn assembly(sizes: &[usize]) {
         let (_, found, model) = minimise(&star);
         let mut full = Linearization::new(model.layout());
         let mut gauss = Linearization::new(model.layout());
-        let mut gaps = vec![0.0; found.tension.len()];
         let (x, t) = (&found.x, &found.tension);
         let medians = in_turns(
             3 * rounds(),
             &mut [
                 &mut || seconds(|| model.linearize(x, t, Curvature::Full, &mut full)),
                 &mut || seconds(|| model.linearize(x, t, Curvature::GaussNewton, &mut gauss)),
-                &mut || seconds(|| model.evaluate(x, &mut gaps)),
+                &mut || seconds(|| (model.gaps(x), model.energy(x))),
             ],
         );
         let unknowns = size(&model).0 as f64;
@@ -325,16 +329,22 @@ fn report_assembly(threads: usize) {
         let model = star.model(RIGID);
         let (x, t) = (model.start(), vec![0.0; size(&model).1]);
         let mut at = Linearization::new(model.layout());
-        let mut gaps = t.clone();
         let medians = in_turns(
             20,
             &mut [
-                &mut || seconds(|| model.linearize(&x, &t, Curvature::Full, &mut at)),
-                &mut || seconds(|| model.evaluate(&x, &mut gaps)),
+                &mut || elapsed(|| model.linearize(&x, &t, Curvature::Full, &mut at)),
+                &mut || elapsed(|| _ = (model.gaps(&x), model.energy(&x))),
             ],
         );
         println!("{} {} {}", size(&model).1, 1e6 * medians[0], 1e6 * medians[1]);
     }
+}
+
+/// Seconds on the wall: several threads share the work.
+fn elapsed(work: impl FnOnce()) -> f64 {
+    let clock = std::time::Instant::now();
+    work();
+    clock.elapsed().as_secs_f64()
 }
 
 fn threads(sizes: &[usize]) {
@@ -368,7 +378,7 @@ fn dense(_: &[usize]) {
     for &cells in cells {
         let model = Star::oblong(cells).model(RIGID);
         let (x, tension) = (model.start(), vec![0.0; size(&model).1]);
-        let step = Step::new(model, x, tension);
+        let step = Step::new(model, &x, &tension);
         let mut bare = Bare::new(&step);
         step.at.pattern().add_to_diagonal(&mut bare.values, 1.0);
         let (pattern, values, right) = (step.at.pattern(), &bare.values, &bare.right);
