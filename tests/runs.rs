@@ -51,7 +51,8 @@ fn relax(name: &str, more: &str) -> String {
     format!("[[study]]\nname = \"{name}\"\nkind = \"relax\"\ndraw = []\n{more}\n")
 }
 
-const RIGID: &str = "bars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = { mode = [0, 0.06, 0], amplitude = 1 } }";
+const RIGID: &str =
+    "bars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = { mode = [0, 0.06, 0], amplitude = 1 } }";
 
 /// Claim: every scene in `meshes/` runs to its end with status 0, and its files are those that the contract names.
 #[test]
@@ -70,7 +71,8 @@ fn every_scene_in_meshes_gives_its_answer() {
             let name = study["name"].as_str().unwrap();
             assert_eq!(study["converged"], true, "{} {name}", scene.display());
             let svg = folder.join(format!("{name}.svg"));
-            let drawn = study["kind"] == "relax" || study["eigenvalues"].as_array().is_some_and(|list| !list.is_empty());
+            let drawn =
+                study["kind"] == "relax" || study["eigenvalues"].as_array().is_some_and(|list| !list.is_empty());
             assert!(folder.join(format!("{name}.csv")).exists());
             assert_eq!(svg.exists() && folder.join(format!("{name}.pvd")).exists(), drawn, "{}", svg.display());
         }
@@ -123,7 +125,8 @@ fn a_failed_study_is_reported() {
     let out = tempfile::tempdir().unwrap();
     let flat = "[sheet]\ngenerate = { pattern = \"random-developable\" }\ncells = [2, 2]\n[energy]\n\
                 bars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = 0.1 }\n";
-    let studies = [relax("flat", ""), relax("after", "start = \"flat\""), relax("free", "start = { random = 0.1, seed = 1 }")];
+    let studies =
+        [relax("flat", ""), relax("after", "start = \"flat\""), relax("free", "start = { random = 0.1, seed = 1 }")];
     fs::write(out.path().join("a.toml"), flat.to_owned() + &studies.concat()).unwrap();
     let said = foldwell(out.path(), &["run", "a.toml"]);
     assert_eq!(said.status.code(), Some(1), "{}", text(&said.stdout));
