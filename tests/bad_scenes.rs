@@ -263,10 +263,10 @@ const MISFITS: &[Misfit] = &[
     misfit("[sheet]\nmesh = \"finite.fold\"\n[[load]]\nvertex = 0\nforce = [0.0, 0.5, 0.0]", "5:9", "the loads push the whole sheet along y with a force of 0.5", "balance the loads, or pin a vertex along that axis"),
     misfit("[sheet]\nmesh = \"finite.fold\"\n[[pin]]\nvertex = 0\naxes = \"xy\"\n[[load]]\nvertex = 1\nforce = [1, 1, 1]", "8:9", "the loads push the whole sheet along z with a force of 1", "balance the loads, or pin a vertex along that axis"),
     // rest angles
-    misfit("[sheet]\ngenerate = { pattern = \"miura\" }\n[energy]\ncreases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }", "4:42", "", "name the mode by its rates: { rates = \"file.csv\" }"),
-    misfit("[sheet]\nmesh = \"finite.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }", "4:42", "", "name the mode by its rates: { rates = \"file.csv\" }"),
-    misfit("[sheet]\nmesh = \"star.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { file = \"one.csv\" } }", "4:42", "FOLDER/one.csv has no row for crease [", "give one row for each crease"),
-    misfit("[sheet]\nmesh = \"star.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { mode = { rates = \"rates.csv\" }, amplitude = 0.1 } }", "4:52", "FOLDER/rates.csv has no row for crease [", "give one row for each crease"),
+    misfit("[sheet]\ngenerate = { pattern = \"miura\" }\n[energy]\ncreases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }", "4:44", "", "name the mode by its rates: { rates = \"file.csv\" }"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }", "4:44", "", "name the mode by its rates: { rates = \"file.csv\" }"),
+    misfit("[sheet]\nmesh = \"star.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { file = \"one.csv\" } }", "4:44", "FOLDER/one.csv has no row for crease [", "give one row for each crease"),
+    misfit("[sheet]\nmesh = \"star.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { mode = { rates = \"rates.csv\" }, amplitude = 0.1 } }", "4:54", "FOLDER/rates.csv has no row for crease [", "give one row for each crease"),
 ];
 
 fn folder_of_misfits() -> tempfile::TempDir {
@@ -300,13 +300,17 @@ fn misfit_of(folder: &std::path::Path, text: &str) -> (SceneError, String, Strin
 #[test]
 fn every_misfit_has_its_message() {
     let folder = folder_of_misfits();
+    let mut wrong = Vec::new();
     for Misfit { text, at, message, help } in MISFITS {
         let (error, found, found_help) = misfit_of(folder.path(), text);
         assert!(matches!(error, SceneError::At { .. }), "{text}: {found}");
-        assert!(found.starts_with(&format!("FOLDER/scene.toml:{at}: {message}")), "{text}: {found}");
-        assert!(found_help.starts_with(help), "{text}: {found_help}");
         assert!(fancy(&error).contains("scene.toml"));
+        let expected = format!("FOLDER/scene.toml:{at}: {message}");
+        if !found.starts_with(&expected) || !found_help.starts_with(help) {
+            wrong.push(format!("{text}\nexpected {expected} ({help})\nfound    {found} ({found_help})"));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
 /// Claim: a mode that no curvature names says why: the map is singular for Miura-ori, and a finite sheet has no lattice.
