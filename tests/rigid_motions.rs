@@ -37,9 +37,8 @@ fn strained(model: &Model, surroundings: Surroundings, numbers: &mut Numbers) ->
 }
 
 fn total_energy(model: &Model, x: &[f64]) -> f64 {
-    let mut gaps = vec![0.0; model.layout().stiff.len()];
-    let soft = model.evaluate(x, &mut gaps);
-    soft + gaps.iter().zip(model.compliance()).map(|(gap, c)| gap * gap / (2.0 * c)).sum::<f64>()
+    let gaps = model.gaps(x);
+    model.energy(x) + gaps.iter().zip(model.compliance()).map(|(gap, c)| gap * gap / (2.0 * c)).sum::<f64>()
 }
 
 /// Gradient of the whole energy, and the largest force of a single element.

@@ -65,10 +65,11 @@ impl Problem for Textbook {
         &self.scale
     }
 
-    fn evaluate(&self, x: &[f64], gaps: &mut [f64]) -> f64 {
-        for (k, measure) in self.stiff.iter().enumerate() {
-            gaps[k] = measure(&Self::at(&self.layout.stiff, k, x)).0;
-        }
+    fn gaps(&self, x: &[f64]) -> Vec<f64> {
+        self.stiff.iter().enumerate().map(|(k, measure)| measure(&Self::at(&self.layout.stiff, k, x)).0).collect()
+    }
+
+    fn energy(&self, x: &[f64]) -> f64 {
         let cost = |(k, (weight, measure)): (usize, &(f64, Measure))| {
             0.5 * weight * measure(&Self::at(&self.layout.soft, k, x)).0.powi(2)
         };
@@ -78,7 +79,7 @@ impl Problem for Textbook {
 
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
         out.clear();
-        out.energy = self.evaluate(x, &mut vec![0.0; self.stiff.len()]);
+        out.energy = self.energy(x);
         out.largest_force = self.load.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
         out.gradient.iter_mut().zip(&self.load).for_each(|(g, f)| *g = -f);
         for (k, (weight, measure)) in self.soft.iter().enumerate() {
@@ -104,9 +105,7 @@ impl Problem for Textbook {
         }
     }
 
-    fn accept(&mut self, _x: &mut [f64]) -> bool {
-        false
-    }
+    fn accept(&mut self, _x: &mut [f64]) {}
 }
 
 /// `a . x - rest`.

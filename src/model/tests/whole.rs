@@ -63,14 +63,10 @@ fn check(model: &Model, numbers: &mut Numbers, what: &str) {
     let rows = model.layout().stiff.len();
     let tension = numbers.many(rows, 1.0);
     let at = linearized(model, &x, &tension, Curvature::Full);
-    let energy = |x: &[f64]| model.evaluate(x, &mut vec![0.0; rows]);
+    let energy = |x: &[f64]| model.energy(x);
     assert!((at.energy - energy(&x)).abs() <= 1e-14 * at.energy.abs(), "{what}: two functions, one energy");
     check_gradient(energy, &x, &at.gradient, TOLERANCE).unwrap_or_else(|e| panic!("{what}, gradient: {e}"));
-    let gaps = |x: &[f64]| {
-        let mut gaps = vec![0.0; rows];
-        model.evaluate(x, &mut gaps);
-        gaps
-    };
+    let gaps = |x: &[f64]| model.gaps(x);
     assert_eq!(at.gaps, gaps(&x), "{what}: two functions, one gap");
     let jacobian = dense_rows(model, &at);
     check_jacobian(gaps, &x, &jacobian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Jacobian: {e}"));
