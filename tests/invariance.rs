@@ -1,4 +1,5 @@
 //! Nothing depends on the number of threads, and nothing is done that a scene does not need.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
 
