@@ -194,7 +194,8 @@ fn wells() -> Textbook {
     Textbook::new(2).soft(&[0], 1.0, Box::new(wall)).soft(&[1], 1.0, linear(&[1.0], 0.0))
 }
 
-/// Claim: from exactly the saddle between two wells it is reported with its one negative eigenvalue; from a little to one side the well on that side is found.
+/// Claim: from exactly the saddle between two wells it is reported with its one negative eigenvalue; from a little to
+/// one side the well on that side is found.
 #[test]
 fn a_saddle_is_reported_or_left() {
     let found = wells().run(&[0.0, 0.0]).unwrap();
