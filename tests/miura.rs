@@ -1,4 +1,5 @@
 //! Rigid Miura-ori against its closed form.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Periodic sheets at every stiffness: one cell as a screw, tori with free and with fixed lattice.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Rigid measures that depend on each other: rigid quadrilaterals, fixed tori, flat vertices.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
 

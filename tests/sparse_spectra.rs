@@ -1,4 +1,5 @@
 //! Lowest eigenvalues of large sheets: the sparse way against a dense decomposition.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
 

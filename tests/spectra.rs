@@ -1,4 +1,5 @@
 //! Spectra of energies: a published program's numbers, and the rigid limit.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! One Newton method for every stiffness of the bars, exactly rigid included (theory, section 7).
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
 
