@@ -1,4 +1,5 @@
 //! Runs from outside: what is written, what is said, and with which status a run ends.
+#![allow(clippy::unwrap_used)] // tests, also their helpers, may fail
 
 use std::collections::BTreeMap;
 use std::fs;
