@@ -15,8 +15,10 @@ use thiserror::Error;
 /// Largest scaled gap of a start.
 const FEASIBLE: f64 = 1e-10;
 /// Chord corrections allowed for a start, and for a trial.
-const START_CHORDS: usize = 50;
-const CHORDS: usize = 12;
+const START_CHORDS: i32 = 50;
+const CHORDS: i32 = 12;
+/// Scaled gaps of this size may be rounding error.
+const ROUNDING: f64 = 1e-12;
 /// Shortest fraction of a step is `0.5^(HALVINGS - 1)`; then the shift is raised, at most `SHIFTS` times.
 const HALVINGS: i32 = 5;
 const SHIFTS: usize = 12;
@@ -175,7 +177,7 @@ pub fn minimize<P: Problem>(
     };
     match newton.run(options, observe) {
         Ok(negative_eigenvalues) => Ok(Equilibrium {
-            energy: newton.merit(&newton.x, &newton.tension),
+            energy: newton.history.last().map_or(f64::NAN, |step| step.energy),
             x: newton.x,
             tension: newton.tension,
             negative_eigenvalues,
@@ -229,7 +231,7 @@ impl<P: Problem> Newton<'_, P> {
         let (residual_force, residual_length) = residuals(self.problem, &self.at, &self.tension);
         let before = |count: fn(&Step) -> usize| self.history.iter().map(count).sum::<usize>();
         Step {
-            energy: self.merit(&self.x, &self.tension),
+            energy: merit(self.problem, &self.x, &self.tension, &self.at.gaps),
             residual_force,
             residual_length,
             fraction,
@@ -237,16 +239,6 @@ impl<P: Problem> Newton<'_, P> {
             factorizations: self.saddle.factorizations - before(|step| step.factorizations),
             solves: self.saddle.solves - before(|step| step.solves),
         }
-    }
-
-    /// Merit of a state. Gaps still open enter with their tension, to first order.
-    fn merit(&self, x: &[f64], tension: &[f64]) -> f64 {
-        let mut gaps = vec![0.0; tension.len()];
-        let mut merit = self.problem.evaluate(x, &mut gaps);
-        for ((gap, t), c) in gaps.iter().zip(tension).zip(self.problem.compliance()) {
-            merit += t * (gap - c * t / 2.0);
-        }
-        merit
     }
 
     /// Factors with the smallest shift, from the last one's tenth upwards, at which the Hessian is that of a minimum.
@@ -271,7 +263,8 @@ impl<P: Problem> Newton<'_, P> {
         self.factor()?;
         for _ in 0..SHIFTS {
             let (dx, dt) = self.direction();
-            for halving in 0..HALVINGS {
+            let first = self.first_halving();
+            for halving in first..HALVINGS {
                 let fraction = 0.5f64.powi(halving);
                 if let Some(trial) = self.attempt((&dx, &dt), fraction, last) {
                     self.take(trial, fraction, last);
@@ -285,6 +278,12 @@ impl<P: Problem> Newton<'_, P> {
             self.factor()?;
         }
         Err(Failure::Stuck { force: last.residual_force, length: last.residual_length })
+    }
+
+    /// Where the halving of steps begins: at twice the fraction that the last step took.
+    fn first_halving(&self) -> i32 {
+        let last = self.history.last().map_or(1.0, |step| step.fraction);
+        if last > 0.0 { (-last.log2().round() as i32 - 2).max(0) } else { 0 }
     }
 
     /// The Newton step in unknowns and tensions.
@@ -301,8 +300,7 @@ impl<P: Problem> Newton<'_, P> {
     fn obstructed(&mut self, dx: &[f64]) -> bool {
         let length = dx.iter().fold(0.0f64, |m, d| m.max(d.abs()));
         let x: Vec<f64> = self.x.iter().zip(dx).map(|(x, d)| x + 1e-3 / length * d).collect();
-        let mut gaps = vec![0.0; self.tension.len()];
-        self.problem.evaluate(&x, &mut gaps);
+        let gaps = self.problem.gaps(&x);
         let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
         let open = open(&gaps, &self.tension, compliance);
         let zero = vec![0.0; x.len()];
@@ -317,25 +315,24 @@ impl<P: Problem> Newton<'_, P> {
         (trial.merit <= last.energy + NOISE * last.energy.abs()).then_some(trial)
     }
 
-    /// Chord corrections onto `m = c t` until the largest scaled gap is `wanted` or no longer falls at `wanted`'s
-    /// level. `Err`: they do not contract; the gap reached.
-    fn retract(&mut self, mut x: Vec<f64>, mut tension: Vec<f64>, wanted: f64, most: usize) -> Result<Trial, f64> {
-        let mut gaps = vec![0.0; tension.len()];
+    /// Chord corrections onto `m = c t` until the largest scaled gap is `wanted`, or at the level of rounding error.
+    /// `Err`: at the rate seen `most` corrections are not enough; the gap reached.
+    fn retract(&mut self, mut x: Vec<f64>, mut tension: Vec<f64>, wanted: f64, most: i32) -> Result<Trial, f64> {
+        let zero = vec![0.0; x.len()];
         let mut last = f64::INFINITY;
-        for _ in 0..=most {
-            self.problem.evaluate(&x, &mut gaps);
+        for left in (0..=most).rev() {
+            let gaps = self.problem.gaps(&x);
             let open = open(&gaps, &tension, self.problem.compliance());
-            let scale = self.problem.gap_scale();
-            let size = open.iter().zip(scale).fold(0.0, |m, (o, s)| nan_max(m, o.abs() / s));
-            if size <= wanted || (size <= 1e-12 && size > 0.5 * last) {
-                let merit = self.merit(&x, &tension);
+            let size = largest(&open, self.problem.gap_scale());
+            let rate = size / last;
+            if size <= wanted || (size <= ROUNDING && rate > 0.5) {
+                let merit = merit(self.problem, &x, &tension, &gaps);
                 return Ok(Trial { x, tension, merit });
             }
-            if !(size < 0.9 * last) {
+            if !(size.is_finite() && rate < 1.0 && size * rate.powi(left) <= wanted.max(ROUNDING)) {
                 return Err(size);
             }
             last = size;
-            let zero = vec![0.0; x.len()];
             let (dx, dt) = self.saddle.apply(self.problem.layout(), &self.at, &zero, &open);
             x.iter_mut().zip(&dx).for_each(|(x, d)| *x += d);
             tension.iter_mut().zip(&dt).for_each(|(t, d)| *t += d);
@@ -358,6 +355,17 @@ impl<P: Problem> Newton<'_, P> {
         self.linearize();
         Ok(self.saddle.inertia(self.problem.layout(), &self.at, self.problem.compliance())?.negative)
     }
+}
+
+/// Merit of a state: the energy. Gaps still open enter with their tension, to first order.
+fn merit<P: Problem>(problem: &P, x: &[f64], tension: &[f64], gaps: &[f64]) -> f64 {
+    let stiff = gaps.iter().zip(tension).zip(problem.compliance()).map(|((gap, t), c)| t * (gap - c * t / 2.0));
+    problem.energy(x) + stiff.sum::<f64>()
+}
+
+/// Largest scaled gap.
+fn largest(open: &[f64], scale: &[f64]) -> f64 {
+    open.iter().zip(scale).fold(0.0, |m, (o, s)| nan_max(m, o.abs() / s))
 }
 
 /// What is missing to `m = c t`.

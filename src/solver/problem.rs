@@ -36,12 +36,14 @@ pub trait Problem {
     fn compliance(&self) -> &[f64];
     /// Natural size of each stiff measure's gap: a length for lengths, 1 for angles.
     fn gap_scale(&self) -> &[f64];
-    /// Soft energy at `x`; fills `gaps`.
-    fn evaluate(&self, x: &[f64], gaps: &mut [f64]) -> f64;
+    /// Soft energy at `x`.
+    fn energy(&self, x: &[f64]) -> f64;
+    /// Gaps of the stiff measures at `x`.
+    fn gaps(&self, x: &[f64]) -> Vec<f64>;
     /// Fills `out` at `(x, tension)`: all but the products with the tension of the Jacobian.
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization);
-    /// Called with every accepted state; may move `x` along a gauge direction, then returns true.
-    fn accept(&mut self, x: &mut [f64]) -> bool;
+    /// Called with every accepted state; may write the same state in other coordinates.
+    fn accept(&mut self, x: &mut [f64]);
 }
 
 /// A problem's numbers at one state.

@@ -1,0 +1,126 @@
+//! What the benchmarks share: patches of the reference cell with random rest angles, interleaved timing, tables.
+#![allow(dead_code)] // each benchmark uses a part
+
+pub mod kernels;
+
+use foldwell::analysis::relax::{Relaxed, relax};
+use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use foldwell::model::{Gauge, Model};
+use foldwell::sheet::{Tiling, fold, tile};
+use foldwell::solver::{Options, Problem};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use cpu_time::ThreadTime;
+
+/// A patch of `meshes/open-star.fold` whose creases all want another angle.
+pub struct Star {
+    tiling: Tiling,
+    drawn: Drawn,
+    rest: Vec<f64>,
+}
+
+impl Star {
+    /// `n x n` cells; the rest angle of every hinge is the drawn one and at most 0.1 rad more or less, at random.
+    pub fn new(n: usize) -> Self {
+        Self::oblong([n, n])
+    }
+
+    /// The same on `n1 x n2` cells.
+    pub fn oblong(cells: [usize; 2]) -> Self {
+        let text = include_str!("../../meshes/open-star.fold");
+        let sheet = fold::parse(text, "open-star.fold").expect("the mesh of the repository");
+        let tiling = tile(&sheet, cells, false);
+        let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+        let mut numbers = random(1);
+        let rest = drawn_angles(&drawn, &tiling).iter().map(|a| a + uniform(&mut numbers, 0.1)).collect();
+        Self { tiling, drawn, rest }
+    }
+
+    /// The model with this stiffness `k` of every bar (spring constant) over that of the creases, which is 1.
+    pub fn model(&self, stiffness: f64) -> Model {
+        let creases = Hinges { stiffness: 1.0, rest: self.rest.clone() };
+        let recipe = Recipe { bars: Some(stiffness), creases: Some(creases), ..Recipe::default() };
+        assemble(&self.drawn, &self.tiling, &recipe, Gauge::Held)
+    }
+
+    /// Relaxes `model` from the drawn state; `None` where it does not converge.
+    pub fn relax(&self, model: &mut Model) -> Option<Relaxed> {
+        let start = model.start();
+        relax(model, start, Options::default(), self.tiling.edges.len(), &mut |_| true).ok()
+    }
+}
+
+/// Unknowns and stiff measures of a model.
+pub fn size(model: &Model) -> (usize, usize) {
+    (model.layout().unknowns, model.layout().stiff.len())
+}
+
+/// Random numbers, the same on every machine.
+pub fn random(seed: u64) -> ChaCha8Rng {
+    ChaCha8Rng::seed_from_u64(seed)
+}
+
+/// A random number between `-most` and `most`.
+pub fn uniform(numbers: &mut ChaCha8Rng, most: f64) -> f64 {
+    most * (2.0 * numbers.random::<f64>() - 1.0)
+}
+
+/// `count` random numbers between `-most` and `most`.
+pub fn vector(seed: u64, count: usize, most: f64) -> Vec<f64> {
+    let mut numbers = random(seed);
+    (0..count).map(|_| uniform(&mut numbers, most)).collect()
+}
+
+/// Whether to measure: `cargo bench`. `cargo test --benches` and `cargo bench -- --test` only run small sizes once.
+pub fn measuring() -> bool {
+    let given = |name: &str| std::env::args().any(|argument| argument == name);
+    given("--bench") && !given("--test")
+}
+
+/// Parts of the benchmark to run: those named in the arguments, or all.
+pub fn wanted(part: &str) -> bool {
+    let mut named = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
+    named.peek().is_none() || named.any(|name| name == part)
+}
+
+/// Processor time of this thread that `work` takes, in seconds: time for which other work has the processor is not in.
+pub fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
+    let clock = ThreadTime::now();
+    std::hint::black_box(work());
+    clock.elapsed().as_secs_f64()
+}
+
+/// Medians of the times of several pieces of work, done in turns so that other load hits all alike.
+pub fn in_turns(rounds: usize, work: &mut [&mut dyn FnMut() -> f64]) -> Vec<f64> {
+    let mut times = vec![Vec::new(); work.len()];
+    for _ in 0..rounds {
+        work.iter_mut().zip(&mut times).for_each(|(work, times)| times.push(work()));
+    }
+    times.iter_mut().map(|times| median(times)).collect()
+}
+
+/// The middle one.
+pub fn median(values: &mut [f64]) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// Exponent `p` of the power law `y ~ x^p` that fits best in logarithms.
+pub fn exponent(points: &[(f64, f64)]) -> f64 {
+    let count = points.len() as f64;
+    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
+    let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / count, logs.iter().map(|p| p.1).sum::<f64>() / count);
+    let slope = |p: &(f64, f64)| ((p.0 - mx) * (p.1 - my), (p.0 - mx) * (p.0 - mx));
+    let (above, below) = logs.iter().map(slope).fold((0.0, 0.0), |s, t| (s.0 + t.0, s.1 + t.1));
+    above / below
+}
+
+/// Euclidean norm.
+pub fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|a| a * a).sum::<f64>().sqrt()
+}
+
+/// Largest difference of two lists.
+pub fn difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |m, (a, b)| f64::max(m, (a - b).abs()))
+}

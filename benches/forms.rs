@@ -1,0 +1,432 @@
+//! Three ways to treat a stiff measure, compared: as a tension in the factorization, as a weight with corrections, as
+//! a plain penalty.
+//!
+//! ```text
+//! cargo bench --bench forms                  all parts
+//! cargo bench --bench forms -- system        one part: system, weight, relaxation
+//! ```
+//!
+//! - `system`: the linear system of one Newton step, `[H R^T; R -C]`, at the same linearization, solved to a relative
+//!   residual of 1e-10 in both block rows. *Augmented*: `H + R^T w R` is factored, `w = min(k, gamma)`, and corrections
+//!   on the true residual do the rest (this is `solver::saddle`). *Block*: the whole matrix is factored, regularised to
+//!   `[H + e  R^T; R  -C - d]` so that it has pivots without pivoting, with the same corrections; tensions are nodes of
+//!   the graph that is ordered. *Penalty*: `H + k R^T R`, with the same corrections.
+//! - `weight`: corrections needed and accuracy reached against `gamma`, and against `d` of the block form.
+//! - `relaxation`: whole relaxations by Newton's method with backtracking on the penalty energy against the program's,
+//!   for every stiffness: the error that is left, iterations, time.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{Star, difference, measuring, norm, seconds, size, vector, wanted};
+use foldwell::model::Model;
+use foldwell::numerics::factor::{Factor, Inertia};
+use foldwell::numerics::parallel;
+use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, symmetric_product};
+use foldwell::solver::{Curvature, Layout, Linearization, Options, Problem, minimize};
+
+/// Weight of rigid measures over the largest entry of the Hessian, as in `solver::saddle`.
+const GAMMA: f64 = 1e6;
+/// Regularisation of the block form: `d` and `e`, over the same entry.
+const DELTA: f64 = 1e-8;
+const LEAST: f64 = 1e-10;
+
+fn main() {
+    parallel::set_threads(1);
+    let parts: [(&str, fn()); 3] = [("system", system), ("weight", weight), ("relaxation", relaxation)];
+    for (name, part) in parts {
+        if wanted(name) {
+            println!("\n== {name}");
+            part();
+        }
+    }
+}
+
+/// The system of a Newton step with random right-hand sides.
+struct System {
+    model: Model,
+    at: Linearization,
+    compliance: Vec<f64>,
+    a: Vec<f64>,
+    b: Vec<f64>,
+}
+
+impl System {
+    /// At the drawn state, with the Gauss-Newton Hessian, or at the relaxed one of the rigid sheet, with the full one.
+    fn new(star: &Star, relaxed: bool) -> Self {
+        let mut model = star.model(f64::INFINITY);
+        let (unknowns, measures) = size(&model);
+        let (mut x, mut tension, mut curvature) = (model.start(), vec![0.0; measures], Curvature::GaussNewton);
+        if relaxed {
+            let found = minimize(&mut model, x, Options::default(), &mut |_| true).unwrap();
+            (x, tension, curvature) = (found.x, found.tension, Curvature::Full);
+        }
+        let mut at = Linearization::new(model.layout());
+        model.linearize(&x, &tension, curvature, &mut at);
+        let (a, b) = (vector(2, unknowns, 1.0), vector(3, measures, 1e-2));
+        Self { model, at, compliance: vec![0.0; measures], a, b }
+    }
+
+    fn layout(&self) -> &Layout {
+        self.model.layout()
+    }
+
+    /// Another stiffness of the bars at the same linearization.
+    fn set_stiffness(&mut self, k: f64) {
+        let model = &self.model;
+        let lengths = model.stiff().iter().flat_map(|term| (0..term.len()).map(|e| term.spring(e).rest));
+        self.compliance = lengths.map(|length| length / k).collect();
+    }
+
+    fn unit(&self) -> f64 {
+        self.at.pattern().largest_diagonal(&self.at.hessian)
+    }
+
+    fn residual(&self, (dx, dt): (&[f64], &[f64])) -> (Vec<f64>, Vec<f64>) {
+        let rows = self.at.rows(self.layout());
+        let (mut ra, mut rb) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
+        symmetric_product(self.at.pattern(), &self.at.hessian, dx, &mut ra);
+        rows.add_transpose_product(dt, &mut ra);
+        ra.iter_mut().zip(&self.a).for_each(|(r, a)| *r = a - *r);
+        rows.product(dx, &mut rb);
+        rb.iter_mut().enumerate().for_each(|(k, r)| *r = self.b[k] - *r + self.compliance[k] * dt[k]);
+        (ra, rb)
+    }
+}
+
+/// A factorization that solves the system, or nearly.
+trait Form {
+    fn factor(&mut self, system: &System) -> Option<Inertia>;
+    fn apply(&mut self, system: &System, a: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>);
+    fn stored(&self) -> usize;
+}
+
+/// Solves with corrections; their number and the residual reached.
+fn solve(form: &mut dyn Form, system: &System, tolerance: f64) -> (usize, f64) {
+    let (mut dx, mut dt) = form.apply(system, &system.a, &system.b);
+    let (mut corrections, mut last) = (0, f64::INFINITY);
+    loop {
+        let (ra, rb) = system.residual((&dx, &dt));
+        let residual = f64::max(norm(&ra) / norm(&system.a), norm(&rb) / norm(&system.b));
+        if residual <= tolerance || !(residual < 0.7 * last) {
+            return (corrections, residual.min(last));
+        }
+        last = residual;
+        let (ddx, ddt) = form.apply(system, &ra, &rb);
+        dx.iter_mut().zip(&ddx).for_each(|(x, d)| *x += d);
+        dt.iter_mut().zip(&ddt).for_each(|(t, d)| *t += d);
+        corrections += 1;
+    }
+}
+
+/// `H + R^T w R`, `w = min(k, gamma)`; a penalty where `gamma` is infinite.
+struct Weighted {
+    gamma: f64,
+    factor: Factor,
+    values: Vec<f64>,
+    weights: Vec<f64>,
+}
+
+impl Weighted {
+    fn new(system: &System, gamma: f64) -> Self {
+        let layout = system.layout();
+        let factor = Factor::new(system.at.pattern(), &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
+        Self { gamma, factor, values: Vec::new(), weights: vec![0.0; layout.stiff.len()] }
+    }
+}
+
+impl Form for Weighted {
+    fn factor(&mut self, system: &System) -> Option<Inertia> {
+        self.values.clone_from(&system.at.hessian);
+        let most = self.gamma * system.unit();
+        for (row, &c) in system.compliance.iter().enumerate() {
+            let gradient = &system.at.jacobian[system.layout().stiff.range(row)];
+            let largest = gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+            self.weights[row] = f64::min(most / (largest * largest), 1.0 / c);
+            system.at.add_outer(system.layout(), row, self.weights[row], &mut self.values);
+        }
+        self.factor.factor(system.at.pattern(), &self.values).ok()
+    }
+
+    fn apply(&mut self, system: &System, a: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let rows = system.at.rows(system.layout());
+        let (mut dx, mut dt) = (a.to_vec(), vec![0.0; b.len()]);
+        let weighted: Vec<f64> = b.iter().zip(&self.weights).map(|(b, w)| b * w).collect();
+        rows.add_transpose_product(&weighted, &mut dx);
+        self.factor.solve(&mut dx);
+        rows.product(&dx, &mut dt);
+        dt.iter_mut().zip(b).zip(&self.weights).for_each(|((t, b), w)| *t = w * (*t - b));
+        (dx, dt)
+    }
+
+    fn stored(&self) -> usize {
+        self.factor.stored()
+    }
+}
+
+/// `[H + e  R^T; R  -C - d]`.
+struct Block {
+    delta: f64,
+    pattern: Pattern,
+    factor: Factor,
+    values: Vec<f64>,
+    /// Place of every entry of the Hessian, of the Jacobian, of the tensions' diagonal.
+    hessian: Vec<usize>,
+    jacobian: Vec<usize>,
+    diagonal: Vec<usize>,
+}
+
+impl Block {
+    fn new(system: &System, delta: f64) -> Self {
+        let layout = system.layout();
+        let unknowns = layout.unknowns;
+        let mut stiff = Cliques::new();
+        for (row, members) in layout.stiff.iter().enumerate() {
+            stiff.push(members.iter().copied().chain([(unknowns + row) as u32]));
+        }
+        let size = unknowns + layout.stiff.len();
+        let pattern = Pattern::new(size, &[&layout.soft, &stiff]);
+        let blocks = layout.node.iter().max().map_or(0, |last| last + 1);
+        let node: Vec<u32> = layout.node.iter().copied().chain(blocks..blocks + layout.stiff.len() as u32).collect();
+        let factor = Factor::new(&pattern, &node, &[&layout.soft, &stiff]).unwrap();
+        let mut starts = vec![0];
+        (0..size).for_each(|k| starts.push(starts[k] + pattern.column(k).len()));
+        let place = |row: u32, column: usize| starts[column] + pattern.column(column).binary_search(&row).unwrap();
+        let old = system.at.pattern();
+        let hessian = (0..unknowns).flat_map(|k| old.column(k).iter().map(move |&row| (row, k)));
+        let hessian = hessian.map(|(row, k)| place(row, k)).collect();
+        let members = layout.stiff.iter().enumerate().flat_map(|(row, list)| list.iter().map(move |&m| (row, m)));
+        let entry = |(row, m): (usize, u32)| {
+            if m == FIXED { usize::MAX } else { place((unknowns + row) as u32, m as usize) }
+        };
+        let jacobian = members.map(entry).collect();
+        let diagonal = starts[unknowns..size].to_vec();
+        Self { delta, values: vec![0.0; pattern.entries()], pattern, factor, hessian, jacobian, diagonal }
+    }
+}
+
+impl Form for Block {
+    fn factor(&mut self, system: &System) -> Option<Inertia> {
+        let unit = system.unit();
+        self.values.fill(0.0);
+        self.pattern.add_to_diagonal(&mut self.values, LEAST * unit);
+        self.hessian.iter().zip(&system.at.hessian).for_each(|(&place, value)| self.values[place] += value);
+        for (&place, value) in self.jacobian.iter().zip(&system.at.jacobian) {
+            if place != usize::MAX {
+                self.values[place] += value;
+            }
+        }
+        for (&place, c) in self.diagonal.iter().zip(&system.compliance) {
+            self.values[place] = -c.max(self.delta / unit);
+        }
+        self.factor.factor(&self.pattern, &self.values).ok()
+    }
+
+    fn apply(&mut self, _: &System, a: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut both = [a, b].concat();
+        self.factor.solve(&mut both);
+        let dt = both.split_off(a.len());
+        (both, dt)
+    }
+
+    fn stored(&self) -> usize {
+        self.factor.stored()
+    }
+}
+
+fn system() {
+    println!(
+        "{:>8} {:>3} {:>6} {:>10} | {:>9} {:>8} {:>6} {:>8} {:>8} {:>7} | {:>6}",
+        "state", "n", "k", "form", "factor ms", "solve ms", "corr.", "residual", "stored M", "inertia", "ratio"
+    );
+    let (sizes, rounds): (&[usize], usize) = if measuring() { (&[12, 24, 48], 3) } else { (&[3], 1) };
+    for &n in sizes {
+        let star = Star::new(n);
+        for relaxed in [false, true] {
+            let mut system = System::new(&star, relaxed);
+            let state = if relaxed { "relaxed" } else { "drawn" };
+            for k in [1e4, 1e8, 1e12, f64::INFINITY] {
+                system.set_stiffness(k);
+                compare_forms(&system, &format!("{state:>8} {n:3} {k:6.0e}"), rounds);
+            }
+        }
+    }
+}
+
+fn compare_forms(system: &System, label: &str, rounds: usize) {
+    let mut forms: Vec<(&str, Box<dyn Form>)> = vec![
+        ("augmented", Box::new(Weighted::new(system, GAMMA))),
+        ("block", Box::new(Block::new(system, DELTA))),
+        ("penalty", Box::new(Weighted::new(system, f64::INFINITY))),
+    ];
+    if system.compliance.contains(&0.0) {
+        forms.pop();
+    }
+    let mut first = f64::NAN;
+    for (name, form) in &mut forms {
+        let mut found = (0, f64::NAN);
+        let mut inertia = None;
+        let (mut factor, mut solves) = (Vec::new(), Vec::new());
+        for _ in 0..rounds {
+            factor.push(seconds(|| inertia = form.factor(system)));
+            solves.push(seconds(|| found = solve(form.as_mut(), system, 1e-10)));
+        }
+        let (factor, solves) = (common::median(&mut factor), common::median(&mut solves));
+        let total = if found.1 <= 1e-10 { factor + solves } else { f64::NAN };
+        first = if *name == "augmented" { total } else { first };
+        let expected = if *name == "block" { system.b.len() } else { 0 };
+        let right = match inertia {
+            Some(inertia) if inertia.negative == expected => "right".to_string(),
+            Some(inertia) => format!("{:+}", inertia.negative as i64 - expected as i64),
+            None => "fails".to_string(),
+        };
+        println!(
+            "{label} {name:>10} | {:9.2} {:8.2} {:6} {:8.0e} {:8.2} {right:>7} | {:6.2}",
+            1e3 * factor,
+            1e3 * solves,
+            found.0,
+            found.1,
+            form.stored() as f64 / 1e6,
+            total / first
+        );
+    }
+}
+
+fn weight() {
+    println!("corrections to 1e-8 and to 1e-10 (-: not reached), and the residual where they no longer help");
+    println!("{:>3} {:>8} {:>6} {:>10} {:>7} | {:>5} {:>5} {:>8}", "n", "state", "k", "form", "", "1e-8", "1e-10", "best");
+    let sizes: &[usize] = if measuring() { &[12, 24] } else { &[3] };
+    for &n in sizes {
+        let star = Star::new(n);
+        for relaxed in [false, true] {
+            let mut system = System::new(&star, relaxed);
+            for k in [1e8, f64::INFINITY] {
+                system.set_stiffness(k);
+                let label = format!("{n:3} {:>8} {k:6.0e}", if relaxed { "relaxed" } else { "drawn" });
+                for gamma in [1e2, 1e4, 1e6, 1e8, 1e10, 1e12] {
+                    corrections(&mut Weighted::new(&system, gamma), &system, &format!("{label}  augmented {gamma:7.0e}"));
+                }
+                for delta in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
+                    corrections(&mut Block::new(&system, delta), &system, &format!("{label}      block {delta:7.0e}"));
+                }
+            }
+        }
+    }
+}
+
+fn corrections(form: &mut dyn Form, system: &System, label: &str) {
+    if form.factor(system).is_none() {
+        return println!("{label} | fails");
+    }
+    let count = |form: &mut dyn Form, tolerance| match solve(form, system, tolerance) {
+        (corrections, residual) if residual <= tolerance => corrections.to_string(),
+        _ => "-".to_string(),
+    };
+    let (loose, tight) = (count(form, 1e-8), count(form, 1e-10));
+    println!("{label} | {loose:>5} {tight:>5} {:8.0e}", solve(form, system, 0.0).1);
+}
+
+/// What is left of a minimisation: unknowns, accepted steps, seconds, whether it converged.
+struct Outcome {
+    x: Vec<f64>,
+    iterations: usize,
+    seconds: f64,
+    converged: bool,
+}
+
+fn relaxation() {
+    println!(
+        "error: largest fold-angle difference to the program's own state at this k; softness: to its rigid state.\n\
+         {:>3} {:>6} | {:>8} {:>5} {:>8} | {:>9} {:>5} {:>8} {:>8} {:>6}",
+        "n", "k", "softness", "steps", "ms", "penalty", "steps", "ms", "error", "ratio"
+    );
+    let sizes: &[usize] = if measuring() { &[6, 12] } else { &[2] };
+    for &n in sizes {
+        let star = Star::new(n);
+        let rigid = ours(&star, f64::INFINITY);
+        for k in [1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16] {
+            let model = star.model(k);
+            let folds = |x: &[f64]| {
+                let values = model.values(x);
+                values[..model.soft()[0].len()].to_vec()
+            };
+            let (ours, other) = (ours(&star, k), penalty(&star, k));
+            println!(
+                "{n:3} {k:6.0e} | {:8.1e} {:5} {:8.1} | {:>9} {:5} {:8.1} {:8.1e} {:6.1}",
+                difference(&folds(&ours.x), &folds(&rigid.x)),
+                if ours.converged { ours.iterations.to_string() } else { "stuck".into() },
+                1e3 * ours.seconds,
+                if other.converged { "converged" } else { "stuck" },
+                other.iterations,
+                1e3 * other.seconds,
+                difference(&folds(&other.x), &folds(&ours.x)),
+                other.seconds / ours.seconds
+            );
+        }
+    }
+}
+
+fn ours(star: &Star, k: f64) -> Outcome {
+    let mut model = star.model(k);
+    let start = model.start();
+    let mut found = None;
+    let seconds = seconds(|| found = Some(minimize(&mut model, start, Options::default(), &mut |_| true)));
+    let (x, history, converged) = match found.unwrap() {
+        Ok(found) => (found.x, found.history, true),
+        Err(error) => (error.x, error.history, false),
+    };
+    let iterations = history.iter().filter(|step| step.fraction > 0.0).count();
+    Outcome { x, iterations, seconds, converged }
+}
+
+/// Newton's method on `E + sum k m^2 / 2` with backtracking, at most 200 steps; the same scaled tolerance on the force.
+fn penalty(star: &Star, k: f64) -> Outcome {
+    let mut model = star.model(k);
+    let mut x = model.start();
+    let (mut iterations, mut converged) = (0, false);
+    let seconds = seconds(|| {
+        let mut at = Linearization::new(model.layout());
+        let layout = model.layout().clone();
+        let mut factor = Factor::new(at.pattern(), &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
+        while iterations < 200 {
+            let tension: Vec<f64> = model.gaps(&x).iter().zip(model.compliance()).map(|(m, c)| m / c).collect();
+            model.linearize(&x, &tension, Curvature::Full, &mut at);
+            let force = at.force(&layout, &tension);
+            converged = force.iter().all(|f| f.abs() <= 1e-12 * at.largest_force);
+            let Some(next) = (!converged).then(|| penalty_step(&model, &at, &mut factor, &x, &force)).flatten() else {
+                break;
+            };
+            x = next;
+            model.accept(&mut x);
+            iterations += 1;
+        }
+    });
+    Outcome { x, iterations, seconds, converged }
+}
+
+/// The state after one step; `None` where no fraction of it lowers the energy.
+fn penalty_step(model: &Model, at: &Linearization, factor: &mut Factor, x: &[f64], force: &[f64]) -> Option<Vec<f64>> {
+    let layout = model.layout();
+    let mut matrix = at.hessian.clone();
+    for (row, c) in model.compliance().iter().enumerate() {
+        at.add_outer(layout, row, 1.0 / c, &mut matrix);
+    }
+    let mut shift = 0.0;
+    while !factor.factor(at.pattern(), &matrix).is_ok_and(|inertia| inertia.negative == 0) {
+        let more = if shift == 0.0 { 1e-2 } else { 3.0 * shift };
+        at.pattern().add_to_diagonal(&mut matrix, more);
+        shift += more;
+    }
+    let mut step = force.to_vec();
+    factor.solve(&mut step);
+    let slope: f64 = step.iter().zip(force).map(|(d, f)| d * f).sum();
+    let energy = |x: &[f64]| {
+        let stiff = model.gaps(x).iter().zip(model.compliance()).map(|(m, c)| 0.5 * m * m / c).sum::<f64>();
+        model.energy(x) + stiff
+    };
+    let before = energy(x);
+    (0..40).map(|halving| 0.5f64.powi(halving)).find_map(|fraction| {
+        let trial: Vec<f64> = x.iter().zip(&step).map(|(x, d)| x + fraction * d).collect();
+        (energy(&trial) <= before - 1e-4 * fraction * slope).then_some(trial)
+    })
+}

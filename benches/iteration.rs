@@ -1,0 +1,395 @@
+//! What one Newton iteration costs, and where the time goes.
+//!
+//! ```text
+//! cargo bench --bench iteration                    all parts
+//! cargo bench --bench iteration -- split           one part: split, study, assembly, threads, dense
+//! ```
+//!
+//! Patches of the reference cell with exactly rigid bars and random rest angles. All times of a line are medians of
+//! runs taken in turns; compare along a line, not between machines.
+//!
+//! - `split`: one iteration (the minimiser's time over its accepted steps) against one factorization and one solve of
+//!   the same matrix; what the rest is made of.
+//! - `study`: what a whole relaxation adds to its iterations: analysis of the pattern, self stresses.
+//! - `assembly`: its cost against the number of unknowns; the exponent must be 1.
+//! - `threads`: assembly with one and two threads (this program starts itself again, since threads are set once).
+//! - `dense`: below which size the dense factorization is faster than the sparse one.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::kernels::{Sparse, dense_factor_and_solve};
+use common::{Star, exponent, in_turns, measuring, seconds, size, vector, wanted};
+use foldwell::model::Model;
+use foldwell::numerics::factor::DENSE_LIMIT;
+use foldwell::numerics::{factor::Factor, parallel};
+use foldwell::solver::saddle::Saddle;
+use foldwell::solver::{Curvature, Equilibrium, Layout, Linearization, Options, Problem, minimize, tension};
+use std::cell::Cell;
+
+const RIGID: f64 = f64::INFINITY;
+const CHILD: &str = "FOLDWELL_BENCH_THREADS";
+
+fn main() {
+    if let Ok(threads) = std::env::var(CHILD) {
+        return report_assembly(threads.parse().unwrap());
+    }
+    parallel::set_threads(1);
+    let parts: [(&str, fn(&[usize])); 5] =
+        [("split", split), ("study", study), ("assembly", assembly), ("threads", threads), ("dense", dense)];
+    let sizes: &[usize] = if measuring() { &[13, 24, 40, 57, 82] } else { &[3] };
+    for (name, part) in parts {
+        if wanted(name) {
+            println!("\n== {name}");
+            part(sizes);
+        }
+    }
+}
+
+fn rounds() -> usize {
+    if measuring() { 5 } else { 1 }
+}
+
+/// A model whose work is timed.
+struct Timed<'a> {
+    model: &'a mut Model,
+    linearize: Cell<f64>,
+    energy: Cell<f64>,
+    gaps: Cell<f64>,
+    retractions: Cell<usize>,
+    accept: f64,
+}
+
+impl<'a> Timed<'a> {
+    fn new(model: &'a mut Model) -> Self {
+        let zero = || Cell::new(0.0);
+        Self { model, linearize: zero(), energy: zero(), gaps: zero(), retractions: Cell::new(0), accept: 0.0 }
+    }
+}
+
+impl Problem for Timed<'_> {
+    fn layout(&self) -> &Layout {
+        self.model.layout()
+    }
+
+    fn compliance(&self) -> &[f64] {
+        self.model.compliance()
+    }
+
+    fn gap_scale(&self) -> &[f64] {
+        self.model.gap_scale()
+    }
+
+    fn energy(&self, x: &[f64]) -> f64 {
+        let mut energy = 0.0;
+        let time = seconds(|| energy = self.model.energy(x));
+        self.energy.set(self.energy.get() + time);
+        energy
+    }
+
+    fn gaps(&self, x: &[f64]) -> Vec<f64> {
+        let mut gaps = Vec::new();
+        let time = seconds(|| gaps = self.model.gaps(x));
+        self.gaps.set(self.gaps.get() + time);
+        self.retractions.set(self.retractions.get() + 1);
+        gaps
+    }
+
+    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
+        let time = seconds(|| self.model.linearize(x, tension, curvature, out));
+        self.linearize.set(self.linearize.get() + time);
+    }
+
+    fn accept(&mut self, x: &mut [f64]) -> bool {
+        let mut moved = false;
+        self.accept += seconds(|| moved = self.model.accept(x));
+        moved
+    }
+}
+
+/// Time of a minimisation and its parts; of the parts of the linear algebra there are counts.
+#[derive(Clone, Copy, Default)]
+struct Spent {
+    whole: f64,
+    linearize: f64,
+    energy: f64,
+    gaps: f64,
+    accept: f64,
+    iterations: f64,
+    factorizations: f64,
+    solves: f64,
+    gap_counts: f64,
+}
+
+fn minimise(star: &Star) -> (Spent, Equilibrium, Model) {
+    let mut model = star.model(RIGID);
+    let start = model.start();
+    let mut timed = Timed::new(&mut model);
+    let mut found = None;
+    let whole = seconds(|| found = minimize(&mut timed, start, Options::default(), &mut |_| true).ok());
+    let found = found.expect("these patches relax without continuation");
+    let sum = |count: fn(&foldwell::solver::Step) -> usize| found.history.iter().map(count).sum::<usize>() as f64;
+    let spent = Spent {
+        whole,
+        linearize: timed.linearize.get(),
+        energy: timed.energy.get(),
+        gaps: timed.gaps.get(),
+        accept: timed.accept,
+        iterations: sum(|step| usize::from(step.fraction > 0.0)),
+        factorizations: sum(|step| step.factorizations),
+        solves: sum(|step| step.solves),
+        gap_counts: timed.retractions.get() as f64,
+    };
+    (spent, found, model)
+}
+
+/// A linearization and its factorization, as the minimiser has them.
+struct Step {
+    model: Model,
+    at: Linearization,
+    saddle: Saddle,
+    right: (Vec<f64>, Vec<f64>),
+}
+
+impl Step {
+    fn new(model: Model, x: &[f64], tension: &[f64]) -> Self {
+        let mut at = Linearization::new(model.layout());
+        model.linearize(x, tension, Curvature::Full, &mut at);
+        let saddle = Saddle::new(model.layout(), &at).unwrap();
+        let (unknowns, measures) = size(&model);
+        let right = (vector(2, unknowns, 1.0), vector(3, measures, 1e-2));
+        Self { model, at, saddle, right }
+    }
+
+    /// Adding up `S` and factoring it.
+    fn factor(&mut self) -> f64 {
+        let (layout, compliance) = (self.model.layout(), self.model.compliance());
+        seconds(|| self.saddle.factor(layout, &self.at, compliance, 0.0).unwrap())
+    }
+
+    fn solve(&mut self) -> f64 {
+        let layout = self.model.layout();
+        seconds(|| self.saddle.apply(layout, &self.at, &self.right.0, &self.right.1))
+    }
+}
+
+/// A factorization of a matrix of the same size and pattern, with nothing around it.
+struct Bare {
+    factor: Factor,
+    values: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Bare {
+    fn new(step: &Step) -> Self {
+        let layout = step.model.layout();
+        let mut values = step.at.hessian.clone();
+        for row in 0..layout.stiff.len() {
+            step.at.add_outer(layout, row, 1e6, &mut values);
+        }
+        let factor = Factor::new(step.at.pattern(), &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
+        Self { factor, values, right: step.right.0.clone() }
+    }
+
+    fn factor(&mut self, step: &Step) -> f64 {
+        seconds(|| self.factor.factor(step.at.pattern(), &self.values).unwrap())
+    }
+
+    fn solve(&mut self) -> f64 {
+        let mut x = self.right.clone();
+        seconds(|| self.factor.solve(&mut x))
+    }
+}
+
+fn split(sizes: &[usize]) {
+    println!(
+        "ratio: one iteration over factorization + solve alone. In parts of factorization + solve, per iteration; \
+         set-up (once per run) is apart.\n{:>3} {:>7} {:>5} {:>8} {:>6} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} | \
+         {:>5} {:>5} {:>5} | {:>6}",
+        "n", "unknown", "steps", "f+s ms", "ratio", "assem", "fill", "factor", "solves", "energy", "gaps", "accept", "rest",
+        "fact", "solve", "gaps", "set-up"
+    );
+    for &n in sizes {
+        let star = Star::new(n);
+        let (first, found, model) = minimise(&star);
+        let mut step = Step::new(model, &found.x, &found.tension);
+        step.factor();
+        let mut bare = Bare::new(&step);
+        bare.factor(&step);
+        let mut runs: Vec<Spent> = vec![first];
+        let mut times = [const { Vec::new() }; 5];
+        for _ in 0..rounds() {
+            runs.push(minimise(&star).0);
+            let layout = step.model.layout();
+            let nodes = &[&layout.soft, &layout.stiff];
+            times[4].push(
+                seconds(|| Linearization::new(layout))
+                    + seconds(|| Factor::new(step.at.pattern(), &layout.node, nodes).unwrap()),
+            );
+            for _ in 0..3 {
+                times[0].push(bare.factor(&step));
+                times[1].push(bare.solve());
+                times[2].push(step.factor());
+                times[3].push(step.solve());
+            }
+        }
+        let [bare_factor, bare_solve, factor, solve, setup] = times.map(|mut t| common::median(&mut t));
+        print_split(n, size(&step.model).0, &mut runs, [bare_factor, bare_solve, factor, solve, setup]);
+    }
+}
+
+fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], [f, s, factor, solve, setup]: [f64; 5]) {
+    runs.sort_by(|a, b| a.whole.total_cmp(&b.whole));
+    let run = runs[runs.len() / 2];
+    let unit = (f + s) * run.iterations;
+    let iterations = run.whole - setup;
+    let parts = [
+        run.linearize,
+        run.factorizations * (factor - f).max(0.0),
+        run.factorizations * f,
+        run.solves * solve,
+        run.energy,
+        run.gaps,
+        run.accept,
+    ];
+    let rest = iterations - parts.iter().sum::<f64>();
+    print!("{n:3} {unknowns:7} {:5} {:8.2} {:6.2} |", run.iterations, 1e3 * (f + s), iterations / unit);
+    parts.iter().chain([&rest]).for_each(|part| print!(" {:6.2}", part / unit));
+    let per = |count: f64| count / run.iterations;
+    let counts = [run.factorizations, run.solves, run.gap_counts].map(per);
+    println!(" | {:5.2} {:5.2} {:5.2} | {:6.2}", counts[0], counts[1], counts[2], setup / (f + s));
+}
+
+fn study(sizes: &[usize]) {
+    println!("shares of a whole relaxation (seconds of the study)");
+    println!("{:>3} {:>9} {:>9} {:>9} {:>9}", "n", "study ms", "newton", "set-up", "settle");
+    for &n in sizes {
+        let star = Star::new(n);
+        let (_, found, model) = minimise(&star);
+        let medians = in_turns(
+            rounds(),
+            &mut [
+                &mut || {
+                    let mut model = star.model(RIGID);
+                    seconds(|| star.relax(&mut model))
+                },
+                &mut || seconds(|| tension::settle(&model, &found.x, &found.tension)),
+                &mut || {
+                    let at = Linearization::new(model.layout());
+                    seconds(|| Saddle::new(model.layout(), &at).is_ok())
+                        + seconds(|| Linearization::new(model.layout()))
+                },
+            ],
+        );
+        let [whole, settle, setup] = medians[..] else { unreachable!("three pieces of work") };
+        let newton = whole - settle - setup;
+        println!(
+            "{n:3} {:9.1} {:8.0}% {:8.0}% {:8.0}%",
+            1e3 * whole,
+            100.0 * newton / whole,
+            100.0 * setup / whole,
+            100.0 * settle / whole
+        );
+    }
+}
+
+fn assembly(sizes: &[usize]) {
+    println!("{:>3} {:>7} {:>12} {:>12} {:>14}", "n", "unknown", "full us/unk", "gauss us/unk", "evaluate us/unk");
+    let mut points = [const { Vec::new() }; 3];
+    for &n in sizes {
+        let star = Star::new(n);
+        let (_, found, model) = minimise(&star);
+        let mut full = Linearization::new(model.layout());
+        let mut gauss = Linearization::new(model.layout());
+        let (x, t) = (&found.x, &found.tension);
+        let medians = in_turns(
+            3 * rounds(),
+            &mut [
+                &mut || seconds(|| model.linearize(x, t, Curvature::Full, &mut full)),
+                &mut || seconds(|| model.linearize(x, t, Curvature::GaussNewton, &mut gauss)),
+                &mut || seconds(|| (model.gaps(x), model.energy(x))),
+            ],
+        );
+        let unknowns = size(&model).0 as f64;
+        let per = |k: usize| 1e6 * medians[k] / unknowns;
+        println!("{n:3} {unknowns:7} {:12.3} {:12.3} {:14.3}", per(0), per(1), per(2));
+        points.iter_mut().zip(&medians).for_each(|(list, &time)| list.push((unknowns, time)));
+    }
+    if sizes.len() > 1 {
+        let [full, gauss, evaluate] = points.map(|list| exponent(&list));
+        println!("exponent    {full:12.3} {gauss:12.3} {evaluate:14.3}");
+    }
+}
+
+/// What a child prints: microseconds of one assembly and one evaluation, size by size.
+fn report_assembly(threads: usize) {
+    parallel::set_threads(threads);
+    for n in std::env::args().filter_map(|argument| argument.parse::<usize>().ok()) {
+        let star = Star::new(n);
+        let model = star.model(RIGID);
+        let (x, t) = (model.start(), vec![0.0; size(&model).1]);
+        let mut at = Linearization::new(model.layout());
+        let medians = in_turns(
+            20,
+            &mut [
+                &mut || elapsed(|| model.linearize(&x, &t, Curvature::Full, &mut at)),
+                &mut || elapsed(|| _ = (model.gaps(&x), model.energy(&x))),
+            ],
+        );
+        println!("{} {} {}", size(&model).1, 1e6 * medians[0], 1e6 * medians[1]);
+    }
+}
+
+/// Seconds on the wall: several threads share the work.
+fn elapsed(work: impl FnOnce()) -> f64 {
+    let clock = std::time::Instant::now();
+    work();
+    clock.elapsed().as_secs_f64()
+}
+
+fn threads(sizes: &[usize]) {
+    let small: &[usize] = if measuring() { &[8, 9, 10, 11, 12, 16, 18] } else { &[] };
+    let sizes: Vec<String> = small.iter().chain(sizes).map(usize::to_string).collect();
+    let measure = |threads: &str| -> Vec<[f64; 3]> {
+        let program = std::env::current_exe().unwrap();
+        let child = std::process::Command::new(program).args(&sizes).env(CHILD, threads).output().unwrap();
+        let row = |line: &str| -> Vec<f64> { line.split(' ').map(|word| word.parse().unwrap()).collect() };
+        String::from_utf8(child.stdout).unwrap().lines().map(|line| row(line).try_into().unwrap()).collect()
+    };
+    let mut runs: Vec<[Vec<[f64; 3]>; 2]> = (0..rounds()).map(|_| [measure("1"), measure("2")]).collect();
+    println!("below {} elements one thread does all the work", parallel::LEAST);
+    println!("{:>8} {:>11} {:>6} {:>11} {:>6}", "elements", "assemble us", "2 / 1", "evaluate us", "2 / 1");
+    for k in 0..sizes.len() {
+        let mut middle = |threads: usize, column: usize| {
+            let mut times: Vec<f64> = runs.iter_mut().map(|run| run[threads][k][column]).collect();
+            common::median(&mut times)
+        };
+        let (elements, assemble, evaluate) = (middle(0, 0), middle(0, 1), middle(0, 2));
+        let (ratio, evaluation) = (middle(1, 1) / assemble, middle(1, 2) / evaluate);
+        println!("{elements:8} {assemble:11.0} {ratio:6.2} {evaluate:11.0} {evaluation:6.2}");
+    }
+}
+
+fn dense(_: &[usize]) {
+    println!("now dense up to {DENSE_LIMIT} unknowns; microseconds for one factorization and one solve");
+    println!("{:>7} {:>9} {:>9} {:>14}", "unknown", "sparse", "dense", "dense / sparse");
+    let cells: &[[usize; 2]] =
+        if measuring() { &[[1, 1], [2, 1], [2, 2], [3, 2], [3, 3], [4, 3], [4, 4], [5, 5]] } else { &[[2, 2]] };
+    for &cells in cells {
+        let model = Star::oblong(cells).model(RIGID);
+        let (x, tension) = (model.start(), vec![0.0; size(&model).1]);
+        let step = Step::new(model, &x, &tension);
+        let mut bare = Bare::new(&step);
+        step.at.pattern().add_to_diagonal(&mut bare.values, 1.0);
+        let (pattern, values, right) = (step.at.pattern(), &bare.values, &bare.right);
+        let mut sparse = Sparse::new(pattern, step.model.layout());
+        let medians = in_turns(
+            if measuring() { 300 } else { 1 },
+            &mut [&mut || sparse.factor_and_solve(values, right), &mut || {
+                dense_factor_and_solve(pattern, values, right)
+            }],
+        );
+        let [sparse, dense] = medians[..] else { unreachable!("two pieces of work") };
+        println!("{:7} {:9.1} {:9.1} {:14.2}", right.len(), 1e6 * sparse, 1e6 * dense, dense / sparse);
+    }
+}
