@@ -206,23 +206,8 @@ fn split(sizes: &[usize]) {
         "ratio: one iteration over factorization + solve alone. In parts of factorization + solve, per iteration; \
          set-up (once per run) is apart.\n{:>3} {:>7} {:>5} {:>8} {:>6} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} | \
          {:>5} {:>5} {:>5} | {:>6}",
-        "n",
-        "unknown",
-        "steps",
-        "f+s ms",
-        "ratio",
-        "assem",
-        "fill",
-        "factor",
-        "solves",
-        "energy",
-        "gaps",
-        "accept",
-        "rest",
-        "fact",
-        "solve",
-        "gaps",
-        "set-up"
+        "n", "unknown", "steps", "f+s ms", "ratio", "assem", "fill", "factor", "solves", "energy", "gaps", "accept", "rest",
+        "fact", "solve", "gaps", "set-up"
     );
     for &n in sizes {
         let star = Star::new(n);
@@ -346,9 +331,10 @@ fn report_assembly(threads: usize) {
         let mut at = Linearization::new(model.layout());
         let medians = in_turns(
             20,
-            &mut [&mut || elapsed(|| model.linearize(&x, &t, Curvature::Full, &mut at)), &mut || {
-                elapsed(|| _ = (model.gaps(&x), model.energy(&x)))
-            }],
+            &mut [
+                &mut || elapsed(|| model.linearize(&x, &t, Curvature::Full, &mut at)),
+                &mut || elapsed(|| _ = (model.gaps(&x), model.energy(&x))),
+            ],
         );
         println!("{} {} {}", size(&model).1, 1e6 * medians[0], 1e6 * medians[1]);
     }
