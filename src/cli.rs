@@ -68,9 +68,9 @@ enum Command {
     /// Generate a pattern
     #[command(override_usage = "foldwell new <PATTERN> [--key value]... -o <FILE.fold>")]
     New {
-        /// miura, eggbox, waterbomb, ...
+        /// miura, miura-patch, eggbox, waterbomb, yoshimura, kresling, square-twist, random, random-developable
         pattern: String,
-        /// Parameters of the pattern, --key value, and -o FILE.fold for the mesh
+        /// Parameters of the pattern, --key value (radians; a list has commas), and -o FILE.fold for the mesh
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         parameters: Vec<String>,
     },

@@ -93,7 +93,7 @@ pub enum RunError {
     },
     /// A pattern has no sheet for its parameters.
     #[error("{message}")]
-    #[diagnostic(help("the patterns are {names}; angles are in degrees only where a parameter says so"))]
+    #[diagnostic(help("the patterns are {names}; angles are radians"))]
     Pattern {
         /// What is wrong.
         message: String,

@@ -2,6 +2,7 @@
 //!
 //! The sources are read as words, so that comments and strings do not count and no way of writing a path escapes:
 //! `use crate::a::b`, `use crate::{a, b}`, an inline `crate::a::b`, `super::super::a`, `foldwell::a` in the binary.
+#![allow(clippy::unwrap_used)] // tests, also their helpers, may fail
 
 use std::fs;
 use std::path::{Path, PathBuf};

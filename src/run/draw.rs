@@ -2,10 +2,22 @@
 
 use super::{RunError, Runner};
 use crate::analysis::state::{Cylinder, State, cylinder};
+use crate::model::assemble::{Drawn, drawn_angles};
 use crate::output::picture::Picture;
 use crate::output::table::{StateRow, Table};
 use crate::output::{plot, vtk};
+use crate::scene::build::Built;
 use crate::scene::spec::{Draw, StudySpec};
+
+/// The state with the fold angle of every edge between two faces, also of those that are no hinge of the model: these from
+/// its coordinates, in (-pi, pi].
+pub fn with_all_angles(built: &Built, state: &State) -> State {
+    let Drawn { frame, origin, .. } = built.drawn;
+    let (domain, coordinates) = (built.drawn.domain.clone(), state.coordinates.clone());
+    let angles = drawn_angles(&Drawn { domain, coordinates, held: Vec::new(), frame, origin }, &built.tiling);
+    let known = |(known, other): (&f64, f64)| if known.is_nan() { other } else { *known };
+    State { fold_angle: state.fold_angle.iter().zip(angles).map(known).collect(), ..state.clone() }
+}
 
 /// A state with the residuals that hold at it.
 pub struct Shown<'a> {

@@ -68,21 +68,29 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
     match found {
         Ok(relaxed) => {
             let residuals = Some([relaxed.residual_force, relaxed.residual_length]);
-            let shown = Shown { state: &relaxed.state, residuals };
-            draw::table(runner, study, &[Shown { state: &first, residuals: None }, shown])?;
-            draw::series(runner, study, &[&first, &relaxed.state])?;
+            write_states(runner, study, [&first, &relaxed.state], residuals)?;
             let coordinates = relaxed.state.coordinates.clone();
             runner.keep_state(study, Kept { coordinates, angles: model.angles() })?;
             Ok(relaxed_summary(built, study, seconds, &relaxed))
         }
         Err(error) => {
             let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
-            let shown = Shown { state: &error.state, residuals };
-            draw::table(runner, study, &[Shown { state: &first, residuals: None }, shown])?;
-            draw::series(runner, study, &[&first, &error.state])?;
+            write_states(runner, study, [&first, &error.state], residuals)?;
             Ok(failed_summary(built, study, seconds, &error))
         }
     }
+}
+
+/// Table and pictures of the start and the end of a relaxation, with the residuals at its end.
+fn write_states(
+    runner: &Runner<'_>,
+    study: &StudySpec,
+    states: [&State; 2],
+    residuals: Option<[f64; 2]>,
+) -> Result<(), RunError> {
+    let [first, last] = states.map(|state| draw::with_all_angles(runner.built, state));
+    draw::table(runner, study, &[Shown { state: &first, residuals: None }, Shown { state: &last, residuals }])?;
+    draw::series(runner, study, &[&first, &last])
 }
 
 /// The unknowns from which a relaxation starts; `None` where the study to start from ended in no state.
