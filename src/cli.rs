@@ -220,7 +220,8 @@ fn describe_run(report: &RunReport) -> String {
     let mut text = String::new();
     for study in &report.summary.studies {
         // writing to a string does not fail
-        let _ = writeln!(text, "{}", describe_study(study));
+        let kept = if report.kept.contains(&study.name) { " (kept)" } else { "" };
+        let _ = writeln!(text, "{}{kept}", describe_study(study));
     }
     let _ = writeln!(text, "files in {}", report.out.display());
     text

@@ -81,8 +81,8 @@ impl Shown {
             self.bar = bar(progress.of).with_elapsed(self.since.elapsed());
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        self.bar.set_message(format!("{}  residual {:.1e}", progress.study, progress.residual));
         self.bar.set_position(progress.step as u64);
+        self.bar.set_message(format!("{}  residual {:.1e}", progress.study, progress.residual));
     }
 }
 

@@ -1,6 +1,5 @@
 //! The pipeline: read a scene, build it, study it, write files.
 
-use std::fmt;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -16,6 +15,7 @@ use crate::sheet::error::Defect;
 use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
 
 mod draw;
+mod resume;
 mod runner;
 mod studies;
 
@@ -55,6 +55,8 @@ pub struct RunReport {
     pub summary: Summary,
     /// Where the files are.
     pub out: PathBuf,
+    /// Studies that an earlier run had finished and that were not computed again.
+    pub kept: Vec<String>,
     /// Whether the observer stopped it.
     pub interrupted: bool,
 }
@@ -109,27 +111,9 @@ pub enum RunError {
         /// The endings that are known.
         expected: &'static str,
     },
-    /// Something that a later version does.
-    #[error("{0} is not available in this version")]
-    NotAvailable(Feature),
-}
-
-/// What a later version does.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Feature {
-    /// A command of the command line.
-    Command(&'static str),
-    /// A kind of study.
-    StudyKind(&'static str),
-}
-
-impl fmt::Display for Feature {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Self::Command(name) => write!(f, "command `{name}`"),
-            Self::StudyKind(kind) => write!(f, "study kind `{kind}`"),
-        }
-    }
+    /// A command that a later version has.
+    #[error("command `{0}` is not available in this version")]
+    NotAvailable(&'static str),
 }
 
 impl RunError {
@@ -242,7 +226,7 @@ fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
 /// [`RunError`] where the reports cannot be written.
 pub fn validate(options: &ValidateOptions, observer: Observer) -> Result<bool, RunError> {
     let _ = (options, observer);
-    Err(RunError::NotAvailable(Feature::Command("validate")))
+    Err(RunError::NotAvailable("validate"))
 }
 
 #[cfg(test)]
@@ -258,10 +242,10 @@ mod tests {
         assert_eq!(RunError::from(read(io::ErrorKind::PermissionDenied)).exit_status(), 3);
         let write = OutputError::Write { path: "a".into(), source: io::ErrorKind::StorageFull.into() };
         assert_eq!(RunError::from(write).exit_status(), 3);
-        let later = RunError::NotAvailable(Feature::StudyKind("trace"));
+        let later = RunError::NotAvailable("validate");
         assert_eq!(
             (later.exit_status(), later.to_string().as_str()),
-            (2, "study kind `trace` is not available in this version")
+            (2, "command `validate` is not available in this version")
         );
     }
 }

@@ -1,5 +1,8 @@
 //! Malformed scenes, each with its message: where (`scene.toml:line:column`), what is wrong, what would be right.
 
+use std::ops::ControlFlow;
+
+use foldwell::run::{RunOptions, run_scene};
 use foldwell::scene::{SceneError, parse};
 use miette::Diagnostic;
 use proptest::prelude::*;
@@ -184,7 +187,7 @@ fn with_line(line: usize, new: &str) -> String {
     GOOD.lines().enumerate().map(|(at, old)| if at + 1 == line { new } else { old }).collect::<Vec<_>>().join("\n")
 }
 
-/// Each fault is found where it is: the place counted by hand, the words as they stand here.
+/// Each fault is found where it is, with the words that stand here.
 #[test]
 fn every_fault_has_its_message() {
     for fault in FAULTS {
@@ -219,6 +222,168 @@ fn a_missing_scene_is_named() {
         matches!(error, SceneError::Read { .. }) && error.to_string().starts_with("no/such/scene.toml: "),
         "{error}"
     );
+}
+
+/// A sheet of four triangles round a point, finite; and the star cell, periodic. Paths are relative to the scene.
+const FINITE: &str = r#"{ "vertices_coords": [[0,0,0],[1,0,0],[0,1,0],[-1,0,0],[0,-1,0.2]],
+  "faces_vertices": [[0,1,2],[0,2,3],[0,3,4],[0,4,1]] }"#;
+
+/// A scene that reads well but does not fit its sheet: the scene, the place and the message, the help.
+struct Misfit {
+    text: &'static str,
+    at: &'static str,
+    message: &'static str,
+    help: &'static str,
+}
+
+const fn misfit(text: &'static str, at: &'static str, message: &'static str, help: &'static str) -> Misfit {
+    Misfit { text, at, message, help }
+}
+
+#[rustfmt::skip]
+const MISFITS: &[Misfit] = &[
+    // the sheet
+    misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"torus\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"screw\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh"),
+    misfit("[sheet]\ngenerate = { pattern = \"miura\", fold = 2.0 }", "2:12", "`fold` is 2", "see `foldwell new --help` for the patterns"),
+    misfit("[sheet]\ngenerate = { pattern = \"kresling\", sides = 2 }", "2:12", "`sides` is 2; it should be from 3 to 1000", "see `foldwell new --help` for the patterns"),
+    misfit("[sheet]\ngenerate = { pattern = \"miura\", hight = 1 }", "2:12", "unknown field `hight`", "see `foldwell new --help` for the patterns"),
+    misfit("[sheet]\ngenerate = { pattern = \"crane\" }", "2:12", "unknown variant `crane`", "see `foldwell new --help` for the patterns"),
+    misfit("[sheet]\ngenerate = { fold = 0.1 }", "2:12", "missing field `pattern`", "see `foldwell new --help` for the patterns"),
+    misfit("[sheet]\nmesh = \"star.fold\"\ncells = [40000, 40000]", "3:9", "the model has 6400000000 vertices", "at most 30000000 can be indexed"),
+    // creases, vertices, cells
+    misfit("[sheet]\nmesh = \"star.fold\"\n[[lock]]\ncrease = [0, 1, 3, 0]", "4:10", "the sheet has no crease [0, 1, 3, 0]", "the creases are [0, 1, 0, 0], "),
+    misfit("[sheet]\nmesh = \"star.fold\"\n[[lock]]\ncrease = [0, 9, 0, 0]", "4:10", "the sheet has no crease [0, 9, 0, 0]", "the creases are [0, 1, 0, 0], "),
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[[lock]]\ncrease = [1, 2, 0, 0]", "4:10", "the sheet has no crease [1, 2, 0, 0]", "the creases are [0, 1, 0, 0], "),
+    misfit("[sheet]\ngenerate = { pattern = \"miura\" }\n[[lock]]\ncrease = [0, 3, 0, 0]", "4:10", "the sheet has no crease [0, 3, 0, 0]", "the creases are [0, 1, 0, 0], "),
+    misfit("[sheet]\nmesh = \"star.fold\"\ncells = [2, 2]\n[[pin]]\nvertex = 4", "5:10", "there is no vertex 4", "the vertices of a cell are 0 to 3"),
+    misfit("[sheet]\nmesh = \"star.fold\"\ncells = [2, 2]\n[[load]]\nvertex = 7\nforce = [0, 0, 1]", "5:10", "there is no vertex 7", "the vertices of a cell are 0 to 3"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\ncells = [2, 2]\n[[pin]]\nvertex = 4\ncell = [1, 0]", "6:8", "there is no cell [1, 0]", "the cells are [0, 0] to [0, 0]"),
+    // loads
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[[load]]\nvertex = 0\nforce = [0.0, 0.5, 0.0]", "5:9", "the loads push the whole sheet along y with a force of 0.5", "balance the loads, or pin a vertex along that axis"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[[pin]]\nvertex = 0\naxes = \"xy\"\n[[load]]\nvertex = 1\nforce = [1, 1, 1]", "8:9", "the loads push the whole sheet along z with a force of 1", "balance the loads, or pin a vertex along that axis"),
+    // rest angles
+    misfit("[sheet]\ngenerate = { pattern = \"miura\" }\n[energy]\ncreases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }", "4:44", "", "name the mode by its rates: { rates = \"file.csv\" }"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }", "4:44", "", "name the mode by its rates: { rates = \"file.csv\" }"),
+    misfit("[sheet]\nmesh = \"star.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { file = \"one.csv\" } }", "4:44", "FOLDER/one.csv has no row for crease [", "give one row for each crease"),
+    misfit("[sheet]\nmesh = \"star.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { mode = { rates = \"rates.csv\" }, amplitude = 0.1 } }", "4:54", "FOLDER/rates.csv has no row for crease [", "give one row for each crease"),
+];
+
+fn folder_of_misfits() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let star = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
+    std::fs::copy(star, folder.path().join("star.fold")).expect("the star cell");
+    let files = [
+        ("finite.fold", FINITE),
+        ("one.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n"),
+        ("rates.csv", "i,j,n1,n2,rate\n0,1,0,0,0.1\n"),
+        ("strange.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n0,1,5,0,0.1\n"),
+        ("far.csv", "cell1,cell2,i,j,n1,n2,angle\n7,7,0,1,0,0,0.1\n"),
+        ("torn.fold", "{ \"vertices_coords\": [[0,0,0],\n"),
+    ];
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).expect("a file");
+    }
+    folder
+}
+
+/// The message of a scene that its sheet refuses, and its help; the folder is written as FOLDER.
+fn misfit_of(folder: &std::path::Path, text: &str) -> (SceneError, String, String) {
+    let file = parse(text, folder.join("scene.toml")).expect("the scene alone is right");
+    let Err(error) = foldwell::scene::build::build(&file) else { panic!("the sheet should refuse:\n{text}") };
+    let plain = |text: String| text.replace(&folder.display().to_string(), "FOLDER");
+    let (message, help) = (plain(error.to_string()), error.help().map(|help| help.to_string()).unwrap_or_default());
+    (error, message, help)
+}
+
+/// Claim: what only the sheet can refuse is refused with the place in the scene, the words that stand here, and help.
+#[test]
+fn every_misfit_has_its_message() {
+    let folder = folder_of_misfits();
+    let mut wrong = Vec::new();
+    for Misfit { text, at, message, help } in MISFITS {
+        let (error, found, found_help) = misfit_of(folder.path(), text);
+        assert!(matches!(error, SceneError::At { .. }), "{text}: {found}");
+        assert!(fancy(&error).contains("scene.toml"));
+        let expected = format!("FOLDER/scene.toml:{at}: {message}");
+        if !found.starts_with(&expected) || !found_help.starts_with(help) {
+            wrong.push(format!("{text}\nexpected {expected} ({help})\nfound    {found} ({found_help})"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+/// Claim: a mode that no curvature names says why: the map is singular for Miura-ori, and a finite sheet has no lattice.
+#[test]
+fn modes_that_no_curvature_names() {
+    let folder = folder_of_misfits();
+    let mode = "creases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }";
+    let of = |sheet: &str| misfit_of(folder.path(), &format!("[sheet]\n{sheet}\n[energy]\n{mode}\n")).1;
+    let miura = of("generate = { pattern = \"miura\" }");
+    assert!(miura.contains("curvature"), "{miura}");
+    let finite = of("mesh = \"finite.fold\"");
+    assert!(finite.contains("lattice"), "{finite}");
+}
+
+/// Claim: a fault in a file that the scene names is told with that file, and its line where it has one.
+#[test]
+fn faults_of_named_files_name_the_file() {
+    let folder = folder_of_misfits();
+    let rest = |name: &str| {
+        format!(
+            "[sheet]\nmesh = \"star.fold\"\n[energy]\ncreases = {{ stiffness = 1, rest = {{ file = \"{name}\" }} }}\n"
+        )
+    };
+    let mesh = |name: &str| format!("[sheet]\nmesh = \"{name}\"\n");
+    let cases = [
+        (mesh("none.fold"), "FOLDER/none.fold"),
+        (mesh("torn.fold"), "FOLDER/torn.fold:"),
+        (rest("none.csv"), "FOLDER/none.csv: cannot be read"),
+        (rest("strange.csv"), "FOLDER/strange.csv:3: the sheet has no crease [0, 1, 5, 0]"),
+        (rest("far.csv"), "FOLDER/far.csv:2: there is no crease [0, 1, 0, 0] in cell [7, 7]"),
+        (rest("rates.csv"), "FOLDER/rates.csv:1: the header is `i,j,n1,n2,rate`, expected `i,j,n1,n2,angle`"),
+    ];
+    for (text, expected) in cases {
+        let (_, message, _) = misfit_of(folder.path(), &text);
+        assert!(message.starts_with(expected), "{message}");
+    }
+}
+
+/// Claim: what a study cannot do is refused before anything is written, with its place.
+#[test]
+fn studies_that_cannot_be_done() {
+    let folder = folder_of_misfits();
+    let scene = |energy: &str, study: &str| {
+        format!("[sheet]\nmesh = \"star.fold\"\n[energy]\n{energy}\n[[study]]\nname = \"a\"\n{study}\n")
+    };
+    std::fs::write(folder.path().join("a.vtu"), "no picture").expect("a file");
+    let creases = "creases = { stiffness = 1 }";
+    let cases = [
+        (scene("", "kind = \"relax\""), "scene.toml:7:8: there is no energy to relax"),
+        (
+            scene(creases, "kind = \"trace\""),
+            "scene.toml:7:8: studies of kind `trace` are not available in this version",
+        ),
+        (
+            scene(creases, "kind = \"bloch\""),
+            "scene.toml:7:8: studies of kind `bloch` are not available in this version",
+        ),
+        (
+            scene(creases, "kind = \"relax\"\ncheck = [\"self-intersection\"]"),
+            "scene.toml:6:8: `check` is not available in this version",
+        ),
+        (scene(creases, "kind = \"relax\"\nstart = \"none.vtu\""), "none.vtu: "),
+        (scene(creases, "kind = \"relax\"\nstart = \"a.vtu\""), "a.vtu: "),
+    ];
+    for (text, expected) in cases {
+        let path = folder.path().join("scene.toml");
+        std::fs::write(&path, &text).expect("a file");
+        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
+        let error = run_scene(&path, &options, &|_| ControlFlow::Continue(())).expect_err("it cannot be done");
+        assert_eq!(error.exit_status(), 2, "{error}");
+        assert!(error.to_string().contains(expected), "{error}");
+        assert!(!folder.path().join("out").exists(), "{expected}: nothing is written");
+    }
 }
 
 fn fancy(error: &SceneError) -> String {

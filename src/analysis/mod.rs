@@ -1,5 +1,6 @@
 //! Questions about states: equilibria, modes and spectra. State in, result out; nothing here reads or writes files.
 
+pub mod axis;
 pub mod modes;
 pub mod relax;
 pub mod state;

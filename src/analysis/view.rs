@@ -34,10 +34,14 @@ impl View {
         Self { patch, edges, sites }
     }
 
-    /// Positions of all points in the frame of the mesh file.
+    /// Positions of all points in the frame of the mesh file, vertex 0 of a screw where it was drawn.
     pub fn positions(&self, drawn: &Drawn, coordinates: &[f64]) -> Vec<Vec3> {
         let back = drawn.frame.transpose();
-        self.sites.iter().map(|&site| back * drawn.domain.point(coordinates, site) + drawn.origin).collect()
+        let centre = match drawn.domain {
+            Domain::Screw => Vec3::from_column_slice(&coordinates[..3]),
+            _ => Vec3::zeros(),
+        };
+        self.sites.iter().map(|&site| back * (drawn.domain.point(coordinates, site) - centre) + drawn.origin).collect()
     }
 
     /// Velocities of all points when the coordinates have these rates, by central differences.

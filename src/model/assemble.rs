@@ -73,6 +73,11 @@ pub struct Drawn {
 impl Drawn {
     /// Coordinates of the drawn tiling. A sheet without lattice must be a patch.
     pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings) -> Self {
+        Self::turned(sheet, tiling, surroundings, 0.0)
+    }
+
+    /// The same; the axis of a screw makes this angle with the first lattice vector, in radians.
+    pub fn turned(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, axis: f64) -> Self {
         let flat = |points: &[Vec3]| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
         let lattice = sheet.lattice.map(|[l1, l2]| [l1 * tiling.cells[0] as f64, l2 * tiling.cells[1] as f64]);
         let frame = Matrix3::identity();
@@ -81,17 +86,18 @@ impl Drawn {
             (Surroundings::FreeTorus, Some(lattice)) => {
                 (Domain::FreeTorus, [flat(&tiling.positions), flat(&lattice)].concat())
             }
-            (Surroundings::Screw, Some(lattice)) => return Self::screw(sheet, lattice),
+            (Surroundings::Screw, Some(lattice)) => return Self::screw(sheet, lattice, axis),
             _ => (Domain::Patch, flat(&tiling.positions)),
         };
         Self { domain, coordinates, held: vec![], frame, origin: Vec3::zeros() }
     }
 
-    /// Vertex 0 at the origin, first lattice vector along x, face normals along +z, no curvature.
-    fn screw(sheet: &Sheet, [l1, l2]: [Vec3; 2]) -> Self {
-        let x = l1.normalize();
+    /// Vertex 0 at the origin, the axis along x, face normals along +z, no curvature.
+    fn screw(sheet: &Sheet, [l1, l2]: [Vec3; 2], axis: f64) -> Self {
+        let along = l1.normalize();
         let across = l1.cross(&l2);
         let z = if across.dot(&area_vector(sheet)) < 0.0 { -across.normalize() } else { across.normalize() };
+        let x = axis.cos() * along + axis.sin() * z.cross(&along);
         let frame = Matrix3::from_rows(&[x.transpose(), z.cross(&x).transpose(), z.transpose()]);
         let origin = sheet.vertices[0];
         let mut coordinates: Vec<f64> =

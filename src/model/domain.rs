@@ -130,6 +130,24 @@ impl Domain {
         lower(size, |row, column| full[(row, column)])
     }
 
+    /// Keeps the axis of a screw away from the height z = 0, where `kappa` is infinite: moving all z by `d` and `1/kappa`
+    /// with them changes nothing (`theta = kappa b` stays). Done when the axis comes nearer than `length`; then it is put
+    /// at twice that. Returns whether coordinates were changed.
+    pub fn recentre(&self, x: &mut [f64], length: f64) -> bool {
+        let shared = x.len() - self.shared();
+        if !matches!(self, Self::Screw) || x[shared].abs() * length <= 1.0 {
+            return false;
+        }
+        let kappa = x[shared];
+        let moved = 1.0 / (2.0 * length * kappa.signum());
+        let d = 1.0 / moved - 1.0 / kappa;
+        x[..shared].iter_mut().skip(2).step_by(3).for_each(|z| *z += d);
+        x[shared] = moved;
+        x[shared + 1] *= kappa / moved;
+        x[shared + 2] *= kappa / moved;
+        true
+    }
+
     /// All points of one element.
     pub fn points<const N: usize>(&self, x: &[f64], sites: &[Site; N]) -> [Vec3; N] {
         sites.map(|site| self.point(x, site))
@@ -220,6 +238,32 @@ impl Screw {
             add(shared, shared + 1 + p, self.n[p] * by_kappa_b);
             for q in 0..=p {
                 add(shared + 1 + q, shared + 1 + p, self.n[p] * self.n[q] * by_b_b);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod recentre_tests {
+    use super::*;
+
+    /// Claim (theory of the screw chart): the gauge moves every copy of every vertex by the same height, whatever the
+    /// curvature; so lengths and fold angles stay. Tolerance: rounding of numbers of size 1.
+    #[test]
+    fn recentring_moves_all_points_by_the_same_height() {
+        for kappa in [3.0, -2.5, 1e4, 1e-3] {
+            let old = vec![0.0, 0.0, 0.0, 0.7, -0.2, 0.4, kappa, 0.3 / kappa, -0.9 / kappa, 1.1, 0.2];
+            let mut new = old.clone();
+            let changed = Domain::Screw.recentre(&mut new, 0.8);
+            assert_eq!(changed, kappa.abs() * 0.8 > 1.0);
+            assert!(new[6].abs() * 0.8 <= 1.0);
+            let height = new[2] - old[2];
+            for vertex in 0..2 {
+                for shift in [[0, 0], [1, 0], [0, 1], [-2, 3]] {
+                    let site = Site { vertex, shift };
+                    let moved = Domain::Screw.point(&new, site) - Domain::Screw.point(&old, site);
+                    assert!((moved - Vec3::new(0.0, 0.0, height)).norm() < 1e-14, "{kappa} {site:?} {moved}");
+                }
             }
         }
     }

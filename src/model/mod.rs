@@ -12,6 +12,9 @@ pub mod measure;
 pub mod problem;
 pub mod term;
 
+#[cfg(test)]
+mod tests;
+
 pub use domain::{Domain, Site};
 pub use problem::{Gauge, Model};
 pub use term::{Element, Elements, Spring, Term};

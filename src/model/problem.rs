@@ -25,6 +25,7 @@ pub struct Model {
     layout: Layout,
     compliance: Vec<f64>,
     gap_scale: Vec<f64>,
+    mean_edge: f64,
 }
 
 /// What is done about the rigid motions that no pin prevents.
@@ -74,7 +75,7 @@ impl Model {
         let springs = || stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term.is_angle(), term.spring(k))));
         let compliance = springs().map(|(_, spring)| 1.0 / spring.stiffness).collect();
         let gap_scale = springs().map(|(angle, _)| if angle { 1.0 } else { mean_edge }).collect();
-        Self { domain, base: drawn, pinned, free, soft, stiff, loads, layout, compliance, gap_scale }
+        Self { domain, base: drawn, pinned, free, soft, stiff, loads, layout, compliance, gap_scale, mean_edge }
     }
 
     /// The unknowns of the drawn state.
@@ -271,12 +272,15 @@ impl Problem for Model {
         self.linearize_stiff(&all, tension, out);
     }
 
-    fn accept(&mut self, x: &mut [f64]) -> bool {
-        let all = self.coordinates(x);
+    fn accept(&mut self, x: &mut [f64]) {
+        let mut all = self.coordinates(x);
         for term in self.soft.iter_mut().chain(&mut self.stiff) {
             term.accept(&self.domain, &all);
         }
-        false
+        if self.domain.recentre(&mut all, self.mean_edge) {
+            x.copy_from_slice(&self.unknowns(&all));
+            self.base = all;
+        }
     }
 }
 

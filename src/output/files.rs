@@ -55,6 +55,23 @@ fn draft_name(path: &Path) -> io::Result<PathBuf> {
     Ok(path.with_file_name(format!(".{}.{}-{count}.part", name.to_string_lossy(), std::process::id())))
 }
 
+/// Removes what programs that were stopped have left in a folder on its way; nothing else, and no folder is no fault.
+pub fn remove_drafts(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if is_draft(&entry.file_name().to_string_lossy()) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a name is one of [`draft_name`].
+fn is_draft(name: &str) -> bool {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let middle = name.strip_prefix('.').and_then(|name| name.strip_suffix(".part"));
+    let counts = middle.and_then(|name| name.rsplit_once('.')).and_then(|(_, counts)| counts.split_once('-'));
+    counts.is_some_and(|(process, count)| digits(process) && digits(count))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -88,6 +105,22 @@ mod tests {
         assert!(matches!(result, Err(OutputError::Write { .. })));
         assert_eq!(fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(names(folder.path()), ["b.txt"]);
+    }
+
+    /// What a stopped program leaves is removed, and nothing that only looks like it.
+    #[test]
+    fn drafts_are_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let draft = draft_name(&folder.path().join("b.txt")).unwrap();
+        let others = [".b.txt.part", "b.txt.1-2.part", ".b.txt.1-x.part", ".b.1-2.txt"];
+        for name in others {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        fs::write(&draft, "").unwrap();
+        remove_drafts(folder.path());
+        remove_drafts(&folder.path().join("none"));
+        assert!(!draft.exists());
+        assert_eq!(names(folder.path()).len(), others.len());
     }
 
     /// A folder in the place of the file, and a file in the place of a folder, are errors that name the file.

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::OutputError;
 use super::files;
@@ -16,6 +16,8 @@ pub struct Summary {
     pub version: &'static str,
     /// The scene file, as it was named.
     pub scene: String,
+    /// Changes with the scene and every file it names, see [`crate::scene::digest`].
+    pub digest: String,
     /// The sheet.
     pub sheet: SheetSummary,
     /// The terms of the energy, and the locks, that were built.
@@ -46,12 +48,12 @@ pub struct SheetSummary {
 }
 
 /// What came out of a study.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StudySummary {
     /// Its name.
     pub name: String,
     /// Its kind.
-    pub kind: &'static str,
+    pub kind: String,
     /// Whether it gave its answer.
     pub converged: bool,
     /// Time, drawing and writing excluded.
@@ -67,7 +69,7 @@ pub struct StudySummary {
 }
 
 /// The keys of each kind of study.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StudyResult {
     /// `kind = "relax"`.
@@ -77,7 +79,7 @@ pub enum StudyResult {
 }
 
 /// Energy by terms; `None`: the term is not there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergySummary {
     /// Stretching.
     pub bars: Option<f64>,
@@ -90,7 +92,7 @@ pub struct EnergySummary {
 }
 
 /// An equilibrium.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RelaxSummary {
     /// Energy of the last state.
     pub energy: EnergySummary,
@@ -115,7 +117,7 @@ pub struct RelaxSummary {
 }
 
 /// One iteration of a relaxation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct IterationSummary {
     /// Number of the iteration; 0 is the start.
     pub iteration: usize,
@@ -132,7 +134,7 @@ pub struct IterationSummary {
 }
 
 /// Modes of a state.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ModesSummary {
     /// Null space of the rigidity matrix of the bars.
     pub zero_modes: usize,
@@ -182,9 +184,9 @@ mod tests {
     use serde_json::{Value, json};
 
     fn sample() -> Summary {
-        let study = |name: &str, kind, result| StudySummary {
+        let study = |name: &str, kind: &str, result| StudySummary {
             name: name.into(),
-            kind,
+            kind: kind.into(),
             converged: true,
             seconds: 0.25,
             error: Some(1e-13),
@@ -196,6 +198,7 @@ mod tests {
         Summary {
             version: "0",
             scene: "scene.toml".into(),
+            digest: "0".into(),
             sheet: SheetSummary {
                 vertices: 4,
                 edges: 12,
@@ -223,7 +226,7 @@ mod tests {
     #[test]
     fn the_summary_has_its_keys() {
         let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
-        assert_eq!(keys(&json), ["left_out", "scene", "sheet", "studies", "terms", "version"]);
+        assert_eq!(keys(&json), ["digest", "left_out", "scene", "sheet", "studies", "terms", "version"]);
         let sheet = ["cells", "degrees_of_freedom", "developable", "edges", "faces", "polygons", "vertices"];
         assert_eq!(keys(&json["sheet"]), sheet);
         for key in ["name", "kind", "converged", "seconds", "error", "energy", "iterations", "factorizations"] {

@@ -1,25 +1,18 @@
 //! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
 
+use super::resume::{Earlier, Kept, write_state};
 use super::{Observer, Progress, RunError, RunOptions, RunReport, studies};
 use crate::analysis::view::View;
 use crate::numerics::parallel;
+use crate::output::files;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
-use crate::scene::SceneFile;
 use crate::scene::build::Built;
 use crate::scene::spec::{StudyKind, StudySpec};
+use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
 use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-
-/// A state that later studies may start from.
-#[derive(Clone, Debug)]
-pub struct Kept {
-    /// All coordinates.
-    pub coordinates: Vec<f64>,
-    /// Angles from which angles continue, see [`crate::model::Model::angles`].
-    pub angles: Vec<f64>,
-}
 
 /// One run.
 pub struct Runner<'a> {
@@ -31,15 +24,18 @@ pub struct Runner<'a> {
     pub view: View,
     /// Where files go.
     pub out: PathBuf,
-    /// States by the name of their study.
-    pub kept: HashMap<String, Kept>,
+    states: HashMap<String, Kept>,
+    kept: Vec<String>,
     summary: Summary,
     observer: Observer<'a>,
     interrupted: Cell<bool>,
 }
 
 impl<'a> Runner<'a> {
-    /// Makes the folder ready; nothing is written before this.
+    /// Checks what is left to check and makes the folder ready; nothing is written before this.
+    ///
+    /// The summary is written at once, with what is kept: a later run must not take files of this one for those of an
+    /// earlier scene.
     pub fn new(
         file: &'a SceneFile,
         built: &'a Built,
@@ -47,29 +43,69 @@ impl<'a> Runner<'a> {
         observer: Observer<'a>,
     ) -> Result<Self, RunError> {
         parallel::set_threads(options.threads.unwrap_or(0));
-        for study in &file.scene.studies {
-            studies::check(file, built, study)?;
-        }
         let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
         let out = options.out.clone().unwrap_or_else(stem);
         let view = View::new(&built.sheet, &built.tiling, built.surroundings, built.shown);
-        let summary = summary(file, built);
-        Ok(Self { file, built, view, out, kept: HashMap::new(), summary, observer, interrupted: Cell::new(false) })
+        for study in &file.scene.studies {
+            studies::check(file, built, &view, study)?;
+        }
+        let digest = digest(file)?;
+        let earlier = if options.resume { Earlier::read(&out, &digest) } else { Earlier::default() };
+        let summary = summary(file, built, digest);
+        let (states, kept, interrupted) = (HashMap::new(), Vec::new(), Cell::new(false));
+        let mut runner = Self { file, built, view, out, states, kept, summary, observer, interrupted };
+        runner.keep(&earlier)?;
+        Ok(runner)
     }
 
-    /// Computes one study, writes its files, and the summary so far.
+    /// Takes over what an earlier run finished, and removes what it left half-written.
+    fn keep(&mut self, earlier: &Earlier) -> Result<(), RunError> {
+        files::remove_drafts(&self.out);
+        for study in &self.file.scene.studies {
+            files::remove_drafts(&self.out.join(&study.name.0));
+            if let Some((summary, state)) = earlier.study(self.file, &self.out, study) {
+                self.states.extend(state.map(|state| (summary.name.clone(), state)));
+                self.kept.push(summary.name.clone());
+                self.summary.studies.push(summary);
+            }
+        }
+        self.write_summary()
+    }
+
+    /// Computes one study, writes its files, and the summary so far. A study that is kept is left as it is.
     pub fn study(&mut self, study: &StudySpec) -> Result<(), RunError> {
+        if self.kept.contains(&study.name.0) {
+            return Ok(());
+        }
         let found = match &*study.kind {
             StudyKind::Relax(spec) => studies::relax(self, study, spec)?,
             StudyKind::Modes(spec) => studies::modes(self, study, spec)?,
-            other => return Err(RunError::NotAvailable(super::Feature::StudyKind(other.name()))),
+            _ => return Err(studies::not_available(self.file, study)),
         };
         self.push(found)
     }
 
     fn push(&mut self, study: StudySummary) -> Result<(), RunError> {
         self.summary.studies.push(study);
+        let order = |name: &str| self.file.scene.studies.iter().position(|study| study.name.0 == name);
+        self.summary.studies.sort_by_key(|study| order(&study.name));
+        self.write_summary()
+    }
+
+    fn write_summary(&self) -> Result<(), RunError> {
         Ok(self.summary.write(&self.out.join("summary.json"))?)
+    }
+
+    /// Keeps the state in which a study ended for those that start from it.
+    pub fn keep_state(&mut self, study: &StudySpec, state: Kept) -> Result<(), RunError> {
+        write_state(self.file, &self.out, &study.name.0, &state)?;
+        self.states.insert(study.name.0.clone(), state);
+        Ok(())
+    }
+
+    /// The state in which a study ended.
+    pub fn state(&self, name: &str) -> Option<&Kept> {
+        self.states.get(name)
     }
 
     /// Tells the observer of a step; false: stop.
@@ -91,18 +127,18 @@ impl<'a> Runner<'a> {
 
     /// Ends the run.
     pub fn finish(self) -> Result<RunReport, RunError> {
-        self.summary.write(&self.out.join("summary.json"))?;
-        Ok(RunReport { summary: self.summary, out: self.out, interrupted: self.interrupted.get() })
+        Ok(RunReport { summary: self.summary, out: self.out, kept: self.kept, interrupted: self.interrupted.get() })
     }
 }
 
-fn summary(file: &SceneFile, built: &Built) -> Summary {
+fn summary(file: &SceneFile, built: &Built, digest: String) -> Summary {
     let info = Info::new(&built.sheet);
     let (terms, left_out) = built.terms();
     let held = built.drawn.held.len() + built.recipe.pins.iter().flat_map(|(_, axes)| axes).filter(|a| **a).count();
     Summary {
         version: env!("CARGO_PKG_VERSION"),
         scene: file.path().display().to_string(),
+        digest,
         sheet: SheetSummary {
             vertices: info.vertices,
             edges: info.edges,

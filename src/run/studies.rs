@@ -1,27 +1,29 @@
 //! The kinds of study: ask the analysis, write its files, summarise.
 
+use super::RunError;
 use super::draw::{self, Shown};
-use super::runner::{Kept, Runner};
-use super::{Feature, RunError};
+use super::resume::Kept;
+use super::runner::Runner;
 use crate::analysis::modes::{Modes, Question, modes as find_modes};
 use crate::analysis::relax::{RelaxError, Relaxed, relax as find_equilibrium};
 use crate::analysis::state::State;
+use crate::analysis::view::View;
 use crate::model::assemble::assemble;
 use crate::model::{Gauge, Model};
 use crate::output::picture::Picture;
 use crate::output::summary::{EnergySummary, IterationSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
 use crate::output::vtk;
-use crate::scene::SceneFile;
 use crate::scene::build::Built;
 use crate::scene::forms::{RandomStart, Start};
 use crate::scene::spec::{Draw, ModesSpec, RelaxSpec, StudyKind, StudySpec};
+use crate::scene::{Located, SceneFile};
 use crate::solver::{Options, Step};
 use rand::{RngExt, SeedableRng};
 use std::time::Instant;
 
 /// Checks what a study says before anything is written.
-pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) -> Result<(), RunError> {
     if !study.check.is_empty() {
         let message = "`check` is not available in this version";
         return Err(file.error_at(study.name.span(), message, "leave the key out").into());
@@ -31,16 +33,26 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), R
             let help = "give bars, creases or facets a stiffness";
             Err(file.error_at(study.kind.span(), "there is no energy to relax", help).into())
         }
-        StudyKind::Relax(_) | StudyKind::Modes(_) => Ok(()),
-        other => Err(RunError::NotAvailable(Feature::StudyKind(other.name()))),
+        StudyKind::Relax(spec) => match &spec.start {
+            Some(start) => start_file(file, built, view, start).map(|_| ()),
+            None => Ok(()),
+        },
+        StudyKind::Modes(_) => Ok(()),
+        _ => Err(not_available(file, study)),
     }
+}
+
+/// The refusal of a kind of study that a later version does.
+pub fn not_available(file: &SceneFile, study: &StudySpec) -> RunError {
+    let message = format!("studies of kind `{}` are not available in this version", study.kind.name());
+    file.error_at(study.kind.span(), message, "the kinds here are `relax` and `modes`").into()
 }
 
 /// `kind = "relax"`.
 pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Result<StudySummary, RunError> {
     let built = runner.built;
     let mut model = assemble(&built.drawn, &built.tiling, &built.recipe, Gauge::Held);
-    let x = start(runner, spec, &mut model)?;
+    let Some(x) = start(runner, spec, &mut model)? else { return Ok(nowhere_to_start(study)) };
     let edges = built.tiling.edges.len();
     let first = State::new(&model, &x, &vec![0.0; crate::solver::Problem::layout(&model).stiff.len()], edges);
     let mut options = Options::default();
@@ -60,47 +72,57 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
             draw::table(runner, study, &[Shown { state: &first, residuals: None }, shown])?;
             draw::series(runner, study, &[&first, &relaxed.state])?;
             let coordinates = relaxed.state.coordinates.clone();
-            runner.kept.insert(study.name.0.clone(), Kept { coordinates, angles: model.angles() });
+            runner.keep_state(study, Kept { coordinates, angles: model.angles() })?;
             Ok(relaxed_summary(built, study, seconds, &relaxed))
         }
         Err(error) => {
             let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
             let shown = Shown { state: &error.state, residuals };
             draw::table(runner, study, &[Shown { state: &first, residuals: None }, shown])?;
+            draw::series(runner, study, &[&first, &error.state])?;
             Ok(failed_summary(built, study, seconds, &error))
         }
     }
 }
 
-/// The unknowns from which a relaxation starts.
-fn start(runner: &Runner<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Vec<f64>, RunError> {
-    let Some(start) = &spec.start else { return Ok(model.start()) };
+/// The unknowns from which a relaxation starts; `None` where the study to start from ended in no state.
+fn start(runner: &Runner<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Option<Vec<f64>>, RunError> {
+    let Some(start) = &spec.start else { return Ok(Some(model.start())) };
     match &**start {
-        Start::Drawn => Ok(model.start()),
-        Start::Study(name) => {
-            let Some(kept) = runner.kept.get(name) else {
-                let message = format!("study `{name}` has no state to start from");
-                return Err(runner.file.error_at(start.span(), message, "it did not converge").into());
-            };
-            model.set_angles(&kept.angles);
-            Ok(model.start_from(kept.coordinates.clone()))
+        Start::Drawn => Ok(Some(model.start())),
+        Start::Random(random) => Ok(Some(random_start(random, model))),
+        Start::File(_) => {
+            let found = start_file(runner.file, runner.built, &runner.view, start)?;
+            Ok(found.map(|coordinates| model.start_from(coordinates)))
         }
-        Start::Random(random) => Ok(random_start(random, model)),
-        Start::File(path) => {
-            let mesh = vtk::read_vtu(&runner.file.resolve(path))?;
-            let built = runner.built;
-            match runner.view.coordinates(&built.drawn, &mesh.points) {
-                Some(coordinates) => Ok(model.start_from(coordinates)),
-                None => {
-                    let count = built.drawn.coordinates.len() / 3;
-                    let message = format!("{} does not say where this sheet is", path.display());
-                    let help =
-                        format!("a start file has the {count} points of a patch or of a torus with fixed lattice");
-                    Err(runner.file.error_at(start.span(), message, help).into())
-                }
-            }
+        Start::Study(name) => {
+            let fits = |kept: &&Kept| {
+                kept.coordinates.len() == runner.built.drawn.coordinates.len()
+                    && kept.angles.len() == model.angles().len()
+            };
+            let Some(kept) = runner.state(name).filter(fits) else { return Ok(None) };
+            model.set_angles(&kept.angles);
+            Ok(Some(model.start_from(kept.coordinates.clone())))
         }
     }
+}
+
+/// The coordinates that a VTU file gives; `None` where the start is no file.
+fn start_file(
+    file: &SceneFile,
+    built: &Built,
+    view: &View,
+    start: &Located<Start>,
+) -> Result<Option<Vec<f64>>, RunError> {
+    let Start::File(path) = &**start else { return Ok(None) };
+    let mesh = vtk::read_vtu(&file.resolve(path))?;
+    let found = view.coordinates(&built.drawn, &mesh.points);
+    found.map(Some).ok_or_else(|| {
+        let count = built.drawn.coordinates.len() / 3;
+        let message = format!("{} does not say where this sheet is", path.display());
+        let help = format!("a start file has the {count} points of a patch or of a torus with fixed lattice");
+        file.error_at(start.span(), message, help).into()
+    })
 }
 
 /// The drawn state with every unknown moved by a random amount up to the amplitude.
@@ -110,6 +132,18 @@ fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
     let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * (2.0 * numbers.random::<f64>() - 1.0)).collect();
     let coordinates = model.coordinates(&x);
     model.start_from(coordinates)
+}
+
+fn nowhere_to_start(study: &StudySpec) -> StudySummary {
+    StudySummary {
+        name: study.name.0.clone(),
+        kind: study.kind.name().to_owned(),
+        converged: false,
+        seconds: 0.0,
+        error: None,
+        reason: Some("the study from which it starts did not converge".into()),
+        result: None,
+    }
 }
 
 fn relaxed_summary(built: &Built, study: &StudySpec, seconds: f64, relaxed: &Relaxed) -> StudySummary {
@@ -127,7 +161,7 @@ fn relaxed_summary(built: &Built, study: &StudySpec, seconds: f64, relaxed: &Rel
     };
     StudySummary {
         name: study.name.0.clone(),
-        kind: study.kind.name(),
+        kind: study.kind.name().to_owned(),
         converged: true,
         seconds,
         error: Some(f64::max(relaxed.residual_force, relaxed.residual_length)),
@@ -150,7 +184,7 @@ fn failed_summary(built: &Built, study: &StudySpec, seconds: f64, error: &RelaxE
     };
     StudySummary {
         name: study.name.0.clone(),
-        kind: study.kind.name(),
+        kind: study.kind.name().to_owned(),
         converged: false,
         seconds,
         error: None,
@@ -195,7 +229,7 @@ pub fn modes(runner: &mut Runner<'_>, study: &StudySpec, spec: &ModesSpec) -> Re
     let seconds = clock.elapsed().as_secs_f64();
     let mut summary = StudySummary {
         name: study.name.0.clone(),
-        kind: study.kind.name(),
+        kind: study.kind.name().to_owned(),
         converged: found.is_ok(),
         seconds,
         error: None,

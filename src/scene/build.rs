@@ -6,6 +6,7 @@ use super::forms::{Mode, ModeRest, Rest};
 use super::spec::{Domain, Lattice};
 use super::values::{CellIndex, EdgeName};
 use super::{Located, SceneError, SceneFile};
+use crate::analysis::axis::drawn_for;
 use crate::kinematics::folding_modes::folding_modes;
 use crate::math::Vec3;
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, drawn_angles};
@@ -46,6 +47,7 @@ pub fn build(file: &SceneFile) -> Result<Built, SceneError> {
     let builder =
         Builder { file, sheet: &sheet, tiling: &tiling, names: names(&sheet), angles: drawn_angles(&drawn, &tiling) };
     let recipe = builder.recipe()?;
+    let drawn = drawn_for(&sheet, &tiling, surroundings, &recipe);
     Ok(Built { surroundings, drawn, recipe, shown: spec.cells(), tiling, sheet })
 }
 

@@ -6,6 +6,7 @@
 pub mod angles;
 pub mod build;
 mod checks;
+mod digest;
 pub mod error;
 mod file;
 pub mod forms;
@@ -14,6 +15,7 @@ mod schema;
 pub mod spec;
 pub mod values;
 
+pub use digest::digest;
 pub use error::SceneError;
 pub use file::{SceneFile, parse, read};
 pub use located::Located;

@@ -264,7 +264,7 @@ impl<P: Problem> Newton<'_, P> {
         for _ in 0..SHIFTS {
             let (dx, dt) = self.direction();
             let first = self.first_halving();
-            for halving in first..first + HALVINGS {
+            for halving in first..HALVINGS {
                 let fraction = 0.5f64.powi(halving);
                 if let Some(trial) = self.attempt((&dx, &dt), fraction, last) {
                     self.take(trial, fraction, last);
@@ -283,7 +283,7 @@ impl<P: Problem> Newton<'_, P> {
     /// Where the halving of steps begins: at twice the fraction that the last step took.
     fn first_halving(&self) -> i32 {
         let last = self.history.last().map_or(1.0, |step| step.fraction);
-        if last > 0.0 { (-last.log2().round() as i32 - 1).max(0) } else { 0 }
+        if last > 0.0 { (-last.log2().round() as i32 - 2).max(0) } else { 0 }
     }
 
     /// The Newton step in unknowns and tensions.

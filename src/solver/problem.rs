@@ -42,8 +42,8 @@ pub trait Problem {
     fn gaps(&self, x: &[f64]) -> Vec<f64>;
     /// Fills `out` at `(x, tension)`: all but the products with the tension of the Jacobian.
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization);
-    /// Called with every accepted state; may move `x` along a gauge direction, then returns true.
-    fn accept(&mut self, x: &mut [f64]) -> bool;
+    /// Called with every accepted state; may write the same state in other coordinates.
+    fn accept(&mut self, x: &mut [f64]);
 }
 
 /// A problem's numbers at one state.

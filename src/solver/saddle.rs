@@ -14,7 +14,7 @@ use crate::numerics::factor::{Factor, FactorError, Inertia};
 use crate::numerics::sparse::symmetric_product;
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
-const GAMMA: f64 = 1e6;
+const GAMMA: f64 = 1e7;
 /// What of the identity is added to the metric, over the largest entry of the Hessian.
 const LEAST_METRIC: f64 = 1e-10;
 

@@ -1,0 +1,117 @@
+//! The chain rule of every domain: gradient and Hessian in an element's coordinates.
+
+use super::{Numbers, symmetric};
+use crate::math::Vec3;
+use crate::model::measure::{FoldAngle, Length, Measure};
+use crate::model::{Domain, Site};
+use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
+use std::f64::consts::TAU;
+
+/// Vertices of a cell and, after them, shared coordinates.
+fn state(numbers: &mut Numbers, domain: &Domain, kappa: f64) -> Vec<f64> {
+    let mut x: Vec<f64> = [0.0, 0.0, 0.0, 0.9, 0.1, 0.2, 0.2, 0.8, -0.1, 1.1, 1.0, 0.1].to_vec();
+    x.iter_mut().for_each(|c| *c += numbers.within(0.1));
+    match domain {
+        Domain::Patch | Domain::FixedTorus(_) => {}
+        Domain::FreeTorus => x.extend([2.0, 0.1, 0.05, 0.3, 1.9, -0.1]),
+        Domain::Screw => x.extend([kappa, 0.2, 1.9, 2.0, 0.3]),
+    }
+    x
+}
+
+/// The element's coordinates among all: those of its points, in their order, then the shared ones.
+fn local<const N: usize>(domain: &Domain, x: &[f64], sites: &[Site; N]) -> Vec<f64> {
+    let points = sites.iter().flat_map(|site| x[3 * site.vertex..3 * site.vertex + 3].to_vec());
+    points.chain(x[x.len() - domain.shared()..].to_vec()).collect()
+}
+
+/// Checks gradient and Hessian of a measure through a domain. Every point of the element is given a vertex of its own,
+/// since the chain rule speaks of element coordinates, one triple for each point.
+fn check<M: Measure<N, D>, const N: usize, const D: usize>(domain: &Domain, x: &[f64], sites: [Site; N], what: &str) {
+    let local = local(domain, x, &sites);
+    let mut own = sites;
+    own.iter_mut().enumerate().for_each(|(k, site)| site.vertex = k);
+    let home = M::value(&domain.points(&local, &own));
+    let value = |x: &[f64]| {
+        let value = M::value(&domain.points(x, &own));
+        if M::ANGLE { value + TAU * ((home - value) / TAU).round() } else { value }
+    };
+    let gradient = |x: &[f64]| domain.pull_gradient(x, &own, &M::gradient(&domain.points(x, &own)).1);
+    let (_, g, h) = M::hessian(&domain.points(&local, &own));
+    let hessian = symmetric(local.len(), &domain.pull_hessian(&local, &own, &g, &h));
+    assert_eq!(gradient(&local), domain.pull_gradient(x, &sites, &g), "{what}: vertices of its own change nothing");
+    check_gradient(value, &local, &gradient(&local), TOLERANCE).unwrap_or_else(|error| panic!("{what}: {error}"));
+    check_jacobian(gradient, &local, &hessian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Hessian: {e}"));
+}
+
+fn site(vertex: usize, shift: [i32; 2]) -> Site {
+    Site { vertex, shift }
+}
+
+/// A bar and a hinge inside of the cell, across its sides, far away, and with one vertex in two of its copies.
+fn check_all(domain: &Domain, x: &[f64], what: &str) {
+    let copies = !matches!(domain, Domain::Patch);
+    let shift = |n: [i32; 2]| if copies { n } else { [0, 0] };
+    for n in [[0, 0], [1, 0], [-1, 1], [2, 3]] {
+        check::<Length, 2, 6>(domain, x, [site(0, [0, 0]), site(3, shift(n))], &format!("bar to {n:?}, {what}"));
+        let sites = [site(0, [0, 0]), site(3, [0, 0]), site(2, [0, 0]), site(1, shift(n))];
+        check::<FoldAngle, 4, 12>(domain, x, sites, &format!("hinge to {n:?}, {what}"));
+    }
+    if copies {
+        check::<Length, 2, 6>(domain, x, [site(1, [0, 0]), site(1, [0, 1])], &format!("bar to its copy, {what}"));
+        let sites = [site(0, [0, 0]), site(0, [1, 0]), site(2, [0, 0]), site(2, [1, -1])];
+        check::<FoldAngle, 4, 12>(domain, x, sites, &format!("hinge over two copies, {what}"));
+    }
+}
+
+/// Claim: patch and both tori. On the patch and the fixed torus points are vertices and a constant.
+#[test]
+fn patch_and_tori() {
+    let lattice = [Vec3::new(2.0, 0.1, 0.05), Vec3::new(0.3, 1.9, -0.1)];
+    for domain in [Domain::Patch, Domain::FixedTorus(lattice), Domain::FreeTorus] {
+        for seed in 0..6 {
+            let x = state(&mut Numbers::new(seed), &domain, 0.0);
+            check_all(&domain, &x, &format!("{domain:?}, seed {seed}"));
+        }
+    }
+}
+
+/// Claim: screw motions at every curvature: none at all, where the chart's formulas are 0/0, 1e-9, 1e-4, moderate ones
+/// of both signs, and one at which a cell turns by 2 rad and its third copy by a whole turn.
+#[test]
+fn screws_of_any_curvature() {
+    for kappa in [0.0, 1e-9, -1e-9, 1e-4, 0.07, -0.3, 0.8, 1.1] {
+        for seed in 0..4 {
+            let x = state(&mut Numbers::new(seed), &Domain::Screw, kappa);
+            check_all(&Domain::Screw, &x, &format!("kappa {kappa:e}, seed {seed}"));
+        }
+    }
+}
+
+/// Claim: the chart is that of theory: for `kappa != 0` every map is the turn by `kappa b` about the line along x
+/// through `(0, 1/kappa)` with the shift `h`, and at `kappa = 0` the translation by `(h, b, 0)`. Tolerance: rounding of
+/// the radius.
+#[test]
+fn screws_turn_about_their_axis() {
+    let mut numbers = Numbers::new(9);
+    for kappa in [0.0, 1e-3, 0.2, -0.7] {
+        let x = state(&mut numbers, &Domain::Screw, kappa);
+        let s = &x[12..];
+        for n in [[1, 0], [0, 1], [-2, 3]] {
+            let [n1, n2] = n.map(f64::from);
+            let (b, h) = (n1 * s[1] + n2 * s[2], n1 * s[3] + n2 * s[4]);
+            let home = Vec3::from_column_slice(&x[3..6]);
+            let expected = if kappa == 0.0 {
+                home + Vec3::new(h, b, 0.0)
+            } else {
+                let axis = Vec3::new(0.0, 0.0, 1.0 / kappa);
+                nalgebra::Rotation3::from_axis_angle(&Vec3::x_axis(), kappa * b) * (home - axis) + axis + Vec3::x() * h
+            };
+            let found = Domain::Screw.point(&x, site(1, n));
+            assert!(
+                (found - expected).norm()
+                    < 1e-15 * (10.0 + 4.0 / kappa.abs().max(0.1)).max(1e3 * f64::from(kappa == 1e-3))
+            );
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! Length and fold angle: every entry of gradient and Hessian, also where elements are nearly degenerate.
+
+use super::Numbers;
+use crate::math::Vec3;
+use crate::model::measure::{FoldAngle, Length, Measure};
+use crate::numerics::DenseMatrix;
+use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
+use num_dual::{Dual2SVec64, DualNum};
+use std::f64::consts::{PI, TAU};
+
+fn points<const N: usize>(x: &[f64]) -> [Vec3; N] {
+    std::array::from_fn(|k| Vec3::from_column_slice(&x[3 * k..3 * k + 3]))
+}
+
+/// Checks gradient and Hessian of a measure at `x`; angles are continued from their value at `x`.
+fn check<M: Measure<N, D>, const N: usize, const D: usize>(x: &[f64], what: &str) {
+    let home = M::value(&points(x));
+    let value = |x: &[f64]| {
+        let value = M::value(&points(x));
+        if M::ANGLE { value + TAU * ((home - value) / TAU).round() } else { value }
+    };
+    let (by_gradient, gradient) = M::gradient(&points(x));
+    let (by_hessian, again, hessian) = M::hessian(&points(x));
+    assert_eq!([home; 2], [by_gradient, by_hessian], "{what}: three functions, one value");
+    assert_eq!(gradient, again, "{what}: two functions, one gradient");
+    let hessian = DenseMatrix::from_column_slice(D, D, hessian.as_slice());
+    check_gradient(value, x, gradient.as_slice(), TOLERANCE).unwrap_or_else(|error| panic!("{what}: {error}"));
+    check_jacobian(|x| M::gradient(&points(x)).1.as_slice().to_vec(), x, &hessian, TOLERANCE)
+        .unwrap_or_else(|error| panic!("{what}, Hessian: {error}"));
+}
+
+/// The hinge `[i, j, left, right]` with an edge of length `edge`, wings at these heights above their feet, and a fold
+/// angle, somewhere in space.
+fn hinge(numbers: &mut Numbers, edge: f64, heights: [f64; 2], angle: f64) -> Vec<f64> {
+    let feet = [0.5 + numbers.within(0.4), 0.5 + numbers.within(0.4)];
+    let half = 0.5 * angle;
+    let local = [
+        Vec3::zeros(),
+        Vec3::new(edge, 0.0, 0.0),
+        Vec3::new(feet[0] * edge, heights[0] * half.cos(), heights[0] * half.sin()),
+        Vec3::new(feet[1] * edge, -heights[1] * half.cos(), heights[1] * half.sin()),
+    ];
+    let turn = nalgebra::Rotation3::new(Vec3::from_column_slice(&numbers.many(3, 2.0)));
+    let shift = Vec3::from_column_slice(&numbers.many(3, 0.2));
+    local.iter().flat_map(|p| <[f64; 3]>::from(turn * p + shift)).collect()
+}
+
+/// Claim: gradient and Hessian of a length are right in every entry, for bars of any direction, of length 1e-3 among
+/// coordinates of size 1, and along an axis, where two thirds of the gradient vanish.
+#[test]
+fn lengths() {
+    let mut numbers = Numbers::new(1);
+    for _ in 0..40 {
+        check::<Length, 2, 6>(&numbers.many(6, 1.0), "random");
+        let mut short = numbers.many(6, 1.0);
+        (0..3).for_each(|k| short[3 + k] = short[k] + numbers.within(1e-3));
+        check::<Length, 2, 6>(&short, "short");
+    }
+    check::<Length, 2, 6>(&[0.0, 0.0, 0.0, 2.0, 0.0, 0.0], "along an axis");
+}
+
+/// Claim: the same of fold angles at random points.
+#[test]
+fn fold_angles_at_random() {
+    let mut numbers = Numbers::new(2);
+    for k in 0..60 {
+        check::<FoldAngle, 4, 12>(&numbers.many(12, 1.0), &format!("random {k}"));
+    }
+}
+
+/// Claim: the same where a formula with `acos` or without care would fail: flat, 1e-9 from flat, 1e-6 from fully folded
+/// (differences reach across pi and are continued), and a right angle.
+#[test]
+fn fold_angles_flat_and_folded() {
+    let mut numbers = Numbers::new(3);
+    for angle in [0.0, 1e-9, -1e-9, 1e-5, PI / 2.0, PI - 1e-6, 1e-6 - PI, 3.0, -3.0] {
+        for _ in 0..6 {
+            let x = hinge(&mut numbers, 1.0, [0.8, 0.6], angle);
+            let found = FoldAngle::value(&points(&x));
+            assert!((found - angle).abs() < 1e-14, "the hinge was made with {angle:e} and has {found:e}");
+            check::<FoldAngle, 4, 12>(&x, &format!("folded by {angle:e}"));
+        }
+    }
+}
+
+/// Claim: the same for needles: wings a hundredth as high as the edge is long, one wing or both, and edges a hundredth
+/// as long as the wings are high.
+#[test]
+fn fold_angles_of_needles() {
+    let mut numbers = Numbers::new(4);
+    for (edge, heights) in [(1.0, [0.01, 0.8]), (1.0, [0.7, 0.01]), (1.0, [0.01, 0.01]), (0.01, [0.9, 0.7])] {
+        for angle in [1e-9, 0.4, -2.0, PI - 1e-6] {
+            let x = hinge(&mut numbers, edge, heights, angle);
+            check::<FoldAngle, 4, 12>(&x, &format!("edge {edge}, heights {heights:?}, folded by {angle:e}"));
+        }
+    }
+}
+
+/// The fold angle by the parts of the wings across the edge, `atan2(u . (a x b), -a . b)`: not the formula of the code.
+fn by_wings<T: DualNum + Copy>(x: &[T]) -> T {
+    let minus = |p: usize, q: usize| [0, 1, 2].map(|k| x[3 * p + k] - x[3 * q + k]);
+    let dot = |a: [T; 3], b: [T; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let edge = minus(1, 0);
+    let unit = edge.map(|c| c / dot(edge, edge).sqrt());
+    let across = |wing: [T; 3]| {
+        let along = dot(wing, unit);
+        [0, 1, 2].map(|k| wing[k] - along * unit[k])
+    };
+    let (a, b) = (across(minus(2, 0)), across(minus(3, 0)));
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    dot(unit, cross).atan2(-dot(a, b))
+}
+
+/// Claim: value, gradient and Hessian of the fold angle are those of dual numbers through another formula. Tolerance:
+/// rounding of both, of terms up to the square (gradient) and cube (Hessian) of the inverse height of a wing.
+#[test]
+fn fold_angles_by_dual_numbers() {
+    let mut numbers = Numbers::new(5);
+    for angle in [0.0, 1e-9, 0.3, -1.7, 2.9, PI - 1e-6] {
+        for heights in [[0.8, 0.6], [0.1, 0.7]] {
+            let x = hinge(&mut numbers, 1.0, heights, angle);
+            let seed = nalgebra::SVector::<f64, 12>::from_column_slice(&x);
+            let (value, gradient, hessian) =
+                num_dual::hessian(|v: nalgebra::SVector<Dual2SVec64<12>, 12>| by_wings(v.as_slice()), &seed);
+            let (found, g, h) = FoldAngle::hessian(&points(&x));
+            assert!((found - value).abs() < 1e-14);
+            assert!(
+                (g - gradient).amax() < 1e-13 * gradient.amax(),
+                "gradient at {angle:e}: {:e}",
+                (g - gradient).amax()
+            );
+            assert!((h - hessian).amax() < 1e-12 * hessian.amax(), "Hessian at {angle:e}: {:e}", (h - hessian).amax());
+        }
+    }
+}

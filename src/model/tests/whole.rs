@@ -1,0 +1,131 @@
+//! The whole model on every domain: gradient, Jacobian and Hessian against its own energy and gaps.
+
+use super::Numbers;
+use crate::math::Vec3;
+use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use crate::model::{Gauge, Model};
+use crate::numerics::DenseMatrix;
+use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
+use crate::numerics::sparse::FIXED;
+use crate::sheet::generate::{Miura, MiuraPatch, Pattern};
+use crate::sheet::{EdgeKind, Tiling, generate, tile};
+use crate::solver::{Curvature, Linearization, Problem};
+
+/// Miura-ori on a domain: the smallest tiling that has creases and facets there.
+fn sheet(surroundings: Surroundings) -> (Drawn, Tiling) {
+    let pattern = match surroundings {
+        Surroundings::Patch => Pattern::MiuraPatch(MiuraPatch { cells: [1, 1], fold: 0.4, ..MiuraPatch::default() }),
+        _ => Pattern::Miura(Miura { fold: 0.4, ..Miura::default() }),
+    };
+    let sheet = generate(&pattern).unwrap();
+    let cells = if surroundings == Surroundings::FreeTorus { [2, 1] } else { [1, 1] };
+    let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
+    (Drawn::new(&sheet, &tiling, surroundings), tiling)
+}
+
+/// Bars, creases, facets, two locks, and on a patch a pin and loads.
+fn recipe(drawn: &Drawn, tiling: &Tiling, numbers: &mut Numbers, creases: f64, facets: f64) -> Recipe {
+    let angles = drawn_angles(drawn, tiling);
+    let rest: Vec<f64> = angles.iter().map(|angle| angle + numbers.within(0.2)).collect();
+    let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
+    let folding = (0..tiling.edges.len()).filter(|&e| tiling.edges[e].kind == EdgeKind::Crease);
+    let patch = !tiling.periodic;
+    Recipe {
+        bars: Some(30.0),
+        creases: hinges(creases),
+        facets: hinges(facets),
+        locks: folding.take(2).map(|edge| (edge, angles[edge] + 0.1)).collect(),
+        pins: if patch { vec![(4, [true, false, true])] } else { vec![] },
+        loads: if patch { vec![(0, Vec3::new(0.1, 0.2, -0.3)), (8, Vec3::new(-0.1, -0.2, 0.3))] } else { vec![] },
+    }
+}
+
+fn linearized(model: &Model, x: &[f64], tension: &[f64], curvature: Curvature) -> Linearization {
+    let mut at = Linearization::new(model.layout());
+    model.linearize(x, tension, curvature, &mut at);
+    at
+}
+
+fn dense_rows(model: &Model, at: &Linearization) -> DenseMatrix {
+    let (layout, mut matrix) = (model.layout(), DenseMatrix::zeros(at.gaps.len(), model.layout().unknowns));
+    for row in 0..at.gaps.len() {
+        for (&member, value) in layout.stiff.members(row).iter().zip(&at.jacobian[layout.stiff.range(row)]) {
+            if member != FIXED {
+                matrix[(row, member as usize)] += value;
+            }
+        }
+    }
+    matrix
+}
+
+fn check(model: &Model, numbers: &mut Numbers, what: &str) {
+    let x: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.05)).collect();
+    let rows = model.layout().stiff.len();
+    let tension = numbers.many(rows, 1.0);
+    let at = linearized(model, &x, &tension, Curvature::Full);
+    let energy = |x: &[f64]| model.evaluate(x, &mut vec![0.0; rows]);
+    assert!((at.energy - energy(&x)).abs() <= 1e-14 * at.energy.abs(), "{what}: two functions, one energy");
+    check_gradient(energy, &x, &at.gradient, TOLERANCE).unwrap_or_else(|e| panic!("{what}, gradient: {e}"));
+    let gaps = |x: &[f64]| {
+        let mut gaps = vec![0.0; rows];
+        model.evaluate(x, &mut gaps);
+        gaps
+    };
+    assert_eq!(at.gaps, gaps(&x), "{what}: two functions, one gap");
+    let jacobian = dense_rows(model, &at);
+    check_jacobian(gaps, &x, &jacobian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Jacobian: {e}"));
+    let pull = |x: &[f64]| {
+        let at = linearized(model, x, &tension, Curvature::Full);
+        at.force(model.layout(), &tension).iter().map(|f| -f).collect()
+    };
+    let hessian = at.pattern().to_dense(&at.hessian);
+    check_jacobian(pull, &x, &hessian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Hessian: {e}"));
+}
+
+/// Claim: on every domain, free or held, with soft hinges and with hinges that carry tensions, the gradient is the
+/// derivative of the energy, the Jacobian that of the gaps, and the Hessian that of gradient plus tensions.
+#[test]
+fn derivatives_on_every_domain() {
+    use Surroundings::{FixedTorus, FreeTorus, Patch, Screw};
+    for surroundings in [Patch, FixedTorus, FreeTorus, Screw] {
+        let (drawn, tiling) = sheet(surroundings);
+        for (creases, facets) in [(1.0, 3.0), (1.0, f64::INFINITY), (1e7, 1.0)] {
+            for gauge in [Gauge::Held, Gauge::Free] {
+                let mut numbers = Numbers::new(7);
+                let recipe = recipe(&drawn, &tiling, &mut numbers, creases, facets);
+                let model = assemble(&drawn, &tiling, &recipe, gauge);
+                let what = format!("{surroundings:?}, {gauge:?}, creases {creases:e}, facets {facets:e}");
+                check(&model, &mut numbers, &what);
+            }
+        }
+    }
+}
+
+/// Claim: a curved screw: kappa among the unknowns is moved away from the drawn 0 by a step at which cells turn.
+#[test]
+fn derivatives_on_a_curved_screw() {
+    let (mut drawn, tiling) = sheet(Surroundings::Screw);
+    for kappa in [1e-9, 0.2, -0.6] {
+        let shared = drawn.coordinates.len() - 5;
+        drawn.coordinates[shared] = kappa;
+        let mut numbers = Numbers::new(8);
+        let recipe = recipe(&drawn, &tiling, &mut numbers, 1.0, 3.0);
+        check(&assemble(&drawn, &tiling, &recipe, Gauge::Held), &mut numbers, &format!("kappa {kappa:e}"));
+    }
+}
+
+/// Claim: the Gauss-Newton Hessian is the sum of `k g g^T` over the soft hinges (plus the tensions' part, here none):
+/// with rest angles at the state itself it is the full Hessian. Tolerance: rounding.
+#[test]
+fn gauss_newton_is_exact_at_rest() {
+    let (drawn, tiling) = sheet(Surroundings::FreeTorus);
+    let rest = drawn_angles(&drawn, &tiling);
+    let recipe = Recipe { bars: Some(1.0), creases: Some(Hinges { stiffness: 2.0, rest }), ..Recipe::default() };
+    let model = assemble(&drawn, &tiling, &recipe, Gauge::Free);
+    let none = vec![0.0; model.layout().stiff.len()];
+    let full = linearized(&model, &model.start(), &none, Curvature::Full);
+    let half = linearized(&model, &model.start(), &none, Curvature::GaussNewton);
+    assert!(full.hessian.iter().zip(&half.hessian).all(|(a, b)| (a - b).abs() < 1e-13));
+    assert!(full.hessian.iter().any(|h| *h > 1.0));
+    assert_eq!(half.metric, half.hessian);
+}

@@ -1,0 +1,102 @@
+//! What an earlier run into the same folder left, and what of it can be kept.
+//!
+//! A study enters `summary.json` only after all its files are whole, so what is listed there as converged is done. It is
+//! kept where the digest of the scene and of every file it names is the same. A study from which a later one starts
+//! leaves its state in `NAME.state.json`, every number in the digits that give it back exactly, so that the later one
+//! begins where it would have begun.
+
+use super::RunError;
+use crate::output::files;
+use crate::output::summary::StudySummary;
+use crate::scene::SceneFile;
+use crate::scene::forms::Start;
+use crate::scene::spec::{StudyKind, StudySpec};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// A state that later studies may start from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Kept {
+    /// All coordinates.
+    pub coordinates: Vec<f64>,
+    /// Angles from which angles continue, see [`crate::model::Model::angles`].
+    pub angles: Vec<f64>,
+}
+
+/// The parts of an earlier `summary.json` that matter here.
+#[derive(Default, Deserialize)]
+pub struct Earlier {
+    digest: String,
+    studies: Vec<StudySummary>,
+}
+
+impl Earlier {
+    /// The earlier run into this folder, where it was of the scene with this digest; otherwise nothing.
+    pub fn read(out: &Path, digest: &str) -> Self {
+        let text = std::fs::read_to_string(out.join("summary.json")).unwrap_or_default();
+        let found: Option<Self> = serde_json::from_str(&text).ok();
+        found.filter(|earlier| earlier.digest == digest).unwrap_or_default()
+    }
+
+    /// What the earlier run found for a study, and the state it left where later studies start from it; `None` where it
+    /// has to be computed.
+    pub fn study(&self, file: &SceneFile, out: &Path, study: &StudySpec) -> Option<(StudySummary, Option<Kept>)> {
+        let name = &study.name.0;
+        let found = self.studies.iter().find(|found| found.name == *name)?;
+        if !found.converged || found.result.is_none() || !out.join(format!("{name}.csv")).exists() {
+            return None;
+        }
+        let state = if is_start(file, name) { Some(read_state(out, name)?) } else { None };
+        Some((found.clone(), state))
+    }
+}
+
+/// Whether a later study starts from this one.
+fn is_start(file: &SceneFile, name: &str) -> bool {
+    file.scene.studies.iter().any(|study| match &*study.kind {
+        StudyKind::Relax(spec) => matches!(spec.start.as_deref(), Some(Start::Study(start)) if start == name),
+        _ => false,
+    })
+}
+
+fn state_path(out: &Path, name: &str) -> PathBuf {
+    out.join(format!("{name}.state.json"))
+}
+
+fn read_state(out: &Path, name: &str) -> Option<Kept> {
+    serde_json::from_str(&std::fs::read_to_string(state_path(out, name)).ok()?).ok()
+}
+
+/// Writes the state of a study if a later one starts from it.
+pub fn write_state(file: &SceneFile, out: &Path, name: &str, state: &Kept) -> Result<(), RunError> {
+    if !is_start(file, name) {
+        return Ok(());
+    }
+    // a list of finite numbers: nothing in it can fail
+    let text = serde_json::to_string(state).unwrap_or_default();
+    Ok(files::write(&state_path(out, name), text)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A state comes back bit by bit, also where it is not the shortest decimal; a state that is cut off does not.
+    #[test]
+    fn a_state_comes_back_exactly() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = "[sheet]\nmesh = \"a.fold\"\n[[study]]\nname = \"a\"\nkind = \"relax\"\n[[study]]\nname = \"b\"\n\
+                     kind = \"relax\"\nstart = \"a\"\n";
+        let file = crate::scene::parse(scene, "s.toml").unwrap();
+        let state =
+            Kept { coordinates: vec![0.1 + 0.2, -0.0, 5e-324, 1e300 / 3.0], angles: vec![-std::f64::consts::PI] };
+        write_state(&file, folder.path(), "a", &state).unwrap();
+        let back = read_state(folder.path(), "a").unwrap();
+        let bits = |state: &Kept| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!((bits(&back), &back.angles), (bits(&state), &state.angles));
+        write_state(&file, folder.path(), "b", &state).unwrap();
+        assert!(!state_path(folder.path(), "b").exists(), "nothing starts from it");
+        std::fs::write(state_path(folder.path(), "a"), "{\"coordinates\":[0.1").unwrap();
+        assert_eq!(read_state(folder.path(), "a"), None);
+    }
+}

@@ -1,0 +1,89 @@
+//! A short name for everything that a run depends on: the scene and the files it names.
+
+use std::fs;
+use std::path::PathBuf;
+
+use super::forms::{Mode, Rest, Start};
+use super::spec::StudyKind;
+use super::{SceneError, SceneFile};
+
+/// Sixteen hexadecimal digits that change with the version of this program, the text of the scene and the bytes of every
+/// file it names: the mesh, tables of angles and rates, states to start from.
+///
+/// It tells apart what was edited, by the hash FNV-1a of 64 bits; it is no protection against forgery.
+///
+/// # Errors
+/// [`SceneError::Read`] where one of the files cannot be read.
+pub fn digest(file: &SceneFile) -> Result<String, SceneError> {
+    let mut hash = 0xcbf2_9ce4_8422_2325;
+    add(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
+    add(&mut hash, file.text().as_bytes());
+    for path in named_files(file) {
+        add(&mut hash, &fs::read(&path).map_err(|source| SceneError::Read { path, source })?);
+    }
+    Ok(format!("{hash:016x}"))
+}
+
+/// Length first, so that bytes moved from one file to the next make a difference.
+fn add(hash: &mut u64, bytes: &[u8]) {
+    for &byte in (bytes.len() as u64).to_le_bytes().iter().chain(bytes) {
+        *hash = (*hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    }
+}
+
+/// The files that a scene names, in the order in which it names them.
+fn named_files(file: &SceneFile) -> Vec<PathBuf> {
+    let scene = &file.scene;
+    let rates = |mode: &Mode| match mode {
+        Mode::Rates(name) => Some(name.rates.to_path_buf()),
+        Mode::Curvature(_) => None,
+    };
+    let mut found: Vec<PathBuf> = scene.sheet.mesh.iter().map(|mesh| mesh.to_path_buf()).collect();
+    match scene.energy.creases.as_ref().and_then(|creases| creases.rest.as_deref()) {
+        Some(Rest::File(name)) => found.push(name.file.to_path_buf()),
+        Some(Rest::Mode(mode)) => found.extend(rates(&mode.mode)),
+        _ => {}
+    }
+    for study in &scene.studies {
+        match &*study.kind {
+            StudyKind::Relax(spec) => {
+                if let Some(Start::File(path)) = spec.start.as_deref() {
+                    found.push(path.clone());
+                }
+            }
+            StudyKind::Landscape(spec) => found.extend(spec.modes.iter().filter_map(|mode| rates(mode))),
+            _ => {}
+        }
+    }
+    found.into_iter().map(|path| file.resolve(&path)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parse;
+    use super::*;
+
+    /// A letter more in the scene, or another byte in a file that it names, is another digest; nothing else is.
+    #[test]
+    fn every_byte_counts() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = "[sheet]\nmesh = \"a.fold\"\n[energy]\ncreases = { stiffness = 1, rest = { file = \"b.csv\" } }\n";
+        let digest_of = |text: &str, mesh: &str, angles: &str| {
+            fs::write(folder.path().join("a.fold"), mesh).unwrap();
+            fs::write(folder.path().join("b.csv"), angles).unwrap();
+            digest(&parse(text, folder.path().join("s.toml")).unwrap()).unwrap()
+        };
+        let first = digest_of(text, "mesh", "angles");
+        assert_eq!(first, digest_of(text, "mesh", "angles"));
+        let others = [
+            digest_of(&format!("{text}#"), "mesh", "angles"),
+            digest_of(text, "mesH", "angles"),
+            digest_of(text, "mesh", "angle"),
+            digest_of(text, "mesha", "ngles"),
+        ];
+        assert!(others.iter().all(|other| *other != first), "{first} {others:?}");
+        fs::remove_file(folder.path().join("b.csv")).unwrap();
+        let missing = digest(&parse(text, folder.path().join("s.toml")).unwrap()).unwrap_err();
+        assert!(missing.to_string().contains("b.csv"), "{missing}");
+    }
+}

@@ -1,0 +1,147 @@
+//! What the tests of the engine share: sheets on domains, recipes with random rest angles, and dense matrices.
+#![allow(dead_code)] // each test file uses a part
+
+use foldwell::analysis::modes::{Modes, ModesError, Question, modes};
+use foldwell::analysis::relax::{RelaxError, Relaxed, relax};
+use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use foldwell::model::{Gauge, Model};
+use foldwell::numerics::DenseMatrix;
+use foldwell::numerics::sparse::FIXED;
+use foldwell::sheet::{EdgeKind, Sheet, Tiling, fold, tile};
+use foldwell::solver::{Curvature, Linearization, Options, Problem};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::path::PathBuf;
+
+/// Random numbers that are the same on every machine.
+pub struct Numbers(ChaCha8Rng);
+
+impl Numbers {
+    pub fn new(seed: u64) -> Self {
+        Self(ChaCha8Rng::seed_from_u64(seed))
+    }
+
+    /// Between `-size` and `size`.
+    pub fn within(&mut self, size: f64) -> f64 {
+        size * (2.0 * self.0.random::<f64>() - 1.0)
+    }
+
+    pub fn many(&mut self, count: usize, size: f64) -> Vec<f64> {
+        (0..count).map(|_| self.within(size)).collect()
+    }
+}
+
+pub fn mesh(name: &str) -> Sheet {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes").join(format!("{name}.fold"));
+    fold::read(&path).expect("the repository's meshes can be read")
+}
+
+/// A sheet on a domain.
+pub struct Case {
+    pub sheet: Sheet,
+    pub tiling: Tiling,
+    pub surroundings: Surroundings,
+    pub drawn: Drawn,
+    /// Drawn fold angle of every edge; NaN where there is no hinge.
+    pub angles: Vec<f64>,
+}
+
+impl Case {
+    pub fn new(sheet: Sheet, cells: [usize; 2], surroundings: Surroundings) -> Self {
+        let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
+        let drawn = Drawn::new(&sheet, &tiling, surroundings);
+        let angles = drawn_angles(&drawn, &tiling);
+        Self { sheet, tiling, surroundings, drawn, angles }
+    }
+
+    pub fn patch(name: &str, cells: [usize; 2]) -> Self {
+        Self::new(mesh(name), cells, Surroundings::Patch)
+    }
+
+    pub fn edges(&self) -> usize {
+        self.tiling.edges.len()
+    }
+
+    pub fn count(&self, kind: EdgeKind) -> usize {
+        self.tiling.edges.iter().filter(|edge| edge.kind == kind).count()
+    }
+
+    /// Rest angles within `size` of the drawn ones, one random number for each hinge.
+    pub fn rest_per_hinge(&self, size: f64, seed: u64) -> Vec<f64> {
+        let mut numbers = Numbers::new(seed);
+        self.angles.iter().map(|angle| angle + numbers.within(size)).collect()
+    }
+
+    /// The same, one random number for each crease of the cell.
+    pub fn rest_per_cell(&self, size: f64, seed: u64) -> Vec<f64> {
+        let off = Numbers::new(seed).many(self.sheet.edges.len(), size);
+        self.tiling.edges.iter().zip(&self.angles).map(|(edge, angle)| angle + off[edge.edge]).collect()
+    }
+
+    /// Bars and creases.
+    pub fn recipe(&self, bars: f64, creases: f64, rest: Vec<f64>) -> Recipe {
+        Recipe { bars: Some(bars), creases: Some(Hinges { stiffness: creases, rest }), ..Recipe::default() }
+    }
+
+    /// Rigid or bending facets, at rest as drawn.
+    pub fn facets(&self, stiffness: f64) -> Option<Hinges> {
+        Some(Hinges { stiffness, rest: self.angles.clone() })
+    }
+
+    pub fn model(&self, recipe: &Recipe, gauge: Gauge) -> Model {
+        assemble(&self.drawn, &self.tiling, recipe, gauge)
+    }
+
+    pub fn modes(&self, recipe: &Recipe, eigenvalues: usize) -> Result<Modes, ModesError> {
+        let (sheet, tiling, surroundings) = (&self.sheet, &self.tiling, self.surroundings);
+        modes(&Question { sheet, tiling, surroundings, recipe, eigenvalues })
+    }
+
+    /// Relaxes from the drawn state.
+    pub fn relax(&self, recipe: &Recipe) -> Result<Relaxed, Box<RelaxError>> {
+        let mut model = self.model(recipe, Gauge::Held);
+        let start = model.start();
+        relax(&mut model, start, Options::default(), self.edges(), &mut |_| true)
+    }
+}
+
+pub fn linearized(model: &Model, x: &[f64], tension: &[f64]) -> Linearization {
+    let mut at = Linearization::new(model.layout());
+    model.linearize(x, tension, Curvature::Full, &mut at);
+    at
+}
+
+/// Jacobian of the stiff measures.
+pub fn jacobian(model: &Model, at: &Linearization) -> DenseMatrix {
+    let (layout, mut matrix) = (model.layout(), DenseMatrix::zeros(at.gaps.len(), model.layout().unknowns));
+    for row in 0..at.gaps.len() {
+        for (&member, value) in layout.stiff.members(row).iter().zip(&at.jacobian[layout.stiff.range(row)]) {
+            if member != FIXED {
+                matrix[(row, member as usize)] += value;
+            }
+        }
+    }
+    matrix
+}
+
+/// Hessian of the whole energy, `H + R^T k R`, at a state without tensions. All stiffnesses must be finite.
+pub fn energy_hessian(model: &Model, x: &[f64]) -> DenseMatrix {
+    let at = linearized(model, x, &vec![0.0; model.layout().stiff.len()]);
+    let mut rows = jacobian(model, &at);
+    let weights = model.compliance().iter().map(|c| c.recip().sqrt());
+    rows.row_iter_mut().zip(weights).for_each(|(mut row, weight)| row *= weight);
+    at.pattern().to_dense(&at.hessian) + rows.tr_mul(&rows)
+}
+
+/// Eigenvalues of a symmetric matrix, ascending, by nalgebra: another library than the program's.
+pub fn eigenvalues(matrix: DenseMatrix) -> Vec<f64> {
+    let mut values: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Largest absolute difference of two lists, where both have numbers.
+pub fn distance(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan()).fold(0.0, f64::max)
+}

@@ -1,0 +1,143 @@
+//! A solver's problem made from closures.
+#![allow(dead_code)] // each test file uses a part
+
+use foldwell::numerics::sparse::Cliques;
+use foldwell::solver::{Curvature, Equilibrium, Layout, Linearization, NewtonError, Options, Problem, minimize};
+
+/// A scalar with gradient and lower triangle (row by row) of its Hessian, in its own variables.
+pub type Measure = Box<dyn Fn(&[f64]) -> (f64, Vec<f64>, Vec<f64>)>;
+
+/// `E = sum w m^2 / 2 - load . x` under stiff measures `m = c t`.
+pub struct Textbook {
+    layout: Layout,
+    soft: Vec<(f64, Measure)>,
+    stiff: Vec<Measure>,
+    load: Vec<f64>,
+    compliance: Vec<f64>,
+    scale: Vec<f64>,
+}
+
+impl Textbook {
+    pub fn new(unknowns: usize) -> Self {
+        let layout =
+            Layout { unknowns, node: (0..unknowns as u32).collect(), soft: Cliques::new(), stiff: Cliques::new() };
+        Self { layout, soft: vec![], stiff: vec![], load: vec![0.0; unknowns], compliance: vec![], scale: vec![] }
+    }
+
+    pub fn soft(mut self, members: &[u32], weight: f64, measure: Measure) -> Self {
+        self.layout.soft.push(members.iter().copied());
+        self.soft.push((weight, measure));
+        self
+    }
+
+    pub fn stiff(mut self, members: &[u32], compliance: f64, measure: Measure) -> Self {
+        self.layout.stiff.push(members.iter().copied());
+        self.stiff.push(measure);
+        self.compliance.push(compliance);
+        self.scale.push(1.0);
+        self
+    }
+
+    pub fn load(mut self, load: &[f64]) -> Self {
+        self.load = load.to_vec();
+        self
+    }
+
+    fn at(cliques: &Cliques, k: usize, x: &[f64]) -> Vec<f64> {
+        cliques.members(k).iter().map(|&member| x[member as usize]).collect()
+    }
+
+    pub fn run(&mut self, start: &[f64]) -> Result<Equilibrium, NewtonError> {
+        minimize(self, start.to_vec(), Options::default(), &mut |_| true)
+    }
+}
+
+impl Problem for Textbook {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn compliance(&self) -> &[f64] {
+        &self.compliance
+    }
+
+    fn gap_scale(&self) -> &[f64] {
+        &self.scale
+    }
+
+    fn evaluate(&self, x: &[f64], gaps: &mut [f64]) -> f64 {
+        for (k, measure) in self.stiff.iter().enumerate() {
+            gaps[k] = measure(&Self::at(&self.layout.stiff, k, x)).0;
+        }
+        let cost = |(k, (weight, measure)): (usize, &(f64, Measure))| {
+            0.5 * weight * measure(&Self::at(&self.layout.soft, k, x)).0.powi(2)
+        };
+        let loads: f64 = self.load.iter().zip(x).map(|(f, x)| f * x).sum();
+        self.soft.iter().enumerate().map(cost).sum::<f64>() - loads
+    }
+
+    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
+        out.clear();
+        out.energy = self.evaluate(x, &mut vec![0.0; self.stiff.len()]);
+        out.largest_force = self.load.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
+        out.gradient.iter_mut().zip(&self.load).for_each(|(g, f)| *g = -f);
+        for (k, (weight, measure)) in self.soft.iter().enumerate() {
+            let (value, gradient, mut hessian) = measure(&Self::at(&self.layout.soft, k, x));
+            for (&member, g) in self.layout.soft.members(k).iter().zip(&gradient) {
+                out.gradient[member as usize] += weight * value * g;
+                out.largest_force = out.largest_force.max(weight * g.abs() * value.abs().max(1e-3));
+            }
+            out.add_metric(k, *weight, &gradient);
+            if curvature == Curvature::Full {
+                hessian.iter_mut().for_each(|h| *h *= weight * value);
+                out.add_soft(k, &hessian);
+            }
+        }
+        out.add_metric_to_hessian();
+        for (k, measure) in self.stiff.iter().enumerate() {
+            let (value, gradient, mut hessian) = measure(&Self::at(&self.layout.stiff, k, x));
+            out.gaps[k] = value;
+            out.largest_force = gradient.iter().fold(out.largest_force, |m, g| m.max((g * tension[k]).abs()));
+            out.jacobian[self.layout.stiff.range(k)].copy_from_slice(&gradient);
+            hessian.iter_mut().for_each(|h| *h *= tension[k]);
+            out.add_stiff(k, &hessian);
+        }
+    }
+
+    fn accept(&mut self, _x: &mut [f64]) -> bool {
+        false
+    }
+}
+
+/// `a . x - rest`.
+pub fn linear(a: &[f64], rest: f64) -> Measure {
+    let a = a.to_vec();
+    Box::new(move |x| {
+        let value = a.iter().zip(x).map(|(a, x)| a * x).sum::<f64>() - rest;
+        (value, a.clone(), vec![0.0; a.len() * (a.len() + 1) / 2])
+    })
+}
+
+/// Length from a fixed point of the plane, or between two moving points, less `rest`.
+pub fn length(from: Option<[f64; 2]>, rest: f64) -> Measure {
+    Box::new(move |x| {
+        let (a, b) = match from {
+            Some(a) => (a, [x[0], x[1]]),
+            None => ([x[0], x[1]], [x[2], x[3]]),
+        };
+        let d = [b[0] - a[0], b[1] - a[1]];
+        let l = d[0].hypot(d[1]);
+        let u = [d[0] / l, d[1] / l];
+        let block = |i: usize, j: usize| (f64::from(u8::from(i == j)) - u[i] * u[j]) / l;
+        if from.is_some() {
+            return (l - rest, u.to_vec(), vec![block(0, 0), block(1, 0), block(1, 1)]);
+        }
+        let sign = |i: usize, j: usize| if (i < 2) == (j < 2) { 1.0 } else { -1.0 };
+        let lower = (0..4).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| sign(i, j) * block(i % 2, j % 2));
+        (l - rest, vec![-u[0], -u[1], u[0], u[1]], lower.collect())
+    })
+}
+
+pub fn steps(found: &Equilibrium) -> usize {
+    found.history.iter().filter(|step| step.fraction > 0.0).count()
+}

@@ -1,0 +1,72 @@
+//! Rigid Miura-ori against its closed form.
+
+mod common;
+
+use common::Case;
+use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::sheet::generate::{MiuraPatch, Pattern};
+use foldwell::sheet::{EdgeKind, generate};
+use std::f64::consts::PI;
+
+fn miura(cells: [usize; 2]) -> Case {
+    let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, cells, ..MiuraPatch::default() });
+    Case::new(generate(&pattern).unwrap(), [1, 1], Surroundings::Patch)
+}
+
+/// Sign and class of a crease of Miura-ori: along the zigzags (x changes) or along the straight lines.
+fn zigzag(case: &Case, edge: usize) -> bool {
+    let [a, b] = case.tiling.edges[edge].ends.map(|site| case.tiling.positions[site.vertex]);
+    (a.x - b.x).abs() > 1e-9
+}
+
+/// Claim: folded by a lock on one crease, every crease of a rigid Miura-ori follows the closed form
+/// `tan(straight/2) = cos(sector) tan(zigzag/2)`, from nearly flat to nearly folded, with the signs of the drawn
+/// state. Source: flat-foldable vertices of degree four, e.g. T. Tachi, "Generalization of rigid-foldable
+/// quadrilateral-mesh origami", 2009, eq. (1), both sectors equal. Tolerance: residual 1e-12 over the softest
+/// singular value, which is smallest near the flat state.
+#[test]
+fn miura_follows_its_closed_form() {
+    let case = miura([5, 5]);
+    let creases: Vec<usize> =
+        (0..case.edges()).filter(|&edge| case.tiling.edges[edge].kind == EdgeKind::Crease).collect();
+    let lock = *creases.iter().find(|&&edge| zigzag(&case, edge)).unwrap();
+    let sign = case.angles[lock].signum();
+    let mut failed = Vec::new();
+    for angle in [0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5, 3.0] {
+        let mut recipe =
+            Recipe { facets: case.facets(f64::INFINITY), ..case.recipe(f64::INFINITY, 1.0, case.angles.clone()) };
+        recipe.locks = vec![(lock, sign * angle)];
+        let found = match case.relax(&recipe) {
+            Ok(found) => found,
+            Err(error) => {
+                failed.push(format!("lock at {angle}: {error}"));
+                continue;
+            }
+        };
+        assert!(found.residual_force <= 1e-12 && found.residual_length <= 1e-12);
+        assert_eq!(found.self_stresses, Some(64), "a lock takes the only folding away and adds no self stress");
+        let straight = 2.0 * ((PI / 3.0).cos() * (angle / 2.0).tan()).atan();
+        for &edge in &creases {
+            let expected = case.angles[edge].signum() * if zigzag(&case, edge) { angle } else { straight };
+            let off = (found.state.fold_angle[edge] - expected).abs();
+            assert!(off < 1e-9, "lock at {angle}, edge {edge}: off by {off:e}");
+        }
+    }
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+/// Claim: the drawn angles themselves obey the closed form, so the test above compares with the sheet as drawn.
+#[test]
+fn miura_is_drawn_by_its_closed_form() {
+    let case = miura([2, 2]);
+    let of = |class: bool| {
+        (0..case.edges())
+            .filter(|&e| case.tiling.edges[e].kind == EdgeKind::Crease && zigzag(&case, e) == class)
+            .map(|e| case.angles[e].abs())
+            .collect::<Vec<f64>>()
+    };
+    let (zigzags, straights) = (of(true), of(false));
+    assert!(zigzags.iter().all(|angle| (angle - zigzags[0]).abs() < 1e-13));
+    let expected = 2.0 * ((PI / 3.0).cos() * (zigzags[0] / 2.0).tan()).atan();
+    assert!(straights.iter().all(|angle| (angle - expected).abs() < 1e-13));
+}

@@ -1,0 +1,225 @@
+//! The solver on problems from textbooks, which know no sheet.
+
+#[path = "common/textbook.rs"]
+mod textbook;
+
+use foldwell::solver::tension::settle;
+use foldwell::solver::{Failure, Options, minimize};
+use textbook::{Textbook, length, linear, steps};
+
+fn rosenbrock() -> Textbook {
+    let valley = |x: &[f64]| (x[1] - x[0] * x[0], vec![-2.0 * x[0], 1.0], vec![-2.0, 0.0, 0.0]);
+    Textbook::new(2).soft(&[0, 1], 200.0, Box::new(valley)).soft(&[0], 2.0, linear(&[1.0], 1.0))
+}
+
+/// Claim: the minimum (1, 1) of Rosenbrock's valley `100 (y - x^2)^2 + (1 - x)^2` from the usual start and from others,
+/// in at most 30 steps (steepest descent needs thousands); the energy never rises.
+#[test]
+fn rosenbrocks_valley() {
+    for start in [[-1.2, 1.0], [-3.0, -4.0], [0.0, 5.0], [1.0, 1.0]] {
+        let found = rosenbrock().run(&start).unwrap();
+        assert!(found.x.iter().all(|x| (x - 1.0).abs() < 1e-10), "{:?}", found.x);
+        assert!(steps(&found) <= 30, "{} steps from {start:?}", steps(&found));
+        assert_eq!(found.negative_eigenvalues, 0);
+        assert!(found.history.windows(2).all(|pair| pair[1].energy <= pair[0].energy * (1.0 + 1e-12)));
+    }
+}
+
+/// Claim: `|x|^2 / 2` under `x0 + x1 + x2 = 3 + c0 t0`, `x0 - x2 = 1 + c1 t1` has `x = -A^T t` with
+/// `(A A^T + C) t = -b`, `A A^T = diag(3, 2)`: in one step, at every compliance, 0 included.
+#[test]
+fn a_quadratic_with_known_multipliers() {
+    for c in [[0.0, 0.0], [1e-12, 0.0], [1e-4, 1e-16], [0.5, 2.0], [1e3, 1e-3]] {
+        let mut problem = Textbook::new(3);
+        for k in 0..3u32 {
+            problem = problem.soft(&[k], 1.0, linear(&[1.0], 0.0));
+        }
+        problem = problem.stiff(&[0, 1, 2], c[0], linear(&[1.0, 1.0, 1.0], 3.0)).stiff(
+            &[0, 2],
+            c[1],
+            linear(&[1.0, -1.0], 1.0),
+        );
+        let found = problem.run(&[0.3, -0.2, 5.0]).unwrap();
+        let t = [-3.0 / (3.0 + c[0]), -1.0 / (2.0 + c[1])];
+        let x = [-t[0] - t[1], -t[0], -t[0] + t[1]];
+        for (found, expected) in found.tension.iter().zip(&t).chain(found.x.iter().zip(&x)) {
+            assert!((found - expected).abs() < 1e-12, "{c:?}: {found} for {expected}");
+        }
+        assert!(steps(&found) <= 2, "{c:?}: {} steps", steps(&found));
+        let energy = 0.5 * x.iter().map(|x| x * x).sum::<f64>() + 0.5 * (c[0] * t[0] * t[0] + c[1] * t[1] * t[1]);
+        assert!((found.energy - energy).abs() < 1e-12 * energy);
+    }
+}
+
+/// The hanging chain: horizontal force at which `n` bars of length `l`, weights `w` on the joints between, span `d`.
+/// Bar `k` pulls with `(H, V_k)`, `V_k = w (k - (n - 1)/2)`.
+fn chain_force(n: usize, l: f64, w: f64, d: f64) -> f64 {
+    let span = |h: f64| (0..n).map(|k| l * h / h.hypot(w * (k as f64 - (n as f64 - 1.0) / 2.0))).sum::<f64>();
+    let (mut low, mut high) = (1e-9, 1e6);
+    for _ in 0..200 {
+        let middle: f64 = 0.5 * (low + high);
+        if span(middle) < d { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Lower end of bar `k`.
+fn next(place: [f64; 2], k: usize, n: usize, (l, w, d): (f64, f64, f64)) -> [f64; 2] {
+    let (force, vertical) = (chain_force(n, l, w, d), w * (k as f64 - (n as f64 - 1.0) / 2.0));
+    let tension = force.hypot(vertical);
+    [place[0] + l * force / tension, place[1] + l * vertical / tension]
+}
+
+/// Claim: a chain of rigid bars between two points a distance of 0.7 times its length apart hangs in the closed form
+/// above, forces and places, for 4 and 9 bars, from a half circle.
+/// Springs that are slack in the closed form hold the joints on their way and change nothing at the end.
+#[test]
+fn a_hanging_chain() {
+    for n in [4, 9] {
+        let (l, w) = (1.0, 0.5);
+        let d = 0.7 * n as f64;
+        let joints = n - 1;
+        let mut problem = Textbook::new(2 * joints).load(&[0.0, -w].repeat(joints));
+        problem = problem.stiff(&[0, 1], 0.0, length(Some([0.0, 0.0]), l));
+        for k in 1..joints as u32 {
+            problem = problem.stiff(&[2 * k - 2, 2 * k - 1, 2 * k, 2 * k + 1], 0.0, length(None, l));
+        }
+        let last = 2 * joints as u32 - 2;
+        problem = problem.stiff(&[last, last + 1], 0.0, length(Some([d, 0.0]), l));
+        let mut place = [0.0, 0.0];
+        for k in 0..joints {
+            let [place_x, place_y] = next(place, k, n, (l, w, d));
+            problem = problem.soft(&[2 * k as u32], 0.1, linear(&[1.0], place_x)).soft(
+                &[2 * k as u32 + 1],
+                0.1,
+                linear(&[1.0], place_y),
+            );
+            place = [place_x, place_y];
+        }
+        let start: Vec<f64> = (1..n)
+            .flat_map(|k| {
+                let angle = std::f64::consts::PI * k as f64 / n as f64;
+                [0.5 * d * (1.0 - angle.cos()), -0.45 * d * angle.sin()]
+            })
+            .collect();
+        let found = problem.run(&start).unwrap_or_else(|error| panic!("{n} bars: {error}"));
+        let force = chain_force(n, l, w, d);
+        let mut place = [0.0, 0.0];
+        for k in 0..n {
+            let vertical = w * (k as f64 - (n as f64 - 1.0) / 2.0);
+            let tension = force.hypot(vertical);
+            assert!((found.tension[k] - tension).abs() < 1e-9 * tension, "{n} bars, bar {k}: {}", found.tension[k]);
+            if k < joints {
+                place = next(place, k, n, (l, w, d));
+                let off = (found.x[2 * k] - place[0]).hypot(found.x[2 * k + 1] - place[1]);
+                assert!(off < 1e-9, "{n} bars, joint {k}: off by {off:e}");
+            }
+        }
+        assert_eq!(found.negative_eigenvalues, 0);
+        println!("{n} bars: {} steps", steps(&found));
+    }
+}
+
+/// Claim: a condition given twice, and once more with another length, leaves two self stresses; the settled tensions are
+/// the shortest: for rows `a, a, 2a` with `R^T t` fixed they are in the ratio 1 : 1 : 2.
+#[test]
+fn redundant_conditions_share_the_tension() {
+    let mut problem = Textbook::new(2);
+    for k in 0..2u32 {
+        problem = problem.soft(&[k], 1.0, linear(&[1.0], 0.0));
+    }
+    for factor in [1.0, 1.0, 2.0] {
+        problem = problem.stiff(&[0, 1], 0.0, linear(&[factor, factor], 2.0 * factor));
+    }
+    let found = problem.run(&[5.0, -1.0]).unwrap();
+    assert!(found.x.iter().all(|x| (x - 1.0).abs() < 1e-12), "{:?}", found.x);
+    let settled = settle(&problem, &found.x, &found.tension);
+    assert_eq!(settled.self_stresses, Some(2));
+    assert!(settled.residual_force <= 1e-12 && settled.residual_length <= 1e-12);
+    for (tension, expected) in settled.tension.iter().zip([-1.0 / 6.0, -1.0 / 6.0, -1.0 / 3.0]) {
+        assert!((tension - expected).abs() < 1e-12, "{:?}", settled.tension);
+    }
+}
+
+/// Claim: conditions that contradict each other, linear ones and two circles that do not meet, are infeasible, with a
+/// gap not smaller than what is possible, and no steps were taken.
+#[test]
+fn contradictions_are_infeasible() {
+    let plain = Textbook::new(1).soft(&[0], 1.0, linear(&[1.0], 0.0));
+    let mut line = plain.stiff(&[0], 0.0, linear(&[1.0], 0.0)).stiff(&[0], 0.0, linear(&[1.0], 1.0));
+    let plain = Textbook::new(2).soft(&[0], 1.0, linear(&[1.0], 0.0)).soft(&[1], 1.0, linear(&[1.0], 0.0));
+    let circle = |x: f64| length(Some([x, 0.0]), 1.0);
+    let mut circles = plain.stiff(&[0, 1], 0.0, circle(-2.0)).stiff(&[0, 1], 0.0, circle(2.0));
+    for (error, least) in [(line.run(&[0.2]).unwrap_err(), 0.5), (circles.run(&[0.1, 0.7]).unwrap_err(), 0.99)] {
+        match error.failure {
+            Failure::Infeasible { gap } => assert!(gap >= least, "gap {gap} of {least}"),
+            other => panic!("{other}"),
+        }
+        assert!(error.history.is_empty());
+    }
+}
+
+/// Claim: the observer sees every state once, the start first, and stops the iteration where it says so; the error has
+/// the states so far.
+#[test]
+fn the_observer_stops_the_iteration() {
+    let mut seen = 0;
+    let mut problem = rosenbrock();
+    let stopped = minimize(&mut problem, vec![-1.2, 1.0], Options::default(), &mut |_| {
+        seen += 1;
+        seen < 3
+    });
+    let error = stopped.unwrap_err();
+    assert_eq!((error.failure, error.history.len(), seen), (Failure::Interrupted, 3, 3));
+    let mut seen = Vec::new();
+    let found = minimize(&mut problem, vec![-1.2, 1.0], Options::default(), &mut |step| {
+        seen.push(*step);
+        true
+    });
+    assert_eq!(found.unwrap().history, seen);
+}
+
+/// Claim: too few steps allowed is said with their number.
+#[test]
+fn too_few_steps_are_said() {
+    let options = Options { iterations: 2, ..Options::default() };
+    let error = minimize(&mut rosenbrock(), vec![-1.2, 1.0], options, &mut |_| true).unwrap_err();
+    assert!(matches!(error.failure, Failure::TooManySteps { iterations: 2, .. }), "{error}");
+    assert_eq!(error.history.len(), 3);
+}
+
+/// `(x^2 - 1)^2 / 2 + y^2 / 2`: two wells and a saddle at the origin.
+fn wells() -> Textbook {
+    let wall = |x: &[f64]| (x[0] * x[0] - 1.0, vec![2.0 * x[0]], vec![2.0]);
+    Textbook::new(2).soft(&[0], 1.0, Box::new(wall)).soft(&[1], 1.0, linear(&[1.0], 0.0))
+}
+
+/// Claim: from exactly the saddle between two wells it is reported with its one negative eigenvalue; from a little to one side the well on that side is found.
+#[test]
+fn a_saddle_is_reported_or_left() {
+    for start in [[0.0, 0.0]] {
+        let found = wells().run(&start).unwrap();
+        assert_eq!((found.x[0], found.negative_eigenvalues), (0.0, 1));
+        assert!(found.x[1].abs() < 1e-12);
+    }
+    for start in [[1e-3, 0.0], [-1e-3, 0.5], [0.4, -1.0], [3.0, 0.0]] {
+        let found = wells().run(&start).unwrap();
+        assert!((found.x[0] - f64::signum(start[0])).abs() < 1e-11, "from {start:?} to {:?}", found.x);
+        assert_eq!(found.negative_eigenvalues, 0);
+    }
+}
+
+/// Claim: cost as counts. A quadratic takes one factorization for its step and one for the certificate is not in the
+/// history; every step makes at least one solve; Rosenbrock's valley makes no more factorizations than steps, plus
+/// those of raised shifts.
+#[test]
+fn costs_are_counted() {
+    let mut quadratic = Textbook::new(1).soft(&[0], 4.0, linear(&[1.0], 2.0));
+    let found = quadratic.run(&[7.0]).unwrap();
+    let counts: Vec<[usize; 2]> = found.history.iter().map(|step| [step.factorizations, step.solves]).collect();
+    assert_eq!(counts, [[0, 0], [1, 1]]);
+    let found = rosenbrock().run(&[-1.2, 1.0]).unwrap();
+    let factorizations: usize = found.history.iter().map(|step| step.factorizations).sum();
+    assert!(factorizations >= steps(&found) && factorizations <= 3 * steps(&found), "{factorizations}");
+    assert!(found.history[1..].iter().all(|step| step.solves >= 1));
+}
