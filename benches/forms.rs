@@ -309,7 +309,7 @@ fn weight() {
                 for gamma in [1e2, 1e4, 1e6, 1e8, 1e10, 1e12] {
                     corrections(
                         &mut Weighted::new(&system, gamma),
-                        &system,
+                        &mut system,
                         &format!("{label}  augmented {gamma:7.0e}"),
                     );
                 }

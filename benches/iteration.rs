@@ -102,10 +102,8 @@ impl Problem for Timed<'_> {
         self.linearize.set(self.linearize.get() + time);
     }
 
-    fn accept(&mut self, x: &mut [f64]) -> bool {
-        let mut moved = false;
-        self.accept += seconds(|| moved = self.model.accept(x));
-        moved
+    fn accept(&mut self, x: &mut [f64]) {
+        self.accept += seconds(|| self.model.accept(x));
     }
 }
 
