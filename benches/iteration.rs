@@ -30,6 +30,9 @@ use foldwell::solver::{
 use std::cell::Cell;
 
 const RIGID: f64 = f64::INFINITY;
+/// A part of the benchmark, at these numbers of cells a side.
+type Part = fn(&[usize]);
+
 const CHILD: &str = "FOLDWELL_BENCH_THREADS";
 
 fn main() {
@@ -37,7 +40,7 @@ fn main() {
         return report_assembly(threads.parse().unwrap());
     }
     parallel::set_threads(1);
-    let parts: [(&str, fn(&[usize])); 5] =
+    let parts: [(&str, Part); 5] =
         [("split", split), ("study", study), ("assembly", assembly), ("threads", threads), ("dense", dense)];
     let sizes: &[usize] = if measuring() { &[13, 24, 40, 57, 82] } else { &[3] };
     for (name, part) in parts {
