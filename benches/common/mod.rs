@@ -3,6 +3,7 @@
 
 pub mod kernels;
 
+use cpu_time::ThreadTime;
 use foldwell::analysis::relax::{Relaxed, relax};
 use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
 use foldwell::model::{Gauge, Model};
@@ -10,7 +11,6 @@ use foldwell::sheet::{Tiling, fold, tile};
 use foldwell::solver::{Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use cpu_time::ThreadTime;
 
 /// A patch of `meshes/open-star.fold` whose creases all want another angle.
 pub struct Star {
