@@ -1,4 +1,4 @@
-//! Problems at the edge of the solver: no soft energy at all, no energy at the minimum, a ridge.
+//! Problems at the edge of the solver: no soft energy at all, no energy at the minimum, an unstable equilibrium.
 
 #[path = "common/textbook.rs"]
 mod textbook;
@@ -32,7 +32,8 @@ fn a_pendulum() {
         assert_eq!(found.negative_eigenvalues, 0);
     }
     let top = pendulum().run(&[0.0, 2.0]).unwrap();
-    assert_eq!((top.negative_eigenvalues, top.x[1]), (1, 2.0));
+    assert_eq!(top.negative_eigenvalues, 1);
+    assert!((top.x[1] - 2.0).abs() < 1e-15);
     assert!((top.tension[0] + 3.0).abs() < 1e-12, "at the top the bar is pressed");
 }
 
@@ -134,18 +135,4 @@ fn a_hanging_chain_without_springs() {
         assert_eq!(found.negative_eigenvalues, 0);
         println!("{n} bars: {} steps", steps(&found));
     }
-}
-
-/// `(x^2 - 1)^2 / 2 + y^2 / 2`: two wells and a saddle at the origin.
-fn wells() -> Textbook {
-    let wall = |x: &[f64]| (x[0] * x[0] - 1.0, vec![2.0 * x[0]], vec![2.0]);
-    Textbook::new(2).soft(&[0], 1.0, Box::new(wall)).soft(&[1], 1.0, linear(&[1.0], 0.0))
-}
-
-/// Claim: from a start on the ridge beside the saddle, the saddle is found and reported: nothing pushes off the ridge.
-#[test]
-fn a_ridge_leads_to_its_saddle() {
-    let found = wells().run(&[0.0, 0.7]).unwrap();
-    assert_eq!((found.x[0], found.negative_eigenvalues), (0.0, 1));
-    assert!(found.x[1].abs() < 1e-12);
 }

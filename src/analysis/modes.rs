@@ -11,7 +11,7 @@ use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
 use crate::model::{Gauge, Model, gauge};
 use crate::numerics::dense::{self, DenseError};
 use crate::numerics::factor::FactorError;
-use crate::numerics::sparse::{FIXED, Rows};
+use crate::numerics::sparse::{FIXED, Rows, symmetric_product};
 use crate::numerics::{DenseMatrix, eigen, rank};
 use crate::sheet::{Corner, EdgeKind, Sheet, Site, Tiling};
 use crate::solver::saddle::Saddle;
@@ -287,7 +287,21 @@ fn lowest_sparse(model: &Model, count: usize) -> Result<Pairs, ModesError> {
         }
     }
     let zero = vec![0.0; layout.stiff.len()];
-    let (inverse, vectors) =
+    let (_, vectors) =
         eigen::largest(layout.unknowns, count, |v| saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx)?;
-    Ok((inverse.iter().map(|mu| 1.0 / mu - shift).collect(), vectors))
+    at.add_identity(-shift);
+    let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (rayleigh_quotient(model, &at, &v), v)).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(pairs.into_iter().unzip())
+}
+
+/// `v^T H v / v^T v` with the Hessian of the whole energy: its error is that of the vector squared.
+fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
+    let mut product = vec![0.0; v.len()];
+    symmetric_product(at.pattern(), &at.hessian, v, &mut product);
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let mut stretch = vec![0.0; model.compliance().len()];
+    at.rows(model.layout()).product(v, &mut stretch);
+    let finite = stretch.iter().zip(model.compliance()).filter(|(_, c)| **c > 0.0);
+    (dot(v, &product) + finite.map(|(s, c)| s * s / c).sum::<f64>()) / dot(v, v)
 }

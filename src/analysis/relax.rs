@@ -6,7 +6,7 @@ use crate::solver::{Equilibrium, Failure, NewtonError, Options, Step, minimize, 
 use thiserror::Error;
 
 /// Smallest step of the continuation that is tried before giving up.
-const LEAST_STEP: f64 = 1.0 / 256.0;
+const LEAST_STEP: f64 = 1.0 / 64.0;
 /// Tolerance of the states in between.
 const LOOSE: f64 = 1e-6;
 

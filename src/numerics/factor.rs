@@ -213,6 +213,7 @@ fn dense_factor(
     let n = pattern.size();
     let dense = pattern.to_dense(values);
     let matrix = MatRef::from_column_major_slice(dense.as_slice(), n, n);
+    faer::set_global_parallelism(Par::Seq); // otherwise even this small matrix starts a pool of threads
     let found = faer::linalg::solvers::Lblt::new(matrix, Side::Lower);
     let (diagonal, below) = (found.B_diag().column_vector(), found.B_subdiag().column_vector());
     let mut pivots = Vec::with_capacity(n);

@@ -8,7 +8,7 @@
 
 use super::problem::{Curvature, Linearization, Problem};
 use super::saddle::Saddle;
-use super::tension::{nan_max, residuals};
+use super::tension::{nan_max, residuals, self_stresses};
 use crate::numerics::factor::FactorError;
 use thiserror::Error;
 
@@ -22,8 +22,16 @@ const ROUNDING: f64 = 1e-12;
 /// Shortest fraction of a step is `0.5^(HALVINGS - 1)`; then the shift is raised, at most `SHIFTS` times.
 const HALVINGS: i32 = 5;
 const SHIFTS: usize = 12;
-/// Relative residual of a Newton step's linear system.
-const ACCURACY: f64 = 1e-8;
+/// Bounds of the relative residual of a Newton step's linear system; between them a hundredth of the scaled force.
+const FINEST: f64 = 1e-8;
+const COARSEST: f64 = 1e-3;
+/// Largest scaled gap of a trial.
+const LOOSEST: f64 = 1e-6;
+/// Largest component of the step with which a start is probed, and the part of its stretch that tells a singular start.
+const PROBE: f64 = 1e-3;
+const UNREACHABLE: f64 = 0.05;
+/// Smallest pivot over the largest below which a factorization without shift is not used.
+const SINGULAR: f64 = 1e-15;
 /// Rise of the merit, relative, that is taken for rounding error.
 const NOISE: f64 = 1e-13;
 
@@ -200,14 +208,25 @@ impl<P: Problem> Newton<'_, P> {
                 return Err(Failure::Interrupted);
             }
             let (force, length) = (step.residual_force, step.residual_length);
-            if force <= options.tolerance && length <= options.tolerance {
+            if length <= options.tolerance && (force <= options.tolerance || self.exhausted(&step)) {
                 return self.certify();
             }
             if self.history.len() > options.iterations {
                 return Err(Failure::TooManySteps { iterations: options.iterations, force, length });
             }
-            fraction = self.advance(&step)?;
+            fraction = match self.advance(&step) {
+                Err(Failure::Stuck { .. }) if length <= options.tolerance && force <= self.rounding() => {
+                    return self.certify();
+                }
+                taken => taken?,
+            };
         }
+    }
+
+    /// Whether the force is rounding error that no further step makes smaller.
+    fn exhausted(&self, step: &Step) -> bool {
+        let before = self.history.len().checked_sub(2).map_or(f64::INFINITY, |k| self.history[k].residual_force);
+        step.residual_force > 0.5 * before && step.residual_force <= self.rounding()
     }
 
     fn linearize(&mut self) {
@@ -219,7 +238,7 @@ impl<P: Problem> Newton<'_, P> {
         if residuals(self.problem, &self.at, &self.tension).1 <= FEASIBLE {
             return Ok(());
         }
-        self.factor()?;
+        self.saddle.factor_shortest(self.problem.layout(), &self.at, self.problem.compliance())?;
         let trial = self.retract(self.x.clone(), self.tension.clone(), FEASIBLE, START_CHORDS);
         let trial = trial.map_err(|gap| Failure::Infeasible { gap })?;
         (self.x, self.tension) = (trial.x, trial.tension);
@@ -247,7 +266,7 @@ impl<P: Problem> Newton<'_, P> {
         for _ in 0..40 {
             let found = self.saddle.factor(self.problem.layout(), &self.at, self.problem.compliance(), shift);
             match found {
-                Ok(inertia) if inertia.negative == 0 => {
+                Ok(inertia) if inertia.negative == 0 && (shift > 0.0 || inertia.ratio > SINGULAR) => {
                     self.shift = shift;
                     return Ok(());
                 }
@@ -262,7 +281,10 @@ impl<P: Problem> Newton<'_, P> {
     fn advance(&mut self, last: &Step) -> Result<f64, Failure> {
         self.factor()?;
         for _ in 0..SHIFTS {
-            let (dx, dt) = self.direction();
+            let (dx, dt) = self.direction(last);
+            if self.history.len() == 1 && self.obstructed(&dx) {
+                return Err(Failure::SingularStart);
+            }
             let first = self.first_halving();
             for halving in first..HALVINGS {
                 let fraction = 0.5f64.powi(halving);
@@ -270,9 +292,6 @@ impl<P: Problem> Newton<'_, P> {
                     self.take(trial, fraction, last);
                     return Ok(fraction);
                 }
-            }
-            if self.history.len() == 1 && self.obstructed(&dx) {
-                return Err(Failure::SingularStart);
             }
             self.shift = (16.0 * self.shift).max(1.0);
             self.factor()?;
@@ -287,32 +306,58 @@ impl<P: Problem> Newton<'_, P> {
     }
 
     /// The Newton step in unknowns and tensions.
-    fn direction(&mut self) -> (Vec<f64>, Vec<f64>) {
+    fn direction(&mut self, last: &Step) -> (Vec<f64>, Vec<f64>) {
         let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
+        let accuracy = (0.01 * last.residual_force).clamp(FINEST, COARSEST);
         let force = self.at.force(layout, &self.tension);
         let open = open(&self.at.gaps, &self.tension, compliance);
-        let solved = self.saddle.solve(layout, &self.at, compliance, (&force, &open), ACCURACY);
+        let solved = self.saddle.solve(layout, &self.at, compliance, (&force, &open), accuracy);
         (solved.dx, solved.dt)
     }
 
     /// Whether the stretch that a step makes beyond its linear part cannot be taken back by any motion: then the rigid
-    /// measures hold the sheet at second order, as in the flat state.
+    /// measures hold the sheet at second order, as in the flat state. There must be self stresses for that.
     fn obstructed(&mut self, dx: &[f64]) -> bool {
-        let length = dx.iter().fold(0.0f64, |m, d| m.max(d.abs()));
-        let x: Vec<f64> = self.x.iter().zip(dx).map(|(x, d)| x + 1e-3 / length * d).collect();
-        let gaps = self.problem.gaps(&x);
         let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
-        let open = open(&gaps, &self.tension, compliance);
-        let zero = vec![0.0; x.len()];
-        self.saddle.solve(layout, &self.at, compliance, (&zero, &open), 1e-3).residual > 1e-2
+        let moved = |part: f64| self.x.iter().zip(dx).map(|(x, d)| x + part * d).collect::<Vec<f64>>();
+        let mut linear = vec![0.0; self.tension.len()];
+        self.at.rows(layout).product(dx, &mut linear);
+        let whole = self.problem.gaps(&moved(1.0));
+        let second: Vec<f64> = (0..whole.len()).map(|k| whole[k] - self.at.gaps[k] - linear[k]).collect();
+        let scale = self.problem.gap_scale();
+        if !compliance.contains(&0.0) || largest(&second, scale) < 10.0 * largest(&linear, scale).max(FEASIBLE) {
+            return false;
+        }
+        let length = dx.iter().fold(0.0f64, |m, d| m.max(d.abs()));
+        let open = open(&self.problem.gaps(&moved(PROBE / length.max(PROBE))), &self.tension, compliance);
+        self.saddle.unreachable(layout, &self.at, compliance, &open) > UNREACHABLE
+            && self_stresses(self.problem, &self.at).is_some_and(|count| count > 0)
     }
 
     fn attempt(&mut self, (dx, dt): (&[f64], &[f64]), fraction: f64, last: &Step) -> Option<Trial> {
         let x = self.x.iter().zip(dx).map(|(x, d)| x + fraction * d).collect();
         let tension = self.tension.iter().zip(dt).map(|(t, d)| t + fraction * d).collect();
-        let wanted = (1e-3 * last.residual_force).clamp(1e-14, 1e-8);
+        let wanted = (1e-3 * last.residual_force).clamp(1e-14, LOOSEST);
         let trial = self.retract(x, tension, wanted, CHORDS).ok()?;
-        (trial.merit <= last.energy + NOISE * last.energy.abs()).then_some(trial)
+        (trial.merit <= last.energy + self.uncertainty(&trial, last)).then_some(trial)
+    }
+
+    /// How much the merits of the last state and of a trial may differ for no reason: rounding error, and what the gaps
+    /// still open at the last state weigh by its tension and by that of the trial.
+    fn uncertainty(&self, trial: &Trial, last: &Step) -> f64 {
+        let open = open(&self.at.gaps, &self.tension, self.problem.compliance());
+        let tensions = trial.tension.iter().zip(&self.tension);
+        let by_gaps: f64 = open.iter().zip(tensions).map(|(gap, (new, old))| (gap * (new - old)).abs()).sum();
+        let size = self.x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let by_forces = f64::EPSILON * self.at.largest_force * size * (self.x.len() as f64).sqrt();
+        NOISE * last.energy.abs() + by_gaps + 4.0 * by_forces
+    }
+
+    /// The scaled force that rounding of the unknowns alone makes: a last place of the largest unknown times the largest
+    /// stiffness. It is above the tolerance only where all forces are tiny.
+    fn rounding(&self) -> f64 {
+        let size = self.x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        f64::EPSILON * size * self.at.pattern().largest_diagonal(&self.at.hessian) / self.at.largest_force
     }
 
     /// Chord corrections onto `m = c t` until the largest scaled gap is `wanted`, or at the level of rounding error.

@@ -15,11 +15,15 @@ use crate::numerics::sparse::symmetric_product;
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
 const GAMMA: f64 = 1e7;
-/// What of the identity is added to the metric, over the largest entry of the Hessian.
-const LEAST_METRIC: f64 = 1e-10;
+/// What of the identity belongs to the metric, over the largest entry of the Hessian: above the rounding error of `S`, so
+/// that motions that cost nothing are held. Without any metric it is the identity itself.
+const LEAST_METRIC: f64 = 1e-7;
 
 /// Corrections go on while each makes the residual at least this much smaller.
 const SLOWEST: f64 = 0.7;
+/// Stretches are measured against this many lengths of the step, besides their right-hand side, which may be nothing but
+/// rounding error.
+const STRETCH: f64 = 1e2;
 /// Eigenvalues this much smaller than the largest entry of `S` count as zero.
 const NEUTRAL: f64 = 1e-14;
 
@@ -69,6 +73,20 @@ impl Saddle {
         self.factor.factor(at.pattern(), &self.values)
     }
 
+    /// Factors `S` with the identity in the place of the Hessian: solves then give the shortest motion.
+    pub fn factor_shortest(
+        &mut self,
+        layout: &Layout,
+        at: &Linearization,
+        compliance: &[f64],
+    ) -> Result<Inertia, FactorError> {
+        self.shifted.fill(0.0);
+        at.pattern().add_to_diagonal(&mut self.shifted, Self::unit(at));
+        self.weigh(layout, at, compliance);
+        self.factorizations += 1;
+        self.factor.factor(at.pattern(), &self.values)
+    }
+
     /// Inertia of `S`, with eigenvalues that are zero to rounding error counted as positive.
     pub fn inertia(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64]) -> Result<Inertia, FactorError> {
         self.fill(layout, at, compliance, 0.0);
@@ -79,13 +97,19 @@ impl Saddle {
     }
 
     fn fill(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64], shift: f64) {
-        let scale = at.pattern().largest_diagonal(&at.hessian);
-        let unit = if scale > 0.0 { scale } else { 1.0 };
         self.shifted.copy_from_slice(&at.hessian);
         if shift > 0.0 {
             self.shifted.iter_mut().zip(&at.metric).for_each(|(v, m)| *v += shift * m);
-            at.pattern().add_to_diagonal(&mut self.shifted, shift * LEAST_METRIC * unit);
+            let some_metric = at.pattern().largest_diagonal(&at.metric) > 0.0;
+            let least = if some_metric { LEAST_METRIC } else { 1.0 };
+            at.pattern().add_to_diagonal(&mut self.shifted, shift * least * Self::unit(at));
         }
+        self.weigh(layout, at, compliance);
+    }
+
+    /// Adds the weighted stiff measures.
+    fn weigh(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64]) {
+        let unit = Self::unit(at);
         self.values.copy_from_slice(&self.shifted);
         for (row, &c) in compliance.iter().enumerate() {
             let gradient = &at.jacobian[layout.stiff.range(row)];
@@ -93,6 +117,12 @@ impl Saddle {
             self.weights[row] = f64::min(GAMMA * unit / (largest * largest), 1.0 / c);
             at.add_outer(layout, row, self.weights[row], &mut self.values);
         }
+    }
+
+    /// Size of the Hessian: its largest diagonal entry, 1 where it vanishes.
+    fn unit(at: &Linearization) -> f64 {
+        let scale = at.pattern().largest_diagonal(&at.hessian);
+        if scale > 0.0 { scale } else { 1.0 }
     }
 
     /// Solves with `-1/w` in the place of `-C`.
@@ -122,8 +152,7 @@ impl Saddle {
         let mut last = f64::INFINITY;
         loop {
             let (ra, rb) = self.residual(layout, at, compliance, (a, b), (&dx, &dt));
-            let residual =
-                f64::max(norm(&ra) / norm(a).max(f64::MIN_POSITIVE), norm(&rb) / norm(b).max(f64::MIN_POSITIVE));
+            let residual = f64::max(over(norm(&ra), norm(a)), over(norm(&rb), norm(b) + STRETCH * norm(&dx)));
             if residual <= tolerance || !(residual < SLOWEST * last) {
                 return Solved { dx, dt, residual };
             }
@@ -132,6 +161,14 @@ impl Saddle {
             dx.iter_mut().zip(&ddx).for_each(|(x, d)| *x += d);
             dt.iter_mut().zip(&ddt).for_each(|(t, d)| *t += d);
         }
+    }
+
+    /// The part of `b` that no motion makes, relative to `b`: 1 where `b` is a self stress, 0 where it can be reached.
+    pub fn unreachable(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64], b: &[f64]) -> f64 {
+        let zero = vec![0.0; layout.unknowns];
+        let Solved { dx, dt, .. } = self.solve(layout, at, compliance, (&zero, b), 0.0);
+        let (_, left) = self.residual(layout, at, compliance, (&zero, b), (&dx, &dt));
+        over(norm(&left), norm(b))
     }
 
     fn residual(
@@ -153,6 +190,11 @@ impl Saddle {
         }
         (ra, rb)
     }
+}
+
+/// A residual over its right-hand side; zero where there is no residual.
+fn over(residual: f64, right: f64) -> f64 {
+    if residual > 0.0 { residual / right.max(f64::MIN_POSITIVE) } else { 0.0 }
 }
 
 fn norm(v: &[f64]) -> f64 {

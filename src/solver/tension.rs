@@ -24,10 +24,8 @@ pub fn settle<P: Problem>(problem: &P, x: &[f64], tension: &[f64]) -> Settled {
     let layout = problem.layout();
     let mut at = Linearization::new(layout);
     problem.linearize(x, tension, Curvature::GaussNewton, &mut at);
-    let rigid = problem.compliance().contains(&0.0);
+    let self_stresses = self_stresses(problem, &at);
     let rows = at.rows(layout);
-    let count = || rank::count_above(&rows, layout.unknowns, &layout.node, NULL).ok();
-    let self_stresses = if rigid { count().map(|rank| tension.len() - rank) } else { None };
     let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
     let mut settled = tension.to_vec();
     if all_rigid && self_stresses.is_some_and(|count| count > 0) {
@@ -35,6 +33,16 @@ pub fn settle<P: Problem>(problem: &P, x: &[f64], tension: &[f64]) -> Settled {
     }
     let (residual_force, residual_length) = residuals(problem, &at, &settled);
     Settled { tension: settled, self_stresses, residual_force, residual_length }
+}
+
+/// Number of self stresses where measures are rigid; `None` where none is, or they could not be counted.
+pub fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Option<usize> {
+    let layout = problem.layout();
+    if !problem.compliance().contains(&0.0) {
+        return None;
+    }
+    let rank = rank::count_above(&at.rows(layout), layout.unknowns, &layout.node, NULL).ok()?;
+    Some(layout.stiff.len() - rank)
 }
 
 /// Scaled residuals of force and length.
