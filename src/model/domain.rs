@@ -111,11 +111,11 @@ impl Domain {
         g: &SVector<f64, D>,
         h: &SMatrix<f64, D, D>,
     ) -> Vec<f64> {
-        let size = D + self.shared();
-        let mut full = nalgebra::DMatrix::<f64>::zeros(size, size);
         if self.shared() == 0 {
             return lower(D, |row, column| h[(row, column)]);
         }
+        let size = D + self.shared();
+        let mut full = nalgebra::DMatrix::<f64>::zeros(size, size);
         let mut jacobian = nalgebra::DMatrix::<f64>::zeros(D, size);
         for (k, &site) in sites.iter().enumerate() {
             let placed = self.place(x, site);

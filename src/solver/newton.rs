@@ -27,6 +27,8 @@ const FINEST: f64 = 1e-8;
 const COARSEST: f64 = 1e-3;
 /// Largest scaled gap of a trial.
 const LOOSEST: f64 = 1e-6;
+/// Scaled force below which the inertia of a state is that of the minimum next to it.
+const NEAR: f64 = 1e-4;
 /// Largest component of the step with which a start is probed, and the part of its stretch that tells a singular start.
 const PROBE: f64 = 1e-3;
 const UNREACHABLE: f64 = 0.05;
@@ -148,6 +150,8 @@ struct Newton<'a, P: Problem> {
     /// Shift of the next factorization, relative to the scale of the Hessian.
     shift: f64,
     curvature: Curvature,
+    /// Whether the last factorization was of the full Hessian, without shift, and that of a minimum.
+    certified: bool,
     history: Vec<Step>,
 }
 
@@ -181,6 +185,7 @@ pub fn minimize<P: Problem>(
         tension: vec![0.0; rows],
         shift: 0.0,
         curvature: Curvature::GaussNewton,
+        certified: false,
         history: vec![],
     };
     match newton.run(options, observe) {
@@ -268,6 +273,7 @@ impl<P: Problem> Newton<'_, P> {
             match found {
                 Ok(inertia) if inertia.negative == 0 && (shift > 0.0 || inertia.ratio > SINGULAR) => {
                     self.shift = shift;
+                    self.certified = shift == 0.0 && self.curvature == Curvature::Full;
                     return Ok(());
                 }
                 Err(error @ FactorError::NotFinite) => return Err(error.into()),
@@ -297,6 +303,12 @@ impl<P: Problem> Newton<'_, P> {
             self.factor()?;
         }
         Err(Failure::Stuck { force: last.residual_force, length: last.residual_length })
+    }
+
+    /// Whether the state before the last one was a whole step away and so near that its inertia is that of the last.
+    fn was_near(&self) -> bool {
+        let before = self.history.len().checked_sub(2).map(|k| self.history[k]);
+        before.is_some_and(|step| step.residual_force < NEAR && self.history[self.history.len() - 1].fraction == 1.0)
     }
 
     /// Where the halving of steps begins: at twice the fraction that the last step took.
@@ -396,6 +408,9 @@ impl<P: Problem> Newton<'_, P> {
 
     /// Negative eigenvalues of the full Hessian at the converged state.
     fn certify(&mut self) -> Result<usize, Failure> {
+        if self.certified && self.was_near() {
+            return Ok(0);
+        }
         self.curvature = Curvature::Full;
         self.linearize();
         Ok(self.saddle.inertia(self.problem.layout(), &self.at, self.problem.compliance())?.negative)
