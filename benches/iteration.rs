@@ -301,7 +301,7 @@ fn study(sizes: &[usize]) {
                     let mut model = star.model(RIGID);
                     seconds(|| star.relax(&mut model))
                 },
-                &mut || seconds(|| tension::settle(&model, &found.x, &found.tension)),
+                &mut || seconds(|| tension::settle(&model, &found.x, &found.tension, found.independent)),
                 &mut || {
                     let at = Linearization::new(model.layout());
                     seconds(|| Saddle::new(model.layout(), &at).is_ok())

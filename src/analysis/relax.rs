@@ -124,7 +124,7 @@ fn follow(
 
 fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>, edges: usize) -> Relaxed {
     history.extend(found.history);
-    let settled = tension::settle(model, &found.x, &found.tension);
+    let settled = tension::settle(model, &found.x, &found.tension, found.independent);
     Relaxed {
         state: State::new(model, &found.x, &settled.tension, edges),
         x: found.x,

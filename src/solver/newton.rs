@@ -32,6 +32,8 @@ const NEAR: f64 = 1e-4;
 /// Largest component of the step with which a start is probed, and the part of its stretch that tells a singular start.
 const PROBE: f64 = 1e-3;
 const UNREACHABLE: f64 = 0.05;
+/// What may be left of a random stretch that a motion was asked to make.
+const REACHED: f64 = 1e-2;
 /// Smallest pivot over the largest below which a factorization without shift is not used.
 const SINGULAR: f64 = 1e-15;
 /// Rise of the merit, relative, that is taken for rounding error.
@@ -82,6 +84,8 @@ pub struct Equilibrium {
     pub energy: f64,
     /// Negative eigenvalues of the energy's Hessian on what the rigid measures leave free.
     pub negative_eigenvalues: usize,
+    /// Whether the stiff measures were seen to be independent: then no self stress is free.
+    pub independent: bool,
     /// Steps, the start first.
     pub history: Vec<Step>,
 }
@@ -191,6 +195,7 @@ pub fn minimize<P: Problem>(
     match newton.run(options, observe) {
         Ok(negative_eigenvalues) => Ok(Equilibrium {
             energy: newton.history.last().map_or(f64::NAN, |step| step.energy),
+            independent: newton.independent(),
             x: newton.x,
             tension: newton.tension,
             negative_eigenvalues,
@@ -404,6 +409,17 @@ impl<P: Problem> Newton<'_, P> {
         }
         (self.x, self.tension) = (trial.x, trial.tension);
         self.problem.accept(&mut self.x);
+    }
+
+    /// Whether rigid measures are independent: then a random stretch can be made by a motion. Soft ones always are. The random numbers are the
+    /// fractional parts of multiples of the golden ratio.
+    fn independent(&mut self) -> bool {
+        let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
+        if !compliance.contains(&0.0) {
+            return true;
+        }
+        let stretch: Vec<f64> = (1..=compliance.len()).map(|k| (k as f64 * 0.618_033_988_75).fract() - 0.5).collect();
+        self.saddle.unreachable(layout, &self.at, compliance, &stretch) < REACHED
     }
 
     /// Negative eigenvalues of the full Hessian at the converged state.

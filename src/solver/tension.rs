@@ -19,12 +19,14 @@ pub struct Settled {
     pub residual_length: f64,
 }
 
-/// Takes self stresses out of the tensions of a state at which all or some measures are rigid.
-pub fn settle<P: Problem>(problem: &P, x: &[f64], tension: &[f64]) -> Settled {
+/// Takes self stresses out of the tensions of a state at which all or some measures are rigid; where they are known to be
+/// `independent` there is none.
+pub fn settle<P: Problem>(problem: &P, x: &[f64], tension: &[f64], independent: bool) -> Settled {
     let layout = problem.layout();
     let mut at = Linearization::new(layout);
     problem.linearize(x, tension, Curvature::GaussNewton, &mut at);
-    let self_stresses = self_stresses(problem, &at);
+    let rigid = problem.compliance().contains(&0.0);
+    let self_stresses = if independent && rigid { Some(0) } else { self_stresses(problem, &at) };
     let rows = at.rows(layout);
     let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
     let mut settled = tension.to_vec();
