@@ -26,7 +26,7 @@ use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, symmetric_product};
 use foldwell::solver::{Curvature, Layout, Linearization, Options, Problem, minimize};
 
 /// Weight of rigid measures over the largest entry of the Hessian, as in `solver::saddle`.
-const GAMMA: f64 = 1e6;
+const GAMMA: f64 = 1e7;
 /// Regularisation of the block form: `d` and `e`, over the same entry.
 const DELTA: f64 = 1e-8;
 const LEAST: f64 = 1e-10;
