@@ -6,8 +6,15 @@
 //! Solved in the *augmented form*: with weights `w = min(k, gamma)` the matrix `S = H + s + R^T w R` has the size and
 //! the pattern of the soft Hessian alone, and one factorization of it solves the system with `-1/w` in the place of
 //! `-C`. Where `w = k` that is the system itself; elsewhere a few corrections on the residual of the true system make
-//! up the difference. Where the saddle form would keep as many tensions as bars in the factorization, this one keeps
-//! none. For the measured comparison see `benches/forms.rs`.
+//! up the difference.
+//!
+//! The alternative is the *block form*: factor the whole quasi-definite matrix, tensions among the unknowns, with its
+//! lower block regularised. Measured at the drawn state of rigid patches (`cargo bench --bench forms -- system`, solved
+//! to 1e-10, `gamma` 1e6) it took 1.6, 1.1 and 0.9 times as long at 12, 24 and 48 cells a side, with as many numbers in
+//! the factor and the same inertia. What decided was that the augmented form needs half the unknowns and no
+//! regularisation where `k` is moderate, and that its inertia is that of the energy on the folded surface. `gamma`
+//! (`-- weight`): 1e4 does not converge at 24 cells a side, 1e6 needs 6 to 9 corrections at 48, 1e7 and 1e8 need 4 to
+//! 6, 1e9 fails there; 1e7 keeps a decade to the cliff. The plain penalty `H + k R^T R` solves nothing at `k` = 1e12.
 
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{Factor, FactorError, Inertia};
