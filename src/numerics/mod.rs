@@ -9,5 +9,8 @@ pub mod parallel;
 pub mod rank;
 pub mod sparse;
 
+#[cfg(test)]
+mod tests;
+
 /// The dense matrix that modules hand to each other.
 pub type DenseMatrix = nalgebra::DMatrix<f64>;

@@ -1,0 +1,165 @@
+//! Sparse algebra against dense: the same matrices built both ways from random cliques.
+
+use super::DenseMatrix;
+use super::dense::{full_svd, singular_values, symmetric_eigenvalues};
+use super::factor::{DENSE_LIMIT, Factor, FactorError};
+use super::sparse::{Cliques, FIXED, Pattern, Rows, Slots, symmetric_product};
+use super::{eigen, parallel, rank};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// A symmetric matrix of random cliques, with an unknown twice in some and fixed members in others.
+struct Sample {
+    pattern: Pattern,
+    cliques: Cliques,
+    values: Vec<f64>,
+    dense: DenseMatrix,
+    node: Vec<u32>,
+}
+
+fn sample(size: usize, seed: u64, diagonal: f64) -> Sample {
+    let mut numbers = ChaCha8Rng::seed_from_u64(seed);
+    let mut cliques = Cliques::new();
+    for _ in 0..2 * size {
+        let mut members: Vec<u32> = (0..4).map(|_| numbers.random_range(0..size as u32)).collect();
+        if numbers.random::<f64>() < 0.2 {
+            members[1] = FIXED;
+        }
+        cliques.push(members);
+    }
+    let pattern = Pattern::new(size, &[&cliques]);
+    let slots = Slots::new(&pattern, &cliques);
+    let (mut values, mut dense) = (vec![0.0; pattern.entries()], DenseMatrix::identity(size, size) * diagonal);
+    pattern.add_to_diagonal(&mut values, diagonal);
+    for (k, members) in cliques.iter().enumerate() {
+        let mut block = Vec::new();
+        for p in 0..4 {
+            for q in 0..=p {
+                let entry = numbers.random::<f64>() - 0.5;
+                block.push(entry);
+                for (a, b) in if p == q { vec![(p, q)] } else { vec![(p, q), (q, p)] } {
+                    if members[a] != FIXED && members[b] != FIXED {
+                        dense[(members[a] as usize, members[b] as usize)] += entry;
+                    }
+                }
+            }
+        }
+        slots.add_block(k, &block, &mut values);
+    }
+    Sample { pattern, cliques, values, dense, node: (0..size as u32).collect() }
+}
+
+/// Claim: scattering blocks through slots is adding them to a dense matrix, repeated and fixed members included; the
+/// product and the dense copy agree with it. Tolerance: rounding of sums of a few dozen numbers of size 1.
+#[test]
+fn blocks_add_up() {
+    for seed in 0..5 {
+        let Sample { pattern, values, dense, .. } = sample(40, seed, 0.0);
+        assert!((pattern.to_dense(&values) - &dense).amax() < 1e-14);
+        let x: Vec<f64> = (0..40).map(|k| (k as f64).sin()).collect();
+        let mut y = vec![0.0; 40];
+        symmetric_product(&pattern, &values, &x, &mut y);
+        let expected = &dense * nalgebra::DVector::from_column_slice(&x);
+        assert!((nalgebra::DVector::from_column_slice(&y) - expected).amax() < 1e-13);
+    }
+}
+
+/// Claim (Sylvester): the factorization counts the negative eigenvalues that a dense decomposition finds, below and
+/// above the size at which it becomes sparse, and solves. Tolerance of the solution: 1e-16 times the condition, which
+/// is below 1e5 for these seeds.
+#[test]
+fn inertia_and_solution() {
+    for (size, seed) in [(10, 1), (DENSE_LIMIT, 2), (DENSE_LIMIT + 1, 3), (200, 4), (300, 5)] {
+        for diagonal in [0.0, 0.7, 3.0, 20.0] {
+            let Sample { pattern, cliques, values, dense, node } = sample(size, seed, diagonal);
+            let mut factor = Factor::new(&pattern, &node, &[&cliques]).unwrap();
+            let inertia = factor.factor(&pattern, &values).unwrap();
+            let expected = symmetric_eigenvalues(&dense).unwrap().iter().filter(|v| **v < 0.0).count();
+            assert_eq!(inertia.negative, expected, "size {size}, diagonal {diagonal}");
+            factor.check(&pattern, &values, 1e-9).unwrap();
+        }
+    }
+}
+
+/// Claim: numbers that are not finite and a matrix of zeros are refused, not factored.
+#[test]
+fn what_cannot_be_factored() {
+    for size in [10, 100] {
+        let Sample { pattern, cliques, mut values, node, .. } = sample(size, 7, 1.0);
+        let mut factor = Factor::new(&pattern, &node, &[&cliques]).unwrap();
+        values[3] = f64::NAN;
+        assert_eq!(factor.factor(&pattern, &values), Err(FactorError::NotFinite));
+        values.fill(0.0);
+        assert!(matches!(factor.factor(&pattern, &values), Err(FactorError::Singular { .. })));
+    }
+}
+
+/// Claim: counting signs gives the number of singular values above a threshold; taking the null space out of a vector
+/// is projecting it onto the range. Two of the rows are copies, so the rank is short by two. Tolerance: 1e-10 of the
+/// regularisation, to the power of eight corrections: rounding.
+#[test]
+fn rank_and_range() {
+    let mut numbers = ChaCha8Rng::seed_from_u64(11);
+    let (mut cliques, mut values) = (Cliques::new(), Vec::new());
+    for row in 0..60u32 {
+        cliques.push([row % 58, (7 * row + 3) % 70, (11 * row + 5) % 70].map(|m| if row >= 58 { m % 58 } else { m }));
+        values.extend((0..3).map(|_| numbers.random::<f64>() - 0.5));
+    }
+    let last = cliques.members(0).to_vec();
+    let copy = [values[0], values[1], values[2]];
+    for factor in [2.0, -1.0] {
+        cliques.push(last.iter().copied());
+        values.extend(copy.map(|v| factor * v));
+    }
+    let rows = Rows { cliques: &cliques, values: &values };
+    let mut dense = DenseMatrix::zeros(62, 70);
+    for (row, members) in cliques.iter().enumerate() {
+        members.iter().zip(&values[cliques.range(row)]).for_each(|(m, v)| dense[(row, *m as usize)] += v);
+    }
+    let largest = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let node: Vec<u32> = (0..70).collect();
+    for tau in [1e-6, 0.1, 0.5] {
+        let expected = singular_values(&dense).unwrap().iter().filter(|s| **s > tau * largest).count();
+        assert_eq!(rank::count_above(&rows, 70, &node, tau).unwrap(), expected, "{tau}");
+    }
+    assert_eq!(rank::count_above(&rows, 70, &node, 1e-6).unwrap(), 60);
+    let t: Vec<f64> = (0..62).map(|k| (k as f64).cos()).collect();
+    let found = rank::without_null(&rows, 70, &node, &t).unwrap();
+    let svd = full_svd(&dense).unwrap();
+    let range = svd.u.columns(0, 60);
+    let expected = range * (range.transpose() * nalgebra::DVector::from_column_slice(&t));
+    assert!((nalgebra::DVector::from_column_slice(&found) - expected).amax() < 1e-10);
+}
+
+/// Claim: the iteration finds the largest eigenvalues of a positive matrix, with vectors that satisfy `A v = mu v`.
+/// Tolerance: 1e-13 was asked for, relative to the largest.
+#[test]
+fn largest_eigenvalues() {
+    let Sample { dense, .. } = sample(120, 21, 0.0);
+    let square = &dense * &dense;
+    let (values, vectors) =
+        eigen::largest(120, 6, |x| (&square * nalgebra::DVector::from_column_slice(x)).as_slice().to_vec()).unwrap();
+    let expected = symmetric_eigenvalues(&square).unwrap();
+    for (k, (value, vector)) in values.iter().zip(&vectors).enumerate() {
+        assert!((value - expected[119 - k]).abs() < 1e-11 * expected[119], "{k}");
+        let v = nalgebra::DVector::from_column_slice(vector);
+        assert!((&square * &v - *value * &v).norm() < 1e-9 * expected[119] * v.norm());
+    }
+}
+
+/// Claim: results arrive in order, each once, above and below the size at which threads are used.
+#[test]
+fn work_is_consumed_in_order() {
+    for count in [0, 1, parallel::LEAST - 1, parallel::LEAST, 3 * parallel::LEAST + 7, 10_000] {
+        let mut next = 0;
+        parallel::ordered(
+            count,
+            |k| k * k,
+            |k, square| {
+                assert_eq!((k, square), (next, next * next));
+                next += 1;
+            },
+        );
+        assert_eq!(next, count);
+    }
+}
