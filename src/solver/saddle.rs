@@ -10,11 +10,11 @@
 //!
 //! The alternative is the *block form*: factor the whole quasi-definite matrix, tensions among the unknowns, with its
 //! lower block regularised. Measured at the drawn state of rigid patches (`cargo bench --bench forms -- system`, solved
-//! to 1e-10, `gamma` 1e6) it took 1.6, 1.1 and 0.9 times as long at 12, 24 and 48 cells a side, with as many numbers in
-//! the factor and the same inertia. What decided was that the augmented form needs half the unknowns and no
-//! regularisation where `k` is moderate, and that its inertia is that of the energy on the folded surface. `gamma`
-//! (`-- weight`): 1e4 does not converge at 24 cells a side, 1e6 needs 6 to 9 corrections at 48, 1e7 and 1e8 need 4 to
-//! 6, 1e9 fails there; 1e7 keeps a decade to the cliff. The plain penalty `H + k R^T R` solves nothing at `k` = 1e12.
+//! to 1e-10) it takes 1.45, 1.26 and 1.05 times as long at 12, 24 and 48 cells a side, with as many numbers in the factor
+//! and the same inertia. The augmented form is kept because it is never slower there, has half the unknowns, and needs
+//! no regularisation where `k` is moderate. `gamma` (`-- weight`): 1e4 does not converge at 24 cells a side, 1e6 needs 6
+//! to 9 corrections at 48, 1e7 and 1e8 need 4 to 6, 1e9 fails there; 1e7 keeps a decade to the cliff. The plain penalty
+//! `H + k R^T R` is as good up to `k` = 1e8; at 1e12 it loses the drawn states of 24 and 48 cells a side.
 
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{Factor, FactorError, Inertia};
