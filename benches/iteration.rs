@@ -8,8 +8,10 @@
 //! Patches of the reference cell with exactly rigid bars and random rest angles. All times of a line are medians of
 //! runs taken in turns; compare along a line, not between machines.
 //!
-//! - `split`: one iteration (the minimiser's time, less the set-up, over its accepted steps) against one factorization and one solve of
-//!   the same matrix; what the rest is made of.
+//! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution (assembly, filling and
+//!   factoring the matrix, solving with corrections to 1e-6 for random forces, residuals, energy and gaps of the new state), and one iteration as it comes out of the
+//!   run (the minimiser's time, less the set-up, over its accepted steps: refused shifts, retraction and shorter steps included);
+//!   what the latter is made of.
 //! - `study`: what a whole relaxation adds to its iterations: analysis of the pattern, self stresses.
 //! - `assembly`: its cost against the number of unknowns; the exponent must be 1.
 //! - `threads`: assembly with one and two threads (this program starts itself again, since threads are set once).
@@ -30,6 +32,8 @@ use foldwell::solver::{
 use std::cell::Cell;
 
 const RIGID: f64 = f64::INFINITY;
+/// Steps of a run whose parts are timed: what one costs is asked, not how many it takes.
+const SOME_STEPS: usize = 8;
 /// A part of the benchmark, at these numbers of cells a side.
 type Part = fn(&[usize]);
 
@@ -124,12 +128,12 @@ struct Spent {
     gap_counts: f64,
 }
 
-/// Minimises from the drawn state, in at most eight steps: what a step costs is all that is asked here.
-fn minimise(star: &Star) -> (Spent, Equilibrium) {
+/// Minimises from the drawn state in at most so many steps.
+fn minimise(star: &Star, iterations: usize) -> (Spent, Equilibrium) {
     let mut model = star.model(RIGID);
     let start = model.start();
     let mut timed = Timed::new(&mut model);
-    let options = Options { iterations: 8, ..Options::default() };
+    let options = Options { iterations, ..Options::default() };
     let mut found = None;
     let whole = seconds(|| found = Some(minimize(&mut timed, start, options, &mut |_| true)));
     let found = match found.expect("it ran") {
@@ -181,6 +185,19 @@ impl Step {
         let layout = self.model.layout();
         seconds(|| self.saddle.apply(layout, &self.at, &self.right.0, &self.right.1))
     }
+
+    /// One iteration without anything around it.
+    fn plain(&mut self, x: &[f64], tension: &[f64]) -> f64 {
+        let closed = vec![0.0; tension.len()];
+        seconds(|| {
+            self.model.linearize(x, tension, Curvature::Full, &mut self.at);
+            let (layout, compliance) = (self.model.layout(), self.model.compliance());
+            self.saddle.factor(layout, &self.at, compliance, 0.0).unwrap();
+            let residuals = tension::residuals(&self.model, &self.at, tension);
+            let step = self.saddle.solve(layout, &self.at, compliance, (&self.right.0, &closed), 1e-6);
+            (residuals, self.model.gaps(x), self.model.energy(x), step.residual)
+        })
+    }
 }
 
 /// A factorization of a matrix of the same size and pattern, with nothing around it.
@@ -213,15 +230,16 @@ impl Bare {
 
 fn split(sizes: &[usize]) {
     println!(
-        "ratio: one iteration over factorization + solve alone. In parts of factorization + solve, per iteration; \
-         set-up (once per run) is apart.\n{:>3} {:>7} {:>5} {:>8} {:>7} {:>6} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} | \
+        "plain, run: one iteration over factorization + solve alone. In parts of factorization + solve, per iteration of \
+         the run; set-up (once per run) is apart.\n{:>3} {:>7} {:>5} {:>8} {:>7} {:>6} {:>6} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} | \
          {:>5} {:>5} {:>5} | {:>6}",
         "n",
         "unknown",
         "steps",
         "f ms",
         "s ms",
-        "ratio",
+        "plain",
+        "run",
         "assem",
         "fill",
         "factor",
@@ -237,16 +255,16 @@ fn split(sizes: &[usize]) {
     );
     for &n in sizes {
         let star = Star::new(n);
-        let (first, found) = minimise(&star);
+        let (_, found) = minimise(&star, 60);
         let mut step = Step::new(star.model(RIGID), &found.x, &found.tension);
         step.factor();
         let mut bare = Bare::new(&step);
         bare.factor(&step);
         let rounds = if n > 40 { 1 } else { rounds() };
-        let mut runs: Vec<Spent> = vec![first];
-        let mut times = [const { Vec::new() }; 5];
+        let mut runs = Vec::new();
+        let mut times = [const { Vec::new() }; 6];
         for _ in 0..rounds {
-            runs.push(minimise(&star).0);
+            runs.push(minimise(&star, SOME_STEPS).0);
             let layout = step.model.layout();
             let nodes = &[&layout.soft, &layout.stiff];
             times[4].push(
@@ -258,14 +276,15 @@ fn split(sizes: &[usize]) {
                 times[1].push(bare.solve());
                 times[2].push(step.factor());
                 times[3].push(step.solve());
+                times[5].push(step.plain(&found.x, &found.tension));
             }
         }
-        let [bare_factor, bare_solve, factor, solve, setup] = times.map(|mut t| common::median(&mut t));
-        print_split(n, size(&step.model).0, &mut runs, [bare_factor, bare_solve, factor, solve, setup]);
+        let medians = times.map(|mut t| common::median(&mut t));
+        print_split(n, size(&step.model).0, &mut runs, medians);
     }
 }
 
-fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], [f, s, factor, solve, setup]: [f64; 5]) {
+fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], [f, s, factor, solve, setup, plain]: [f64; 6]) {
     runs.sort_by(|a, b| a.whole.total_cmp(&b.whole));
     let run = runs[runs.len() / 2];
     let unit = (f + s) * run.iterations;
@@ -280,7 +299,15 @@ fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], [f, s, factor, sol
         run.accept,
     ];
     let rest = iterations - parts.iter().sum::<f64>();
-    print!("{n:3} {unknowns:7} {:5} {:8.2} {:7.2} {:6.2} |", run.iterations, 1e3 * f, 1e3 * s, iterations / unit);
+    let ratios = [plain / (f + s), iterations / unit];
+    print!(
+        "{n:3} {unknowns:7} {:5} {:8.2} {:7.2} {:6.2} {:6.2} |",
+        run.iterations,
+        1e3 * f,
+        1e3 * s,
+        ratios[0],
+        ratios[1]
+    );
     parts.iter().chain([&rest]).for_each(|part| print!(" {:6.2}", part / unit));
     let per = |count: f64| count / run.iterations;
     let counts = [run.factorizations, run.solves, run.gap_counts].map(per);
@@ -292,7 +319,7 @@ fn study(sizes: &[usize]) {
     println!("{:>3} {:>9} {:>9} {:>9} {:>9}", "n", "study ms", "newton", "set-up", "settle");
     for &n in sizes.iter().filter(|n| **n <= 40) {
         let star = Star::new(n);
-        let (_, found) = minimise(&star);
+        let (_, found) = minimise(&star, 60);
         let model = star.model(RIGID);
         let medians = in_turns(
             rounds(),
@@ -301,7 +328,7 @@ fn study(sizes: &[usize]) {
                     let mut model = star.model(RIGID);
                     seconds(|| star.relax(&mut model))
                 },
-                &mut || seconds(|| tension::settle(&model, &found.x, &found.tension, found.independent)),
+                &mut || seconds(|| tension::settle(&model, &found)),
                 &mut || {
                     let at = Linearization::new(model.layout());
                     seconds(|| Saddle::new(model.layout(), &at).is_ok())

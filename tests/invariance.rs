@@ -114,9 +114,9 @@ fn small_sheets_start_no_threads() {
     for surroundings in [Surroundings::Screw, Surroundings::FreeTorus, Surroundings::FixedTorus] {
         rigid(&Case::new(common::mesh("open-star"), [1, 1], surroundings));
     }
-    rigid(&Case::patch("open-star", [8, 8]));
+    rigid(&Case::patch("open-star", [12, 12]));
     assert!(!parallel::started(), "a small sheet started threads");
-    let case = Case::patch("open-star", [10, 10]);
+    let case = Case::patch("open-star", [14, 14]);
     assert!(case.edges() > parallel::LEAST);
     rigid(&case);
     assert!(parallel::started(), "a large sheet started none: the test shows nothing");

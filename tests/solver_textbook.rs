@@ -64,7 +64,7 @@ fn redundant_conditions_share_the_tension() {
     }
     let found = problem.run(&[5.0, -1.0]).unwrap();
     assert!(found.x.iter().all(|x| (x - 1.0).abs() < 1e-12), "{:?}", found.x);
-    let settled = settle(&problem, &found.x, &found.tension, found.independent);
+    let settled = settle(&problem, &found);
     assert_eq!(settled.self_stresses, Some(2));
     assert!(settled.residual_force <= 1e-12 && settled.residual_length <= 1e-12);
     for (tension, expected) in settled.tension.iter().zip([-1.0 / 6.0, -1.0 / 6.0, -1.0 / 3.0]) {

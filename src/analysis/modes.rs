@@ -287,12 +287,20 @@ fn lowest_sparse(model: &Model, count: usize) -> Result<Pairs, ModesError> {
         }
     }
     let zero = vec![0.0; layout.stiff.len()];
-    let (_, vectors) =
-        eigen::largest(layout.unknowns, count, |v| saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx)?;
+    let mut inverse = |v: &[f64]| saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx;
+    let (_, vectors) = eigen::largest(layout.unknowns, count, &mut inverse)?;
+    // once more, since Lanczos vectors are only as good as the largest eigenvalue of the inverse allows
+    let vectors: Vec<Vec<f64>> = vectors.iter().map(|v| normalized(inverse(v))).collect();
     at.add_identity(-shift);
     let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (rayleigh_quotient(model, &at, &v), v)).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(pairs.into_iter().unzip())
+}
+
+fn normalized(mut v: Vec<f64>) -> Vec<f64> {
+    let length = v.iter().map(|a| a * a).sum::<f64>().sqrt();
+    v.iter_mut().for_each(|a| *a /= length);
+    v
 }
 
 /// `v^T H v / v^T v` with the Hessian of the whole energy: its error is that of the vector squared.

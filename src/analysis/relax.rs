@@ -123,8 +123,8 @@ fn follow(
 }
 
 fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>, edges: usize) -> Relaxed {
+    let settled = tension::settle(model, &found);
     history.extend(found.history);
-    let settled = tension::settle(model, &found.x, &found.tension, found.independent);
     Relaxed {
         state: State::new(model, &found.x, &settled.tension, edges),
         x: found.x,

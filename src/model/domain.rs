@@ -17,6 +17,8 @@ pub use crate::sheet::tiling::Site;
 /// Most shared coordinates that a domain has.
 pub const MOST_SHARED: usize = 6;
 type SharedMatrix = SMatrix<f64, 3, MOST_SHARED>;
+/// Room for the Hessian of an element of up to four points; only its lower triangle and leading part mean something.
+type Pulled = SMatrix<f64, { 12 + MOST_SHARED }, { 12 + MOST_SHARED }>;
 
 /// Where points come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,6 +50,7 @@ impl Domain {
     }
 
     /// Where a site is. `x` holds all coordinates, the shared ones last.
+    #[inline]
     pub fn point(&self, x: &[f64], site: Site) -> Vec3 {
         let v = vertex(x, site);
         let [n1, n2] = site.shift.map(f64::from);
@@ -81,53 +84,57 @@ impl Domain {
         Placed { vertex: vertex_part, shared: shared_part }
     }
 
-    /// Gradient in the element's coordinates of a function whose gradient in its points is `g`.
+    /// Appends to `out` the gradient in the element's coordinates of a function whose gradient in its points is `g`.
     pub fn pull_gradient<const N: usize, const D: usize>(
         &self,
         x: &[f64],
         sites: &[Site; N],
         g: &SVector<f64, D>,
-    ) -> Vec<f64> {
-        let shared = self.shared();
-        if shared == 0 {
-            return g.as_slice().to_vec();
+        out: &mut Vec<f64>,
+    ) {
+        if self.shared() == 0 {
+            return out.extend_from_slice(g.as_slice());
         }
-        let mut pulled = vec![0.0; D + shared];
+        let mut shared = SVector::<f64, MOST_SHARED>::zeros();
         for (k, &site) in sites.iter().enumerate() {
-            let (placed, force) = (self.place(x, site), Vec3::from_column_slice(&g.as_slice()[3 * k..3 * k + 3]));
-            pulled[3 * k..3 * k + 3].copy_from_slice((placed.vertex.transpose() * force).as_slice());
-            let part = placed.shared.transpose() * force;
-            (0..shared).for_each(|s| pulled[D + s] += part[s]);
+            let (placed, force) = (self.place(x, site), g.fixed_rows::<3>(3 * k));
+            out.extend_from_slice((placed.vertex.transpose() * force).as_slice());
+            shared += placed.shared.transpose() * force;
         }
-        pulled
+        out.extend_from_slice(&shared.as_slice()[..self.shared()]);
     }
 
-    /// Lower triangle, row by row, of the Hessian in the element's coordinates of a function with gradient `g` and
-    /// Hessian `h` in its points: `J^T h J` plus the curvature of the map itself, weighted by `g`.
+    /// Appends to `out` the lower triangle, row by row, of the Hessian in the element's coordinates of a function with
+    /// gradient `g` and Hessian `h` in its points: `J^T h J` plus the curvature of the map itself, weighted by `g`.
     pub fn pull_hessian<const N: usize, const D: usize>(
         &self,
         x: &[f64],
         sites: &[Site; N],
         g: &SVector<f64, D>,
         h: &SMatrix<f64, D, D>,
-    ) -> Vec<f64> {
+        out: &mut Vec<f64>,
+    ) {
         if self.shared() == 0 {
-            return lower(D, |row, column| h[(row, column)]);
+            return append_lower(D, |row, column| h[(row, column)], out);
         }
-        let size = D + self.shared();
-        let mut full = nalgebra::DMatrix::<f64>::zeros(size, size);
-        let mut jacobian = nalgebra::DMatrix::<f64>::zeros(D, size);
-        for (k, &site) in sites.iter().enumerate() {
-            let placed = self.place(x, site);
-            jacobian.view_mut((3 * k, 3 * k), (3, 3)).copy_from(&placed.vertex);
-            jacobian.view_mut((3 * k, D), (3, size - D)).copy_from(&placed.shared.columns(0, size - D));
-            if matches!(self, Self::Screw) {
-                let force = Vec3::from_column_slice(&g.as_slice()[3 * k..3 * k + 3]);
-                Screw::new(&x[x.len() - 5..], site).add_curvature(&vertex(x, site), &force, 3 * k, D, &mut full);
+        let placed = sites.map(|site| self.place(x, site));
+        let mut pulled = Pulled::zeros();
+        for (k, left) in placed.iter().enumerate() {
+            for (l, right) in placed.iter().enumerate() {
+                let block = h.fixed_view::<3, 3>(3 * k, 3 * l);
+                let (to_right, to_shared) = (block * right.vertex, block * right.shared);
+                add(&mut pulled, (3 * k, 3 * l), left.vertex.transpose() * to_right);
+                add(&mut pulled, (D, 3 * l), left.shared.transpose() * to_right);
+                add(&mut pulled, (D, D), left.shared.transpose() * to_shared);
             }
         }
-        full += jacobian.transpose() * h * jacobian;
-        lower(size, |row, column| full[(row, column)])
+        if matches!(self, Self::Screw) {
+            for (k, &site) in sites.iter().enumerate() {
+                let force = g.fixed_rows::<3>(3 * k).into_owned();
+                Screw::new(&x[x.len() - 5..], site).add_curvature(&vertex(x, site), &force, 3 * k, D, &mut pulled);
+            }
+        }
+        append_lower(D + self.shared(), |row, column| pulled[(row, column)], out);
     }
 
     /// Keeps the axis of a screw away from the height z = 0, where `kappa` is infinite: moving all z by `d` and `1/kappa`
@@ -149,19 +156,25 @@ impl Domain {
     }
 
     /// All points of one element.
+    #[inline]
     pub fn points<const N: usize>(&self, x: &[f64], sites: &[Site; N]) -> [Vec3; N] {
         sites.map(|site| self.point(x, site))
     }
 }
 
-fn lower(size: usize, entry: impl Fn(usize, usize) -> f64) -> Vec<f64> {
-    let mut out = Vec::with_capacity(size * (size + 1) / 2);
+/// Adds a block whose first entry is at `(row, column)`.
+fn add<const R: usize, const C: usize>(to: &mut Pulled, (row, column): (usize, usize), block: SMatrix<f64, R, C>) {
+    let mut place = to.fixed_view_mut::<R, C>(row, column);
+    place += block;
+}
+
+fn append_lower(size: usize, entry: impl Fn(usize, usize) -> f64, out: &mut Vec<f64>) {
     for row in 0..size {
         out.extend((0..=row).map(|column| entry(row, column)));
     }
-    out
 }
 
+#[inline]
 fn vertex(x: &[f64], site: Site) -> Vec3 {
     Vec3::from_column_slice(&x[3 * site.vertex..3 * site.vertex + 3])
 }
@@ -214,20 +227,16 @@ impl Screw {
         out
     }
 
-    /// Adds `force . d^2 P` to the block of this point's vertex (at `at`) and the shared coordinates (at `shared`).
-    fn add_curvature(&self, v: &Vec3, force: &Vec3, at: usize, shared: usize, hessian: &mut nalgebra::DMatrix<f64>) {
+    /// Adds `force . d^2 P` to the lower triangle: the block of this point's vertex (at `at`) and of the shared coordinates
+    /// (at `shared`, behind it).
+    fn add_curvature(&self, v: &Vec3, force: &Vec3, at: usize, shared: usize, hessian: &mut Pulled) {
         let w = Complex::new(v.y, v.z);
         let along = |z: Complex<f64>| force.y * z.re + force.z * z.im;
-        let mut add = |p: usize, q: usize, value: f64| {
-            hessian[(p, q)] += value;
-            if p != q {
-                hessian[(q, p)] += value;
-            }
-        };
+        let mut add = |row: usize, column: usize, value: f64| hessian[(row, column)] += value;
         let turn_rate = [self.b, self.n[0] * self.kappa, self.n[1] * self.kappa];
         for (s, rate) in turn_rate.into_iter().enumerate() {
-            add(at + 1, shared + s, along(I * rate * self.turn));
-            add(at + 2, shared + s, along(-rate * self.turn));
+            add(shared + s, at + 1, along(I * rate * self.turn));
+            add(shared + s, at + 2, along(-rate * self.turn));
         }
         let (b, kappa) = (self.b, self.kappa);
         let by_kappa_kappa = along(b * b * (b * self.phi.second - self.turn * w));
@@ -235,9 +244,9 @@ impl Screw {
         let by_b_b = along(I * kappa * self.turn * (I * kappa * w + 1.0));
         add(shared, shared, by_kappa_kappa);
         for p in 0..2 {
-            add(shared, shared + 1 + p, self.n[p] * by_kappa_b);
+            add(shared + 1 + p, shared, self.n[p] * by_kappa_b);
             for q in 0..=p {
-                add(shared + 1 + q, shared + 1 + p, self.n[p] * self.n[q] * by_b_b);
+                add(shared + 1 + p, shared + 1 + q, self.n[p] * self.n[q] * by_b_b);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::domain::Domain;
 use super::gauge;
-use super::term::{Elements, Spring};
+use super::term::{Elements, Local, Spring};
 use crate::numerics::parallel;
 use crate::numerics::sparse::{Cliques, FIXED};
 use crate::solver::{Curvature, Layout, Linearization, Problem};
@@ -241,11 +241,11 @@ impl Problem for Model {
     fn energy(&self, x: &[f64]) -> f64 {
         let all = self.coordinates(x);
         let at = locate(&self.soft);
-        let cost = |k: usize| {
+        let cost = |k: usize, energy: &mut f64| {
             let (term, element) = at(k);
             let spring = self.soft[term].spring(element);
             let off = self.soft[term].value(element, &self.domain, &all) - spring.rest;
-            0.5 * spring.stiffness * off * off
+            *energy = 0.5 * spring.stiffness * off * off;
         };
         let mut energy = -self.loads.iter().zip(&all).map(|(f, x)| f * x).sum::<f64>();
         parallel::ordered(count(&self.soft), cost, |_, value| energy += value);
@@ -255,12 +255,12 @@ impl Problem for Model {
     fn gaps(&self, x: &[f64]) -> Vec<f64> {
         let all = self.coordinates(x);
         let at = locate(&self.stiff);
-        let gap = |k: usize| {
+        let gap = |k: usize, gap: &mut f64| {
             let (term, element) = at(k);
-            self.stiff[term].value(element, &self.domain, &all) - self.stiff[term].spring(element).rest
+            *gap = self.stiff[term].value(element, &self.domain, &all) - self.stiff[term].spring(element).rest;
         };
         let mut gaps = vec![0.0; self.compliance.len()];
-        parallel::ordered(gaps.len(), gap, |k, value| gaps[k] = value);
+        parallel::ordered(gaps.len(), gap, |k, value| gaps[k] = *value);
         gaps
     }
 
@@ -298,44 +298,35 @@ impl Model {
     fn linearize_soft(&self, all: &[f64], curvature: Curvature, out: &mut Linearization) {
         let at = locate(&self.soft);
         let full = curvature == Curvature::Full;
-        let compute = |k: usize| {
+        let compute = |k: usize, local: &mut Local| {
+            let (term, element) = at(k);
+            self.soft[term].local(element, &self.domain, all, full, local);
+        };
+        parallel::ordered(count(&self.soft), compute, |k, local| {
             let (term, element) = at(k);
             let spring = self.soft[term].spring(element);
-            let mut local = self.soft[term].local(element, &self.domain, all, full);
-            let force = spring.stiffness * (local.value - spring.rest);
-            local.hessian.iter_mut().for_each(|h| *h *= force);
-            (spring, force, local)
-        };
-        parallel::ordered(count(&self.soft), compute, |k, (spring, force, local)| {
             let off = local.value - spring.rest;
+            let force = spring.stiffness * off;
             out.energy += 0.5 * force * off;
             let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
             out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
-            for (&member, g) in self.layout.soft.members(k).iter().zip(&local.gradient) {
-                if member != FIXED {
-                    out.gradient[member as usize] += force * g;
-                }
-            }
-            out.add_metric(k, spring.stiffness, &local.gradient);
-            out.add_soft(k, &local.hessian);
+            out.add_soft(&self.layout, k, (spring.stiffness, &local.gradient), (force, &local.hessian));
         });
-        out.add_metric_to_hessian();
     }
 
     fn linearize_stiff(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
         let at = locate(&self.stiff);
-        let compute = |k: usize| {
+        let compute = |k: usize, local: &mut Local| {
             let (term, element) = at(k);
-            let mut local = self.stiff[term].local(element, &self.domain, all, true);
-            local.hessian.iter_mut().for_each(|h| *h *= tension[k]);
-            (local, self.stiff[term].spring(element).rest)
+            self.stiff[term].local(element, &self.domain, all, true, local);
         };
-        parallel::ordered(count(&self.stiff), compute, |k, (local, rest)| {
-            out.gaps[k] = local.value - rest;
+        parallel::ordered(count(&self.stiff), compute, |k, local| {
+            let (term, element) = at(k);
+            out.gaps[k] = local.value - self.stiff[term].spring(element).rest;
             let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
             out.largest_force = out.largest_force.max(largest * tension[k].abs());
             out.jacobian[self.layout.stiff.range(k)].copy_from_slice(&local.gradient);
-            out.add_stiff(k, &local.hessian);
+            out.add_stiff(k, tension[k], &local.hessian);
         });
     }
 }

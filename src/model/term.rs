@@ -2,7 +2,7 @@
 
 use super::domain::{Domain, Site};
 use super::measure::Measure;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::marker::PhantomData;
 
 /// The spring law `E = stiffness (value - rest)^2 / 2`; infinite stiffness: `value = rest` exactly.
@@ -38,6 +38,7 @@ pub struct Term<M, const N: usize, const D: usize> {
 }
 
 /// A measure of one element in the element's coordinates.
+#[derive(Default)]
 pub struct Local {
     /// Value of the measure, continued from the last accepted state.
     pub value: f64,
@@ -69,8 +70,8 @@ pub trait Elements: Send + Sync {
     fn edge(&self, k: usize) -> usize;
     /// Value of element `k`, continued from the last accepted state.
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64;
-    /// Value and gradient of element `k`, and its Hessian where wanted.
-    fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool) -> Local;
+    /// Puts value and gradient of element `k` into `out`, and its Hessian where wanted.
+    fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local);
     /// Makes `x` the state from which angles continue.
     fn accept(&mut self, domain: &Domain, x: &[f64]);
     /// Angles of the last accepted state; empty for lengths.
@@ -91,8 +92,8 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
 
     fn continued(&self, k: usize, value: f64) -> f64 {
         match self.last.get(k) {
-            Some(last) => value + TAU * ((last - value) / TAU).round(),
-            None => value,
+            Some(last) if (last - value).abs() > PI => value + TAU * ((last - value) / TAU).round(),
+            _ => value,
         }
     }
 }
@@ -130,17 +131,20 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
         self.continued(k, M::value(&domain.points(x, &self.elements[k].sites)))
     }
 
-    fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool) -> Local {
+    fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local) {
         let sites = &self.elements[k].sites;
         let points = domain.points(x, sites);
-        let (value, gradient, hessian) = if want_hessian {
-            let (value, g, h) = M::hessian(&points);
-            (value, g, domain.pull_hessian(x, sites, &g, &h))
+        out.hessian.clear();
+        let (value, gradient) = if want_hessian {
+            let (value, gradient, hessian) = M::hessian(&points);
+            domain.pull_hessian(x, sites, &gradient, &hessian, &mut out.hessian);
+            (value, gradient)
         } else {
-            let (value, g) = M::gradient(&points);
-            (value, g, Vec::new())
+            M::gradient(&points)
         };
-        Local { value: self.continued(k, value), gradient: domain.pull_gradient(x, sites, &gradient), hessian }
+        out.value = self.continued(k, value);
+        out.gradient.clear();
+        domain.pull_gradient(x, sites, &gradient, &mut out.gradient);
     }
 
     fn accept(&mut self, domain: &Domain, x: &[f64]) {

@@ -51,11 +51,17 @@ fn dissect(chosen: &[u32], neighbours: &[Vec<u32>]) -> Vec<u32> {
         starts.push(columns.len() as i32);
     }
     let found = feral_ordering_core::CscPattern::new(chosen.len(), &starts, &columns)
-        .map(|graph| feral_metis::metis_order(&graph));
+        .map(|graph| feral_metis::metis_order_full(&graph, &options()));
     match found {
-        Some(Ok(order)) => order.iter().map(|&k| chosen[k as usize]).collect(),
+        Some(Ok((order, ..))) => order.iter().map(|&k| chosen[k as usize]).collect(),
         _ => chosen.to_vec(),
     }
+}
+
+/// As much effort as pays for sheets: smaller pieces are ordered by minimum degree and fewer first bisections are tried
+/// than by default, which takes 0.6 of the time for as many numbers in the factor (patches of 2,000 to 40,000 unknowns).
+fn options() -> feral_metis::MetisOptions {
+    feral_metis::MetisOptions { nd_to_amd_switch: 400, niparts: 2, ..Default::default() }
 }
 
 fn expand(order: &[u32], node: &[u32], nodes: usize) -> Vec<u32> {

@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Fewer elements than this are worked on by the calling thread (measured: `benches/solver.rs`).
-pub const LEAST: usize = 1024;
-const WAVE: usize = 4096;
+/// Fewer elements than this are worked on by the calling thread (measured: `cargo bench --bench iteration -- threads`).
+pub const LEAST: usize = 2048;
+const WAVE: usize = 1024;
 
 static THREADS: AtomicUsize = AtomicUsize::new(0);
 static POOL: OnceLock<Option<rayon::ThreadPool>> = OnceLock::new();
@@ -24,16 +24,28 @@ pub fn started() -> bool {
     POOL.get().is_some_and(Option::is_some)
 }
 
-/// Calls `consume(k, compute(k))` for `k` in `0..count`, in this order.
-pub fn ordered<T: Send>(count: usize, compute: impl Fn(usize) -> T + Sync + Send, mut consume: impl FnMut(usize, T)) {
+/// Calls `compute(k, &mut result)` and then `consume(k, &result)` for `k` in `0..count`, the latter in this order.
+///
+/// A result is a place that is used again for a later `k`: what it owns is not allocated anew.
+pub fn ordered<T: Default + Send>(
+    count: usize,
+    compute: impl Fn(usize, &mut T) + Sync + Send,
+    mut consume: impl FnMut(usize, &T),
+) {
     let Some(pool) = (count >= LEAST).then(pool).flatten() else {
-        (0..count).for_each(|k| consume(k, compute(k)));
+        let mut result = T::default();
+        for k in 0..count {
+            compute(k, &mut result);
+            consume(k, &result);
+        }
         return;
     };
+    let mut results: Vec<T> = (0..count.min(WAVE)).map(|_| T::default()).collect();
     for start in (0..count).step_by(WAVE) {
-        let end = count.min(start + WAVE);
-        let results: Vec<T> = pool.install(|| (start..end).into_par_iter().with_min_len(64).map(&compute).collect());
-        results.into_iter().enumerate().for_each(|(k, result)| consume(start + k, result));
+        let wave = &mut results[..WAVE.min(count - start)];
+        let work = wave.par_iter_mut().with_min_len(64).enumerate();
+        pool.install(|| work.for_each(|(k, result)| compute(start + k, result)));
+        wave.iter().enumerate().for_each(|(k, result)| consume(start + k, result));
     }
 }
 

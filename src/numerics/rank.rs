@@ -30,7 +30,7 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
         let width = gradient.len();
         let mut block = vec![0.0; (width + 1) * (width + 2) / 2];
         block[width * (width + 1) / 2..][..width].copy_from_slice(gradient);
-        slots.add_block(row, &block, &mut values);
+        slots.add_block(row, 1.0, &block, &mut values);
     }
     let mut factor = Factor::new(&pattern, &node, &[&cliques])?;
     let inertia = factor.factor(&pattern, &values)?;

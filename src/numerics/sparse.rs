@@ -209,22 +209,41 @@ impl Slots {
         Self { starts, slots: pattern.slots(cliques) }
     }
 
-    /// Adds the lower triangle of a block, given row by row, to the values.
-    pub fn add_block(&self, clique: usize, block: &[f64], values: &mut [f64]) {
+    /// Adds `scale` times the lower triangle of a block, given row by row, to the values.
+    pub fn add_block(&self, clique: usize, scale: f64, block: &[f64], values: &mut [f64]) {
         let slots = &self.slots[self.starts[clique]..self.starts[clique + 1]];
         for (&slot, &entry) in slots.iter().zip(block) {
-            add(values, slot, entry);
+            add(values, slot, scale * entry);
+        }
+    }
+
+    /// Adds `weight * g g^T + scale * block` to the values, the block as in [`add_block`](Self::add_block) or empty.
+    pub fn add_curvature(
+        &self,
+        clique: usize,
+        (weight, g): (f64, &[f64]),
+        (scale, block): (f64, &[f64]),
+        values: &mut [f64],
+    ) {
+        if block.is_empty() {
+            return self.add_outer(clique, weight, g, values);
+        }
+        let mut entries = self.slots[self.starts[clique]..self.starts[clique + 1]].iter().zip(block);
+        for p in 0..g.len() {
+            let scaled = weight * g[p];
+            for (factor, (&slot, entry)) in g[..=p].iter().zip(&mut entries) {
+                add(values, slot, scaled * factor + scale * entry);
+            }
         }
     }
 
     /// Adds `weight * g g^T` to the values.
     pub fn add_outer(&self, clique: usize, weight: f64, g: &[f64], values: &mut [f64]) {
-        let mut slot = self.starts[clique];
+        let mut slots = self.slots[self.starts[clique]..self.starts[clique + 1]].iter();
         for p in 0..g.len() {
             let scaled = weight * g[p];
-            for entry in &g[..=p] {
-                add(values, self.slots[slot], scaled * entry);
-                slot += 1;
+            for (entry, &slot) in g[..=p].iter().zip(&mut slots) {
+                add(values, slot, scaled * entry);
             }
         }
     }

@@ -171,24 +171,22 @@ impl Builder<'_> {
         span: Range<usize>,
     ) -> Result<Vec<f64>, SceneError> {
         let mut values = vec![f64::NAN; self.tiling.edges.len()];
+        let mut copies: HashMap<(usize, Option<[usize; 2]>), Vec<usize>> = HashMap::new();
+        for (k, tiled) in self.tiling.edges.iter().enumerate() {
+            copies.entry((tiled.edge, None)).or_default().push(k);
+            copies.entry((tiled.edge, Some(tiled.cell))).or_default().push(k);
+        }
         for row in rows {
             let fault = |fault| SceneError::Table { path: path.into(), line: row.line, fault };
             let edge = self
                 .hinge(row.key, kind)
                 .ok_or_else(|| fault(TableFault::Edge(format!("the sheet has no crease {}", name(row.key)))))?;
-            let mut found = false;
-            for (k, tiled) in self.tiling.edges.iter().enumerate() {
-                if tiled.edge == edge && row.cell.is_none_or(|cell| cell == tiled.cell) {
-                    (values[k], found) = (row.value, true);
-                }
-            }
-            if !found {
+            let Some(found) = copies.get(&(edge, row.cell)) else {
                 let [c1, c2] = row.cell.unwrap_or_default();
-                return Err(fault(TableFault::Edge(format!(
-                    "there is no crease {} in cell [{c1}, {c2}]",
-                    name(row.key)
-                ))));
-            }
+                let message = format!("there is no crease {} in cell [{c1}, {c2}]", name(row.key));
+                return Err(fault(TableFault::Edge(message)));
+            };
+            found.iter().for_each(|&k| values[k] = row.value);
         }
         let missing = |k: &usize| self.tiling.edges[*k].kind == kind && values[*k].is_nan();
         match (0..values.len()).find(missing) {

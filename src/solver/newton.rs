@@ -7,7 +7,7 @@
 //! solution soft elements enter with their Gauss-Newton Hessian, once steps contract with the full one.
 
 use super::problem::{Curvature, Linearization, Problem};
-use super::saddle::Saddle;
+use super::saddle::{Saddle, Solved};
 use super::tension::{nan_max, residuals, self_stresses};
 use crate::numerics::factor::FactorError;
 use thiserror::Error;
@@ -25,8 +25,16 @@ const SHIFTS: usize = 12;
 /// Bounds of the relative residual of a Newton step's linear system; between them a hundredth of the scaled force.
 const FINEST: f64 = 1e-8;
 const COARSEST: f64 = 1e-3;
+/// Relative residual of a step's linear system above which the factorization is not used.
+const INACCURATE: f64 = 0.1;
 /// Largest scaled gap of a trial.
-const LOOSEST: f64 = 1e-6;
+const LOOSEST: f64 = 1e-4;
+/// First shift after none, factor from a shift to the next, and the shift below which the next lower one is none.
+const FIRST_SHIFT: f64 = 0.25;
+const RAISE: f64 = 4.0;
+const LEAST_SHIFT: f64 = 2e-2;
+/// Most steps in a row for which a shift is not lowered.
+const MOST_PATIENCE: usize = 8;
 /// Scaled force below which the inertia of a state is that of the minimum next to it.
 const NEAR: f64 = 1e-4;
 /// Largest component of the step with which a start is probed, and the part of its stretch that tells a singular start.
@@ -151,8 +159,11 @@ struct Newton<'a, P: Problem> {
     saddle: Saddle,
     x: Vec<f64>,
     tension: Vec<f64>,
-    /// Shift of the next factorization, relative to the scale of the Hessian.
+    /// Shift of the last factorization, in units of the metric.
     shift: f64,
+    /// Steps for which the shift is not lowered, and for how many it will be when lowering fails again.
+    hold: usize,
+    patience: usize,
     curvature: Curvature,
     /// Whether the last factorization was of the full Hessian, without shift, and that of a minimum.
     certified: bool,
@@ -188,6 +199,8 @@ pub fn minimize<P: Problem>(
         x,
         tension: vec![0.0; rows],
         shift: 0.0,
+        hold: 0,
+        patience: 1,
         curvature: Curvature::GaussNewton,
         certified: false,
         history: vec![],
@@ -270,9 +283,22 @@ impl<P: Problem> Newton<'_, P> {
         }
     }
 
-    /// Factors with the smallest shift, from the last one's tenth upwards, at which the Hessian is that of a minimum.
-    fn factor(&mut self) -> Result<(), Failure> {
-        let mut shift = if self.shift > 2e-2 { self.shift / 4.0 } else { 0.0 };
+    /// Factors for a new step: tries a lower shift than the last one, less often the more often that was in vain.
+    fn factor_lower(&mut self) -> Result<(), Failure> {
+        if self.hold > 0 {
+            self.hold -= 1;
+            return self.factor(self.shift);
+        }
+        let lower = if self.shift > LEAST_SHIFT { self.shift / RAISE } else { 0.0 };
+        self.factor(lower)?;
+        let in_vain = self.shift > lower;
+        self.patience = if in_vain { (2 * self.patience).min(MOST_PATIENCE) } else { 1 };
+        self.hold = if in_vain { self.patience / 2 } else { 0 };
+        Ok(())
+    }
+
+    /// Factors with the smallest shift, from `shift` upwards, at which the Hessian is that of a minimum.
+    fn factor(&mut self, mut shift: f64) -> Result<(), Failure> {
         for _ in 0..40 {
             let found = self.saddle.factor(self.problem.layout(), &self.at, self.problem.compliance(), shift);
             match found {
@@ -282,7 +308,7 @@ impl<P: Problem> Newton<'_, P> {
                     return Ok(());
                 }
                 Err(error @ FactorError::NotFinite) => return Err(error.into()),
-                _ => shift = if shift == 0.0 { 1e-2 } else { 4.0 * shift },
+                _ => shift = if shift == 0.0 { FIRST_SHIFT } else { RAISE * shift },
             }
         }
         Err(FactorError::Singular { ratio: 0.0 }.into())
@@ -290,24 +316,39 @@ impl<P: Problem> Newton<'_, P> {
 
     /// One accepted step; returns the fraction of the Newton step that was taken.
     fn advance(&mut self, last: &Step) -> Result<f64, Failure> {
-        self.factor()?;
+        self.factor_lower()?;
+        let mut residual = 0.0;
         for _ in 0..SHIFTS {
-            let (dx, dt) = self.direction(last);
-            if self.history.len() == 1 && self.obstructed(&dx) {
+            let step = self.direction(last);
+            if self.history.len() == 1 && self.obstructed(&step.dx) {
                 return Err(Failure::SingularStart);
             }
-            let first = self.first_halving();
-            for halving in first..HALVINGS {
-                let fraction = 0.5f64.powi(halving);
-                if let Some(trial) = self.attempt((&dx, &dt), fraction, last) {
-                    self.take(trial, fraction, last);
+            if step.residual <= INACCURATE {
+                let taken = self.halve(&step, last);
+                if let Some(fraction) = taken {
                     return Ok(fraction);
                 }
             }
-            self.shift = (16.0 * self.shift).max(1.0);
-            self.factor()?;
+            residual = step.residual;
+            self.factor((RAISE * self.shift).max(FIRST_SHIFT))?;
         }
-        Err(Failure::Stuck { force: last.residual_force, length: last.residual_length })
+        if residual <= INACCURATE {
+            Err(Failure::Stuck { force: last.residual_force, length: last.residual_length })
+        } else {
+            Err(FactorError::Inaccurate { residual }.into())
+        }
+    }
+
+    /// Takes the largest fraction of a step that can be accepted, if there is one.
+    fn halve(&mut self, step: &Solved, last: &Step) -> Option<f64> {
+        let fractions = (self.first_halving()..HALVINGS).map(|halving| 0.5f64.powi(halving));
+        for fraction in fractions {
+            if let Some(trial) = self.attempt((&step.dx, &step.dt), fraction, last) {
+                self.take(trial, fraction, last);
+                return Some(fraction);
+            }
+        }
+        None
     }
 
     /// Whether the state before the last one was a whole step away and so near that its inertia is that of the last.
@@ -323,13 +364,12 @@ impl<P: Problem> Newton<'_, P> {
     }
 
     /// The Newton step in unknowns and tensions.
-    fn direction(&mut self, last: &Step) -> (Vec<f64>, Vec<f64>) {
+    fn direction(&mut self, last: &Step) -> Solved {
         let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
         let accuracy = (0.01 * last.residual_force).clamp(FINEST, COARSEST);
         let force = self.at.force(layout, &self.tension);
         let open = open(&self.at.gaps, &self.tension, compliance);
-        let solved = self.saddle.solve(layout, &self.at, compliance, (&force, &open), accuracy);
-        (solved.dx, solved.dt)
+        self.saddle.solve(layout, &self.at, compliance, (&force, &open), accuracy)
     }
 
     /// Whether the stretch that a step makes beyond its linear part cannot be taken back by any motion: then the rigid

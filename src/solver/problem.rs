@@ -4,7 +4,7 @@
 //! its rest value) and compliances `c_r = 1/k_r >= 0`. A compliance of zero is the constraint `m_r(x) = 0`. The
 //! tension `t_r` of a measure is an unknown of its own, `m_r = c_r t_r`, so nothing is ever multiplied by `k_r`.
 
-use crate::numerics::sparse::{Cliques, Pattern, Rows, Slots};
+use crate::numerics::sparse::{Cliques, FIXED, Pattern, Rows, Slots};
 
 /// Which unknowns there are and which are coupled.
 #[derive(Clone, Debug)]
@@ -58,8 +58,10 @@ pub struct Linearization {
     pub jacobian: Vec<f64>,
     /// Soft Hessian plus the tension-weighted Hessians of the stiff measures, in the slots of the pattern.
     pub hessian: Vec<f64>,
-    /// Gauss-Newton part of the soft Hessian, the metric in which steps are held back.
-    pub metric: Vec<f64>,
+    /// Gradients of the soft elements, laid out as the members of `Layout::soft`.
+    pub soft_gradients: Vec<f64>,
+    /// Stiffnesses of the soft elements.
+    pub soft_stiffness: Vec<f64>,
     /// Largest force of a single element on a single unknown.
     pub largest_force: f64,
     pattern: Pattern,
@@ -77,7 +79,8 @@ impl Linearization {
             gaps: vec![0.0; layout.stiff.len()],
             jacobian: vec![0.0; layout.stiff.total()],
             hessian: vec![0.0; pattern.entries()],
-            metric: vec![0.0; pattern.entries()],
+            soft_gradients: vec![0.0; layout.soft.total()],
+            soft_stiffness: vec![0.0; layout.soft.len()],
             largest_force: 0.0,
             soft: Slots::new(&pattern, &layout.soft),
             stiff: Slots::new(&pattern, &layout.stiff),
@@ -91,27 +94,32 @@ impl Linearization {
         self.largest_force = 0.0;
         self.gradient.fill(0.0);
         self.hessian.fill(0.0);
-        self.metric.fill(0.0);
     }
 
-    /// Adds the lower triangle (row by row) of a soft element's Hessian.
-    pub fn add_soft(&mut self, element: usize, block: &[f64]) {
-        self.soft.add_block(element, block, &mut self.hessian);
+    /// Adds force and Hessian of a soft element: its stiffness `k` and the gradient `g` of its measure, its force `f`
+    /// and the Hessian `h` of its measure (lower triangle, row by row; empty: only `k g g^T` of `k g g^T + f h`).
+    pub fn add_soft(&mut self, layout: &Layout, element: usize, (k, g): (f64, &[f64]), (f, h): (f64, &[f64])) {
+        self.soft_stiffness[element] = k;
+        self.soft_gradients[layout.soft.range(element)].copy_from_slice(g);
+        for (&member, g) in layout.soft.members(element).iter().zip(g) {
+            if member != FIXED {
+                self.gradient[member as usize] += f * g;
+            }
+        }
+        self.soft.add_curvature(element, (k, g), (f, h), &mut self.hessian);
     }
 
-    /// Adds `weight g g^T` of a soft element to the metric.
-    pub fn add_metric(&mut self, element: usize, weight: f64, gradient: &[f64]) {
-        self.soft.add_outer(element, weight, gradient, &mut self.metric);
+    /// Adds `shift` times the metric, the Gauss-Newton part `sum k g g^T` of the soft Hessian, to `values`.
+    pub fn add_metric(&self, layout: &Layout, shift: f64, values: &mut [f64]) {
+        for (element, k) in self.soft_stiffness.iter().enumerate() {
+            let gradient = &self.soft_gradients[layout.soft.range(element)];
+            self.soft.add_outer(element, shift * k, gradient, values);
+        }
     }
 
-    /// Completes the Hessian with the metric.
-    pub fn add_metric_to_hessian(&mut self) {
-        self.hessian.iter_mut().zip(&self.metric).for_each(|(h, m)| *h += m);
-    }
-
-    /// Adds the lower triangle (row by row) of a stiff measure's Hessian times its tension.
-    pub fn add_stiff(&mut self, measure: usize, block: &[f64]) {
-        self.stiff.add_block(measure, block, &mut self.hessian);
+    /// Adds the Hessian of a stiff measure (lower triangle, row by row) times its tension.
+    pub fn add_stiff(&mut self, measure: usize, tension: f64, block: &[f64]) {
+        self.stiff.add_block(measure, tension, block, &mut self.hessian);
     }
 
     /// Adds `weight g g^T` of stiff measure `measure` to `values`.

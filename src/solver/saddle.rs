@@ -106,8 +106,8 @@ impl Saddle {
     fn fill(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64], shift: f64) {
         self.shifted.copy_from_slice(&at.hessian);
         if shift > 0.0 {
-            self.shifted.iter_mut().zip(&at.metric).for_each(|(v, m)| *v += shift * m);
-            let some_metric = at.pattern().largest_diagonal(&at.metric) > 0.0;
+            at.add_metric(layout, shift, &mut self.shifted);
+            let some_metric = at.soft_stiffness.iter().any(|k| *k > 0.0);
             let least = if some_metric { LEAST_METRIC } else { 1.0 };
             at.pattern().add_to_diagonal(&mut self.shifted, shift * least * Self::unit(at));
         }

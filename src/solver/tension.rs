@@ -1,5 +1,6 @@
 //! Tensions of a converged state: least norm where they are not unique, and the residuals that hold with them.
 
+use super::newton::Equilibrium;
 use super::problem::{Curvature, Linearization, Problem};
 use crate::numerics::rank;
 
@@ -19,19 +20,25 @@ pub struct Settled {
     pub residual_length: f64,
 }
 
-/// Takes self stresses out of the tensions of a state at which all or some measures are rigid; where they are known to be
-/// `independent` there is none.
-pub fn settle<P: Problem>(problem: &P, x: &[f64], tension: &[f64], independent: bool) -> Settled {
+/// Takes self stresses out of the tensions of an equilibrium; where its measures were seen to be independent there is none.
+pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> Settled {
+    if let (true, Some(last)) = (found.independent, found.history.last()) {
+        return Settled {
+            tension: found.tension.clone(),
+            self_stresses: problem.compliance().contains(&0.0).then_some(0),
+            residual_force: last.residual_force,
+            residual_length: last.residual_length,
+        };
+    }
     let layout = problem.layout();
     let mut at = Linearization::new(layout);
-    problem.linearize(x, tension, Curvature::GaussNewton, &mut at);
-    let rigid = problem.compliance().contains(&0.0);
-    let self_stresses = if independent && rigid { Some(0) } else { self_stresses(problem, &at) };
+    problem.linearize(&found.x, &found.tension, Curvature::GaussNewton, &mut at);
+    let self_stresses = self_stresses(problem, &at);
     let rows = at.rows(layout);
     let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
-    let mut settled = tension.to_vec();
+    let mut settled = found.tension.clone();
     if all_rigid && self_stresses.is_some_and(|count| count > 0) {
-        settled = rank::without_null(&rows, layout.unknowns, &layout.node, tension).unwrap_or(settled);
+        settled = rank::without_null(&rows, layout.unknowns, &layout.node, &found.tension).unwrap_or(settled);
     }
     let (residual_force, residual_length) = residuals(problem, &at, &settled);
     Settled { tension: settled, self_stresses, residual_force, residual_length }

@@ -84,24 +84,20 @@ impl Problem for Textbook {
         out.gradient.iter_mut().zip(&self.load).for_each(|(g, f)| *g = -f);
         for (k, (weight, measure)) in self.soft.iter().enumerate() {
             let (value, gradient, mut hessian) = measure(&Self::at(&self.layout.soft, k, x));
-            for (&member, g) in self.layout.soft.members(k).iter().zip(&gradient) {
-                out.gradient[member as usize] += weight * value * g;
+            for g in &gradient {
                 out.largest_force = out.largest_force.max(weight * g.abs() * value.abs().max(1e-3));
             }
-            out.add_metric(k, *weight, &gradient);
-            if curvature == Curvature::Full {
-                hessian.iter_mut().for_each(|h| *h *= weight * value);
-                out.add_soft(k, &hessian);
+            if curvature == Curvature::GaussNewton {
+                hessian.clear();
             }
+            out.add_soft(&self.layout, k, (*weight, &gradient), (weight * value, &hessian));
         }
-        out.add_metric_to_hessian();
         for (k, measure) in self.stiff.iter().enumerate() {
-            let (value, gradient, mut hessian) = measure(&Self::at(&self.layout.stiff, k, x));
+            let (value, gradient, hessian) = measure(&Self::at(&self.layout.stiff, k, x));
             out.gaps[k] = value;
             out.largest_force = gradient.iter().fold(out.largest_force, |m, g| m.max((g * tension[k]).abs()));
             out.jacobian[self.layout.stiff.range(k)].copy_from_slice(&gradient);
-            hessian.iter_mut().for_each(|h| *h *= tension[k]);
-            out.add_stiff(k, &hessian);
+            out.add_stiff(k, tension[k], &hessian);
         }
     }
 
