@@ -11,13 +11,13 @@
 //! vector and y in the plane of the lattice towards the second; the displacement along the unit normal `n`, on the
 //! side of the face normals, is `(k11 x^2 + k22 y^2 + 2 k12 x y)/2`.
 
-use super::{Closure, KinematicsError, drawn_fold_angles};
+use super::metric::LatticeFrame;
+use super::{Closure, Displacement, Embedding, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::{NullSpace, least_squares, null_space, singular_values};
-use crate::sheet::{Corner, EdgeKey, Sheet};
+use crate::numerics::dense::{NullSpace, null_space, singular_values};
+use crate::sheet::{Corner, Sheet};
 use nalgebra::{DVector, Matrix2, Matrix3};
-use std::collections::HashMap;
 
 /// Largest condition number of the map from modes to curvature tensors with which curvatures still name a mode.
 const LARGEST_CONDITION: f64 = 1e8;
@@ -50,10 +50,11 @@ pub fn folding_modes(sheet: &Sheet) -> Result<FoldingModes, KinematicsError> {
         0 if sheet.holes.is_empty() => {}
         loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }),
     }
-    let NullSpace { basis, gap, .. } = null_space(&closure.jacobian(&drawn_fold_angles(sheet)))?;
-    let lattice_rotations = lattice_rotations(sheet, &basis)?;
-    let frame = LatticeFrame::new(lattice, sheet);
-    let tensors: Vec<Vec3> = lattice_rotations.iter().map(|omega| frame.curvature(omega)).collect();
+    let embedding = Embedding::new(sheet)?;
+    let NullSpace { basis, gap, .. } = null_space(&closure.jacobian(embedding.drawn_angles()))?;
+    let modes = basis.column_iter().map(|mode| lattice_rotations(&embedding, mode.as_slice()));
+    let lattice_rotations = modes.collect::<Result<Vec<_>, _>>()?;
+    let tensors = curvatures(sheet, &lattice, &lattice_rotations);
     let curvatures = DenseMatrix::from_fn(3, tensors.len(), |row, mode| tensors[mode][row]);
     Ok(FoldingModes { basis, curvatures, lattice_rotations, gap })
 }
@@ -85,30 +86,13 @@ fn condition(map: &DenseMatrix) -> Result<f64, KinematicsError> {
     Ok(values[0] / values[values.len() - 1])
 }
 
-/// The lattice as a frame for curvature tensors.
-struct LatticeFrame {
-    lattice: [Vec3; 2],
-    normal: Vec3,
-    inverse: Matrix2<f64>,
-}
-
-impl LatticeFrame {
-    fn new(lattice: [Vec3; 2], sheet: &Sheet) -> Self {
-        let [l1, l2] = lattice;
-        let upwards = l1.cross(&l2);
-        let normal = upwards.normalize() * vector_area(sheet).dot(&upwards).signum();
-        let along = l1.normalize();
-        let root = Matrix2::new(l1.norm(), along.dot(&l2), 0.0, along.cross(&l2).norm());
-        let inverse = Matrix2::new(1.0 / root.m11, -root.m12 / (root.m11 * root.m22), 0.0, 1.0 / root.m22);
-        Self { lattice, normal, inverse }
-    }
-
-    /// `(k11, k22, k12)` of the lattice rotations of a mode.
-    fn curvature(&self, omega: &[Vec3; 2]) -> Vec3 {
-        let turned = Matrix2::from_fn(|a, b| omega[a].cross(&self.lattice[b]).dot(&self.normal));
-        let tensor = self.inverse.transpose() * turned * self.inverse;
-        Vec3::new(tensor.m11, tensor.m22, 0.5 * (tensor.m12 + tensor.m21))
-    }
+/// Curvature tensors `[k11, k22, k12]` of modes with these lattice rotations.
+fn curvatures(sheet: &Sheet, lattice: &[Vec3; 2], rotations: &[[Vec3; 2]]) -> Vec<[f64; 3]> {
+    let upwards = lattice[0].cross(&lattice[1]);
+    let normal = upwards.normalize() * vector_area(sheet).dot(&upwards).signum();
+    let frame = LatticeFrame::new(lattice);
+    let tensor = |omega: &[Vec3; 2]| frame.tensor(&Matrix2::from_fn(|a, b| omega[a].cross(&lattice[b]).dot(&normal)));
+    rotations.iter().map(tensor).collect()
 }
 
 /// Twice the sum of the face areas along their normals.
@@ -120,55 +104,24 @@ fn vector_area(sheet: &Sheet) -> Vec3 {
     sheet.triangles.iter().map(|triangle| area(&triangle.corners)).sum()
 }
 
-/// Angular velocities from a cell to the next, along both lattice vectors, for every column of fold rates.
-///
-/// With `w_f` the angular velocity of face `f` of cell (0, 0), and `w_f + n1 Omega_1 + n2 Omega_2` that of its copies,
-/// every edge is one equation: left face less right face is the fold rate times the direction of the edge. There are
-/// more edges than unknowns; what is left over tells whether all ways over the faces agree.
-fn lattice_rotations(sheet: &Sheet, rates: &DenseMatrix) -> Result<Vec<[Vec3; 2]>, KinematicsError> {
-    let faces = sheet.triangles.len();
-    let turns = DenseMatrix::from_fn(sheet.edges.len(), 3 * rates.ncols(), |edge, column| {
-        let [i, j] = sheet.edges[edge].key.ends().map(|end| sheet.position(end));
-        rates[(edge, column / 3)] * (j - i).normalize()[column % 3]
-    });
-    // The first face stands still: without its column.
-    let found = least_squares(&face_differences(sheet).columns(1, faces + 1).into_owned(), &turns)?;
-    let difference = found.residual.amax();
-    if found.rank.rank != faces + 1 {
-        return Err(KinematicsError::Disconnected { faces });
+/// Angular velocities from a cell to the next, along both lattice vectors, for fold rates at the drawn state.
+fn lattice_rotations(embedding: &Embedding, rates: &[f64]) -> Result<[Vec3; 2], KinematicsError> {
+    let Displacement { lattice, disagreement, .. } = Displacement::new(embedding, embedding.drawn_angles(), rates);
+    let closes = disagreement <= LARGEST_DIFFERENCE;
+    if !closes {
+        return Err(KinematicsError::WaysDisagree { difference: disagreement });
     }
-    if difference > LARGEST_DIFFERENCE {
-        return Err(KinematicsError::WaysDisagree { difference });
-    }
-    let omega = |mode: usize, a: usize| found.solution.fixed_view::<1, 3>(faces - 1 + a, 3 * mode).transpose();
-    Ok((0..rates.ncols()).map(|mode| [omega(mode, 0), omega(mode, 1)]).collect())
-}
-
-/// The matrix that takes the angular velocities of faces, and then `Omega_1` and `Omega_2`, to left face less right face
-/// of every edge.
-fn face_differences(sheet: &Sheet) -> DenseMatrix {
-    let number: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
-    let faces = sheet.triangles.len();
-    let mut matrix = DenseMatrix::zeros(sheet.edges.len(), faces + 2);
-    for (face, triangle) in sheet.triangles.iter().enumerate() {
-        for side in triangle.sides() {
-            let Some(&edge) = number.get(&side.key) else { continue };
-            // The copy of this face that is beside the edge whose first vertex stands in cell (0, 0).
-            let copy = side.base.shift.map(|n| -f64::from(n));
-            let sign = [1.0, -1.0][side.side];
-            matrix[(edge, face)] += sign;
-            matrix[(edge, faces)] += sign * copy[0];
-            matrix[(edge, faces + 1)] += sign * copy[1];
-        }
-    }
-    matrix
+    lattice.map(|moving| moving.map(|lattice| lattice.twist.angular)).ok_or(KinematicsError::NoLattice)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::test_sheets::*;
     use super::*;
-    use std::collections::VecDeque;
+    use crate::kinematics::drawn_fold_angles;
+    use crate::numerics::dense::least_squares;
+    use crate::sheet::EdgeKey;
+    use std::collections::{HashMap, VecDeque};
 
     /// The three positions of a face, the third beyond the edge from the first to the second.
     struct Placed {
