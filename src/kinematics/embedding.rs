@@ -153,6 +153,11 @@ impl Embedding {
         errors.fold(0.0, larger)
     }
 
+    /// Sum of the drawn areas of the faces times their normals.
+    pub(super) fn drawn_area(&self) -> Vec3 {
+        self.faces.iter().map(|face| face.area).sum()
+    }
+
     /// How far an edge has turned since it was drawn.
     pub(super) fn turn(&self, edge: usize, angles: &[f64]) -> f64 {
         angles[edge] - self.drawn_angles[edge]
@@ -209,4 +214,147 @@ fn seats(sheet: &Sheet, faces: &[DrawnFace]) -> Option<Vec<Seat>> {
 /// The larger of two numbers, or not a number where one of them is none.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a >= b { a } else { b + 0.0 * a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_sheets::*;
+    use super::super::{Closure, Displacement};
+    use super::*;
+    use crate::math::fold_angle::fold_angle;
+    use crate::numerics::DenseMatrix;
+    use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
+
+    /// Claim: the drawn fold angles give the drawn sheet, vertex 0 at the origin, the lattice motions translations, in
+    /// periodic and finite sheets, and in those that closure does not know whole. No arithmetic but of positions.
+    #[test]
+    fn drawn_angles_give_the_drawn_sheet() {
+        for sheet in [open_star(), open_flat(), miura(), finite_grid(3, 4, 0.3), ring()] {
+            let embedding = Embedding::new(&sheet).unwrap();
+            let placement = embedding.place(embedding.drawn_angles());
+            let drawn = sheet.vertices.iter().map(|x| x - sheet.vertices[0]);
+            assert!(drawn.zip(&placement.positions).all(|(drawn, x)| (drawn - x).norm() <= 1e-15));
+            assert!(placement.compatibility.largest() <= 1e-15);
+            assert!(embedding.bar_error(&placement) <= 2e-15);
+            let lattice = placement.lattice.map(|lattice| lattice.map(|motion| motion.translation));
+            assert_eq!(lattice.is_some(), sheet.lattice.is_some());
+            let pairs = sheet.lattice.into_iter().flatten().zip(lattice.into_iter().flatten());
+            assert!(pairs.into_iter().all(|(drawn, chord)| (drawn - chord).norm() <= 1e-15));
+        }
+    }
+
+    /// Folded states of several sheets, closed to rounding.
+    fn folded() -> Vec<(Sheet, Vec<f64>)> {
+        let star = open_star();
+        let states = open_star_reference().cylinders(&star);
+        let (flat, finite) = (open_flat(), finite_grid(3, 4, 0.3));
+        let bent = |sheet: &Sheet, size: f64| {
+            let numbers = random_numbers(3, sheet.edges.len());
+            drawn_fold_angles(sheet).iter().zip(numbers).map(|(angle, r)| angle + size * r).collect::<Vec<_>>()
+        };
+        let (flat_bent, finite_bent) = (bent(&flat, 0.3), bent(&finite, 0.2));
+        let open = states.into_iter().map(|angles| (star.clone(), angles));
+        let open: Vec<_> = open.chain([(flat, flat_bent), (finite, finite_bent)]).collect();
+        let close = |(sheet, angles): (Sheet, Vec<f64>)| {
+            let angles = closed(&Closure::of_cell(&sheet).unwrap(), angles);
+            (sheet, angles)
+        };
+        open.into_iter().map(close).collect()
+    }
+
+    /// Claim: where the angles close, all ways over the faces agree, bars keep their lengths, and the fold angles of
+    /// the placed vertices are those put in. Tolerances: 1e-13 as the project promises; the fold angle of four points
+    /// has the rounding of positions over the height of a face.
+    #[test]
+    fn closed_angles_are_compatible() {
+        for (sheet, angles) in folded() {
+            let embedding = Embedding::new(&sheet).unwrap();
+            let placement = embedding.place(&angles);
+            assert!(placement.compatibility.largest() <= 1e-13, "{:?}", placement.compatibility);
+            assert!(embedding.bar_error(&placement) <= 1e-13);
+            for (edge, angle) in sheet.edges.iter().zip(&angles) {
+                let (Some(left), Some(right)) = (edge.wings[0], edge.wings[1]) else { continue };
+                let [i, j] = edge.key.ends();
+                let found = fold_angle([i, j, left, right].map(|corner| placement.corner(corner)));
+                assert!((found - angle).abs() <= 1e-13, "{found} for {angle}");
+            }
+        }
+    }
+
+    /// Claim: cells -2 to 2 stand where faces put together one by one, from points and not from motions, come to stand.
+    /// Both begin with face 0, as drawn. Tolerance: rounding over some twenty faces.
+    #[test]
+    fn faces_put_together_one_by_one_agree() {
+        for (sheet, angles) in folded() {
+            let placement = Embedding::new(&sheet).unwrap().place(&angles);
+            let places = put_together(&sheet, &angles);
+            assert!(places.len() >= sheet.vertices.len());
+            for (corner, place) in places {
+                let error = (placement.corner(corner) + sheet.vertices[0] - place).norm();
+                assert!(error <= 1e-12, "{corner:?}: {error:e}");
+            }
+        }
+    }
+
+    /// Claim: angles that do not close are reported: one of them changed by 1e-6 shows at that size.
+    #[test]
+    fn open_angles_are_reported() {
+        for (sheet, angles) in folded() {
+            let embedding = Embedding::new(&sheet).unwrap();
+            let closure = Closure::of_cell(&sheet).unwrap();
+            let edge = embedding.walk.loops[0].crossing.edge;
+            let mut wrong = angles.clone();
+            wrong[edge] += 1e-6;
+            let (found, residual) = (embedding.place(&wrong).compatibility.largest(), closure.residual(&wrong).amax());
+            assert!(found > 0.1 * residual && found < 1e-4 && residual > 1e-8, "{found:e} {residual:e}");
+        }
+    }
+
+    /// Claim: every entry of the derivative of positions, lattice rotations and chords in the fold angles is that of the
+    /// displacement with that rate, also where angles do not close; an overwritten placement is as a new one.
+    #[test]
+    fn displacements_are_the_derivative() {
+        for (sheet, angles) in folded() {
+            let embedding = Embedding::new(&sheet).unwrap();
+            let numbers = random_numbers(8, angles.len());
+            let point: Vec<f64> = angles.iter().zip(numbers).map(|(angle, r)| angle + 0.2 * r).collect();
+            let place = |angles: &[f64]| {
+                let mut placement = embedding.place(embedding.drawn_angles());
+                embedding.place_into(angles, &mut placement);
+                let lattice = placement.lattice.iter().flatten();
+                let motions = lattice.flat_map(|m| m.rotation.iter().chain(m.translation.iter()).copied());
+                placement.positions.iter().flat_map(|x| x.iter().copied()).chain(motions).collect::<Vec<f64>>()
+            };
+            let column = |edge: usize| {
+                let mut rates = vec![0.0; angles.len()];
+                rates[edge] = 1.0;
+                let moved = Displacement::new(&embedding, &point, &rates);
+                let lattice = moved.lattice.iter().flatten().flat_map(|m| {
+                    let turned = m.twist.angular.cross_matrix() * m.motion.rotation;
+                    turned.iter().copied().chain(m.twist.at(&m.motion.translation).iter().copied()).collect::<Vec<_>>()
+                });
+                moved.velocities.iter().flat_map(|v| v.iter().copied()).chain(lattice).collect::<Vec<f64>>()
+            };
+            let columns: Vec<f64> = (0..angles.len()).flat_map(column).collect();
+            let jacobian = DenseMatrix::from_vec(columns.len() / angles.len(), angles.len(), columns);
+            check_jacobian(place, &point, &jacobian, TOLERANCE).unwrap();
+        }
+    }
+
+    /// Claim: what does not hang together is refused: faces apart, rows of faces that meet only along one lattice vector,
+    /// a vertex without face.
+    #[test]
+    fn what_does_not_hang_together() {
+        let refused = |sheet: &Sheet, faces: usize| {
+            assert_eq!(Embedding::new(sheet).unwrap_err(), KinematicsError::Disconnected { faces });
+        };
+        let whole = finite_grid(3, 1, 0.3);
+        let faces: Vec<[Corner; 3]> = whole.triangles.iter().map(|face| face.corners).collect();
+        refused(&sheet("apart", whole.vertices.clone(), None, &[faces[0], faces[5]]), 2);
+        refused(&sheet("loose vertex", whole.vertices.clone(), None, &faces[..4]), 4);
+        let corner = |vertex: usize, n1: i32| Corner { vertex, shift: [n1, 0] };
+        let row = [[corner(0, 0), corner(0, 1), corner(1, 0)], [corner(0, 1), corner(1, 1), corner(1, 0)]];
+        let lattice = Some([Vec3::x(), 3.0 * Vec3::y()]);
+        refused(&sheet("row", vec![Vec3::zeros(), Vec3::y()], lattice, &row), 2);
+    }
 }

@@ -16,7 +16,7 @@ use super::{Closure, Displacement, Embedding, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{NullSpace, null_space, singular_values};
-use crate::sheet::{Corner, Sheet};
+use crate::sheet::Sheet;
 use nalgebra::{DVector, Matrix2, Matrix3};
 
 /// Largest condition number of the map from modes to curvature tensors with which curvatures still name a mode.
@@ -54,7 +54,7 @@ pub fn folding_modes(sheet: &Sheet) -> Result<FoldingModes, KinematicsError> {
     let NullSpace { basis, gap, .. } = null_space(&closure.jacobian(embedding.drawn_angles()))?;
     let modes = basis.column_iter().map(|mode| lattice_rotations(&embedding, mode.as_slice()));
     let lattice_rotations = modes.collect::<Result<Vec<_>, _>>()?;
-    let tensors = curvatures(sheet, &lattice, &lattice_rotations);
+    let tensors = curvatures(&embedding, &lattice, &lattice_rotations);
     let curvatures = DenseMatrix::from_fn(3, tensors.len(), |row, mode| tensors[mode][row]);
     Ok(FoldingModes { basis, curvatures, lattice_rotations, gap })
 }
@@ -87,21 +87,12 @@ fn condition(map: &DenseMatrix) -> Result<f64, KinematicsError> {
 }
 
 /// Curvature tensors `[k11, k22, k12]` of modes with these lattice rotations.
-fn curvatures(sheet: &Sheet, lattice: &[Vec3; 2], rotations: &[[Vec3; 2]]) -> Vec<[f64; 3]> {
-    let upwards = lattice[0].cross(&lattice[1]);
-    let normal = upwards.normalize() * vector_area(sheet).dot(&upwards).signum();
+fn curvatures(embedding: &Embedding, lattice: &[Vec3; 2], rotations: &[[Vec3; 2]]) -> Vec<[f64; 3]> {
+    let (upwards, area) = (lattice[0].cross(&lattice[1]), embedding.drawn_area());
+    let normal = upwards.normalize() * area.dot(&upwards).signum();
     let frame = LatticeFrame::new(lattice);
     let tensor = |omega: &[Vec3; 2]| frame.tensor(&Matrix2::from_fn(|a, b| omega[a].cross(&lattice[b]).dot(&normal)));
     rotations.iter().map(tensor).collect()
-}
-
-/// Twice the sum of the face areas along their normals.
-fn vector_area(sheet: &Sheet) -> Vec3 {
-    let area = |corners: &[Corner; 3]| {
-        let [a, b, c] = corners.map(|corner| sheet.position(corner));
-        (b - a).cross(&(c - a))
-    };
-    sheet.triangles.iter().map(|triangle| area(&triangle.corners)).sum()
 }
 
 /// Angular velocities from a cell to the next, along both lattice vectors, for fold rates at the drawn state.
@@ -120,64 +111,7 @@ mod tests {
     use super::*;
     use crate::kinematics::drawn_fold_angles;
     use crate::numerics::dense::least_squares;
-    use crate::sheet::EdgeKey;
-    use std::collections::{HashMap, VecDeque};
-
-    /// The three positions of a face, the third beyond the edge from the first to the second.
-    struct Placed {
-        face: usize,
-        cell: [i32; 2],
-    }
-
-    /// Positions of the vertices of cells -2 to 2, from the shapes of the faces and fold angles alone: each new face is
-    /// put onto an edge of one that stands.
-    fn embed(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec3> {
-        let first = sheet.triangles[0];
-        let mut places: HashMap<Corner, Vec3> = first.corners.map(|c| (c, sheet.position(c))).into_iter().collect();
-        let mut queue = VecDeque::from([Placed { face: 0, cell: [0, 0] }]);
-        while let Some(Placed { face, cell }) = queue.pop_front() {
-            let corners = sheet.triangles[face].corners.map(|corner| corner.translated(cell));
-            for side in 0..3 {
-                let [a, b, known] = [0, 1, 2].map(|k| corners[(side + k) % 3]);
-                let (key, reversed) = EdgeKey::new(a, b);
-                let edge = sheet.edges.iter().position(|edge| edge.key == key).unwrap();
-                let home = if reversed { b } else { a };
-                let across = sheet.edges[edge].wings[usize::from(!reversed)].unwrap().translated(home.shift);
-                if places.contains_key(&across) || across.shift.iter().any(|n| n.abs() > 2) {
-                    continue;
-                }
-                places.insert(across, hinge(sheet, [a, b, known, across], &places, angles[edge]));
-                queue.push_back(find_face(sheet, [b, a, across]));
-            }
-        }
-        places
-    }
-
-    /// Where the vertex `across` comes to stand when the edge from `a` to `b`, with the known face on its left, has a
-    /// fold angle: its foot on the edge and its distance are as drawn.
-    fn hinge(sheet: &Sheet, [a, b, known, across]: [Corner; 4], at: &HashMap<Corner, Vec3>, angle: f64) -> Vec3 {
-        let drawn = sheet.position(across) - sheet.position(a);
-        let drawn_along = (sheet.position(b) - sheet.position(a)).normalize();
-        let (foot, height) = (drawn.dot(&drawn_along), drawn.cross(&drawn_along).norm());
-        let along = (at[&b] - at[&a]).normalize();
-        let inner = at[&known] - at[&a];
-        let inwards = (inner - along * inner.dot(&along)).normalize();
-        let normal = along.cross(&inwards);
-        at[&a] + along * foot + (normal * angle.sin() - inwards * angle.cos()) * height
-    }
-
-    fn find_face(sheet: &Sheet, corners: [Corner; 3]) -> Placed {
-        for (face, triangle) in sheet.triangles.iter().enumerate() {
-            for turn in 0..3 {
-                let [from, to] = [triangle.corners[turn].shift, corners[0].shift];
-                let cell = [to[0] - from[0], to[1] - from[1]];
-                if (0..3).all(|k| triangle.corners[(turn + k) % 3].translated(cell) == corners[k]) {
-                    return Placed { face, cell };
-                }
-            }
-        }
-        panic!("no face with corners {corners:?}")
-    }
+    use crate::sheet::{Corner, EdgeKey};
 
     /// Curvature tensor by fitting `c + bx + dy + (k11 x^2 + k22 y^2 + 2 k12 xy)/2` to the normal displacements of the
     /// copies of vertex 0, and the largest misfit.
@@ -186,7 +120,7 @@ mod tests {
         let drawn = drawn_fold_angles(sheet);
         let moved = [-step, step].map(|step| {
             let angles: Vec<f64> = drawn.iter().zip(rates).map(|(angle, rate)| angle + step * rate).collect();
-            embed(sheet, &angles)
+            put_together(sheet, &angles)
         });
         let [l1, l2] = sheet.lattice.unwrap();
         let (x, n) = (l1.normalize(), l1.cross(&l2).normalize());

@@ -95,3 +95,37 @@ fn signed_curvature(embedding: &Embedding, placement: &Placement, screw: &Screw)
     });
     squared.sqrt().copysign(flow.sum())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_sheets::*;
+    use super::super::{Closure, Displacement};
+    use super::*;
+    use crate::numerics::DenseMatrix;
+    use crate::numerics::dense::null_space;
+    use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
+    use crate::sheet::Sheet;
+
+    fn close(found: &[f64], expected: &[f64], tolerance: f64) -> bool {
+        found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= tolerance)
+    }
+
+    /// Claim: curvature, rotation angles and strain are those that an independent program found, in size, sign and order;
+    /// the mirror image has the same strain and the opposite curvature. Tolerance 1e-9: the project's promise; that
+    /// program's states close to 1e-12. Mirrored: rounding.
+    #[test]
+    fn stored_states_of_open_star() {
+        let sheet = open_star();
+        let embedding = Embedding::new(&sheet).unwrap();
+        let states = open_star_reference().states(&sheet);
+        assert_eq!(states.len(), 4);
+        for (angles, kappa, theta, strain) in states {
+            let shape = Shape::at(&embedding, &angles).unwrap();
+            assert!((shape.curvature - kappa).abs() <= 1e-9, "{} for {kappa}", shape.curvature);
+            assert!(close(&shape.theta, &theta, 1e-9) && close(&shape.strain, &strain, 1e-9), "{shape:?}");
+            let mirrored: Vec<f64> = angles.iter().map(|angle| -angle).collect();
+            let mirrored = Shape::at(&embedding, &mirrored).unwrap();
+            assert!((mirrored.curvature + kappa).abs() <= 1e-9 && close(&mirrored.strain, &strain, 1e-9));
+        }
+    }
+}
