@@ -128,4 +128,95 @@ mod tests {
             assert!((mirrored.curvature + kappa).abs() <= 1e-9 && close(&mirrored.strain, &strain, 1e-9));
         }
     }
+
+    /// A cylinder, and the rates of a combination of its two linear motions.
+    fn moving_cylinders(sheet: &Sheet) -> Vec<(Vec<f64>, Vec<f64>)> {
+        let closure = Closure::of_cell(sheet).unwrap();
+        let states = open_star_reference().cylinders(sheet).into_iter().map(|angles| closed(&closure, angles));
+        let moving = states.map(|angles| {
+            let basis = null_space(&closure.jacobian(&angles)).unwrap().basis;
+            assert_eq!(basis.ncols(), 2);
+            let rates = (basis.column(0) - 0.7 * basis.column(1)).as_slice().to_vec();
+            (angles, rates)
+        });
+        moving.collect()
+    }
+
+    /// Claim: rates of curvature, angles, axis, chords and strain are the derivatives along exact motions: angles moved
+    /// along the rates and closed again.
+    #[test]
+    fn rates_are_derivatives() {
+        let sheet = open_star();
+        let (embedding, closure) = (Embedding::new(&sheet).unwrap(), Closure::of_cell(&sheet).unwrap());
+        for (angles, rates) in moving_cylinders(&sheet) {
+            let at = |t: &[f64]| {
+                let moved = angles.iter().zip(&rates).map(|(angle, rate)| angle + t[0] * rate).collect();
+                let shape = Shape::at(&embedding, &closed(&closure, moved)).unwrap();
+                let Screw { axis, chords, .. } = shape.screw;
+                let vectors = [axis.unwrap(), chords[0], chords[1], shape.screw.towards_axis()];
+                let numbers = [&[shape.curvature], &shape.theta[..], &shape.strain[..]].concat();
+                numbers.into_iter().chain(vectors.iter().flat_map(|v| v.iter().copied())).collect::<Vec<_>>()
+            };
+            let lattice = Displacement::new(&embedding, &angles, &rates).lattice.unwrap();
+            let shape = Shape::at(&embedding, &angles).unwrap();
+            let ShapeRate { screw, curvature, strain } = shape.rate(&embedding, &lattice).unwrap();
+            let vectors = [screw.axis, screw.chords[0], screw.chords[1], screw.towards_axis];
+            let numbers = [&[curvature], &screw.theta[..], &strain[..]].concat();
+            let found: Vec<f64> = numbers.into_iter().chain(vectors.iter().flat_map(|v| v.iter().copied())).collect();
+            let found = DenseMatrix::from_vec(found.len(), 1, found);
+            check_jacobian(at, &[0.0], &found, TOLERANCE).unwrap();
+        }
+    }
+
+    /// Claim: the axis itself turns as the paper's last formula on displacements says, `(1 - S) ds = W x s` across the
+    /// axis, for both lattice rotations. Tolerance: rounding over the rotation angle.
+    #[test]
+    fn axis_turns_as_published() {
+        let sheet = open_star();
+        let embedding = Embedding::new(&sheet).unwrap();
+        for (angles, rates) in moving_cylinders(&sheet) {
+            let lattice = Displacement::new(&embedding, &angles, &rates).lattice.unwrap();
+            let shape = Shape::at(&embedding, &angles).unwrap();
+            let (s, rate) = (shape.screw.axis.unwrap(), shape.screw.rate(&lattice).unwrap().axis);
+            assert!(rate.norm() > 1e-2 && rate.dot(&s).abs() <= 1e-13);
+            for moving in lattice {
+                let left = rate - moving.motion.rotation * rate;
+                assert!((left - moving.twist.angular.cross(&s)).norm() <= 1e-12 * rate.norm());
+            }
+        }
+    }
+
+    /// Claim: through the spatially periodic state the curvature goes straight through zero, at the rate that the
+    /// curvature tensor of the ray says (its trace, the tensor having rank one), and the axis there lies along the line
+    /// that the tensor does not bend. Central differences of step 1e-3: tolerance 1e-5, their error being its square
+    /// times third derivatives.
+    #[test]
+    fn curvature_goes_through_zero() {
+        let sheet = open_star();
+        let (embedding, closure) = (Embedding::new(&sheet).unwrap(), Closure::of_cell(&sheet).unwrap());
+        let modes = super::super::folding_modes(&sheet).unwrap();
+        for (ray, _) in open_star_reference().rays(&sheet) {
+            let at = |t: f64| {
+                let moved = embedding.drawn_angles().iter().zip(&ray).map(|(angle, rate)| angle + t * rate).collect();
+                Shape::at(&embedding, &closed(&closure, moved)).unwrap()
+            };
+            let amplitudes = modes.basis.transpose() * nalgebra::DVector::from_vec(ray.clone());
+            let k = &modes.curvatures * amplitudes;
+            assert_eq!(at(0.0).curvature.abs(), 0.0);
+            let [before, after] = [-1e-3, 1e-3].map(at);
+            let rate = (after.curvature - before.curvature) / 2e-3;
+            assert!((rate - (k[0] + k[1])).abs() <= 1e-5, "{rate} for {}", k[0] + k[1]);
+            let angle = after.axis_angle.unwrap();
+            let (x, y) = (angle.cos(), angle.sin());
+            let bent = (k[0] * x + k[2] * y).hypot(k[2] * x + k[1] * y);
+            assert!(bent <= 1e-2 * rate.abs(), "{bent}");
+        }
+    }
+
+    /// Claim: a finite sheet has no shape of this kind.
+    #[test]
+    fn finite_sheets_are_refused() {
+        let embedding = Embedding::new(&finite_grid(2, 2, 0.3)).unwrap();
+        assert_eq!(Shape::at(&embedding, embedding.drawn_angles()).unwrap_err(), KinematicsError::NoLattice);
+    }
 }
