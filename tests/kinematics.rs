@@ -75,8 +75,9 @@ const SIZES: [[usize; 2]; 5] = [[2, 2], [2, 3], [3, 3], [4, 3], [4, 4]];
 const SEEDS: u64 = 40;
 
 /// Claim: closure of 200 random cells has 3 null vectors where they are drawn, spatially periodic, and 2 on a cylinder a
-/// little away from there, along a ray on the cone of cylinders. Source: McInerney et al. (2020), counted by hand in
-/// theory.md 3 and 4.
+/// little away from there, along a ray on the cone of cylinders, whose curvature is about what the ray says. Source:
+/// McInerney et al. (2020), "Folding motions and the index theorem": 3 in periodic states, 2 in screw-periodic ones. The
+/// curvature is asked for within a factor of two: the rays of some cells bend sharply.
 #[test]
 fn null_spaces_of_random_cells() {
     for size in SIZES {
@@ -88,10 +89,10 @@ fn null_spaces_of_random_cells() {
             let (c, s) = (seed as f64).sin_cos();
             let ray = folding_modes(&folding.sheet).unwrap().named([c * c, s * s, c * s]).unwrap();
             let length = ray.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
-            let cylinder = folding.close(folding.moved(&drawn, &ray, 0.1 / length)).unwrap();
+            let cylinder = folding.close(folding.moved(&drawn, &ray, 1e-4 / length)).unwrap();
             assert_eq!(folding.nullity(&cylinder), 2, "{size:?} {seed}");
-            let shape = folding.shape(&cylinder);
-            assert!(shape.curvature > 1e-4, "{size:?} {seed}: {}", shape.curvature);
+            let ratio = folding.shape(&cylinder).curvature / (1e-4 / length);
+            assert!((0.5..2.0).contains(&ratio), "{size:?} {seed}: {ratio}");
         }
     }
 }
@@ -108,36 +109,41 @@ fn null_spaces_of_flat_cells() {
     }
 }
 
-/// Claim: whatever way a flat sheet folds, its lattice gets shorter both ways, `strain11 < 0` and `strain22 < 0` (a chord
-/// is shorter than the way over the sheet), and the mirror image has the same strain and the opposite curvature.
-/// States: Newton's method from random angles, where it ends. Tolerance of the mirror image: rounding.
+/// Claim: whatever way a flat sheet folds, both chords get shorter (a chord is shorter than the way over the sheet); near
+/// the flat state also `strain22 < 0`, which far from it is no length of anything; and the mirror image has the
+/// same strain and the opposite curvature. States: Newton's method from random angles, where it ends. Tolerance of the
+/// mirror image: rounding.
 #[test]
 fn developable_sheets_get_shorter() {
-    let mut folded = 0;
-    for seed in 0..10 {
+    let (mut folded, mut near) = (0, 0);
+    for seed in 0..20 {
         let random = RandomDevelopable { size: [2, 2 + seed as usize % 2], seed, ..RandomDevelopable::default() };
         let folding = Folding::new(generate(&Pattern::RandomDevelopable(random)).unwrap(), &[]);
         let mut numbers = Numbers::new(seed);
-        for _ in 0..10 {
-            let start = numbers.many(folding.sheet.edges.len(), 0.6);
+        for size in [0.1, 0.2, 0.3, 0.6, 1.0, 1.5] {
+            let start = numbers.many(folding.sheet.edges.len(), size);
             let Some(angles) = folding.close(start) else { continue };
-            let shape = folding.shape(&angles);
-            assert!(shape.strain[0] < -1e-3 && shape.strain[1] < -1e-3, "{:?}", shape.strain);
+            let (shape, drawn) = (folding.shape(&angles), folding.sheet.lattice.unwrap());
+            assert!((0..2).all(|a| shape.screw.chords[a].norm() < drawn[a].norm()));
+            let largest = angles.iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
+            if largest < 0.5 {
+                assert!(shape.strain[0] < 0.0 && shape.strain[1] < 0.0, "{:?}", shape.strain);
+                near += 1;
+            }
             let mirrored = folding.shape(&angles.iter().map(|angle| -angle).collect::<Vec<_>>());
             assert!(distance(&shape.strain, &mirrored.strain) <= 1e-13);
             assert!((shape.curvature + mirrored.curvature).abs() <= 1e-12 * shape.curvature.abs().max(1.0));
             folded += 1;
         }
     }
-    assert!(folded >= 50, "{folded}");
+    assert!(folded >= 50 && near >= 20, "{folded} {near}");
 }
 
 /// The four faces around a vertex with sectors between these directions, as a finite sheet.
 fn fan(directions: &[Vec3; 4]) -> Sheet {
     let points: Vec<[f64; 3]> = [Vec3::zeros()].iter().chain(directions).map(|x| (*x).into()).collect();
-    let text = format!(
-        r#"{{"vertices_coords": {points:?}, "faces_vertices": [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]}}"#
-    );
+    let text =
+        format!(r#"{{"vertices_coords": {points:?}, "faces_vertices": [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]}}"#);
     fold::parse(&text, "fan.fold").unwrap()
 }
 
@@ -263,67 +269,56 @@ fn eggbox_along_the_whole_fold() {
     }
 }
 
+/// The loops of `tests/cases/open-star.json`, found by an independent program: first direction and arc length.
+fn reference_loops(folding: &Folding) -> Vec<(Vec<f64>, f64)> {
+    let text = include_str!("cases/open-star.json");
+    let reference: serde_json::Value = serde_json::from_str(text).unwrap();
+    let list = reference["edge_list"].as_array().unwrap();
+    let place = |&edge: &usize| {
+        let EdgeKey { i, j, shift: [n1, n2] } = folding.sheet.edges[edge].key;
+        list.iter().position(|entry| *entry == serde_json::json!([i, j, n1, n2])).unwrap()
+    };
+    let places: Vec<usize> = folding.closure.folding_edges().iter().map(place).collect();
+    let read = |entry: &serde_json::Value| {
+        let start = places.iter().map(|&place| entry["start"][place].as_f64().unwrap()).collect();
+        (start, entry["arc_length"].as_f64().unwrap())
+    };
+    reference["loops"].as_array().unwrap().iter().map(read).collect()
+}
+
+/// Claim: with edge (0, 1, 0, 0) held, every ray of the reference cell comes back to the drawn angles modulo 2 pi after
+/// the length that an independent program found; all the way rotations commute, positions close and bars keep their
+/// lengths to 1e-13, one motion is left, and the curvature changes smoothly. Its sign jumps nowhere on the short loop and twice
+/// on the long one, which passes through itself and comes back inside out. Tolerance of the length: the steps of 0.02 are
+/// counted straight, and the last one ends within one step.
 #[test]
-fn loops() {
+fn loops_of_open_star_close() {
+    const STEP: f64 = 0.02;
     let sheet = mesh("open-star");
-    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/open-star.json")).unwrap();
-    let reference: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let folding = Folding::new(sheet, &[crease(&mesh("open-star"), 0, 1)]);
+    let held = crease(&sheet, 0, 1);
+    let folding = Folding::new(sheet, &[held]);
     let drawn = folding.drawn();
-    for entry in reference["loops"].as_array().unwrap() {
-        let list = reference["edge_list"].as_array().unwrap();
-        let start: Vec<f64> = folding
-            .closure
-            .folding_edges()
-            .iter()
-            .map(|&e| {
-                let EdgeKey { i, j, shift: [n1, n2] } = folding.sheet.edges[e].key;
-                let at = list.iter().position(|x| *x == serde_json::json!([i, j, n1, n2])).unwrap();
-                entry["start"][at].as_f64().unwrap()
-            })
-            .collect();
-        let h = 0.02;
-        let mut tangent = start;
-        let mut angles = drawn.clone();
-        let mut arc = 0.0;
-        let mut shape = folding.shape(&angles);
-        let mut turn = 0.0;
-        let (mut worst, mut worst_bar, mut jump): (f64, f64, f64) = (0.0, 0.0, 0.0);
-        let mut ranges = (f64::MAX, f64::MIN, 0.0f64);
-        loop {
-            let next = folding.close(folding.moved(&angles, &tangent, h)).unwrap();
-            arc += next.iter().zip(&angles).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    for (mut tangent, length) in reference_loops(&folding) {
+        let (mut angles, mut arc, mut curvature, mut jumps) = (drawn.clone(), 0.0, 0.0_f64, 0);
+        while arc < length - 0.5 || distance_modulo_turns(&angles, &drawn) > 1.5 * STEP {
+            let next = folding.close(folding.moved(&angles, &tangent, STEP)).unwrap();
+            arc += next.iter().zip(&angles).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
             let basis = null_space(&folding.closure.jacobian(&next)).unwrap().basis;
             assert_eq!(basis.ncols(), 1, "{arc}");
-            let new: Vec<f64> = basis.column(0).iter().copied().collect();
-            let dot: f64 = new.iter().zip(&tangent).map(|(a, b)| a * b).sum();
-            tangent = new.iter().map(|x| x * dot.signum()).collect();
-            turn = f64::max(turn, 1.0 - dot.abs());
-            angles = next;
-            let placement = folding.embedding.place(&angles);
-            worst = worst.max(placement.compatibility.largest());
-            worst_bar = worst_bar.max(folding.embedding.bar_error(&placement));
-            let after = Shape::of(&folding.embedding, placement).unwrap();
-            let dk = (after.curvature - shape.curvature).abs();
-            if dk > 0.1 { println!("{arc} {} -> {} theta {:?}", shape.curvature, after.curvature, after.theta); }
-            jump = jump.max(dk);
-            ranges.0 = ranges.0.min(after.curvature);
-            ranges.1 = ranges.1.max(after.curvature);
-            ranges.2 = ranges.2.max(after.theta[0].abs().max(after.theta[1].abs()));
-            shape = after;
-            let back: f64 = angles
-                .iter()
-                .zip(&drawn)
-                .map(|(a, b)| {
-                    let d = (a - b) - 2.0 * PI * ((a - b) / (2.0 * PI)).round();
-                    d * d
-                })
-                .sum::<f64>()
-                .sqrt();
-            if arc > 0.5 && back < 1.01 * h || arc > 60.0 {
-                println!("arc {arc} back {back} worst {worst:e} bars {worst_bar:e} jump {jump} ranges {ranges:?} turn {turn}");
-                break;
-            }
+            let along: f64 = basis.iter().zip(&tangent).map(|(a, b)| a * b).sum();
+            tangent = basis.iter().map(|rate| rate * along.signum()).collect();
+            let after = folding.shape(&next).curvature;
+            assert!((after.abs() - curvature.abs()).abs() <= 0.05, "{arc}: {curvature} {after}");
+            jumps += usize::from(after * curvature < 0.0);
+            (angles, curvature) = (next, after);
+            assert!(arc < length + 0.1);
         }
+        assert!((arc - length).abs() <= 0.1, "{arc} for {length}");
+        assert_eq!(jumps, if length < 10.0 { 0 } else { 2 });
     }
+}
+
+fn distance_modulo_turns(a: &[f64], b: &[f64]) -> f64 {
+    let turned = |d: f64| d - 2.0 * PI * (d / (2.0 * PI)).round();
+    a.iter().zip(b).map(|(a, b)| turned(a - b).powi(2)).sum::<f64>().sqrt()
 }

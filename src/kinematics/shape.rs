@@ -8,6 +8,8 @@
 //! Over `|k|^2` this is the flow of the field towards the axis through the faces, twice the volume between a cell and the
 //! axis; it does not depend on which copies of the faces make the cell, nor on how often one goes round the axis. Near a
 //! spatially periodic state it is `k` times the whole area of the cell, so that the curvature goes through zero smoothly.
+//! Elsewhere the sign can change only where that volume vanishes, in a sheet that passes through itself on its way to
+//! being inside out; there it jumps.
 
 use super::KinematicsError;
 use super::embedding::{Compatibility, Embedding, Placement};
