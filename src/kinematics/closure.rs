@@ -12,7 +12,7 @@ use crate::math::{Vec3, rotation};
 use crate::numerics::DenseMatrix;
 use crate::sheet::tiling::{Site, TiledEdge, Tiling};
 use crate::sheet::{Corner, Edge, Sheet};
-use nalgebra::{DVector, Matrix3, Rotation3};
+use nalgebra::{DVector, Matrix3};
 
 /// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
 ///
@@ -48,8 +48,10 @@ struct Round {
 #[derive(Clone, Copy, Debug)]
 struct Spoke {
     edge: usize,
-    /// Angle from this edge to the next.
-    sector: f64,
+    /// Column of the Jacobian; `None` where the edge is locked.
+    column: Option<usize>,
+    /// Sine and cosine of the angle from this edge to the next.
+    sector: (f64, f64),
 }
 
 /// An edge seen from one of its ends, which stands in cell (0, 0).
@@ -124,12 +126,22 @@ impl Closure {
         }
         let folding = (0..edges.len()).filter(|&edge| edges[edge].folds()).collect();
         let vertices = halves.iter().filter(|halves| !halves.is_empty()).count();
-        Ok(Self { rounds, folding, edges: edges.len(), unchecked_loops: unchecked_loops(edges, vertices) })
+        let unchecked_loops = unchecked_loops(edges, vertices);
+        Ok(Self { rounds, folding, edges: edges.len(), unchecked_loops }.with_columns())
     }
 
     /// The same conditions with some edges kept from folding: their columns are left out.
     pub fn with_locked(mut self, locked: &[usize]) -> Self {
         self.folding.retain(|edge| !locked.contains(edge));
+        self.with_columns()
+    }
+
+    /// Tells every spoke the column of its edge.
+    fn with_columns(mut self) -> Self {
+        let mut columns = vec![None; self.edges];
+        self.folding.iter().enumerate().for_each(|(column, &edge)| columns[edge] = Some(column));
+        let spokes = self.rounds.iter_mut().flat_map(|round| &mut round.spokes);
+        spokes.for_each(|spoke| spoke.column = columns[spoke.edge]);
         self
     }
 
@@ -155,12 +167,8 @@ impl Closure {
     /// # Panics
     /// Where `angles` has another length than the list of edges.
     pub fn residual(&self, angles: &[f64]) -> DVector<f64> {
-        assert_eq!(angles.len(), self.edges, "one fold angle for every edge");
         let mut residual = DVector::zeros(3 * self.rounds.len());
-        for (row, round) in self.rounds.iter().enumerate() {
-            let product = round.walk(angles, |_, _| {});
-            residual.fixed_rows_mut::<3>(3 * row).copy_from(&rotation::log(&product));
-        }
+        self.residual_into(angles, residual.as_mut_slice());
         residual
     }
 
@@ -171,22 +179,46 @@ impl Closure {
     /// # Panics
     /// As [`residual`](Self::residual).
     pub fn jacobian(&self, angles: &[f64]) -> DenseMatrix {
-        assert_eq!(angles.len(), self.edges, "one fold angle for every edge");
-        let mut column_of = vec![None; self.edges];
-        self.folding.iter().enumerate().for_each(|(column, &edge)| column_of[edge] = Some(column));
-        let mut jacobian = DenseMatrix::zeros(3 * self.rounds.len(), self.folding.len());
-        for (row, round) in self.rounds.iter().enumerate() {
-            let mut columns = Vec::with_capacity(round.spokes.len());
-            let product = round.walk(angles, |edge, direction| columns.push((column_of[edge], direction)));
-            let chart = rotation::inverse_left_jacobian(&rotation::log(&product));
-            for (column, direction) in columns {
-                if let Some(column) = column {
-                    let mut place = jacobian.fixed_view_mut::<3, 1>(3 * row, column);
-                    place += chart * direction;
-                }
-            }
-        }
+        let mut residual = vec![0.0; 3 * self.rounds.len()];
+        let mut jacobian = DenseMatrix::zeros(residual.len(), self.folding.len());
+        self.linearize_into(angles, &mut residual, &mut jacobian);
         jacobian
+    }
+
+    /// Writes the [`residual`](Self::residual) into a slice of three numbers per interior vertex; nothing is allocated.
+    /// # Panics
+    /// Where `angles` or `residual` has another length.
+    pub fn residual_into(&self, angles: &[f64], residual: &mut [f64]) {
+        self.check(angles, residual);
+        for (round, rows) in self.rounds.iter().zip(residual.chunks_exact_mut(3)) {
+            let product = round.walk(angles, |_, _| {});
+            rows.copy_from_slice(rotation::log(&product).as_slice());
+        }
+    }
+
+    /// Writes [`residual`](Self::residual) and [`jacobian`](Self::jacobian), in one walk; nothing is allocated.
+    /// # Panics
+    /// Where `angles` or `residual` has another length, or `jacobian` another shape.
+    pub fn linearize_into(&self, angles: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
+        self.check(angles, residual);
+        assert_eq!(jacobian.shape(), (residual.len(), self.folding.len()), "shape of the Jacobian");
+        jacobian.fill(0.0);
+        for (row, round) in self.rounds.iter().enumerate() {
+            let product = round.walk(angles, |spoke, direction| {
+                if let Some(column) = spoke.column {
+                    let mut place = jacobian.fixed_view_mut::<3, 1>(3 * row, column);
+                    place += direction;
+                }
+            });
+            let defect = rotation::log(&product);
+            residual[3 * row..3 * row + 3].copy_from_slice(defect.as_slice());
+            round.into_chart(&rotation::inverse_left_jacobian(&defect), row, jacobian);
+        }
+    }
+
+    fn check(&self, angles: &[f64], residual: &[f64]) {
+        assert_eq!(angles.len(), self.edges, "one fold angle for every edge");
+        assert_eq!(residual.len(), 3 * self.rounds.len(), "three numbers for every interior vertex");
     }
 }
 
@@ -198,7 +230,8 @@ impl Round {
         let mut half = halves.first().ok_or_else(broken)?;
         for _ in halves {
             let next = half.wings[0].ok_or_else(broken)?;
-            spokes.push(Spoke { edge: half.edge, sector: angle(position(half.to) - center, position(next) - center) });
+            let sector = angle(position(half.to) - center, position(next) - center).sin_cos();
+            spokes.push(Spoke { edge: half.edge, column: None, sector });
             half = halves.iter().find(|other| other.to == next).ok_or_else(broken)?;
             if half.to == halves[0].to {
                 break;
@@ -208,15 +241,34 @@ impl Round {
     }
 
     /// Goes round once, shows every edge with its direction in the frame of the first, and returns the product.
-    fn walk(&self, angles: &[f64], mut visit: impl FnMut(usize, Vec3)) -> Matrix3<f64> {
-        let mut frame = Rotation3::identity();
+    ///
+    /// The frame's axes are the columns of the product so far: `R_x(rho)` turns y and z, `R_z(alpha)` then x and y.
+    fn walk(&self, angles: &[f64], mut visit: impl FnMut(&Spoke, &Vec3)) -> Matrix3<f64> {
+        let [mut x, mut y, mut z] = [Vec3::x(), Vec3::y(), Vec3::z()];
         for spoke in &self.spokes {
-            visit(spoke.edge, frame.matrix().column(0).into());
-            frame *= Rotation3::from_axis_angle(&Vec3::x_axis(), angles[spoke.edge])
-                * Rotation3::from_axis_angle(&Vec3::z_axis(), spoke.sector);
+            visit(spoke, &x);
+            (y, z) = turned(y, z, angles[spoke.edge].sin_cos());
+            (x, y) = turned(x, y, spoke.sector);
         }
-        frame.into_inner()
+        Matrix3::from_columns(&[x, y, z])
     }
+
+    /// Columns hold directions of edges: makes them rates of the rotation vector, each column once.
+    fn into_chart(&self, chart: &Matrix3<f64>, row: usize, jacobian: &mut DenseMatrix) {
+        for (number, spoke) in self.spokes.iter().enumerate() {
+            let Some(column) = spoke.column else { continue };
+            if self.spokes[..number].iter().all(|earlier| earlier.edge != spoke.edge) {
+                let mut place = jacobian.fixed_view_mut::<3, 1>(3 * row, column);
+                let rate = chart * &place;
+                place.copy_from(&rate);
+            }
+        }
+    }
+}
+
+/// Two axes turned in their plane, from the first to the second, by an angle with this sine and cosine.
+fn turned(a: Vec3, b: Vec3, (sin, cos): (f64, f64)) -> (Vec3, Vec3) {
+    (cos * a + sin * b, cos * b - sin * a)
 }
 
 /// Fold angles of all edges of a sheet as drawn, in radians, valley positive; zero on the rim.

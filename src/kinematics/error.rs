@@ -12,7 +12,7 @@ pub enum KinematicsError {
         vertex: usize,
     },
     /// A finite sheet was asked for something that only a periodic one has.
-    #[error("a finite sheet has no curvature tensor: linear folding modes belong to sheets with a lattice")]
+    #[error("a finite sheet has neither curvature nor lattice motions nor linear folding modes: they need a lattice")]
     NoLattice,
     /// The sheet has openings, whose rims the closure of the vertices does not see.
     #[error("the sheet has {loops} opening(s): closing its vertices does not close their rims")]
@@ -20,10 +20,12 @@ pub enum KinematicsError {
         /// Number of independent loops that no vertex closes.
         loops: usize,
     },
-    /// The faces of the cell do not hang together in both directions of the lattice.
-    #[error("the {faces} faces of the cell do not hang together in both directions of the lattice")]
+    /// The faces do not hang together, or not in both directions of the lattice, or a vertex has none.
+    #[error(
+        "the {faces} faces do not hang together with all vertices, and in both directions where there is a lattice"
+    )]
     Disconnected {
-        /// Number of triangles of the cell.
+        /// Number of triangles, of a cell where there is a lattice.
         faces: usize,
     },
     /// Different ways over the faces of the cell end in different rotations.

@@ -11,13 +11,13 @@
 //! vector and y in the plane of the lattice towards the second; the displacement along the unit normal `n`, on the
 //! side of the face normals, is `(k11 x^2 + k22 y^2 + 2 k12 x y)/2`.
 
-use super::{Closure, KinematicsError, drawn_fold_angles};
+use super::metric::LatticeFrame;
+use super::{Closure, Displacement, Embedding, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::{NullSpace, least_squares, null_space, singular_values};
-use crate::sheet::{Corner, EdgeKey, Sheet};
+use crate::numerics::dense::{NullSpace, null_space, singular_values};
+use crate::sheet::Sheet;
 use nalgebra::{DVector, Matrix2, Matrix3};
-use std::collections::HashMap;
 
 /// Largest condition number of the map from modes to curvature tensors with which curvatures still name a mode.
 const LARGEST_CONDITION: f64 = 1e8;
@@ -50,10 +50,11 @@ pub fn folding_modes(sheet: &Sheet) -> Result<FoldingModes, KinematicsError> {
         0 if sheet.holes.is_empty() => {}
         loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }),
     }
-    let NullSpace { basis, gap, .. } = null_space(&closure.jacobian(&drawn_fold_angles(sheet)))?;
-    let lattice_rotations = lattice_rotations(sheet, &basis)?;
-    let frame = LatticeFrame::new(lattice, sheet);
-    let tensors: Vec<Vec3> = lattice_rotations.iter().map(|omega| frame.curvature(omega)).collect();
+    let embedding = Embedding::new(sheet)?;
+    let NullSpace { basis, gap, .. } = null_space(&closure.jacobian(embedding.drawn_angles()))?;
+    let modes = basis.column_iter().map(|mode| lattice_rotations(&embedding, mode.as_slice()));
+    let lattice_rotations = modes.collect::<Result<Vec<_>, _>>()?;
+    let tensors = curvatures(&embedding, &lattice, &lattice_rotations);
     let curvatures = DenseMatrix::from_fn(3, tensors.len(), |row, mode| tensors[mode][row]);
     Ok(FoldingModes { basis, curvatures, lattice_rotations, gap })
 }
@@ -85,146 +86,32 @@ fn condition(map: &DenseMatrix) -> Result<f64, KinematicsError> {
     Ok(values[0] / values[values.len() - 1])
 }
 
-/// The lattice as a frame for curvature tensors.
-struct LatticeFrame {
-    lattice: [Vec3; 2],
-    normal: Vec3,
-    inverse: Matrix2<f64>,
+/// Curvature tensors `[k11, k22, k12]` of modes with these lattice rotations.
+fn curvatures(embedding: &Embedding, lattice: &[Vec3; 2], rotations: &[[Vec3; 2]]) -> Vec<[f64; 3]> {
+    let (upwards, area) = (lattice[0].cross(&lattice[1]), embedding.drawn_area());
+    let normal = upwards.normalize() * area.dot(&upwards).signum();
+    let frame = LatticeFrame::new(lattice);
+    let tensor = |omega: &[Vec3; 2]| frame.tensor(&Matrix2::from_fn(|a, b| omega[a].cross(&lattice[b]).dot(&normal)));
+    rotations.iter().map(tensor).collect()
 }
 
-impl LatticeFrame {
-    fn new(lattice: [Vec3; 2], sheet: &Sheet) -> Self {
-        let [l1, l2] = lattice;
-        let upwards = l1.cross(&l2);
-        let normal = upwards.normalize() * vector_area(sheet).dot(&upwards).signum();
-        let along = l1.normalize();
-        let root = Matrix2::new(l1.norm(), along.dot(&l2), 0.0, along.cross(&l2).norm());
-        let inverse = Matrix2::new(1.0 / root.m11, -root.m12 / (root.m11 * root.m22), 0.0, 1.0 / root.m22);
-        Self { lattice, normal, inverse }
+/// Angular velocities from a cell to the next, along both lattice vectors, for fold rates at the drawn state.
+fn lattice_rotations(embedding: &Embedding, rates: &[f64]) -> Result<[Vec3; 2], KinematicsError> {
+    let Displacement { lattice, disagreement, .. } = Displacement::new(embedding, embedding.drawn_angles(), rates);
+    let closes = disagreement <= LARGEST_DIFFERENCE;
+    if !closes {
+        return Err(KinematicsError::WaysDisagree { difference: disagreement });
     }
-
-    /// `(k11, k22, k12)` of the lattice rotations of a mode.
-    fn curvature(&self, omega: &[Vec3; 2]) -> Vec3 {
-        let turned = Matrix2::from_fn(|a, b| omega[a].cross(&self.lattice[b]).dot(&self.normal));
-        let tensor = self.inverse.transpose() * turned * self.inverse;
-        Vec3::new(tensor.m11, tensor.m22, 0.5 * (tensor.m12 + tensor.m21))
-    }
-}
-
-/// Twice the sum of the face areas along their normals.
-fn vector_area(sheet: &Sheet) -> Vec3 {
-    let area = |corners: &[Corner; 3]| {
-        let [a, b, c] = corners.map(|corner| sheet.position(corner));
-        (b - a).cross(&(c - a))
-    };
-    sheet.triangles.iter().map(|triangle| area(&triangle.corners)).sum()
-}
-
-/// Angular velocities from a cell to the next, along both lattice vectors, for every column of fold rates.
-///
-/// With `w_f` the angular velocity of face `f` of cell (0, 0), and `w_f + n1 Omega_1 + n2 Omega_2` that of its copies,
-/// every edge is one equation: left face less right face is the fold rate times the direction of the edge. There are
-/// more edges than unknowns; what is left over tells whether all ways over the faces agree.
-fn lattice_rotations(sheet: &Sheet, rates: &DenseMatrix) -> Result<Vec<[Vec3; 2]>, KinematicsError> {
-    let faces = sheet.triangles.len();
-    let turns = DenseMatrix::from_fn(sheet.edges.len(), 3 * rates.ncols(), |edge, column| {
-        let [i, j] = sheet.edges[edge].key.ends().map(|end| sheet.position(end));
-        rates[(edge, column / 3)] * (j - i).normalize()[column % 3]
-    });
-    // The first face stands still: without its column.
-    let found = least_squares(&face_differences(sheet).columns(1, faces + 1).into_owned(), &turns)?;
-    let difference = found.residual.amax();
-    if found.rank.rank != faces + 1 {
-        return Err(KinematicsError::Disconnected { faces });
-    }
-    if difference > LARGEST_DIFFERENCE {
-        return Err(KinematicsError::WaysDisagree { difference });
-    }
-    let omega = |mode: usize, a: usize| found.solution.fixed_view::<1, 3>(faces - 1 + a, 3 * mode).transpose();
-    Ok((0..rates.ncols()).map(|mode| [omega(mode, 0), omega(mode, 1)]).collect())
-}
-
-/// The matrix that takes the angular velocities of faces, and then `Omega_1` and `Omega_2`, to left face less right face
-/// of every edge.
-fn face_differences(sheet: &Sheet) -> DenseMatrix {
-    let number: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
-    let faces = sheet.triangles.len();
-    let mut matrix = DenseMatrix::zeros(sheet.edges.len(), faces + 2);
-    for (face, triangle) in sheet.triangles.iter().enumerate() {
-        for side in triangle.sides() {
-            let Some(&edge) = number.get(&side.key) else { continue };
-            // The copy of this face that is beside the edge whose first vertex stands in cell (0, 0).
-            let copy = side.base.shift.map(|n| -f64::from(n));
-            let sign = [1.0, -1.0][side.side];
-            matrix[(edge, face)] += sign;
-            matrix[(edge, faces)] += sign * copy[0];
-            matrix[(edge, faces + 1)] += sign * copy[1];
-        }
-    }
-    matrix
+    lattice.map(|moving| moving.map(|lattice| lattice.twist.angular)).ok_or(KinematicsError::NoLattice)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::test_sheets::*;
     use super::*;
-    use std::collections::VecDeque;
-
-    /// The three positions of a face, the third beyond the edge from the first to the second.
-    struct Placed {
-        face: usize,
-        cell: [i32; 2],
-    }
-
-    /// Positions of the vertices of cells -2 to 2, from the shapes of the faces and fold angles alone: each new face is
-    /// put onto an edge of one that stands.
-    fn embed(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec3> {
-        let first = sheet.triangles[0];
-        let mut places: HashMap<Corner, Vec3> = first.corners.map(|c| (c, sheet.position(c))).into_iter().collect();
-        let mut queue = VecDeque::from([Placed { face: 0, cell: [0, 0] }]);
-        while let Some(Placed { face, cell }) = queue.pop_front() {
-            let corners = sheet.triangles[face].corners.map(|corner| corner.translated(cell));
-            for side in 0..3 {
-                let [a, b, known] = [0, 1, 2].map(|k| corners[(side + k) % 3]);
-                let (key, reversed) = EdgeKey::new(a, b);
-                let edge = sheet.edges.iter().position(|edge| edge.key == key).unwrap();
-                let home = if reversed { b } else { a };
-                let across = sheet.edges[edge].wings[usize::from(!reversed)].unwrap().translated(home.shift);
-                if places.contains_key(&across) || across.shift.iter().any(|n| n.abs() > 2) {
-                    continue;
-                }
-                places.insert(across, hinge(sheet, [a, b, known, across], &places, angles[edge]));
-                queue.push_back(find_face(sheet, [b, a, across]));
-            }
-        }
-        places
-    }
-
-    /// Where the vertex `across` comes to stand when the edge from `a` to `b`, with the known face on its left, has a
-    /// fold angle: its foot on the edge and its distance are as drawn.
-    fn hinge(sheet: &Sheet, [a, b, known, across]: [Corner; 4], at: &HashMap<Corner, Vec3>, angle: f64) -> Vec3 {
-        let drawn = sheet.position(across) - sheet.position(a);
-        let drawn_along = (sheet.position(b) - sheet.position(a)).normalize();
-        let (foot, height) = (drawn.dot(&drawn_along), drawn.cross(&drawn_along).norm());
-        let along = (at[&b] - at[&a]).normalize();
-        let inner = at[&known] - at[&a];
-        let inwards = (inner - along * inner.dot(&along)).normalize();
-        let normal = along.cross(&inwards);
-        at[&a] + along * foot + (normal * angle.sin() - inwards * angle.cos()) * height
-    }
-
-    fn find_face(sheet: &Sheet, corners: [Corner; 3]) -> Placed {
-        for (face, triangle) in sheet.triangles.iter().enumerate() {
-            for turn in 0..3 {
-                let [from, to] = [triangle.corners[turn].shift, corners[0].shift];
-                let cell = [to[0] - from[0], to[1] - from[1]];
-                if (0..3).all(|k| triangle.corners[(turn + k) % 3].translated(cell) == corners[k]) {
-                    return Placed { face, cell };
-                }
-            }
-        }
-        panic!("no face with corners {corners:?}")
-    }
+    use crate::kinematics::drawn_fold_angles;
+    use crate::numerics::dense::least_squares;
+    use crate::sheet::{Corner, EdgeKey};
 
     /// Curvature tensor by fitting `c + bx + dy + (k11 x^2 + k22 y^2 + 2 k12 xy)/2` to the normal displacements of the
     /// copies of vertex 0, and the largest misfit.
@@ -233,7 +120,7 @@ mod tests {
         let drawn = drawn_fold_angles(sheet);
         let moved = [-step, step].map(|step| {
             let angles: Vec<f64> = drawn.iter().zip(rates).map(|(angle, rate)| angle + step * rate).collect();
-            embed(sheet, &angles)
+            put_together(sheet, &angles)
         });
         let [l1, l2] = sheet.lattice.unwrap();
         let (x, n) = (l1.normalize(), l1.cross(&l2).normalize());

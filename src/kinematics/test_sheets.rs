@@ -1,9 +1,13 @@
 //! Sheets for the tests of this folder.
 
+use super::Closure;
 use crate::math::Vec3;
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::least_squares;
 use crate::sheet::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
+use std::collections::{HashMap, VecDeque};
 
 /// Numbers of [-1, 1).
 pub fn random_numbers(seed: u64, count: usize) -> Vec<f64> {
@@ -141,6 +145,16 @@ impl Reference {
         sheet.edges.iter().map(find).collect()
     }
 
+    /// Folded cylinders: fold angles, curvature, rotation angles and strain.
+    pub fn states(&self, sheet: &Sheet) -> Vec<(Vec<f64>, f64, Vec<f64>, Vec<f64>)> {
+        let read = |state: &Value| {
+            let kappa = state["kappa"].as_f64().unwrap();
+            let angles = self.in_sheet_order(sheet, &floats(&state["fold_angles"]));
+            (angles, kappa, floats(&state["theta"]), floats(&state["strain"]))
+        };
+        self.0["states"].as_array().unwrap().iter().map(read).collect()
+    }
+
     /// Fold angles of folded cylinders.
     pub fn cylinders(&self, sheet: &Sheet) -> Vec<Vec<f64>> {
         let states = self.0["states"].as_array().unwrap();
@@ -158,4 +172,76 @@ impl Reference {
         };
         loops.iter().map(ray).collect()
     }
+}
+
+/// The three positions of a face, the third beyond the edge from the first to the second.
+struct Placed {
+    face: usize,
+    cell: [i32; 2],
+}
+
+/// Positions of the vertices of cells -2 to 2, from the shapes of the faces and fold angles alone: each new face is put
+/// onto an edge of one that stands, the first one as it is drawn. Points, not motions: another way than the program's.
+pub fn put_together(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec3> {
+    let first = sheet.triangles[0];
+    let mut places: HashMap<Corner, Vec3> = first.corners.map(|c| (c, sheet.position(c))).into_iter().collect();
+    let mut queue = VecDeque::from([Placed { face: 0, cell: [0, 0] }]);
+    while let Some(Placed { face, cell }) = queue.pop_front() {
+        let corners = sheet.triangles[face].corners.map(|corner| corner.translated(cell));
+        for side in 0..3 {
+            let [a, b, known] = [0, 1, 2].map(|k| corners[(side + k) % 3]);
+            let (key, reversed) = EdgeKey::new(a, b);
+            let edge = sheet.edges.iter().position(|edge| edge.key == key).unwrap();
+            let home = if reversed { b } else { a };
+            let Some(wing) = sheet.edges[edge].wings[usize::from(!reversed)] else { continue };
+            let across = wing.translated(home.shift);
+            if places.contains_key(&across) || across.shift.iter().any(|n| n.abs() > 2) {
+                continue;
+            }
+            places.insert(across, hinge(sheet, [a, b, known, across], &places, angles[edge]));
+            queue.push_back(find_face(sheet, [b, a, across]));
+        }
+    }
+    places
+}
+
+/// Where the vertex `across` comes to stand when the edge from `a` to `b`, with the known face on its left, has a
+/// fold angle: its foot on the edge and its distance are as drawn.
+fn hinge(sheet: &Sheet, [a, b, known, across]: [Corner; 4], at: &HashMap<Corner, Vec3>, angle: f64) -> Vec3 {
+    let drawn = sheet.position(across) - sheet.position(a);
+    let drawn_along = (sheet.position(b) - sheet.position(a)).normalize();
+    let (foot, height) = (drawn.dot(&drawn_along), drawn.cross(&drawn_along).norm());
+    let along = (at[&b] - at[&a]).normalize();
+    let inner = at[&known] - at[&a];
+    let inwards = (inner - along * inner.dot(&along)).normalize();
+    let normal = along.cross(&inwards);
+    at[&a] + along * foot + (normal * angle.sin() - inwards * angle.cos()) * height
+}
+
+fn find_face(sheet: &Sheet, corners: [Corner; 3]) -> Placed {
+    for (face, triangle) in sheet.triangles.iter().enumerate() {
+        for turn in 0..3 {
+            let [from, to] = [triangle.corners[turn].shift, corners[0].shift];
+            let cell = [to[0] - from[0], to[1] - from[1]];
+            if (0..3).all(|k| triangle.corners[(turn + k) % 3].translated(cell) == corners[k]) {
+                return Placed { face, cell };
+            }
+        }
+    }
+    panic!("no face with corners {corners:?}")
+}
+
+/// Fold angles brought to closure by steps of least norm, none longer than 0.2.
+pub fn closed(closure: &Closure, mut angles: Vec<f64>) -> Vec<f64> {
+    for _ in 0..200 {
+        let residual = closure.residual(&angles);
+        if residual.amax() <= 2e-15 {
+            return angles;
+        }
+        let right = DenseMatrix::from_column_slice(residual.len(), 1, residual.as_slice());
+        let step = least_squares(&closure.jacobian(&angles), &right).unwrap().solution;
+        let part = (0.2 / step.norm()).min(1.0);
+        closure.folding_edges().iter().zip(step.iter()).for_each(|(&edge, step)| angles[edge] -= part * step);
+    }
+    panic!("closure is left at {:e}", closure.residual(&angles).amax())
 }

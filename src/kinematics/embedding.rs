@@ -1,0 +1,360 @@
+//! The embedding: where the vertices are, and how cells follow each other, from fold angles alone.
+//!
+//! **Frame.** Vertex 0 of cell (0, 0) is the origin, and the first face that has this vertex stays turned as it is drawn:
+//! the drawn fold angles give the drawn sheet, moved so that vertex 0 is at the origin. A walk over the faces gives
+//! everything else as products of rigid motions; the copy in the cell `(n1, n2)` of the point `x` is at
+//! `A1^n1 A2^n2 x`, with the lattice motions `A_a x = S_a x + l_a`. So `l_a` is the chord from vertex 0 to its copy. A
+//! finite sheet has positions only.
+
+use super::motion::{Motion, Rigid};
+use super::walk::{FaceWalk, Walked, relative};
+use super::{KinematicsError, drawn_fold_angles};
+use crate::math::Vec3;
+use crate::sheet::{Corner, EdgeKey, Sheet};
+
+/// What is needed of a sheet to place it at any fold angles; made once.
+#[derive(Clone, Debug)]
+pub struct Embedding {
+    pub(super) walk: FaceWalk,
+    pub(super) seats: Vec<Seat>,
+    pub(super) faces: Vec<DrawnFace>,
+    /// Lattice vectors as drawn.
+    pub(super) lattice: Option<[Vec3; 2]>,
+    drawn_angles: Vec<f64>,
+    edges: Vec<EdgeKey>,
+    lengths: Vec<f64>,
+    longest: f64,
+}
+
+/// A vertex as a corner of a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seat {
+    pub(super) face: usize,
+    /// Where the corner is drawn.
+    pub(super) drawn: Vec3,
+    /// The cell in which it stands.
+    pub(super) cell: [i32; 2],
+}
+
+/// A face as drawn, in the cell in which the walk meets it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DrawnFace {
+    pub(super) corners: [Corner; 3],
+    /// Area times unit normal.
+    pub(super) area: Vec3,
+    pub(super) centroid: Vec3,
+}
+
+/// A sheet at some fold angles; see the module for the frame.
+#[derive(Clone, Debug)]
+pub struct Placement {
+    /// The vertices of cell (0, 0).
+    pub positions: Vec<Vec3>,
+    /// The lattice motions; `None` for a finite sheet.
+    pub lattice: Option<[Motion; 2]>,
+    /// How well the angles close.
+    pub compatibility: Compatibility,
+    pub(super) walked: Walked<Motion>,
+}
+
+/// How far different ways over the faces lead apart; all zero but for rounding where the angles close.
+///
+/// Lengths count in units of the longest edge, rotations by their largest matrix entry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Compatibility {
+    /// `S1 S2 - S2 S1`.
+    pub rotations: f64,
+    /// `S1 l2 + l1 - S2 l1 - l2`.
+    pub positions: f64,
+    /// Every edge that the walk has not crossed: the motion of the way over it, less the one the lattice motions give.
+    pub ways: f64,
+}
+
+impl Compatibility {
+    /// The largest of the three; not a number where one of them is none.
+    pub fn largest(&self) -> f64 {
+        [self.rotations, self.positions, self.ways].into_iter().fold(0.0, larger)
+    }
+}
+
+impl Embedding {
+    /// Plans how to place a sheet.
+    ///
+    /// Fails with [`KinematicsError::Disconnected`] where the walk does not reach all faces and vertices, in both
+    /// directions of the lattice where there is one.
+    pub fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
+        let walk = FaceWalk::new(sheet)?;
+        let faces: Vec<DrawnFace> = (0..walk.cells.len()).map(|face| DrawnFace::new(sheet, &walk, face)).collect();
+        let seats = seats(sheet, &faces).ok_or(KinematicsError::Disconnected { faces: faces.len() })?;
+        let edges: Vec<EdgeKey> = sheet.edges.iter().map(|edge| edge.key).collect();
+        let length = |key: &EdgeKey| {
+            let [i, j] = key.ends().map(|end| sheet.position(end));
+            (j - i).norm()
+        };
+        let lengths: Vec<f64> = edges.iter().map(length).collect();
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let drawn_angles = drawn_fold_angles(sheet);
+        Ok(Self { walk, seats, faces, lattice: sheet.lattice, drawn_angles, edges, lengths, longest })
+    }
+
+    /// Number of edges, which is the number of fold angles.
+    pub fn edges(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// The fold angles of the drawn sheet, zero on the rim.
+    pub fn drawn_angles(&self) -> &[f64] {
+        &self.drawn_angles
+    }
+
+    /// Places the sheet: `angles` holds the fold angle of every edge in radians, valley positive; those of the rim are
+    /// not read.
+    ///
+    /// Angles that do not close are placed too, by the walk's tree, and
+    /// [`compatibility`](Placement::compatibility) tells.
+    /// # Panics
+    /// Where `angles` has another length than the edges.
+    pub fn place(&self, angles: &[f64]) -> Placement {
+        let walked = Walked { faces: Vec::new(), loops: Vec::new(), lattice: None };
+        let compatibility = Compatibility::default();
+        let mut placement = Placement { positions: Vec::new(), lattice: None, compatibility, walked };
+        self.place_into(angles, &mut placement);
+        placement
+    }
+
+    /// The same into a placement of an earlier call, which is overwritten; nothing is allocated.
+    /// # Panics
+    /// As [`place`](Self::place).
+    pub fn place_into(&self, angles: &[f64], placement: &mut Placement) {
+        assert_eq!(angles.len(), self.edges(), "one fold angle for every edge");
+        let walked = &mut placement.walked;
+        self.walk.walk_into(|step| Motion::about(&step.line, self.turn(step.edge, angles)), walked);
+        placement.lattice = walked.lattice;
+        placement.positions.clear();
+        placement.positions.extend(self.seats.iter().map(|seat| {
+            let there = walked.faces[seat.face].apply(&seat.drawn);
+            match &walked.lattice {
+                Some(lattice) if seat.cell != [0, 0] => {
+                    Motion::lattice_power(lattice, seat.cell).inverse().apply(&there)
+                }
+                _ => there,
+            }
+        }));
+        placement.compatibility = self.compatibility(walked);
+    }
+
+    /// Largest relative error of the length of an edge, against the drawn one.
+    pub fn bar_error(&self, placement: &Placement) -> f64 {
+        let bars = self.edges.iter().zip(&self.lengths);
+        let errors = bars.map(|(key, length)| {
+            let [i, j] = key.ends().map(|end| placement.corner(end));
+            ((j - i).norm() - length).abs() / length
+        });
+        errors.fold(0.0, larger)
+    }
+
+    /// Sum of the drawn areas of the faces times their normals.
+    pub(super) fn drawn_area(&self) -> Vec3 {
+        self.faces.iter().map(|face| face.area).sum()
+    }
+
+    /// How far an edge has turned since it was drawn.
+    pub(super) fn turn(&self, edge: usize, angles: &[f64]) -> f64 {
+        angles[edge] - self.drawn_angles[edge]
+    }
+
+    fn compatibility(&self, walked: &Walked<Motion>) -> Compatibility {
+        let still = [Motion::identity(); 2];
+        let lattice @ [first, second] = walked.lattice.as_ref().unwrap_or(&still);
+        let apart = |a: &Motion, b: &Motion| {
+            let turned = (a.rotation - b.rotation).iter().map(|entry| entry.abs()).fold(0.0, larger);
+            [turned, (a.translation - b.translation).norm() / self.longest]
+        };
+        let [rotations, positions] = apart(&(*first * *second), &(*second * *first));
+        let ways = self.walk.loops.iter().zip(&walked.loops);
+        let ways = ways.flat_map(|(closing, motion)| apart(motion, &Motion::lattice_power(lattice, closing.cell)));
+        Compatibility { rotations, positions, ways: ways.fold(0.0, larger) }
+    }
+}
+
+impl Placement {
+    /// Where a corner is, by doing the lattice motions one by one; of a finite sheet only in cell (0, 0).
+    pub fn corner(&self, corner: Corner) -> Vec3 {
+        let home = self.positions[corner.vertex];
+        match &self.lattice {
+            Some(lattice) if corner.shift != [0, 0] => Motion::lattice_power(lattice, corner.shift).apply(&home),
+            _ => home,
+        }
+    }
+}
+
+impl DrawnFace {
+    fn new(sheet: &Sheet, walk: &FaceWalk, face: usize) -> Self {
+        let corners = sheet.triangles[face].corners.map(|corner| corner.translated(walk.cells[face]));
+        let [a, b, c] = corners.map(|corner| relative(sheet, corner));
+        Self { corners, area: 0.5 * (b - a).cross(&(c - a)), centroid: (a + b + c) / 3.0 }
+    }
+}
+
+/// A seat for every vertex, in cell (0, 0) where the walk passes there; `None` where a vertex has no face.
+fn seats(sheet: &Sheet, faces: &[DrawnFace]) -> Option<Vec<Seat>> {
+    let far = |cell: [i32; 2]| cell.map(i32::abs).iter().sum::<i32>();
+    let mut seats: Vec<Option<Seat>> = vec![None; sheet.vertices.len()];
+    for (face, drawn) in faces.iter().enumerate() {
+        for &corner in &drawn.corners {
+            let nearer = seats[corner.vertex].is_none_or(|seat| far(corner.shift) < far(seat.cell));
+            if nearer {
+                seats[corner.vertex] = Some(Seat { face, drawn: relative(sheet, corner), cell: corner.shift });
+            }
+        }
+    }
+    seats.into_iter().collect()
+}
+
+/// The larger of two numbers, or not a number where one of them is none.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a >= b { a } else { b + 0.0 * a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_sheets::*;
+    use super::super::{Closure, Displacement};
+    use super::*;
+    use crate::math::fold_angle::fold_angle;
+    use crate::numerics::DenseMatrix;
+    use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
+
+    /// Claim: the drawn fold angles give the drawn sheet, vertex 0 at the origin, the lattice motions translations, in
+    /// periodic and finite sheets, and in those that closure does not know whole. No arithmetic but of positions.
+    #[test]
+    fn drawn_angles_give_the_drawn_sheet() {
+        for sheet in [open_star(), open_flat(), miura(), finite_grid(3, 4, 0.3), ring()] {
+            let embedding = Embedding::new(&sheet).unwrap();
+            let placement = embedding.place(embedding.drawn_angles());
+            let drawn = sheet.vertices.iter().map(|x| x - sheet.vertices[0]);
+            assert!(drawn.zip(&placement.positions).all(|(drawn, x)| (drawn - x).norm() <= 1e-15));
+            assert!(placement.compatibility.largest() <= 1e-15);
+            assert!(embedding.bar_error(&placement) <= 2e-15);
+            let lattice = placement.lattice.map(|lattice| lattice.map(|motion| motion.translation));
+            assert_eq!(lattice.is_some(), sheet.lattice.is_some());
+            let pairs = sheet.lattice.into_iter().flatten().zip(lattice.into_iter().flatten());
+            assert!(pairs.into_iter().all(|(drawn, chord)| (drawn - chord).norm() <= 1e-15));
+        }
+    }
+
+    /// Folded states of several sheets, closed to rounding.
+    fn folded() -> Vec<(Sheet, Vec<f64>)> {
+        let star = open_star();
+        let states = open_star_reference().cylinders(&star);
+        let (flat, finite) = (open_flat(), finite_grid(3, 4, 0.3));
+        let bent = |sheet: &Sheet, size: f64| {
+            let numbers = random_numbers(3, sheet.edges.len());
+            drawn_fold_angles(sheet).iter().zip(numbers).map(|(angle, r)| angle + size * r).collect::<Vec<_>>()
+        };
+        let (flat_bent, finite_bent) = (bent(&flat, 0.3), bent(&finite, 0.2));
+        let open = states.into_iter().map(|angles| (star.clone(), angles));
+        let open: Vec<_> = open.chain([(flat, flat_bent), (finite, finite_bent)]).collect();
+        let close = |(sheet, angles): (Sheet, Vec<f64>)| {
+            let angles = closed(&Closure::of_cell(&sheet).unwrap(), angles);
+            (sheet, angles)
+        };
+        open.into_iter().map(close).collect()
+    }
+
+    /// Claim: where the angles close, all ways over the faces agree, bars keep their lengths, and the fold angles of
+    /// the placed vertices are those put in. Tolerances: 1e-13 as the project promises; the fold angle of four points
+    /// has the rounding of positions over the height of a face.
+    #[test]
+    fn closed_angles_are_compatible() {
+        for (sheet, angles) in folded() {
+            let embedding = Embedding::new(&sheet).unwrap();
+            let placement = embedding.place(&angles);
+            assert!(placement.compatibility.largest() <= 1e-13, "{:?}", placement.compatibility);
+            assert!(embedding.bar_error(&placement) <= 1e-13);
+            for (edge, angle) in sheet.edges.iter().zip(&angles) {
+                let (Some(left), Some(right)) = (edge.wings[0], edge.wings[1]) else { continue };
+                let [i, j] = edge.key.ends();
+                let found = fold_angle([i, j, left, right].map(|corner| placement.corner(corner)));
+                assert!((found - angle).abs() <= 1e-13, "{found} for {angle}");
+            }
+        }
+    }
+
+    /// Claim: cells -2 to 2 stand where faces put together one by one, from points and not from motions, come to stand.
+    /// Both begin with face 0, as drawn. Tolerance: rounding over some twenty faces.
+    #[test]
+    fn faces_put_together_one_by_one_agree() {
+        for (sheet, angles) in folded() {
+            let placement = Embedding::new(&sheet).unwrap().place(&angles);
+            let places = put_together(&sheet, &angles);
+            assert!(places.len() >= sheet.vertices.len());
+            for (corner, place) in places {
+                let error = (placement.corner(corner) + sheet.vertices[0] - place).norm();
+                assert!(error <= 1e-12, "{corner:?}: {error:e}");
+            }
+        }
+    }
+
+    /// Claim: angles that do not close are reported: one of them changed by 1e-6 shows at that size.
+    #[test]
+    fn open_angles_are_reported() {
+        for (sheet, angles) in folded() {
+            let embedding = Embedding::new(&sheet).unwrap();
+            let closure = Closure::of_cell(&sheet).unwrap();
+            let edge = embedding.walk.loops[0].crossing.edge;
+            let mut wrong = angles.clone();
+            wrong[edge] += 1e-6;
+            let (found, residual) = (embedding.place(&wrong).compatibility.largest(), closure.residual(&wrong).amax());
+            assert!(found > 0.1 * residual && found < 1e-4 && residual > 1e-8, "{found:e} {residual:e}");
+        }
+    }
+
+    /// Claim: every entry of the derivative of positions, lattice rotations and chords in the fold angles is that of the
+    /// displacement with that rate, also where angles do not close; an overwritten placement is as a new one.
+    #[test]
+    fn displacements_are_the_derivative() {
+        for (sheet, angles) in folded() {
+            let embedding = Embedding::new(&sheet).unwrap();
+            let numbers = random_numbers(8, angles.len());
+            let point: Vec<f64> = angles.iter().zip(numbers).map(|(angle, r)| angle + 0.2 * r).collect();
+            let place = |angles: &[f64]| {
+                let mut placement = embedding.place(embedding.drawn_angles());
+                embedding.place_into(angles, &mut placement);
+                let lattice = placement.lattice.iter().flatten();
+                let motions = lattice.flat_map(|m| m.rotation.iter().chain(m.translation.iter()).copied());
+                placement.positions.iter().flat_map(|x| x.iter().copied()).chain(motions).collect::<Vec<f64>>()
+            };
+            let column = |edge: usize| {
+                let mut rates = vec![0.0; angles.len()];
+                rates[edge] = 1.0;
+                let moved = Displacement::new(&embedding, &point, &rates);
+                let lattice = moved.lattice.iter().flatten().flat_map(|m| {
+                    let turned = m.twist.angular.cross_matrix() * m.motion.rotation;
+                    turned.iter().copied().chain(m.twist.at(&m.motion.translation).iter().copied()).collect::<Vec<_>>()
+                });
+                moved.velocities.iter().flat_map(|v| v.iter().copied()).chain(lattice).collect::<Vec<f64>>()
+            };
+            let columns: Vec<f64> = (0..angles.len()).flat_map(column).collect();
+            let jacobian = DenseMatrix::from_vec(columns.len() / angles.len(), angles.len(), columns);
+            check_jacobian(place, &point, &jacobian, TOLERANCE).unwrap();
+        }
+    }
+
+    /// Claim: what does not hang together is refused: faces apart, rows of faces that meet only along one lattice vector,
+    /// a vertex without face.
+    #[test]
+    fn what_does_not_hang_together() {
+        let refused = |sheet: &Sheet, faces: usize| {
+            assert_eq!(Embedding::new(sheet).unwrap_err(), KinematicsError::Disconnected { faces });
+        };
+        let whole = finite_grid(3, 1, 0.3);
+        let faces: Vec<[Corner; 3]> = whole.triangles.iter().map(|face| face.corners).collect();
+        refused(&sheet("apart", whole.vertices.clone(), None, &[faces[0], faces[5]]), 2);
+        refused(&sheet("loose vertex", whole.vertices.clone(), None, &faces[..4]), 4);
+        let corner = |vertex: usize, n1: i32| Corner { vertex, shift: [n1, 0] };
+        let row = [[corner(0, 0), corner(0, 1), corner(1, 0)], [corner(0, 1), corner(1, 1), corner(1, 0)]];
+        let lattice = Some([Vec3::x(), 3.0 * Vec3::y()]);
+        refused(&sheet("row", vec![Vec3::zeros(), Vec3::y()], lattice, &row), 2);
+    }
+}

@@ -1,0 +1,258 @@
+//! A walk over the faces: from fold angles to the rigid motion of every face, and of one cell to the next.
+//!
+//! Every face goes from where it is drawn to where it is by a rigid motion `M`. Behind an edge with the fold angle `rho`,
+//! drawn with `rho0`, the next face also turns by `rho - rho0` about the edge, as drawn:
+//! `M_next = M * turn(edge, rho - rho0)` (valley positive; counter-clockwise about the edge from its first to its second
+//! end where one crosses from the right to the left face). A tree of such steps reaches every face of the cell once. Each
+//! edge left over leads from a face `f` to the copy of a face `g` in the cell `n`, and closes a loop: what brings the
+//! sheet onto its copy there is `A = M_f * turn * shift(n) * M_g^-1`. Products of a few loops make the two lattice
+//! motions; all other loops have to agree with them, which is the compatibility of the angles.
+
+use super::KinematicsError;
+use super::motion::{Line, Rigid};
+use crate::math::Vec3;
+use crate::sheet::{Corner, EdgeKey, Sheet};
+use std::collections::{HashMap, VecDeque};
+
+/// The step from a face over an edge to the next, with the edge as drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    /// Number of the edge.
+    pub edge: usize,
+    /// Face before and behind the edge.
+    pub faces: [usize; 2],
+    /// The edge; turning about it counter-clockwise folds it up as a valley.
+    pub line: Line,
+}
+
+/// An edge that is not in the tree.
+#[derive(Clone, Copy, Debug)]
+pub struct Loop {
+    /// The step over it.
+    pub crossing: Crossing,
+    /// Cell of the copy of the face behind it.
+    pub cell: [i32; 2],
+    /// Drawn translation of that cell.
+    pub shift: Vec3,
+}
+
+/// The tree, the loops and how the loops make the lattice motions. Drawn positions have vertex 0 as origin.
+#[derive(Clone, Debug)]
+pub struct FaceWalk {
+    /// Cell into which every face, as the sheet lists it, is moved so that the faces hang together. The walk starts at the
+    /// first face with vertex 0, moved so that this vertex is in cell (0, 0).
+    pub cells: Vec<[i32; 2]>,
+    /// Steps of the tree, in an order in which every face is reached before it is left.
+    pub steps: Vec<Crossing>,
+    /// Edges not in the tree.
+    pub loops: Vec<Loop>,
+    /// Loops whose product, from left to right, is a lattice motion, the inverse of a loop where `true`.
+    words: Option<[Vec<(usize, bool)>; 2]>,
+}
+
+/// The result of a walk.
+#[derive(Clone, Debug)]
+pub struct Walked<M> {
+    /// From drawn to present, for every face.
+    pub faces: Vec<M>,
+    /// From the sheet to its copy, for every loop.
+    pub loops: Vec<M>,
+    /// From a cell to the next, along both lattice vectors; `None` for a finite sheet.
+    pub lattice: Option<[M; 2]>,
+}
+
+/// A face beside an edge, and the cell of the edge's first vertex when the face is as the sheet lists it.
+#[derive(Clone, Copy)]
+struct Seat {
+    face: usize,
+    base: [i32; 2],
+}
+
+impl FaceWalk {
+    /// Plans a walk over a sheet.
+    ///
+    /// Fails where the faces do not hang together, in both directions of the lattice where there is one.
+    pub fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
+        let faces = sheet.triangles.len();
+        let disconnected = || KinematicsError::Disconnected { faces };
+        let (root, start) = first_with_vertex_0(sheet).ok_or_else(disconnected)?;
+        let seats = seats(sheet);
+        let mut plan = Plan { sheet, seats: &seats, cells: vec![None; faces], steps: Vec::new() };
+        plan.cells[root] = Some(start);
+        plan.spread(root);
+        let loops = plan.loops();
+        let steps = plan.steps;
+        let cells: Vec<[i32; 2]> = plan.cells.into_iter().collect::<Option<_>>().ok_or_else(disconnected)?;
+        let shifts: Vec<[i32; 2]> = loops.iter().map(|closing| closing.cell).collect();
+        let words = match sheet.lattice {
+            Some(_) => Some([[1, 0], [0, 1]].map(|cell| word(&shifts, cell))),
+            None => None,
+        };
+        let words = match words {
+            Some([Some(first), Some(second)]) => Some([first, second]),
+            Some(_) => return Err(disconnected()),
+            None => None,
+        };
+        Ok(Self { cells, steps, loops, words })
+    }
+
+    /// Walks, with the motion of each turn about a drawn edge as given.
+    pub fn walk<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M) -> Walked<M> {
+        let mut walked = Walked { faces: Vec::new(), loops: Vec::new(), lattice: None };
+        self.walk_into(turn, &mut walked);
+        walked
+    }
+
+    /// The same, into what an earlier walk of this plan has left: nothing is allocated.
+    pub fn walk_into<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M, walked: &mut Walked<M>) {
+        let Walked { faces, loops, lattice } = walked;
+        faces.clear();
+        faces.resize(self.cells.len(), M::identity());
+        for step in &self.steps {
+            let [from, to] = step.faces;
+            faces[to] = faces[from] * turn(step);
+        }
+        loops.clear();
+        loops.extend(self.loops.iter().map(|Loop { crossing, shift, .. }| {
+            let [from, to] = crossing.faces.map(|face| faces[face]);
+            from * turn(crossing) * M::shift(*shift) * to.inverse()
+        }));
+        let product = |word: &Vec<(usize, bool)>| {
+            let factors = word.iter().map(|&(k, back)| if back { loops[k].inverse() } else { loops[k] });
+            factors.reduce(|done, next| done * next).unwrap_or_else(M::identity)
+        };
+        *lattice = self.words.as_ref().map(|[first, second]| [product(first), product(second)]);
+    }
+}
+
+/// A plan in the making.
+struct Plan<'a> {
+    sheet: &'a Sheet,
+    seats: &'a [[Option<Seat>; 2]],
+    cells: Vec<Option<[i32; 2]>>,
+    steps: Vec<Crossing>,
+}
+
+impl Plan<'_> {
+    /// Breadth first from a face to all that hang together with it.
+    fn spread(&mut self, root: usize) {
+        let mut doors = vec![Vec::new(); self.cells.len()];
+        for (edge, sides) in self.seats.iter().enumerate() {
+            for side in [0, 1] {
+                if let (Some(here), Some(there)) = (sides[side], sides[1 - side]) {
+                    doors[here.face].push((edge, side, here, there));
+                }
+            }
+        }
+        let mut queue = VecDeque::from([root]);
+        while let Some(face) = queue.pop_front() {
+            for &(edge, side, here, there) in &doors[face] {
+                if let (Some(cell), None) = (self.cells[face], self.cells[there.face]) {
+                    let base = sum(cell, here.base);
+                    self.cells[there.face] = Some(difference(base, there.base));
+                    self.steps.push(self.crossing(edge, side, base, [face, there.face]));
+                    queue.push_back(there.face);
+                }
+            }
+        }
+    }
+
+    /// The edges with two faces that the tree has not used, from right to left.
+    fn loops(&self) -> Vec<Loop> {
+        let mut used = vec![false; self.seats.len()];
+        self.steps.iter().for_each(|step| used[step.edge] = true);
+        let mut loops = Vec::new();
+        for (edge, sides) in self.seats.iter().enumerate().filter(|(edge, _)| !used[*edge]) {
+            let [Some(left), Some(right)] = *sides else { continue };
+            let (Some(to), Some(from)) = (self.cells[left.face], self.cells[right.face]) else { continue };
+            let base = sum(from, right.base);
+            let crossing = self.crossing(edge, 1, base, [right.face, left.face]);
+            let cell = difference(difference(base, left.base), to);
+            let shift = relative(self.sheet, Corner { vertex: 0, shift: cell });
+            loops.push(Loop { crossing, cell, shift });
+        }
+        loops
+    }
+
+    /// The step over an edge from its left (0) or right (1) side, with its first vertex in the cell `base`.
+    fn crossing(&self, edge: usize, side: usize, base: [i32; 2], faces: [usize; 2]) -> Crossing {
+        let [i, j] = self.sheet.edges[edge].key.ends().map(|end| relative(self.sheet, end.translated(base)));
+        let along = (j - i).normalize();
+        Crossing { edge, faces, line: Line { point: i, direction: if side == 1 { along } else { -along } } }
+    }
+}
+
+/// Where a corner is drawn, from vertex 0.
+pub fn relative(sheet: &Sheet, corner: Corner) -> Vec3 {
+    sheet.position(corner) - sheet.position(Corner::home(0))
+}
+
+/// The first face that has vertex 0, and the cell into which it moves so that this vertex is in cell (0, 0).
+fn first_with_vertex_0(sheet: &Sheet) -> Option<(usize, [i32; 2])> {
+    let find = |corners: &[Corner; 3]| corners.iter().find(|corner| corner.vertex == 0).map(|corner| corner.shift);
+    let mut faces = sheet.triangles.iter().enumerate();
+    faces.find_map(|(face, triangle)| find(&triangle.corners).map(|shift| (face, shift.map(|n| -n))))
+}
+
+/// The faces on the left and on the right of every edge.
+fn seats(sheet: &Sheet) -> Vec<[Option<Seat>; 2]> {
+    let number: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
+    let mut seats = vec![[None; 2]; sheet.edges.len()];
+    for (face, triangle) in sheet.triangles.iter().enumerate() {
+        for side in triangle.sides() {
+            if let Some(&edge) = number.get(&side.key) {
+                seats[edge][side.side] = Some(Seat { face, base: side.base.shift });
+            }
+        }
+    }
+    seats
+}
+
+/// Loops, in turn, that lead into a cell, with as few of them as there is: breadth first over the cells.
+///
+/// Steps can be put in an order that does not stray further from the straight way than twice the longest of them.
+fn word(shifts: &[[i32; 2]], target: [i32; 2]) -> Option<Vec<(usize, bool)>> {
+    let reach = 1 + 2 * shifts.iter().flatten().map(|n| n.abs()).max().unwrap_or(0);
+    let mut words = HashMap::from([([0, 0], Vec::new())]);
+    let mut queue = VecDeque::from([[0, 0]]);
+    while let Some(cell) = queue.pop_front() {
+        if cell == target {
+            return words.remove(&cell);
+        }
+        for (k, &shift) in shifts.iter().enumerate() {
+            for (next, back) in [(sum(cell, shift), false), (difference(cell, shift), true)] {
+                if next.iter().all(|n| n.abs() <= reach) && !words.contains_key(&next) {
+                    let longer = words[&cell].iter().copied().chain([(k, back)]).collect();
+                    words.insert(next, longer);
+                    queue.push_back(next);
+                }
+            }
+        }
+    }
+    None
+}
+
+fn sum(a: [i32; 2], b: [i32; 2]) -> [i32; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn difference(a: [i32; 2], b: [i32; 2]) -> [i32; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: loops that only together reach a neighbour are combined, as few as possible; where they reach only every
+    /// other cell there is no way.
+    #[test]
+    fn words_reach_the_neighbours() {
+        assert_eq!(word(&[[0, 0], [1, 0], [0, 1]], [0, 1]), Some(vec![(2, false)]));
+        assert_eq!(word(&[[-1, 0]], [1, 0]), Some(vec![(0, true)]));
+        let steps = word(&[[2, 0], [5, 0], [3, 1]], [1, 0]).unwrap();
+        assert_eq!(steps.len(), 3, "5 - 2 - 2");
+        assert_eq!(word(&[[2, 0], [0, 1]], [1, 0]), None);
+        assert_eq!(word(&[], [1, 0]), None);
+    }
+}
