@@ -5,9 +5,13 @@
 pub mod closure;
 pub mod error;
 pub mod folding_modes;
+pub mod rays;
+pub mod second_order;
 #[cfg(test)]
 mod test_sheets;
 
 pub use closure::{Closure, HingedEdge, drawn_fold_angles};
 pub use error::KinematicsError;
 pub use folding_modes::{FoldingModes, folding_modes};
+pub use rays::{Ray, Rays};
+pub use second_order::{SecondOrder, signature};
