@@ -55,7 +55,7 @@ impl SecondOrder {
             y.iter().zip(&parts).fold(zero, |sum, (weight, part)| sum + part * *weight)
         };
         let forms: Vec<DenseMatrix> = left.column_iter().map(|y| along(y.as_slice())).collect();
-        let (quadrics, gap) = independent(&forms, modes.ncols())?;
+        let (quadrics, gap) = independent(&forms)?;
         Ok(Self { modes, forms, quadrics, gaps: [right.gap, gap] })
     }
 
@@ -69,23 +69,21 @@ impl SecondOrder {
 ///
 /// The motions have norm 1 and the directions of edges too, so forms that count are of the order of 1; the rank is read off
 /// the singular values with a 1 before them, so that forms which are all rounding have rank 0.
-fn independent(forms: &[DenseMatrix], unknowns: usize) -> Result<(Vec<DenseMatrix>, f64), KinematicsError> {
-    let pairs: Vec<(usize, usize)> = (0..unknowns).flat_map(|i| (0..=i).map(move |j| (i, j))).collect();
-    let weight = |(i, j): (usize, usize)| if i == j { 1.0 } else { std::f64::consts::SQRT_2 };
-    let list = DenseMatrix::from_fn(forms.len(), pairs.len(), |k, p| forms[k][pairs[p]] * weight(pairs[p]));
-    let Svd { singular_values, v, .. } = full_svd(&list)?;
+fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), KinematicsError> {
+    let entries = forms.first().map_or(0, DenseMatrix::len);
+    if entries == 0 {
+        return Ok((Vec::new(), 1.0 / f64::EPSILON));
+    }
+    let columns = DenseMatrix::from_fn(entries, forms.len(), |entry, form| forms[form][entry]);
+    let Svd { singular_values, v, .. } = full_svd(&columns.qr().r())?;
     let natural = singular_values.first().copied().unwrap_or(0.0).max(1.0);
-    let with_natural: Vec<f64> = [natural].into_iter().chain(singular_values).collect();
+    let with_natural: Vec<f64> = [natural].into_iter().chain(singular_values.iter().copied()).collect();
     let found = rank_at_largest_gap(&with_natural)?;
-    let matrix = |column: usize| {
-        let mut matrix = DenseMatrix::zeros(unknowns, unknowns);
-        for (p, &(i, j)) in pairs.iter().enumerate() {
-            let entry = v[(p, column)] / weight((i, j));
-            (matrix[(i, j)], matrix[(j, i)]) = (entry, entry);
-        }
-        matrix
+    let combined = |k: usize| -> DenseMatrix {
+        let weights = v.column(k) / singular_values[k];
+        forms.iter().zip(weights.iter()).map(|(form, weight)| form * *weight).sum()
     };
-    Ok(((0..found.rank - 1).map(matrix).collect(), found.gap))
+    Ok(((0..found.rank - 1).map(combined).collect(), found.gap))
 }
 
 /// How many eigenvalues of a symmetric matrix are positive, negative and zero, the last up to 1e-9 of the largest.
