@@ -240,6 +240,10 @@ fn describe_study(study: &StudySummary) -> String {
             modes.folding_modes.map_or("?".into(), |count| count.to_string()),
             modes.self_stresses
         ),
+        Some(StudyResult::Branches(branches)) => format!(
+            "{} real rays, {} complex solutions of {}",
+            branches.real_rays, branches.complex_solutions, branches.expected
+        ),
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();

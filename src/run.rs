@@ -14,6 +14,7 @@ use crate::sheet::build::{self, Drawn};
 use crate::sheet::error::Defect;
 use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
 
+mod branches;
 mod draw;
 mod resume;
 mod runner;

@@ -14,6 +14,8 @@ use crate::sheet::tiling::{Site, TiledEdge, Tiling};
 use crate::sheet::{Corner, Edge, Sheet};
 use nalgebra::{DVector, Matrix3};
 
+mod second_derivative;
+
 /// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
 ///
 /// Corners may stand in any cell, those of one edge in the same frame.

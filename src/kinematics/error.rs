@@ -1,6 +1,7 @@
 //! What can be wrong with a question about exact folding.
 
 use crate::numerics::dense::DenseError;
+use crate::numerics::homotopy::HomotopyError;
 
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -55,4 +56,13 @@ pub enum KinematicsError {
     /// A decomposition failed, or no rank stands out.
     #[error("closure of the vertices: {0}")]
     Decomposition(#[from] DenseError),
+    /// The obstruction quadrics could not be solved.
+    #[error("second order: {0}")]
+    Quadrics(#[from] HomotopyError),
+    /// The state does not close, so there are no directions to leave it.
+    #[error("the faces do not close at this state: residual {residual:.2e}")]
+    NotClosed {
+        /// Largest entry of the closure residual.
+        residual: f64,
+    },
 }

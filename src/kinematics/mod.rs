@@ -10,7 +10,9 @@ pub mod error;
 pub mod folding_modes;
 pub mod metric;
 pub mod motion;
+pub mod rays;
 pub mod screw;
+pub mod second_order;
 pub mod shape;
 #[cfg(test)]
 mod test_sheets;
@@ -22,5 +24,7 @@ pub use embedding::{Compatibility, Embedding, Placement};
 pub use error::KinematicsError;
 pub use folding_modes::{FoldingModes, folding_modes};
 pub use motion::{Motion, Moving, Rigid, Twist};
+pub use rays::{Ray, Rays};
 pub use screw::{Screw, ScrewRate};
+pub use second_order::{SecondOrder, signature};
 pub use shape::{Shape, ShapeRate};

@@ -1,9 +1,10 @@
-//! Sparse and dense linear algebra, and the check of derivatives. The only module that names `faer`.
+//! Sparse and dense linear algebra, all solutions of quadrics, and the check of derivatives. The only module that names `faer`.
 
 pub mod dense;
 pub mod derivatives;
 pub mod eigen;
 pub mod factor;
+pub mod homotopy;
 pub mod order;
 pub mod parallel;
 pub mod rank;

@@ -76,6 +76,8 @@ pub enum StudyResult {
     Relax(RelaxSummary),
     /// `kind = "modes"`.
     Modes(ModesSummary),
+    /// `kind = "branches"`.
+    Branches(BranchesSummary),
 }
 
 /// Energy by terms; `None`: the term is not there.
@@ -152,6 +154,48 @@ pub struct ModesSummary {
     pub eigenvalues: Vec<f64>,
 }
 
+/// The branches along which exact folding leaves the drawn state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BranchesSummary {
+    /// Linear folding motions.
+    pub modes: usize,
+    /// Independent quadrics that these must satisfy to extend.
+    pub quadrics: usize,
+    /// Positive, negative and zero eigenvalues of the quadric, where it is just one.
+    pub signature: Option<[usize; 3]>,
+    /// Dimension of the set of solutions: 0 points, 1 a curve, and so on.
+    pub dimension: usize,
+    /// Isolated complex solutions, with multiplicity; where `dimension` is not 0, those on a random linear space.
+    pub complex_solutions: usize,
+    /// The same without multiplicity.
+    pub distinct: usize,
+    /// Bezout's number.
+    pub expected: usize,
+    /// Ends of paths on curves or more of solutions, where single ones are expected.
+    pub on_continua: usize,
+    /// Solutions of random combinations that do not satisfy all quadrics.
+    pub extraneous: usize,
+    /// Number of isolated real rays, two for each real solution.
+    pub real_rays: usize,
+    /// The isolated real rays.
+    pub rays: Vec<RaySummary>,
+}
+
+/// A direction in which folding leaves the drawn state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RaySummary {
+    /// Number of the branch, the same for a ray and its opposite.
+    pub branch: usize,
+    /// 1 for the ray whose first rate beyond 1e-6 is positive, -1 for its opposite.
+    pub sign: i8,
+    /// Multiplicity of the solution.
+    pub multiplicity: usize,
+    /// Rates of the fold angles of all edges, of norm 1.
+    pub direction: Vec<f64>,
+    /// Sign of the curvature, positive towards the face normals; `None` for a finite sheet.
+    pub curvature_sign: Option<i8>,
+}
+
 impl Summary {
     /// Whether every study gave its answer.
     pub fn converged(&self) -> bool {
@@ -194,6 +238,7 @@ mod tests {
             result,
         };
         let relax = RelaxSummary { residual_force: f64::NAN, history: vec![<_>::default()], ..<_>::default() };
+        let branches = BranchesSummary { rays: vec![<_>::default()], ..<_>::default() };
         let modes = ModesSummary { gap: Some(f64::INFINITY), eigenvalues: vec![0.1, 1e-300], ..<_>::default() };
         Summary {
             version: "0",
@@ -213,6 +258,7 @@ mod tests {
             studies: vec![
                 study("a", "relax", Some(StudyResult::Relax(relax))),
                 study("b", "modes", Some(StudyResult::Modes(modes))),
+                study("d", "branches", Some(StudyResult::Branches(branches))),
                 StudySummary { converged: false, reason: Some("why".into()), ..study("c", "relax", None) },
             ],
         }
@@ -239,7 +285,12 @@ mod tests {
             assert!(json["studies"][1].get(key).is_some(), "{key}");
         }
         assert_eq!(keys(&json["studies"][0]["energy"]), ["bars", "creases", "facets", "total"]);
-        assert_eq!(keys(&json["studies"][2]), ["converged", "error", "kind", "name", "reason", "seconds"]);
+        for key in ["complex_solutions", "distinct", "expected", "real_rays", "rays"] {
+            assert!(json["studies"][2].get(key).is_some(), "{key}");
+        }
+        let ray = ["branch", "curvature_sign", "direction", "multiplicity", "sign"];
+        assert_eq!(keys(&json["studies"][2]["rays"][0]), ray);
+        assert_eq!(keys(&json["studies"][3]), ["converged", "error", "kind", "name", "reason", "seconds"]);
     }
 
     /// Not a number and infinity are null; finite numbers read back exactly.

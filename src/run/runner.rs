@@ -1,7 +1,7 @@
 //! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
 
 use super::resume::{Earlier, Kept, write_state};
-use super::{Observer, Progress, RunError, RunOptions, RunReport, studies};
+use super::{Observer, Progress, RunError, RunOptions, RunReport, branches, studies};
 use crate::analysis::view::View;
 use crate::numerics::parallel;
 use crate::output::files;
@@ -80,6 +80,7 @@ impl<'a> Runner<'a> {
         let found = match &*study.kind {
             StudyKind::Relax(spec) => studies::relax(self, study, spec)?,
             StudyKind::Modes(spec) => studies::modes(self, study, spec)?,
+            StudyKind::Branches(_) => branches::study(self, study)?,
             _ => return Err(studies::not_available(self.file, study)),
         };
         self.push(found)

@@ -1,9 +1,9 @@
 //! The kinds of study: ask the analysis, write its files, summarise.
 
-use super::RunError;
 use super::draw::{self, Shown};
 use super::resume::Kept;
 use super::runner::Runner;
+use super::{RunError, branches};
 use crate::analysis::modes::{Modes, Question, modes as find_modes};
 use crate::analysis::relax::{RelaxError, Relaxed, relax as find_equilibrium};
 use crate::analysis::state::State;
@@ -38,6 +38,7 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
             None => Ok(()),
         },
         StudyKind::Modes(_) => Ok(()),
+        StudyKind::Branches(_) => branches::check(file, built, study),
         _ => Err(not_available(file, study)),
     }
 }
@@ -45,7 +46,7 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
 /// The refusal of a kind of study that a later version does.
 pub fn not_available(file: &SceneFile, study: &StudySpec) -> RunError {
     let message = format!("studies of kind `{}` are not available in this version", study.kind.name());
-    file.error_at(study.kind.span(), message, "the kinds here are `relax` and `modes`").into()
+    file.error_at(study.kind.span(), message, "the kinds here are `relax`, `modes` and `branches`").into()
 }
 
 /// `kind = "relax"`.

@@ -1,0 +1,116 @@
+//! The branches along which exact folding leaves the drawn state, with a count that shows that none is missing.
+//!
+//! The sheet is one cell, repeated by screw motions, or a finite patch; locked edges and rigid diagonals keep their angle.
+
+use crate::kinematics::{Closure, FoldingModes, KinematicsError, Ray, Rays, SecondOrder, folding_modes, signature};
+use crate::model::assemble::{Recipe, Surroundings};
+use crate::sheet::{EdgeKind, Sheet, Tiling};
+use nalgebra::DVector;
+
+/// Folding edges beyond which the dense decompositions take too long.
+const MOST_EDGES: usize = 1200;
+
+/// A trace of the curvature tensor below this, in radians per length for a direction of norm 1 and a lattice of length 1, is
+/// none.
+const NO_CURVATURE: f64 = 1e-7;
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BranchesError {
+    /// From the kinematics.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// A torus has conditions that single vertices do not know.
+    #[error(
+        "on a torus with a lattice the folding angles of one cell do not say all; ask for domain \"screw\" or \"patch\""
+    )]
+    Torus,
+    /// Too many edges.
+    #[error("the sheet has {edges} edges that fold; at most {MOST_EDGES} are looked at")]
+    TooLarge {
+        /// How many.
+        edges: usize,
+    },
+}
+
+/// What leaves the drawn state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branches {
+    /// Number of linear folding motions.
+    pub modes: usize,
+    /// Number of independent quadrics that these must satisfy.
+    pub quadrics: usize,
+    /// Positive, negative and zero eigenvalues of the quadric, where it is just one.
+    pub signature: Option<[usize; 3]>,
+    /// Solutions and rays.
+    pub rays: Rays,
+    /// Of every ray the sign of the curvature that it gives the sheet, positive towards the face normals: -1, 0 or 1; `None`
+    /// for a finite sheet.
+    pub curvature_signs: Vec<Option<i8>>,
+}
+
+/// What to look at.
+pub struct Question<'a> {
+    /// The sheet.
+    pub sheet: &'a Sheet,
+    /// Its cells.
+    pub tiling: &'a Tiling,
+    /// What surrounds them.
+    pub surroundings: Surroundings,
+    /// Fold angles of the drawn state, one for each edge of the tiling; not read where an edge does not fold.
+    pub angles: &'a [f64],
+    /// The locks and rigid diagonals are read.
+    pub recipe: &'a Recipe,
+}
+
+/// Finds the branches.
+///
+/// No real ray is an answer. Fails for a torus, for sheets with openings or too many edges, and where ranks are not clear or
+/// the solutions do not add up.
+pub fn branches(question: &Question<'_>) -> Result<Branches, BranchesError> {
+    let Question { sheet, tiling, surroundings, .. } = question;
+    if matches!(surroundings, Surroundings::FixedTorus | Surroundings::FreeTorus) {
+        return Err(BranchesError::Torus);
+    }
+    let closure = Closure::of_tiling(sheet, tiling)?.with_locked(&locked(question));
+    match closure.unchecked_loops() {
+        0 if sheet.holes.is_empty() => {}
+        loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }.into()),
+    }
+    let edges = closure.folding_edges().len();
+    if edges > MOST_EDGES {
+        return Err(BranchesError::TooLarge { edges });
+    }
+    let angles: Vec<f64> = question.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
+    let second_order = SecondOrder::new(&closure, &angles)?;
+    let rays = Rays::new(&second_order)?;
+    let signature = match &second_order.quadrics[..] {
+        [quadric] => Some(signature(quadric)?),
+        _ => None,
+    };
+    let curvature_signs = if *surroundings == Surroundings::Screw {
+        let modes = folding_modes(sheet)?;
+        rays.rays.iter().map(|ray| Some(curvature_sign(sheet, &modes, ray))).collect()
+    } else {
+        vec![None; rays.rays.len()]
+    };
+    let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
+    Ok(Branches { modes, quadrics, signature, rays, curvature_signs })
+}
+
+/// Locked creases, and diagonals of polygons where these are rigid.
+fn locked(question: &Question<'_>) -> Vec<usize> {
+    let rigid = question.recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
+    let facets =
+        (0..question.tiling.edges.len()).filter(|&k| rigid && question.tiling.edges[k].kind == EdgeKind::Facet);
+    question.recipe.locks.iter().map(|(edge, _)| *edge).chain(facets).collect()
+}
+
+/// The sign of the trace of the ray's curvature tensor, which has rank one or none.
+fn curvature_sign(sheet: &Sheet, modes: &FoldingModes, ray: &Ray) -> i8 {
+    let amplitudes = modes.basis.transpose() * DVector::from_column_slice(&ray.direction);
+    let curvature = &modes.curvatures * amplitudes;
+    let length = sheet.lattice.map_or(1.0, |[first, second]| first.norm().max(second.norm()));
+    let trace = (curvature[0] + curvature[1]) * length;
+    if trace.abs() <= NO_CURVATURE { 0 } else { trace.signum() as i8 }
+}

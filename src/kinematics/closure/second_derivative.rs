@@ -1,0 +1,51 @@
+//! The second derivative of the closure, where the faces close.
+//!
+//! With `e_k` the direction of edge `k` in the frame of the first, fold angles `rho_k` beside those of a closed state turn the
+//! product round a vertex into `exp(rho_1 e_1) exp(rho_2 e_2) ...`, whose rotation vector is to second order
+//!
+//! `sum_k rho_k e_k + 1/2 sum_{j<k} rho_j rho_k e_j x e_k`
+//!
+//! (Baker, Campbell and Hausdorff).
+
+use super::Closure;
+use crate::math::Vec3;
+use crate::numerics::DenseMatrix;
+
+impl Closure {
+    /// The second-order part of [`residual`](Self::residual) along linear motions: for every row a symmetric matrix `B`, so
+    /// that angles moved by `modes * x` change the row by `J modes x + x^T B x` up to third order.
+    ///
+    /// `angles` is a closed state; `modes` has a row for every edge, of which those of locked edges should be zero, and a
+    /// column for every motion.
+    /// # Panics
+    /// Where `angles` or `modes` have another number of rows than the list of edges.
+    pub fn second_order(&self, angles: &[f64], modes: &DenseMatrix) -> Vec<DenseMatrix> {
+        assert_eq!([angles.len(), modes.nrows()], [self.edges; 2], "a row for every edge");
+        let count = modes.ncols();
+        let mut parts = vec![DenseMatrix::zeros(count, count); 3 * self.rounds.len()];
+        for (round, parts) in self.rounds.iter().zip(parts.chunks_exact_mut(3)) {
+            let mut directions = Vec::with_capacity(round.spokes.len());
+            round.walk(angles, |_, direction| directions.push(direction));
+            let mut before = vec![Vec3::zeros(); count];
+            for (spoke, direction) in round.spokes.iter().zip(directions) {
+                let turns: Vec<Vec3> = (0..count).map(|mode| modes[(spoke.edge, mode)] * direction).collect();
+                add_products(parts, &before, &turns);
+                before.iter_mut().zip(&turns).for_each(|(sum, turn)| *sum += turn);
+            }
+        }
+        parts
+    }
+}
+
+/// Adds the symmetric part of `1/2 before_a x turns_b` to the matrices of its three components.
+fn add_products(parts: &mut [DenseMatrix], before: &[Vec3], turns: &[Vec3]) {
+    for (a, before) in before.iter().enumerate() {
+        for (b, turn) in turns.iter().enumerate() {
+            let product = 0.25 * before.cross(turn);
+            for (part, component) in parts.iter_mut().zip(product.iter()) {
+                part[(a, b)] += component;
+                part[(b, a)] += component;
+            }
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! The rays along which folding leaves a state: the real solutions of the obstruction quadrics.
+//!
+//! With as many quadrics as motions less one the complex solutions are points, `2^m` with multiplicity, and every real one is a
+//! line of motions: two rays, `v` and `-v`. With more quadrics there are fewer solutions, mostly none. With fewer they are
+//! curves or more: their degree is counted on a random linear space, and single rays exist only where a real point has no
+//! real ones beside it, as the singular point of a pair of conjugate lines. A simple real ray extends to a finite
+//! fold (implicit function theorem after division by the square of the amplitude); of a multiple one second order says no more.
+
+use super::{KinematicsError, SecondOrder, signature};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::symmetric_eigen;
+use crate::numerics::homotopy::{Section, Solution, solve_any};
+use nalgebra::DVector;
+
+/// Entries of directions are compared in units of this.
+const GRAIN: f64 = 1e-6;
+
+/// A direction in which folding leaves a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ray {
+    /// Rays `v` and `-v` have one branch number.
+    pub branch: usize,
+    /// 1 for the ray whose first entry beyond 1e-6 is positive, -1 for the other.
+    pub sign: i8,
+    /// Multiplicity of the solution.
+    pub multiplicity: usize,
+    /// Rates of the fold angles of all edges, of norm 1.
+    pub direction: Vec<f64>,
+    /// Estimated error of the direction.
+    pub error: f64,
+}
+
+/// The complex solutions, counted, and the real rays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rays {
+    /// Dimension of the set of solutions in projective space: 0 where they are points.
+    pub dimension: usize,
+    /// Bezout's number: of all solutions, of those on a random linear space, or of random combinations of the quadrics.
+    pub expected: usize,
+    /// Isolated complex solutions, with multiplicity; where `dimension` is not 0, on the random linear space.
+    pub complex_solutions: usize,
+    /// The same without multiplicity.
+    pub distinct: usize,
+    /// Ends of paths on curves or more of solutions, where single ones are expected.
+    pub on_continua: usize,
+    /// Solutions of random combinations that do not satisfy all quadrics.
+    pub extraneous: usize,
+    /// The isolated real rays, by branch, sign 1 first. Branches are numbered from 0 by the directions of sign 1, rounded
+    /// to 1e-6: the one with the larger first entry comes first, of equal ones that with the larger second, and so on.
+    pub rays: Vec<Ray>,
+}
+
+impl Rays {
+    /// Solves the quadrics of a state. Fails as the homotopy.
+    pub fn new(second_order: &SecondOrder) -> Result<Self, KinematicsError> {
+        let SecondOrder { modes, quadrics, .. } = second_order;
+        let Section { dimension, expected, solutions, extraneous } = solve_any(quadrics, second_order.count())?;
+        let real = if dimension == 0 {
+            solutions.isolated.iter().filter(|solution| solution.real).map(Line::from).collect()
+        } else {
+            isolated_among_continua(quadrics)?
+        };
+        Ok(Self {
+            dimension,
+            expected,
+            complex_solutions: solutions.count(),
+            distinct: solutions.isolated.len(),
+            on_continua: solutions.on_continua.len(),
+            extraneous,
+            rays: numbered(modes, &real),
+        })
+    }
+}
+
+/// A real solution.
+struct Line {
+    x: DVector<f64>,
+    multiplicity: usize,
+    error: f64,
+}
+
+impl From<&Solution> for Line {
+    fn from(solution: &Solution) -> Self {
+        let x = DVector::from_iterator(solution.point.len(), solution.point.iter().map(|entry| entry.re));
+        Self { x, multiplicity: solution.multiplicity, error: solution.error }
+    }
+}
+
+/// The real solution of one semidefinite quadric with one zero eigenvalue: there two conjugate planes of solutions meet.
+fn isolated_among_continua(quadrics: &[DenseMatrix]) -> Result<Vec<Line>, KinematicsError> {
+    let [quadric] = quadrics else { return Ok(Vec::new()) };
+    let sign = signature(quadric)?;
+    if sign[2] != 1 || sign[0].min(sign[1]) != 0 {
+        return Ok(Vec::new());
+    }
+    let found = symmetric_eigen(quadric)?;
+    let zero = (0..found.values.len()).min_by(|&a, &b| found.values[a].abs().total_cmp(&found.values[b].abs()));
+    let line =
+        |k: usize| Line { x: found.vectors.column(k).into_owned(), multiplicity: 2, error: found.values[k].abs() };
+    Ok(zero.map(line).into_iter().collect())
+}
+
+/// Two rays for each line, in the order of their numbers.
+fn numbered(modes: &DenseMatrix, lines: &[Line]) -> Vec<Ray> {
+    let grains =
+        |direction: &DVector<f64>| -> Vec<i64> { direction.iter().map(|x| (x / GRAIN).round() as i64).collect() };
+    let mut directed: Vec<(DVector<f64>, &Line)> = lines.iter().map(|line| (positive(modes * &line.x), line)).collect();
+    directed.sort_by_cached_key(|(direction, _)| std::cmp::Reverse(grains(direction)));
+    let rays = directed.iter().enumerate().flat_map(|(branch, (direction, line))| {
+        [1, -1].map(|sign| Ray {
+            branch,
+            sign,
+            multiplicity: line.multiplicity,
+            direction: (direction * f64::from(sign)).as_slice().to_vec(),
+            error: line.error,
+        })
+    });
+    rays.collect()
+}
+
+/// The one of `v` and `-v`, of norm 1, whose first entry beyond the grain is positive.
+fn positive(direction: DVector<f64>) -> DVector<f64> {
+    let first = direction.iter().find(|entry| entry.abs() > GRAIN).copied().unwrap_or(1.0);
+    direction.normalize() * first.signum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_sheets::*;
+    use super::super::{Closure, drawn_fold_angles};
+    use super::*;
+    use crate::sheet::Sheet;
+
+    fn rays(sheet: &Sheet, locked: &[usize]) -> Rays {
+        let closure = Closure::of_cell(sheet).unwrap().with_locked(locked);
+        Rays::new(&SecondOrder::new(&closure, &drawn_fold_angles(sheet)).unwrap()).unwrap()
+    }
+
+    fn edge(sheet: &Sheet, [i, j, n1, n2]: [i32; 4]) -> usize {
+        let named =
+            |key: &crate::sheet::EdgeKey| [key.i as i32, key.j as i32, key.shift[0], key.shift[1]] == [i, j, n1, n2];
+        sheet.edges.iter().position(|edge| named(&edge.key)).unwrap()
+    }
+
+    /// Claim: with edge (0, 1, 0, 0) locked four rays leave open-star, those along which an independent program started its
+    /// trajectories. Tolerance 1e-8: its directions satisfy the quadratic condition to 7e-9.
+    #[test]
+    fn rays_of_open_star() {
+        let sheet = open_star();
+        let found = rays(&sheet, &[edge(&sheet, [0, 1, 0, 0])]);
+        assert_eq!((found.dimension, found.expected, found.complex_solutions, found.distinct), (0, 2, 2, 2));
+        let expected = open_star_reference().rays(&sheet);
+        assert_eq!((found.rays.len(), expected.len()), (4, 4));
+        for (start, _) in expected {
+            let start = DVector::from_vec(start);
+            let off = |ray: &Ray| (DVector::from_column_slice(&ray.direction) - &start).amax();
+            assert_eq!(found.rays.iter().filter(|ray| off(ray) <= 1e-8).count(), 1);
+        }
+        for ray in &found.rays {
+            assert!(ray.error <= 1e-14 && (DVector::from_column_slice(&ray.direction).norm() - 1.0).abs() <= 1e-14);
+        }
+    }
+
+    /// Claim: rays are numbered in pairs; sign 1 has its first entry beyond 1e-6 positive, and comes first.
+    #[test]
+    fn rays_are_numbered() {
+        let sheet = open_flat();
+        let found = rays(&sheet, &[0]).rays;
+        assert!(found.len() > 4);
+        for (k, pair) in found.chunks_exact(2).enumerate() {
+            assert_eq!([pair[0].branch, pair[1].branch], [k, k]);
+            assert_eq!([pair[0].sign, pair[1].sign], [1, -1]);
+            assert!(pair[0].direction.iter().zip(&pair[1].direction).all(|(a, b)| *a == -*b));
+            assert!(*pair[0].direction.iter().find(|entry| entry.abs() > GRAIN).unwrap() > 0.0);
+        }
+        let first: Vec<f64> = found.iter().step_by(2).map(|ray| ray.direction[1]).collect();
+        assert!(first.windows(2).all(|pair| pair[0] >= pair[1] - GRAIN), "{first:?}");
+    }
+
+    /// Claim: without a lock the solutions of open-star are a conic, of degree 2, and no ray is alone; of triangulated Miura-ori
+    /// too, but its conic is a pair of conjugate lines, and the only real direction is the point where they meet: the folding of
+    /// Miura-ori, all of whose diagonals keep their angle. Source: theory. Tolerance: rounding.
+    #[test]
+    fn without_a_lock_they_are_a_curve() {
+        let star = rays(&open_star(), &[]);
+        assert_eq!((star.dimension, star.expected, star.complex_solutions, star.rays.len()), (1, 2, 2, 0));
+        let sheet = miura();
+        let found = rays(&sheet, &[]);
+        assert_eq!((found.dimension, found.expected, found.complex_solutions, found.rays.len()), (1, 2, 2, 2));
+        assert_eq!(found.rays[0].multiplicity, 2);
+        let drawn = drawn_fold_angles(&sheet);
+        let diagonals = (0..12).filter(|&edge| drawn[edge].abs() < 1e-12);
+        assert_eq!(diagonals.clone().count(), 4);
+        assert!(diagonals.map(|edge| found.rays[0].direction[edge].abs()).fold(0.0, f64::max) <= 1e-9);
+    }
+
+    /// Claim: a lock on a crease of Miura-ori leaves no real ray, one on a diagonal leaves its folding. Two locks of
+    /// open-star leave one motion, which does not extend; three leave none. On a folded cylinder with its lock, the
+    /// trajectory goes on both ways.
+    #[test]
+    fn locks() {
+        let sheet = miura();
+        let drawn = drawn_fold_angles(&sheet);
+        let [diagonal, crease] = [true, false].map(|flat| (0..12).find(|&e| (drawn[e].abs() < 1e-12) == flat).unwrap());
+        assert_eq!((rays(&sheet, &[crease]).complex_solutions, rays(&sheet, &[crease]).rays.len()), (2, 0));
+        let folding = rays(&sheet, &[diagonal]);
+        assert_eq!((folding.complex_solutions, folding.distinct, folding.rays.len()), (2, 1, 2));
+        let star = open_star();
+        let two = rays(&star, &[0, 1]);
+        assert_eq!((two.expected, two.complex_solutions, two.extraneous, two.rays.len()), (1, 0, 1, 0));
+        let three = rays(&star, &[0, 1, 2]);
+        assert_eq!((three.expected, three.complex_solutions, three.rays.len()), (0, 0, 0));
+        for folded in open_star_reference().cylinders(&star) {
+            let closure = Closure::of_cell(&star).unwrap().with_locked(&[edge(&star, [0, 1, 0, 0])]);
+            let on = Rays::new(&SecondOrder::new(&closure, &folded).unwrap()).unwrap();
+            assert_eq!((on.complex_solutions, on.rays.len()), (1, 2));
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Which linear folding motions extend to second order: the obstruction quadrics of a state.
+//!
+//! A linear motion `v = N x`, `N` a basis of the null space of the closure Jacobian `J`, moves the angles by `s v + s^2 w`. The
+//! faces close to second order where `J w + B(v, v) = 0`, `B` the second-order closure. Some `w` does this where every left
+//! null vector `y`, `y^T J = 0`, finds nothing: `x^T A_y x = 0` with `A_y = sum_row y_row N^T B_row N`. At a spatially periodic
+//! state that is not flat there are 3 modes and one independent quadric, the loop: `Omega_1 x Omega_2` along the normal. At a
+//! flat developable state there are `Nv + 2` modes and `Nv` quadrics, one for each vertex; the loop is their sum.
+
+use super::{Closure, KinematicsError};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::{Svd, full_svd, null_space, rank_at_largest_gap, symmetric_eigenvalues};
+
+/// Largest closure residual of a state whose directions mean something.
+const CLOSED: f64 = 1e-9;
+
+/// Eigenvalues below this part of the largest are zero in a signature.
+const ZERO: f64 = 1e-9;
+
+/// The linear motions of a state, and the quadrics that they must satisfy to extend.
+#[derive(Clone, Debug)]
+pub struct SecondOrder {
+    /// Orthonormal linear motions as columns, `Ne x n`: rates of all fold angles, zero at locked edges and on the rim.
+    pub modes: DenseMatrix,
+    /// The obstruction along each of an orthonormal basis of left null vectors: symmetric `n x n` matrices.
+    pub forms: Vec<DenseMatrix>,
+    /// Orthonormal matrices (as vectors of their entries) with the same span as the forms: the independent quadrics.
+    pub quadrics: Vec<DenseMatrix>,
+    /// Smallest kept over largest dropped singular value, of the closure Jacobian and of the list of forms.
+    pub gaps: [f64; 2],
+}
+
+impl SecondOrder {
+    /// The motions and quadrics of a closed state, `angles` in radians for every edge, locked edges of the closure left as
+    /// they are.
+    ///
+    /// Fails where the state does not close to 1e-9, and where a rank is not clear.
+    /// # Panics
+    /// Where `angles` has another length than the list of edges.
+    pub fn new(closure: &Closure, angles: &[f64]) -> Result<Self, KinematicsError> {
+        let residual = closure.residual(angles).amax();
+        let closed = closure.vertices().len() == 0 || residual <= CLOSED;
+        if !closed {
+            return Err(KinematicsError::NotClosed { residual });
+        }
+        let jacobian = closure.jacobian(angles);
+        let right = null_space(&jacobian)?;
+        let left = null_space(&jacobian.transpose())?.basis;
+        let mut modes = DenseMatrix::zeros(angles.len(), right.basis.ncols());
+        for (row, &edge) in right.basis.row_iter().zip(closure.folding_edges()) {
+            modes.row_mut(edge).copy_from(&row);
+        }
+        let parts = closure.second_order(angles, &modes);
+        let along = |y: &[f64]| -> DenseMatrix {
+            let zero = DenseMatrix::zeros(modes.ncols(), modes.ncols());
+            y.iter().zip(&parts).fold(zero, |sum, (weight, part)| sum + part * *weight)
+        };
+        let forms: Vec<DenseMatrix> = left.column_iter().map(|y| along(y.as_slice())).collect();
+        let (quadrics, gap) = independent(&forms)?;
+        Ok(Self { modes, forms, quadrics, gaps: [right.gap, gap] })
+    }
+
+    /// Number of linear motions.
+    pub fn count(&self) -> usize {
+        self.modes.ncols()
+    }
+}
+
+/// Orthonormal matrices with the span of the forms, and the gap between kept and dropped singular values.
+///
+/// The motions have norm 1 and the directions of edges too, so forms that count are of the order of 1; the rank is read off
+/// the singular values with a 1 before them, so that forms which are all rounding have rank 0.
+fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), KinematicsError> {
+    let entries = forms.first().map_or(0, DenseMatrix::len);
+    if entries == 0 {
+        return Ok((Vec::new(), 1.0 / f64::EPSILON));
+    }
+    let columns = DenseMatrix::from_fn(entries, forms.len(), |entry, form| forms[form][entry]);
+    let Svd { singular_values, v, .. } = full_svd(&columns.qr().r())?;
+    let natural = singular_values.first().copied().unwrap_or(0.0).max(1.0);
+    let with_natural: Vec<f64> = [natural].into_iter().chain(singular_values.iter().copied()).collect();
+    let found = rank_at_largest_gap(&with_natural)?;
+    let combined = |k: usize| -> DenseMatrix {
+        let weights = v.column(k) / singular_values[k];
+        forms.iter().zip(weights.iter()).map(|(form, weight)| form * *weight).sum()
+    };
+    Ok(((0..found.rank - 1).map(combined).collect(), found.gap))
+}
+
+/// How many eigenvalues of a symmetric matrix are positive, negative and zero, the last up to 1e-9 of the largest.
+///
+/// Of the one quadric of a periodic state: `[2, 1, 0]` or `[1, 2, 0]` is a cone of real directions, `[3, 0, 0]` has none, and
+/// `[2, 0, 1]` has one, of multiplicity two. Fails on entries that are not finite.
+pub fn signature(quadric: &DenseMatrix) -> Result<[usize; 3], KinematicsError> {
+    let values = symmetric_eigenvalues(quadric)?;
+    let threshold = ZERO * values.iter().fold(0.0f64, |largest, value| largest.max(value.abs()));
+    let [positive, negative] = [1.0, -1.0].map(|sign| values.iter().filter(|v| sign * **v > threshold).count());
+    Ok([positive, negative, values.len() - positive - negative])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_sheets::*;
+    use super::super::{drawn_fold_angles, folding_modes};
+    use super::*;
+    use crate::math::Vec3;
+    use crate::sheet::generate::{Random, RandomDevelopable};
+    use crate::sheet::{Pattern, Sheet, generate};
+    use nalgebra::DVector;
+
+    fn random_cell(size: [usize; 2], seed: u64) -> Sheet {
+        generate(&Pattern::Random(Random { size, seed, ..Random::default() })).unwrap()
+    }
+
+    fn flat_cell(size: [usize; 2], seed: u64) -> Sheet {
+        generate(&Pattern::RandomDevelopable(RandomDevelopable { size, seed, ..RandomDevelopable::default() })).unwrap()
+    }
+
+    /// A flat cell of 3 x 2 vertices with one vertex lifted: it and its neighbours are not flat, vertex 5 is, with all six
+    /// around it.
+    fn mixed_cell() -> Sheet {
+        let mut sheet = flat_cell([4, 3], 2);
+        sheet.vertices[0].z += 0.3;
+        sheet
+    }
+
+    fn of(sheet: &Sheet, locked: &[usize]) -> SecondOrder {
+        let closure = Closure::of_cell(sheet).unwrap().with_locked(locked);
+        SecondOrder::new(&closure, &drawn_fold_angles(sheet)).unwrap()
+    }
+
+    /// Entry by entry, the second derivative of the residual along the modes by central differences, extrapolated.
+    fn by_differences(closure: &Closure, angles: &[f64], modes: &DenseMatrix) -> Vec<DenseMatrix> {
+        let residual = |x: &DVector<f64>| {
+            let moved: Vec<f64> = angles.iter().zip((modes * x).iter()).map(|(angle, rate)| angle + rate).collect();
+            closure.residual(&moved)
+        };
+        let count = modes.ncols();
+        let unit = |k: usize| DVector::from_fn(count, |i, _| f64::from(i == k));
+        let second = |a: usize, b: usize, h: f64| {
+            let (plus, minus) = ((unit(a) + unit(b)) * h, (unit(a) - unit(b)) * h);
+            (residual(&plus) + residual(&-&plus) - residual(&minus) - residual(&-&minus)) / (8.0 * h * h)
+        };
+        let mut parts = vec![DenseMatrix::zeros(count, count); 3 * closure.vertices().len()];
+        for (a, b) in (0..count).flat_map(|a| (0..count).map(move |b| (a, b))) {
+            let found = (4.0 * second(a, b, 2e-3) - second(a, b, 4e-3)) / 3.0;
+            parts.iter_mut().zip(found.iter()).for_each(|(part, entry)| part[(a, b)] = *entry);
+        }
+        parts
+    }
+
+    /// Claim: every entry of the second-order closure is the second derivative of the residual, at flat, folded and mixed
+    /// states, also where a vertex meets its own copy, and with locks. Tolerance 2e-9: differences of step 2e-3 cost
+    /// rounding 1e-16 / h^2 = 3e-11 and h^4 = 2e-11, for matrices of size 1 with factors up to some ten.
+    #[test]
+    fn second_order_is_the_second_derivative() {
+        for sheet in [open_star(), open_flat(), miura(), mixed_cell(), random_cell([1, 1], 3), finite_grid(3, 3, 0.4)] {
+            let closure = Closure::of_cell(&sheet).unwrap().with_locked(&[1]);
+            let angles = drawn_fold_angles(&sheet);
+            let modes =
+                SecondOrder::new(&closure, &angles).map_or_else(|_| panic!("{}", sheet.title), |found| found.modes);
+            let expected = by_differences(&closure, &angles, &modes);
+            for (row, (found, expected)) in closure.second_order(&angles, &modes).iter().zip(&expected).enumerate() {
+                let off = (found - expected).amax();
+                assert!(off <= 2e-9, "{} row {row}: {off:e}", sheet.title);
+            }
+        }
+    }
+
+    /// Claim: 3 modes and one independent quadric at periodic states that are not flat, the others 1e-8 of it or less, and
+    /// it is the loop quadric `(Omega_1 x Omega_2) . n` up to a factor. Source: theory. Tolerance: rounding.
+    #[test]
+    fn periodic_states_have_the_loop_quadric() {
+        let sheets = [open_star(), miura()].into_iter().chain((0..20).map(|seed| random_cell([2, 2], seed)));
+        for sheet in sheets.chain((0..5).map(|seed| random_cell([3, 2], seed))) {
+            let found = of(&sheet, &[]);
+            assert_eq!((found.count(), found.quadrics.len()), (3, 1), "{}", sheet.description);
+            assert!(found.gaps[1] >= 1e8, "{:e}", found.gaps[1]);
+            let modes = folding_modes(&sheet).unwrap();
+            let [l1, l2] = sheet.lattice.unwrap();
+            let normal = l1.cross(&l2).normalize();
+            let omega = |mode: usize, a: usize| -> Vec3 { modes.lattice_rotations[mode][a] };
+            let entry = |a: usize, b: usize| {
+                0.5 * (omega(a, 0).cross(&omega(b, 1)) + omega(b, 0).cross(&omega(a, 1))).dot(&normal)
+            };
+            let change = modes.basis.transpose() * &found.modes;
+            let mut expected = change.transpose() * DenseMatrix::from_fn(3, 3, entry) * change;
+            expected /= expected.norm();
+            let quadric = &found.quadrics[0];
+            let off = (quadric * quadric.dot(&expected).signum() - expected).amax();
+            assert!(off <= 1e-8, "{off:e}");
+        }
+    }
+
+    /// Claim: eigenvalues of Miura-ori's loop quadric have two of one sign and a zero; a generic cell has a cone of real
+    /// directions. Source: theory (-0.125, -0.117, 0 for another normalisation: their quotient is 0.936).
+    #[test]
+    fn signatures() {
+        let miura = of(&miura(), &[]).quadrics[0].clone();
+        let mut sign = signature(&miura).unwrap();
+        sign[..2].sort_unstable();
+        assert_eq!(sign, [0, 2, 1]);
+        let mut star = signature(&of(&open_star(), &[]).quadrics[0]).unwrap();
+        star[..2].sort_unstable();
+        assert_eq!(star, [1, 2, 0]);
+    }
+
+    /// Claim: Nv + 2 modes and Nv independent quadrics at flat developable states, one mode fewer with a lock. Source: theory.
+    #[test]
+    fn flat_states_have_a_quadric_for_each_vertex() {
+        let sheets = [open_flat(), flat_cell([3, 2], 1), flat_cell([3, 3], 4), flat_cell([2, 1], 0)];
+        for sheet in sheets {
+            let vertices = sheet.vertices.len();
+            let free = of(&sheet, &[]);
+            assert_eq!((free.count(), free.quadrics.len()), (vertices + 2, vertices), "{}", sheet.description);
+            assert_eq!(of(&sheet, &[2]).count(), vertices + 1);
+        }
+    }
+
+    /// Claim: on the folded cylinders of open-star two motions are left, and both extend: the states are a smooth surface
+    /// there. With the lock that was held one is left.
+    #[test]
+    fn nothing_obstructs_on_a_cylinder() {
+        let sheet = open_star();
+        for folded in open_star_reference().cylinders(&sheet) {
+            let closure = Closure::of_cell(&sheet).unwrap();
+            let free = SecondOrder::new(&closure, &folded).unwrap();
+            assert_eq!((free.count(), free.quadrics.len()), (2, 0));
+            let mut off = folded.clone();
+            off[2] += 1e-3;
+            assert!(matches!(SecondOrder::new(&closure, &off), Err(KinematicsError::NotClosed { .. })));
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! The end of a path, at `t = 0`: simple solutions by Newton's method, multiple ones by Cauchy's integral.
+//!
+//! Near `t = 0` a path is a power series in `t^(1/c)` with a winding number `c`. Led `c` times round the circle `|t| = r` it comes
+//! back to where it began, and the mean over these rounds is its end (A. P. Morgan, A. J. Sommese and C. W. Wampler,
+//! "Computing singular solutions to polynomial systems", Advances in Applied Mathematics 13, 305, 1992). The mean of equally
+//! spaced points converges geometrically. A circle that holds more than the one singular point gives a mean that is no
+//! solution; then the path goes on to a smaller circle.
+
+use super::elimination;
+use super::system::{C, Homotopy, Quadrics, distance, in_patch, norm, normalize};
+use super::track::{Lost, Tracker};
+
+/// Where paths are taken over.
+pub(super) const START: f64 = 0.02;
+/// Quotient of the radii of one circle and the next.
+const SHRINK: f64 = 0.25;
+const CIRCLES: usize = 24;
+/// Points on a round; every second one gives the estimate of the error.
+const POINTS: usize = 16;
+const MOST_ROUNDS: usize = 64;
+/// A round is closed where what is missing is below this part of the circle's size.
+const CLOSED: f64 = 1e-4;
+/// Largest residual of a mean that is a solution.
+const RESIDUAL: f64 = 1e-13;
+/// Largest difference between the means of all points and of every second one.
+const AGREEMENT: f64 = 1e-9;
+/// Largest product of the last correction and the curvature bound at which a solution counts as simple. Smale's theorem
+/// needs 0.157 (M. Shub and S. Smale, "Complexity of Bezout's theorem I", J. AMS 6, 459, 1993).
+const APPROXIMATE_ZERO: f64 = 0.01;
+
+/// Where a path ends.
+#[derive(Clone, Debug)]
+pub(super) enum End {
+    Simple(Simple),
+    Singular { point: Vec<C>, error: f64 },
+}
+
+/// A simple solution, proved to exist near the point.
+#[derive(Clone, Debug)]
+pub(super) struct Simple {
+    /// Of norm 1.
+    pub point: Vec<C>,
+    /// The last correction of Newton's method.
+    pub error: f64,
+    /// No other solution is nearer than this.
+    pub separation: f64,
+}
+
+/// Follows a path from [`START`] to its end.
+pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, quadrics: &Quadrics, x: Vec<C>) -> Result<End, Lost> {
+    let (mut x, mut radius) = (x, START);
+    for circle in 0..CIRCLES {
+        let t = C::new(radius, 0.0);
+        let leapt = tracker.leap(&x, t, C::default());
+        if let Some(simple) = leapt.and_then(|point| simple(quadrics, &point)) {
+            return Ok(End::Simple(simple));
+        }
+        if circle > 0
+            && let Some(end) = by_integral(tracker, quadrics, &x, radius)
+        {
+            return Ok(end);
+        }
+        x = tracker.track(&x, t, t * SHRINK, 0.3)?;
+        radius *= SHRINK;
+    }
+    Err(Lost)
+}
+
+/// The mean over the rounds of a circle, where it is a solution.
+fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, quadrics: &Quadrics, x: &[C], radius: f64) -> Option<End> {
+    let (points, winding) = rounds(tracker, x, radius)?;
+    let mean = |step: usize| -> Vec<C> {
+        let count = points.len().div_ceil(step) as f64;
+        (0..x.len()).map(|i| points.iter().step_by(step).map(|point| point[i]).sum::<C>() / count).collect()
+    };
+    let (mut point, mut coarse) = (mean(1), mean(2));
+    normalize(&mut point);
+    normalize(&mut coarse);
+    let error = distance(&point, &coarse);
+    let solved = error <= AGREEMENT && quadrics.residual(&point) <= RESIDUAL;
+    if !solved {
+        return None;
+    }
+    match simple(quadrics, &point) {
+        None => Some(End::Singular { point, error }),
+        Some(found) => (winding == 1).then_some(End::Simple(found)),
+    }
+}
+
+/// The points of a path on a circle, in the patch of the first, until it closes; and how many rounds that takes.
+fn rounds<H: Homotopy>(tracker: &mut Tracker<H>, x: &[C], radius: f64) -> Option<(Vec<Vec<C>>, usize)> {
+    let on_circle = |k: usize| C::from_polar(radius, std::f64::consts::TAU * (k % POINTS) as f64 / POINTS as f64);
+    let first = tracker.polished(x, on_circle(0));
+    let (mut points, mut at, mut size) = (Vec::new(), first.clone(), 0.0f64);
+    for winding in 1..=MOST_ROUNDS {
+        for k in 0..POINTS {
+            points.push(in_patch(&first, &at));
+            size = size.max(distance(&first, &at));
+            at = tracker.track(&at, on_circle(k), on_circle(k + 1), 1.0).ok()?;
+            at = tracker.polished(&at, on_circle(k + 1));
+        }
+        if distance(&first, &at) <= CLOSED * size + 1e-13 {
+            return Some((points, winding));
+        }
+    }
+    None
+}
+
+/// Newton's method at the target; `Some` where Smale's criterion proves a simple solution.
+///
+/// With `b` the last correction and `g >= |DF^-1 D^2F / 2|`, `b g` small proves a solution within `2 b` and no other within
+/// `0.2 / g`. The quadrics have norm 1, so `|D^2F / 2| <= sqrt(m)`.
+pub(super) fn simple(quadrics: &Quadrics, x: &[C]) -> Option<Simple> {
+    let mut point = x.to_vec();
+    let (mut error, mut curvature) = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..8 {
+        let (correction, inverse) = newton(quadrics, &point)?;
+        let size = norm(&correction);
+        let ended = size >= 0.5 * error;
+        (error, curvature) = (error.min(size), inverse * (quadrics.count() as f64).sqrt());
+        if ended {
+            break;
+        }
+        point.iter_mut().zip(&correction).for_each(|(a, b)| *a += b);
+        normalize(&mut point);
+    }
+    let proved = error * curvature <= APPROXIMATE_ZERO;
+    proved.then(|| Simple { point, error, separation: 0.2 / curvature.max(1.0) })
+}
+
+/// The correction at a point of norm 1, and the Frobenius norm of the inverse Jacobian in its patch.
+fn newton(quadrics: &Quadrics, x: &[C]) -> Option<(Vec<C>, f64)> {
+    let n = x.len();
+    let (mut value, mut jacobian) = (vec![C::default(); n], vec![C::default(); n * n]);
+    quadrics.evaluate(x, &mut value, &mut jacobian);
+    jacobian[n * (n - 1)..].iter_mut().zip(x).for_each(|(a, b)| *a = b.conj());
+    let mut squares = 0.0;
+    for k in 0..n {
+        let mut column = vec![C::default(); n];
+        column[k] = C::new(1.0, 0.0);
+        if !elimination::solve(&mut jacobian.clone(), &mut column) {
+            return None;
+        }
+        squares += column.iter().map(C::norm_sqr).sum::<f64>();
+    }
+    let mut correction: Vec<C> = value.iter().map(|value| -value).collect();
+    elimination::solve(&mut jacobian, &mut correction).then_some((correction, squares.sqrt()))
+}

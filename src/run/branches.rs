@@ -1,0 +1,108 @@
+//! `kind = "branches"`: asks the analysis, writes a table with a row for each ray, summarises.
+
+use super::RunError;
+use super::runner::Runner;
+use crate::analysis::branches::{Branches, Question, branches as find_branches};
+use crate::model::assemble::{Surroundings, drawn_angles};
+use crate::output::summary::{BranchesSummary, RaySummary, StudyResult, StudySummary};
+use crate::output::table::{Table, Value};
+use crate::scene::SceneFile;
+use crate::scene::build::Built;
+use crate::scene::spec::StudySpec;
+use std::time::Instant;
+
+/// A lock within this of the drawn angle keeps the drawn state.
+const AS_DRAWN: f64 = 1e-9;
+
+/// Branches leave the drawn state of a screw or a patch: refuses a torus, and locks at other angles.
+pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+    if matches!(built.surroundings, Surroundings::FixedTorus | Surroundings::FreeTorus) {
+        let message = "branches of a torus are not known: its lattice has conditions of its own";
+        return Err(file.error_at(study.kind.span(), message, "use domain = \"screw\" or \"patch\"").into());
+    }
+    let angles = drawn_angles(&built.drawn, &built.tiling);
+    let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
+    match built.recipe.locks.iter().find(moved) {
+        None => Ok(()),
+        Some((edge, angle)) => {
+            let message = format!("a lock holds a crease at {angle} that is drawn at {}", angles[*edge]);
+            let help = "branches leave the drawn state: leave out the angle of the lock";
+            Err(file.error_at(study.kind.span(), message, help).into())
+        }
+    }
+}
+
+/// Runs the study.
+pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary, RunError> {
+    let built = runner.built;
+    runner.watch(&study.name.0, 0, None, f64::NAN);
+    let clock = Instant::now();
+    let found = find_branches(&Question {
+        sheet: &built.sheet,
+        tiling: &built.tiling,
+        surroundings: built.surroundings,
+        angles: &drawn_angles(&built.drawn, &built.tiling),
+        recipe: &built.recipe,
+    });
+    let mut summary = StudySummary {
+        name: study.name.0.clone(),
+        kind: study.kind.name().to_owned(),
+        converged: found.is_ok(),
+        seconds: clock.elapsed().as_secs_f64(),
+        error: None,
+        reason: None,
+        result: None,
+    };
+    match found {
+        Ok(branches) => {
+            table(built, &branches).write(&runner.path(format!("{}.csv", study.name.0)))?;
+            summary.error = Some(branches.rays.rays.iter().map(|ray| ray.error).fold(0.0, f64::max));
+            summary.result = Some(StudyResult::Branches(summarized(&branches)));
+        }
+        Err(error) => summary.reason = Some(error.to_string()),
+    }
+    Ok(summary)
+}
+
+/// A row for each ray, with the rate of every fold angle. On a patch of several cells columns also name the cell.
+fn table(built: &Built, branches: &Branches) -> Table {
+    let several = built.tiling.cells != [1, 1];
+    let rate = built.tiling.edges.iter().map(|edge| {
+        let key = built.sheet.edges[edge.edge].key;
+        let cell = if several { format!("_{}_{}", edge.cell[0], edge.cell[1]) } else { String::new() };
+        format!("rate_{}_{}_{}_{}{cell}", key.i, key.j, key.shift[0], key.shift[1])
+    });
+    let first = ["branch", "sign", "multiplicity", "curvature_sign", "error"].map(str::to_owned);
+    let mut table = Table::new(first.into_iter().chain(rate).collect());
+    for (ray, curvature) in branches.rays.rays.iter().zip(&branches.curvature_signs) {
+        let curvature = Value::from(curvature.map(i64::from));
+        let counts = [ray.branch as i64, i64::from(ray.sign), ray.multiplicity as i64].map(Value::Whole);
+        let rates = ray.direction.iter().map(|rate| Value::Number(*rate));
+        table.push(counts.into_iter().chain([curvature, Value::Number(ray.error)]).chain(rates).collect());
+    }
+    table
+}
+
+fn summarized(branches: &Branches) -> BranchesSummary {
+    let Branches { modes, quadrics, signature, rays, curvature_signs } = branches;
+    let listed = rays.rays.iter().zip(curvature_signs).map(|(ray, curvature_sign)| RaySummary {
+        branch: ray.branch,
+        sign: ray.sign,
+        multiplicity: ray.multiplicity,
+        direction: ray.direction.clone(),
+        curvature_sign: *curvature_sign,
+    });
+    BranchesSummary {
+        modes: *modes,
+        quadrics: *quadrics,
+        signature: *signature,
+        dimension: rays.dimension,
+        complex_solutions: rays.complex_solutions,
+        distinct: rays.distinct,
+        expected: rays.expected,
+        on_continua: rays.on_continua,
+        extraneous: rays.extraneous,
+        real_rays: rays.rays.len(),
+        rays: listed.collect(),
+    }
+}
