@@ -99,7 +99,7 @@ pub fn branches(question: &Question<'_>) -> Result<Branches, BranchesError> {
 }
 
 /// Locked creases, and diagonals of polygons where these are rigid.
-fn locked(question: &Question<'_>) -> Vec<usize> {
+pub fn locked(question: &Question<'_>) -> Vec<usize> {
     let rigid = question.recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
     let facets =
         (0..question.tiling.edges.len()).filter(|&k| rigid && question.tiling.edges[k].kind == EdgeKind::Facet);

@@ -5,4 +5,5 @@ pub mod branches;
 pub mod modes;
 pub mod relax;
 pub mod state;
+pub mod trace;
 pub mod view;

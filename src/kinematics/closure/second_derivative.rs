@@ -25,7 +25,7 @@ impl Closure {
         let mut parts = vec![DenseMatrix::zeros(count, count); 3 * self.rounds.len()];
         for (round, parts) in self.rounds.iter().zip(parts.chunks_exact_mut(3)) {
             let mut directions = Vec::with_capacity(round.spokes.len());
-            round.walk(angles, |_, direction| directions.push(direction));
+            round.walk(angles, |_, direction| directions.push(*direction));
             let mut before = vec![Vec3::zeros(); count];
             for (spoke, direction) in round.spokes.iter().zip(directions) {
                 let turns: Vec<Vec3> = (0..count).map(|mode| modes[(spoke.edge, mode)] * direction).collect();

@@ -23,7 +23,7 @@ use hermite::Hermite;
 /// Points of a step's interpolant.
 const POINTS: usize = 3;
 /// Error of a prediction that is aimed at, and the one above which a step is refused.
-const AIM: f64 = 3e-5;
+const AIM: f64 = 3e-6;
 const MOST_ERROR: f64 = 1e-2;
 /// Cosine of the largest turn of the tangent in a step.
 const LEAST_TURN: f64 = 0.9;

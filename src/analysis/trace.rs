@@ -1,0 +1,236 @@
+//! Trajectories: rigid folding followed from the drawn state along every ray, until it comes back or is told to stop.
+//!
+//! The curve is the closure of the fold angles of one cell (or of a finite sheet) with the locked creases left out, and
+//! [`crate::solver::continuation`] follows it. Arc length is that of the fold angles. Turning points of the curvature
+//! and of the three strains are the zeros of their rates.
+
+use super::branches::{self, BranchesError};
+use crate::kinematics::{Closure, Displacement, Embedding, KinematicsError, Ray, Shape};
+use crate::math::Vec3;
+use crate::model::assemble::Surroundings;
+use crate::numerics::DenseMatrix;
+use crate::solver::continuation::{Curve, End, Event, Options, Point, Trajectory, follow};
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// Cosine of the angle within which a trajectory arrives along a ray.
+const ALONG: f64 = 0.999;
+/// Quantities whose turning points are reported, in the order of their indicators.
+pub const TURNING: [&str; 4] = ["curvature", "strain11", "strain22", "strain12"];
+
+/// What to follow.
+pub struct Question<'a> {
+    /// Where the trajectories start, and what is locked.
+    pub start: branches::Question<'a>,
+    /// Longest step in arc length.
+    pub max_step: f64,
+    /// Bound on the closure residual.
+    pub tolerance: f64,
+    /// Only this branch.
+    pub branch: Option<usize>,
+    /// The conditions that end a trajectory.
+    pub stop: Stop,
+}
+
+/// Conditions that end a trajectory: the first that is met.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Stop {
+    /// Arc length.
+    pub arc_length: Option<f64>,
+    /// Magnitude of the curvature.
+    pub curvature: Option<f64>,
+    /// An edge and its fold angle.
+    pub crease_angle: Option<(usize, f64)>,
+}
+
+/// A state on a trajectory.
+#[derive(Clone, Debug)]
+pub struct Folded {
+    /// Arc length from the start.
+    pub arc_length: f64,
+    /// Fold angles of all edges, continuous along the trajectory.
+    pub angles: Vec<f64>,
+    /// Rates of the fold angles per arc length.
+    pub rates: Vec<f64>,
+    /// The cylinder; `None` for a finite sheet.
+    pub shape: Option<Shape>,
+    /// Vertices of the cell, vertex 0 and the first face at it as drawn.
+    pub positions: Vec<Vec3>,
+    /// Largest component of the closure residual.
+    pub residual: f64,
+}
+
+/// A trajectory along one ray.
+#[derive(Clone, Debug)]
+pub struct Traced {
+    /// Branch and sign of the ray.
+    pub branch: (usize, i8),
+    /// Why it ends.
+    pub end: End,
+    /// The ray along which it comes back.
+    pub ends_at: Option<(usize, i8)>,
+    /// Its states, the drawn one first.
+    pub states: Vec<Folded>,
+    /// Turning points: which quantity of [`TURNING`], and where.
+    pub turning_points: Vec<(usize, Folded)>,
+    /// Corrections made.
+    pub corrections: usize,
+}
+
+/// Why there are no trajectories.
+#[derive(Debug, Error)]
+pub enum TraceError {
+    /// The rays are not known.
+    #[error(transparent)]
+    Branches(#[from] BranchesError),
+    /// The sheet cannot be put together.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// The scene asks for a branch that does not exist.
+    #[error("there is no branch {branch}: this state has {count}")]
+    NoSuchBranch {
+        /// Asked for.
+        branch: usize,
+        /// Found.
+        count: usize,
+    },
+}
+
+/// The closure of a sheet as a curve, with what is watched along it.
+struct Folding<'a> {
+    closure: &'a Closure,
+    embedding: &'a Embedding,
+    /// Fold angles of all edges; those that do not fold stay.
+    angles: Vec<f64>,
+    periodic: bool,
+    stop: Stop,
+}
+
+impl Folding<'_> {
+    /// All edges, from the numbers of the folding ones and what the others have.
+    fn all(&self, folding: &[f64], others: &[f64]) -> Vec<f64> {
+        let mut all = others.to_vec();
+        self.closure.folding_edges().iter().zip(folding).for_each(|(&edge, &number)| all[edge] = number);
+        all
+    }
+
+    fn folded(&self, point: &Point) -> Folded {
+        let angles = self.all(&point.x, &self.angles);
+        let rates = self.all(&point.tangent, &vec![0.0; angles.len()]);
+        let placement = self.embedding.place(&angles);
+        let positions = placement.positions.clone();
+        let shape = Shape::of(self.embedding, placement).ok();
+        Folded { arc_length: point.arc_length, angles, rates, shape, positions, residual: point.residual }
+    }
+
+    /// Rates of curvature and strains; NaN where nothing turns.
+    fn rates(&self, state: &Folded) -> [f64; 4] {
+        let moving = Displacement::new(self.embedding, &state.angles, &state.rates).lattice;
+        let found = state.shape.as_ref().zip(moving).and_then(|(shape, moving)| shape.rate(self.embedding, &moving));
+        found.map_or([f64::NAN; 4], |rate| [rate.curvature, rate.strain[0], rate.strain[1], rate.strain[2]])
+    }
+}
+
+impl Curve for Folding<'_> {
+    fn unknowns(&self) -> usize {
+        self.closure.folding_edges().len()
+    }
+
+    fn equations(&self) -> usize {
+        3 * self.closure.vertices().len()
+    }
+
+    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
+        self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &angle)| self.angles[edge] = angle);
+        self.closure.linearize_into(&self.angles, residual, jacobian);
+    }
+
+    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
+        if self.periodic {
+            let state = self.folded(point);
+            out.extend(self.rates(&state));
+            let curvature = state.shape.map_or(f64::NAN, |shape| shape.curvature.abs());
+            out.extend(self.stop.curvature.map(|most| curvature - most));
+        }
+        out.extend(self.stop.crease_angle.map(|(edge, angle)| self.all(&point.x, &self.angles)[edge] - angle));
+    }
+}
+
+/// Follows every ray that the question asks for; none where no ray is real. `observe` sees branch, sign and every state's
+/// arc length, and returns false to stop.
+pub fn trace(
+    question: &Question<'_>,
+    observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
+) -> Result<Vec<Traced>, TraceError> {
+    let start = &question.start;
+    let found = branches::branches(start)?;
+    let rays = &found.rays.rays;
+    let count = rays.iter().map(|ray| ray.branch + 1).max().unwrap_or(0);
+    if let Some(branch) = question.branch.filter(|&branch| branch >= count && count > 0) {
+        return Err(TraceError::NoSuchBranch { branch, count });
+    }
+    let closure = Closure::of_cell(start.sheet)?.with_locked(&branches::locked(start));
+    let embedding = Embedding::new(start.sheet)?;
+    let angles: Vec<f64> = start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
+    let periodic = start.surroundings == Surroundings::Screw;
+    let mut folding = Folding { closure: &closure, embedding: &embedding, angles, periodic, stop: question.stop };
+    let wanted = rays.iter().filter(|ray| question.branch.is_none_or(|branch| branch == ray.branch));
+    let mut traced = Vec::new();
+    for ray in wanted {
+        let one = along(&mut folding, question, ray, rays, observe);
+        let interrupted = one.end == End::Interrupted;
+        traced.push(one);
+        if interrupted {
+            break;
+        }
+    }
+    Ok(traced)
+}
+
+/// The trajectory along one ray.
+fn along(
+    folding: &mut Folding<'_>,
+    question: &Question<'_>,
+    ray: &Ray,
+    rays: &[Ray],
+    observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
+) -> Traced {
+    let branch = (ray.branch, ray.sign);
+    let edges = folding.closure.folding_edges().to_vec();
+    let of = |all: &[f64]| edges.iter().map(|&edge| all[edge]).collect::<Vec<f64>>();
+    let drawn: Vec<f64> = question.start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
+    folding.angles.clone_from(&drawn);
+    let first_stop = if folding.periodic { TURNING.len() } else { 0 };
+    let options = Options {
+        tolerance: question.tolerance,
+        max_step: question.max_step,
+        length: question.stop.arc_length.unwrap_or(f64::INFINITY),
+        period: Some(TAU),
+        stops: (first_stop..first_stop + 2).collect(),
+        ..Options::default()
+    };
+    let found = follow(folding, of(&drawn), of(&ray.direction), &options, &mut |point| observe(branch, point));
+    let Trajectory { points, events, end } = found;
+    let ends_at = match &end {
+        End::Closed(back) => arrival(&back.arrival, rays, &of),
+        _ => None,
+    };
+    let turning = |event: &Event| (event.indicator, folding.folded(&event.point));
+    Traced {
+        branch,
+        ends_at,
+        corrections: points.iter().map(|point| point.corrections).sum(),
+        turning_points: events.iter().map(turning).collect(),
+        states: points.iter().map(|point| folding.folded(point)).collect(),
+        end,
+    }
+}
+
+/// The ray against which a trajectory arrives.
+fn arrival(tangent: &[f64], rays: &[Ray], of: &impl Fn(&[f64]) -> Vec<f64>) -> Option<(usize, i8)> {
+    let against = |ray: &&Ray| {
+        let direction = of(&ray.direction);
+        -direction.iter().zip(tangent).map(|(a, b)| a * b).sum::<f64>() > ALONG
+    };
+    rays.iter().find(against).map(|ray| (ray.branch, ray.sign))
+}

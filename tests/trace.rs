@@ -1,0 +1,113 @@
+//! Trajectories of rigid folding, against an independent program and closed forms.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
+
+mod common;
+
+use foldwell::analysis::branches;
+use foldwell::analysis::trace::{Question, Stop, Traced, trace};
+use foldwell::kinematics::drawn_fold_angles;
+use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::sheet::{EdgeKey, Sheet, tile};
+use foldwell::solver::continuation::End;
+use serde_json::Value;
+
+const REFERENCE: &str = include_str!("cases/open-star.json");
+
+fn edge(sheet: &Sheet, [i, j, n1, n2]: [i64; 4]) -> usize {
+    let key = EdgeKey { i: i as usize, j: j as usize, shift: [n1 as i32, n2 as i32] };
+    sheet.edges.iter().position(|edge| edge.key == key).unwrap()
+}
+
+/// Follows the sheet with these edges locked.
+fn run(sheet: &Sheet, locks: &[usize], stop: Stop, branch: Option<usize>) -> Vec<Traced> {
+    let tiling = tile(sheet, [1, 1], true);
+    let angles = drawn_fold_angles(sheet);
+    let recipe = Recipe { locks: locks.iter().map(|&edge| (edge, angles[edge])).collect(), ..Recipe::default() };
+    let start = branches::Question {
+        sheet,
+        tiling: &tiling,
+        surroundings: Surroundings::Screw,
+        angles: &angles,
+        recipe: &recipe,
+    };
+    let question = Question { start, max_step: 0.25, tolerance: 3e-14, branch, stop };
+    trace(&question, &mut |_, _| true).unwrap()
+}
+
+fn star() -> (Sheet, usize, Value) {
+    let sheet = common::mesh("open-star");
+    let held = edge(&sheet, [0, 1, 0, 0]);
+    (sheet, held, serde_json::from_str(REFERENCE).unwrap())
+}
+
+/// The places of the sheet's edges in the reference's list.
+fn places(sheet: &Sheet, reference: &Value) -> Vec<usize> {
+    let named = |key: &EdgeKey| serde_json::json!([key.i, key.j, key.shift[0], key.shift[1]]);
+    let list = reference["edge_list"].as_array().unwrap();
+    sheet.edges.iter().map(|edge| list.iter().position(|entry| *entry == named(&edge.key)).unwrap()).collect()
+}
+
+/// Claim: the four trajectories of the reference cell with edge (0, 1, 0, 0) locked close after 9.9314250 and 50.2037156, each
+/// loop seen from both of its ends, which are rays of the same sign of curvature; they arrive along a ray, not smoothly.
+/// Closure, commuting rotations and bar lengths hold to 1e-13 all the way. Lengths within 1e-6: what the independent
+/// program states.
+#[test]
+fn loops_of_open_star() {
+    let (sheet, held, reference) = star();
+    let places = places(&sheet, &reference);
+    let found = run(&sheet, &[held], Stop::default(), None);
+    assert_eq!(found.len(), 4);
+    for one in &found {
+        let direction = &one.states[0].rates;
+        let same = |entry: &&Value| {
+            let start: f64 = places.iter().zip(direction).map(|(&k, d)| entry["start"][k].as_f64().unwrap() * d).sum();
+            start > 0.999
+        };
+        let expected = reference["loops"].as_array().unwrap().iter().find(same).unwrap();
+        let End::Closed(back) = &one.end else { panic!("{:?}", one.end) };
+        let length = expected["arc_length"].as_f64().unwrap();
+        println!(
+            "{:?} -> {:?}: {} ({:e}), {} states, {} corrections",
+            one.branch,
+            one.ends_at,
+            back.arc_length,
+            back.arc_length - length,
+            one.states.len(),
+            one.corrections
+        );
+        assert!((back.arc_length - length).abs() <= 1e-6, "{} for {length}", back.arc_length);
+        let end = one.ends_at.expect("it arrives along a ray");
+        let other = found.iter().find(|other| other.branch == end).unwrap();
+        assert_eq!(other.ends_at, Some(one.branch), "the loop seen from its other end");
+        assert!(end != one.branch);
+        for state in &one.states {
+            let shape = state.shape.as_ref().unwrap();
+            assert!(state.residual <= 1e-13 && shape.compatibility.largest() <= 1e-13, "{:?}", shape.compatibility);
+        }
+    }
+}
+
+/// Claim: states that an independent program stored on these trajectories are met: where the crease that it names has the
+/// angle that it names, all fold angles, curvature, rotation angles and strain agree to 1e-9.
+#[test]
+fn stored_states_are_met() {
+    let (sheet, held, reference) = star();
+    let places = places(&sheet, &reference);
+    for state in reference["states"].as_array().unwrap() {
+        let mark: [i64; 4] = serde_json::from_value(state["mark"].clone()).unwrap();
+        let angle = state["mark_angle"].as_f64().unwrap();
+        let stop = Stop { crease_angle: Some((edge(&sheet, mark), angle)), ..Stop::default() };
+        let numbers = |name: &str| -> Vec<f64> { serde_json::from_value(state[name].clone()).unwrap() };
+        let angles: Vec<f64> = places.iter().map(|&k| numbers("fold_angles")[k]).collect();
+        let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-9);
+        let met = run(&sheet, &[held], stop, None).into_iter().any(|one| {
+            let last = one.states.last().unwrap();
+            let shape = last.shape.as_ref().unwrap();
+            close(&last.angles, &angles)
+                && (shape.curvature - state["kappa"].as_f64().unwrap()).abs() <= 1e-9
+                && close(&shape.theta, &numbers("theta"))
+                && close(&shape.strain, &numbers("strain"))
+        });
+        assert!(met, "{state}");
+    }
+}
