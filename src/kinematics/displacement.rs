@@ -180,8 +180,8 @@ mod tests {
         }
     }
 
-    /// Claim: a face turns as its corners move, in any cell: `v_b - v_a = w x (b - a)`. Tolerance: rounding at a
-    /// distance of some ten cells.
+    /// Claim: a face turns as its corners move, in any cell: `v_b - v_a = w x (b - a)`; and the angular velocity from the
+    /// corners alone is that of the walk. Tolerance: rounding at a distance of some ten cells.
     #[test]
     fn faces_turn_as_their_corners_move() {
         for (sheet, angles, rates) in moving().into_iter().filter(|(sheet, ..)| sheet.lattice.is_some()) {
@@ -194,6 +194,8 @@ mod tests {
                 for far in [b, c] {
                     assert!((far.1 - a.1 - turning.cross(&(far.0 - a.0))).norm() <= 1e-11);
                 }
+                let spin = displacement.spin(&embedding.faces[face].corners);
+                assert!((spin - displacement.walked.faces[face].twist.angular).norm() <= 1e-12);
             }
         }
     }

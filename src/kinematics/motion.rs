@@ -222,7 +222,7 @@ mod tests {
         let (x, angles) = (Vec3::new(0.3, -0.7, 1.1), [2.1, -0.4]);
         let built = |t: f64| {
             let [a, b] = [0, 1].map(|k| Moving::about(&line(k as u64), angles[k] + t * speeds[k], speeds[k]));
-            a * b.inverse() * Moving::lattice_power(&[b, a], [-2, 3]) * Moving::shift(Vec3::new(1.0, 2.0, 3.0))
+            a * (b * a).inverse() * Moving::lattice_power(&[b, a], [-2, 3]) * Moving::shift(Vec3::new(1.0, 2.0, 3.0))
         };
         let place = |t: &[f64]| built(t[0]).motion.apply(&(x + t[0] * velocity)).as_slice().to_vec();
         let found = DenseMatrix::from_column_slice(3, 1, built(0.0).carry(&x, &velocity).as_slice());

@@ -4,7 +4,8 @@ use super::Closure;
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
-use crate::sheet::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
+use crate::sheet::generate::Random;
+use crate::sheet::{Corner, Edge, EdgeKey, EdgeKind, Pattern, Sheet, Triangle, generate};
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 use std::collections::{HashMap, VecDeque};
@@ -51,6 +52,12 @@ pub fn finite_grid(m: usize, n: usize, height: f64) -> Sheet {
         faces.extend([[a, b, c], [a, c, d]]);
     }
     sheet("grid", (0..(m + 1) * (n + 1)).map(place).collect(), None, &faces)
+}
+
+/// A random cell one vertex wide: some of its edges have the same vertex, of two cells, at both ends.
+pub fn narrow() -> Sheet {
+    let pattern = Random { size: [1, 3], height: 0.4, ..Random::default() };
+    generate(&Pattern::Random(pattern)).unwrap()
 }
 
 /// A ring of six triangles: an opening that no vertex closes.
