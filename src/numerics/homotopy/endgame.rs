@@ -21,12 +21,12 @@ const MOST_ROUNDS: usize = 64;
 /// A round is closed where what is missing is below this part of the circle's size.
 const CLOSED: f64 = 1e-4;
 /// Largest residual of a mean that is a solution.
-const RESIDUAL: f64 = 1e-13;
+const RESIDUAL: f64 = 3e-13;
 /// Largest difference between the means of all points and of every second one.
 const AGREEMENT: f64 = 1e-9;
-/// Largest product of the last correction and the curvature bound at which a solution counts as simple. Smale's theorem
-/// needs 0.157 (M. Shub and S. Smale, "Complexity of Bezout's theorem I", J. AMS 6, 459, 1993).
-const APPROXIMATE_ZERO: f64 = 0.01;
+/// Largest product of a correction and the curvature bound at which a solution counts as simple. Smale's theorem needs 0.157
+/// (M. Shub and S. Smale, "Complexity of Bezout's theorem I", J. AMS 6, 459, 1993).
+const APPROXIMATE_ZERO: f64 = 0.1;
 
 /// Where a path ends.
 #[derive(Clone, Debug)]
@@ -108,23 +108,25 @@ fn rounds<H: Homotopy>(tracker: &mut Tracker<H>, x: &[C], radius: f64) -> Option
 
 /// Newton's method at the target; `Some` where Smale's criterion proves a simple solution.
 ///
-/// With `b` the last correction and `g >= |DF^-1 D^2F / 2|`, `b g` small proves a solution within `2 b` and no other within
-/// `0.2 / g`. The quadrics have norm 1, so `|D^2F / 2| <= sqrt(m)`.
+/// With `b` a bound of the correction and `g >= |DF^-1 D^2F / 2|`, `b g` small proves a solution within `2 b` and no other
+/// within `0.2 / g`. The quadrics have norm 1, so `|D^2F / 2| <= sqrt(m)`; and as they are known to rounding only, the correction
+/// is never less than `|DF^-1|` times that.
 pub(super) fn simple(quadrics: &Quadrics, x: &[C]) -> Option<Simple> {
     let mut point = x.to_vec();
-    let (mut error, mut curvature) = (f64::INFINITY, f64::INFINITY);
+    let (mut error, mut bound, mut curvature) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
     for _ in 0..8 {
         let (correction, inverse) = newton(quadrics, &point)?;
         let size = norm(&correction);
         let ended = size >= 0.5 * error;
-        (error, curvature) = (error.min(size), inverse * (quadrics.count() as f64).sqrt());
+        (error, bound) = (error.min(size), size.max(inverse * f64::EPSILON));
+        curvature = inverse * (quadrics.count() as f64).sqrt();
         if ended {
             break;
         }
         point.iter_mut().zip(&correction).for_each(|(a, b)| *a += b);
         normalize(&mut point);
     }
-    let proved = error * curvature <= APPROXIMATE_ZERO;
+    let proved = bound * curvature <= APPROXIMATE_ZERO;
     proved.then(|| Simple { point, error, separation: 0.2 / curvature.max(1.0) })
 }
 

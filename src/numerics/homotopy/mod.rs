@@ -7,7 +7,7 @@
 //!
 //! What the paths find is not taken on trust. Simple solutions are proved by Smale's criterion, and two paths must not end at
 //! one of them; the multiplicity of the others is computed from the equations around them ([`multiplicity`]) and has to be
-//! the number of paths that end there. Where all agrees the multiplicities add up to `2^m`, so nothing is missing, whatever a
+//! the number of paths that end there; what is not real has to come in conjugate pairs. Where all agrees the multiplicities add up to `2^m`, so nothing is missing, whatever a
 //! path did on its way. Where it does not, everything is done again with smaller steps and other random numbers.
 
 mod elimination;
@@ -71,6 +71,12 @@ pub enum HomotopyError {
     /// Two paths came to one simple solution.
     #[error("{paths} of the paths came to simple solutions of other paths")]
     Collision {
+        /// How many.
+        paths: usize,
+    },
+    /// Solutions were found without their conjugates.
+    #[error("{paths} solutions were found without their conjugates")]
+    Unpaired {
         /// How many.
         paths: usize,
     },
@@ -162,6 +168,7 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
     let mut solutions = Solutions { paths, repeated, ..Solutions::default() };
     add_simple(&ends, &mut solutions)?;
     add_singular(quadrics, &ends, &mut solutions)?;
+    check_pairs(&solutions.isolated)?;
     Ok(solutions)
 }
 
@@ -180,39 +187,75 @@ fn add_simple(ends: &[End], solutions: &mut Solutions) -> Result<(), HomotopyErr
 }
 
 fn solution(Simple { point, error, separation }: Simple) -> Solution {
-    let conjugate: Vec<C> = point.iter().map(C::conj).collect();
     // a simple solution and its conjugate are one, or further apart than this
-    let real = distance(&point, &conjugate) <= separation;
+    let real = distance(&point, &conjugate(&point)) <= separation;
     Solution { point: turned(point, real), multiplicity: 1, real, error }
 }
 
 /// Puts ends that are the same together and adds them; fails where their number is not the multiplicity.
 fn add_singular(quadrics: &Quadrics, ends: &[End], solutions: &mut Solutions) -> Result<(), HomotopyError> {
-    let mut groups: Vec<Vec<(&Vec<C>, f64)>> = Vec::new();
-    for end in ends {
-        let End::Singular { point, error } = end else { continue };
-        match groups.iter_mut().find(|group| distance(group[0].0, point) <= SAME) {
-            Some(group) => group.push((point, *error)),
-            None => groups.push(vec![(point, *error)]),
-        }
-    }
-    for group in groups {
-        let (paths, (point, error)) = (group.len(), group[0]);
-        let error = group.iter().map(|(other, _)| distance(point, other)).fold(error, f64::max);
-        match multiplicity(quadrics, point, paths) {
-            Multiplicity::Larger => solutions.on_continua.extend(group.iter().map(|(point, _)| point.to_vec())),
+    let singular = |end: &End| match end {
+        End::Singular { point, error } => Some((point.clone(), *error)),
+        End::Simple(_) => None,
+    };
+    for Group { point, error, members } in grouped(ends.iter().filter_map(singular)) {
+        let paths = members.len();
+        match multiplicity(quadrics, &point, paths) {
+            Multiplicity::Larger => solutions.on_continua.extend(members),
             Multiplicity::Isolated(multiplicity) if multiplicity != paths => {
                 return Err(HomotopyError::Multiplicity { paths, multiplicity });
             }
             Multiplicity::Isolated(_) | Multiplicity::Unknown => {
-                let conjugate: Vec<C> = point.iter().map(C::conj).collect();
-                let real = distance(point, &conjugate) <= SAME;
-                let point = turned(point.clone(), real);
-                solutions.isolated.push(Solution { point, multiplicity: paths, real, error });
+                solutions.isolated.push(multiple(point, paths, error));
             }
         }
     }
     Ok(())
+}
+
+/// Points that are the same up to [`SAME`].
+struct Group {
+    point: Vec<C>,
+    /// Largest error or distance of a member.
+    error: f64,
+    members: Vec<Vec<C>>,
+}
+
+fn grouped(points: impl Iterator<Item = (Vec<C>, f64)>) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (point, error) in points {
+        match groups.iter_mut().find(|group| distance(&group.point, &point) <= SAME) {
+            Some(group) => {
+                group.error = group.error.max(error).max(distance(&group.point, &point));
+                group.members.push(point);
+            }
+            None => groups.push(Group { point: point.clone(), error, members: vec![point] }),
+        }
+    }
+    groups
+}
+
+/// A solution that is not simple.
+fn multiple(point: Vec<C>, multiplicity: usize, error: f64) -> Solution {
+    let real = distance(&point, &conjugate(&point)) <= SAME;
+    Solution { point: turned(point, real), multiplicity, real, error }
+}
+
+fn conjugate(point: &[C]) -> Vec<C> {
+    point.iter().map(C::conj).collect()
+}
+
+/// Solutions of real quadrics that are not real come in conjugate pairs, of equal multiplicity.
+fn check_pairs(solutions: &[Solution]) -> Result<(), HomotopyError> {
+    let alone = |solution: &&Solution| {
+        let partner = conjugate(&solution.point);
+        let same = |other: &Solution| other.multiplicity == solution.multiplicity;
+        !solution.real && !solutions.iter().any(|other| same(other) && distance(&other.point, &partner) <= SAME)
+    };
+    match solutions.par_iter().filter(alone).count() {
+        0 => Ok(()),
+        paths => Err(HomotopyError::Unpaired { paths }),
+    }
 }
 
 /// The same point with its largest entry real and positive; a real one without imaginary parts.

@@ -6,8 +6,8 @@
 //! are kept that satisfy all quadrics.
 
 use super::multiplicity::{Multiplicity, multiplicity};
-use super::system::{C, Quadrics, distance, symmetric};
-use super::{HomotopyError, SAME, Solution, Solutions, solve_square, turned};
+use super::system::{C, Quadrics, symmetric};
+use super::{Group, HomotopyError, Solutions, grouped, multiple, solve_square, turned};
 use crate::numerics::DenseMatrix;
 use nalgebra::DVector;
 use rand_chacha::ChaCha8Rng;
@@ -91,17 +91,11 @@ fn kept(all: &Quadrics, combined: Solutions) -> Solutions {
         kept.isolated.push(solution);
     }
     // what combinations have in common along a curve, all quadrics may have at a point
-    for point in on_continua.into_iter().filter(|point| all.residual(point) <= RESIDUAL) {
-        match multiplicity(all, &point, paths) {
-            Multiplicity::Isolated(multiplicity) => {
-                if kept.isolated.iter().all(|other| distance(&other.point, &point) > SAME) {
-                    let conjugate: Vec<C> = point.iter().map(C::conj).collect();
-                    let real = distance(&point, &conjugate) <= SAME;
-                    let point = turned(point, real);
-                    kept.isolated.push(Solution { point, multiplicity, real, error: SAME });
-                }
-            }
-            Multiplicity::Larger | Multiplicity::Unknown => kept.on_continua.push(point),
+    let common = on_continua.into_iter().filter(|point| all.residual(point) <= RESIDUAL);
+    for Group { point, error, members } in grouped(common.map(|point| (point, 0.0))) {
+        match multiplicity(all, &point, members.len()) {
+            Multiplicity::Isolated(found) => kept.isolated.push(multiple(point, found, error)),
+            Multiplicity::Larger | Multiplicity::Unknown => kept.on_continua.extend(members),
         }
     }
     kept
