@@ -1,6 +1,7 @@
 //! Questions about states: equilibria, modes and spectra. State in, result out; nothing here reads or writes files.
 
 pub mod axis;
+pub mod intersections;
 pub mod modes;
 pub mod relax;
 pub mod state;
