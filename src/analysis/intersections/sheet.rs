@@ -4,10 +4,10 @@
 //! - a **patch**: its faces;
 //! - a **torus**: its period, with [`NEIGHBOURS`] more cells on every side, so that a cell is held against what really
 //!   surrounds it;
-//! - a **screw**: the cells that are drawn, as many as the scene's `cells` says (but at least a cell with its
-//!   [`NEIGHBOURS`]). Not more, since without end every curved screw-periodic sheet winds round and meets itself: whether
-//!   a tube closes on itself is a question about a number of cells. It is seen to when a whole turn is drawn, that is, when `n`
-//!   cells of rotation angle `theta` have `n |theta|` above 2 pi.
+//! - a **screw**: the cells that are drawn, as many as the scene's `cells` says, and no more. Without end, every curved
+//!   screw-periodic sheet winds round and meets itself: whether a tube closes on itself is a question about a number of cells. To
+//!   see it, draw a whole turn: `n` cells of rotation angle `theta` with `n |theta|` above 2 pi. Six cells, which are drawn when the
+//!   scene says nothing, show a cell among its neighbours.
 //!
 //! Fold angles are continued through pi, so an angle beyond it says that the two faces of a hinge have gone through each
 //! other on the way. Their positions alone do not show that (they are those of the opposite fold), hence it is asked of the
@@ -21,7 +21,7 @@ use crate::sheet::{Sheet, Tiling};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// Cells beside a cell that it is at least held against, in each direction.
+/// Cells of a torus on every side of the drawn ones that these are held against.
 pub const NEIGHBOURS: usize = 2;
 /// A margin for states that are known to the tolerance of a relaxation: layers that lie on each other stay apart.
 pub const LYING: f64 = 1e-9;
@@ -51,12 +51,11 @@ impl SelfIntersection {
     /// For the states of a tiling; of a screw `shown` cells are drawn.
     pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, shown: [usize; 2]) -> Self {
         let drawn = View::new(sheet, tiling, surroundings, shown);
-        let before = cells_before(surroundings, drawn.patch.cells);
-        let cells = [0, 1].map(|k| drawn.patch.cells[k] + 2 * before[k]);
-        let view = View::of_cells(sheet, tiling, cells, before.map(|n| -(n as i32)));
+        let around = if is_torus(surroundings) { NEIGHBOURS } else { 0 };
+        let view = View::of_cells(sheet, tiling, drawn.patch.cells.map(|n| n + 2 * around), [-(around as i32); 2]);
         let numbers: HashMap<(usize, [i32; 2]), usize> =
             view.patch.triangles.iter().enumerate().map(|(k, t)| ((t.triangle, t.cell), k)).collect();
-        let number = |triangle: usize, cell: [i32; 2]| numbers[&(triangle, [0, 1].map(|k| cell[k] + before[k] as i32))];
+        let number = |triangle: usize, cell: [i32; 2]| numbers[&(triangle, cell.map(|c| c + around as i32))];
         Self {
             drawn: drawn.patch.triangles.iter().map(|t| number(t.triangle, t.cell)).collect(),
             finder: Finder::new(view.patch.triangles.iter().map(|t| t.corners.map(|site| site.vertex)).collect()),
@@ -81,13 +80,8 @@ impl SelfIntersection {
     }
 }
 
-/// Cells that are looked at before the first drawn one, and as many behind the last.
-fn cells_before(surroundings: Surroundings, drawn: [usize; 2]) -> [usize; 2] {
-    match surroundings {
-        Surroundings::Patch => [0, 0],
-        Surroundings::FixedTorus | Surroundings::FreeTorus => [NEIGHBOURS; 2],
-        Surroundings::Screw => drawn.map(|n| (2 * NEIGHBOURS + 1).saturating_sub(n).div_ceil(2)),
-    }
+fn is_torus(surroundings: Surroundings) -> bool {
+    matches!(surroundings, Surroundings::FixedTorus | Surroundings::FreeTorus)
 }
 
 fn hinges(view: &View) -> Vec<(usize, [usize; 2])> {
