@@ -368,10 +368,6 @@ fn studies_that_cannot_be_done() {
             scene(creases, "kind = \"bloch\""),
             "scene.toml:7:8: studies of kind `bloch` are not available in this version",
         ),
-        (
-            scene(creases, "kind = \"relax\"\ncheck = [\"self-intersection\"]"),
-            "scene.toml:6:8: `check` is not available in this version",
-        ),
         (scene(creases, "kind = \"relax\"\nstart = \"none.vtu\""), "none.vtu: "),
         (scene(creases, "kind = \"relax\"\nstart = \"a.vtu\""), "a.vtu: "),
     ];

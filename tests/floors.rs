@@ -28,7 +28,8 @@ const FLOORS: &[(&str, u8)] = &[
 /// Crates that are named in one place only, and that place: a prefix of the path under `src`.
 const OWNED: &[(&str, &[&str])] = &[
     ("faer", &["numerics/"]),
-    ("parry3d", &["analysis/intersections"]),
+    ("parry3d_f64", &["analysis/intersections/"]),
+    ("robust", &["analysis/intersections/contact.rs"]),
     ("vtkio", &["output/vtk.rs"]),
     ("clap", &["cli.rs", "parameters.rs"]),
     ("clap_complete", &["cli.rs"]),
@@ -236,6 +237,7 @@ fn planted_violations_are_found() {
         ("numerics/rank.rs", "pub use crate :: math :: Vec3;", "numerics/rank.rs sees math"),
         ("analysis/modes.rs", "use faer::Mat;", "analysis/modes.rs names faer"),
         ("output/plot.rs", "type V = vtkio::Vtk;", "output/plot.rs names vtkio"),
+        ("analysis/view.rs", "use parry3d_f64::math::Vector;", "analysis/view.rs names parry3d_f64"),
         ("run.rs", "use clap::Parser;", "run.rs names clap"),
         ("new.rs", "", "new.rs stands on no floor"),
     ];

@@ -126,6 +126,47 @@ fn one_crease_drives_the_miura_ori() {
     }
 }
 
+/// The array `self_intersecting` of a VTU file, on its triangles.
+fn crossing_faces(path: &Path) -> Vec<u8> {
+    let vtk = vtkio::Vtk::parse_xml(fs::read(path).unwrap().as_slice()).unwrap();
+    let piece = vtkio::model::UnstructuredGridPiece::try_from(vtk.data).unwrap();
+    let triangles = piece.cells.types.iter().filter(|kind| **kind == vtkio::model::CellType::Triangle).count();
+    let array = piece.data.cell.iter().find_map(|attribute| match attribute {
+        vtkio::model::Attribute::DataArray(array) if array.name == "self_intersecting" => array.data.cast_into::<u8>(),
+        _ => None,
+    });
+    array.unwrap()[..triangles].to_vec()
+}
+
+/// Claim: `check = ["self-intersection"]` fills its column and its array, in the picture too, and without it the column is empty and
+/// the array 0. Source: the cell of `meshes/tube.toml` turns by 0.758 from one cell to the next, so that eight cells make less than
+/// a turn and nine more; of those that cross, each does at the ends, none in the middle.
+#[test]
+fn a_tube_that_goes_through_itself() {
+    let out = tempfile::tempdir().unwrap();
+    let tube = fs::read_to_string(meshes().join("tube.toml")).unwrap();
+    fs::copy(meshes().join("open-star.fold"), out.path().join("open-star.fold")).unwrap();
+    let asked = "check = [\"self-intersection\"]";
+    assert!(tube.contains("cells = [6, 9]") && tube.contains(asked));
+    let modes = "\n[[study]]\nname = \"modes\"\nkind = \"modes\"\neigenvalues = 1\ncheck = [\"self-intersection\"]\n";
+    for (cells, check, crossing) in [("[6, 9]", asked, true), ("[6, 8]", asked, false), ("[6, 9]", "", false)] {
+        let scene = tube.replace("[6, 9]", cells).replace(asked, check);
+        fs::write(out.path().join("t.toml"), format!("{scene}{modes}")).unwrap();
+        let said = foldwell(out.path(), &["run", "t.toml"]);
+        assert_eq!(said.status.code(), Some(0), "{}", text(&said.stderr));
+        let row = last_row(&out.path().join("t/rolled.csv"));
+        assert!((row["theta2"] - 0.758).abs() < 1e-3, "{}", row["theta2"]);
+        let expected = if check.is_empty() { f64::NAN } else { f64::from(u8::from(crossing)) };
+        assert_eq!(row["self_intersecting"].to_bits(), expected.to_bits(), "{cells} {check}");
+        let [start, end] = [0, 1].map(|k| crossing_faces(&out.path().join(format!("t/rolled/rolled_000{k}.vtu"))));
+        assert!(start.iter().all(|face| *face == 0), "the start is not rolled up");
+        assert_eq!(end.contains(&1), crossing, "{cells} {check}");
+        let middle = end.len() / 3..2 * end.len() / 3;
+        assert!(end[middle].iter().all(|face| *face == 0), "only the ends cross");
+        assert!(crossing_faces(&out.path().join("t/modes/modes_0000.vtu")).iter().all(|face| *face == 0));
+    }
+}
+
 /// Claim: `--json` prints the summary and nothing else on standard output; without it a line for each study and the
 /// folder are there; `draw = []` writes tables only.
 #[test]

@@ -19,18 +19,29 @@ impl View {
     /// The view of a tiling; of a screw `shown` cells.
     pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, shown: [usize; 2]) -> Self {
         let cells = if surroundings == Surroundings::Screw { shown } else { tiling.cells };
+        Self::of_cells(sheet, tiling, cells, [0, 0])
+    }
+
+    /// The view of `cells`, beginning at the cell `first` of a tiling; a periodic one goes on beyond its last cell.
+    pub fn of_cells(sheet: &Sheet, tiling: &Tiling, cells: [usize; 2], first: [i32; 2]) -> Self {
         let patch = tile(sheet, cells, false);
         let vertices = sheet.vertices.len();
-        let [n1, n2] = tiling.cells;
+        let period = tiling.cells.map(|n| n as i32);
+        // the cell of the tiling that a cell of the patch is, and the copy of it
+        let place = |cell: [usize; 2]| {
+            let at = [0, 1].map(|k| cell[k] as i32 + first[k]);
+            let within = [0, 1].map(|k| at[k].rem_euclid(period[k]) as usize);
+            (within, [0, 1].map(|k| at[k].div_euclid(period[k])))
+        };
         let site = |k: usize| {
             let (vertex, cell) = (k % vertices, k / vertices);
-            let (c1, c2) = (cell % cells[0], cell / cells[0]);
-            Site { vertex: (c2 % n2 * n1 + c1 % n1) * vertices + vertex, shift: [(c1 / n1) as i32, (c2 / n2) as i32] }
+            let ([c1, c2], shift) = place([cell % cells[0], cell / cells[0]]);
+            Site { vertex: (c2 * tiling.cells[0] + c1) * vertices + vertex, shift }
         };
         let sites = (0..patch.positions.len()).map(site).collect();
         let number: std::collections::HashMap<(usize, [usize; 2]), usize> =
             tiling.edges.iter().enumerate().map(|(k, edge)| ((edge.edge, edge.cell), k)).collect();
-        let edges = patch.edges.iter().map(|e| number[&(e.edge, [e.cell[0] % n1, e.cell[1] % n2])]).collect();
+        let edges = patch.edges.iter().map(|e| number[&(e.edge, place(e.cell).0)]).collect();
         Self { patch, edges, sites }
     }
 

@@ -20,7 +20,7 @@ pub struct Picture {
     pub displacement: Vec<Vec3>,
     /// Triangles, counter-clockwise seen from the side of the face normals.
     pub triangles: Vec<[usize; 3]>,
-    /// Whether a triangle passes through another one (1) or not (0).
+    /// Whether a triangle passes through another one (1) or not (0); 0 where that was not asked.
     pub self_intersecting: Vec<u8>,
     /// Edges between two points.
     pub lines: Vec<[usize; 2]>,
@@ -90,6 +90,11 @@ impl Picture {
             strain: on_lines(&state.strain),
             energy: on_lines(&state.energy),
         }
+    }
+
+    /// The picture with those triangles marked that pass through others.
+    pub fn with_crossing(self, faces: &[bool]) -> Self {
+        Self { self_intersecting: faces.iter().map(|&face| u8::from(face)).collect(), ..self }
     }
 
     /// The drawn state of a sheet: one cell, or all of a finite sheet, with the images its faces need.

@@ -1,13 +1,14 @@
 //! Files of states: tables, VTK series and pictures, as far as a study asks for them.
 
 use super::{RunError, Runner};
+use crate::analysis::intersections::{Marks, SelfIntersection};
 use crate::analysis::state::{Cylinder, State, cylinder};
 use crate::model::assemble::{Drawn, drawn_angles};
 use crate::output::picture::Picture;
 use crate::output::table::{StateRow, Table};
 use crate::output::{plot, vtk};
 use crate::scene::build::Built;
-use crate::scene::spec::{Draw, StudySpec};
+use crate::scene::spec::{Check, Draw, StudySpec};
 
 /// The state with the fold angle of every edge between two faces, also of those that are no hinge of the model: these from
 /// its coordinates, in (-pi, pi].
@@ -19,12 +20,21 @@ pub fn with_all_angles(built: &Built, state: &State) -> State {
     State { fold_angle: state.fold_angle.iter().zip(angles).map(known).collect(), ..state.clone() }
 }
 
-/// A state with the residuals that hold at it.
+/// A state with what else is known of it.
 pub struct Shown<'a> {
     /// The state.
     pub state: &'a State,
     /// Scaled residuals of force and length; `None` where they were not computed.
     pub residuals: Option<[f64; 2]>,
+    /// What passes through itself; `None` where that was not asked.
+    pub marks: Option<Marks>,
+}
+
+/// What finds self-intersection in the states of a study; `None` where that is not asked.
+pub fn self_intersection(runner: &Runner<'_>, study: &StudySpec) -> Option<SelfIntersection> {
+    let built = runner.built;
+    let asked = study.check.contains(&Check::SelfIntersection);
+    asked.then(|| SelfIntersection::new(&built.sheet, &built.tiling, built.surroundings, built.shown))
 }
 
 /// Writes the table of states of a study: one row each.
@@ -52,6 +62,7 @@ fn row(runner: &Runner<'_>, step: usize, shown: &Shown<'_>) -> StateRow {
         ],
         residual_force: shown.residuals.map(|r| r[0]),
         residual_length: shown.residuals.map(|r| r[1]),
+        self_intersecting: shown.marks.as_ref().map(|marks| marks.any),
         fold: cell_angles(runner, state),
         ..StateRow::default()
     }
@@ -71,9 +82,12 @@ fn cell_angles(runner: &Runner<'_>, state: &State) -> Vec<f64> {
 }
 
 /// Writes the VTK series and the picture of the last state, as the study asks.
-pub fn series(runner: &Runner<'_>, study: &StudySpec, states: &[&State]) -> Result<(), RunError> {
-    let drawn = &runner.built.drawn;
-    let pictures: Vec<Picture> = states.iter().map(|state| Picture::of_state(&runner.view, drawn, state)).collect();
+pub fn series(runner: &Runner<'_>, study: &StudySpec, states: &[Shown<'_>]) -> Result<(), RunError> {
+    let picture = |shown: &Shown<'_>| {
+        let picture = Picture::of_state(&runner.view, &runner.built.drawn, shown.state);
+        shown.marks.iter().fold(picture, |picture, marks| picture.with_crossing(&marks.faces))
+    };
+    let pictures: Vec<Picture> = states.iter().map(picture).collect();
     write(runner, study, &pictures)?;
     if let (true, Some(last)) = (study.draw.contains(&Draw::Svg), pictures.last()) {
         svg(runner, study, last)?;

@@ -4,6 +4,7 @@ use super::draw::{self, Shown};
 use super::resume::Kept;
 use super::runner::Runner;
 use super::{RunError, branches};
+use crate::analysis::intersections::LYING;
 use crate::analysis::modes::{Modes, Question, modes as find_modes};
 use crate::analysis::relax::{RelaxError, Relaxed, relax as find_equilibrium};
 use crate::analysis::state::State;
@@ -24,10 +25,6 @@ use std::time::Instant;
 
 /// Checks what a study says before anything is written.
 pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) -> Result<(), RunError> {
-    if !study.check.is_empty() {
-        let message = "`check` is not available in this version";
-        return Err(file.error_at(study.name.span(), message, "leave the key out").into());
-    }
     match &*study.kind {
         StudyKind::Relax(_) if built.terms().0.iter().all(|term| term == "pins") => {
             let help = "give bars, creases or facets a stiffness";
@@ -89,9 +86,15 @@ fn write_states(
     states: [&State; 2],
     residuals: Option<[f64; 2]>,
 ) -> Result<(), RunError> {
-    let [first, last] = states.map(|state| draw::with_all_angles(runner.built, state));
-    draw::table(runner, study, &[Shown { state: &first, residuals: None }, Shown { state: &last, residuals }])?;
-    draw::series(runner, study, &[&first, &last])
+    let states = states.map(|state| draw::with_all_angles(runner.built, state));
+    let mut check = draw::self_intersection(runner, study);
+    let [first, last] = states.each_ref().map(|state| {
+        let marks = check.as_mut().map(|check| check.marks(&runner.built.drawn, state, LYING));
+        Shown { state, residuals: None, marks }
+    });
+    let shown = [first, Shown { residuals, ..last }];
+    draw::table(runner, study, &shown)?;
+    draw::series(runner, study, &shown)
 }
 
 /// The unknowns from which a relaxation starts; `None` where the study to start from ended in no state.
@@ -279,7 +282,12 @@ fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<
     if modes.vectors.is_empty() || study.draw.is_empty() {
         return Ok(());
     }
-    let pictures: Vec<Picture> = modes.vectors.iter().map(|rates| mode_picture(runner, rates)).collect();
+    let drawn = drawn_picture(runner, study);
+    let moving = |rates: &Vec<f64>| {
+        let displacement = runner.view.velocities(&runner.built.drawn, rates);
+        Picture { displacement, ..drawn.clone() }
+    };
+    let pictures: Vec<Picture> = modes.vectors.iter().map(moving).collect();
     draw::write(runner, study, &pictures)?;
     if study.draw.contains(&Draw::Svg) {
         let softest = modes.rigid_motions.min(pictures.len() - 1);
@@ -288,7 +296,8 @@ fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<
     Ok(())
 }
 
-fn mode_picture(runner: &Runner<'_>, rates: &[f64]) -> Picture {
+/// The drawn state, of which modes are velocities.
+fn drawn_picture(runner: &Runner<'_>, study: &StudySpec) -> Picture {
     let built = runner.built;
     let edges = built.tiling.edges.len();
     let nan = || vec![f64::NAN; edges];
@@ -302,6 +311,9 @@ fn mode_picture(runner: &Runner<'_>, rates: &[f64]) -> Picture {
         strain: nan(),
         energy: nan(),
     };
-    let displacement = runner.view.velocities(&built.drawn, rates);
-    Picture { displacement, ..Picture::of_state(&runner.view, &built.drawn, &state) }
+    let picture = Picture::of_state(&runner.view, &built.drawn, &state);
+    match draw::self_intersection(runner, study) {
+        Some(mut check) => picture.with_crossing(&check.marks(&built.drawn, &state, LYING).faces),
+        None => picture,
+    }
 }

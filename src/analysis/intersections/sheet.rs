@@ -1,0 +1,107 @@
+//! Which faces of a drawn sheet pass through others, or have gone through each other at their hinge.
+//!
+//! What counts as the sheet:
+//! - a **patch**: its faces;
+//! - a **torus**: its period, with [`NEIGHBOURS`] more cells on every side, so that a cell is held against what really
+//!   surrounds it;
+//! - a **screw**: the cells that are drawn, as many as the scene's `cells` says, and no more. Without end, every curved
+//!   screw-periodic sheet winds round and meets itself: whether a tube closes on itself is a question about a number of cells. To
+//!   see it, draw a whole turn: `n` cells of rotation angle `theta` with `n |theta|` above 2 pi. Six cells, which are drawn when the
+//!   scene says nothing, show a cell among its neighbours.
+//!
+//! Fold angles are continued through pi, so an angle beyond it says that the two faces of a hinge have gone through each
+//! other on the way. Their positions alone do not show that (they are those of the opposite fold), hence it is asked of the
+//! angles.
+
+use super::Finder;
+use crate::analysis::state::State;
+use crate::analysis::view::View;
+use crate::model::assemble::{Drawn, Surroundings};
+use crate::sheet::{Sheet, Tiling};
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+/// Cells of a torus on every side of the drawn ones that these are held against.
+pub const NEIGHBOURS: usize = 2;
+/// A margin for states that are known to the tolerance of a relaxation: layers that lie on each other stay apart.
+pub const LYING: f64 = 1e-9;
+
+/// What passes through itself in one state.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Marks {
+    /// Whether anything does.
+    pub any: bool,
+    /// For each triangle of the drawn patch whether it goes through another one.
+    pub faces: Vec<bool>,
+}
+
+/// Looks for self-intersection in states of one sheet.
+pub struct SelfIntersection {
+    /// The cells that are looked at.
+    view: View,
+    finder: Finder,
+    /// The triangle here that each triangle of the drawn patch is.
+    drawn: Vec<usize>,
+    /// Edges of the model's tiling between two faces, and these.
+    hinges: Vec<(usize, [usize; 2])>,
+    mean_edge: f64,
+}
+
+impl SelfIntersection {
+    /// For the states of a tiling; of a screw `shown` cells are drawn.
+    pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, shown: [usize; 2]) -> Self {
+        let drawn = View::new(sheet, tiling, surroundings, shown);
+        let around = if is_torus(surroundings) { NEIGHBOURS } else { 0 };
+        let view = View::of_cells(sheet, tiling, drawn.patch.cells.map(|n| n + 2 * around), [-(around as i32); 2]);
+        let numbers: HashMap<(usize, [i32; 2]), usize> =
+            view.patch.triangles.iter().enumerate().map(|(k, t)| ((t.triangle, t.cell), k)).collect();
+        let number = |triangle: usize, cell: [i32; 2]| numbers[&(triangle, cell.map(|c| c + around as i32))];
+        Self {
+            drawn: drawn.patch.triangles.iter().map(|t| number(t.triangle, t.cell)).collect(),
+            finder: Finder::new(view.patch.triangles.iter().map(|t| t.corners.map(|site| site.vertex)).collect()),
+            hinges: hinges(&view),
+            mean_edge: mean_edge(&view.patch),
+            view,
+        }
+    }
+
+    /// The self-intersections of a state. `margin`: how deep faces may be in each other and still lie on each other, as a part
+    /// of the mean drawn edge, and how far beyond pi a hinge may be folded, in radians.
+    pub fn marks(&mut self, drawn: &Drawn, state: &State, margin: f64) -> Marks {
+        let positions = self.view.positions(drawn, &state.coordinates);
+        let mut found = self.finder.crossings(&positions, margin * self.mean_edge).faces;
+        for &(edge, faces) in &self.hinges {
+            // false for edges that are no hinges: their angle is NaN
+            if state.fold_angle[edge].abs() > PI + margin {
+                faces.into_iter().for_each(|face| found[face] = true);
+            }
+        }
+        Marks { any: found.contains(&true), faces: self.drawn.iter().map(|&face| found[face]).collect() }
+    }
+}
+
+fn is_torus(surroundings: Surroundings) -> bool {
+    matches!(surroundings, Surroundings::FixedTorus | Surroundings::FreeTorus)
+}
+
+fn hinges(view: &View) -> Vec<(usize, [usize; 2])> {
+    let sorted = |mut corners: [usize; 3]| {
+        corners.sort_unstable();
+        corners
+    };
+    let corners = view.patch.triangles.iter().map(|t| sorted(t.corners.map(|site| site.vertex)));
+    let numbers: HashMap<[usize; 3], usize> = corners.enumerate().map(|(k, corners)| (corners, k)).collect();
+    let hinge = |(edge, &number): (&crate::sheet::tiling::TiledEdge, &usize)| {
+        let [i, j] = edge.ends.map(|site| site.vertex);
+        let [Some(left), Some(right)] = edge.wings else { return None };
+        let face = |wing: usize| numbers.get(&sorted([i, j, wing])).copied();
+        Some((number, [face(left.vertex)?, face(right.vertex)?]))
+    };
+    view.patch.edges.iter().zip(&view.edges).filter_map(hinge).collect()
+}
+
+fn mean_edge(patch: &Tiling) -> f64 {
+    let length = |ends: [usize; 2]| (patch.positions[ends[0]] - patch.positions[ends[1]]).norm();
+    let lengths = patch.edges.iter().map(|edge| length(edge.ends.map(|site| site.vertex)));
+    lengths.sum::<f64>() / patch.edges.len().max(1) as f64
+}
