@@ -10,4 +10,4 @@ mod test_sheets;
 
 pub use closure::{Closure, HingedEdge, drawn_fold_angles};
 pub use error::KinematicsError;
-pub use folding_modes::{FoldingModes, folding_modes};
+pub use folding_modes::{FoldingModes, folding_modes, folding_modes_with_locked};
