@@ -319,9 +319,8 @@ fn every_misfit_has_its_message() {
 fn modes_that_no_curvature_names() {
     let folder = folder_of_misfits();
     let mode = "creases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }";
-    let of = |sheet: &str, more: &str| {
-        misfit_of(folder.path(), &format!("[sheet]\n{sheet}\n[energy]\n{mode}\n{more}\n")).1
-    };
+    let of =
+        |sheet: &str, more: &str| misfit_of(folder.path(), &format!("[sheet]\n{sheet}\n[energy]\n{mode}\n{more}\n")).1;
     let rigid = of("generate = { pattern = \"miura\" }", "");
     assert!(rigid.contains("this sheet has 1 ("), "{rigid}");
     let bending = of("generate = { pattern = \"miura\" }", "facets = { stiffness = 1 }");
