@@ -19,6 +19,7 @@ mod draw;
 mod resume;
 mod runner;
 mod studies;
+mod trace;
 
 use runner::Runner;
 
@@ -31,8 +32,10 @@ pub struct Progress {
     pub step: usize,
     /// Steps in all, where that is known.
     pub of: Option<usize>,
-    /// The residual that has to become small.
+    /// The residual that has to become small; not a number where there is none.
     pub residual: f64,
+    /// How small, where the study ends there.
+    pub target: Option<f64>,
 }
 
 /// Whoever watches a run: called after every step, it says whether to go on.

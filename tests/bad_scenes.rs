@@ -313,16 +313,23 @@ fn every_misfit_has_its_message() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// Claim: a mode that no curvature names says why: the map is singular for Miura-ori, and a finite sheet has no lattice.
+/// Claim: a mode that no curvature names says why: Miura-ori has one mode where its polygons are rigid, and three, of which
+/// the map to curvatures is singular, where they bend; a finite sheet has no lattice. What would be right is said once.
 #[test]
 fn modes_that_no_curvature_names() {
     let folder = folder_of_misfits();
     let mode = "creases = { stiffness = 1, rest = { mode = [1, 0, 0], amplitude = 0.1 } }";
-    let of = |sheet: &str| misfit_of(folder.path(), &format!("[sheet]\n{sheet}\n[energy]\n{mode}\n")).1;
-    let miura = of("generate = { pattern = \"miura\" }");
-    assert!(miura.contains("curvature"), "{miura}");
-    let finite = of("mesh = \"finite.fold\"");
+    let of =
+        |sheet: &str, more: &str| misfit_of(folder.path(), &format!("[sheet]\n{sheet}\n[energy]\n{mode}\n{more}\n")).1;
+    let rigid = of("generate = { pattern = \"miura\" }", "");
+    assert!(rigid.contains("this sheet has 1 ("), "{rigid}");
+    let bending = of("generate = { pattern = \"miura\" }", "facets = { stiffness = 1 }");
+    assert!(bending.contains("not one to one"), "{bending}");
+    let finite = of("mesh = \"finite.fold\"", "");
     assert!(finite.contains("lattice"), "{finite}");
+    for message in [rigid, bending] {
+        assert!(!message.contains("rates"), "{message}");
+    }
 }
 
 /// Claim: a fault in a file that the scene names is told with that file, and its line where it has one.

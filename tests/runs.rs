@@ -323,6 +323,27 @@ fn an_interrupted_run_keeps_what_is_done() {
     assert!(text(&said.stdout).lines().next().unwrap().ends_with("(kept)"), "{}", text(&said.stdout));
 }
 
+/// Claim: Ctrl-C ends a study of modes, which is not converged and says why; what was done before is whole, what comes
+/// after is not begun. The iteration for hundreds of eigenpairs takes far longer than a signal to arrive.
+#[test]
+#[cfg(unix)]
+fn modes_are_interrupted() {
+    let folder = tempfile::tempdir().unwrap();
+    let modes = "[[study]]\nname = \"modes\"\nkind = \"modes\"\neigenvalues = 200\ndraw = []\n";
+    let studies = relax("first", "") + modes + &relax("last", "");
+    fs::write(folder.path().join("a.toml"), star([14, 14], "patch", RIGID, &studies)).unwrap();
+    let ended = stopped(folder.path(), "cut", "-INT").wait().unwrap();
+    assert_eq!(ended.code(), Some(130));
+    let out = folder.path().join("cut");
+    let summary = json(&out.join("summary.json"));
+    let studies = summary["studies"].as_array().unwrap();
+    let ends: Vec<_> = studies.iter().map(|study| (&study["name"], &study["converged"], &study["reason"])).collect();
+    assert_eq!(ends.len(), 2, "{ends:?}");
+    assert_eq!((ends[0].0, ends[0].1), (&"first".into(), &true.into()));
+    assert_eq!(ends[1], (&"modes".into(), &false.into(), &"stopped on request".into()));
+    assert!(out.join("first.csv").exists() && !out.join("modes.csv").exists());
+}
+
 /// Claim: nothing is kept where the scene, or a file that it names, is another one; and nothing without `--resume`.
 #[test]
 fn another_scene_keeps_nothing() {

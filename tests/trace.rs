@@ -31,7 +31,7 @@ fn run(sheet: &Sheet, locks: &[usize], stop: Stop, branch: Option<usize>) -> Vec
         recipe: &recipe,
     };
     let question = Question { start, max_step: 0.25, tolerance: 3e-14, branch, stop };
-    trace(&question, &mut |_, _| true).unwrap()
+    trace(&question, None, &mut |_, _| true).unwrap()
 }
 
 fn star() -> (Sheet, usize, Value) {

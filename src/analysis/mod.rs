@@ -2,6 +2,7 @@
 
 pub mod axis;
 pub mod branches;
+pub mod chart;
 pub mod intersections;
 pub mod modes;
 pub mod relax;

@@ -10,9 +10,10 @@ use crate::kinematics::closure::{Closure, HingedEdge};
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
 use crate::model::{Gauge, Model, gauge};
 use crate::numerics::dense::{self, DenseError};
+use crate::numerics::eigen::{self, EigenError};
 use crate::numerics::factor::FactorError;
-use crate::numerics::sparse::{FIXED, Rows, symmetric_product};
-use crate::numerics::{DenseMatrix, eigen, rank};
+use crate::numerics::sparse::{Rows, symmetric_product};
+use crate::numerics::{DenseMatrix, rank};
 use crate::sheet::{Corner, EdgeKind, Sheet, Site, Tiling};
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Problem};
@@ -56,6 +57,9 @@ pub enum ModesError {
     /// The closure conditions could not be set up.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+    /// The observer asked to stop.
+    #[error("stopped on request")]
+    Interrupted,
     /// No rank stands out.
     #[error(
         "the rank of the rigidity matrix is not certain: kept over dropped singular value {gap:.1e}, less than {LEAST_GAP:e}"
@@ -82,6 +86,18 @@ pub enum ModesError {
     },
 }
 
+impl From<EigenError> for ModesError {
+    fn from(error: EigenError) -> Self {
+        match error {
+            EigenError::Factor(error) => error.into(),
+            EigenError::Stopped => Self::Interrupted,
+        }
+    }
+}
+
+/// Called between the parts of the work; returns false to stop.
+pub type Observer<'a> = dyn FnMut() -> bool + Send + 'a;
+
 /// What to look at.
 pub struct Question<'a> {
     /// The sheet.
@@ -96,15 +112,17 @@ pub struct Question<'a> {
     pub eigenvalues: usize,
 }
 
-/// Finds the modes.
-pub fn modes(question: &Question<'_>) -> Result<Modes, ModesError> {
+/// Finds the modes. `observe` is asked before every decomposition and factorization, and before every product of the
+/// iteration for eigenpairs; between them, at most for the time of one decomposition, nothing stops the work.
+pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
     let Question { sheet, tiling, surroundings, recipe, .. } = *question;
     let drawn = Drawn::new(sheet, tiling, surroundings);
     let bars = assemble(&drawn, tiling, &rigid_part(recipe), Gauge::Free);
-    let (rank, gap) = rank_of(&bars)?;
+    let (rank, gap) = rank_of(&bars, observe)?;
     let (columns, rows) = (bars.layout().unknowns, bars.layout().stiff.len());
     let rigid_motions = rigid_motions(&drawn, &bars);
     let (zero_modes, self_stresses) = (columns - rank, rows - rank);
+    go_on(observe)?;
     let folding_modes = folding_modes(question, &drawn)?;
     if let Some(closure) = folding_modes {
         let predicted = match surroundings {
@@ -117,7 +135,7 @@ pub fn modes(question: &Question<'_>) -> Result<Modes, ModesError> {
         }
     }
     let (eigenvalues, vectors) = if question.eigenvalues > 0 {
-        lowest(&assemble(&drawn, tiling, recipe, Gauge::Free), question.eigenvalues)?
+        lowest(&assemble(&drawn, tiling, recipe, Gauge::Free), question.eigenvalues, observe)?
     } else {
         (vec![], vec![])
     };
@@ -131,6 +149,10 @@ pub fn modes(question: &Question<'_>) -> Result<Modes, ModesError> {
         eigenvalues,
         vectors,
     })
+}
+
+fn go_on(observe: &mut Observer<'_>) -> Result<(), ModesError> {
+    if observe() { Ok(()) } else { Err(ModesError::Interrupted) }
 }
 
 /// Bars and rigid polygons only, all rigid; pins as they are.
@@ -149,16 +171,18 @@ fn rigid_motions(drawn: &Drawn, bars: &Model) -> usize {
 }
 
 /// Rank of the Jacobian of a model's stiff measures at the drawn state, and the gap.
-fn rank_of(model: &Model) -> Result<(usize, f64), ModesError> {
+fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, f64), ModesError> {
     let (layout, at) = (model.layout(), linearized(model));
     let rows = at.rows(layout);
     if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
-        return rank_by_counting(&rows, layout.unknowns, &layout.node);
+        return rank_by_counting(&rows, layout.unknowns, &layout.node, observe);
     }
-    let values = dense::singular_values(&to_dense(&rows, layout.unknowns))?;
+    go_on(observe)?;
+    let values = dense::singular_values(&dense::from_rows(&rows, layout.unknowns))?;
     let found = dense::rank_at_largest_gap(&values)?;
     let largest = rows.values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let threshold = threshold(&values, found.rank) / largest;
+    go_on(observe)?;
     let by_inertia = rank::count_above(&rows, layout.unknowns, &layout.node, threshold)?;
     if by_inertia == found.rank {
         Ok((found.rank, found.gap))
@@ -175,10 +199,17 @@ fn threshold(values: &[f64], rank: usize) -> f64 {
 }
 
 /// Counts singular values above thresholds a decade apart; the longest run of equal counts is the gap.
-fn rank_by_counting(rows: &Rows<'_>, columns: usize, node: &[u32]) -> Result<(usize, f64), ModesError> {
-    let counts: Result<Vec<usize>, FactorError> =
-        (1..=8).map(|decade| rank::count_above(rows, columns, node, 10f64.powi(-decade))).collect();
-    let counts = counts?;
+fn rank_by_counting(
+    rows: &Rows<'_>,
+    columns: usize,
+    node: &[u32],
+    observe: &mut Observer<'_>,
+) -> Result<(usize, f64), ModesError> {
+    let mut counts = Vec::new();
+    for decade in 1..=8 {
+        go_on(observe)?;
+        counts.push(rank::count_above(rows, columns, node, 10f64.powi(-decade))?);
+    }
     let mut best = (0, 0);
     for start in 0..counts.len() {
         let run = counts[start..].iter().take_while(|count| **count == counts[start]).count();
@@ -194,19 +225,6 @@ fn linearized(model: &Model) -> Linearization {
     let mut at = Linearization::new(model.layout());
     model.linearize(&model.start(), &vec![0.0; model.layout().stiff.len()], Curvature::Full, &mut at);
     at
-}
-
-fn to_dense(rows: &Rows<'_>, columns: usize) -> DenseMatrix {
-    let mut matrix = DenseMatrix::zeros(rows.cliques.len(), columns);
-    for row in 0..rows.cliques.len() {
-        let values = &rows.values[rows.cliques.range(row)];
-        for (&member, value) in rows.cliques.members(row).iter().zip(values) {
-            if member != FIXED {
-                matrix[(row, member as usize)] += value;
-            }
-        }
-    }
-    matrix
 }
 
 /// Null space of the closure conditions of the tiling, rigid facets locked.
@@ -240,17 +258,19 @@ fn dangling(tiling: &Tiling) -> bool {
     tiling.edges.iter().any(|edge| edge.wings == [None, None])
 }
 
+/// Eigenvalues and eigenvectors.
+type Pairs = (Vec<f64>, Vec<Vec<f64>>);
+
 /// Lowest eigenvalues and eigenvectors of the energy's Hessian on what the rigid terms leave free.
-fn lowest(model: &Model, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>), ModesError> {
-    let count = count.min(model.layout().unknowns);
-    let (values, vectors) =
-        if model.layout().unknowns <= DENSE_LIMIT { lowest_dense(model, count)? } else { lowest_sparse(model, count)? };
+fn lowest(model: &Model, count: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
+    let size = model.layout().unknowns;
+    let way = if size <= DENSE_LIMIT { lowest_dense } else { lowest_sparse };
+    let (values, vectors) = way(model, count.min(size), observe)?;
     Ok((values, vectors.iter().map(|v| model.velocity(v)).collect()))
 }
 
-type Pairs = (Vec<f64>, Vec<Vec<f64>>);
-
-fn lowest_dense(model: &Model, count: usize) -> Result<Pairs, ModesError> {
+fn lowest_dense(model: &Model, count: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
+    go_on(observe)?;
     let (layout, mut at) = (model.layout(), linearized(model));
     let compliance = model.compliance();
     let mut values = std::mem::take(&mut at.hessian);
@@ -258,13 +278,14 @@ fn lowest_dense(model: &Model, count: usize) -> Result<Pairs, ModesError> {
         at.add_outer(layout, row, 1.0 / c, &mut values);
     }
     let hessian = at.pattern().to_dense(&values);
-    let full = to_dense(&at.rows(layout), layout.unknowns);
+    let full = dense::from_rows(&at.rows(layout), layout.unknowns);
     let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
     let free = if rigid.is_empty() {
         DenseMatrix::identity(layout.unknowns, layout.unknowns)
     } else {
         dense::null_space(&full.select_rows(&rigid))?.basis
     };
+    go_on(observe)?;
     let found = dense::symmetric_eigen(&(free.transpose() * hessian * &free))?;
     let count = count.min(found.values.len());
     let vectors = (0..count).map(|k| (&free * found.vectors.column(k)).as_slice().to_vec()).collect();
@@ -272,7 +293,7 @@ fn lowest_dense(model: &Model, count: usize) -> Result<Pairs, ModesError> {
 }
 
 /// By shift and invert: the largest eigenvalues of `(H + shift)^-1` on the null space of the rigid measures.
-fn lowest_sparse(model: &Model, count: usize) -> Result<Pairs, ModesError> {
+fn lowest_sparse(model: &Model, count: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
     let (layout, mut at) = (model.layout(), linearized(model));
     let compliance = model.compliance();
     let mut saddle = Saddle::new(layout, &at)?;
@@ -280,6 +301,7 @@ fn lowest_sparse(model: &Model, count: usize) -> Result<Pairs, ModesError> {
     let mut shift = 0.0;
     for power in 0..30 {
         let next = 1e-7 * unit * 4f64.powi(power);
+        go_on(observe)?;
         at.add_identity(next - shift);
         shift = next;
         if saddle.factor(layout, &at, compliance, 0.0).is_ok_and(|inertia| inertia.negative == 0) {
@@ -288,7 +310,7 @@ fn lowest_sparse(model: &Model, count: usize) -> Result<Pairs, ModesError> {
     }
     let zero = vec![0.0; layout.stiff.len()];
     let mut inverse = |v: &[f64]| saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx;
-    let (_, vectors) = eigen::largest(layout.unknowns, count, &mut inverse)?;
+    let (_, vectors) = eigen::largest(layout.unknowns, count, |v| observe().then(|| inverse(v)))?;
     // once more, since Lanczos vectors are only as good as the largest eigenvalue of the inverse allows
     let vectors: Vec<Vec<f64>> = vectors.iter().map(|v| normalized(inverse(v))).collect();
     at.add_identity(-shift);
@@ -312,4 +334,45 @@ fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
     at.rows(model.layout()).product(v, &mut stretch);
     let finite = stretch.iter().zip(model.compliance()).filter(|(_, c)| **c > 0.0);
     (dot(v, &product) + finite.map(|(s, c)| s * s / c).sum::<f64>()) / dot(v, v)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::assemble::drawn_angles;
+    use crate::sheet::generate::{Pattern, Random};
+    use crate::sheet::{generate, tile};
+
+    /// Asks for modes of a patch of random cells and stops at the `stop`-th question; the answer, and how many questions
+    /// there were.
+    fn asked(cells: usize, eigenvalues: usize, stop: usize) -> (Result<Modes, ModesError>, usize) {
+        let sheet = generate(&Pattern::Random(Random::default())).unwrap();
+        let tiling = tile(&sheet, [cells; 2], false);
+        let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+        let rest = drawn_angles(&drawn, &tiling);
+        let recipe = Recipe { bars: Some(1e3), creases: Some(Hinges { stiffness: 1.0, rest }), ..Recipe::default() };
+        let surroundings = Surroundings::Patch;
+        let question = Question { sheet: &sheet, tiling: &tiling, surroundings, recipe: &recipe, eigenvalues };
+        let mut asked = 0;
+        let found = modes(&question, &mut || {
+            asked += 1;
+            asked != stop
+        });
+        (found, asked)
+    }
+
+    /// Claim: modes can be stopped at every question, and nothing is asked, so nothing is begun, after that; on the dense
+    /// and on the sparse way, where a question comes before every product of the iteration: more of them than eigenvalues.
+    #[test]
+    fn modes_can_be_stopped() {
+        for (cells, eigenvalues, least) in [(3, 4, 5), (11, 4, 8 + 1 + 4)] {
+            let (found, total) = asked(cells, eigenvalues, usize::MAX);
+            assert_eq!(found.unwrap().eigenvalues.len(), eigenvalues);
+            assert!(total >= least, "{total} questions");
+            for stop in (1..=5).chain([total / 2, total]) {
+                let (found, asked) = asked(cells, eigenvalues, stop);
+                assert!(matches!(found, Err(ModesError::Interrupted)) && asked == stop, "{stop} of {total}: {asked}");
+            }
+        }
+    }
 }

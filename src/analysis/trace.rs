@@ -17,6 +17,10 @@ use thiserror::Error;
 const ALONG: f64 = 0.999;
 /// Quantities whose turning points are reported, in the order of their indicators.
 pub const TURNING: [&str; 4] = ["curvature", "strain11", "strain22", "strain12"];
+/// The indicators after these.
+const CURVATURE: usize = TURNING.len();
+const CREASE_ANGLE: usize = CURVATURE + 1;
+const INTERSECTION: usize = CURVATURE + 2;
 
 /// What to follow.
 pub struct Question<'a> {
@@ -41,7 +45,12 @@ pub struct Stop {
     pub curvature: Option<f64>,
     /// An edge and its fold angle.
     pub crease_angle: Option<(usize, f64)>,
+    /// Faces passing through each other.
+    pub self_intersection: bool,
 }
+
+/// Says whether faces of a state pass through each other.
+pub type Intersects<'a> = &'a mut dyn FnMut(&Folded) -> bool;
 
 /// A state on a trajectory.
 #[derive(Clone, Debug)]
@@ -73,6 +82,8 @@ pub struct Traced {
     pub states: Vec<Folded>,
     /// Turning points: which quantity of [`TURNING`], and where.
     pub turning_points: Vec<(usize, Folded)>,
+    /// Arc length where faces first pass through each other; `None` where that does not happen or was not asked.
+    pub first_self_intersection: Option<f64>,
     /// Corrections made.
     pub corrections: usize,
 }
@@ -97,16 +108,17 @@ pub enum TraceError {
 }
 
 /// The closure of a sheet as a curve, with what is watched along it.
-struct Folding<'a> {
+struct Folding<'a, 'b> {
     closure: &'a Closure,
     embedding: &'a Embedding,
     /// Fold angles of all edges; those that do not fold stay.
     angles: Vec<f64>,
     periodic: bool,
     stop: Stop,
+    intersects: Option<Intersects<'b>>,
 }
 
-impl Folding<'_> {
+impl Folding<'_, '_> {
     /// All edges, from the numbers of the folding ones and what the others have.
     fn all(&self, folding: &[f64], others: &[f64]) -> Vec<f64> {
         let mut all = others.to_vec();
@@ -131,7 +143,7 @@ impl Folding<'_> {
     }
 }
 
-impl Curve for Folding<'_> {
+impl Curve for Folding<'_, '_> {
     fn unknowns(&self) -> usize {
         self.closure.folding_edges().len()
     }
@@ -146,13 +158,13 @@ impl Curve for Folding<'_> {
     }
 
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        if self.periodic {
-            let state = self.folded(point);
-            out.extend(self.rates(&state));
-            let curvature = state.shape.map_or(f64::NAN, |shape| shape.curvature.abs());
-            out.extend(self.stop.curvature.map(|most| curvature - most));
-        }
-        out.extend(self.stop.crease_angle.map(|(edge, angle)| self.all(&point.x, &self.angles)[edge] - angle));
+        let state = self.folded(point);
+        let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());
+        out.extend(if self.periodic { self.rates(&state) } else { [f64::NAN; 4] });
+        out.push(self.stop.curvature.map_or(f64::NAN, |most| curvature - most));
+        out.push(self.stop.crease_angle.map_or(f64::NAN, |(edge, angle)| state.angles[edge] - angle));
+        let crosses = self.intersects.as_mut().map(|intersects| intersects(&state));
+        out.push(crosses.map_or(f64::NAN, |crosses| if crosses { 1.0 } else { -1.0 }));
     }
 }
 
@@ -160,6 +172,7 @@ impl Curve for Folding<'_> {
 /// arc length, and returns false to stop.
 pub fn trace(
     question: &Question<'_>,
+    intersects: Option<Intersects<'_>>,
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Result<Vec<Traced>, TraceError> {
     let start = &question.start;
@@ -173,7 +186,8 @@ pub fn trace(
     let embedding = Embedding::new(start.sheet)?;
     let angles: Vec<f64> = start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
     let periodic = start.surroundings == Surroundings::Screw;
-    let mut folding = Folding { closure: &closure, embedding: &embedding, angles, periodic, stop: question.stop };
+    let mut folding =
+        Folding { closure: &closure, embedding: &embedding, angles, periodic, stop: question.stop, intersects };
     let wanted = rays.iter().filter(|ray| question.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
@@ -189,7 +203,7 @@ pub fn trace(
 
 /// The trajectory along one ray.
 fn along(
-    folding: &mut Folding<'_>,
+    folding: &mut Folding<'_, '_>,
     question: &Question<'_>,
     ray: &Ray,
     rays: &[Ray],
@@ -200,13 +214,14 @@ fn along(
     let of = |all: &[f64]| edges.iter().map(|&edge| all[edge]).collect::<Vec<f64>>();
     let drawn: Vec<f64> = question.start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
     folding.angles.clone_from(&drawn);
-    let first_stop = if folding.periodic { TURNING.len() } else { 0 };
+    let mut stops = vec![CURVATURE, CREASE_ANGLE];
+    stops.extend(question.stop.self_intersection.then_some(INTERSECTION));
     let options = Options {
         tolerance: question.tolerance,
         max_step: question.max_step,
         length: question.stop.arc_length.unwrap_or(f64::INFINITY),
         period: Some(TAU),
-        stops: (first_stop..first_stop + 2).collect(),
+        stops,
         ..Options::default()
     };
     let found = follow(folding, of(&drawn), of(&ray.direction), &options, &mut |point| observe(branch, point));
@@ -215,15 +230,26 @@ fn along(
         End::Closed(back) => arrival(&back.arrival, rays, &of),
         _ => None,
     };
-    let turning = |event: &Event| (event.indicator, folding.folded(&event.point));
+    let first_self_intersection = match (&end, points.last(), crossing(&events)) {
+        (End::Stopped { indicator: INTERSECTION }, Some(last), None) => Some(last.arc_length),
+        (_, _, found) => found,
+    };
+    let turning = |event: &&Event| event.indicator < TURNING.len();
+    let turned = |event: &Event| (event.indicator, folding.folded(&event.point));
     Traced {
         branch,
         ends_at,
         corrections: points.iter().map(|point| point.corrections).sum(),
-        turning_points: events.iter().map(turning).collect(),
+        first_self_intersection,
+        turning_points: events.iter().filter(turning).map(turned).collect(),
         states: points.iter().map(|point| folding.folded(point)).collect(),
         end,
     }
+}
+
+/// Where faces first pass through each other.
+fn crossing(events: &[Event]) -> Option<f64> {
+    events.iter().find(|event| event.indicator == INTERSECTION).map(|event| event.point.arc_length)
 }
 
 /// The ray against which a trajectory arrives.

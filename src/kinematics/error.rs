@@ -38,7 +38,7 @@ pub enum KinematicsError {
     /// A mode was named by its curvatures, but the sheet has not just three modes.
     #[error(
         "curvatures name a mode only where there are 3 linear folding modes; this sheet has {modes} (a flat sheet has \
-         one more for each vertex). Name the mode by its rates: {{ rates = \"file.csv\" }}"
+         one more for each vertex, rigid polygons take some away)"
     )]
     NotThreeModes {
         /// Number of linear folding modes.
@@ -47,7 +47,7 @@ pub enum KinematicsError {
     /// A mode was named by its curvatures, but the three modes do not make all curvatures.
     #[error(
         "curvatures do not name a mode of this sheet: modes and curvature tensors are not one to one (condition number \
-         {condition:.1e}). Name the mode by its rates: {{ rates = \"file.csv\" }}"
+         {condition:.1e})"
     )]
     SingularCurvatures {
         /// Condition number of the map from modes to curvature tensors.

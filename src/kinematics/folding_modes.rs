@@ -44,19 +44,34 @@ pub struct FoldingModes {
 /// Three of them at a generic spatially periodic state, `Nv + 2` at a flat developable one. Fails for a finite sheet, for
 /// one with openings, and where the number of modes is not clear.
 pub fn folding_modes(sheet: &Sheet) -> Result<FoldingModes, KinematicsError> {
+    folding_modes_with_locked(sheet, &[])
+}
+
+/// The linear folding modes that leave the `locked` edges as they are: rigid polygons have their diagonals locked.
+///
+/// The rates of locked edges are zero. Fails as [`folding_modes`].
+pub fn folding_modes_with_locked(sheet: &Sheet, locked: &[usize]) -> Result<FoldingModes, KinematicsError> {
     let lattice = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
-    let closure = Closure::of_cell(sheet)?;
+    let closure = Closure::of_cell(sheet)?.with_locked(locked);
     match closure.unchecked_loops() {
         0 if sheet.holes.is_empty() => {}
         loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }),
     }
     let embedding = Embedding::new(sheet)?;
-    let NullSpace { basis, gap, .. } = null_space(&closure.jacobian(embedding.drawn_angles()))?;
+    let NullSpace { basis: folding, gap, .. } = null_space(&closure.jacobian(embedding.drawn_angles()))?;
+    let basis = with_zero_rates(sheet.edges.len(), closure.folding_edges(), &folding);
     let modes = basis.column_iter().map(|mode| lattice_rotations(&embedding, mode.as_slice()));
     let lattice_rotations = modes.collect::<Result<Vec<_>, _>>()?;
     let tensors = curvatures(&embedding, &lattice, &lattice_rotations);
     let curvatures = DenseMatrix::from_fn(3, tensors.len(), |row, mode| tensors[mode][row]);
     Ok(FoldingModes { basis, curvatures, lattice_rotations, gap })
+}
+
+/// Rates of all edges, zero for those that are not among `folding`.
+fn with_zero_rates(edges: usize, folding: &[usize], rates: &DenseMatrix) -> DenseMatrix {
+    let mut all = DenseMatrix::zeros(edges, rates.ncols());
+    folding.iter().enumerate().for_each(|(row, &edge)| all.set_row(edge, &rates.row(row)));
+    all
 }
 
 impl FoldingModes {
@@ -208,6 +223,49 @@ mod tests {
             let curvature = &modes.curvatures * (modes.basis.transpose() * rates);
             assert!((curvature - DVector::from_row_slice(&name)).amax() <= 1e-12);
         }
+    }
+
+    /// Edges that are drawn flat: in [`miura`] the diagonals of its parallelograms.
+    fn flat_edges(sheet: &Sheet) -> Vec<usize> {
+        let angles = drawn_fold_angles(sheet);
+        (0..angles.len()).filter(|&edge| angles[edge].abs() < 1e-9).collect()
+    }
+
+    /// Claim: with rigid parallelograms Miura-ori has one mode (M. Schenk, S. D. Guest, PNAS 110, 3276 (2013)). Its two fold
+    /// angles obey `tan(a/2) = cos(sector) tan(b/2)`, so that `a' sin(b) = b' sin(a)`; it stays periodic: nothing turns from
+    /// a cell to the next, and the mode has no name. Tolerance: rounding.
+    #[test]
+    fn rigid_parallelograms_leave_miura_ori_one_mode() {
+        let sheet = miura();
+        let (diagonals, angles) = (flat_edges(&sheet), drawn_fold_angles(&sheet));
+        assert_eq!(diagonals.len(), 4);
+        let modes = folding_modes_with_locked(&sheet, &diagonals).unwrap();
+        assert_eq!(modes.count(), 1);
+        let rates = modes.basis.column(0);
+        assert!(diagonals.iter().all(|&edge| rates[edge] == 0.0));
+        let creases = (0..rates.len()).filter(|edge| !diagonals.contains(edge));
+        let ratios: Vec<f64> = creases.map(|edge| rates[edge] / angles[edge].sin()).collect();
+        assert!(ratios.iter().all(|ratio| (ratio - ratios[0]).abs() <= 1e-12 * ratios[0].abs()), "{ratios:?}");
+        assert!(modes.lattice_rotations[0].iter().all(|omega| omega.norm() <= 1e-12));
+        assert_eq!(modes.named([1.0, 0.0, 0.0]).unwrap_err(), KinematicsError::NotThreeModes { modes: 1 });
+    }
+
+    /// Claim: locking is a condition on the modes: those of the locked sheet are those of the free one that leave the locked
+    /// edges alone. A flat cell of 4 vertices has 6 modes; three locks leave three, which name all curvatures, and the
+    /// named mode is one of the free sheet. Source: the free modes and linear algebra. Tolerance: rounding.
+    #[test]
+    fn locked_modes_are_free_modes() {
+        let sheet = open_flat();
+        let (free, locked) = (folding_modes(&sheet).unwrap(), [1, 4, 8]);
+        let modes = folding_modes_with_locked(&sheet, &locked).unwrap();
+        let conditions = free.basis.select_rows(&locked);
+        let kept = &free.basis * null_space(&conditions).unwrap().basis;
+        assert_eq!((free.count(), modes.count(), kept.ncols()), (6, 3, 3));
+        assert!((&kept * kept.transpose() - &modes.basis * modes.basis.transpose()).amax() <= 1e-12);
+        let rates = modes.named([0.3, -0.2, 0.9]).unwrap();
+        let amplitudes = free.basis.transpose() * DVector::from_column_slice(&rates);
+        assert!(locked.iter().all(|&edge| rates[edge] == 0.0) && rates.iter().any(|rate| rate.abs() > 0.1));
+        assert!((&free.curvatures * amplitudes - DVector::from_row_slice(&[0.3, -0.2, 0.9])).amax() <= 1e-10);
     }
 
     /// Claim: names do not know which side one looks from. Turning the sheet over (faces listed the other way round) turns

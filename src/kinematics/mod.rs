@@ -22,7 +22,7 @@ pub use closure::{Closure, HingedEdge, drawn_fold_angles};
 pub use displacement::Displacement;
 pub use embedding::{Compatibility, Embedding, Placement};
 pub use error::KinematicsError;
-pub use folding_modes::{FoldingModes, folding_modes};
+pub use folding_modes::{FoldingModes, folding_modes, folding_modes_with_locked};
 pub use motion::{Motion, Moving, Rigid, Twist};
 pub use rays::{Ray, Rays};
 pub use screw::{Screw, ScrewRate};

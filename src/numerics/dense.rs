@@ -3,6 +3,7 @@
 //! Matrices come and go as [`DenseMatrix`]; everything runs on the calling thread.
 
 use super::DenseMatrix;
+use super::sparse::{FIXED, Rows};
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
@@ -120,6 +121,18 @@ pub struct LeastSquares {
     pub residual: DenseMatrix,
     /// The rank that was used.
     pub rank: Rank,
+}
+
+/// A dense copy of sparse rows, of `columns` columns; entries of the same unknown in a row are added.
+pub fn from_rows(rows: &Rows<'_>, columns: usize) -> DenseMatrix {
+    let mut matrix = DenseMatrix::zeros(rows.cliques.len(), columns);
+    for row in 0..rows.cliques.len() {
+        let values = &rows.values[rows.cliques.range(row)];
+        for (&member, value) in rows.cliques.members(row).iter().zip(values).filter(|(member, _)| **member != FIXED) {
+            matrix[(row, member as usize)] += value;
+        }
+    }
+    matrix
 }
 
 /// Singular values of a matrix, descending. Fails on an entry that is not finite.

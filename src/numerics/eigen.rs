@@ -1,14 +1,30 @@
 //! A few extreme eigenpairs of a symmetric operator, by faer's restarted Lanczos iteration.
+//!
+//! The iteration has no way out before its end. A product that asks to stop leaves it by unwinding, as a panic does but
+//! without a message; where a program is built with `panic = "abort"` stopping ends the program.
 
 use super::factor::FactorError;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::matrix_free::LinOp;
 use faer::matrix_free::eigen::{PartialEigenParams, partial_self_adjoint_eigen, partial_self_adjoint_eigen_scratch};
 use faer::{Col, Mat, MatMut, MatRef, Par};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Mutex;
+use thiserror::Error;
 
 /// Relative accuracy that is asked of every eigenpair.
 const TOLERANCE: f64 = 1e-13;
+
+/// Why there are no eigenpairs.
+#[derive(Debug, Error, Clone, Copy, PartialEq)]
+pub enum EigenError {
+    /// The iteration did not find them all, or its memory is too large.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+    /// The operator asked to stop.
+    #[error("stopped on request")]
+    Stopped,
+}
 
 /// A symmetric operator given by its product with a vector.
 struct Operator<F> {
@@ -22,7 +38,7 @@ impl<F> std::fmt::Debug for Operator<F> {
     }
 }
 
-impl<F: FnMut(&[f64]) -> Vec<f64> + Send> LinOp<f64> for Operator<F> {
+impl<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send> LinOp<f64> for Operator<F> {
     fn apply_scratch(&self, _columns: usize, _par: Par) -> StackReq {
         StackReq::EMPTY
     }
@@ -39,7 +55,8 @@ impl<F: FnMut(&[f64]) -> Vec<f64> + Send> LinOp<f64> for Operator<F> {
         let mut product = self.product.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         for column in 0..right.ncols() {
             let x: Vec<f64> = (0..self.size).map(|row| right[(row, column)]).collect();
-            for (row, value) in product(&x).into_iter().enumerate() {
+            let found = product(&x).unwrap_or_else(|| resume_unwind(Box::new(EigenError::Stopped)));
+            for (row, value) in found.into_iter().enumerate() {
                 // the iteration inside never ends on a value that is not finite
                 out[(row, column)] = if value.is_finite() { value } else { 0.0 };
             }
@@ -53,30 +70,29 @@ impl<F: FnMut(&[f64]) -> Vec<f64> + Send> LinOp<f64> for Operator<F> {
 
 /// The `count` eigenvalues of largest magnitude of a symmetric operator, descending, with their vectors.
 ///
-/// Fails where the iteration does not find them all.
-pub fn largest<F: FnMut(&[f64]) -> Vec<f64> + Send>(
+/// A `product` of `None` stops. Fails then, and where the iteration does not find them all.
+pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     size: usize,
     count: usize,
     product: F,
-) -> Result<(Vec<f64>, Vec<Vec<f64>>), FactorError> {
+) -> Result<(Vec<f64>, Vec<Vec<f64>>), EigenError> {
     let operator = Operator { size, product: Mutex::new(product) };
     let params = PartialEigenParams { min_dim: 2 * count + 32, max_dim: 4 * count + 64, ..Default::default() };
     let scratch = partial_self_adjoint_eigen_scratch(&operator, count, Par::Seq, params);
     let mut memory = MemBuffer::try_new(scratch).map_err(|_| FactorError::TooLarge { size })?;
     let (mut values, mut vectors) = (vec![0.0; count], Mat::<f64>::zeros(size, count));
     let start = Col::<f64>::from_fn(size, |k| 1.0 + ((k as f64) * 0.618_033_988_75).fract());
-    let found = partial_self_adjoint_eigen(
-        vectors.as_mut(),
-        &mut values,
-        &operator,
-        start.as_ref(),
-        TOLERANCE,
-        Par::Seq,
-        MemStack::new(&mut memory),
-        params,
-    );
-    if found.n_converged_eigen < count {
-        return Err(FactorError::Eigenpairs { wanted: count, found: found.n_converged_eigen });
+    let iterate = AssertUnwindSafe(|| {
+        let (vectors, stack) = (vectors.as_mut(), MemStack::new(&mut memory));
+        partial_self_adjoint_eigen(vectors, &mut values, &operator, start.as_ref(), TOLERANCE, Par::Seq, stack, params)
+    });
+    let found = match catch_unwind(iterate) {
+        Ok(found) => found.n_converged_eigen,
+        Err(reason) if reason.is::<EigenError>() => return Err(EigenError::Stopped),
+        Err(panic) => resume_unwind(panic),
+    };
+    if found < count {
+        return Err(FactorError::Eigenpairs { wanted: count, found }.into());
     }
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));

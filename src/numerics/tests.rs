@@ -141,13 +141,29 @@ fn largest_eigenvalues() {
     let Sample { dense, .. } = sample(120, 21, 0.0);
     let square = &dense * &dense;
     let (values, vectors) =
-        eigen::largest(120, 6, |x| (&square * nalgebra::DVector::from_column_slice(x)).as_slice().to_vec()).unwrap();
+        eigen::largest(120, 6, |x| Some((&square * nalgebra::DVector::from_column_slice(x)).as_slice().to_vec()))
+            .unwrap();
     let expected = symmetric_eigenvalues(&square).unwrap();
     for (k, (value, vector)) in values.iter().zip(&vectors).enumerate() {
         assert!((value - expected[119 - k]).abs() < 1e-11 * expected[119], "{k}");
         let v = nalgebra::DVector::from_column_slice(vector);
         assert!((&square * &v - *value * &v).norm() < 1e-9 * expected[119] * v.norm());
     }
+}
+
+/// Claim: an operator that asks to stop is not asked again, at its first product or at a later one; other panics pass.
+#[test]
+fn eigenpairs_can_be_stopped() {
+    for stop in [1, 2, 40] {
+        let mut products = 0;
+        let found = eigen::largest(120, 6, |x| {
+            products += 1;
+            (products < stop).then(|| x.iter().enumerate().map(|(k, x)| k as f64 * x).collect())
+        });
+        assert_eq!((found, products), (Err(eigen::EigenError::Stopped), stop));
+    }
+    let broken = std::panic::catch_unwind(|| eigen::largest(120, 6, |_| std::panic::resume_unwind(Box::new(7))));
+    assert_eq!(broken.unwrap_err().downcast_ref(), Some(&7));
 }
 
 /// Claim: results arrive in order, each once, above and below the size at which threads are used.

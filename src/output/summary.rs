@@ -78,6 +78,8 @@ pub enum StudyResult {
     Modes(ModesSummary),
     /// `kind = "branches"`.
     Branches(BranchesSummary),
+    /// Of `trace`.
+    Trace(TraceSummary),
 }
 
 /// Energy by terms; `None`: the term is not there.
@@ -152,6 +154,69 @@ pub struct ModesSummary {
     pub gap: Option<f64>,
     /// Lowest eigenvalues of the energy's Hessian, ascending.
     pub eigenvalues: Vec<f64>,
+}
+
+/// The trajectories of a study.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TraceSummary {
+    /// One for each ray that was followed; where no ray is real, the one entry that says so.
+    pub branches: Vec<TrajectorySummary>,
+}
+
+/// A trajectory along one ray.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct TrajectorySummary {
+    /// Number of the branch.
+    pub branch: Option<usize>,
+    /// Which way along it, +1 or -1.
+    pub sign: Option<i8>,
+    /// Whether the fold angles come back to the start modulo 2 pi.
+    pub closed: bool,
+    /// Length in fold angles.
+    pub arc_length: f64,
+    /// Accepted steps.
+    pub steps: usize,
+    /// Corrections of all steps.
+    pub iterations: usize,
+    /// Largest closure residual.
+    pub max_residual: f64,
+    /// The ray along which it comes back.
+    pub ends_at: Option<RayName>,
+    /// closed, stop, failed or no-real-branch.
+    pub end: String,
+    /// Where faces first pass through each other.
+    pub first_self_intersection: Option<ArcLength>,
+    /// Largest difference of a fold angle to the energy's.
+    pub error_to_kinematic: Option<f64>,
+    /// Where curvature and strains turn.
+    pub turning_points: Vec<TurningPoint>,
+}
+
+/// A ray by its branch and sign.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RayName {
+    /// Number of the branch.
+    pub branch: usize,
+    /// +1 or -1.
+    pub sign: i8,
+}
+
+/// A place on a trajectory.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ArcLength {
+    /// Arc length in fold angles.
+    pub arc_length: f64,
+}
+
+/// An extremum of a quantity along a trajectory.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TurningPoint {
+    /// Which quantity.
+    pub of: String,
+    /// Arc length in fold angles.
+    pub arc_length: f64,
+    /// Its value there.
+    pub value: f64,
 }
 
 /// The branches along which exact folding leaves the drawn state.

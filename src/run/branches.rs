@@ -1,7 +1,7 @@
 //! `kind = "branches"`: asks the analysis, writes a table with a row for each ray, summarises.
 
-use super::RunError;
 use super::runner::Runner;
+use super::{Progress, RunError};
 use crate::analysis::branches::{Branches, Question, branches as find_branches};
 use crate::model::assemble::{Surroundings, drawn_angles};
 use crate::output::summary::{BranchesSummary, RaySummary, StudyResult, StudySummary};
@@ -35,7 +35,7 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), R
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary, RunError> {
     let built = runner.built;
-    runner.watch(&study.name.0, 0, None, f64::NAN);
+    runner.watch(&Progress { study: study.name.0.clone(), step: 0, of: None, residual: f64::NAN, target: None });
     let clock = Instant::now();
     let found = find_branches(&Question {
         sheet: &built.sheet,

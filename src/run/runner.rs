@@ -1,7 +1,7 @@
 //! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
 
 use super::resume::{Earlier, Kept, write_state};
-use super::{Observer, Progress, RunError, RunOptions, RunReport, branches, studies};
+use super::{Observer, Progress, RunError, RunOptions, RunReport, branches, studies, trace};
 use crate::analysis::view::View;
 use crate::numerics::parallel;
 use crate::output::files;
@@ -10,9 +10,9 @@ use crate::scene::build::Built;
 use crate::scene::spec::{StudyKind, StudySpec};
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
-use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// One run.
 pub struct Runner<'a> {
@@ -28,7 +28,7 @@ pub struct Runner<'a> {
     kept: Vec<String>,
     summary: Summary,
     observer: Observer<'a>,
-    interrupted: Cell<bool>,
+    interrupted: AtomicBool,
 }
 
 impl<'a> Runner<'a> {
@@ -52,7 +52,7 @@ impl<'a> Runner<'a> {
         let digest = digest(file)?;
         let earlier = if options.resume { Earlier::read(&out, &digest) } else { Earlier::default() };
         let summary = summary(file, built, digest);
-        let (states, kept, interrupted) = (HashMap::new(), Vec::new(), Cell::new(false));
+        let (states, kept, interrupted) = (HashMap::new(), Vec::new(), AtomicBool::new(false));
         let mut runner = Self { file, built, view, out, states, kept, summary, observer, interrupted };
         runner.keep(&earlier)?;
         Ok(runner)
@@ -81,6 +81,7 @@ impl<'a> Runner<'a> {
             StudyKind::Relax(spec) => studies::relax(self, study, spec)?,
             StudyKind::Modes(spec) => studies::modes(self, study, spec)?,
             StudyKind::Branches(_) => branches::study(self, study)?,
+            StudyKind::Trace(spec) => trace::study(self, study, spec)?,
             _ => return Err(studies::not_available(self.file, study)),
         };
         self.push(found)
@@ -110,15 +111,15 @@ impl<'a> Runner<'a> {
     }
 
     /// Tells the observer of a step; false: stop.
-    pub fn watch(&self, study: &str, step: usize, of: Option<usize>, residual: f64) -> bool {
-        let go_on = (self.observer)(&Progress { study: study.to_owned(), step, of, residual }).is_continue();
-        self.interrupted.set(self.interrupted.get() || !go_on);
+    pub fn watch(&self, progress: &Progress) -> bool {
+        let go_on = (self.observer)(progress).is_continue();
+        self.interrupted.fetch_or(!go_on, Ordering::Relaxed);
         go_on
     }
 
     /// Whether the observer asked to stop.
     pub fn interrupted(&self) -> bool {
-        self.interrupted.get()
+        self.interrupted.load(Ordering::Relaxed)
     }
 
     /// File of a study in the folder.
@@ -128,7 +129,8 @@ impl<'a> Runner<'a> {
 
     /// Ends the run.
     pub fn finish(self) -> Result<RunReport, RunError> {
-        Ok(RunReport { summary: self.summary, out: self.out, kept: self.kept, interrupted: self.interrupted.get() })
+        let interrupted = self.interrupted();
+        Ok(RunReport { summary: self.summary, out: self.out, kept: self.kept, interrupted })
     }
 }
 

@@ -3,10 +3,11 @@
 use super::draw::{self, Shown};
 use super::resume::Kept;
 use super::runner::Runner;
-use super::{RunError, branches};
+use super::{Progress, RunError, branches, trace};
+use crate::analysis;
 use crate::analysis::intersections::LYING;
-use crate::analysis::modes::{Modes, Question, modes as find_modes};
-use crate::analysis::relax::{RelaxError, Relaxed, relax as find_equilibrium};
+use crate::analysis::modes::{Modes, Question};
+use crate::analysis::relax::{RelaxError, Relaxed};
 use crate::analysis::state::State;
 use crate::analysis::view::View;
 use crate::model::assemble::assemble;
@@ -36,6 +37,7 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
         },
         StudyKind::Modes(_) => Ok(()),
         StudyKind::Branches(_) => branches::check(file, built, study),
+        StudyKind::Trace(spec) => trace::check(file, built, study, spec),
         _ => Err(not_available(file, study)),
     }
 }
@@ -43,7 +45,7 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
 /// The refusal of a kind of study that a later version does.
 pub fn not_available(file: &SceneFile, study: &StudySpec) -> RunError {
     let message = format!("studies of kind `{}` are not available in this version", study.kind.name());
-    file.error_at(study.kind.span(), message, "the kinds here are `relax`, `modes` and `branches`").into()
+    file.error_at(study.kind.span(), message, "the kinds here are `relax`, `modes`, `branches` and `trace`").into()
 }
 
 /// `kind = "relax"`.
@@ -57,11 +59,8 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
     if let Some(tolerance) = &spec.tolerance {
         options.tolerance = tolerance.0;
     }
-    let (clock, mut step) = (Instant::now(), 0);
-    let found = find_equilibrium(&mut model, x, options, edges, &mut |last: &Step| {
-        step += 1;
-        runner.watch(&study.name.0, step, None, last.residual_force.max(last.residual_length))
-    });
+    let clock = Instant::now();
+    let found = analysis::relax::relax(&mut model, x, options, edges, &mut watcher(runner, study, options.tolerance));
     let seconds = clock.elapsed().as_secs_f64();
     match found {
         Ok(relaxed) => {
@@ -76,6 +75,18 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
             write_states(runner, study, [&first, &error.state], residuals)?;
             Ok(failed_summary(built, study, seconds, &error))
         }
+    }
+}
+
+/// Shows the steps of a relaxation. A second start begins a continuation, the end of which nobody can tell.
+fn watcher(runner: &Runner<'_>, study: &StudySpec, tolerance: f64) -> impl FnMut(&Step) -> bool {
+    let (mut step, mut starts) = (0, 0);
+    move |last| {
+        step += 1;
+        starts += usize::from(last.fraction == 0.0);
+        let residual = last.residual_force.max(last.residual_length);
+        let target = (starts == 1).then_some(tolerance);
+        runner.watch(&Progress { study: study.name.0.clone(), step, of: None, residual, target })
     }
 }
 
@@ -229,14 +240,17 @@ fn history(steps: &[Step]) -> Vec<IterationSummary> {
 /// `kind = "modes"`.
 pub fn modes(runner: &mut Runner<'_>, study: &StudySpec, spec: &ModesSpec) -> Result<StudySummary, RunError> {
     let built = runner.built;
-    runner.watch(&study.name.0, 0, None, f64::NAN);
-    let clock = Instant::now();
-    let found = find_modes(&Question {
+    let question = Question {
         sheet: &built.sheet,
         tiling: &built.tiling,
         surroundings: built.surroundings,
         recipe: &built.recipe,
         eigenvalues: spec.eigenvalues.as_ref().map_or(0, |n| **n),
+    };
+    let (clock, mut step, observed) = (Instant::now(), 0, &*runner);
+    let found = analysis::modes::modes(&question, &mut || {
+        step += 1;
+        observed.watch(&Progress { study: study.name.0.clone(), step, of: None, residual: f64::NAN, target: None })
     });
     let seconds = clock.elapsed().as_secs_f64();
     let mut summary = StudySummary {

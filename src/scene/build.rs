@@ -7,7 +7,7 @@ use super::spec::{Domain, Lattice};
 use super::values::{CellIndex, EdgeName};
 use super::{Located, SceneError, SceneFile};
 use crate::analysis::axis::drawn_for;
-use crate::kinematics::folding_modes::folding_modes;
+use crate::kinematics::folding_modes_with_locked;
 use crate::math::Vec3;
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, drawn_angles};
 use crate::sheet::{EdgeKey, EdgeKind, Sheet, Tiling, fold, generate, tile};
@@ -114,7 +114,7 @@ impl Builder<'_> {
             Some(spec) => Some(Hinges { stiffness: spec.stiffness.0, rest: self.rest(spec.rest.as_ref())? }),
             None => None,
         };
-        let stiffness = energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0);
+        let stiffness = self.facet_stiffness();
         let has_facets = self.tiling.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
         let facets = has_facets.then(|| Hinges { stiffness, rest: self.angles.clone() });
         let recipe = Recipe {
@@ -127,6 +127,18 @@ impl Builder<'_> {
         };
         self.balance(&recipe)?;
         Ok(recipe)
+    }
+
+    /// Left out, polygons are rigid.
+    fn facet_stiffness(&self) -> f64 {
+        self.file.scene.energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0)
+    }
+
+    /// Diagonals of the cell's polygons where these are rigid.
+    fn rigid_facets(&self) -> Vec<usize> {
+        let rigid = self.facet_stiffness().is_infinite();
+        let edges = &self.sheet.edges;
+        (0..edges.len()).filter(|&edge| rigid && edges[edge].kind == EdgeKind::Facet).collect()
     }
 
     /// Rest angle of every edge of the tiling.
@@ -152,7 +164,8 @@ impl Builder<'_> {
                 self.table(&path, &read_rates(&path)?, EdgeKind::Crease, name.rates.span())?
             }
             Mode::Curvature(curvature) => {
-                let mode = folding_modes(self.sheet).and_then(|modes| modes.named(*curvature));
+                let modes = folding_modes_with_locked(self.sheet, &self.rigid_facets());
+                let mode = modes.and_then(|modes| modes.named(*curvature));
                 let help = "name the mode by its rates: { rates = \"file.csv\" }";
                 let mode = mode.map_err(|e| self.file.error_at(rest.mode.span(), e.to_string(), help))?;
                 self.tiling.edges.iter().map(|edge| mode[edge.edge]).collect()

@@ -5,8 +5,7 @@ use foldwell::analysis::modes::{Modes, ModesError, Question, modes};
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax};
 use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
 use foldwell::model::{Gauge, Model};
-use foldwell::numerics::DenseMatrix;
-use foldwell::numerics::sparse::FIXED;
+use foldwell::numerics::{DenseMatrix, dense};
 use foldwell::sheet::{EdgeKind, Sheet, Tiling, fold, tile};
 use foldwell::solver::{Curvature, Linearization, Options, Problem};
 use rand::{RngExt, SeedableRng};
@@ -94,7 +93,7 @@ impl Case {
 
     pub fn modes(&self, recipe: &Recipe, eigenvalues: usize) -> Result<Modes, ModesError> {
         let (sheet, tiling, surroundings) = (&self.sheet, &self.tiling, self.surroundings);
-        modes(&Question { sheet, tiling, surroundings, recipe, eigenvalues })
+        modes(&Question { sheet, tiling, surroundings, recipe, eigenvalues }, &mut || true)
     }
 
     /// Relaxes from the drawn state.
@@ -113,15 +112,7 @@ pub fn linearized(model: &Model, x: &[f64], tension: &[f64]) -> Linearization {
 
 /// Jacobian of the stiff measures.
 pub fn jacobian(model: &Model, at: &Linearization) -> DenseMatrix {
-    let (layout, mut matrix) = (model.layout(), DenseMatrix::zeros(at.gaps.len(), model.layout().unknowns));
-    for row in 0..at.gaps.len() {
-        for (&member, value) in layout.stiff.members(row).iter().zip(&at.jacobian[layout.stiff.range(row)]) {
-            if member != FIXED {
-                matrix[(row, member as usize)] += value;
-            }
-        }
-    }
-    matrix
+    dense::from_rows(&at.rows(model.layout()), model.layout().unknowns)
 }
 
 /// Hessian of the whole energy, `H + R^T k R`, at a state without tensions. All stiffnesses must be finite.

@@ -4,9 +4,8 @@ use super::Numbers;
 use crate::math::Vec3;
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
-use crate::numerics::DenseMatrix;
+use crate::numerics::dense;
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
-use crate::numerics::sparse::FIXED;
 use crate::sheet::generate::{Miura, MiuraPatch, Pattern};
 use crate::sheet::{EdgeKind, Tiling, generate, tile};
 use crate::solver::{Curvature, Linearization, Problem};
@@ -46,18 +45,6 @@ fn linearized(model: &Model, x: &[f64], tension: &[f64], curvature: Curvature) -
     at
 }
 
-fn dense_rows(model: &Model, at: &Linearization) -> DenseMatrix {
-    let (layout, mut matrix) = (model.layout(), DenseMatrix::zeros(at.gaps.len(), model.layout().unknowns));
-    for row in 0..at.gaps.len() {
-        for (&member, value) in layout.stiff.members(row).iter().zip(&at.jacobian[layout.stiff.range(row)]) {
-            if member != FIXED {
-                matrix[(row, member as usize)] += value;
-            }
-        }
-    }
-    matrix
-}
-
 fn check(model: &Model, numbers: &mut Numbers, what: &str) {
     let x: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.05)).collect();
     let rows = model.layout().stiff.len();
@@ -68,7 +55,7 @@ fn check(model: &Model, numbers: &mut Numbers, what: &str) {
     check_gradient(energy, &x, &at.gradient, TOLERANCE).unwrap_or_else(|e| panic!("{what}, gradient: {e}"));
     let gaps = |x: &[f64]| model.gaps(x);
     assert_eq!(at.gaps, gaps(&x), "{what}: two functions, one gap");
-    let jacobian = dense_rows(model, &at);
+    let jacobian = dense::from_rows(&at.rows(model.layout()), model.layout().unknowns);
     check_jacobian(gaps, &x, &jacobian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Jacobian: {e}"));
     let pull = |x: &[f64]| {
         let at = linearized(model, x, &tension, Curvature::Full);

@@ -1,0 +1,41 @@
+//! The coordinates of the model in which an exactly folded state stands.
+//!
+//! Of a screw-periodic state (see [`crate::model::domain`]): x along the axis, z from vertex 0 to the axis where the
+//! curvature is positive and away from it where it is negative, vertex 0 at the origin; then `kappa, b1, b2, h1, h2`.
+
+use super::trace::Folded;
+use crate::kinematics::Shape;
+use crate::math::Vec3;
+
+/// Below this rotation angle `b` comes from the chord, above it from the angle; both are exact there.
+const SMALL_TURN: f64 = 1.0;
+
+/// Coordinates of all vertices, and of the screw where the state has a lattice.
+pub fn coordinates(state: &Folded) -> Vec<f64> {
+    match &state.shape {
+        Some(shape) => screw_coordinates(shape),
+        None => state.positions.iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
+    }
+}
+
+fn screw_coordinates(shape: &Shape) -> Vec<f64> {
+    let (chords, towards) = (shape.screw.chords, shape.screw.towards_axis());
+    let x = shape.screw.axis.unwrap_or_else(|| chords[0].normalize());
+    let z = if towards.norm() > 0.0 {
+        (towards * shape.curvature.signum()).normalize()
+    } else {
+        chords[0].cross(&chords[1]).normalize()
+    };
+    let y = z.cross(&x);
+    let origin = shape.positions[0];
+    let mut coordinates: Vec<f64> =
+        shape.positions.iter().flat_map(|p| [x, y, z].map(|axis: Vec3| axis.dot(&(p - origin)))).collect();
+    let step = |k: usize| {
+        let theta = shape.theta[k];
+        let sinc = if theta == 0.0 { 1.0 } else { theta.sin() / theta };
+        if theta.abs() < SMALL_TURN { chords[k].dot(&y) / sinc } else { theta / shape.curvature }
+    };
+    coordinates.push(shape.curvature);
+    coordinates.extend([step(0), step(1), chords[0].dot(&x), chords[1].dot(&x)]);
+    coordinates
+}
