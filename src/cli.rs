@@ -244,6 +244,10 @@ fn describe_study(study: &StudySummary) -> String {
             "{} real rays, {} complex solutions of {}",
             branches.real_rays, branches.complex_solutions, branches.expected
         ),
+        Some(StudyResult::Trace(traced)) => {
+            let ends = traced.branches.iter().map(|one| format!("{} at {:.6}", one.end, one.arc_length));
+            ends.collect::<Vec<_>>().join(", ")
+        }
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();
