@@ -368,8 +368,21 @@ fn studies_that_cannot_be_done() {
     let cases = [
         (scene("", "kind = \"relax\""), "scene.toml:7:8: there is no energy to relax"),
         (
+            scene(creases, "kind = \"surface\""),
+            "scene.toml:7:8: studies of kind `surface` are not available in this version",
+        ),
+        (
             scene(creases, "kind = \"trace\""),
-            "scene.toml:7:8: studies of kind `trace` are not available in this version",
+            "scene.toml:7:8: trajectories of a patch of a periodic sheet are not known",
+        ),
+        (
+            scene("", "kind = \"trace\"\nengine = \"both\"").replace("[energy]", "domain = \"screw\""),
+            "scene.toml:7:8: this version follows trajectories with the kinematic engine only",
+        ),
+        (
+            scene("", "kind = \"trace\"\nstop = { crease_angle = { crease = [0, 1, 7, 0], angle = 1 } }")
+                .replace("[energy]", "domain = \"screw\""),
+            "the sheet has no crease [0, 1, 7, 0]",
         ),
         (
             scene(creases, "kind = \"bloch\""),
