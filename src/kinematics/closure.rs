@@ -214,7 +214,7 @@ impl Closure {
             });
             let defect = rotation::log(&product);
             residual[3 * row..3 * row + 3].copy_from_slice(defect.as_slice());
-            round.into_chart(&rotation::inverse_left_jacobian(&defect), row, jacobian);
+            round.put_into_chart(&rotation::inverse_left_jacobian(&defect), row, jacobian);
         }
     }
 
@@ -256,7 +256,7 @@ impl Round {
     }
 
     /// Columns hold directions of edges: makes them rates of the rotation vector, each column once.
-    fn into_chart(&self, chart: &Matrix3<f64>, row: usize, jacobian: &mut DenseMatrix) {
+    fn put_into_chart(&self, chart: &Matrix3<f64>, row: usize, jacobian: &mut DenseMatrix) {
         for (number, spoke) in self.spokes.iter().enumerate() {
             let Some(column) = spoke.column else { continue };
             if self.spokes[..number].iter().all(|earlier| earlier.edge != spoke.edge) {

@@ -10,6 +10,9 @@ use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 use std::collections::{HashMap, VecDeque};
 
+/// Fold angles, curvature, rotation angles and strain.
+pub type Cylinder = (Vec<f64>, f64, Vec<f64>, Vec<f64>);
+
 /// Numbers of [-1, 1).
 pub fn random_numbers(seed: u64, count: usize) -> Vec<f64> {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
@@ -152,8 +155,8 @@ impl Reference {
         sheet.edges.iter().map(find).collect()
     }
 
-    /// Folded cylinders: fold angles, curvature, rotation angles and strain.
-    pub fn states(&self, sheet: &Sheet) -> Vec<(Vec<f64>, f64, Vec<f64>, Vec<f64>)> {
+    /// Folded cylinders.
+    pub fn states(&self, sheet: &Sheet) -> Vec<Cylinder> {
         let read = |state: &Value| {
             let kappa = state["kappa"].as_f64().unwrap();
             let angles = self.in_sheet_order(sheet, &floats(&state["fold_angles"]));

@@ -84,10 +84,7 @@ impl FaceWalk {
         let steps = plan.steps;
         let cells: Vec<[i32; 2]> = plan.cells.into_iter().collect::<Option<_>>().ok_or_else(disconnected)?;
         let shifts: Vec<[i32; 2]> = loops.iter().map(|closing| closing.cell).collect();
-        let words = match sheet.lattice {
-            Some(_) => Some([[1, 0], [0, 1]].map(|cell| word(&shifts, cell))),
-            None => None,
-        };
+        let words = sheet.lattice.map(|_| [[1, 0], [0, 1]].map(|cell| word(&shifts, cell)));
         let words = match words {
             Some([Some(first), Some(second)]) => Some([first, second]),
             Some(_) => return Err(disconnected()),
