@@ -1,6 +1,6 @@
 //! Which faces of a sheet pass through each other.
 //!
-//! A tree of boxes (`parry3d`) finds the pairs whose boxes meet, [`contact`] decides each pair exactly. Crossing is told
+//! A tree of boxes (`parry3d`) finds the pairs whose boxes meet, `contact` decides each pair exactly. Crossing is told
 //! apart from touching: a face touches its neighbours, and layers may lie on each other. Pairs with a common corner are
 //! decided like all others, and pairs with a common edge cannot cross (the module [`contact`](mod@contact) says why).
 //!
