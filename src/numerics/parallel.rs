@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Fewer elements than this are worked on by the calling thread (measured: `benches/solver.rs`).
+/// Fewer elements than this are worked on by the calling thread (measured: `cargo bench --bench iteration -- threads`).
 pub const LEAST: usize = 1024;
 const WAVE: usize = 4096;
 
