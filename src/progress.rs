@@ -1,8 +1,8 @@
 //! Progress on standard error, and Ctrl-C.
 //!
 //! Nothing is shown where standard error is no terminal, and nothing during the first second of a study. The time left
-//! is exact in no case: where the number of steps is known it is theirs, otherwise it is estimated from the decrease of the
-//! residual, and where nothing can be said there is a question mark.
+//! is always an estimate: from the number of steps where it is known, otherwise from the decrease of the residual; where
+//! nothing can be said there is a question mark.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -108,8 +108,8 @@ fn message(progress: &Progress, seen: &[(Duration, f64)]) -> String {
     text
 }
 
-/// Estimate of the time until the residual is at its target: the steps that are still expected, each as long as the last
-/// few. `None` where the last step made the residual no smaller, or the target is too far away to tell.
+/// Estimate of the time until the residual is at its target: the steps that are still expected, each as long as the
+/// last few. `None` where the last step made the residual no smaller, or the target is too far away to tell.
 fn time_left(seen: &[(Duration, f64)], target: f64) -> Option<Duration> {
     let recent = &seen[seen.len().saturating_sub(RECENT)..];
     let (first, last) = (recent.first()?, recent.last()?);
@@ -169,9 +169,9 @@ mod tests {
         residuals.iter().enumerate().map(|(k, residual)| (Duration::from_secs(2 * k as u64), *residual)).collect()
     }
 
-    /// Claim: the estimate is right where the convergence is what it is taken for. Linear, a decade a step, six decades to
-    /// go: six steps. Quadratic, 1e-1, 1e-2, 1e-4: then 1e-8 and 1e-16, two steps. From 1e-1 over 1e-2 to 1e-8 is more
-    /// than quadratic and taken for that: one step. Later steps decide: the first ones here took no part in it.
+    /// Claim: the estimate is right where the convergence is what it is taken for. Linear, a decade a step, six decades
+    /// to go: six steps. Quadratic, 1e-1, 1e-2, 1e-4: then 1e-8 and 1e-16, two steps. From 1e-1 over 1e-2 to 1e-8 is
+    /// more than quadratic and taken for that: one step. Only the last two gains decide.
     #[test]
     fn steps_are_extrapolated() {
         let left = |residuals: &[f64]| time_left(&steps(residuals), 1e-12).map(|left| left.as_secs_f64());

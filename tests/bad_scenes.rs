@@ -313,8 +313,9 @@ fn every_misfit_has_its_message() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// Claim: a mode that no curvature names says why: Miura-ori has one mode where its polygons are rigid, and three, of which
-/// the map to curvatures is singular, where they bend; a finite sheet has no lattice. What would be right is said once.
+/// Claim: a mode that no curvature names says why: Miura-ori has one mode where its polygons are rigid, and three, of
+/// which the map to curvatures is singular, where they bend; a finite sheet has no lattice. What would be right is said
+/// once.
 #[test]
 fn modes_that_no_curvature_names() {
     let folder = folder_of_misfits();

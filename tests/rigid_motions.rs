@@ -170,6 +170,31 @@ fn zeros_of_the_hessian_are_rigid_motions() {
     }
 }
 
+/// Claim: for minimisation just as many coordinates are held as there are rigid motions that nothing else prevents, and
+/// the Hessian at rest has no zero left: 6 on a patch, 3 beside a pinned vertex, none beside three; 3 on a torus with
+/// fixed lattice, 6 with free lattice. On a screw the chart holds vertex 0 itself.
+#[test]
+fn what_is_held_is_what_costs_nothing() {
+    let pinned = |vertices: &[usize]| vertices.iter().map(|v| (*v, [true; 3])).collect::<Vec<_>>();
+    for (surroundings, pins, expected) in [
+        (Surroundings::Patch, vec![], 6),
+        (Surroundings::Patch, pinned(&[5]), 3),
+        (Surroundings::Patch, pinned(&[0, 5, 10]), 0),
+        (Surroundings::FixedTorus, vec![], 3),
+        (Surroundings::FreeTorus, vec![], 6),
+    ] {
+        let case = Case::new(random_sheet(2), [2, 2], surroundings);
+        let recipe = Recipe { pins, ..case.recipe(1e3, 1.0, case.angles.clone()) };
+        let [free, held] = [Gauge::Free, Gauge::Held].map(|gauge| case.model(&recipe, gauge));
+        assert_eq!(free.layout().unknowns - held.layout().unknowns, expected, "{surroundings:?}");
+        let values = eigenvalues(energy_hessian(&held, &held.start()));
+        assert!(values[0] > 1e-7 * values[values.len() - 1], "{surroundings:?}: {:e}", values[0]);
+    }
+    let case = Case::new(random_sheet(2), [1, 1], Surroundings::Screw);
+    let held = case.model(&case.recipe(1e3, 1.0, case.angles.clone()), Gauge::Held);
+    assert_eq!(held.layout().unknowns, 3 * (case.sheet.vertices.len() - 1) + 5);
+}
+
 /// Claim: `[zero modes, self stresses, Maxwell count, rigid motions]` of the bars alone of generic random cells, with
 /// Nv = 4, 6 or 9 vertices and one or several cells: 3, 3, 0, 3 on a torus with fixed lattice; 6, 0, 6, 6 with free
 /// lattice; 2, 0, 2, 0 on a screw. (theory, sections 3 and 4; generic, hence random.)

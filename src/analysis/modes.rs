@@ -343,8 +343,8 @@ mod tests {
     use crate::sheet::generate::{Pattern, Random};
     use crate::sheet::{generate, tile};
 
-    /// Asks for modes of a patch of random cells and stops at the `stop`-th question; the answer, and how many questions
-    /// there were.
+    /// Asks for modes of a patch of random cells and stops at the `stop`-th question; the answer, and how many
+    /// questions there were.
     fn asked(cells: usize, eigenvalues: usize, stop: usize) -> (Result<Modes, ModesError>, usize) {
         let sheet = generate(&Pattern::Random(Random::default())).unwrap();
         let tiling = tile(&sheet, [cells; 2], false);
@@ -361,8 +361,8 @@ mod tests {
         (found, asked)
     }
 
-    /// Claim: modes can be stopped at every question, and nothing is asked, so nothing is begun, after that; on the dense
-    /// and on the sparse way, where a question comes before every product of the iteration: more of them than eigenvalues.
+    /// Claim: modes can be stopped at every question, and nothing is asked, so nothing is begun, after that; on the
+    /// dense and on the sparse way, where a question comes before every product: more of them than eigenvalues.
     #[test]
     fn modes_can_be_stopped() {
         for (cells, eigenvalues, least) in [(3, 4, 5), (11, 4, 8 + 1 + 4)] {

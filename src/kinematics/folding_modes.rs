@@ -231,9 +231,9 @@ mod tests {
         (0..angles.len()).filter(|&edge| angles[edge].abs() < 1e-9).collect()
     }
 
-    /// Claim: with rigid parallelograms Miura-ori has one mode (M. Schenk, S. D. Guest, PNAS 110, 3276 (2013)). Its two fold
-    /// angles obey `tan(a/2) = cos(sector) tan(b/2)`, so that `a' sin(b) = b' sin(a)`; it stays periodic: nothing turns from
-    /// a cell to the next, and the mode has no name. Tolerance: rounding.
+    /// Claim: with rigid parallelograms Miura-ori has one mode (M. Schenk, S. D. Guest, PNAS 110, 3276 (2013)). Its two
+    /// fold angles obey `tan(a/2) = cos(sector) tan(b/2)`, so that `a' sin(b) = b' sin(a)`; it stays periodic: nothing
+    /// turns from a cell to the next, and the mode has no name. Tolerance: rounding.
     #[test]
     fn rigid_parallelograms_leave_miura_ori_one_mode() {
         let sheet = miura();
@@ -250,9 +250,9 @@ mod tests {
         assert_eq!(modes.named([1.0, 0.0, 0.0]).unwrap_err(), KinematicsError::NotThreeModes { modes: 1 });
     }
 
-    /// Claim: locking is a condition on the modes: those of the locked sheet are those of the free one that leave the locked
-    /// edges alone. A flat cell of 4 vertices has 6 modes; three locks leave three, which name all curvatures, and the
-    /// named mode is one of the free sheet. Source: the free modes and linear algebra. Tolerance: rounding.
+    /// Claim: locking is a condition on the modes: those of the locked sheet are those of the free one that leave the
+    /// locked edges alone. A flat cell of 4 vertices has 6 modes; three locks leave three, which name all curvatures, and
+    /// the named mode is one of the free sheet. Source: the free modes and linear algebra. Tolerance: rounding.
     #[test]
     fn locked_modes_are_free_modes() {
         let sheet = open_flat();

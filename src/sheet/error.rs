@@ -159,8 +159,8 @@ pub enum Problem {
     },
     /// A lattice that spans no cell.
     #[error(
-        "the lattice vectors span an area of {area:e} with lengths {lengths:?}; they should be finite, between 1e-50 and \
-         1e50 long, and not parallel"
+        "the lattice vectors span an area of {area:e} with lengths {lengths:?}; they should be finite, between 1e-50 \
+         and 1e50 long, and not parallel"
     )]
     Lattice {
         /// Area of the parallelogram.
@@ -230,8 +230,8 @@ pub enum Problem {
     },
     /// A face without area.
     #[error(
-        "face {face} has a triangle {triangle:?} of area {area:e} with a side of {longest:e}; the area should be over 1e-12 of \
-         the side squared"
+        "face {face} has a triangle {triangle:?} of area {area:e} with a side of {longest:e}; the area should be over 1e-12 \
+         of the side squared"
     )]
     ZeroArea {
         /// The face.
@@ -269,7 +269,8 @@ pub enum Problem {
     },
     /// Two neighbours of opposite orientation.
     #[error(
-        "faces {faces:?} run along edge {edge} in the same direction; all faces should be counter-clockwise from one side"
+        "faces {faces:?} run along edge {edge} in the same direction; all faces should be counter-clockwise from one \
+         side"
     )]
     Orientation {
         /// The edge.
@@ -279,8 +280,8 @@ pub enum Problem {
     },
     /// An edge of one face in a periodic sheet.
     #[error(
-        "edge {edge} has only face {face}; with `foldwell:lattice` every edge should have two faces (is its copy missing or \
-         out of place?), or be on a rim listed in `foldwell:holes`"
+        "edge {edge} has only face {face}; with `foldwell:lattice` every edge should have two faces (is its copy missing \
+         or out of place?), or be on a rim listed in `foldwell:holes`"
     )]
     Unmatched {
         /// The edge.
@@ -359,8 +360,8 @@ pub enum Problem {
     },
     /// A fold angle that contradicts the coordinates.
     #[error(
-        "edge {edge} of the list, {ends}, has the fold angle {given} degrees, but the vertices draw {drawn} degrees (valley \
-         positive); give the drawn angle or null"
+        "edge {edge} of the list, {ends}, has the fold angle {given} degrees, but the vertices draw {drawn} degrees \
+         (valley positive); give the drawn angle or null"
     )]
     FoldAngle {
         /// Entry of `edges_vertices`.

@@ -2,6 +2,7 @@
 
 mod domains;
 mod measures;
+mod terms;
 mod whole;
 
 use rand::{RngExt, SeedableRng};

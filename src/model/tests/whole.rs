@@ -114,3 +114,35 @@ fn gauss_newton_is_exact_at_rest() {
     half.add_metric(model.layout(), 1.0, &mut metric);
     assert_eq!(metric, half.hessian);
 }
+
+/// Claim: gaps of bars are measured in the mean edge and gaps of hinges in radians; forces in that of the most loaded
+/// element, but no less than that of a hinge off by a milliradian, so that a sheet at rest has a unit too. Rest angles
+/// off by the same angle everywhere: below a milliradian the unit does not change, at 0.1 it is a hundred times that.
+/// Tolerance: rounding, of a difference of angles where the unit is theirs.
+#[test]
+fn residuals_have_their_units() {
+    let (drawn, tiling) = sheet(Surroundings::Patch);
+    let model_with_rest = |off: f64| {
+        let rest: Vec<f64> = drawn_angles(&drawn, &tiling).iter().map(|angle| angle + off).collect();
+        let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
+        let (creases, facets) = (hinges(2.0), hinges(f64::INFINITY));
+        let recipe = Recipe { bars: Some(f64::INFINITY), creases, facets, ..Recipe::default() };
+        assemble(&drawn, &tiling, &recipe, Gauge::Held)
+    };
+    let unit = |off: f64| {
+        let model = model_with_rest(off);
+        linearized(&model, &model.start(), &vec![0.0; model.layout().stiff.len()], Curvature::Full).largest_force
+    };
+    let least = unit(0.0);
+    assert!(least > 1e-4);
+    for (off, expected) in [(1e-9, 1.0), (-1e-3, 1.0), (0.1, 100.0)] {
+        assert!((unit(off) / least / expected - 1.0).abs() < 1e-11, "{off}: {} of {least}", unit(off));
+    }
+    let position = |site: crate::model::Site| tiling.positions[site.vertex];
+    let lengths = tiling.edges.iter().map(|edge| (position(edge.ends[0]) - position(edge.ends[1])).norm());
+    let mean = lengths.sum::<f64>() / tiling.edges.len() as f64;
+    let model = model_with_rest(0.0);
+    let (bars, hinges) = model.gap_scale().split_at(tiling.edges.len());
+    assert!((mean - 1.0).abs() > 1e-3 && bars.iter().all(|scale| (scale / mean - 1.0).abs() < 1e-14), "{bars:?}");
+    assert!(!hinges.is_empty() && hinges.iter().all(|scale| *scale == 1.0));
+}

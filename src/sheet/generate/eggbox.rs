@@ -9,8 +9,8 @@ use super::{GenerateError, Parts, between, length};
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
 
-const SOURCE: &str = "Eggbox: M. Schenk, S. D. Guest, PNAS 110, 3276 (2013); H. Nassar, A. Lebee, L. Monasse, Proc. R. \
-                      Soc. A 473, 20160705 (2017).";
+const SOURCE: &str = "Eggbox: M. Schenk, S. D. Guest, PNAS 110, 3276 (2013); H. Nassar, A. Lebee, L. Monasse \
+                      (2017) on the surfaces it makes.";
 
 /// One cell of the eggbox, 2 x 2 parallelograms with sides `a`, `b` and acute angle `sector`.
 ///

@@ -9,8 +9,8 @@ use super::{GenerateError, Parts, between, count, length};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
-const SOURCE: &str = "Kresling pattern: B. Kresling, Natural twist buckling in shells: from the hawkmoth's bellows to the \
-                      deployable Kresling-pattern and cylindrical Miura-ori, IASS-IACM (2008).";
+const SOURCE: &str = "Kresling pattern: B. Kresling, Natural twist buckling in shells: from the hawkmoth's bellows to \
+                      the deployable Kresling-pattern and cylindrical Miura-ori, IASS-IACM (2008).";
 
 /// A finite ring of Kresling's pattern about the z axis, with both ends open; no lattice.
 ///

@@ -9,8 +9,8 @@ use super::{GenerateError, Parts, between, count, from};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
-const SOURCE: &str = "Random triangulated cell as in J. McInerney, B. G. Chen, L. Theran, C. D. Santangelo, D. Z. Rocklin, \
-                      PNAS 117, 30252 (2020).";
+const SOURCE: &str = "Random triangulated cell as in J. McInerney, B. G. Chen, L. Theran, C. D. Santangelo, \
+                      D. Z. Rocklin, PNAS 117, 30252 (2020).";
 
 /// A generic random cell that cannot be flattened: `size[0] x size[1]` vertices on a skew lattice of unit spacing,
 /// each moved in the plane by at most `jitter` of the spacing along both lattice directions and by at most `height`

@@ -8,8 +8,9 @@ use super::{GenerateError, Parts, between, from, length};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
-const SOURCE: &str = "Square twists: J. L. Silverberg et al., Nature Materials 14, 389 (2015); the assignment that folds \
-                      rigidly: T. A. Evans, R. J. Lang, S. P. Magleby, L. L. Howell, R. Soc. Open Sci. 2, 150067 (2015).";
+const SOURCE: &str = "Square twists: J. L. Silverberg et al., Nature Materials (2015), doi:10.1038/nmat4232; the \
+                      assignment that folds rigidly: T. A. Evans, R. J. Lang, S. P. Magleby, L. L. Howell, \
+                      R. Soc. Open Sci. 2, 150067 (2015).";
 
 /// One cell of a tessellation by square twists: a square of side `a`, a square of side `b`, and two parallelograms
 /// between them with the angle `twist`, rigidly folded by `fold`.

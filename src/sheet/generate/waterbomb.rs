@@ -8,8 +8,8 @@ use super::{GenerateError, Parts, from, length};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
-const SOURCE: &str = "Waterbomb tessellation: traditional; Y. Chen, H. Feng, J. Ma, R. Peng, Z. You, Proc. R. Soc. A 472, \
-                      20150846 (2016).";
+const SOURCE: &str = "Waterbomb tessellation: traditional; Y. Chen, H. Feng, J. Ma, R. Peng, Z. You, Proc. R. Soc. A \
+                      472, 20150846 (2016).";
 
 /// One cell of the waterbomb tessellation: two bases of `2a x 2b`, one above the other and moved by `a`; every vertex
 /// has six creases.

@@ -8,8 +8,8 @@ use super::{GenerateError, Parts, from, length};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 
-const SOURCE: &str = "Yoshimura pattern: Y. Yoshimura, On the mechanism of buckling of a circular cylindrical shell under \
-                      axial compression, NACA TM 1390 (1955).";
+const SOURCE: &str = "Yoshimura pattern: Y. Yoshimura, On the mechanism of buckling of a circular cylindrical shell \
+                      under axial compression, NACA TM 1390 (1955).";
 
 /// One cell of the Yoshimura pattern: two rows of isosceles triangles with base `a` and height `b`, every other row
 /// moved by `a / 2`.
