@@ -1,15 +1,14 @@
 //! The singular points of a curve of solutions: `m` quadrics in `m + 2` homogeneous unknowns.
 //!
-//! A random linear space misses them, and an isolated real point of a curve is always one of them. With two random linear forms
-//! `a` and `b` the points where `D(x) = det(dF_1/dx, ..., dF_m/dx, a, b)` vanishes are those where the projection `(a : b)` of the
-//! curve is ramified, and its singular points, whatever `a` and `b` are. `D` has degree `m`, so there are `m 2^m` such points,
-//! and the homotopy
+//! A random linear space misses them, and an isolated real point of a curve is always one of them. With a random frame `N` of
+//! `m` columns the points where `D(x) = det(dF/dx N)` vanishes are those where the projection of the curve along `N` to a line is
+//! ramified, and its singular points, whatever `N` is. `D` has degree `m`, so there are `m 2^m` such points, and the homotopy
 //!
 //! `F(x) = 0, (1 - t) D(x) + t g l_1(x) ... l_m(x) = 0`
 //!
 //! begins at the points of the curve on `m` random planes `l_k = 0` (regeneration: J. D. Hauenstein, A. J. Sommese and
 //! C. W. Wampler, "Regeneration homotopies for solving systems of polynomials", Mathematics of Computation 80, 345, 2011).
-//! Singular points are those ends where the Jacobian of `F` has not its full rank. A second choice of `a` and `b` confirms them.
+//! Singular points are those ends where the Jacobian of `F` has not its full rank. A second choice of `N` confirms them.
 
 use super::elimination::determinant;
 use super::endgame::{self, End, Simple, Target};
@@ -84,8 +83,8 @@ fn singular_points(
         starts.extend(solutions.isolated.into_iter().map(|solution| solution.point));
         planes.push(plane);
     }
-    let frame = random_frame(quadrics.unknowns, 2, &mut random);
-    let polar = Polar { quadrics, forms: frame, planes, factor: unit(&mut random) };
+    let frame = random_frame(quadrics.unknowns, quadrics.count(), &mut random);
+    let polar = Polar { quadrics, frame, planes, factor: unit(&mut random) };
     let path = |start: &Vec<C>| {
         let mut tracker = Tracker::new(&polar, careful(attempt));
         let [begin, end] = [1.0, endgame::START].map(|t| C::new(t, 0.0));
@@ -106,27 +105,30 @@ fn singular_points(
 /// `F` and the polar equation.
 struct Polar<'a> {
     quadrics: &'a Quadrics,
-    /// `a` and `b` as columns.
-    forms: DenseMatrix,
+    /// Orthonormal columns `N`.
+    frame: DenseMatrix,
     planes: Vec<DVector<f64>>,
     factor: C,
 }
 
 impl Polar<'_> {
-    /// `D` and its gradient, from the rows `dF_k/dx`: `dD = sum_k dF_k'(dx) . cofactors_k`, with `dF_k' = 2 A_k dx`.
+    /// `D` and its gradient, from the rows `dF_k/dx`: `dD = sum_k dF_k'(dx) N . cofactors_k`, with `dF_k' = 2 A_k dx`.
     fn determinant(&self, rows: &[C]) -> (C, Vec<C>) {
         let (n, count) = (self.quadrics.unknowns, self.quadrics.count());
-        let mut matrix = rows[..count * n].to_vec();
-        matrix.extend(self.forms.iter().map(|entry| C::new(*entry, 0.0)));
-        let mut gradient = vec![C::default(); n];
-        let mut value = C::default();
+        let entry = |row: usize, column: usize| -> C {
+            self.frame.column(column).iter().zip(&rows[row * n..]).map(|(a, b)| b * *a).sum()
+        };
+        let matrix: Vec<C> = (0..count * count).map(|place| entry(place / count, place % count)).collect();
+        let (mut value, mut gradient) = (C::default(), vec![C::default(); n]);
         for (k, a) in self.quadrics.matrices().iter().enumerate() {
-            let cofactors: Vec<C> = (0..n).map(|column| cofactor(&matrix, n, k, column)).collect();
+            let cofactors: Vec<C> = (0..count).map(|column| cofactor(&matrix, count, k, column)).collect();
             if k == 0 {
                 value = cofactors.iter().zip(&matrix).map(|(c, entry)| c * entry).sum();
             }
+            let lifted: Vec<C> =
+                self.frame.row_iter().map(|row| row.iter().zip(&cofactors).map(|(a, c)| c * *a).sum()).collect();
             for (entry, column) in gradient.iter_mut().zip(a.column_iter()) {
-                *entry += column.iter().zip(&cofactors).map(|(a, c)| c * (2.0 * a)).sum::<C>();
+                *entry += column.iter().zip(&lifted).map(|(a, c)| c * (2.0 * a)).sum::<C>();
             }
         }
         (value, gradient)
