@@ -215,6 +215,21 @@ fn corrected(closure: &Closure, drawn: &[f64], start: &[f64]) -> Vec<f64> {
     angles
 }
 
+/// Directions, in the order of the mesh, in which an independent program left open-star, and the curvature it then had.
+fn rays_of_open_star() -> Vec<(Vec<f64>, f64)> {
+    let sheet = mesh("open-star");
+    let case: Value = serde_json::from_str(include_str!("cases/open-star.json")).unwrap();
+    let names: Vec<[i32; 4]> = serde_json::from_value(case["edge_list"].clone()).unwrap();
+    let place = |key: &EdgeKey| [key.i as i32, key.j as i32, key.shift[0], key.shift[1]];
+    let at = |key: &EdgeKey| names.iter().position(|name| *name == place(key)).unwrap();
+    let ray = |start: &Value| {
+        let same = |state: &&Value| state["branch"] == start["branch"] && state["sign"] == start["sign"];
+        let kappa = case["states"].as_array().unwrap().iter().find(same).unwrap()["kappa"].as_f64().unwrap();
+        (sheet.edges.iter().map(|edge| start["start"][at(&edge.key)].as_f64().unwrap()).collect(), kappa)
+    };
+    case["loops"].as_array().unwrap().iter().map(ray).collect()
+}
+
 /// Claim: the study writes what the contract names, for a flat cell, for a cell with no real ray, and refuses a torus and a lock
 /// at another angle. No real ray is an answer: status 0.
 #[test]
@@ -246,6 +261,15 @@ fn the_study() {
         assert_eq!(pair[0]["direction"].as_array().unwrap().len(), 12);
     }
     assert!(table.starts_with("branch,sign,multiplicity,curvature_sign,error,rate_0_1_0_0,"), "{table}");
+    let (_, summary, _) = run("screw", "open-star.fold", "crease = [0, 1, 0, 0]");
+    assert_eq!(summary["studies"][0]["signature"], serde_json::json!([1, 1, 0]));
+    for (start, kappa) in rays_of_open_star() {
+        let rays = summary["studies"][0]["rays"].as_array().unwrap();
+        let along =
+            |ray: &&Value| (0..12).map(|k| ray["direction"][k].as_f64().unwrap() * start[k]).sum::<f64>() > 1.0 - 1e-8;
+        let ray = rays.iter().find(along).unwrap();
+        assert_eq!(ray["curvature_sign"].as_i64().unwrap() as f64, kappa.signum());
+    }
     let (status, summary, table) = run("screw", "miura.fold", "crease = [0, 1, 0, 0]");
     let study = &summary["studies"][0];
     assert_eq!(

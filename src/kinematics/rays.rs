@@ -3,14 +3,17 @@
 //! With as many quadrics as motions less one the complex solutions are points, `2^m` with multiplicity, and every real one is a
 //! line of motions: two rays, `v` and `-v`. With more quadrics there are fewer solutions, mostly none. With fewer they are
 //! curves or more: their degree is counted on a random linear space, and single rays exist only where a real point has no
-//! real ones beside it, as the singular point of a pair of conjugate lines. A simple real ray extends to a finite
+//! real ones beside it; such a point is singular, as the one where two conjugate lines meet. A simple real ray extends to a finite
 //! fold (implicit function theorem after division by the square of the amplitude); of a multiple one second order says no more.
 
 use super::{KinematicsError, SecondOrder, signature};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::symmetric_eigen;
-use crate::numerics::homotopy::{Section, Solution, solve_any};
+use crate::numerics::homotopy::{Section, SingularPoint, Solution, real_singular_points, solve_any};
 use nalgebra::DVector;
+
+/// Singular points of curves of more quadrics are not looked for: `k 2^k` paths take minutes.
+const MOST_QUADRICS: usize = 7;
 
 /// Entries of directions are compared in units of this.
 const GRAIN: f64 = 1e-6;
@@ -45,6 +48,9 @@ pub struct Rays {
     pub on_continua: usize,
     /// Solutions of random combinations that do not satisfy all quadrics.
     pub extraneous: usize,
+    /// Number of real singular points of the set of solutions: of a curve of at most 7 quadrics, and of one quadric; `None`
+    /// elsewhere, and where they are not single points.
+    pub singular: Option<usize>,
     /// The isolated real rays, by branch, sign 1 first. Branches are numbered from 0 by the directions of sign 1, rounded
     /// to 1e-6: the one with the larger first entry comes first, of equal ones that with the larger second, and so on.
     pub rays: Vec<Ray>,
@@ -55,10 +61,10 @@ impl Rays {
     pub fn new(second_order: &SecondOrder) -> Result<Self, KinematicsError> {
         let SecondOrder { modes, quadrics, .. } = second_order;
         let Section { dimension, expected, solutions, extraneous } = solve_any(quadrics, second_order.count())?;
-        let real = if dimension == 0 {
-            solutions.isolated.iter().filter(|solution| solution.real).map(Line::from).collect()
-        } else {
-            isolated_among_continua(quadrics)?
+        let real: Vec<Line> = solutions.isolated.iter().filter(|solution| solution.real).map(Line::from).collect();
+        let (real, singular) = match dimension {
+            0 => (real, None),
+            _ => among_continua(quadrics, dimension)?,
         };
         Ok(Self {
             dimension,
@@ -67,6 +73,7 @@ impl Rays {
             distinct: solutions.isolated.len(),
             on_continua: solutions.on_continua.len(),
             extraneous,
+            singular,
             rays: numbered(modes, &real),
         })
     }
@@ -86,18 +93,35 @@ impl From<&Solution> for Line {
     }
 }
 
-/// The real solution of one semidefinite quadric with one zero eigenvalue: there two conjugate planes of solutions meet.
-fn isolated_among_continua(quadrics: &[DenseMatrix]) -> Result<Vec<Line>, KinematicsError> {
-    let [quadric] = quadrics else { return Ok(Vec::new()) };
-    let sign = signature(quadric)?;
-    if sign[2] != 1 || sign[0].min(sign[1]) != 0 {
-        return Ok(Vec::new());
+/// The real solutions that are alone among the complex ones of a curve or more, and the number of real singular points.
+fn among_continua(quadrics: &[DenseMatrix], dimension: usize) -> Result<(Vec<Line>, Option<usize>), KinematicsError> {
+    if let [quadric] = quadrics {
+        return vertex_of_cone(quadric);
+    }
+    if dimension > 1 || !(1..=MOST_QUADRICS).contains(&quadrics.len()) {
+        return Ok((Vec::new(), None));
+    }
+    let Some(points) = real_singular_points(quadrics)? else { return Ok((Vec::new(), None)) };
+    let line = |point: &SingularPoint| Line {
+        x: DVector::from_column_slice(&point.point),
+        multiplicity: 2,
+        error: point.error,
+    };
+    Ok((points.iter().filter(|point| point.isolated).map(line).collect(), Some(points.len())))
+}
+
+/// The vertex of the cone of one quadric with one zero eigenvalue: alone where the others have one sign.
+fn vertex_of_cone(quadric: &DenseMatrix) -> Result<(Vec<Line>, Option<usize>), KinematicsError> {
+    let [positive, negative, zero] = signature(quadric)?;
+    if zero != 1 {
+        return Ok((Vec::new(), (zero == 0).then_some(0)));
     }
     let found = symmetric_eigen(quadric)?;
-    let zero = (0..found.values.len()).min_by(|&a, &b| found.values[a].abs().total_cmp(&found.values[b].abs()));
+    let smallest = (0..found.values.len()).min_by(|&a, &b| found.values[a].abs().total_cmp(&found.values[b].abs()));
     let line =
         |k: usize| Line { x: found.vectors.column(k).into_owned(), multiplicity: 2, error: found.values[k].abs() };
-    Ok(zero.map(line).into_iter().collect())
+    let alone = positive == 0 || negative == 0;
+    Ok((smallest.filter(|_| alone).map(line).into_iter().collect(), Some(1)))
 }
 
 /// Two rays for each line, in the order of their numbers.
@@ -129,7 +153,8 @@ mod tests {
     use super::super::test_sheets::*;
     use super::super::{Closure, drawn_fold_angles};
     use super::*;
-    use crate::sheet::Sheet;
+    use crate::sheet::generate::SquareTwist;
+    use crate::sheet::{EdgeKind, Pattern, Sheet, generate};
 
     fn rays(sheet: &Sheet, locked: &[usize]) -> Rays {
         let closure = Closure::of_cell(sheet).unwrap().with_locked(locked);
@@ -187,11 +212,35 @@ mod tests {
         let sheet = miura();
         let found = rays(&sheet, &[]);
         assert_eq!((found.dimension, found.expected, found.complex_solutions, found.rays.len()), (1, 2, 2, 2));
-        assert_eq!(found.rays[0].multiplicity, 2);
+        assert_eq!((found.rays[0].multiplicity, found.singular, star.singular), (2, Some(1), Some(0)));
         let drawn = drawn_fold_angles(&sheet);
         let diagonals = (0..12).filter(|&edge| drawn[edge].abs() < 1e-12);
         assert_eq!(diagonals.clone().count(), 4);
         assert!(diagonals.map(|edge| found.rays[0].direction[edge].abs()).fold(0.0, f64::max) <= 1e-9);
+    }
+
+    /// Claim: without a lock the solutions of a flat cell are a curve of degree 2^Nv = 16, and for a generic cell it is smooth.
+    #[test]
+    fn a_flat_cell_without_a_lock() {
+        let flat = rays(&open_flat(), &[]);
+        assert_eq!((flat.dimension, flat.expected, flat.complex_solutions, flat.distinct), (1, 16, 16, 16));
+        assert_eq!((flat.singular, flat.rays.len()), (Some(0), 0));
+    }
+
+    /// Claim: the flat square twist without a lock is a curve of degree 16 with two real points that are alone: the two ways
+    /// to fold it with rigid squares and trapezoids, which a lock on all diagonals finds as simple solutions. Tolerance: the
+    /// place of a multiple solution, 1e-8.
+    #[test]
+    fn rays_alone_on_a_curve_of_several_quadrics() {
+        let flat = generate(&Pattern::SquareTwist(SquareTwist { fold: 0.0, ..SquareTwist::default() })).unwrap();
+        let facets: Vec<usize> = (0..flat.edges.len()).filter(|&e| flat.edges[e].kind == EdgeKind::Facet).collect();
+        let (rigid, free) = (rays(&flat, &facets), rays(&flat, &[]));
+        assert_eq!((rigid.dimension, rigid.complex_solutions, rigid.rays.len()), (0, 2, 4));
+        assert_eq!((free.dimension, free.complex_solutions, free.singular, free.rays.len()), (1, 16, Some(2), 4));
+        for (a, b) in free.rays.iter().zip(&rigid.rays) {
+            let off = a.direction.iter().zip(&b.direction).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off <= 1e-8, "{off:e}");
+        }
     }
 
     /// Claim: a lock on a crease of Miura-ori leaves no real ray, one on a diagonal leaves its folding. Two locks of

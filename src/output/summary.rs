@@ -240,6 +240,8 @@ pub struct BranchesSummary {
     pub on_continua: usize,
     /// Solutions of random combinations that do not satisfy all quadrics.
     pub extraneous: usize,
+    /// Real singular points of the set of solutions, where it is a curve or of one quadric, and they are single points.
+    pub singular: Option<usize>,
     /// Number of isolated real rays, two for each real solution.
     pub real_rays: usize,
     /// The isolated real rays.

@@ -102,6 +102,7 @@ fn summarized(branches: &Branches) -> BranchesSummary {
         expected: rays.expected,
         on_continua: rays.on_continua,
         extraneous: rays.extraneous,
+        singular: rays.singular,
         real_rays: rays.rays.len(),
         rays: listed.collect(),
     }

@@ -34,6 +34,31 @@ pub(super) fn solve(matrix: &mut [C], right: &mut [C]) -> bool {
     right.iter().all(|entry| entry.re.is_finite() && entry.im.is_finite())
 }
 
+/// The determinant of a square matrix of `n` rows, which is overwritten.
+pub(super) fn determinant(matrix: &mut [C], n: usize) -> C {
+    let mut product = C::new(1.0, 0.0);
+    for k in 0..n {
+        let size = |row: usize| matrix[row * n + k].norm_sqr();
+        let pivot = (k + 1..n).fold(k, |best, row| if size(row) > size(best) { row } else { best });
+        if pivot != k {
+            (k..n).for_each(|column| matrix.swap(k * n + column, pivot * n + column));
+            product = -product;
+        }
+        let diagonal = matrix[k * n + k];
+        if diagonal == C::default() {
+            return diagonal;
+        }
+        product *= diagonal;
+        let (above, below) = matrix.split_at_mut((k + 1) * n);
+        let source = &above[k * n + k + 1..];
+        for row in below.chunks_exact_mut(n) {
+            let factor = row[k] / diagonal;
+            row[k + 1..].iter_mut().zip(source).for_each(|(a, b)| *a -= factor * b);
+        }
+    }
+    product
+}
+
 /// Number of pivots above `threshold` times the largest entry, in elimination with complete pivoting.
 pub(super) fn rank(mut rows: Vec<Vec<C>>, threshold: f64) -> usize {
     let columns = rows.first().map_or(0, Vec::len);
@@ -89,6 +114,17 @@ mod tests {
         }
         let one = C::new(1.0, 0.0);
         assert!(!solve(&mut [one; 4], &mut [one, -one]));
+    }
+
+    /// Claim: determinants are those of nalgebra's complex LU factors. Tolerance: rounding.
+    #[test]
+    fn determinants() {
+        for n in [1, 2, 5, 7] {
+            let matrix = scrambled(n * n, 3 + n as u64);
+            let expected = nalgebra::DMatrix::from_row_slice(n, n, &matrix).determinant();
+            assert!((determinant(&mut matrix.clone(), n) - expected).norm() <= 1e-14);
+        }
+        assert_eq!(determinant(&mut [C::new(1.0, 2.0); 4], 2), C::default());
     }
 
     /// Claim: the rank of a product of random factors is their inner size.

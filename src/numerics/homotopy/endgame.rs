@@ -46,17 +46,35 @@ pub(super) struct Simple {
     pub separation: f64,
 }
 
+/// The equations at `t = 0`.
+pub(super) trait Target {
+    /// Size of the equations at a vector of norm 1.
+    fn residual(&self, x: &[C]) -> f64;
+    /// The simple solution at or very near to a point, if there is one.
+    fn simple(&self, x: &[C]) -> Option<Simple>;
+}
+
+impl Target for Quadrics {
+    fn residual(&self, x: &[C]) -> f64 {
+        Quadrics::residual(self, x)
+    }
+
+    fn simple(&self, x: &[C]) -> Option<Simple> {
+        proved_simple(self, x)
+    }
+}
+
 /// Follows a path from [`START`] to its end.
-pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, quadrics: &Quadrics, x: Vec<C>) -> Result<End, Lost> {
+pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<End, Lost> {
     let (mut x, mut radius) = (x, START);
     for circle in 0..CIRCLES {
         let t = C::new(radius, 0.0);
         let leapt = tracker.leap(&x, t, C::default());
-        if let Some(simple) = leapt.and_then(|point| simple(quadrics, &point)) {
+        if let Some(simple) = leapt.and_then(|point| target.simple(&point)) {
             return Ok(End::Simple(simple));
         }
         if circle > 0
-            && let Some(end) = by_integral(tracker, quadrics, &x, radius)
+            && let Some(end) = by_integral(tracker, target, &x, radius)
         {
             return Ok(end);
         }
@@ -67,7 +85,7 @@ pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, quadrics: &Quadrics,
 }
 
 /// The mean over the rounds of a circle, where it is a solution.
-fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, quadrics: &Quadrics, x: &[C], radius: f64) -> Option<End> {
+fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: &[C], radius: f64) -> Option<End> {
     let (points, winding) = rounds(tracker, x, radius)?;
     let mean = |step: usize| -> Vec<C> {
         let count = points.len().div_ceil(step) as f64;
@@ -77,11 +95,11 @@ fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, quadrics: &Quadrics, x: &[
     normalize(&mut point);
     normalize(&mut coarse);
     let error = distance(&point, &coarse);
-    let solved = error <= AGREEMENT && quadrics.residual(&point) <= RESIDUAL;
+    let solved = error <= AGREEMENT && target.residual(&point) <= RESIDUAL;
     if !solved {
         return None;
     }
-    match simple(quadrics, &point) {
+    match target.simple(&point) {
         None => Some(End::Singular { point, error }),
         Some(found) => (winding == 1).then_some(End::Simple(found)),
     }
@@ -111,7 +129,7 @@ fn rounds<H: Homotopy>(tracker: &mut Tracker<H>, x: &[C], radius: f64) -> Option
 /// With `b` a bound of the correction and `g >= |DF^-1 D^2F / 2|`, `b g` small proves a solution within `2 b` and no other
 /// within `0.2 / g`. The quadrics have norm 1, so `|D^2F / 2| <= sqrt(m)`; and as they are known to rounding only, the correction
 /// is never less than `|DF^-1|` times that.
-pub(super) fn simple(quadrics: &Quadrics, x: &[C]) -> Option<Simple> {
+fn proved_simple(quadrics: &Quadrics, x: &[C]) -> Option<Simple> {
     let mut point = x.to_vec();
     let (mut error, mut bound, mut curvature) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
     for _ in 0..8 {

@@ -15,6 +15,7 @@ mod endgame;
 mod multiplicity;
 mod sections;
 mod series;
+mod singular;
 mod system;
 mod track;
 
@@ -29,6 +30,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 pub use sections::{Section, solve_any};
+pub use singular::{SingularPoint, real_singular_points};
 use system::{C, Quadrics, TotalDegree, distance, normalize};
 use track::{Care, Tracker};
 
@@ -152,11 +154,9 @@ fn solve_square(quadrics: &Quadrics) -> Result<Solutions, HomotopyError> {
 
 fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyError> {
     let homotopy = TotalDegree::new(quadrics, &mut ChaCha8Rng::seed_from_u64(u64::from(repeated)));
-    let care =
-        Care { correction: 0.01 * 0.1f64.powi(repeated as i32), contraction: 0.1 * 0.3f64.powi(repeated as i32) };
     let paths = 1 << quadrics.count();
     let path = |number: usize| {
-        let mut tracker = Tracker::new(&homotopy, care);
+        let mut tracker = Tracker::new(&homotopy, careful(repeated));
         let [start, end] = [1.0, endgame::START].map(|t| C::new(t, 0.0));
         let x = tracker.track(&homotopy.start(number), start, end, 0.05)?;
         endgame::finish(&mut tracker, quadrics, x)
@@ -170,6 +170,11 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
     add_singular(quadrics, &ends, &mut solutions)?;
     check_pairs(&solutions.isolated)?;
     Ok(solutions)
+}
+
+/// How careful steps are the first time, and each time again.
+fn careful(repeated: u32) -> Care {
+    Care { correction: 0.01 * 0.1f64.powi(repeated as i32), contraction: 0.1 * 0.3f64.powi(repeated as i32) }
 }
 
 /// Adds the simple solutions; fails where two paths ended at one.

@@ -53,12 +53,12 @@ pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, H
 }
 
 /// Orthonormal columns in random directions.
-fn random_frame(rows: usize, columns: usize, random: &mut ChaCha8Rng) -> DenseMatrix {
+pub(super) fn random_frame(rows: usize, columns: usize, random: &mut ChaCha8Rng) -> DenseMatrix {
     DenseMatrix::from_fn(rows, columns, |_, _| symmetric(random)).qr().q()
 }
 
 /// The solutions that are combinations of the columns of a frame.
-fn on_linear_space(all: &Quadrics, frame: &DenseMatrix) -> Result<Solutions, HomotopyError> {
+pub(super) fn on_linear_space(all: &Quadrics, frame: &DenseMatrix) -> Result<Solutions, HomotopyError> {
     let restricted: Vec<DenseMatrix> = all.matrices().iter().map(|a| frame.transpose() * a * frame).collect();
     let mut solutions = solve_square(&Quadrics::new(&restricted, frame.ncols())?)?;
     let frame = frame.map(|entry| C::new(entry, 0.0));

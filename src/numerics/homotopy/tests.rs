@@ -208,3 +208,25 @@ fn refusals() {
     let many = vec![DenseMatrix::identity(18, 18); 17];
     assert_eq!(solve(&many).unwrap_err(), HomotopyError::TooMany { quadrics: 17 });
 }
+
+/// Claim: a random curve of two quadrics has no singular point. Two quadrics that touch one plane in one point have one there: the
+/// difference of their second-order parts in the plane is definite, and the point isolated, or indefinite, and a crossing.
+/// A curve that is counted twice is singular all along.
+#[test]
+fn singular_points_of_curves() {
+    let mut random = random(51);
+    let [first, second] = [0, 1].map(|_| DenseMatrix::from_fn(4, 4, |_, _| symmetric(&mut random)));
+    assert_eq!(real_singular_points(&[first, second]), Ok(Some(vec![])));
+    let plane = [0.0, 0.0, 1.0];
+    let general = affine(0.0, &plane, &[(0, 0, 0.3), (0, 2, 0.2), (1, 1, 0.7), (1, 2, -0.4), (2, 2, 0.5)]);
+    for (sign, isolated) in [(1.0, true), (-1.0, false)] {
+        let other = [(0, 0, 1.3), (0, 2, -0.1), (1, 1, 0.7 + sign), (0, 1, 0.2), (2, 2, 0.9)];
+        let found = real_singular_points(&[general.clone(), affine(0.0, &plane, &other)]).unwrap().unwrap();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].isolated, isolated);
+        assert!(found[0].point[0] > 1.0 - 1e-12 && found[0].point[1..].iter().all(|x| x.abs() <= 1e-8), "{found:?}");
+    }
+    let double = product(&vector(4, &mut random), &vector(4, &mut random));
+    let square = vector(4, &mut random);
+    assert_eq!(real_singular_points(&[double, product(&square, &square)]), Ok(None));
+}
