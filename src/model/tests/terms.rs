@@ -1,7 +1,7 @@
 //! Terms: angles go on from the last accepted state.
 
 use crate::model::measure::FoldAngle;
-use crate::model::term::{Element, Elements, Spring, Term};
+use crate::model::term::{Element, Elements, Local, Spring, Term};
 use crate::model::{Domain, Site};
 use std::f64::consts::{PI, TAU};
 
@@ -19,10 +19,12 @@ fn angles_continue_through_pi() {
     let sites = [0, 1, 2, 3].map(|vertex| Site { vertex, shift: [0, 0] });
     let element = Element { sites, spring: Spring { stiffness: 1.0, rest: 0.0 }, edge: 0 };
     let mut term = Term::<FoldAngle, 4, 12>::new("creases", vec![element], &Domain::Patch, &hinge(0.2));
+    let mut local = Local::default();
     let there: Vec<f64> = (1..40).map(|k| 0.2 + 0.35 * f64::from(k)).collect();
     for &angle in there.iter().chain(there.iter().rev()) {
         let x = hinge(angle);
-        let values = [term.value(0, &Domain::Patch, &x), term.local(0, &Domain::Patch, &x, true).value];
+        term.local(0, &Domain::Patch, &x, true, &mut local);
+        let values = [term.value(0, &Domain::Patch, &x), local.value];
         assert!(values.iter().all(|value| (value - angle).abs() < 1e-12), "{values:?} for {angle}");
         term.accept(&Domain::Patch, &x);
     }

@@ -27,6 +27,9 @@ use rayon::prelude::*;
 const ZERO: f64 = 1e-6;
 const ATTEMPTS: u32 = 4;
 
+/// A point, and the estimated distance to the exact one.
+type Estimate = (Vec<C>, f64);
+
 /// A real singular point of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SingularPoint {
@@ -56,7 +59,7 @@ pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<Singu
 }
 
 /// Real points that two choices of random numbers have in common.
-fn confirmed(quadrics: &Quadrics, attempt: u32) -> Result<Option<Vec<(Vec<C>, f64)>>, HomotopyError> {
+fn confirmed(quadrics: &Quadrics, attempt: u32) -> Result<Option<Vec<Estimate>>, HomotopyError> {
     let [first, second] = [0, 1].map(|choice| singular_points(quadrics, attempt, choice));
     let (Some(first), Some(second)) = (first?, second?) else { return Ok(None) };
     let near = |a: &[C], b: &[C]| super::distance(a, b) <= SAME;
@@ -65,11 +68,7 @@ fn confirmed(quadrics: &Quadrics, attempt: u32) -> Result<Option<Vec<(Vec<C>, f6
 }
 
 /// Singular ends of all paths, each once; `None` where a plane meets the curve in multiple points.
-fn singular_points(
-    quadrics: &Quadrics,
-    attempt: u32,
-    choice: u64,
-) -> Result<Option<Vec<(Vec<C>, f64)>>, HomotopyError> {
+fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Option<Vec<Estimate>>, HomotopyError> {
     let mut random = ChaCha8Rng::seed_from_u64(1 + 2 * u64::from(attempt) + choice);
     let mut starts = Vec::new();
     let mut planes = Vec::new();
