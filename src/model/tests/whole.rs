@@ -121,7 +121,10 @@ fn gauss_newton_is_exact_at_rest() {
 /// Tolerance: rounding, of a difference of angles where the unit is theirs.
 #[test]
 fn residuals_have_their_units() {
-    let (drawn, tiling) = sheet(Surroundings::Patch);
+    let oblong = MiuraPatch { cells: [1, 1], fold: 0.4, a: 1.5, ..MiuraPatch::default() };
+    let sheet = generate(&Pattern::MiuraPatch(oblong)).unwrap();
+    let tiling = tile(&sheet, [1, 1], false);
+    let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
     let model_with_rest = |off: f64| {
         let rest: Vec<f64> = drawn_angles(&drawn, &tiling).iter().map(|angle| angle + off).collect();
         let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
