@@ -1,0 +1,158 @@
+//! The energy as an engine of trajectories: relaxations with a crease driven along a rigid trajectory.
+//!
+//! At every state of the trajectory the crease that moves fastest there is locked at its angle, and the sheet relaxes at its own
+//! stiffness from where the last relaxation ended, moved on by the same amount again. Only the first step starts from
+//! the rigid state, since all rays leave from the same place. Rigid bars must meet every rigid state to rounding; softer ones
+//! stay off it by what the creases pull them.
+
+use super::chart;
+use super::relax::{Relaxed, relax};
+use super::trace::{Folded, Traced};
+use crate::model::assemble::{Drawn, Recipe, assemble, drawn_angles};
+use crate::model::{Domain, Elements, Gauge, Model};
+use crate::sheet::Tiling;
+use crate::solver::{Failure, Options, Step};
+use std::f64::consts::TAU;
+
+/// A driven crease is kept while it moves at least this part as fast as the fastest.
+const FAST_ENOUGH: f64 = 0.5;
+
+/// What relaxes.
+pub struct Question<'a> {
+    /// One cell, or a finite sheet.
+    pub tiling: &'a Tiling,
+    /// The drawn state.
+    pub drawn: &'a Drawn,
+    /// Its parts; locks are those of the trajectory.
+    pub recipe: &'a Recipe,
+    /// When a relaxation is converged.
+    pub options: Options,
+}
+
+/// A relaxed state beside a rigid one.
+#[derive(Clone, Debug)]
+pub struct Driven {
+    /// The equilibrium.
+    pub relaxed: Relaxed,
+    /// Fold angles of all edges, continuous along the trajectory; zero where there is no hinge.
+    pub angles: Vec<f64>,
+    /// The driven crease.
+    pub crease: usize,
+    /// Largest difference of a fold angle to the rigid state.
+    pub error: f64,
+}
+
+/// The relaxations beside a trajectory.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    /// One state for every state of the trajectory but the first, which is drawn; fewer where one failed.
+    pub states: Vec<Driven>,
+    /// Why the next one failed.
+    pub failure: Option<Failure>,
+}
+
+impl Drive {
+    /// Largest difference of a fold angle to the rigid trajectory.
+    pub fn error(&self) -> f64 {
+        self.states.iter().map(|state| state.error).fold(0.0, f64::max)
+    }
+}
+
+/// Relaxes beside every state of a trajectory. `observe` sees every accepted step and returns false to stop.
+pub fn drive(question: &Question<'_>, traced: &Traced, observe: &mut dyn FnMut(&Step) -> bool) -> Drive {
+    let mut drive = Drive { states: Vec::new(), failure: None };
+    let mut track = Track::new();
+    let Some((drawn, rest)) = traced.states.split_first() else { return drive };
+    track.angles.clone_from(&drawn.angles);
+    for state in rest {
+        let crease = fastest(&state.rates, track.crease);
+        match track.step(question, state, crease, observe) {
+            Ok(driven) => drive.states.push(driven),
+            Err(failure) => {
+                drive.failure = Some(failure);
+                break;
+            }
+        }
+    }
+    drive
+}
+
+/// The crease to drive: the last one while it is fast enough.
+fn fastest(rates: &[f64], last: Option<usize>) -> usize {
+    let speed = |edge: &usize| rates[*edge].abs();
+    let first = (0..rates.len()).max_by(|a, b| speed(a).total_cmp(&speed(b))).unwrap_or(0);
+    last.filter(|edge| speed(edge) >= FAST_ENOUGH * speed(&first)).unwrap_or(first)
+}
+
+/// The last relaxed states.
+struct Track {
+    angles: Vec<f64>,
+    crease: Option<usize>,
+    /// Rigid arc length and coordinates of the last states that share a gauge, the newest last; at most two.
+    known: Vec<(f64, Vec<f64>)>,
+}
+
+impl Track {
+    fn new() -> Self {
+        Self { angles: Vec::new(), crease: None, known: Vec::new() }
+    }
+
+    fn step(
+        &mut self,
+        question: &Question<'_>,
+        state: &Folded,
+        crease: usize,
+        observe: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Driven, Failure> {
+        let mut recipe = question.recipe.clone();
+        recipe.locks.push((crease, state.angles[crease]));
+        let mut model = assemble(question.drawn, question.tiling, &recipe, Gauge::Held);
+        model.set_angles(&hinge_angles(&model, &self.angles));
+        let last = self.known.last().map_or_else(|| chart::coordinates(state), |(_, at)| at.clone());
+        let here = model.start_from(last);
+        let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
+        let edges = question.tiling.edges.len();
+        let relaxed = relax(&mut model, ahead, question.options, edges, observe).map_err(|error| error.failure)?;
+        self.keep(model.domain(), state.arc_length, relaxed.state.coordinates.clone());
+        self.crease = Some(crease);
+        self.angles = self.continued(question, &relaxed.state.coordinates);
+        let off = |(a, b): (&f64, &f64)| (a - b).abs();
+        let error = self.angles.iter().zip(&state.angles).map(off).fold(0.0, f64::max);
+        Ok(Driven { relaxed, angles: self.angles.clone(), crease, error })
+    }
+
+    /// Coordinates if all goes on as between the last two states.
+    fn ahead(&self, arc_length: f64) -> Option<Vec<f64>> {
+        let [(s0, x0), (s1, x1)] = &self.known[..] else { return None };
+        let part = (arc_length - s1) / (s1 - s0);
+        Some(x1.iter().zip(x0).map(|(now, before)| now + part * (now - before)).collect())
+    }
+
+    /// Keeps a state, and the one before where it has the same gauge: the screw's axis is moved as vertex 0 is.
+    fn keep(&mut self, domain: &Domain, arc_length: f64, coordinates: Vec<f64>) {
+        let same = |at: &[f64]| !matches!(domain, Domain::Screw) || at[..3] == coordinates[..3];
+        self.known.retain(|(_, at)| same(at));
+        if self.known.len() == 2 {
+            self.known.remove(0);
+        }
+        self.known.push((arc_length, coordinates));
+    }
+
+    /// Fold angles of all edges at coordinates, each next to the last one.
+    fn continued(&self, question: &Question<'_>, coordinates: &[f64]) -> Vec<f64> {
+        let drawn = question.drawn;
+        let here = Drawn { domain: drawn.domain.clone(), coordinates: coordinates.to_vec(), held: vec![], ..*drawn };
+        let next = |(angle, last): (f64, &f64)| angle + TAU * ((last - angle) / TAU).round();
+        drawn_angles(&here, question.tiling)
+            .into_iter()
+            .zip(&self.angles)
+            .map(|(angle, last)| if angle.is_nan() { 0.0 } else { next((angle, last)) })
+            .collect()
+    }
+}
+
+/// The angles of the model's hinges, from which angles continue.
+pub fn hinge_angles(model: &Model, angles: &[f64]) -> Vec<f64> {
+    let terms = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
+    terms.flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<_>>()).collect()
+}
