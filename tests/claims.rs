@@ -205,6 +205,24 @@ fn flat_sheets_get_shorter_on_every_branch() {
     assert!(followed > 200 && lengthened > 0, "{followed} {lengthened}");
 }
 
+/// Claim: on an oblique lattice strain22 can be positive near the flat state, by the square of the fold: on the branch of the reference cell
+/// with edge (2, 3, 0, 0) locked that bends along `l1` the most, it is about 4.4e-4 times the square of the arc length, strain11 being -0.028 times that. Computed
+/// here, not in the paper. Tolerance: the next order at arc lengths of a hundredth.
+#[test]
+fn strain_across_an_oblique_lattice_may_grow() {
+    let sheet = mesh("open-flat");
+    for length in [5e-3, 1e-2] {
+        let found = follow(&sheet, &[edge(&sheet, [2, 3, 0, 0])], to_length(length));
+        for sign in [1, -1] {
+            let one = found.iter().find(|one| one.branch == (2, sign)).unwrap();
+            let [e11, e22, _] = last(one).strain.map(|strain| strain / (length * length));
+            assert!((e22 - 4.4e-4).abs() <= 1e-5 && (e11 + 0.028).abs() <= 1e-3, "{e11} {e22}");
+            let chords = last(one).screw.chords.map(|chord| chord.norm());
+            assert!((0..2).all(|a| chords[a] < sheet.lattice.unwrap()[a].norm()));
+        }
+    }
+}
+
 /// Claim: unrolled at its innermost point, at the distance `r` from the axis, a flat sheet has become shorter in every direction of the
 /// lattice: `r^2 theta_a theta_b + h_a h_b` is at most the drawn metric, as quadratic forms. For the nearest point of the cylinder of
 /// radius `r` to a point of the sheet is no further from other such points than these are (projection onto a convex body), and
