@@ -1,5 +1,6 @@
-//! What the theory says of folding, shown along whole trajectories: vertices of degree four, cells with a quadrilateral, developable
-//! sheets, the axis, Poisson's ratios of Miura-ori, and the rays that triangulated Miura-ori does not have.
+//! What the theory says of folding, shown along whole trajectories: vertices of degree four, cells with a
+//! quadrilateral, developable sheets, the axis, Poisson's ratios of Miura-ori, and the rays that triangulated Miura-ori
+//! does not have.
 #![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
@@ -54,10 +55,10 @@ fn shape(state: &Folded) -> &Shape {
     state.shape.as_ref().unwrap()
 }
 
-/// Claim: the vertex of `meshes/degree-four.fold`, a finite sheet of four rigid quadrilaterals, has two branches, each up and down; on all
-/// of them, until they come back, `cos rho2 = A cos rho0 + B` for both pairs of opposite creases, with
-/// `A = sin t3 sin t0 / (sin t1 sin t2)` and `B = (cos t1 cos t2 - cos t3 cos t0) / (sin t1 sin t2)` (the issue; both say how far the
-/// creases between are apart). Tolerance: the residual over the sines.
+/// Claim: the vertex of `meshes/degree-four.fold`, a finite sheet of four rigid quadrilaterals, has two branches, each
+/// up and down; on all of them, until they come back, `cos rho2 = A cos rho0 + B` for both pairs of opposite creases,
+/// with `A = sin t3 sin t0 / (sin t1 sin t2)` and `B = (cos t1 cos t2 - cos t3 cos t0) / (sin t1 sin t2)` (the issue;
+/// both say how far the creases between are apart). Tolerance: the residual over the sines.
 #[test]
 fn a_vertex_of_degree_four_all_the_way_round() {
     let sheet = mesh("degree-four");
@@ -82,9 +83,10 @@ fn a_vertex_of_degree_four_all_the_way_round() {
     }
 }
 
-/// Claim: what the paper's captions say of its two figures, of `meshes/quad-cell.fold` and `meshes/flat-quad.fold`. Six triangles and a
-/// quadrilateral, not developable: one-dimensional branches that fold upwards and downwards, pairs of which close into a loop. Developable: 6
-/// solutions, so 6 closed branches, 3 with positive curvature where they start and end, 3 with negative curvature and the same strains.
+/// Claim: what the paper's captions say of its two figures, of `meshes/quad-cell.fold` and `meshes/flat-quad.fold`. Six
+/// triangles and a quadrilateral, not developable: one-dimensional branches that fold upwards and downwards, pairs of
+/// which close into a loop. Developable: 6 solutions, so 6 closed branches, 3 with positive curvature where they start
+/// and end, 3 with negative curvature and the same strains.
 #[test]
 fn cells_with_a_quadrilateral() {
     for (name, loops) in [("quad-cell", 2), ("flat-quad", 6)] {
@@ -102,7 +104,8 @@ fn cells_with_a_quadrilateral() {
     }
 }
 
-/// Flat cells, each with the edges that are locked one after the other: the reference cell, one with a quadrilateral, and random ones.
+/// Flat cells, each with the edges that are locked one after the other: the reference cell, one with a quadrilateral,
+/// and random ones.
 fn flat_cells() -> Vec<(Sheet, Vec<Vec<usize>>)> {
     let one_each = |sheet: &Sheet| (0..sheet.edges.len()).map(|edge| vec![edge]).collect();
     let reference = mesh("open-flat");
@@ -117,8 +120,8 @@ fn flat_cells() -> Vec<(Sheet, Vec<Vec<usize>>)> {
     [(reference, locks), (mesh("flat-quad"), vec![vec![]])].into_iter().chain(random).collect()
 }
 
-/// Trajectories of all simple rays of flat cells, a moderate way: to 2 rad in fold angles. Multiple rays are left out, whose direction second
-/// order does not settle.
+/// Trajectories of all simple rays of flat cells, a moderate way: to 2 rad in fold angles. Multiple rays are left out,
+/// whose direction second order does not settle.
 fn folded_flat_cells() -> Vec<(Sheet, Traced)> {
     let mut found = Vec::new();
     for (sheet, locks) in flat_cells() {
@@ -178,10 +181,10 @@ fn distance_from_origin(corners: [Vector2<f64>; 3]) -> f64 {
     sides.map(from_side).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Claim: on every branch of a flat sheet, away from flat, `strain11 < 0`, and chords to all copies of vertex 0 are shorter than the straight
-/// ways that were drawn there. So `strain22 < 0` too where the drawn lattice is rectangular, at any fold. Elsewhere strain22 compares no
-/// chords but `l2` less its part along `l1` (`strain = a^-T g a^-1 - I`), and can be positive, by the square of the fold, on
-/// branches that bend along `l1`: the paper says `< 0` of both.
+/// Claim: on every branch of a flat sheet, away from flat, `strain11 < 0`, and chords to all copies of vertex 0 are
+/// shorter than the straight ways that were drawn there. So `strain22 < 0` too where the drawn lattice is rectangular,
+/// at any fold. Elsewhere strain22 compares no chords but `l2` less its part along `l1` (`strain = a^-T g a^-1 - I`),
+/// and can be positive, by the square of the fold, on branches that bend along `l1`: the paper says `< 0` of both.
 #[test]
 fn flat_sheets_get_shorter_on_every_branch() {
     let (mut followed, mut lengthened) = (0, 0);
@@ -205,9 +208,10 @@ fn flat_sheets_get_shorter_on_every_branch() {
     assert!(followed > 200 && lengthened > 0, "{followed} {lengthened}");
 }
 
-/// Claim: on an oblique lattice strain22 can be positive near the flat state, by the square of the fold: on the branch of the reference cell
-/// with edge (2, 3, 0, 0) locked that bends along `l1` the most, it is about 4.4e-4 times the square of the arc length, strain11 being -0.028 times that. Computed
-/// here, not in the paper. Tolerance: the next order at arc lengths of a hundredth.
+/// Claim: on an oblique lattice strain22 can be positive near the flat state, by the square of the fold: on the branch
+/// of the reference cell with edge (2, 3, 0, 0) locked that bends along `l1` the most, it is about 4.4e-4 times the
+/// square of the arc length, strain11 being -0.028 times that. Computed here, not in the paper. Tolerance: the next
+/// order at arc lengths of a hundredth.
 #[test]
 fn strain_across_an_oblique_lattice_may_grow() {
     let sheet = mesh("open-flat");
@@ -223,11 +227,11 @@ fn strain_across_an_oblique_lattice_may_grow() {
     }
 }
 
-/// Claim: unrolled at its innermost point, at the distance `r` from the axis, a flat sheet has become shorter in every direction of the
-/// lattice: `r^2 theta_a theta_b + h_a h_b` is at most the drawn metric, as quadratic forms. For the nearest point of the cylinder of
-/// radius `r` to a point of the sheet is no further from other such points than these are (projection onto a convex body), and
-/// straight ways of the flat sheet, from copy to copy, become ways on it. Both strains of that metric are then negative.
-/// Derived here. Tolerance: rounding.
+/// Claim: unrolled at its innermost point, at the distance `r` from the axis, a flat sheet has become shorter in every
+/// direction of the lattice: `r^2 theta_a theta_b + h_a h_b` is at most the drawn metric, as quadratic forms. For the
+/// nearest point of the cylinder of radius `r` to a point of the sheet is no further from other such points than these
+/// are (projection onto a convex body), and straight ways of the flat sheet, from copy to copy, become ways on it. Both
+/// strains of that metric are then negative. Derived here. Tolerance: rounding.
 #[test]
 fn flat_sheets_get_shorter_along_the_cylinder() {
     for (sheet, one) in folded_flat_cells() {
@@ -244,7 +248,8 @@ fn flat_sheets_get_shorter_along_the_cylinder() {
     }
 }
 
-/// Claim: the branches of a flat sheet come in pairs of equal strain and opposite curvature, rolled up and rolled down. Tolerance: rounding.
+/// Claim: the branches of a flat sheet come in pairs of equal strain and opposite curvature, rolled up and rolled down.
+/// Tolerance: rounding.
 #[test]
 fn branches_of_flat_sheets_come_in_pairs() {
     let mut pairs = 0;
@@ -276,11 +281,11 @@ fn axis_rate(screw: &Screw, turning: &Vec3, a: usize) -> Vec3 {
     plane * map.lu().solve(&(plane.transpose() * turning.cross(&s))).unwrap()
 }
 
-/// Claim: along the trajectories of the reference cell and of a flat one the axis turns, in the frame of the first face, as its linear
-/// prediction says (the paper's last formula of Appendix G): `(1 - S_a) ds = W_a x s` across the axis, `W_a` the angular velocity from cell to
-/// cell that the null vector of closure makes, the same for both lattice rotations. Against central differences over steps of 4e-3 and
-/// 2e-3 in arc length along the trajectory, extrapolated. Tolerance 3e-7: what the arc length between neighbouring states is good to,
-/// relative, where steps are of 0.1.
+/// Claim: along the trajectories of the reference cell and of a flat one the axis turns, in the frame of the first
+/// face, as its linear prediction says (the paper's last formula of Appendix G): `(1 - S_a) ds = W_a x s` across the
+/// axis, `W_a` the angular velocity from cell to cell that the null vector of closure makes, the same for both lattice
+/// rotations. Against central differences over steps of 4e-3 and 2e-3 in arc length along the trajectory, extrapolated.
+/// Tolerance 3e-7: what the arc length between neighbouring states is good to, relative, where steps are of 0.1.
 #[test]
 fn the_axis_turns_as_predicted() {
     let star = mesh("open-star");
@@ -316,8 +321,8 @@ fn last(one: &Traced) -> &Shape {
     shape(one.states.last().unwrap())
 }
 
-/// Miura-ori and eggbox of several sectors and folds, with the ratio of their relative changes of length when they fold, second over first
-/// lattice vector, in closed form.
+/// Miura-ori and eggbox of several sectors and folds, with the ratio of their relative changes of length when they
+/// fold, second over first lattice vector, in closed form.
 fn folded_quads() -> Vec<(Sheet, f64)> {
     let mut found = Vec::new();
     for sector in [0.6, 1.0, FRAC_PI_3, 1.4_f64] {
@@ -345,11 +350,12 @@ fn strain_rates(sheet: &Sheet, modes: &DenseMatrix) -> Vec<[f64; 3]> {
     rates.collect()
 }
 
-/// Claim: Poisson's ratios of Miura-ori in its plane and out of it are equal and opposite (M. Schenk and S. D. Guest, PNAS 110, 3276 (2013); Z. Y. Wei
-/// et al., PRL 110, 215501 (2013)): in the plane `-e22/e11 = -cos^2 g tan^2 t`, from the derivatives of the lengths of its cell; out of it
-/// `-k22/k11`, curvatures of the bending of its triangulation, is the opposite. So are the eggbox's, `tan^2 e / tan^2 f` with the slopes `f`, `e` of its
-/// sides, `sin f sin e = cos t`, in its plane. Of the three modes of the triangulation one has no curvature: folding. Tolerance: rounding over
-/// the smallest of the modes' curvatures.
+/// Claim: Poisson's ratios of Miura-ori in its plane and out of it are equal and opposite (M. Schenk and S. D. Guest,
+/// PNAS 110, 3276 (2013); Z. Y. Wei et al., PRL 110, 215501 (2013)): in the plane `-e22/e11 = -cos^2 g tan^2 t`, from
+/// the derivatives of the lengths of its cell; out of it `-k22/k11`, curvatures of the bending of its triangulation, is
+/// the opposite. So are the eggbox's, `tan^2 e / tan^2 f` with the slopes `f`, `e` of its sides, `sin f sin e = cos t`,
+/// in its plane. Of the three modes of the triangulation one has no curvature: folding. Tolerance: rounding over the
+/// smallest of the modes' curvatures.
 #[test]
 fn poisson_ratios_are_opposite() {
     for (sheet, ratio) in folded_quads() {
@@ -384,12 +390,14 @@ fn loop_quadric(sheet: &Sheet, modes: &FoldingModes) -> DenseMatrix {
     DenseMatrix::from_fn(3, 3, |a, b| half(a, b) + half(b, a))
 }
 
-/// Claim: the out-of-plane linear modes of triangulated Miura-ori do not extend, as the paper says. Its loop quadric has two eigenvalues of one sign
-/// and a zero, along its folding, whatever the fold (here -0.418258, -0.297784, 0 of `meshes/miura.fold`); so no direction that bends the
-/// sheet is real: with any crease locked there are two complex solutions and no real ray, with a diagonal locked only the folding. The
-/// second-order closure of the vertices finds the same quadric, over the root of the number of vertices. The eggbox, triangulated, is the other
-/// way round: it bends with positive Gaussian curvature and twists with negative, its quadric has both signs, a locked crease leaves it four
-/// real rays, and a locked diagonal two motions that no quadric forbids. Tolerance: rounding; directions of multiple solutions 1e-9.
+/// Claim: the out-of-plane linear modes of triangulated Miura-ori do not extend, as the paper says. Its loop quadric
+/// has two eigenvalues of one sign and a zero, along its folding, whatever the fold (here -0.418258, -0.297784, 0 of
+/// `meshes/miura.fold`); so no direction that bends the sheet is real: with any crease locked there are two complex
+/// solutions and no real ray, with a diagonal locked only the folding. The second-order closure of the vertices finds
+/// the same quadric, over the root of the number of vertices. The eggbox, triangulated, is the other way round: it
+/// bends with positive Gaussian curvature and twists with negative, its quadric has both signs, a locked crease leaves
+/// it four real rays, and a locked diagonal two motions that no quadric forbids. Tolerance: rounding; directions of
+/// multiple solutions 1e-9.
 #[test]
 fn triangulated_miura_does_not_bend() {
     for (sheet, ratio) in folded_quads() {

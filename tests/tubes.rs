@@ -14,7 +14,7 @@ use foldwell::model::assemble::{Recipe, Surroundings};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::dense::{least_squares, null_space};
 use foldwell::sheet::generate::Random;
-use foldwell::sheet::{Pattern, Sheet, generate};
+use foldwell::sheet::{EdgeKind, Pattern, Sheet, generate};
 use foldwell::solver::continuation::End;
 use nalgebra::Rotation3;
 use std::f64::consts::TAU;
@@ -22,7 +22,8 @@ use std::f64::consts::TAU;
 /// What is kept of both conditions, and how many motions are left (theory, section 9).
 const LEFT: [(&[Condition], usize); 4] = [(&[], 2), (&[Condition::Turn], 1), (&[Condition::Rise], 1), (&BOTH, 0)];
 
-/// Tubes of the reference cell and of a random one, their seams along the lattice vectors and across: sheet, seam, angles.
+/// Tubes of the reference cell and of a random one, their seams along the lattice vectors and across: sheet, seam,
+/// angles.
 fn tubes() -> Vec<(Sheet, [i32; 2], Vec<f64>)> {
     let random = generate(&Pattern::Random(Random { seed: 3, size: [2, 3], ..Random::default() })).unwrap();
     let mut found = Vec::new();
@@ -41,8 +42,8 @@ fn shape(sheet: &Sheet, angles: &[f64]) -> Shape {
     Shape::at(&Embedding::new(sheet).unwrap(), angles).unwrap()
 }
 
-/// Claim: a tube closes: `n1 theta1 + n2 theta2 = 2 pi`, `n1 h1 + n2 h2 = 0`, cell `(n1, n2)` is where cell (0, 0) is, faces
-/// close, rotations commute.  Tolerances: rounding of angles of size 2 pi, and of positions after some ten cells.
+/// Claim: a tube closes: `n1 theta1 + n2 theta2 = 2 pi`, `n1 h1 + n2 h2 = 0`, cell `(n1, n2)` is where cell (0, 0) is,
+/// faces close, rotations commute.  Tolerances: rounding of angles of size 2 pi, and of positions after some ten cells.
 #[test]
 fn tubes_close() {
     for (sheet, [n1, n2], angles) in tubes() {
@@ -58,8 +59,8 @@ fn tubes_close() {
     }
 }
 
-/// Jacobian of the bars of one screw-periodic cell at an exact state, vertex 0 pinned: `3 Nv` rows, `3 Nv + 2` columns, with rows for
-/// `n1 theta1 + n2 theta2` and `n1 h1 + n2 h2` below, where `theta_a = kappa b_a`.
+/// Jacobian of the bars of one screw-periodic cell at an exact state, vertex 0 pinned: `3 Nv` rows, `3 Nv + 2` columns,
+/// with rows for `n1 theta1 + n2 theta2` and `n1 h1 + n2 h2` below, where `theta_a = kappa b_a`.
 fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -> DenseMatrix {
     let shape = shape(sheet, angles);
     let (positions, rates) = (shape.positions.clone(), vec![]);
@@ -84,9 +85,9 @@ fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -
     })
 }
 
-/// Claim (theory, section 9): within screw-symmetric motions a tube has 2 motions, 1 when its seam keeps turning by `2 pi` (it slips), 1
-/// when it keeps its height, 0 with both: rigid. By the closure of the fold angles and by the lengths of the bars in the
-/// chart of screw motions, which share no equation. Ranks stand out by more than ten decades.
+/// Claim (theory, section 9): within screw-symmetric motions a tube has 2 motions, 1 when its seam keeps turning by `2
+/// pi` (it slips), 1 when it keeps its height, 0 with both: rigid. By the closure of the fold angles and by the lengths
+/// of the bars in the chart of screw motions, which share no equation. Ranks stand out by more than ten decades.
 #[test]
 fn motions_left_by_the_conditions() {
     for (sheet, seam, angles) in tubes() {
@@ -101,9 +102,10 @@ fn motions_left_by_the_conditions() {
     }
 }
 
-/// Claim: the seam of a tube slips, both ways, over a finite distance: `n1 theta1 + n2 theta2 = 2 pi` to 1e-12 all the way and faces
-/// closed, while its end climbs over its start, step by step, by more than 0.04 of the seam's length. Followed over 0.5 rad
-/// in fold angles. Kept its height instead, the tube would widen: the same motion is refused. Tolerance: the issue's.
+/// Claim: the seam of a tube slips, both ways, over a finite distance: `n1 theta1 + n2 theta2 = 2 pi` to 1e-12 all the
+/// way and faces closed, while its end climbs over its start, step by step, by more than 0.04 of the seam's length.
+/// Followed over 0.5 rad in fold angles. Kept its height instead, the tube would widen: the same motion is refused.
+/// Tolerance: the issue's.
 #[test]
 fn the_seam_slips() {
     for (sheet, seam, angles) in tubes() {
@@ -131,8 +133,8 @@ fn zero_modes(case: &Case) -> DenseMatrix {
     null_space(&jacobian(&model, &at)).unwrap().basis
 }
 
-/// The factors by which the zero modes of a tube along z grow from a row to the next, ascending in magnitude, `next` moving
-/// a point to its copy there. All zero modes together go over into each other, which is tested to 1e-9.
+/// The factors by which the zero modes of a tube along z grow from a row to the next, ascending in magnitude, `next`
+/// moving a point to its copy there. All zero modes together go over into each other, which is tested to 1e-9.
 fn growth(case: &Case, turn: f64, rise: f64) -> Vec<f64> {
     let (modes, vertices) = (zero_modes(case), &case.sheet.vertices);
     let rotation = Rotation3::from_axis_angle(&Vec3::z_axis(), turn);
@@ -153,12 +155,20 @@ fn growth(case: &Case, turn: f64, rise: f64) -> Vec<f64> {
     growth
 }
 
-/// Claim: an open tube, cut to rows of cells, has as many zero modes as its two rims have edges, and no self stress: `V - E + F = 0`
-/// and `3 F + b = 2 E` give `3 V - E = b`. Six are rigid motions. The others are the same in number whatever the length, and from row
-/// to row they change by factors that are the same too: so many fall off from one end as from the other, with reciprocal factors
-/// (theory, section 8: roots pair). Rolled up inwards, with seam `[0, 8]`, 13 modes belong to each end; outwards 8 do and 10
-/// belong to none, waves along the whole tube. Tolerances: factors of size 1 within 1e-6, since those of rigid motions are
-/// double; others relative 1e-6.
+/// Zero modes are as many as the rims have edges; no self stress; six rigid motions.
+fn check_counts(case: &Case, rim: usize) {
+    let edges = case.sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary).count();
+    let found = case.modes(&Recipe { bars: Some(1.0), ..Recipe::default() }, 0).unwrap();
+    let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
+    assert_eq!((edges, counts), (rim, (rim, 0, rim as i64, 6)), "gap {:e}", found.gap);
+}
+
+/// Claim: an open tube, cut to rows of cells, has as many zero modes as its two rims have edges, and no self stress:
+/// `V + F = E` and `3 F + b = 2 E` give `3 V - E = b`. Six are rigid motions. The others are the same in number
+/// whatever the length, and from row to row they change by factors that are the same too: so many fall off from one end
+/// as from the other, with reciprocal factors (theory, section 8: roots pair). Rolled up inwards, with seam `[0, 8]`,
+/// 13 modes belong to each end; outwards 8 do and 10 belong to none, waves along the whole tube. Tolerances: 1e-4
+/// for factors of size 1, of which those of rigid motions are double, and relative 1e-5 for all.
 #[test]
 fn end_modes_of_open_tubes() {
     let sheet = mesh("open-star");
@@ -171,18 +181,30 @@ fn end_modes_of_open_tubes() {
         let mut first: Option<Vec<f64>> = None;
         for rows in [2, 3, 5] {
             let case = Case::new(tube.cut(&angles, rows).unwrap(), [1, 1], Surroundings::Patch);
-            let found = case.modes(&Recipe { bars: Some(1.0), ..Recipe::default() }, 0).unwrap();
-            let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
-            assert_eq!(counts, (rim, 0, rim as i64, 6), "{seam:?} {rows}: gap {:e}", found.gap);
+            check_counts(&case, rim);
             let growth = growth(&case, theta[0], screw.rise()[0]);
-            let falling = growth.iter().filter(|factor| **factor < 1.0 - 1e-6).count();
-            let rising = growth.iter().filter(|factor| **factor > 1.0 + 1e-6).count();
+            let falling = growth.iter().filter(|factor| **factor < 1.0 - 1e-4).count();
+            let rising = growth.iter().filter(|factor| **factor > 1.0 + 1e-4).count();
             assert_eq!((falling, rising, rim - falling - rising), (each_end, each_end, 6 + waves), "{growth:?}");
             let paired = growth.iter().zip(growth.iter().rev()).map(|(a, b)| (a * b - 1.0).abs());
-            assert!(paired.fold(0.0, f64::max) <= 1e-6, "{growth:?}");
+            assert!(paired.fold(0.0, f64::max) <= 1e-5, "{growth:?}");
             let first = first.get_or_insert_with(|| growth.clone());
             let apart = first.iter().zip(&growth).map(|(a, b)| (a / b - 1.0).abs());
-            assert!(apart.fold(0.0, f64::max) <= 1e-6, "{growth:?}");
+            assert!(apart.fold(0.0, f64::max) <= 1e-5, "{growth:?}");
+        }
+    }
+}
+
+/// Claim: a tube of one strand, which ends in a step, has zero modes as said above: 36 for seam (1, 8), whatever the
+/// number of its cells.
+#[test]
+fn zero_modes_of_helical_tubes() {
+    let sheet = mesh("open-star");
+    let tube = Tube::new(&sheet, [1, 8]).unwrap();
+    for inwards in [true, false] {
+        let angles = tube.rolled_up(inwards).unwrap();
+        for cells in [12, 19, 30] {
+            check_counts(&Case::new(tube.cut(&angles, cells).unwrap(), [1, 1], Surroundings::Patch), 36);
         }
     }
 }
@@ -194,9 +216,9 @@ fn helical_tube() -> Sheet {
     tube.cut(&tube.rolled_up(true).unwrap(), 48).unwrap()
 }
 
-/// Claim: `meshes/helical-tube.fold` is what it says: the reference cell rolled up until cell (1, 8) lies on cell (0, 0), one strand of 48
-/// cells. Its edges are as long as those of the flat cell. Tolerance: what mathematical libraries differ in, over Newton's
-/// method and some fifty cells.
+/// Claim: `meshes/helical-tube.fold` is what it says: the reference cell rolled up until cell (1, 8) lies on cell (0,
+/// 0), one strand of 48 cells. Its edges are as long as those of the flat cell. Tolerance: what mathematical libraries
+/// differ in, over Newton's method and some fifty cells.
 #[test]
 fn the_helical_tube_in_meshes() {
     let (kept, computed) = (mesh("helical-tube"), helical_tube());

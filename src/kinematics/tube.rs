@@ -4,15 +4,16 @@
 //!
 //! `n1 theta1 + n2 theta2 = 2 pi` and `n1 h1 + n2 h2 = 0`,
 //!
-//! `theta_a` the rotation angles from cell to cell about the common axis and `h_a` the ways along it (J. McInerney, B. G.
-//! Chen, L. Theran, C. D. Santangelo and D. Z. Rocklin, PNAS 117, 30252 (2020), who say that the ratios are rational, which
-//! alone does not close). Of the two motions that a folded sheet has, each condition takes one. With the first alone the
-//! seam slips along itself (F. Feng, P. Plucinsky and R. D. James, Phys. Rev. E 101, 033002 (2020)).
+//! `theta_a` the rotation angles from cell to cell about the common axis and `h_a` the ways along it (J. McInerney, B.
+//! G. Chen, L. Theran, C. D. Santangelo and D. Z. Rocklin, PNAS 117, 30252 (2020), who say that the ratios are
+//! rational, which alone does not close). Of the two motions that a folded sheet has, each condition takes one. With
+//! the first alone the seam slips along itself (F. Feng, P. Plucinsky and R. D. James, Phys. Rev. E 101, 033002
+//! (2020)).
 //!
-//! In rotation vectors `w_a` of the lattice rotations and chords `l_a`, with `W = n1 w1 + n2 w2`, `l = n1 l1 + n2 l2` and the
-//! length `L` of the drawn seam, the conditions are `|W| = 2 pi` and `W . l / (2 pi L) = 0`. The second is smooth where
-//! nothing turns, so that a tube is found by rolling up the periodic sheet with the second condition kept until the
-//! first is met.
+//! In rotation vectors `w_a` of the lattice rotations and chords `l_a`, with `W = n1 w1 + n2 w2`, `l = n1 l1 + n2 l2`
+//! and the length `L` of the drawn seam, the conditions are `|W| = 2 pi` and `W . l / (2 pi L) = 0`. The second is
+//! smooth where nothing turns, so that a tube is found by rolling up the periodic sheet with the second condition kept
+//! until the first is met.
 
 mod cut;
 
@@ -76,8 +77,8 @@ impl<'a> Tube<'a> {
         Ok(Self { sheet, closure, embedding, seam, length })
     }
 
-    /// How far fold angles, one per edge in radians, are from a tube: `|W| - 2 pi` in radians and `W . l / (2 pi L)`, which
-    /// is the rise of the seam over its drawn length where it turns by `2 pi`.
+    /// How far fold angles, one per edge in radians, are from a tube: `|W| - 2 pi` in radians and `W . l / (2 pi L)`,
+    /// which is the rise of the seam over its drawn length where it turns by `2 pi`.
     ///
     /// Angles that do not close are walked along the tree of the [embedding](super::embedding), like everywhere.
     /// # Panics
@@ -117,9 +118,9 @@ impl<'a> Tube<'a> {
     /// Fold angles of a tube, closed to rounding: the drawn sheet rolled up about the line across the seam, towards its
     /// face normals (`inwards`) or away from them.
     ///
-    /// The drawn sheet is spatially periodic and not flat. Fails with [`KinematicsError::NoTube`] where the sheet cannot be
-    /// rolled up so far, and as [`folding_modes`] and [`FoldingModes::named`](super::FoldingModes::named). The tube may go
-    /// through itself.
+    /// The drawn sheet is spatially periodic and not flat. Fails with [`KinematicsError::NoTube`] where the sheet
+    /// cannot be rolled up so far, and as [`folding_modes()`](super::folding_modes()) and
+    /// [`FoldingModes::named`](super::FoldingModes::named). The tube may go through itself.
     pub fn rolled_up(&self, inwards: bool) -> Result<Vec<f64>, KinematicsError> {
         let tensor = self.bending(if inwards { 1.0 } else { -1.0 })?;
         let ray = folding_modes(self.sheet)?.named(tensor)?;
@@ -134,8 +135,8 @@ impl<'a> Tube<'a> {
         self.closed(&rolled.ok_or_else(missed)?.x)
     }
 
-    /// The one motion of a tube whose seam turns by `2 pi` and may rise: followed from the tube's angles for a length in
-    /// fold angles, forwards where the seam's rise grows (`rising`) or where it falls.
+    /// The one motion of a tube whose seam turns by `2 pi` and may rise: followed from the tube's angles for a length
+    /// in fold angles, forwards where the seam's rise grows (`rising`) or where it falls.
     pub fn slip(&self, tube: &[f64], rising: bool, length: f64) -> Result<Trajectory, KinematicsError> {
         let null = null_space(&self.jacobian(tube, &[Condition::Turn]))?.basis;
         let motions = null.ncols();
@@ -246,8 +247,8 @@ mod tests {
         }
     }
 
-    /// Claim: what is no tube is refused: a seam of no cells, a finite sheet, a seam so short that the sheet cannot turn
-    /// by a whole turn within it.
+    /// Claim: what is no tube is refused: a seam of no cells, a finite sheet, a seam so short that the sheet cannot
+    /// turn by a whole turn within it.
     #[test]
     fn refused() {
         let sheet = open_star();

@@ -1,8 +1,8 @@
 //! A piece of a tube: so many rows of whole cells, as a finite sheet whose two ends are open.
 //!
-//! With `g` the greatest common divisor of the seam and `p = (n1, n2) / g`, every cell is `i p + j m`, where
-//! `p1 m2 - p2 m1 = 1`; the seam makes `i` count modulo `g`. Row `j` has the `g` cells `i = 0 .. g-1`: a ring of cells where
-//! `p` is a lattice vector, and `g` strands that wind round the tube where it is not.
+//! With `g` the greatest common divisor of the seam and `p = (n1, n2) / g`, every cell is `i p + j m`, where `p1 m2 -
+//! p2 m1 = 1`; the seam makes `i` count modulo `g`. Row `j` has the `g` cells `i = 0 .. g-1`: a ring of cells where `p`
+//! is a lattice vector, and `g` strands that wind round the tube where it is not.
 
 use super::Tube;
 use crate::kinematics::{Motion, Shape};
@@ -50,11 +50,11 @@ fn bezout(a: i32, b: i32) -> (i32, i32, i32) {
 }
 
 impl Tube<'_> {
-    /// The tube with these fold angles, cut to `rows` rows of cells: a finite sheet, its axis along z, vertex 0 of the first
-    /// cell at height 0 in the half-plane `y = 0`, `x > 0`.
+    /// The tube with these fold angles, cut to `rows` rows of cells: a finite sheet, its axis along z, vertex 0 of the
+    /// first cell at height 0 in the half-plane `y = 0`, `x > 0`.
     ///
-    /// The faces of a cell are those that the sheet lists. Fails where these do not make a sheet, as in a tube so narrow
-    /// that a face meets itself.
+    /// The faces of a cell are those that the sheet lists. Fails where these do not make a sheet, as in a tube so
+    /// narrow that a face meets itself.
     /// # Panics
     /// Where `angles` has another length than the edges.
     pub fn cut(&self, angles: &[f64], rows: usize) -> Result<Sheet, Defect> {
@@ -104,7 +104,8 @@ impl Tube<'_> {
 mod tests {
     use super::*;
 
-    /// Claim: every cell of the plane is one of the rows, cells that differ by the seam are the same, and a row has `g`.
+    /// Claim: every cell of the plane is one of the rows, cells that differ by the seam are the same, and a row has
+    /// `g`.
     #[test]
     fn cells_modulo_a_seam() {
         for (seam, strands) in [([0, 7], 7), ([1, 8], 1), ([4, -6], 2), ([-3, 0], 3), ([-5, -5], 5), ([0, -2], 2)] {
