@@ -110,8 +110,8 @@ fn null_spaces_of_flat_cells() {
 }
 
 /// Claim: whatever way a flat sheet folds, both chords get shorter (a chord is shorter than the way over the sheet); near
-/// the flat state also `strain22 < 0`, which far from it is no length of anything; and the mirror image has the
-/// same strain and the opposite curvature. States: Newton's method from random angles, where it ends. Tolerance of the
+/// the flat state these cells also have `strain22 < 0`, which on an oblique lattice is no length of anything and can be
+/// positive elsewhere (`tests/claims.rs`); and the mirror image has the same strain and the opposite curvature. States: Newton's method from random angles, where it ends. Tolerance of the
 /// mirror image: rounding.
 #[test]
 fn developable_sheets_get_shorter() {

@@ -65,4 +65,21 @@ pub enum KinematicsError {
         /// Largest entry of the closure residual.
         residual: f64,
     },
+    /// A tube was asked for along no cells.
+    #[error("a tube needs a seam other than [0, 0]")]
+    NoSeam,
+    /// The sheet does not roll up to a tube.
+    #[error("no tube along {seam:?}: rolled up as far as it goes, its seam turns by {turn:.3} rad, less than 2 pi")]
+    NoTube {
+        /// The cell that should come to lie on cell (0, 0).
+        seam: [i32; 2],
+        /// Largest turn of the seam that was met.
+        turn: f64,
+    },
+    /// A tube with a slipping seam has not just one motion.
+    #[error("a tube whose seam slips has one motion, this one has {motions}")]
+    NotOneMotion {
+        /// Number of linear motions.
+        motions: usize,
+    },
 }

@@ -16,6 +16,7 @@ pub mod second_order;
 pub mod shape;
 #[cfg(test)]
 mod test_sheets;
+pub mod tube;
 mod walk;
 
 pub use closure::{Closure, HingedEdge, drawn_fold_angles};
@@ -28,3 +29,4 @@ pub use rays::{Ray, Rays};
 pub use screw::{Screw, ScrewRate};
 pub use second_order::{SecondOrder, signature};
 pub use shape::{Shape, ShapeRate};
+pub use tube::Tube;

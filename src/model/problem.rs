@@ -95,10 +95,13 @@ impl Model {
         all
     }
 
-    /// Puts another state in the place of the drawn one: the gauge holds it where it is, pins stay as drawn, angles
-    /// continue from the last accepted state. Returns its unknowns.
+    /// Puts another state in the place of the drawn one: the gauge holds it where it is (also the height of a screw's
+    /// vertex 0, which moves with the axis), pins stay as drawn, angles continue from the last accepted state. Returns its
+    /// unknowns.
     pub fn start_from(&mut self, mut coordinates: Vec<f64>) -> Vec<f64> {
-        self.pinned.iter().for_each(|&k| coordinates[k] = self.base[k]);
+        if !matches!(self.domain, Domain::Screw) {
+            self.pinned.iter().for_each(|&k| coordinates[k] = self.base[k]);
+        }
         self.base = coordinates;
         let mut x = self.start();
         self.accept(&mut x);

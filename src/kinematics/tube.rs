@@ -1,0 +1,260 @@
+//! Tubes: screw-periodic sheets that close on themselves.
+//!
+//! A sheet rolls up to a tube with the seam `(n1, n2)` where cell `(n1, n2)` comes to lie on cell (0, 0):
+//!
+//! `n1 theta1 + n2 theta2 = 2 pi` and `n1 h1 + n2 h2 = 0`,
+//!
+//! `theta_a` the rotation angles from cell to cell about the common axis and `h_a` the ways along it (J. McInerney, B.
+//! G. Chen, L. Theran, C. D. Santangelo and D. Z. Rocklin, PNAS 117, 30252 (2020), who say that the ratios are
+//! rational, which alone does not close). Of the two motions that a folded sheet has, each condition takes one. With
+//! the first alone the seam slips along itself (F. Feng, P. Plucinsky and R. D. James, Phys. Rev. E 101, 033002
+//! (2020)).
+//!
+//! In rotation vectors `w_a` of the lattice rotations and chords `l_a`, with `W = n1 w1 + n2 w2`, `l = n1 l1 + n2 l2`
+//! and the length `L` of the drawn seam, the conditions are `|W| = 2 pi` and `W . l / (2 pi L) = 0`. The second is
+//! smooth where nothing turns, so that a tube is found by rolling up the periodic sheet with the second condition kept
+//! until the first is met.
+
+mod cut;
+
+use super::motion::Moving;
+use super::{Closure, Displacement, Embedding, KinematicsError, folding_modes};
+use crate::math::{Vec3, rotation};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::{least_squares, null_space};
+use crate::sheet::Sheet;
+use crate::solver::continuation::{Curve, End, Options, Point, Trajectory, follow};
+use std::f64::consts::TAU;
+
+/// Largest closure residual and defect of a tube.
+const CLOSED: f64 = 4e-15;
+/// Newton steps from the end of the rolling to a tube.
+const STEPS: usize = 10;
+/// Most points of a rolling that is still expected to end.
+const MOST_POINTS: usize = 2000;
+
+/// One of the two conditions on a tube.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// The seam turns by `2 pi`.
+    Turn,
+    /// The seam does not rise along the axis.
+    Rise,
+}
+
+/// Both conditions, in the order of their numbers.
+pub const BOTH: [Condition; 2] = [Condition::Turn, Condition::Rise];
+
+/// A periodic sheet that is to close along a seam; every crease folds.
+#[derive(Clone, Debug)]
+pub struct Tube<'a> {
+    sheet: &'a Sheet,
+    closure: Closure,
+    embedding: Embedding,
+    seam: [i32; 2],
+    /// Length of the drawn seam.
+    length: f64,
+}
+
+/// Rotation vector and chord of the seam, `W` and `l`.
+#[derive(Clone, Copy)]
+struct Seam {
+    turn: Vec3,
+    chord: Vec3,
+}
+
+impl<'a> Tube<'a> {
+    /// Plans a tube in which cell `seam` comes to lie on cell (0, 0).
+    ///
+    /// Fails for a finite sheet, for one whose faces do not hang together, and for the seam `[0, 0]`.
+    pub fn new(sheet: &'a Sheet, seam: [i32; 2]) -> Result<Self, KinematicsError> {
+        let [l1, l2] = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
+        if seam == [0, 0] {
+            return Err(KinematicsError::NoSeam);
+        }
+        let length = (l1 * f64::from(seam[0]) + l2 * f64::from(seam[1])).norm();
+        let (closure, embedding) = (Closure::of_cell(sheet)?, Embedding::new(sheet)?);
+        Ok(Self { sheet, closure, embedding, seam, length })
+    }
+
+    /// How far fold angles, one per edge in radians, are from a tube: `|W| - 2 pi` in radians and `W . l / (2 pi L)`,
+    /// which is the rise of the seam over its drawn length where it turns by `2 pi`.
+    ///
+    /// Angles that do not close are walked along the tree of the [embedding](super::embedding), like everywhere.
+    /// # Panics
+    /// Where `angles` has another length than the edges.
+    pub fn defects(&self, angles: &[f64]) -> [f64; 2] {
+        let Seam { turn, chord } = self.seam_of(&Displacement::new(&self.embedding, angles, &self.still()).lattice).0;
+        [turn.norm() - TAU, turn.dot(&chord) / (TAU * self.length)]
+    }
+
+    /// The derivative of [`defects`](Self::defects): two rows, a column per edge.
+    /// # Panics
+    /// As [`defects`](Self::defects); not a number where nothing turns.
+    pub fn rates(&self, angles: &[f64]) -> DenseMatrix {
+        let mut rates = DenseMatrix::zeros(2, angles.len());
+        let mut moving = self.still();
+        for edge in 0..angles.len() {
+            moving[edge] = 1.0;
+            let (at, rate) = self.seam_of(&Displacement::new(&self.embedding, angles, &moving).lattice);
+            moving[edge] = 0.0;
+            rates[(0, edge)] = at.turn.dot(&rate.turn) / at.turn.norm();
+            rates[(1, edge)] = (rate.turn.dot(&at.chord) + at.turn.dot(&rate.chord)) / (TAU * self.length);
+        }
+        rates
+    }
+
+    /// The closure Jacobian with a row for each of some conditions below it: its null vectors are the motions within
+    /// screw-periodic sheets that keep these.
+    pub fn jacobian(&self, angles: &[f64], kept: &[Condition]) -> DenseMatrix {
+        let (closure, rates) = (self.closure.jacobian(angles), self.rates(angles));
+        let rows = closure.nrows();
+        let row_of = |row: usize| kept[row - rows] as usize;
+        DenseMatrix::from_fn(rows + kept.len(), angles.len(), |row, edge| {
+            if row < rows { closure[(row, edge)] } else { rates[(row_of(row), edge)] }
+        })
+    }
+
+    /// Fold angles of a tube, closed to rounding: the drawn sheet rolled up about the line across the seam, towards its
+    /// face normals (`inwards`) or away from them.
+    ///
+    /// The drawn sheet is spatially periodic and not flat. Fails with [`KinematicsError::NoTube`] where the sheet
+    /// cannot be rolled up so far, and as [`folding_modes()`](super::folding_modes()) and
+    /// [`FoldingModes::named`](super::FoldingModes::named). The tube may go through itself.
+    pub fn rolled_up(&self, inwards: bool) -> Result<Vec<f64>, KinematicsError> {
+        let tensor = self.bending(if inwards { 1.0 } else { -1.0 })?;
+        let ray = folding_modes(self.sheet)?.named(tensor)?;
+        let size = ray.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
+        let ray = ray.iter().map(|rate| rate / size).collect();
+        let options = Options { steps: MOST_POINTS, period: Some(TAU), stops: vec![0], ..Options::default() };
+        let start = self.embedding.drawn_angles().to_vec();
+        let found = follow(&mut self.keeping(Condition::Rise), start, ray, &options, &mut |_| true);
+        let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
+        let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);
+        let missed = || KinematicsError::NoTube { seam: self.seam, turn: turns.fold(0.0, f64::max) };
+        self.closed(&rolled.ok_or_else(missed)?.x)
+    }
+
+    /// The one motion of a tube whose seam turns by `2 pi` and may rise: followed from the tube's angles for a length
+    /// in fold angles, forwards where the seam's rise grows (`rising`) or where it falls.
+    pub fn slip(&self, tube: &[f64], rising: bool, length: f64) -> Result<Trajectory, KinematicsError> {
+        let null = null_space(&self.jacobian(tube, &[Condition::Turn]))?.basis;
+        let motions = null.ncols();
+        if motions != 1 {
+            return Err(KinematicsError::NotOneMotion { motions });
+        }
+        let rise = (self.rates(tube).row(1) * &null)[0];
+        let sign = if (rise > 0.0) == rising { 1.0 } else { -1.0 };
+        let tangent = null.iter().map(|rate| sign * rate).collect();
+        let options = Options { length, ..Options::default() };
+        Ok(follow(&mut self.keeping(Condition::Turn), tube.to_vec(), tangent, &options, &mut |_| true))
+    }
+
+    fn keeping(&self, kept: Condition) -> Kept<'_, 'a> {
+        let closure = DenseMatrix::zeros(3 * self.closure.vertices().len(), self.embedding.edges());
+        Kept { tube: self, kept, closure }
+    }
+
+    /// The curvature tensor `[k11, k22, k12]` of size 1 that bends along the seam and not across it.
+    fn bending(&self, sign: f64) -> Result<[f64; 3], KinematicsError> {
+        let lattice = self.sheet.lattice.ok_or(KinematicsError::NoLattice)?;
+        let frame = super::metric::LatticeFrame::new(&lattice);
+        let along = frame.vectors * nalgebra::Vector2::new(f64::from(self.seam[0]), f64::from(self.seam[1]));
+        let [x, y]: [f64; 2] = along.normalize().into();
+        Ok([sign * x * x, sign * y * y, sign * x * y])
+    }
+
+    /// Newton's method on closure and both conditions.
+    fn closed(&self, start: &[f64]) -> Result<Vec<f64>, KinematicsError> {
+        let mut angles = start.to_vec();
+        let mut residual = f64::INFINITY;
+        for _ in 0..STEPS {
+            let defects: Vec<f64> =
+                self.closure.residual(&angles).iter().copied().chain(self.defects(&angles)).collect();
+            residual = defects.iter().fold(0.0, |most, defect| super::embedding::larger(most, defect.abs()));
+            if residual <= CLOSED {
+                return Ok(angles);
+            }
+            let right = DenseMatrix::from_column_slice(defects.len(), 1, &defects);
+            let step = least_squares(&self.jacobian(&angles, &BOTH), &right)?.solution;
+            angles.iter_mut().zip(step.iter()).for_each(|(angle, step)| *angle -= step);
+        }
+        Err(KinematicsError::NotClosed { residual })
+    }
+
+    fn still(&self) -> Vec<f64> {
+        vec![0.0; self.embedding.edges()]
+    }
+
+    /// The seam and its rate, from the lattice motions.
+    fn seam_of(&self, lattice: &Option<[Moving; 2]>) -> (Seam, Seam) {
+        let zero = Seam { turn: Vec3::zeros(), chord: Vec3::zeros() };
+        let moving = lattice.iter().flatten().zip(self.seam);
+        moving.fold((zero, zero), |(at, rate), (one, n)| {
+            let (n, turn, chord) = (f64::from(n), rotation::log(&one.motion.rotation), one.motion.translation);
+            let turning = rotation::inverse_left_jacobian(&turn) * one.twist.angular;
+            let at = Seam { turn: at.turn + n * turn, chord: at.chord + n * chord };
+            (at, Seam { turn: rate.turn + n * turning, chord: rate.chord + n * one.twist.at(&chord) })
+        })
+    }
+}
+
+/// Screw-periodic sheets that keep one condition, as a curve; its indicator is the defect of the other one.
+struct Kept<'t, 'a> {
+    tube: &'t Tube<'a>,
+    kept: Condition,
+    closure: DenseMatrix,
+}
+
+impl Curve for Kept<'_, '_> {
+    fn unknowns(&self) -> usize {
+        self.tube.embedding.edges()
+    }
+
+    fn equations(&self) -> usize {
+        self.closure.nrows() + 1
+    }
+
+    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
+        let (rows, row) = (self.closure.nrows(), self.kept as usize);
+        self.tube.closure.linearize_into(x, &mut residual[..rows], &mut self.closure);
+        jacobian.rows_mut(0, rows).copy_from(&self.closure);
+        residual[rows] = self.tube.defects(x)[row];
+        jacobian.row_mut(rows).copy_from(&self.tube.rates(x).row(row));
+    }
+
+    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
+        out.push(self.tube.defects(&point.x)[1 - self.kept as usize]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::test_sheets::*;
+    use super::*;
+    use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
+
+    /// Claim: the rates of the conditions are their derivatives, edge by edge, on cylinders and on tubes.
+    #[test]
+    fn rates_are_derivatives() {
+        let sheet = open_star();
+        for seam in [[0, 7], [1, 8], [-6, 3]] {
+            let tube = Tube::new(&sheet, seam).unwrap();
+            for angles in open_star_reference().cylinders(&sheet) {
+                let at = |x: &[f64]| tube.defects(x).to_vec();
+                check_jacobian(at, &angles, &tube.rates(&angles), TOLERANCE).unwrap();
+            }
+        }
+    }
+
+    /// Claim: what is no tube is refused: a seam of no cells, a finite sheet, a seam so short that the sheet cannot
+    /// turn by a whole turn within it.
+    #[test]
+    fn refused() {
+        let sheet = open_star();
+        assert_eq!(Tube::new(&sheet, [0, 0]).unwrap_err(), KinematicsError::NoSeam);
+        assert_eq!(Tube::new(&finite_grid(2, 2, 0.3), [0, 5]).unwrap_err(), KinematicsError::NoLattice);
+        let found = Tube::new(&sheet, [0, 1]).unwrap().rolled_up(true);
+        assert!(matches!(found, Err(KinematicsError::NoTube { seam: [0, 1], turn }) if turn <= TAU / 2.0), "{found:?}");
+    }
+}
