@@ -9,7 +9,7 @@ use super::chart;
 use super::relax::{Relaxed, relax};
 use super::trace::{Folded, Traced};
 use crate::model::assemble::{Drawn, Recipe, assemble, drawn_angles};
-use crate::model::{Domain, Elements, Gauge, Model};
+use crate::model::{Domain, Gauge, Model};
 use crate::sheet::Tiling;
 use crate::solver::{Failure, Options, Step};
 use std::f64::consts::TAU;
@@ -128,9 +128,17 @@ impl Track {
         Some(x1.iter().zip(x0).map(|(now, before)| now + part * (now - before)).collect())
     }
 
-    /// Keeps a state, and the one before where it has the same gauge: the screw's axis is moved as vertex 0 is.
+    /// Keeps a state, and the one before where it has the same gauge: the height of vertex 0 moves with a screw's axis, and
+    /// rotations jump by whole turns.
     fn keep(&mut self, domain: &Domain, arc_length: f64, coordinates: Vec<f64>) {
-        let same = |at: &[f64]| !matches!(domain, Domain::Screw) || at[..3] == coordinates[..3];
+        let turns = |at: &[f64]| {
+            let [kappa, b1, b2] = [5, 4, 3].map(|back| at[at.len() - back]);
+            [kappa * b1, kappa * b2]
+        };
+        let near = |a: [f64; 2], b: [f64; 2]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1.0);
+        let same = |at: &[f64]| {
+            !matches!(domain, Domain::Screw) || (at[..3] == coordinates[..3] && near(turns(at), turns(&coordinates)))
+        };
         self.known.retain(|(_, at)| same(at));
         if self.known.len() == 2 {
             self.known.remove(0);

@@ -11,6 +11,7 @@
 
 use crate::math::{Vec3, sinc};
 use nalgebra::{Complex, Matrix3, SMatrix, SVector};
+use std::f64::consts::TAU;
 
 pub use crate::sheet::tiling::Site;
 
@@ -19,6 +20,9 @@ pub const MOST_SHARED: usize = 6;
 type SharedMatrix = SMatrix<f64, 3, MOST_SHARED>;
 /// Room for the Hessian of an element of up to four points; only its lower triangle and leading part mean something.
 type Pulled = SMatrix<f64, { 12 + MOST_SHARED }, { 12 + MOST_SHARED }>;
+
+/// Rotation angles above this are taken back by a turn; above pi, so that an angle that stays near pi is left alone.
+const WOUND: f64 = 4.0;
 
 /// Where points come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,22 +141,34 @@ impl Domain {
         append_lower(D + self.shared(), |row, column| pulled[(row, column)], out);
     }
 
-    /// Keeps the axis of a screw away from the height z = 0, where `kappa` is infinite: moving all z by `d` and `1/kappa`
-    /// with them changes nothing (`theta = kappa b` stays). Done when the axis comes nearer than `length`; then it is put
-    /// at twice that. Returns whether coordinates were changed.
+    /// Keeps the chart of a screw away from its two singular places; returns whether coordinates were changed. The maps stay
+    /// the same.
+    ///
+    /// At the axis `kappa` is infinite: moving all z by `d` and `1/kappa` with them changes nothing (`theta = kappa b`
+    /// stays). Done when the axis comes nearer to z = 0 than `length`; then it is put at twice that. And a rotation
+    /// that has wound once round would need an infinite `b` where the sheet stretches out again: `theta` is
+    /// taken back by `2 pi` where it is clearly larger than `pi`.
     pub fn recentre(&self, x: &mut [f64], length: f64) -> bool {
         let shared = x.len() - self.shared();
-        if !matches!(self, Self::Screw) || x[shared].abs() * length <= 1.0 {
+        if !matches!(self, Self::Screw) {
             return false;
         }
         let kappa = x[shared];
-        let moved = 1.0 / (2.0 * length * kappa.signum());
-        let d = 1.0 / moved - 1.0 / kappa;
-        x[..shared].iter_mut().skip(2).step_by(3).for_each(|z| *z += d);
-        x[shared] = moved;
-        x[shared + 1] *= kappa / moved;
-        x[shared + 2] *= kappa / moved;
-        true
+        let close = kappa.abs() * length > 1.0;
+        if close {
+            let moved = 1.0 / (2.0 * length * kappa.signum());
+            let d = 1.0 / moved - 1.0 / kappa;
+            x[..shared].iter_mut().skip(2).step_by(3).for_each(|z| *z += d);
+            x[shared] = moved;
+            x[shared + 1..shared + 3].iter_mut().for_each(|b| *b *= kappa / moved);
+        }
+        let kappa = x[shared];
+        let mut unwound = false;
+        for b in x[shared + 1..shared + 3].iter_mut().filter(|b| (kappa * **b).abs() > WOUND) {
+            *b -= TAU / kappa * (kappa * *b / TAU).round();
+            unwound = true;
+        }
+        close || unwound
     }
 
     /// All points of one element.
@@ -274,6 +290,25 @@ mod recentre_tests {
                     assert!((moved - Vec3::new(0.0, 0.0, height)).norm() < 1e-14, "{kappa} {site:?} {moved}");
                 }
             }
+        }
+    }
+
+    /// Claim: a turn more or less of a lattice rotation is the same map, and after it no rotation is larger than pi by much.
+    /// Tolerance: rounding of numbers of size 50.
+    #[test]
+    fn whole_turns_are_taken_back() {
+        for (kappa, theta) in [(0.12, [-6.0, 12.5]), (-0.3, [5.0, 0.4]), (0.3, [3.9, -3.9])] {
+            let old = vec![0.0, 0.0, 1.2, 0.7, -0.2, 0.4, kappa, theta[0] / kappa, theta[1] / kappa, 1.1, 0.2];
+            let mut new = old.clone();
+            assert_eq!(Domain::Screw.recentre(&mut new, 0.8), theta.iter().any(|angle: &f64| angle.abs() > 4.0));
+            for vertex in 0..2 {
+                for shift in [[1, 0], [0, 1], [-2, 3]] {
+                    let site = Site { vertex, shift };
+                    let off = Domain::Screw.point(&new, site) - Domain::Screw.point(&old, site);
+                    assert!(off.norm() < 1e-12, "{kappa} {site:?} {off}");
+                }
+            }
+            assert!([7, 8].iter().all(|&b| (new[6] * new[b]).abs() <= 4.0), "{new:?}");
         }
     }
 }

@@ -16,6 +16,9 @@ use thiserror::Error;
 const FEASIBLE: f64 = 1e-10;
 /// Chord corrections allowed for a start, and for a trial.
 const START_CHORDS: i32 = 50;
+/// Most Gauss-Newton steps of a start, and the part of the gap that a whole one must close.
+const START_STEPS: usize = 30;
+const SLOWEST: f64 = 0.3;
 const CHORDS: i32 = 12;
 /// Scaled gaps of this size may be rounding error.
 const ROUNDING: f64 = 1e-12;
@@ -256,17 +259,44 @@ impl<P: Problem> Newton<'_, P> {
         self.problem.linearize(&self.x, &self.tension, self.curvature, &mut self.at);
     }
 
-    /// Pulls the start onto the stiff measures.
+    /// Pulls the start onto the stiff measures: by chord corrections, and where one linearization does not reach so far, by
+    /// damped Gauss-Newton steps before.
     fn start(&mut self) -> Result<(), Failure> {
-        if residuals(self.problem, &self.at, &self.tension).1 <= FEASIBLE {
-            return Ok(());
+        let mut gap = residuals(self.problem, &self.at, &self.tension).1;
+        for _ in 0..START_STEPS {
+            if gap <= FEASIBLE {
+                return Ok(());
+            }
+            self.saddle.factor_shortest(self.problem.layout(), &self.at, self.problem.compliance())?;
+            if let Ok(trial) = self.retract(self.x.clone(), self.tension.clone(), FEASIBLE, START_CHORDS) {
+                (self.x, self.tension) = (trial.x, trial.tension);
+                self.problem.accept(&mut self.x);
+                return Ok(());
+            }
+            gap = self.approach(gap).ok_or(Failure::Infeasible { gap })?;
         }
-        self.saddle.factor_shortest(self.problem.layout(), &self.at, self.problem.compliance())?;
-        let trial = self.retract(self.x.clone(), self.tension.clone(), FEASIBLE, START_CHORDS);
-        let trial = trial.map_err(|gap| Failure::Infeasible { gap })?;
-        (self.x, self.tension) = (trial.x, trial.tension);
-        self.problem.accept(&mut self.x);
-        Ok(())
+        Err(Failure::Infeasible { gap })
+    }
+
+    /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller; that gap.
+    fn approach(&mut self, gap: f64) -> Option<f64> {
+        let (compliance, scale) = (self.problem.compliance(), self.problem.gap_scale());
+        let missing = open(&self.at.gaps, &self.tension, compliance);
+        let (dx, dt) = self.saddle.apply(self.problem.layout(), &self.at, &vec![0.0; self.x.len()], &missing);
+        for fraction in (0..HALVINGS).map(|halving| 0.5f64.powi(halving)) {
+            let moved = |from: &[f64], by: &[f64]| -> Vec<f64> {
+                from.iter().zip(by).map(|(from, by)| from + fraction * by).collect()
+            };
+            let (x, tension) = (moved(&self.x, &dx), moved(&self.tension, &dt));
+            let left = largest(&open(&self.problem.gaps(&x), &tension, compliance), scale);
+            if left <= (1.0 - SLOWEST * fraction) * gap {
+                (self.x, self.tension) = (x, tension);
+                self.problem.accept(&mut self.x);
+                self.linearize();
+                return Some(left);
+            }
+        }
+        None
     }
 
     fn step(&self, fraction: f64) -> Step {
