@@ -1,5 +1,6 @@
 //! Minimisation of a soft energy under stiff measures, for any stiffness up to exactly rigid. Knows no origami.
 
+pub mod atlas;
 pub mod continuation;
 pub mod implicit;
 pub mod newton;
