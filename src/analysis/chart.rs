@@ -18,7 +18,8 @@ pub fn coordinates(state: &Folded) -> Vec<f64> {
     }
 }
 
-fn screw_coordinates(shape: &Shape) -> Vec<f64> {
+/// Coordinates of the vertices and of the screw of a screw-periodic state.
+pub fn screw_coordinates(shape: &Shape) -> Vec<f64> {
     let (chords, towards) = (shape.screw.chords, shape.screw.towards_axis());
     let x = shape.screw.axis.unwrap_or_else(|| chords[0].normalize());
     let z = if towards.norm() > 0.0 {

@@ -31,6 +31,16 @@ impl View {
         Self { right: up.cross(&toward), up, toward, normal }
     }
 
+    /// Looks at a box along the axes: the eye at positive x, negative y and positive z.
+    pub fn axonometric() -> Self {
+        const ELEVATION: f64 = 0.42;
+        const TURN: f64 = 0.95;
+        let level = Vec3::new(TURN.cos(), -TURN.sin(), 0.0);
+        let toward = Vec3::z() * ELEVATION.sin() + level * ELEVATION.cos();
+        let up = Vec3::z() * ELEVATION.cos() - level * ELEVATION.sin();
+        Self { right: up.cross(&toward), up, toward, normal: Vec3::z() }
+    }
+
     /// Right, up and towards the eye.
     pub fn place(&self, point: &Vec3) -> [f64; 3] {
         [point.dot(&self.right), point.dot(&self.up), point.dot(&self.toward)]

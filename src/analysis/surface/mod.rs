@@ -38,7 +38,7 @@ pub struct Question<'a> {
 /// A folded state.
 #[derive(Clone, Debug)]
 pub struct SurfacePoint {
-    /// Piece of the surface, and the sign of the curvature with which it leaves the drawn state.
+    /// Branch, and the sign of the curvature with which folding left the drawn state on the way here.
     pub branch: (usize, i8),
     /// Fold angles of all edges, in radians; continuous from the start of the piece.
     pub angles: Vec<f64>,
@@ -62,7 +62,10 @@ pub struct Surface {
     pub coverage: Coverage,
     /// Whether neighbours go the same way round everywhere.
     pub oriented: bool,
-    /// Branch and sign of every piece.
+    /// Whether it has no border.
+    pub closed: bool,
+    /// Branch and sign of the nappes from which it was begun. One number is shared by nappes that lie opposite each other at the
+    /// drawn state, and by those that hang together elsewhere.
     pub branches: Vec<(usize, i8)>,
 }
 
@@ -137,7 +140,7 @@ pub fn surface(question: &Question<'_>, observe: &mut dyn FnMut(usize) -> bool) 
 /// The states of an atlas, the hole around the drawn state closed where it is a tip.
 fn put_together(folding: &Folding<'_>, mut atlas: Atlas, starts: &[starts::Start]) -> Result<Surface, KinematicsError> {
     let branch = starts::branches(&atlas, starts);
-    let open = tip::close(folding, &mut atlas);
+    let tip::Left { rims, open } = tip::close(folding, &mut atlas);
     let coverage = match atlas.coverage {
         Coverage::Open { .. } if open == 0 => Coverage::Complete,
         Coverage::Open { .. } => Coverage::Open { charts: open },
@@ -156,5 +159,5 @@ fn put_together(folding: &Folding<'_>, mut atlas: Atlas, starts: &[starts::Start
     let mut branches = branch;
     branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
     branches.dedup();
-    Ok(Surface { points, triangles: atlas.triangles, coverage, oriented: atlas.oriented, branches })
+    Ok(Surface { points, triangles: atlas.triangles, coverage, oriented: atlas.oriented, closed: rims == 0, branches })
 }

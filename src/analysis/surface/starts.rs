@@ -119,29 +119,29 @@ fn on_sections(second_order: &SecondOrder) -> Result<Vec<Direction>, KinematicsE
     Ok(found)
 }
 
-/// Branch and sign of the piece that each start lies on: pieces that lie opposite each other at the drawn state have one number.
+/// Branch and sign of every start. Starts on one line through the drawn state, and on one piece of the surface, have one
+/// number.
 pub(super) fn branches(atlas: &Atlas, starts: &[Start]) -> Vec<(usize, i8)> {
-    let pieces = pieces(atlas, starts.len());
-    let mut branch: Vec<Option<(usize, i8)>> = vec![None; starts.len()];
-    let mut count = 0;
+    let mut piece = pieces(atlas, starts.len());
     for (k, start) in starts.iter().enumerate() {
-        if branch[k].is_some() {
-            continue;
-        }
-        // the start opposite to this one may have a number already
-        let opposite = (0..starts.len()).filter(|&other| starts[other].line == start.line && branch[other].is_some());
-        let number = opposite.filter_map(|other| branch[other]).map(|(number, _)| number).next();
-        let number = number.unwrap_or_else(|| {
-            count += 1;
-            count - 1
-        });
-        for other in 0..starts.len() {
-            if pieces[other] == pieces[k] {
-                branch[other] = Some((number, start.sign));
-            }
+        for opposite in (0..k).filter(|&other| starts[other].line == start.line) {
+            join(&mut piece, opposite, k);
         }
     }
-    branch.into_iter().map(|found| found.unwrap_or((0, 1))).collect()
+    let mut seen: Vec<usize> = Vec::new();
+    let numbers = piece.iter().map(|piece| {
+        seen.iter().position(|other| other == piece).unwrap_or_else(|| {
+            seen.push(*piece);
+            seen.len() - 1
+        })
+    });
+    numbers.collect::<Vec<_>>().into_iter().zip(starts).map(|(number, start)| (number, start.sign)).collect()
+}
+
+/// Gives the classes of two members one number.
+fn join(class: &mut [usize], a: usize, b: usize) {
+    let (one, two) = (class[a], class[b]);
+    class.iter_mut().filter(|number| **number == two).for_each(|number| *number = one);
 }
 
 /// For each start a number that it shares with the starts on the same piece.
@@ -149,10 +149,7 @@ fn pieces(atlas: &Atlas, starts: usize) -> Vec<usize> {
     let mut piece: Vec<usize> = (0..starts).collect();
     for [a, b, c] in &atlas.triangles {
         for other in [b, c] {
-            let [one, two] = [a, other].map(|chart| piece[atlas.charts[*chart].start]);
-            if one != two {
-                piece.iter_mut().filter(|number| **number == two).for_each(|number| *number = one);
-            }
+            join(&mut piece, atlas.charts[*a].start, atlas.charts[*other].start);
         }
     }
     piece

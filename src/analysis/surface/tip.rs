@@ -19,9 +19,17 @@ const STEPS: usize = 20;
 /// A tip is no further from a point of the rim than this times the largest distance of two of its points.
 const NEAR: f64 = 1.5;
 
-/// Joins rims to the tips in their holes; gives the number of charts on rims that are left and not at the limit.
-pub(super) fn close(folding: &Folding<'_>, atlas: &mut Atlas) -> usize {
-    let mut open = 0;
+/// What is left of the rims of an atlas.
+pub(super) struct Left {
+    /// Rims.
+    pub rims: usize,
+    /// Charts on them that are not at the limit.
+    pub open: usize,
+}
+
+/// Joins rims to the tips in their holes.
+pub(super) fn close(folding: &Folding<'_>, atlas: &mut Atlas) -> Left {
+    let mut left = Left { rims: 0, open: 0 };
     for rim in rims(&atlas.triangles) {
         let off = rim.iter().filter(|&&k| atlas.charts[k].limit.abs() > BORDER).count();
         let found = if off == rim.len() { tip(folding, &atlas.charts, &rim) } else { None };
@@ -31,10 +39,13 @@ pub(super) fn close(folding: &Folding<'_>, atlas: &mut Atlas) -> usize {
                 atlas.charts.push(chart);
                 atlas.triangles.extend((0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], tip]));
             }
-            None => open += off,
+            None => {
+                left.rims += 1;
+                left.open += off;
+            }
         }
     }
-    open
+    left
 }
 
 /// The spatially periodic state within a rim, as a chart without extent.
