@@ -1,6 +1,6 @@
 //! A surface of folded states as a picture: strain space seen obliquely, coloured by signed curvature.
 //!
-//! Every axis is scaled to its own range. Triangles and pieces of paths are painted from back to front. Violet is negative
+//! Every axis is scaled to its own range; the eye is on the side of the box on which the drawn state is. Triangles and pieces of paths are painted from back to front. Violet is negative
 //! curvature, orange positive, pale none; the drawn state, where the strain is zero, is a dot. The SVG is written directly, like
 //! that of a sheet ([`super::plot`]): the same surface gives the same bytes.
 
@@ -15,8 +15,8 @@ use crate::math::Vec3;
 const WIDTH: f64 = 1200.0;
 const HEIGHT: f64 = 900.0;
 /// Middle of the box on the paper, and paper per side of the box.
-const MIDDLE: [f64; 2] = [545.0, 455.0];
-const SCALE: f64 = 560.0;
+const MIDDLE: [f64; 2] = [565.0, 450.0];
+const SCALE: f64 = 545.0;
 const PAPER: &str = "#fcfbf8";
 const PANE: &str = "#f3f1ea";
 const GRID: &str = "#dcd9cf";
@@ -26,7 +26,7 @@ const COLOURS: [[f64; 3]; 5] =
     [[63.0, 38.0, 125.0], [150.0, 138.0, 196.0], [247.0, 244.0, 238.0], [238.0, 160.0, 78.0], [156.0, 70.0, 8.0]];
 const AXES: [&str; 3] = ["strain11", "strain22", "strain12"];
 /// Ticks on an axis, about.
-const TICKS: f64 = 5.0;
+const TICKS: f64 = 7.0;
 /// How much nearer to the eye lines are painted than they are, in sides of the box.
 const LIFT: f64 = 0.008;
 /// Top, bottom, left and right of the colour bar.
@@ -67,6 +67,8 @@ fn svg(surface: &StrainSurface, paths: &[Vec<Vec3>], title: &str) -> String {
 struct Space {
     low: [f64; 3],
     high: [f64; 3],
+    /// On which side of x and of y the eye is, 0.5 or -0.5; above in z.
+    near: [f64; 2],
     view: View,
 }
 
@@ -84,7 +86,13 @@ impl Space {
             let margin = 0.03 * (high[axis] - low[axis]);
             (low[axis], high[axis]) = (low[axis] - margin, high[axis] + margin);
         }
-        Self { low, high, view: View::axonometric() }
+        Self::new(low, high)
+    }
+
+    fn new(low: [f64; 3], high: [f64; 3]) -> Self {
+        // the drawn state is at strain 0
+        let near = [0, 1].map(|axis| if low[axis] + high[axis] > 0.0 { -0.5 } else { 0.5 });
+        Self { low, high, near, view: View::axonometric(near.map(f64::signum)) }
     }
 
     /// A strain in the box, whose sides have length 1 and whose middle is 0.
@@ -117,9 +125,9 @@ fn line(text: &mut String, space: &Space, ends: [Vec3; 2], style: &str) {
     put!(text, "<path d=\"M{:.1} {:.1} {:.1} {:.1}\" {style}/>\n", a[0], a[1], b[0], b[1]);
 }
 
-/// The three far sides of the box with their grids. The eye is at positive x, negative y and positive z.
+/// The three far sides of the box with their grids.
 fn panes(text: &mut String, space: &Space) {
-    for (flat, side) in [(0, -0.5), (1, 0.5), (2, -0.5)] {
+    for (flat, side) in [(0, -space.near[0]), (1, -space.near[1]), (2, -0.5)] {
         let (u, v) = ((flat + 1) % 3, (flat + 2) % 3);
         let at = |a: f64, b: f64| {
             let mut place = Vec3::zeros();
@@ -176,6 +184,11 @@ fn paint(text: &mut String, space: &Space, surface: &StrainSurface, paths: &[Vec
             }
         }
     }
+    // what of the paths is behind the surface, faintly
+    let faint = format!("stroke=\"{INK}\" stroke-width=\"1.3\" stroke-opacity=\".4\"");
+    for path in paths {
+        path.windows(2).for_each(|ends| line(text, space, [0, 1].map(|k| space.boxed(&ends[k])), &faint));
+    }
     text.push_str("</g>\n");
 }
 
@@ -205,24 +218,32 @@ fn colour(part: f64) -> [f64; 3] {
 
 /// Numbers and names at three edges of the box.
 fn axes(text: &mut String, space: &Space) {
-    // for each axis: the edge at which it is labelled (its two other coordinates), and the way off the box on the paper
-    let edges = [([-0.5, -0.5], [-0.35, 0.94]), ([-0.5, 0.5], [0.62, 0.78]), ([-0.5, -0.5], [-1.0, 0.0])];
-    for (axis, (others, off)) in edges.into_iter().enumerate() {
-        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let [x, y] = space.near;
+    let left = [[x, -y], [-x, y]].into_iter().min_by(|a, b| {
+        let [a, b] = [a, b].map(|[x, y]| space.on_paper(&Vec3::new(*x, *y, 0.0))[0]);
+        a.total_cmp(&b)
+    });
+    let [left_x, left_y] = left.unwrap_or([x, -y]);
+    // where each axis begins
+    let starts = [Vec3::new(-0.5, y, -0.5), Vec3::new(x, -0.5, -0.5), Vec3::new(left_x, left_y, -0.5)];
+    let centre = space.on_paper(&Vec3::new(0.0, 0.0, -0.5));
+    for (axis, start) in starts.into_iter().enumerate() {
         let at = |along: f64| {
-            let mut place = Vec3::zeros();
-            (place[axis], place[u], place[v]) = (along, others[0], others[1]);
+            let mut place = start;
+            place[axis] = along;
             place
         };
         line(text, space, [at(-0.5), at(0.5)], &format!("stroke=\"{INK}\" stroke-width=\"1.4\""));
-        let anchor = if off[0] < -0.5 { "end" } else { "middle" };
+        let middle = space.on_paper(&at(0.0));
+        let off = [middle[0] - centre[0], middle[1] - centre[1]];
+        let off = if axis == 2 { [-1.0, 0.0] } else { off.map(|x| x / off[0].hypot(off[1])) };
+        let anchor = if axis == 2 { "end" } else { "middle" };
         for tick in space.ticks(axis) {
             let [x, y] = space.on_paper(&at(space.along(axis, tick)));
-            let (x, y) = (x + 20.0 * off[0], y + 24.0 * off[1] + 6.0);
+            let (x, y) = (x + 26.0 * off[0], y + 22.0 * off[1] + 6.0);
             put!(text, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{}</text>\n", number(tick));
         }
-        let [x, y] = space.on_paper(&at(0.0));
-        let (x, y) = (x + 78.0 * off[0], y + 66.0 * off[1] + 6.0);
+        let (x, y) = (middle[0] + 92.0 * off[0], middle[1] + 84.0 * off[1] + 6.0);
         let name = AXES[axis];
         put!(text, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" font-weight=\"bold\">{name}</text>\n");
     }
@@ -323,8 +344,11 @@ mod tests {
     fn colours_and_ticks() {
         assert_eq!([-1.0, 0.0, 1.0].map(colour), [COLOURS[0], COLOURS[2], COLOURS[4]]);
         assert_eq!(colour(f64::NAN), COLOURS[2]);
-        let space = Space { low: [-0.83, 0.0, 0.0], high: [0.21, 1.0, 3e-4], view: View::axonometric() };
-        assert_eq!(space.ticks(0).iter().map(|&t| number(t)).collect::<Vec<_>>(), ["\u{2212}0.5", "0"]);
+        let space = Space::new([-0.83, 0.0, 0.0], [0.21, 1.0, 3e-4]);
+        assert_eq!(
+            space.ticks(0).iter().map(|&t| number(t)).collect::<Vec<_>>(),
+            ["\u{2212}0.8", "\u{2212}0.6", "\u{2212}0.4", "\u{2212}0.2", "0", "0.2"]
+        );
         assert_eq!(space.ticks(1).len(), 6);
         assert!(space.ticks(2).len() >= 3);
     }
