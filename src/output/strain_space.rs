@@ -33,9 +33,9 @@ impl StrainSurface {
         let lengths = [("curvature", self.curvature.len()), ("theta", self.theta.len())].into_iter().chain(folds);
         let energy = self.energy.iter().map(|energy| ("energy", energy.len()));
         let marks = self.self_intersecting.iter().map(|marks| ("self_intersecting", marks.len()));
-        match lengths.chain(energy).chain(marks).find(|(_, found)| *found != expected) {
-            Some((array, found)) => return Err(ShapeError::Length { array, found, expected }),
-            None => {}
+        let wrong = lengths.chain(energy).chain(marks).find(|(_, found)| *found != expected);
+        if let Some((array, found)) = wrong {
+            return Err(ShapeError::Length { array, found, expected });
         }
         match self.triangles.iter().flatten().find(|&&point| point >= expected) {
             Some(&point) => Err(ShapeError::NoSuchPoint { point, count: expected }),

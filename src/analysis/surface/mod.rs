@@ -3,8 +3,8 @@
 //! Where `modes - quadrics` of the drawn state is two (a generic periodic cell: 3 and 1; a flat one: `Nv + 2` and `Nv`) the
 //! folded states are a surface in the space of fold angles: at cylinders closure has a null space of dimension two, and the
 //! drawn state is the tip of a cone, at which two nappes or more meet. [`crate::solver::atlas`] covers them with charts, from
-//! a state on each ([`starts`]), until they close modulo 2 pi or the curvature is met. The hole that charts leave around the tip
-//! is closed with triangles to the drawn state ([`tip`]).
+//! a state on each (`starts`), until they close modulo 2 pi or the curvature is met. The hole that charts leave around the tip
+//! is closed with triangles to the drawn state (`tip`).
 
 mod folding;
 mod starts;
