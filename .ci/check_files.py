@@ -3,7 +3,7 @@
 
     python .ci/check_files.py OUT... [--render PICTURE.png]        needs: vtk, pyvista, meshio, numpy
 
-OUT is the folder of a run. Every .vtu is opened by VTK and by meshio, every .pvd by PyVista; counts, cell arrays, tables
+OUT is the folder of a run. Every .vtu is opened by VTK and by meshio, every .vtp by VTK, every .pvd by PyVista; counts, cell arrays, tables
 and summary.json have to agree. --render draws the last state off-screen with PyVista. The exit status is 1 where a check
 fails. A table has the fold angles of one cell: of a patch or a torus the one in the middle, of a screw the only one there is.
 Each of them must be among the angles that the lines of this edge have in the last picture; where all of these agree, as on
@@ -31,6 +31,8 @@ STUDY = {"name", "kind", "converged", "seconds", "error"}
 KINDS = {
     "relax": {"energy", "iterations", "factorizations", "residual_force", "residual_length", "negative_eigenvalues",
               "error_to_kinematic", "history"},
+    "surface": {"points", "triangles", "coverage", "closed", "oriented", "tips", "max_curvature", "radius", "max_residual",
+                "branches"},
     "modes": {"zero_modes", "self_stresses", "rigid_motions", "folding_modes", "maxwell_count", "gap", "eigenvalues"},
 }
 STATE_COLUMNS = ("branch,sign,step,arc_length,curvature,theta1,theta2,strain11,strain22,strain12,energy_bars,"
@@ -98,6 +100,38 @@ def check_vtu(checks, path):
     return grid
 
 
+def check_vtp(checks, path, table, study):
+    """A surface of states: a point for each row of the table, at its strains, with its numbers."""
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    surface = reader.GetOutput()
+    if not checks.that(not reader.GetErrorCode() and surface.GetPoints() is not None, f"{path}: VTK opens it"):
+        return
+    header, rows = read_table(table)
+    number = lambda field: float(field) if field else np.nan
+    column = lambda name: np.array([number(row[header.index(name)]) for row in rows])
+    points = vtk_to_numpy(surface.GetPoints().GetData())
+    strains = np.column_stack([column(name) for name in ["strain11", "strain22", "strain12"]])
+    checks.that(np.array_equal(points, strains), f"{path}: the points are the strains of the table")
+    triangles = surface.GetNumberOfPolys()
+    checks.that(triangles == surface.GetNumberOfCells() == study["triangles"], f"{path}: {triangles} triangles")
+    checks.that(len(points) == study["points"], f"{path}: {len(points)} points")
+    used = vtk_to_numpy(surface.GetPolys().GetConnectivityArray())
+    checks.that(len(used) == 3 * triangles and used.min() >= 0 and used.max() < len(points), f"{path}: its indices")
+    data = surface.GetPointData()
+    arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    expected = {name: name for name in header if name.startswith("fold_")} | {"curvature": "curvature"}
+    optional = {"energy": "energy_total", "self_intersecting": "self_intersecting"}
+    expected |= {name: source for name, source in optional.items() if np.any(np.isfinite(column(source)))}
+    checks.that(set(arrays) == set(expected) | {"theta"}, f"{path}: arrays {sorted(arrays)}")
+    for name, source in expected.items():
+        same = name in arrays and np.array_equal(arrays[name], column(source), equal_nan=True)
+        checks.that(same, f"{path}: {name} is {source} of the table")
+    theta = np.column_stack([column("theta1"), column("theta2")])
+    checks.that(np.array_equal(arrays.get("theta"), theta), f"{path}: theta is that of the table")
+
+
 def check_meshio(checks, path, grid):
     """The second reader sees the same."""
     mesh = meshio.read(path)
@@ -152,16 +186,20 @@ def check_angles(checks, where, grid, table):
 
 
 def check_collection(checks, out, name):
-    """The collection lists the states there are; gives the last one."""
+    """The collection lists the states there are; gives the last one, of a sheet only."""
     path = out / f"{name}.pvd"
     files = [out / entry.get("file") for entry in xml.parse(path).getroot().iter("DataSet")]
     checks.that(files and all(file.exists() for file in files), f"{path}: its files are there")
-    checks.that(sorted(files) == sorted((out / name).glob("*.vtu")), f"{path}: lists every state of {name}/")
+    there = [file for ending in ["vtu", "vtp"] for file in (out / name).glob(f"*.{ending}")]
+    checks.that(sorted(files) == sorted(there), f"{path}: lists every state of {name}/")
     reader = pyvista.get_reader(str(path))
     times = list(reader.time_values)
     checks.that(len(times) == len(files) and times == sorted(times), f"{path}: PyVista finds {len(times)} times")
     reader.set_active_time_value(times[-1])
     last = reader.read()
+    if files[-1].suffix == ".vtp":
+        checks.that(sum(block.n_cells for block in last) > 0, f"{path}: PyVista's surface")
+        return None
     checks.that(sum(block.n_cells for block in last) == len(read_vtk(files[-1])["types"]), f"{path}: PyVista's last state")
     return files[-1]
 
@@ -174,6 +212,8 @@ def check_study(checks, out, study, edges):
     checks.that(study["converged"] or "reason" in study, f"summary of {name}: a failure has a reason")
     table = check_table(checks, out / f"{name}.csv", kind, edges) if study["converged"] else None
     grids = {path: check_vtu(checks, path) for path in sorted((out / name).glob("*.vtu"))}
+    for path in sorted((out / name).glob("*.vtp")):
+        check_vtp(checks, path, out / f"{name}.csv", study)
     if (out / f"{name}.svg").exists():
         root = xml.parse(out / f"{name}.svg").getroot()
         checks.that(root.tag.endswith("svg") and len(root) > 3, f"{name}.svg: a picture")

@@ -7,16 +7,21 @@
 //! A folded state of the reference cell (four vertices, twelve edges, one of them held). Every figure is the median, over
 //! rounds taken in turns, of the mean time of many calls. `step` is one step of 0.02 along the loop through this state:
 //! prediction along the tangent, Newton's method across it to 1e-13, shape, and the next tangent, here by Cholesky
-//! factors of `J^T J + t t^T`, `t` the old tangent.
+//! factors of `J^T J + t t^T`, `t` the old tangent. Last the whole surface of folded states up to a curvature of 2, with its
+//! triangles, at three resolutions.
 #![allow(clippy::unwrap_used)]
 
 mod common;
 
 use common::{in_turns, measuring, seconds};
-use foldwell::kinematics::{Closure, Displacement, Embedding, Shape};
+use foldwell::analysis::branches;
+use foldwell::analysis::surface::{Question, surface};
+use foldwell::kinematics::{Closure, Displacement, Embedding, Shape, drawn_fold_angles};
+use foldwell::model::assemble::{Recipe, Surroundings};
 use foldwell::numerics::{DenseMatrix, dense::null_space};
-use foldwell::sheet::fold;
+use foldwell::sheet::{Sheet, fold, tile};
 use nalgebra::{DVector, DVectorView};
+use std::f64::consts::TAU;
 use std::hint::black_box;
 
 fn main() {
@@ -46,6 +51,28 @@ fn main() {
     );
     for (name, time) in ["closure", "with Jacobian", "placement", "shape", "displacement", "step"].iter().zip(times) {
         println!("{name:16} {:8.3} us", 1e6 * time);
+    }
+    cover(&sheet);
+}
+
+/// Covers the surface of the cell up to a curvature of 2, or a little of it where nothing is measured.
+fn cover(sheet: &Sheet) {
+    let (tiling, angles, recipe) = (tile(sheet, [1, 1], true), drawn_fold_angles(sheet), Recipe::default());
+    let resolutions = if measuring() { &[16, 24, 32][..] } else { &[16] };
+    for &resolution in resolutions {
+        let surroundings = Surroundings::Screw;
+        let start = branches::Question { sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &recipe };
+        let max_curvature = if measuring() { 2.0 } else { 0.1 };
+        let radius = TAU / f64::from(resolution);
+        let question = Question { start, radius, tolerance: 3e-14, max_curvature, max_points: 300_000 };
+        let mut found = None;
+        let time = seconds(|| found = Some(surface(&question, &mut |_| true).unwrap()));
+        let points = found.unwrap().points.len();
+        let each = 1e6 * time / points as f64;
+        println!(
+            "surface {resolution:8} {time:8.3} s, {points} points: {each:.1} us each, 20,000 in {:.2} s",
+            0.02 * each
+        );
     }
 }
 

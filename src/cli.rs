@@ -248,6 +248,9 @@ fn describe_study(study: &StudySummary) -> String {
             let ends = traced.branches.iter().map(|one| format!("{} at {:.6}", one.end, one.arc_length));
             ends.collect::<Vec<_>>().join(", ")
         }
+        Some(StudyResult::Surface(surface)) => {
+            format!("{} states, {} triangles, {}", surface.points, surface.triangles, surface.coverage)
+        }
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();

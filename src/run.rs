@@ -19,6 +19,7 @@ mod draw;
 mod resume;
 mod runner;
 mod studies;
+mod surface;
 mod trace;
 
 use runner::Runner;

@@ -167,6 +167,7 @@ const FAULTS: &[Fault] = &[
     fault(23, "start = \"second\"", "23:9", "no earlier study is called `second`", "\"drawn\", the name of an earlier study with states (there are none), { random, seed } or a .vtu file"),
     fault(23, "start = 3", "23:9", "invalid type: integer `3`", "expected \"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file"),
     fault(24, "tolerance = 0", "24:13", "the number is 0", "expected a finite number above 0"),
+    fault(62, "resolution = 0", "62:14", "the number is 0", "expected a whole number from 1 to 4294967295"),
     fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace; the keys here are `start` or `tolerance`"),
     fault(28, "start = \"third\"", "28:9", "no earlier study is called `third`", "\"drawn\", the name of an earlier study with states (here \"first\"), { random, seed } or a .vtu file"),
     fault(29, "check = [\"overlap\"]", "29:10", "unknown word `overlap`", "expected `self-intersection`"),
@@ -369,8 +370,12 @@ fn studies_that_cannot_be_done() {
     let cases = [
         (scene("", "kind = \"relax\""), "scene.toml:7:8: there is no energy to relax"),
         (
+            scene(creases, "kind = \"bloch\""),
+            "scene.toml:7:8: studies of kind `bloch` are not available in this version",
+        ),
+        (
             scene(creases, "kind = \"surface\""),
-            "scene.toml:7:8: studies of kind `surface` are not available in this version",
+            "scene.toml:7:8: a surface of folded states is drawn in the space of lattice strains",
         ),
         (
             scene(creases, "kind = \"trace\""),

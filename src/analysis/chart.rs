@@ -9,6 +9,9 @@ use crate::math::Vec3;
 
 /// Below this rotation angle `b` comes from the chord, above it from the angle; both are exact there.
 const SMALL_TURN: f64 = 1.0;
+/// Below this rotation angle there is no axis: its direction would be off by the rounding error over the angle, which is more than
+/// what leaving out the turn costs.
+const NO_TURN: f64 = 1e-8;
 
 /// Coordinates of all vertices, and of the screw where the state has a lattice.
 pub fn coordinates(state: &Folded) -> Vec<f64> {
@@ -18,13 +21,14 @@ pub fn coordinates(state: &Folded) -> Vec<f64> {
     }
 }
 
-fn screw_coordinates(shape: &Shape) -> Vec<f64> {
+/// Coordinates of the vertices and of the screw of a screw-periodic state.
+pub fn screw_coordinates(shape: &Shape) -> Vec<f64> {
     let (chords, towards) = (shape.screw.chords, shape.screw.towards_axis());
-    let x = shape.screw.axis.unwrap_or_else(|| chords[0].normalize());
-    let z = if towards.norm() > 0.0 {
-        (towards * shape.curvature.signum()).normalize()
-    } else {
-        chords[0].cross(&chords[1]).normalize()
+    let turns = shape.theta.iter().any(|theta| theta.abs() >= NO_TURN);
+    let curvature = if turns { shape.curvature } else { 0.0 };
+    let (x, z) = match shape.screw.axis.filter(|_| turns && towards.norm() > 0.0) {
+        Some(axis) => (axis, (towards * curvature.signum()).normalize()),
+        None => (chords[0].normalize(), chords[0].cross(&chords[1]).normalize()),
     };
     let y = z.cross(&x);
     let origin = shape.positions[0];
@@ -33,9 +37,9 @@ fn screw_coordinates(shape: &Shape) -> Vec<f64> {
     let step = |k: usize| {
         let theta = shape.theta[k];
         let sinc = if theta == 0.0 { 1.0 } else { theta.sin() / theta };
-        if theta.abs() < SMALL_TURN { chords[k].dot(&y) / sinc } else { theta / shape.curvature }
+        if theta.abs() < SMALL_TURN { chords[k].dot(&y) / sinc } else { theta / curvature }
     };
-    coordinates.push(shape.curvature);
+    coordinates.push(curvature);
     coordinates.extend([step(0), step(1), chords[0].dot(&x), chords[1].dot(&x)]);
     coordinates
 }

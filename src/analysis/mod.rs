@@ -8,5 +8,6 @@ pub mod intersections;
 pub mod modes;
 pub mod relax;
 pub mod state;
+pub mod surface;
 pub mod trace;
 pub mod view;

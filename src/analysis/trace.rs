@@ -9,6 +9,7 @@ use crate::kinematics::{Closure, Displacement, Embedding, KinematicsError, Ray, 
 use crate::math::Vec3;
 use crate::model::assemble::Surroundings;
 use crate::numerics::DenseMatrix;
+use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, End, Event, Options, Point, Trajectory, follow};
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -143,7 +144,7 @@ impl Folding<'_, '_> {
     }
 }
 
-impl Curve for Folding<'_, '_> {
+impl Implicit for Folding<'_, '_> {
     fn unknowns(&self) -> usize {
         self.closure.folding_edges().len()
     }
@@ -156,7 +157,9 @@ impl Curve for Folding<'_, '_> {
         self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &angle)| self.angles[edge] = angle);
         self.closure.linearize_into(&self.angles, residual, jacobian);
     }
+}
 
+impl Curve for Folding<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         let state = self.folded(point);
         let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());

@@ -7,9 +7,12 @@ pub mod files;
 pub mod picture;
 pub mod plot;
 mod projection;
+pub mod strain_plot;
+pub mod strain_space;
 pub mod summary;
 pub mod table;
 pub mod vtk;
 
 pub use error::OutputError;
 pub use picture::Picture;
+pub use strain_space::StrainSurface;

@@ -78,6 +78,8 @@ pub enum StudyResult {
     Modes(ModesSummary),
     /// `kind = "branches"`.
     Branches(BranchesSummary),
+    /// `kind = "surface"`.
+    Surface(SurfaceSummary),
     /// Of `trace`.
     Trace(TraceSummary),
 }
@@ -217,6 +219,42 @@ pub struct TurningPoint {
     pub arc_length: f64,
     /// Its value there.
     pub value: f64,
+}
+
+/// The surface of folded states.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceSummary {
+    /// States.
+    pub points: usize,
+    /// Triangles of states.
+    pub triangles: usize,
+    /// How the covering ended: complete, open, too-many-points, interrupted or no-real-branch.
+    pub coverage: String,
+    /// Whether the surface has no border: it closes modulo 2 pi without meeting the largest curvature.
+    pub closed: bool,
+    /// Whether neighbouring triangles go the same way round everywhere.
+    pub oriented: bool,
+    /// Spatially periodic states on the surface, once for each nappe that ends there.
+    pub tips: usize,
+    /// The curvature at which the surface ends.
+    pub max_curvature: f64,
+    /// Largest radius of a chart in fold angles.
+    pub radius: f64,
+    /// Largest closure residual.
+    pub max_residual: f64,
+    /// The nappes from which the surface was begun, with the states that were reached from each.
+    pub branches: Vec<PieceSummary>,
+}
+
+/// The states that were reached from one nappe.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PieceSummary {
+    /// Number of the branch: the same for nappes opposite each other, and for those on one piece of the surface.
+    pub branch: usize,
+    /// Sign of the curvature with which it leaves the drawn state.
+    pub sign: i8,
+    /// States.
+    pub points: usize,
 }
 
 /// The branches along which exact folding leaves the drawn state.

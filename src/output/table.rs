@@ -10,6 +10,22 @@ use super::files;
 use super::picture::ShapeError;
 use crate::sheet::EdgeKey;
 
+/// Reads columns of a table that was written here: one row after the other, NaN where there is no number or no such column.
+///
+/// # Errors
+/// [`OutputError::Read`].
+pub fn read_columns<const N: usize>(path: &Path, names: [&str; N]) -> Result<Vec<[f64; N]>, OutputError> {
+    let text = std::fs::read_to_string(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let places = names.map(|name| header.iter().position(|column| *column == name));
+    let row = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        places.map(|place| place.and_then(|k| fields.get(k)?.parse().ok()).unwrap_or(f64::NAN))
+    };
+    Ok(lines.map(row).collect())
+}
+
 /// A value of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
@@ -36,9 +52,14 @@ impl Table {
 
     /// The table of the states of a study: its columns are those of [`StateRow`], the edges of the cell last.
     pub fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
-        let fold = edges.iter().map(|e| format!("fold_{}_{}_{}_{}", e.i, e.j, e.shift[0], e.shift[1]));
+        let fold = edges.iter().map(Self::fold_column);
         let header = StateRow::COLUMNS.iter().map(|&column| column.to_owned()).chain(fold).collect();
         Self { header, rows: states.iter().map(StateRow::values).collect() }
+    }
+
+    /// The name of the column with the fold angle of an edge.
+    pub fn fold_column(edge: &EdgeKey) -> String {
+        format!("fold_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }
 
     /// Adds a row.

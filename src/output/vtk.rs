@@ -1,4 +1,5 @@
-//! Files for ParaView: VTU (one state), PVD (the states of a study in their order), and reading VTU back.
+//! Files for ParaView: VTU (one state), VTP (a surface of states), PVD (the files of a study in their order), and reading VTU
+//! back.
 //!
 //! Arrays are uncompressed, since ParaView has failed to open compressed files of several writers; their lengths are
 //! checked before, since a short one makes it crash.
@@ -10,11 +11,12 @@ use std::path::Path;
 use thiserror::Error;
 use vtkio::IOBuffer;
 use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, ElementType, UnstructuredGridPiece, Version,
-    VertexNumbers, Vtk,
+    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, ElementType, PolyDataPiece,
+    UnstructuredGridPiece, Version, VertexNumbers, Vtk,
 };
 
 use super::picture::Picture;
+use super::strain_space::StrainSurface;
 use super::{OutputError, files};
 use crate::math::Vec3;
 
@@ -82,17 +84,47 @@ pub struct VtuMesh {
 /// [`OutputError::Shape`] where the picture's arrays do not fit together, [`OutputError::Write`].
 pub fn write_vtu(path: &Path, picture: &Picture) -> Result<(), OutputError> {
     picture.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
-    let vtk = Vtk {
-        version: Version::Auto,
-        title: String::new(),
-        byte_order: ByteOrder::LittleEndian,
-        file_path: None,
-        data: DataSet::inline(UnstructuredGridPiece {
-            points: coordinates(&picture.points),
-            cells: cells(picture),
-            data: attributes(picture),
-        }),
+    let piece = UnstructuredGridPiece {
+        points: coordinates(&picture.points),
+        cells: cells(picture),
+        data: attributes(picture),
     };
+    write(path, DataSet::inline(piece))
+}
+
+/// Writes a surface of states as triangles in the space of strains.
+///
+/// Point arrays `curvature`, `theta` (2 components), one for each edge of the cell named like its column in the table
+/// (`fold_i_j_n1_n2`), `energy` and `self_intersecting` where they were computed.
+///
+/// # Errors
+/// [`OutputError::Shape`] where the arrays do not fit together, [`OutputError::Write`].
+pub fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError> {
+    surface.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
+    let polys = VertexNumbers::XML {
+        connectivity: surface.triangles.iter().flatten().map(|&point| point as u64).collect(),
+        offsets: (1..=surface.triangles.len()).map(|end| 3 * end as u64).collect(),
+    };
+    let pair = ElementType::Scalars { num_comp: 2, lookup_table: None };
+    let theta = IOBuffer::F64(surface.theta.iter().flatten().copied().collect());
+    let mut point = vec![scalars("curvature", IOBuffer::F64(surface.curvature.clone())), array("theta", pair, theta)];
+    point.extend(surface.folds.iter().map(|(name, angles)| scalars(name, IOBuffer::F64(angles.clone()))));
+    point.extend(surface.energy.iter().map(|energy| scalars("energy", IOBuffer::F64(energy.clone()))));
+    point.extend(
+        surface.self_intersecting.iter().map(|marks| scalars("self_intersecting", IOBuffer::U8(marks.clone()))),
+    );
+    let piece = PolyDataPiece {
+        points: coordinates(&surface.points),
+        polys: Some(polys),
+        data: Attributes { point, cell: vec![] },
+        ..PolyDataPiece::default()
+    };
+    write(path, DataSet::inline(piece))
+}
+
+fn write(path: &Path, data: DataSet) -> Result<(), OutputError> {
+    let (version, byte_order) = (Version::Auto, ByteOrder::LittleEndian);
+    let vtk = Vtk { version, title: String::new(), byte_order, file_path: None, data };
     files::write_with(path, |file| vtk.write_xml(file).map_err(io::Error::other))
 }
 
@@ -316,6 +348,41 @@ mod tests {
         let text = String::from_utf8(written(&samples::hinge(0.3))).unwrap();
         let fault = parse_vtu(text.replace("UnstructuredGrid", "PolyData").as_bytes()).unwrap_err();
         assert!(matches!(fault, VtuFault::Format(_) | VtuFault::NotUnstructured), "{fault}");
+    }
+
+    /// Claim: a surface reads back with its triangles, and every array has a value for every point; what was not computed has
+    /// no array; arrays that do not fit are not written.
+    #[test]
+    fn a_surface_reads_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.vtp");
+        let mut surface = super::super::strain_space::samples::cap(5);
+        let read = |path: &Path| match Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap().data {
+            data @ DataSet::PolyData { .. } => PolyDataPiece::try_from(data).unwrap(),
+            other => panic!("{other:?}"),
+        };
+        let names = |piece: &PolyDataPiece| -> Vec<(String, usize)> {
+            let name = |a: &Attribute| match a {
+                Attribute::DataArray(array) => (array.name.clone(), array.data.len()),
+                Attribute::Field { .. } => panic!("no fields are written"),
+            };
+            piece.data.point.iter().map(name).collect()
+        };
+        write_vtp(&path, &surface).unwrap();
+        let piece = read(&path);
+        let (corners, ends) = piece.polys.clone().unwrap().into_xml();
+        assert_eq!(corners, surface.triangles.iter().flatten().map(|&p| p as u64).collect::<Vec<_>>());
+        assert_eq!((ends.len(), piece.num_points()), (surface.triangles.len(), 25));
+        let expected =
+            [("curvature", 25), ("theta", 50), ("fold_0_1_0_0", 25), ("energy", 25), ("self_intersecting", 25)];
+        assert_eq!(names(&piece), expected.map(|(name, length)| (name.to_owned(), length)));
+        (surface.energy, surface.self_intersecting) = (None, None);
+        write_vtp(&path, &surface).unwrap();
+        assert_eq!(names(&read(&path)).len(), 3);
+        surface.folds[0].1.pop();
+        let error = write_vtp(&path, &surface).unwrap_err();
+        let fault = ShapeError::Length { array: "fold", found: 24, expected: 25 };
+        assert!(matches!(error, OutputError::Shape { fault: found, .. } if found == fault));
     }
 
     proptest! {

@@ -1,7 +1,7 @@
 //! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
 
 use super::resume::{Earlier, Kept, write_state};
-use super::{Observer, Progress, RunError, RunOptions, RunReport, branches, studies, trace};
+use super::{Observer, Progress, RunError, RunOptions, RunReport, branches, studies, surface, trace};
 use crate::analysis::view::View;
 use crate::numerics::parallel;
 use crate::output::files;
@@ -82,6 +82,7 @@ impl<'a> Runner<'a> {
             StudyKind::Modes(spec) => studies::modes(self, study, spec)?,
             StudyKind::Branches(_) => branches::study(self, study)?,
             StudyKind::Trace(spec) => trace::study(self, study, spec)?,
+            StudyKind::Surface(spec) => surface::study(self, study, spec)?,
             _ => return Err(studies::not_available(self.file, study)),
         };
         self.push(found)
@@ -136,7 +137,8 @@ impl<'a> Runner<'a> {
 
 fn summary(file: &SceneFile, built: &Built, digest: String) -> Summary {
     let info = Info::new(&built.sheet);
-    let (terms, left_out) = built.terms();
+    let (terms, mut left_out) = built.terms();
+    left_out.extend(file.scene.studies.iter().filter_map(|study| surface::left_out(built, study)));
     let held = built.drawn.held.len() + built.recipe.pins.iter().flat_map(|(_, axes)| axes).filter(|a| **a).count();
     Summary {
         version: env!("CARGO_PKG_VERSION"),

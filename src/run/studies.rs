@@ -3,7 +3,7 @@
 use super::draw::{self, Shown};
 use super::resume::Kept;
 use super::runner::Runner;
-use super::{Progress, RunError, branches, trace};
+use super::{Progress, RunError, branches, surface, trace};
 use crate::analysis;
 use crate::analysis::intersections::LYING;
 use crate::analysis::modes::{Modes, Question};
@@ -38,6 +38,7 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
         StudyKind::Modes(_) => Ok(()),
         StudyKind::Branches(_) => branches::check(file, built, study),
         StudyKind::Trace(spec) => trace::check(file, built, study, spec),
+        StudyKind::Surface(_) => surface::check(file, built, study),
         _ => Err(not_available(file, study)),
     }
 }
@@ -45,7 +46,8 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
 /// The refusal of a kind of study that a later version does.
 pub fn not_available(file: &SceneFile, study: &StudySpec) -> RunError {
     let message = format!("studies of kind `{}` are not available in this version", study.kind.name());
-    file.error_at(study.kind.span(), message, "the kinds here are `relax`, `modes`, `branches` and `trace`").into()
+    file.error_at(study.kind.span(), message, "the kinds here are `relax`, `modes`, `branches`, `trace` and `surface`")
+        .into()
 }
 
 /// `kind = "relax"`.

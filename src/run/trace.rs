@@ -146,16 +146,20 @@ fn model(built: &Built) -> Model {
 
 /// A folded state as the model sees it, with the fold angles of all edges.
 fn shown_state(built: &Built, model: &Model, folded: &Folded) -> State {
-    let coordinates = coordinates(folded);
+    state_at(built, model, coordinates(folded), &folded.angles)
+}
+
+/// The state of a model at coordinates, with the fold angles of all edges.
+pub fn state_at(built: &Built, model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
     let tension = vec![0.0; model.layout().stiff.len()];
     let state = State::new(model, &model.unknowns(&coordinates), &tension, built.tiling.edges.len());
-    State { coordinates, fold_angle: folded.angles.clone(), ..state }
+    State { coordinates, fold_angle: angles.to_vec(), ..state }
 }
 
 /// The angles of the model's hinges, from which a relaxation of this state continues.
-fn hinge_angles(model: &Model, folded: &Folded) -> Vec<f64> {
+pub fn hinge_angles(model: &Model, angles: &[f64]) -> Vec<f64> {
     let terms = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
-    terms.flat_map(|term| (0..term.len()).map(|k| folded.angles[term.edge(k)]).collect::<Vec<_>>()).collect()
+    terms.flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<_>>()).collect()
 }
 
 fn write(runner: &mut Runner<'_>, study: &StudySpec, traced: &[Traced]) -> Result<(), RunError> {
@@ -166,7 +170,7 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, traced: &[Traced]) -> Resul
     for one in traced {
         let every = one.states.len().div_ceil(PICTURES);
         for (step, folded) in one.states.iter().enumerate() {
-            model.set_angles(&hinge_angles(&model, folded));
+            model.set_angles(&hinge_angles(&model, &folded.angles));
             model.start_from(coordinates(folded));
             let state = shown_state(built, &model, folded);
             let marks = finder.as_mut().map(|finder| finder.marks(&built.drawn, &state, LYING));
@@ -183,7 +187,7 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, traced: &[Traced]) -> Resul
         states.iter().zip(marks).map(|(state, marks)| Shown { state, residuals: None, marks }).collect();
     draw::series(runner, study, &shown)?;
     if let Some(last) = traced.first().and_then(|one| one.states.last()) {
-        let kept = Kept { coordinates: coordinates(last), angles: hinge_angles(&model, last) };
+        let kept = Kept { coordinates: coordinates(last), angles: hinge_angles(&model, &last.angles) };
         runner.keep_state(study, kept)?;
     }
     Ok(())

@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 use super::Located;
 use super::forms::{BranchChoice, Mode, Rest, Start};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Name, Positive, Stiffness, Triple};
+use super::values::{Axes, CellIndex, Cells, Count, EdgeName, Finite, Name, Positive, Stiffness, Triple};
 
 /// A whole scene.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -319,13 +319,15 @@ pub struct CreaseAngle {
     pub angle: Located<Finite>,
 }
 
-/// `kind = "surface"`.
+/// `kind = "surface"`: all states without locks; `[[lock]]` does not apply to it.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSpec {
-    /// Number of states along each direction.
-    pub resolution: Option<Located<u32>>,
-    /// Largest curvature shown.
+    /// Number of states along each direction over a whole turn of fold angles: discs of radius 2 pi / resolution around the
+    /// states, smaller ones where the surface bends, cover it. Left out: 32.
+    pub resolution: Option<Located<Count>>,
+    /// Magnitude of the curvature at which the surface ends, 1/length. Left out: one over the square root of the cell's
+    /// area, the curvature of a cylinder as large as the cell.
     pub max_curvature: Option<Located<Positive>>,
 }
 

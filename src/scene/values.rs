@@ -27,6 +27,9 @@ pub enum ValueError {
     /// A number that has to be positive and finite.
     #[error("the number is {0}, expected a finite number above 0")]
     NotPositive(f64),
+    /// A count that is zero, negative or too large.
+    #[error("the number is {0}, expected a whole number from 1 to {max}", max = u32::MAX)]
+    NoCount(i64),
     /// Fewer than one cell.
     #[error("there are {0} x {1} cells, expected at least 1 in either direction")]
     NoCells(i64, i64),
@@ -105,6 +108,20 @@ impl TryFrom<f64> for Finite {
 
     fn try_from(value: f64) -> Result<Self, ValueError> {
         if value.is_finite() { Ok(Self(value)) } else { Err(ValueError::NotFinite(value)) }
+    }
+}
+
+/// A whole number above zero.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "i64")]
+#[schemars(with = "u32", extend("minimum" = 1))]
+pub struct Count(pub u32);
+
+impl TryFrom<i64> for Count {
+    type Error = ValueError;
+
+    fn try_from(value: i64) -> Result<Self, ValueError> {
+        u32::try_from(value).ok().filter(|count| *count > 0).map(Self).ok_or(ValueError::NoCount(value))
     }
 }
 

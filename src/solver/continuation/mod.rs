@@ -1,7 +1,7 @@
 //! Continuation: follows a curve `F(x) = 0` from a point on it, in arc length.
 //!
 //! Predictor: the Hermite interpolant of the last points and their tangents, read beyond the last one. Corrector: Newton's
-//! method across the predicted tangent (`corrector`); redundant equations are welcome. The step follows the error of
+//! method across the predicted tangent ([`super::implicit`]); redundant equations are welcome. The step follows the error of
 //! the prediction. Where branches cross, the Jacobian loses rank at one point; steps go over such points, and the predicted
 //! tangent keeps the trajectory on the smooth branch. Arc length is the integral of the interpolant's speed.
 //!
@@ -9,15 +9,13 @@
 //! them end the trajectory. Given a period, the trajectory ends where it comes back to its start (`closing`).
 
 mod closing;
-mod corrector;
 mod hermite;
 #[cfg(test)]
 mod tests;
 
 pub use closing::Return;
 
-use crate::numerics::DenseMatrix;
-use corrector::Corrector;
+use super::implicit::{Corrector, Implicit};
 use hermite::Hermite;
 
 /// Points of a step's interpolant.
@@ -33,14 +31,8 @@ const LEAST: f64 = 1e-9;
 /// Accuracy in arc length to which sign changes are located.
 const LOCATED: f64 = 1e-11;
 
-/// A curve in `unknowns` dimensions, given by `equations`.
-pub trait Curve {
-    /// Number of unknowns.
-    fn unknowns(&self) -> usize;
-    /// Number of equations; some may be redundant.
-    fn equations(&self) -> usize;
-    /// `F(x)` and its Jacobian, equations by unknowns.
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix);
+/// A curve: as many independent equations as unknowns less one.
+pub trait Curve: Implicit {
     /// Appends the values whose sign changes are located; as many at every point, NaN where there is none.
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         let _ = (point, out);

@@ -1,6 +1,7 @@
 //! Curves of the textbook.
 
 use super::*;
+use crate::numerics::DenseMatrix;
 use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +14,7 @@ struct Textbook {
     indicator: fn(&Point) -> f64,
 }
 
-impl Curve for Textbook {
+impl Implicit for Textbook {
     fn unknowns(&self) -> usize {
         self.unknowns
     }
@@ -27,7 +28,9 @@ impl Curve for Textbook {
         residual.copy_from_slice(&value);
         *jacobian = DenseMatrix::from_row_slice(value.len(), x.len(), &rows);
     }
+}
 
+impl Curve for Textbook {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         out.push((self.indicator)(point));
     }

@@ -1,0 +1,145 @@
+//! The closure of a cell as a surface, and as a curve on it.
+
+use crate::kinematics::{Closure, Displacement, Embedding, KinematicsError, Shape};
+use crate::math::rotation;
+use crate::numerics::DenseMatrix;
+use crate::solver::Implicit;
+use crate::solver::atlas::Surface;
+use crate::solver::continuation::{Curve, Point};
+use nalgebra::DVector;
+use std::f64::consts::TAU;
+
+/// Fold angles that close, up to a curvature. The unknowns are the angles of the folding edges.
+pub(super) struct Folding<'a> {
+    closure: &'a Closure,
+    embedding: &'a Embedding,
+    /// Fold angles of all edges; those that do not fold stay as drawn.
+    angles: Vec<f64>,
+    max_curvature: f64,
+}
+
+impl<'a> Folding<'a> {
+    pub fn new(closure: &'a Closure, embedding: &'a Embedding, max_curvature: f64) -> Self {
+        Self { closure, embedding, angles: embedding.drawn_angles().to_vec(), max_curvature }
+    }
+
+    /// The drawn angles of the folding edges.
+    pub fn drawn(&self) -> Vec<f64> {
+        self.folding(self.embedding.drawn_angles())
+    }
+
+    /// The entries of the folding edges.
+    pub fn folding(&self, all: &[f64]) -> Vec<f64> {
+        self.closure.folding_edges().iter().map(|&edge| all[edge]).collect()
+    }
+
+    /// The angles of all edges.
+    pub fn all(&self, x: &[f64]) -> Vec<f64> {
+        let mut all = self.embedding.drawn_angles().to_vec();
+        self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &angle)| all[edge] = angle);
+        all
+    }
+
+    /// The cylinder at the angles of the folding edges.
+    pub fn shape(&self, x: &[f64]) -> Result<Shape, KinematicsError> {
+        Shape::at(self.embedding, &self.all(x))
+    }
+
+    /// The largest component of the closure residual.
+    pub fn residual(&self, x: &[f64]) -> f64 {
+        self.closure.residual(&self.all(x)).amax()
+    }
+
+    /// Closure and the rotation vectors of both lattice motions, which vanish at a spatially periodic state; and the
+    /// Jacobian, right to first order in those vectors.
+    pub fn periodic(&self, x: &[f64]) -> (DVector<f64>, DenseMatrix) {
+        let angles = self.all(x);
+        let rows = self.equations();
+        let mut residual = self.closure.residual(&angles).resize_vertically(rows + 6, 0.0);
+        let mut jacobian = self.closure.jacobian(&angles).resize_vertically(rows + 6, 0.0);
+        let mut rates = vec![0.0; angles.len()];
+        for (column, &edge) in self.closure.folding_edges().iter().enumerate() {
+            rates[edge] = 1.0;
+            let lattice = Displacement::new(self.embedding, &angles, &rates).lattice;
+            rates[edge] = 0.0;
+            for (k, moving) in lattice.iter().flatten().enumerate() {
+                residual.rows_mut(rows + 3 * k, 3).copy_from(&rotation::log(&moving.motion.rotation));
+                jacobian.view_mut((rows + 3 * k, column), (3, 1)).copy_from(&moving.twist.angular);
+            }
+        }
+        (residual, jacobian)
+    }
+}
+
+impl Implicit for Folding<'_> {
+    fn unknowns(&self) -> usize {
+        self.closure.folding_edges().len()
+    }
+
+    fn equations(&self) -> usize {
+        3 * self.closure.vertices().len()
+    }
+
+    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
+        self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &angle)| self.angles[edge] = angle);
+        self.closure.linearize_into(&self.angles, residual, jacobian);
+    }
+}
+
+impl Surface for Folding<'_> {
+    fn period(&self, _unknown: usize) -> Option<f64> {
+        Some(TAU)
+    }
+
+    /// The magnitude of the curvature less the largest one; infinite where vertex 0 is on the axis.
+    fn limit(&mut self, x: &[f64]) -> f64 {
+        let curvature = self.shape(x).map_or(f64::NAN, |shape| shape.curvature.abs());
+        if curvature.is_nan() { f64::INFINITY } else { curvature - self.max_curvature }
+    }
+}
+
+/// The states of a surface on a hyperplane through a point.
+pub(super) struct Section<'a, 'b> {
+    pub folding: &'b mut Folding<'a>,
+    /// A point of the hyperplane.
+    pub through: Vec<f64>,
+    /// Its normal, of length 1.
+    pub normal: Vec<f64>,
+    /// Space for the surface's equations.
+    pub residual: Vec<f64>,
+    /// Space for their Jacobian.
+    pub jacobian: DenseMatrix,
+}
+
+impl<'a, 'b> Section<'a, 'b> {
+    pub fn new(folding: &'b mut Folding<'a>, through: Vec<f64>, normal: Vec<f64>) -> Self {
+        let (rows, columns) = (folding.equations(), folding.unknowns());
+        Self { folding, through, normal, residual: vec![0.0; rows], jacobian: DenseMatrix::zeros(rows, columns) }
+    }
+}
+
+impl Implicit for Section<'_, '_> {
+    fn unknowns(&self) -> usize {
+        self.folding.unknowns()
+    }
+
+    fn equations(&self) -> usize {
+        self.folding.equations() + 1
+    }
+
+    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
+        self.folding.linearize(x, &mut self.residual, &mut self.jacobian);
+        let rows = self.residual.len();
+        residual[..rows].copy_from_slice(&self.residual);
+        jacobian.rows_mut(0, rows).copy_from(&self.jacobian);
+        residual[rows] = x.iter().zip(&self.through).zip(&self.normal).map(|((x, o), n)| (x - o) * n).sum();
+        self.normal.iter().enumerate().for_each(|(column, n)| jacobian[(rows, column)] = *n);
+    }
+}
+
+impl Curve for Section<'_, '_> {
+    /// Half of the largest curvature.
+    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
+        out.push(self.folding.limit(&point.x) + 0.5 * self.folding.max_curvature);
+    }
+}

@@ -1,0 +1,92 @@
+//! Spatially periodic states as the tips of the surface.
+//!
+//! Charts shrink towards a tip and end near it, so that a small hole is left on every nappe. The drawn state is a tip; others
+//! are further spatially periodic states of the cell, such as the drawn one inside out. Newton's method looks for one in every hole,
+//! as a solution of closure together with lattice rotations that are the identity, and joins the rim to it.
+
+use super::folding::Folding;
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::least_squares;
+use crate::solver::atlas::{Atlas, Chart};
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+
+/// Limits of charts on the border of the surface are zero up to this.
+const BORDER: f64 = 1e-9;
+/// Largest residual of a tip, and steps to get there.
+const CLOSED: f64 = 1e-13;
+const STEPS: usize = 20;
+/// A tip is no further from a point of the rim than this times the largest distance of two of its points.
+const NEAR: f64 = 1.5;
+
+/// What is left of the rims of an atlas.
+pub(super) struct Left {
+    /// Rims.
+    pub rims: usize,
+    /// Charts on them that are not at the limit.
+    pub open: usize,
+}
+
+/// Joins rims to the tips in their holes.
+pub(super) fn close(folding: &Folding<'_>, atlas: &mut Atlas) -> Left {
+    let mut left = Left { rims: 0, open: 0 };
+    for rim in rims(&atlas.triangles) {
+        let off = rim.iter().filter(|&&k| atlas.charts[k].limit.abs() > BORDER).count();
+        let found = if off == rim.len() { tip(folding, &atlas.charts, &rim) } else { None };
+        match found {
+            Some(chart) => {
+                let tip = atlas.charts.len();
+                atlas.charts.push(chart);
+                atlas.triangles.extend((0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], tip]));
+            }
+            None => {
+                left.rims += 1;
+                left.open += off;
+            }
+        }
+    }
+    left
+}
+
+/// The spatially periodic state within a rim, as a chart without extent.
+fn tip(folding: &Folding<'_>, charts: &[Chart], rim: &[usize]) -> Option<Chart> {
+    let beside = &charts[rim[0]];
+    let image = |(x, beside): (&f64, &f64)| x - TAU * ((x - beside) / TAU).round();
+    let places: Vec<Vec<f64>> = rim.iter().map(|&k| charts[k].x.iter().zip(&beside.x).map(image).collect()).collect();
+    let mut x = vec![0.0; beside.x.len()];
+    places.iter().for_each(|place| x.iter_mut().zip(place).for_each(|(x, p)| *x += p / rim.len() as f64));
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    let size = places.iter().map(|place| apart(place, &beside.x)).fold(0.0, f64::max);
+    for _ in 0..STEPS {
+        let (residual, jacobian) = folding.periodic(&x);
+        if residual.amax() <= CLOSED {
+            let near = apart(&x, &beside.x) <= NEAR * size;
+            let (frame, radius, limit, start) = (vec![0.0; 2 * x.len()], 0.0, f64::NEG_INFINITY, beside.start);
+            return near.then(|| Chart { residual: folding.residual(&x), x, frame, radius, limit, start });
+        }
+        let right = DenseMatrix::from_column_slice(residual.len(), 1, residual.as_slice());
+        let step = least_squares(&jacobian, &right).ok()?.solution;
+        x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x -= d);
+    }
+    None
+}
+
+/// The closed rims of a triangulation, each with the hole on its left.
+fn rims(triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
+    let edges: BTreeSet<[usize; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+    let mut next: BTreeMap<usize, usize> = BTreeMap::new();
+    next.extend(edges.iter().filter(|&&[a, b]| !edges.contains(&[b, a])).map(|&[a, b]| (b, a)));
+    let mut rims = Vec::new();
+    while let Some((first, mut at)) = next.pop_first() {
+        let mut rim = vec![first];
+        while at != first {
+            rim.push(at);
+            let Some(to) = next.remove(&at) else { break };
+            at = to;
+        }
+        if at == first {
+            rims.push(rim);
+        }
+    }
+    rims
+}

@@ -1,0 +1,84 @@
+//! A surface of folded states in the space of lattice strains, as it is drawn or written.
+
+use super::picture::ShapeError;
+use crate::math::Vec3;
+
+/// States and their triangles. Everything has one entry per state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StrainSurface {
+    /// `(strain11, strain22, strain12)`.
+    pub points: Vec<Vec3>,
+    /// Triangles of states.
+    pub triangles: Vec<[usize; 3]>,
+    /// Signed curvature, positive where the axis is on the side of the face normals.
+    pub curvature: Vec<f64>,
+    /// Rotation angles from a cell to the next, along both lattice vectors.
+    pub theta: Vec<[f64; 2]>,
+    /// Name and fold angles, in radians, of every edge of the cell.
+    pub folds: Vec<(String, Vec<f64>)>,
+    /// Energy in all, where there is one.
+    pub energy: Option<Vec<f64>>,
+    /// Whether faces pass through each other (1) or not (0), where that was asked.
+    pub self_intersecting: Option<Vec<u8>>,
+}
+
+impl StrainSurface {
+    /// Whether the arrays fit together.
+    ///
+    /// # Errors
+    /// The first array of a wrong length, or a triangle with a point that is not there.
+    pub fn check(&self) -> Result<(), ShapeError> {
+        let expected = self.points.len();
+        let folds = self.folds.iter().map(|(_, angles)| ("fold", angles.len()));
+        let lengths = [("curvature", self.curvature.len()), ("theta", self.theta.len())].into_iter().chain(folds);
+        let energy = self.energy.iter().map(|energy| ("energy", energy.len()));
+        let marks = self.self_intersecting.iter().map(|marks| ("self_intersecting", marks.len()));
+        let wrong = lengths.chain(energy).chain(marks).find(|(_, found)| *found != expected);
+        if let Some((array, found)) = wrong {
+            return Err(ShapeError::Length { array, found, expected });
+        }
+        match self.triangles.iter().flatten().find(|&&point| point >= expected) {
+            Some(&point) => Err(ShapeError::NoSuchPoint { point, count: expected }),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+pub(super) mod samples {
+    use super::*;
+
+    /// `n` x `n` states on a saddle, its curvature along x.
+    pub fn cap(n: usize) -> StrainSurface {
+        let place = |k: usize| [k % n, k / n].map(|k| 2.0 * k as f64 / (n - 1) as f64 - 1.0);
+        let squares = (0..n * n).filter(|k| k % n + 1 < n && k / n + 1 < n);
+        let points: Vec<[f64; 2]> = (0..n * n).map(place).collect();
+        StrainSurface {
+            points: points.iter().map(|[x, y]| Vec3::new(*x, *y, x * x - y * y)).collect(),
+            triangles: squares.flat_map(|k| [[k, k + 1, k + n + 1], [k, k + n + 1, k + n]]).collect(),
+            curvature: points.iter().map(|p| p[0]).collect(),
+            theta: points.clone(),
+            folds: vec![("fold_0_1_0_0".into(), vec![0.5; n * n])],
+            energy: Some(vec![1.0; n * n]),
+            self_intersecting: Some(vec![0; n * n]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: a surface whose arrays fit is accepted; one that is too short, or a point that is not there, is named.
+    #[test]
+    fn arrays_have_to_fit() {
+        let surface = samples::cap(3);
+        assert_eq!(surface.check(), Ok(()));
+        let mut short = surface.clone();
+        short.theta.pop();
+        assert_eq!(short.check(), Err(ShapeError::Length { array: "theta", found: 8, expected: 9 }));
+        let mut beyond = surface;
+        beyond.triangles[0][1] = 9;
+        assert_eq!(beyond.check(), Err(ShapeError::NoSuchPoint { point: 9, count: 9 }));
+    }
+}

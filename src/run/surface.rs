@@ -1,0 +1,272 @@
+//! `kind = "surface"`: asks the analysis, writes the states and their triangles, summarises.
+
+use super::draw;
+use super::resume::Kept;
+use super::runner::Runner;
+use super::trace::{hinge_angles, state_at};
+use super::{Progress, RunError};
+use crate::analysis::branches;
+use crate::analysis::chart::screw_coordinates;
+use crate::analysis::intersections::LYING;
+use crate::analysis::state::State;
+use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
+use crate::math::Vec3;
+use crate::model::Gauge;
+use crate::model::assemble::{Recipe, Surroundings, assemble, drawn_angles};
+use crate::output::strain_space::StrainSurface;
+use crate::output::summary::{PieceSummary, StudyResult, StudySummary, SurfaceSummary};
+use crate::output::table::{StateRow, Table, read_columns};
+use crate::output::{strain_plot, vtk};
+use crate::scene::SceneFile;
+use crate::scene::build::Built;
+use crate::scene::spec::{Draw, StudyKind, StudySpec, SurfaceSpec};
+use crate::sheet::EdgeKey;
+use crate::solver::atlas::Coverage;
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+/// States along each direction over a whole turn where the scene says nothing.
+const RESOLUTION: u32 = 32;
+/// Bound on the closure residual.
+const TOLERANCE: f64 = 3e-14;
+/// States beyond which a surface is given up.
+const MOST_POINTS: usize = 300_000;
+/// The observer is asked after so many states.
+const OBSERVED: usize = 256;
+
+/// Surfaces are drawn in the space of lattice strains: refuses other domains than the screw.
+pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+    if built.surroundings == Surroundings::Screw {
+        return Ok(());
+    }
+    let message = "a surface of folded states is drawn in the space of lattice strains";
+    Err(file.error_at(study.kind.span(), message, "use domain = \"screw\"").into())
+}
+
+/// What this study does not use of the scene.
+pub fn left_out(built: &Built, study: &StudySpec) -> Option<String> {
+    let surface = matches!(*study.kind, StudyKind::Surface(_));
+    let name = &study.name.0;
+    (surface && !built.recipe.locks.is_empty())
+        .then(|| format!("locks in study `{name}`: the surface is what folds without them"))
+}
+
+/// Runs the study.
+pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> Result<StudySummary, RunError> {
+    let built = runner.built;
+    let recipe = Recipe { locks: Vec::new(), ..built.recipe.clone() };
+    let angles = drawn_angles(&built.drawn, &built.tiling);
+    let start = branches::Question {
+        sheet: &built.sheet,
+        tiling: &built.tiling,
+        surroundings: built.surroundings,
+        angles: &angles,
+        recipe: &recipe,
+    };
+    let question = Question {
+        start,
+        radius: TAU / f64::from(spec.resolution.as_ref().map_or(RESOLUTION, |count| count.0)),
+        tolerance: TOLERANCE,
+        max_curvature: spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(built), |most| most.0),
+        max_points: MOST_POINTS,
+    };
+    let clock = Instant::now();
+    let found = surface(&question, &mut |step| watch(runner, study, step));
+    let mut summary = StudySummary {
+        name: study.name.0.clone(),
+        kind: study.kind.name().to_owned(),
+        converged: false,
+        seconds: clock.elapsed().as_secs_f64(),
+        error: None,
+        reason: None,
+        result: None,
+    };
+    match found {
+        Ok(surface) => {
+            write(runner, study, &recipe, (&surface, question.max_curvature))?;
+            summary.reason = reason(&surface);
+            summary.converged = summary.reason.is_none();
+            let result = summarized(&surface, &question);
+            summary.error = Some(result.max_residual);
+            summary.result = Some(StudyResult::Surface(result));
+        }
+        Err(error) => summary.reason = Some(error.to_string()),
+    }
+    Ok(summary)
+}
+
+/// One over the square root of the area of the cell.
+fn curvature_of_cell(built: &Built) -> f64 {
+    built.sheet.lattice.map_or(1.0, |[first, second]| first.cross(&second).norm().sqrt().recip())
+}
+
+fn watch(runner: &Runner<'_>, study: &StudySpec, step: usize) -> bool {
+    runner.watch(&Progress { study: study.name.0.clone(), step, of: None, residual: f64::NAN, target: None })
+}
+
+/// Why a surface is not whole; `None` where it is.
+fn reason(surface: &Surface) -> Option<String> {
+    match surface.coverage {
+        Coverage::Complete => None,
+        Coverage::Open { charts } => Some(format!("the surface could not be followed beyond {charts} of its states")),
+        Coverage::TooManyCharts => Some(format!(
+            "the surface has more than {MOST_POINTS} states: choose a smaller resolution or max_curvature"
+        )),
+        Coverage::Interrupted => Some("interrupted".to_owned()),
+    }
+}
+
+/// The states of a surface as the model sees them.
+struct States {
+    states: Vec<State>,
+    /// Whether each passes through itself; `None` where that was not asked, or not answered for all.
+    crossing: Option<Vec<bool>>,
+}
+
+fn states(runner: &Runner<'_>, study: &StudySpec, recipe: &Recipe, points: &[SurfacePoint]) -> States {
+    let built = runner.built;
+    let mut model = assemble(&built.drawn, &built.tiling, recipe, Gauge::Held);
+    let mut finder = draw::self_intersection(runner, study);
+    let (mut states, mut crossing) = (Vec::new(), Vec::new());
+    for (k, point) in points.iter().enumerate() {
+        let coordinates = screw_coordinates(&point.shape);
+        model.set_angles(&hinge_angles(&model, &point.angles));
+        model.start_from(coordinates.clone());
+        let state = state_at(built, &model, coordinates, &point.angles);
+        if k % OBSERVED == 0 && finder.is_some() && !watch(runner, study, points.len() + k) {
+            finder = None;
+        }
+        crossing.extend(finder.as_mut().map(|finder| finder.marks(&built.drawn, &state, LYING).any));
+        states.push(state);
+    }
+    let crossing = (finder.is_some() && crossing.len() == states.len()).then_some(crossing);
+    States { states, crossing }
+}
+
+fn write(
+    runner: &mut Runner<'_>,
+    study: &StudySpec,
+    recipe: &Recipe,
+    (surface, max_curvature): (&Surface, f64),
+) -> Result<(), RunError> {
+    let built = runner.built;
+    let found = states(runner, study, recipe, &surface.points);
+    let row = |k: usize| row(recipe, k, &surface.points[k], &found);
+    let rows: Vec<StateRow> = (0..surface.points.len()).map(row).collect();
+    let keys: Vec<EdgeKey> = built.sheet.edges.iter().map(|edge| edge.key).collect();
+    let name = &study.name.0;
+    Table::of_states(&keys, &rows).write(&runner.path(format!("{name}.csv")))?;
+    if let Some((last, state)) = surface.points.iter().zip(&found.states).next_back() {
+        draw(runner, study, &mesh(&keys, surface, &rows), max_curvature)?;
+        let model = assemble(&built.drawn, &built.tiling, &built.recipe, Gauge::Held);
+        let angles = hinge_angles(&model, &last.angles);
+        runner.keep_state(study, Kept { coordinates: state.coordinates.clone(), angles })?;
+    }
+    Ok(())
+}
+
+fn row(recipe: &Recipe, k: usize, point: &SurfacePoint, found: &States) -> StateRow {
+    let (shape, state) = (&point.shape, &found.states[k]);
+    let any = recipe.bars.is_some() || recipe.creases.is_some();
+    StateRow {
+        branch: Some(point.branch.0 as i64),
+        sign: Some(i64::from(point.branch.1)),
+        step: Some(k as i64),
+        arc_length: None,
+        curvature: Some(shape.curvature),
+        theta: shape.theta.map(Some),
+        strain: shape.strain.map(Some),
+        energy: [
+            recipe.bars.map(|_| state.energy_bars),
+            recipe.creases.as_ref().map(|_| state.energy_creases),
+            recipe.facets.as_ref().map(|_| state.energy_facets),
+            any.then(|| state.total()),
+        ],
+        residual_force: None,
+        residual_length: None,
+        self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
+        fold: point.angles.clone(),
+    }
+}
+
+/// The rows of the table as a surface.
+fn mesh(keys: &[EdgeKey], surface: &Surface, rows: &[StateRow]) -> StrainSurface {
+    let shapes = || surface.points.iter().map(|point| &point.shape);
+    let fold = |(edge, key): (usize, &EdgeKey)| {
+        (Table::fold_column(key), surface.points.iter().map(|point| point.angles[edge]).collect())
+    };
+    StrainSurface {
+        points: shapes().map(|shape| Vec3::from(shape.strain)).collect(),
+        triangles: surface.triangles.clone(),
+        curvature: shapes().map(|shape| shape.curvature).collect(),
+        theta: shapes().map(|shape| shape.theta).collect(),
+        folds: keys.iter().enumerate().map(fold).collect(),
+        energy: rows.iter().map(|row| row.energy[3]).collect(),
+        self_intersecting: rows.iter().map(|row| row.self_intersecting.map(u8::from)).collect(),
+    }
+}
+
+fn draw(runner: &Runner<'_>, study: &StudySpec, mesh: &StrainSurface, max_curvature: f64) -> Result<(), RunError> {
+    let name = &study.name.0;
+    if study.draw.contains(&Draw::Vtk) {
+        let file = format!("{name}/{name}_0000.vtp");
+        vtk::write_vtp(&runner.path(&file), mesh)?;
+        vtk::write_pvd(&runner.path(format!("{name}.pvd")), &[(0.0, file)])?;
+    }
+    if study.draw.contains(&Draw::Svg) {
+        let paths = paths(runner, study, max_curvature)?;
+        let title = runner.file.title();
+        strain_plot::write_svg(&runner.path(format!("{name}.svg")), mesh, &paths, &title)?;
+    }
+    Ok(())
+}
+
+/// The trajectories of the `trace` studies before this one, as far as the surface goes: from their tables, which are there also
+/// where an earlier run made them.
+fn paths(runner: &Runner<'_>, study: &StudySpec, max_curvature: f64) -> Result<Vec<Vec<Vec3>>, RunError> {
+    const COLUMNS: [&str; 6] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12"];
+    let mut paths = Vec::new();
+    let earlier = runner.file.scene.studies.iter().take_while(|earlier| earlier.name.0 != study.name.0);
+    for earlier in earlier.filter(|earlier| matches!(*earlier.kind, StudyKind::Trace(_))) {
+        let table = runner.path(format!("{}.csv", earlier.name.0));
+        let rows = if table.exists() { read_columns(&table, COLUMNS)? } else { Vec::new() };
+        let (mut path, mut last) = (Vec::new(), None);
+        for [branch, sign, curvature, strain11, strain22, strain12] in rows {
+            let within = curvature.abs() <= max_curvature;
+            if last != Some((branch, sign)) || !within {
+                paths.push(std::mem::take(&mut path));
+            }
+            last = Some((branch, sign));
+            path.extend(within.then(|| Vec3::new(strain11, strain22, strain12)));
+        }
+        paths.push(path);
+    }
+    paths.retain(|path| path.len() > 1);
+    Ok(paths)
+}
+
+fn summarized(surface: &Surface, question: &Question<'_>) -> SurfaceSummary {
+    let coverage = match surface.coverage {
+        _ if surface.points.is_empty() => "no-real-branch",
+        Coverage::Complete => "complete",
+        Coverage::Open { .. } => "open",
+        Coverage::TooManyCharts => "too-many-points",
+        Coverage::Interrupted => "interrupted",
+    };
+    let piece = |&(branch, sign): &(usize, i8)| {
+        let points = surface.points.iter().filter(|point| point.branch == (branch, sign)).count();
+        PieceSummary { branch, sign, points }
+    };
+    SurfaceSummary {
+        points: surface.points.len(),
+        triangles: surface.triangles.len(),
+        coverage: coverage.to_owned(),
+        closed: surface.closed && !surface.points.is_empty(),
+        oriented: surface.oriented,
+        tips: surface.points.iter().filter(|point| point.radius == 0.0).count(),
+        max_curvature: question.max_curvature,
+        radius: question.radius,
+        max_residual: surface.points.iter().map(|point| point.residual).fold(0.0, f64::max),
+        branches: surface.branches.iter().map(piece).collect(),
+    }
+}

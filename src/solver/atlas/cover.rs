@@ -1,0 +1,337 @@
+//! The charts of a surface, placed one after the other.
+
+use super::grid::Grid;
+use super::polygon::Polygon;
+use super::{AtlasError, Chart, Coverage, Options, Surface, add, dot, norm};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::null_space;
+use crate::solver::implicit::{Corrected, Corrector};
+use std::collections::{HashSet, VecDeque};
+
+/// Smallest radius over the largest.
+const SMALLEST: f64 = 0.01;
+/// Changes of the radius: after a refusal, and at most from a chart to the next.
+const SHRINK: f64 = 0.7;
+const GROWTH: f64 = 1.2;
+/// Part of the largest turn that radii aim at.
+const GENTLE: f64 = 0.7;
+/// How far from a chart its turning is measured, as a part of its radius.
+const ASIDE: f64 = 0.1;
+/// Two charts are neighbours when their distance is at most this times the sum of their radii,
+const TOUCH: f64 = 1.1;
+/// the way between them leaves the tangent plane by at most this part of it,
+const RISE: f64 = 0.5;
+/// and the determinant of their frames is at least this.
+const OVERLAP: f64 = 0.5;
+/// Charts beyond the limit that are followed further: those next to the inner ones.
+const BEYOND: usize = 1;
+/// The observer is asked every so many charts.
+const OBSERVED: usize = 256;
+
+pub(super) struct Cover<'a, S: Surface> {
+    surface: &'a mut S,
+    options: Options,
+    corrector: Corrector,
+    periods: Vec<Option<f64>>,
+    pub charts: Vec<Chart>,
+    /// How many charts beyond the limit lie between each and the inner ones, itself included.
+    beyond: Vec<usize>,
+    grid: Grid,
+    /// Charts that may be open.
+    waiting: VecDeque<usize>,
+    queued: Vec<bool>,
+    polygon: Polygon,
+    pub oriented: bool,
+    near: Vec<usize>,
+    way: Vec<f64>,
+}
+
+/// A chart seen from another.
+struct Neighbour {
+    /// Its place in the other's tangent plane, at its distance.
+    at: [f64; 2],
+    radius: f64,
+}
+
+/// What is known of a point before its chart.
+struct Place {
+    residual: f64,
+    start: usize,
+}
+
+impl<'a, S: Surface> Cover<'a, S> {
+    pub fn new(surface: &'a mut S, options: Options) -> Self {
+        let periods: Vec<Option<f64>> = (0..surface.unknowns()).map(|unknown| surface.period(unknown)).collect();
+        Self {
+            corrector: Corrector::new(surface),
+            grid: Grid::new(2.0 * TOUCH * options.radius, periods.clone()),
+            way: vec![0.0; periods.len()],
+            periods,
+            charts: vec![],
+            beyond: vec![],
+            waiting: VecDeque::new(),
+            queued: vec![],
+            polygon: Polygon::new(),
+            oriented: true,
+            near: vec![],
+            surface,
+            options,
+        }
+    }
+
+    /// Places the chart of a start, unless it lies in one.
+    pub fn start(&mut self, number: usize, start: &[f64]) -> Result<(), AtlasError> {
+        let mut residual = vec![0.0; self.surface.equations()];
+        let mut jacobian = DenseMatrix::zeros(residual.len(), start.len());
+        self.surface.linearize(start, &mut residual, &mut jacobian);
+        let tangents = null_space(&jacobian)?.basis;
+        if tangents.ncols() != 2 {
+            return Err(AtlasError::Singular { start: number, tangents: tangents.ncols() });
+        }
+        let (mut x, mut frame) = (start.to_vec(), tangents.as_slice().to_vec());
+        let chart = self.correct(&mut x, &mut frame, 1e-3 * self.options.radius).and_then(|found| {
+            let place = Place { residual: found.residual, start: number };
+            self.chart(x, frame, self.options.radius, place)
+        });
+        let chart = chart.ok_or(AtlasError::Start { start: number })?;
+        if !self.covered(&chart) {
+            self.insert(chart, 0);
+        }
+        Ok(())
+    }
+
+    /// Places charts until none is open.
+    pub fn run(&mut self, observe: &mut dyn FnMut(usize) -> bool) -> Coverage {
+        let (mut open, mut seen) = (HashSet::new(), 0);
+        while let Some(number) = self.waiting.pop_front() {
+            self.queued[number] = false;
+            if self.charts.len() >= seen + OBSERVED {
+                seen = self.charts.len();
+                if !observe(seen) {
+                    return Coverage::Interrupted;
+                }
+            }
+            if self.charts.len() >= self.options.max_charts {
+                return Coverage::TooManyCharts;
+            }
+            if self.beyond[number] <= BEYOND && !open.contains(&number) && !self.surround(number) {
+                open.insert(number);
+            }
+        }
+        if open.is_empty() { Coverage::Complete } else { Coverage::Open { charts: open.len() } }
+    }
+
+    /// Places neighbours of a chart until its disc is covered; false where that does not succeed with the smallest radius.
+    fn surround(&mut self, number: usize) -> bool {
+        self.shape(number);
+        while let Some(at) = self.polygon.uncovered() {
+            match self.place(number, at) {
+                Some(chart) => {
+                    let beyond = if chart.limit > 0.0 { self.beyond[number] + 1 } else { 0 };
+                    let added = self.insert(chart, beyond);
+                    if let Some(Neighbour { at, radius }) = self.neighbour(number, added) {
+                        self.polygon.clip(at, radius, added);
+                    } else {
+                        self.polygon.clip(at, self.charts[number].radius, added);
+                    }
+                }
+                None => {
+                    if self.charts[number].radius * SHRINK < SMALLEST * self.options.radius {
+                        return false;
+                    }
+                    self.shrink(number);
+                }
+            }
+        }
+        true
+    }
+
+    /// Brings a point onto the surface, no further than `reach`, and its frame into the tangents there.
+    fn correct(&mut self, x: &mut [f64], frame: &mut [f64], reach: f64) -> Option<Corrected> {
+        let found = self.corrector.correct(self.surface, x, frame, self.options.tolerance)?;
+        (found.distance <= reach).then_some(found)
+    }
+
+    /// A chart from a place on the rim of another.
+    fn place(&mut self, number: usize, at: [f64; 2]) -> Option<Chart> {
+        let from = &self.charts[number];
+        let (n, radius, start) = (from.x.len(), from.radius, from.start);
+        let (mut x, mut frame) = (from.x.clone(), from.frame.clone());
+        add(&mut x, at[0], &from.frame[..n]);
+        add(&mut x, at[1], &from.frame[n..]);
+        let found = self.correct(&mut x, &mut frame, self.options.max_turn * radius)?;
+        if !(turn(&self.charts[number].frame, &frame) <= self.options.max_turn) {
+            return None;
+        }
+        self.chart(x, frame, GROWTH * radius, Place { residual: found.residual, start })
+    }
+
+    /// A chart at a point of the surface, its radius at most `largest` and such that the tangent plane turns gently over it.
+    ///
+    /// `None` where that is less than the smallest radius. The turning is measured at two points beside, in the tangent
+    /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does.
+    fn chart(&mut self, x: Vec<f64>, frame: Vec<f64>, largest: f64, place: Place) -> Option<Chart> {
+        let aside = ASIDE * largest;
+        let mut square = 0.0;
+        for tangent in frame.chunks_exact(x.len()) {
+            self.way.copy_from_slice(&x);
+            add(&mut self.way, aside, tangent);
+            let mut turned = frame.clone();
+            self.corrector.turn(self.surface, &self.way, &mut turned)?;
+            square += (turn(&frame, &turned) / aside).powi(2);
+        }
+        let gentle = GENTLE * self.options.max_turn / square.sqrt();
+        if !(gentle >= SMALLEST * self.options.radius) {
+            return None;
+        }
+        let (limit, radius) = (self.surface.limit(&x), gentle.min(largest).min(self.options.radius));
+        Some(Chart { x, frame, radius, limit, residual: place.residual, start: place.start })
+    }
+
+    fn insert(&mut self, chart: Chart, beyond: usize) -> usize {
+        let number = self.charts.len();
+        self.grid.insert(&chart.x, number);
+        self.charts.push(chart);
+        self.beyond.push(beyond);
+        self.queued.push(false);
+        self.enqueue(number);
+        number
+    }
+
+    fn enqueue(&mut self, number: usize) {
+        self.queued[number] = true;
+        self.waiting.push_back(number);
+    }
+
+    /// Makes a chart smaller, and looks again at those that counted on it.
+    fn shrink(&mut self, number: usize) {
+        let near = self.find_near(number);
+        for &other in &near {
+            if !self.queued[other] && self.neighbour(number, other).is_some() {
+                self.enqueue(other);
+            }
+        }
+        self.near = near;
+        self.charts[number].radius *= SHRINK;
+        self.shape(number);
+    }
+
+    /// Cuts the polygon of a chart.
+    fn shape(&mut self, number: usize) {
+        let near = self.find_near(number);
+        self.polygon.reset(self.charts[number].radius);
+        for &other in near.iter().filter(|other| **other != number) {
+            if let Some(Neighbour { at, radius }) = self.neighbour(number, other) {
+                self.polygon.clip(at, radius, other);
+            }
+        }
+        self.near = near;
+    }
+
+    fn find_near(&mut self, number: usize) -> Vec<usize> {
+        let mut near = std::mem::take(&mut self.near);
+        let chart = &self.charts[number];
+        self.grid.near(&chart.x, TOUCH * (chart.radius + self.options.radius), &mut near);
+        near
+    }
+
+    /// A chart seen from another, if they are neighbours on the surface; notes where their frames differ in sense.
+    fn neighbour(&mut self, from: usize, to: usize) -> Option<Neighbour> {
+        let [a, b] = [&self.charts[from], &self.charts[to]];
+        let (found, sense) = see(a, b, &self.periods, &mut self.way)?;
+        self.oriented &= sense > 0.0;
+        Some(found)
+    }
+
+    fn covered(&mut self, chart: &Chart) -> bool {
+        let mut near = std::mem::take(&mut self.near);
+        self.grid.near(&chart.x, TOUCH * (chart.radius + self.options.radius), &mut near);
+        let covers = |other: &usize, way: &mut [f64]| {
+            let other = &self.charts[*other];
+            see(other, chart, &self.periods, way)
+                .is_some_and(|(found, _)| found.at[0].hypot(found.at[1]) < other.radius)
+        };
+        let covered = near.iter().any(|other| covers(other, &mut self.way));
+        self.near = near;
+        covered
+    }
+
+    /// The neighbours around a chart, counter-clockwise; `None` where it is open.
+    pub fn ring(&mut self, number: usize) -> Vec<Option<usize>> {
+        self.shape(number);
+        self.polygon.ring()
+    }
+
+    /// Distance of two charts, modulo periods.
+    pub fn distance(&self, a: usize, b: usize) -> f64 {
+        self.apart(&self.charts[a].x, &self.charts[b].x)
+    }
+
+    /// Distance of two points, modulo periods.
+    pub fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
+        let mut way = vec![0.0; self.periods.len()];
+        separate(a, b, &self.periods, &mut way);
+        norm(&way)
+    }
+
+    /// The chart of the point that lies `part` of the straight way from one chart to another, brought onto the surface.
+    pub fn between(&mut self, a: usize, b: usize, part: f64) -> Option<Chart> {
+        separate(&self.charts[a].x, &self.charts[b].x, &self.periods, &mut self.way);
+        let mut chart = self.charts[a].clone();
+        add(&mut chart.x, part, &self.way);
+        chart.residual = self.correct(&mut chart.x, &mut chart.frame, self.charts[a].radius)?.residual;
+        chart.limit = self.surface.limit(&chart.x);
+        Some(chart)
+    }
+}
+
+/// The shortest way from `a` to `b`, modulo periods.
+fn separate(a: &[f64], b: &[f64], periods: &[Option<f64>], way: &mut [f64]) {
+    for (unknown, way) in way.iter_mut().enumerate() {
+        let away = b[unknown] - a[unknown];
+        *way = match periods[unknown] {
+            Some(period) if away.abs() > 0.5 * period => away - period * (away / period).round(),
+            _ => away,
+        };
+    }
+}
+
+/// How `b` is seen from `a` if they are neighbours, and the determinant of their frames.
+fn see(a: &Chart, b: &Chart, periods: &[Option<f64>], way: &mut [f64]) -> Option<(Neighbour, f64)> {
+    let n = a.x.len();
+    separate(&a.x, &b.x, periods, way);
+    let square = dot(way, way);
+    let reach = TOUCH * (a.radius + b.radius);
+    if !(square > 0.0 && square < reach * reach) {
+        return None;
+    }
+    let at = [dot(&a.frame[..n], way), dot(&a.frame[n..], way)];
+    let flat = at[0] * at[0] + at[1] * at[1];
+    let determinant = determinant(&overlap(&a.frame, &b.frame));
+    if square - flat > RISE * RISE * square || determinant.abs() < OVERLAP {
+        return None;
+    }
+    let stretch = (square / flat).sqrt();
+    Some((Neighbour { at: at.map(|x| x * stretch), radius: b.radius }, determinant))
+}
+
+/// Products of the tangents of two frames.
+fn overlap(a: &[f64], b: &[f64]) -> [[f64; 2]; 2] {
+    let n = a.len() / 2;
+    [&a[..n], &a[n..]].map(|s| [dot(s, &b[..n]), dot(s, &b[n..])])
+}
+
+fn determinant(m: &[[f64; 2]; 2]) -> f64 {
+    m[0][0] * m[1][1] - m[0][1] * m[1][0]
+}
+
+/// The larger of the two angles between planes: the arc cosine of the smaller singular value of the products.
+fn turn(a: &[f64], b: &[f64]) -> f64 {
+    let m = overlap(a, b);
+    let size: f64 = m.iter().flatten().map(|x| x * x).sum();
+    let product = determinant(&m).abs();
+    // Singular values p >= q: p q = product, (p - q)^2 = size - 2 product.
+    let difference = (size - 2.0 * product).max(0.0).sqrt();
+    let smaller = 0.5 * ((size + 2.0 * product).sqrt() - difference);
+    smaller.min(1.0).acos()
+}

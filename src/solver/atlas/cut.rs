@@ -1,0 +1,153 @@
+//! The border of a surface at its limit: triangles cut where the limit is zero.
+
+use super::cover::Cover;
+use super::{Chart, Surface};
+use std::collections::HashMap;
+
+/// A chart nearer to the border than this part of an edge is moved onto it, so that no thin triangle is left.
+const SNAP: f64 = 0.25;
+/// Most evaluations for a point of the border, and its accuracy as a part of the edge.
+const EVALUATIONS: usize = 40;
+const ACCURACY: f64 = 1e-13;
+
+/// Charts within the limit and on it, and their triangles.
+pub(super) fn at_limit<S: Surface>(cover: &mut Cover<S>, triangles: Vec<[usize; 3]>) -> (Vec<Chart>, Vec<[usize; 3]>) {
+    let mut border = Border { points: HashMap::new(), snapped: HashMap::new() };
+    border.find(cover, &triangles);
+    let mut pieces = Vec::new();
+    for triangle in triangles {
+        border.cut(cover, triangle, &mut pieces);
+    }
+    border.gather(cover, pieces)
+}
+
+/// A corner of a cut triangle: a chart, or the border's point on the edge from an inner chart to an outer one.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Corner {
+    Chart(usize),
+    Edge(usize, usize),
+}
+
+struct Border {
+    points: HashMap<(usize, usize), Chart>,
+    /// Charts that are moved onto the border, and to where.
+    snapped: HashMap<usize, Chart>,
+}
+
+impl Border {
+    /// Finds the border on every edge that crosses it, and moves charts close to it.
+    fn find<S: Surface>(&mut self, cover: &mut Cover<S>, triangles: &[[usize; 3]]) {
+        let mut nearest: HashMap<usize, (f64, (usize, usize))> = HashMap::new();
+        for [a, b, c] in triangles {
+            for (from, to) in [(*a, *b), (*b, *c), (*c, *a), (*b, *a), (*c, *b), (*a, *c)] {
+                let crosses = inside(cover, from) && !inside(cover, to);
+                if !crosses || self.points.contains_key(&(from, to)) {
+                    continue;
+                }
+                if let Some((part, point)) = crossing(cover, from, to) {
+                    self.points.insert((from, to), point);
+                    for (chart, part) in [(from, part), (to, 1.0 - part)] {
+                        let best = nearest.entry(chart).or_insert((part, (from, to)));
+                        if part < best.0 {
+                            *best = (part, (from, to));
+                        }
+                    }
+                }
+            }
+        }
+        for (chart, (part, edge)) in nearest {
+            if part < SNAP {
+                self.snapped.extend(self.points.get(&edge).map(|point| (chart, point.clone())));
+            }
+        }
+    }
+
+    /// What of a triangle is inside, counter-clockwise, as triangles.
+    fn cut<S: Surface>(&self, cover: &Cover<S>, triangle: [usize; 3], pieces: &mut Vec<[Corner; 3]>) {
+        let moved = |chart: usize| self.snapped.contains_key(&chart);
+        let inner = |chart: usize| inside(cover, chart) && !moved(chart);
+        let outer = |chart: usize| !inside(cover, chart) && !moved(chart);
+        if !triangle.iter().any(|chart| inner(*chart)) {
+            return;
+        }
+        let mut corners = Vec::new();
+        for k in 0..3 {
+            let [from, to] = [triangle[k], triangle[(k + 1) % 3]];
+            if !outer(from) {
+                corners.push(Corner::Chart(from));
+            }
+            if inner(from) && outer(to) {
+                corners.push(Corner::Edge(from, to));
+            }
+            if inner(to) && outer(from) {
+                corners.push(Corner::Edge(to, from));
+            }
+        }
+        match corners[..] {
+            [a, b, c] => pieces.push([a, b, c]),
+            [a, b, c, d] => {
+                let [first, second] = [self.distance(cover, a, c), self.distance(cover, b, d)];
+                pieces.extend(if first <= second { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] });
+            }
+            _ => {}
+        }
+    }
+
+    fn chart<'a, S: Surface>(&'a self, cover: &'a Cover<S>, corner: Corner) -> Option<&'a Chart> {
+        match corner {
+            Corner::Chart(chart) => Some(self.snapped.get(&chart).unwrap_or(&cover.charts[chart])),
+            Corner::Edge(from, to) => self.points.get(&(from, to)),
+        }
+    }
+
+    fn distance<S: Surface>(&self, cover: &Cover<S>, a: Corner, b: Corner) -> f64 {
+        match (self.chart(cover, a), self.chart(cover, b)) {
+            (Some(a), Some(b)) => cover.apart(&a.x, &b.x),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Numbers the corners: charts in their order, then the border's points; drops pieces at edges without point.
+    fn gather<S: Surface>(&self, cover: &Cover<S>, pieces: Vec<[Corner; 3]>) -> (Vec<Chart>, Vec<[usize; 3]>) {
+        let known = |piece: &[Corner; 3]| piece.iter().all(|corner| self.chart(cover, *corner).is_some());
+        let pieces: Vec<[Corner; 3]> = pieces.into_iter().filter(known).collect();
+        let mut corners: Vec<Corner> = pieces.iter().flatten().copied().collect();
+        let border = |corner: &Corner| match *corner {
+            Corner::Chart(chart) => (self.snapped.contains_key(&chart), chart, 0),
+            Corner::Edge(from, to) => (true, from, to + 1),
+        };
+        corners.sort_unstable_by_key(border);
+        corners.dedup();
+        let numbers: HashMap<Corner, usize> = corners.iter().enumerate().map(|(number, c)| (*c, number)).collect();
+        let charts = corners.iter().filter_map(|corner| self.chart(cover, *corner).cloned()).collect();
+        (charts, pieces.iter().map(|piece| piece.map(|corner| numbers[&corner])).collect())
+    }
+}
+
+fn inside<S: Surface>(cover: &Cover<S>, chart: usize) -> bool {
+    cover.charts[chart].limit <= 0.0
+}
+
+/// Where on the way from an inner to an outer chart the limit is zero: the part of the way, and the point on the surface.
+/// False position with halved values, and bisection in between.
+fn crossing<S: Surface>(cover: &mut Cover<S>, from: usize, to: usize) -> Option<(f64, Chart)> {
+    let [mut a, mut b] = [0.0, 1.0];
+    let [mut fa, mut fb] = [from, to].map(|chart| cover.charts[chart].limit);
+    let mut found = None;
+    for evaluation in 0..EVALUATIONS {
+        let straight = (a * fb - b * fa) / (fb - fa);
+        let part = if evaluation % 4 == 3 || !straight.is_finite() { 0.5 * (a + b) } else { straight };
+        let point = cover.between(from, to, part)?;
+        let value = point.limit;
+        found = Some((part, point));
+        if value == 0.0 || b - a <= ACCURACY {
+            break;
+        }
+        if value < 0.0 {
+            (a, fa, fb) = (part, value, 0.5 * fb);
+        } else {
+            (b, fb, fa) = (part, value, 0.5 * fa);
+        }
+    }
+    found
+}

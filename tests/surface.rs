@@ -1,0 +1,295 @@
+//! Surfaces of folded states: against linear algebra, trajectories of an independent program, and themselves at another
+//! resolution; and the files of a run.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
+
+mod common;
+
+use foldwell::analysis::branches;
+use foldwell::analysis::surface::{Question, Surface, SurfaceError, SurfacePoint, surface};
+use foldwell::kinematics::{Closure, drawn_fold_angles};
+use foldwell::model::assemble::{Hinges, Recipe, Surroundings};
+use foldwell::numerics::dense::null_space;
+use foldwell::sheet::generate::{Miura, RandomDevelopable};
+use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate, tile};
+use foldwell::solver::atlas::Coverage;
+use serde_json::Value;
+use std::collections::{HashMap, HashSet};
+use std::f64::consts::TAU;
+use std::path::Path;
+
+const REFERENCE: &str = include_str!("cases/open-star.json");
+
+/// How finely and how far.
+#[derive(Clone, Copy)]
+struct Extent {
+    radius: f64,
+    max_curvature: f64,
+}
+
+fn cover(sheet: &Sheet, recipe: &Recipe, extent: Extent, most: usize) -> Result<Surface, SurfaceError> {
+    let tiling = tile(sheet, [1, 1], true);
+    let angles = drawn_fold_angles(sheet);
+    let start =
+        branches::Question { sheet, tiling: &tiling, surroundings: Surroundings::Screw, angles: &angles, recipe };
+    let Extent { radius, max_curvature } = extent;
+    surface(&Question { start, radius, tolerance: 3e-14, max_curvature, max_points: 100_000 }, &mut |n| n < most)
+}
+
+fn star(radius: f64, max_curvature: f64) -> (Sheet, Surface) {
+    let sheet = common::mesh("open-star");
+    let found = cover(&sheet, &Recipe::default(), Extent { radius, max_curvature }, usize::MAX).unwrap();
+    (sheet, found)
+}
+
+/// The way between two states, whole turns taken off.
+fn way(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| b - a - TAU * ((b - a) / TAU).round()).collect()
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The points on the border. Fails where the triangles are no oriented manifold, and where a point has none.
+fn border(surface: &Surface) -> HashSet<usize> {
+    let mut edges = HashSet::new();
+    let mut fans: HashMap<usize, HashMap<usize, usize>> = HashMap::new();
+    for &[a, b, c] in &surface.triangles {
+        for [x, y, z] in [[a, b, c], [b, c, a], [c, a, b]] {
+            assert!(edges.insert([x, y]), "edge {x} {y} twice in one sense");
+            fans.entry(x).or_default().insert(y, z);
+        }
+    }
+    assert_eq!(fans.len(), surface.points.len(), "every point has triangles");
+    for (point, fan) in &fans {
+        let ends: HashSet<usize> = fan.values().copied().collect();
+        let first = *fan.keys().find(|start| !ends.contains(start)).unwrap_or(fan.keys().next().unwrap());
+        let (mut at, mut seen) = (first, 0);
+        while let Some(&next) = fan.get(&at) {
+            (at, seen) = (next, seen + 1);
+            if at == first {
+                break;
+            }
+        }
+        assert_eq!(seen, fan.len(), "the triangles at point {point} are not one fan");
+    }
+    edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a])).flatten().copied().collect()
+}
+
+/// Claim: the surface of the reference cell is an oriented manifold of states that close to 1e-12 (asked of an own evaluation), with
+/// two linear motions at each but for the tips, where there are three; both nappes are begun, and its whole border has the
+/// largest curvature to 1e-10. Near the drawn state the sign of the nappe is that of the curvature.
+#[test]
+fn surface_of_open_star() {
+    let (sheet, surface) = star(0.2, 0.5);
+    let closure = Closure::of_cell(&sheet).unwrap();
+    assert_eq!((surface.coverage, surface.oriented, surface.closed), (Coverage::Complete, true, false));
+    assert_eq!(surface.branches, [(0, 1), (0, -1)]);
+    let border = border(&surface);
+    let mut tips = 0;
+    for (k, point) in surface.points.iter().enumerate() {
+        let residual = closure.residual(&point.angles).amax();
+        assert!(residual <= 1e-12 && point.residual <= 1e-12, "{residual:e}");
+        assert!(point.shape.compatibility.largest() <= 1e-12);
+        let off = point.shape.curvature.abs() - 0.5;
+        assert!(if border.contains(&k) { off.abs() <= 1e-10 } else { off < 0.0 }, "{k}: {off:e}");
+        let tip = point.radius == 0.0;
+        tips += usize::from(tip);
+        if tip || k % 50 == 0 {
+            let motions = null_space(&closure.jacobian(&point.angles)).unwrap().basis.ncols();
+            assert_eq!(motions, if tip { 3 } else { 2 }, "point {k}");
+        }
+        let away = way(&drawn_fold_angles(&sheet), &point.angles);
+        if !tip && dot(&away, &away) < 0.05 {
+            assert_eq!(point.shape.curvature.signum() as i8, point.branch.1, "point {k}");
+        }
+    }
+    assert_eq!(tips, 3, "the drawn state on both nappes, and another spatially periodic state");
+}
+
+/// Distance of a state from a triangle of states, in the plane of which it is projected; infinite where it falls outside by more
+/// than a tenth.
+fn distance(state: &[f64], corners: [&SurfacePoint; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| &corner.angles[..]);
+    let (u, v, w) = (way(a, b), way(a, c), way(a, state));
+    let (uu, uv, vv, uw, vw) = (dot(&u, &u), dot(&u, &v), dot(&v, &v), dot(&u, &w), dot(&v, &w));
+    let determinant = uu * vv - uv * uv;
+    let (s, t) = ((vv * uw - uv * vw) / determinant, (uu * vw - uv * uw) / determinant);
+    if s.min(t).min(1.0 - s - t) < -0.1 {
+        return f64::INFINITY;
+    }
+    (dot(&w, &w) - s * uw - t * vw).max(0.0).sqrt()
+}
+
+/// Claim: folded states that an independent program found on one-dimensional trajectories lie on the surface, nearer to it than
+/// half the square of the radius (the height of triangles over a surface whose curvature radii are of the order of 1, as those of
+/// fold angles are), and nearer by the square on a finer surface.
+#[test]
+fn trajectories_lie_on_the_surface() {
+    let reference: Value = serde_json::from_str(REFERENCE).unwrap();
+    let list = reference["edge_list"].as_array().unwrap();
+    let mut sums = Vec::new();
+    for radius in [0.24, 0.12] {
+        let (sheet, surface) = star(radius, 1.0);
+        let place = |key: &EdgeKey| {
+            let name = serde_json::json!([key.i, key.j, key.shift[0], key.shift[1]]);
+            list.iter().position(|entry| *entry == name).unwrap()
+        };
+        let (mut sum, mut count) = (0.0, 0);
+        for state in reference["states"].as_array().unwrap() {
+            if state["kappa"].as_f64().unwrap().abs() > 0.95 {
+                continue;
+            }
+            let numbers: Vec<f64> = serde_json::from_value(state["fold_angles"].clone()).unwrap();
+            let angles: Vec<f64> = sheet.edges.iter().map(|edge| numbers[place(&edge.key)]).collect();
+            let corners = surface.triangles.iter().map(|triangle| triangle.map(|k| &surface.points[k]));
+            let nearest = corners.map(|corners| distance(&angles, corners)).fold(f64::INFINITY, f64::min);
+            assert!(nearest <= 0.5 * radius * radius, "{nearest} at {radius}");
+            (sum, count) = (sum + nearest, count + 1);
+        }
+        assert!(count >= 2, "{count} states");
+        sums.push(sum);
+    }
+    assert!(sums[1] <= 0.5 * sums[0], "{sums:?}");
+}
+
+/// Claim: neighbours are at most two radii apart, and half as far at half the radius, on four times as many triangles; less by a
+/// fifth, since where the surface bends, and at its tips, charts are smaller whatever the radius.
+#[test]
+fn resolution_is_the_distance_of_neighbours() {
+    #[derive(Debug)]
+    struct Sizes {
+        mean: f64,
+        triangles: f64,
+    }
+    let of = |radius: f64| {
+        let (_, surface) = star(radius, 0.2);
+        let point = |k: usize| &surface.points[k].angles;
+        let sides = surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let lengths: Vec<f64> = sides.map(|[a, b]| way(point(a), point(b))).map(|way| dot(&way, &way).sqrt()).collect();
+        assert!(lengths.iter().all(|length| *length <= 2.2 * radius));
+        Sizes { mean: lengths.iter().sum::<f64>() / lengths.len() as f64, triangles: surface.triangles.len() as f64 }
+    };
+    let (coarse, fine) = (of(0.06), of(0.03));
+    assert!((1.6..=2.0).contains(&(coarse.mean / fine.mean)), "{coarse:?} {fine:?}");
+    assert!((3.0..=4.0).contains(&(fine.triangles / coarse.triangles)), "{coarse:?} {fine:?}");
+}
+
+/// Claim: a flat cell of four vertices, whose six motions satisfy four quadrics along curves of directions, has a surface of
+/// several nappes, in pairs of opposite curvature: turning the sheet over leaves it as it is. So equally many nappes begin with
+/// either sign; and a flat sheet only gets shorter along its lattice vectors.
+#[test]
+fn flat_cells_have_nappes_in_pairs() {
+    let random = RandomDevelopable { seed: 3, ..RandomDevelopable::default() };
+    let sheet = generate(&Pattern::RandomDevelopable(random)).unwrap();
+    let found = cover(&sheet, &Recipe::default(), Extent { radius: 0.1, max_curvature: 0.05 }, 20_000).unwrap();
+    println!("{:?} {:?} {} points", found.coverage, found.branches, found.points.len());
+    assert!(!found.points.is_empty());
+    let signs = |sign| found.branches.iter().filter(|branch| branch.1 == sign).count();
+    assert_eq!(signs(1), signs(-1), "{:?}", found.branches);
+    let closure = Closure::of_cell(&sheet).unwrap();
+    for point in &found.points {
+        assert!(closure.residual(&point.angles).amax() <= 1e-12);
+    }
+}
+
+/// Claim: what has no surface is said. Triangulated Miura-ori: no real direction but the singular one (no points). With rigid
+/// parallelograms it has one motion and no surface. A patch has no strain space.
+#[test]
+fn what_has_no_surface() {
+    let sheet = generate(&Pattern::Miura(Miura { a: 1.0, b: 1.0, sector: 1.0, fold: 0.4 })).unwrap();
+    let extent = Extent { radius: 0.1, max_curvature: 1.0 };
+    let facets = |stiffness| Some(Hinges { stiffness, rest: vec![0.0; sheet.edges.len()] });
+    let soft = Recipe { facets: facets(1.0), ..Recipe::default() };
+    let none = cover(&sheet, &soft, extent, usize::MAX).unwrap();
+    assert!(none.points.is_empty() && none.branches.is_empty());
+    let rigid = Recipe { facets: facets(f64::INFINITY), ..Recipe::default() };
+    let found = cover(&sheet, &rigid, extent, usize::MAX);
+    assert!(matches!(found, Err(SurfaceError::NotTwoDimensional { modes: 1, .. })), "{found:?}");
+    let (tiling, angles) = (tile(&sheet, [1, 1], false), drawn_fold_angles(&sheet));
+    let surroundings = Surroundings::Patch;
+    let start = branches::Question { sheet: &sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &soft };
+    let question = Question { start, radius: 0.1, tolerance: 1e-13, max_curvature: 1.0, max_points: 100 };
+    assert!(matches!(surface(&question, &mut |_| true), Err(SurfaceError::NotScrew)));
+}
+
+/// Claim: whoever watches can stop; what there is by then is triangulated.
+#[test]
+fn an_interrupted_surface_is_kept() {
+    let sheet = common::mesh("open-star");
+    let extent = Extent { radius: 0.1, max_curvature: 1.0 };
+    let found = cover(&sheet, &Recipe::default(), extent, 1000).unwrap();
+    assert_eq!(found.coverage, Coverage::Interrupted);
+    assert!(found.points.len() > 500 && found.points.len() < 2000 && !found.triangles.is_empty());
+}
+
+/// Claim: a run writes what the contract says: a row for each state with the columns of states; a VTP file with a point for each
+/// row at its strains, and the arrays; a collection and a picture; and the summary counts the same. The energy is that of the
+/// creases: zero where the sheet rests.
+#[test]
+fn a_run_writes_its_surface() {
+    let out = tempfile::tempdir().unwrap();
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let scene = std::fs::read_to_string(meshes.join("star-surface.toml")).unwrap();
+    let mesh = format!("{:?}", meshes.join("open-star.fold").display().to_string());
+    let scene = scene.replace("\"open-star.fold\"", &mesh).replace("max_curvature = 0.5", "max_curvature = 0.1");
+    assert!(scene.contains("resolution = 40") && scene.contains("[[lock]]"));
+    std::fs::write(out.path().join("s.toml"), scene).unwrap();
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_foldwell"))
+        .current_dir(out.path())
+        .args(["run", "s.toml", "--quiet"])
+        .status();
+    assert!(run.unwrap().success());
+    let text = |name: &str| std::fs::read_to_string(out.path().join("s").join(name)).unwrap();
+    let summary: Value = serde_json::from_str(&text("summary.json")).unwrap();
+    let study = &summary["studies"][1];
+    assert_eq!((&study["coverage"], &study["converged"]), (&Value::from("complete"), &Value::from(true)));
+    assert!(study["max_residual"].as_f64().unwrap() <= 1e-12);
+    let left_out = summary["left_out"].as_array().unwrap();
+    assert!(left_out.iter().any(|what| what.as_str().unwrap().contains("`surface`")), "{left_out:?}");
+    let table = text("surface.csv");
+    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| -> Vec<f64> {
+        let place = header.iter().position(|column| *column == name).unwrap();
+        table.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap_or(f64::NAN)).collect()
+    };
+    let points = study["points"].as_u64().unwrap() as usize;
+    assert_eq!(column("step"), (0..points).map(|k| k as f64).collect::<Vec<_>>());
+    let signs: HashSet<i64> = column("sign").iter().map(|sign| *sign as i64).collect();
+    assert_eq!(signs, HashSet::from([1, -1]));
+    check_vtp(&out.path().join("s/surface/surface_0000.vtp"), study, &column);
+    assert!(text("surface.pvd").contains("surface/surface_0000.vtp"));
+    let svg = text("surface.svg");
+    assert!(svg.contains("strain12") && svg.contains("stroke-width=\"2.4\""), "axes, and the paths of the trace");
+    let lowest = column("energy_total").into_iter().fold(f64::INFINITY, f64::min);
+    assert!(lowest.abs() <= 1e-20, "{lowest:e}: the drawn state is at rest");
+}
+
+/// The file has the triangles of the summary and every array that the table has.
+fn check_vtp(path: &Path, study: &Value, column: &dyn Fn(&str) -> Vec<f64>) {
+    let vtk = vtkio::Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap();
+    let piece = vtkio::model::PolyDataPiece::try_from(vtk.data).unwrap();
+    let points: Vec<f64> = piece.points.cast_into().unwrap();
+    for (axis, name) in ["strain11", "strain22", "strain12"].into_iter().enumerate() {
+        assert_eq!(points.iter().skip(axis).step_by(3).copied().collect::<Vec<_>>(), column(name));
+    }
+    let (corners, _) = piece.polys.unwrap().into_xml();
+    assert_eq!(corners.len() as u64, 3 * study["triangles"].as_u64().unwrap());
+    let array = |name: &str| -> Vec<f64> {
+        let found = piece.data.point.iter().find_map(|attribute| match attribute {
+            vtkio::model::Attribute::DataArray(array) if array.name == name => array.data.cast_into::<f64>(),
+            _ => None,
+        });
+        found.unwrap_or_else(|| panic!("array {name}"))
+    };
+    for (there, table) in [
+        ("curvature", "curvature"),
+        ("fold_0_1_0_0", "fold_0_1_0_0"),
+        ("energy", "energy_total"),
+        ("self_intersecting", "self_intersecting"),
+    ] {
+        assert_eq!(array(there), column(table), "{there}");
+    }
+    let theta = array("theta");
+    assert_eq!(theta.iter().step_by(2).copied().collect::<Vec<_>>(), column("theta1"));
+}
