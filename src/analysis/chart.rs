@@ -6,6 +6,7 @@
 use super::trace::Folded;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
+use crate::model::Model;
 
 /// Below this rotation angle `b` comes from the chord, above it from the angle; both are exact there.
 const SMALL_TURN: f64 = 1.0;
@@ -42,4 +43,10 @@ pub fn screw_coordinates(shape: &Shape) -> Vec<f64> {
     coordinates.push(curvature);
     coordinates.extend([step(0), step(1), chords[0].dot(&x), chords[1].dot(&x)]);
     coordinates
+}
+
+/// The angles of the model's hinges among those of all edges: from them angles continue.
+pub fn hinge_angles(model: &Model, angles: &[f64]) -> Vec<f64> {
+    let terms = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
+    terms.flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<_>>()).collect()
 }

@@ -5,11 +5,11 @@
 //! the rigid state, since all rays leave from the same place. Rigid bars must meet every rigid state to rounding; softer ones
 //! stay off it by what the creases pull them.
 
-use super::chart;
+use super::chart::{self, hinge_angles};
 use super::relax::{Relaxed, relax};
 use super::trace::{Folded, Traced};
 use crate::model::assemble::{Drawn, Recipe, assemble, drawn_angles};
-use crate::model::{Domain, Gauge, Model};
+use crate::model::{Domain, Gauge};
 use crate::sheet::Tiling;
 use crate::solver::{Failure, Options, Step};
 use std::f64::consts::TAU;
@@ -157,10 +157,4 @@ impl Track {
             .map(|(angle, last)| if angle.is_nan() { 0.0 } else { next((angle, last)) })
             .collect()
     }
-}
-
-/// The angles of the model's hinges, from which angles continue.
-pub fn hinge_angles(model: &Model, angles: &[f64]) -> Vec<f64> {
-    let terms = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
-    terms.flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<_>>()).collect()
 }

@@ -3,6 +3,7 @@
 use crate::math::Vec3;
 use crate::model::{Domain, Elements, Model};
 use crate::solver::Problem;
+use std::f64::consts::TAU;
 
 /// What an equilibrium, or any other state, looks like.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +85,7 @@ impl State {
 pub struct Cylinder {
     /// Signed curvature, 1/(distance of vertex 0 from the axis): positive when the axis lies on the side of the normals.
     pub curvature: f64,
-    /// Rotation angles of the two lattice rotations about their common axis, in radians. The axis is directed so that
+    /// Rotation angles of the two lattice rotations about their common axis, in radians, between -pi and pi. The axis is directed so that
     /// the larger of the two in magnitude is positive.
     pub theta: [f64; 2],
     /// Strain `a^-T g a^-1 - I` of the chords from vertex 0 to its copies: components 11, 22, 12.
@@ -97,7 +98,8 @@ pub fn cylinder(domain: &Domain, drawn: &[f64], x: &[f64]) -> Option<Cylinder> {
     let (curvature, theta) = match domain {
         Domain::Screw => {
             let shared = &x[x.len() - 5..];
-            let (kappa, theta) = (shared[0], [shared[0] * shared[1], shared[0] * shared[2]]);
+            let kappa = shared[0];
+            let theta = [shared[1], shared[2]].map(|b| kappa * b - TAU * (kappa * b / TAU).round());
             let larger = if theta[0].abs() >= theta[1].abs() { theta[0] } else { theta[1] };
             let sign = if larger < 0.0 { -1.0 } else { 1.0 };
             (kappa / (1.0 - kappa * x[2]), theta.map(|t| t * sign))

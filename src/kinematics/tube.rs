@@ -23,6 +23,7 @@ use crate::math::{Vec3, rotation};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{least_squares, null_space};
 use crate::sheet::Sheet;
+use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, End, Options, Point, Trajectory, follow};
 use std::f64::consts::TAU;
 
@@ -206,7 +207,7 @@ struct Kept<'t, 'a> {
     closure: DenseMatrix,
 }
 
-impl Curve for Kept<'_, '_> {
+impl Implicit for Kept<'_, '_> {
     fn unknowns(&self) -> usize {
         self.tube.embedding.edges()
     }
@@ -222,7 +223,9 @@ impl Curve for Kept<'_, '_> {
         residual[rows] = self.tube.defects(x)[row];
         jacobian.row_mut(rows).copy_from(&self.tube.rates(x).row(row));
     }
+}
 
+impl Curve for Kept<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         out.push(self.tube.defects(&point.x)[1 - self.kept as usize]);
     }

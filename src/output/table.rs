@@ -50,11 +50,14 @@ impl Table {
         Self { header, rows: Vec::new() }
     }
 
-    /// The table of the states of a study: its columns are those of [`StateRow`], the edges of the cell last.
+    /// The table of the states of a study: its columns are those of [`StateRow`], the edges of the cell last. The error to
+    /// the exact kinematics has a column where some state knows it.
     pub fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
+        let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
+        let columns = StateRow::COLUMNS.iter().copied().chain(compared.then_some("error_to_kinematic"));
         let fold = edges.iter().map(Self::fold_column);
-        let header = StateRow::COLUMNS.iter().map(|&column| column.to_owned()).chain(fold).collect();
-        Self { header, rows: states.iter().map(StateRow::values).collect() }
+        let header = columns.map(str::to_owned).chain(fold).collect();
+        Self { header, rows: states.iter().map(|state| state.values(compared)).collect() }
     }
 
     /// The name of the column with the fold angle of an edge.
@@ -149,6 +152,8 @@ pub struct StateRow {
     pub residual_length: Option<f64>,
     /// Whether faces pass through each other.
     pub self_intersecting: Option<bool>,
+    /// Largest difference of a fold angle to the exact kinematics, in radians.
+    pub error_to_kinematic: Option<f64>,
     /// Fold angles of the edges of the cell, NaN where there is none.
     pub fold: Vec<f64>,
 }
@@ -175,14 +180,15 @@ impl StateRow {
         "self_intersecting",
     ];
 
-    fn values(&self) -> Vec<Value> {
+    fn values(&self, compared: bool) -> Vec<Value> {
         let counts = [self.branch, self.sign, self.step].map(Value::from);
         let shape = [&[self.arc_length, self.curvature][..], &self.theta, &self.strain].concat();
         let solution = [&self.energy[..], &[self.residual_force, self.residual_length]].concat();
         let numbers = shape.into_iter().chain(solution).map(Value::from);
         let crossing = Value::from(self.self_intersecting.map(i64::from));
+        let error = compared.then(|| Value::from(self.error_to_kinematic));
         let fold = self.fold.iter().map(|&angle| Value::Number(angle));
-        counts.into_iter().chain(numbers).chain([crossing]).chain(fold).collect()
+        counts.into_iter().chain(numbers).chain([crossing]).chain(error).chain(fold).collect()
     }
 }
 

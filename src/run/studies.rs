@@ -81,7 +81,7 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
 }
 
 /// Shows the steps of a relaxation. A second start begins a continuation, the end of which nobody can tell.
-fn watcher(runner: &Runner<'_>, study: &StudySpec, tolerance: f64) -> impl FnMut(&Step) -> bool {
+pub fn watcher(runner: &Runner<'_>, study: &StudySpec, tolerance: f64) -> impl FnMut(&Step) -> bool {
     let (mut step, mut starts) = (0, 0);
     move |last| {
         step += 1;

@@ -3,10 +3,10 @@
 use super::draw;
 use super::resume::Kept;
 use super::runner::Runner;
-use super::trace::{hinge_angles, state_at};
+use super::trace::state_at;
 use super::{Progress, RunError};
 use crate::analysis::branches;
-use crate::analysis::chart::screw_coordinates;
+use crate::analysis::chart::{hinge_angles, screw_coordinates};
 use crate::analysis::intersections::LYING;
 use crate::analysis::state::State;
 use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
@@ -185,6 +185,7 @@ fn row(recipe: &Recipe, k: usize, point: &SurfacePoint, found: &States) -> State
         residual_force: None,
         residual_length: None,
         self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
+        error_to_kinematic: None,
         fold: point.angles.clone(),
     }
 }

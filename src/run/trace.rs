@@ -3,11 +3,13 @@
 use super::draw::{self, Shown};
 use super::resume::Kept;
 use super::runner::Runner;
-use super::{Progress, RunError, branches};
+use super::{Progress, RunError, branches, studies};
 use crate::analysis::branches::Question as Start;
-use crate::analysis::chart::coordinates;
+use crate::analysis::chart::{coordinates, hinge_angles};
+use crate::analysis::drive::{self, Drive, Driven};
 use crate::analysis::intersections::{LYING, SelfIntersection};
-use crate::analysis::state::State;
+use crate::analysis::relax::Relaxed;
+use crate::analysis::state::{State, cylinder};
 use crate::analysis::trace::{Folded, Question, Stop, TURNING, Traced, trace};
 use crate::model::assemble::{Surroundings, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
@@ -20,8 +22,8 @@ use crate::scene::build::Built;
 use crate::scene::forms::BranchChoice;
 use crate::scene::spec::{Engine, StudySpec, TraceSpec};
 use crate::sheet::EdgeKey;
-use crate::solver::Problem;
 use crate::solver::continuation::End;
+use crate::solver::{Options, Problem};
 use std::time::Instant;
 
 /// Longest step and bound on the residual where the scene says nothing.
@@ -39,9 +41,10 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &TraceSpe
             .error_at(study.kind.span(), message, "use domain = \"screw\", or a mesh without lattice")
             .into());
     }
-    if spec.engine != Engine::Kinematic {
-        let message = "this version follows trajectories with the kinematic engine only";
-        return Err(file.error_at(study.kind.span(), message, "leave `engine` out").into());
+    if spec.engine != Engine::Kinematic && built.recipe.bars.is_none() {
+        let message = "the energy engine relaxes bars, and this scene has none";
+        let help = "give `bars` in [energy] a stiffness (inf: rigid), or leave `engine` out";
+        return Err(file.error_at(study.kind.span(), message, help).into());
     }
     stop(file, built, spec).map(|_| ())
 }
@@ -104,13 +107,15 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
     };
     match found {
         Ok(traced) => {
-            write(runner, study, &traced)?;
-            let failed = |one: &Traced| matches!(one.end, End::Failed | End::Steps | End::Interrupted);
-            summary.converged = !traced.iter().any(failed);
-            summary.reason = (!summary.converged).then(|| "a trajectory did not come to its end".to_owned());
-            let states = traced.iter().flat_map(|one| &one.states);
-            summary.error = Some(states.map(|state| state.residual).fold(0.0, f64::max));
-            summary.result = Some(StudyResult::Trace(summarized(&traced)));
+            let drives = relaxed(runner, study, spec.engine, &traced);
+            summary.seconds = clock.elapsed().as_secs_f64();
+            let paths: Vec<Path<'_>> =
+                traced.iter().enumerate().map(|(k, traced)| Path { traced, drive: drives.get(k) }).collect();
+            write(runner, study, spec.engine, &paths)?;
+            summary.reason = paths.iter().find_map(Path::failure);
+            summary.converged = summary.reason.is_none();
+            summary.error = Some(paths.iter().map(Path::residual).fold(0.0, f64::max));
+            summary.result = Some(StudyResult::Trace(summarized(&paths, spec.engine)));
         }
         Err(error) => summary.reason = Some(error.to_string()),
     }
@@ -156,26 +161,73 @@ pub fn state_at(built: &Built, model: &Model, coordinates: Vec<f64>, angles: &[f
     State { coordinates, fold_angle: angles.to_vec(), ..state }
 }
 
-/// The angles of the model's hinges, from which a relaxation of this state continues.
-pub fn hinge_angles(model: &Model, angles: &[f64]) -> Vec<f64> {
-    let terms = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
-    terms.flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<_>>()).collect()
+/// Relaxations beside every trajectory; none where the engine is kinematic.
+fn relaxed(runner: &Runner<'_>, study: &StudySpec, engine: Engine, traced: &[Traced]) -> Vec<Drive> {
+    if engine == Engine::Kinematic {
+        return Vec::new();
+    }
+    let built = runner.built;
+    let question = drive::Question {
+        tiling: &built.tiling,
+        drawn: &built.drawn,
+        recipe: &built.recipe,
+        options: Options::default(),
+    };
+    let mut watch = studies::watcher(runner, study, question.options.tolerance);
+    traced.iter().map(|one| drive::drive(&question, one, &mut watch)).collect()
 }
 
-fn write(runner: &mut Runner<'_>, study: &StudySpec, traced: &[Traced]) -> Result<(), RunError> {
+/// A trajectory, with the relaxations beside it where there are.
+struct Path<'a> {
+    traced: &'a Traced,
+    drive: Option<&'a Drive>,
+}
+
+impl Path<'_> {
+    /// Why it did not come to its end.
+    fn failure(&self) -> Option<String> {
+        let failed = matches!(self.traced.end, End::Failed | End::Steps | End::Interrupted);
+        let relaxation = self.drive.and_then(|drive| drive.failure);
+        let (branch, sign) = self.traced.branch;
+        match relaxation {
+            Some(failure) => Some(format!("branch {branch}, sign {sign}: a relaxation failed: {failure}")),
+            None => failed.then(|| format!("branch {branch}, sign {sign}: the trajectory did not come to its end")),
+        }
+    }
+
+    /// Number of states.
+    fn len(&self) -> usize {
+        self.drive.map_or(self.traced.states.len(), |drive| drive.states.len() + 1)
+    }
+
+    /// Largest residual: of closure, or scaled, of relaxations.
+    fn residual(&self) -> f64 {
+        let of = |relaxed: &Relaxed| relaxed.residual_force.max(relaxed.residual_length);
+        match self.drive {
+            Some(drive) => drive.states.iter().map(|driven| of(&driven.relaxed)).fold(0.0, f64::max),
+            None => self.traced.states.iter().map(|state| state.residual).fold(0.0, f64::max),
+        }
+    }
+}
+
+fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Path<'_>]) -> Result<(), RunError> {
     let built = runner.built;
     let mut model = model(built);
     let mut finder = draw::self_intersection(runner, study);
     let (mut rows, mut pictures) = (Vec::new(), Vec::new());
-    for one in traced {
-        let every = one.states.len().div_ceil(PICTURES);
-        for (step, folded) in one.states.iter().enumerate() {
+    for path in paths {
+        let every = path.len().div_ceil(PICTURES);
+        for step in 0..path.len() {
+            let folded = &path.traced.states[step];
+            let driven = path.drive.zip(step.checked_sub(1)).map(|(drive, before)| &drive.states[before]);
             model.set_angles(&hinge_angles(&model, &folded.angles));
             model.start_from(coordinates(folded));
-            let state = shown_state(built, &model, folded);
+            let state = driven.map_or_else(|| shown_state(built, &model, folded), relaxed_state);
             let marks = finder.as_mut().map(|finder| finder.marks(&built.drawn, &state, LYING));
-            rows.push(row(built, one, step, folded, &state, marks.as_ref().map(|marks| marks.any)));
-            if step % every == 0 || step + 1 == one.states.len() {
+            let row = row(built, (path, step), (folded, driven), &state, marks.as_ref().map(|marks| marks.any));
+            let compared = driven.filter(|_| engine == Engine::Both);
+            rows.push(StateRow { error_to_kinematic: compared.map(|driven| driven.error), ..row });
+            if step % every == 0 || step + 1 == path.len() {
                 pictures.push((state, marks));
             }
         }
@@ -186,71 +238,93 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, traced: &[Traced]) -> Resul
     let shown: Vec<Shown<'_>> =
         states.iter().zip(marks).map(|(state, marks)| Shown { state, residuals: None, marks }).collect();
     draw::series(runner, study, &shown)?;
-    if let Some(last) = traced.first().and_then(|one| one.states.last()) {
-        let kept = Kept { coordinates: coordinates(last), angles: hinge_angles(&model, &last.angles) };
-        runner.keep_state(study, kept)?;
-    }
-    Ok(())
+    keep(runner, study, &model, paths)
+}
+
+/// Keeps the last state of the first trajectory, for studies that start from it.
+fn keep(runner: &mut Runner<'_>, study: &StudySpec, model: &Model, paths: &[Path<'_>]) -> Result<(), RunError> {
+    let Some(path) = paths.first() else { return Ok(()) };
+    let driven = path.drive.and_then(|drive| drive.states.last());
+    let (coordinates, angles) = match (driven, path.traced.states.last()) {
+        (Some(driven), _) => (driven.relaxed.state.coordinates.clone(), &driven.angles),
+        (None, Some(folded)) => (coordinates(folded), &folded.angles),
+        (None, None) => return Ok(()),
+    };
+    runner.keep_state(study, Kept { coordinates, angles: hinge_angles(model, angles) })
+}
+
+/// A relaxed state with the fold angles of all edges.
+fn relaxed_state(driven: &Driven) -> State {
+    State { fold_angle: driven.angles.clone(), ..driven.relaxed.state.clone() }
 }
 
 fn row(
     built: &Built,
-    one: &Traced,
-    step: usize,
-    folded: &Folded,
+    (path, step): (&Path<'_>, usize),
+    (folded, driven): (&Folded, Option<&Driven>),
     state: &State,
     self_intersecting: Option<bool>,
 ) -> StateRow {
-    let shape = folded.shape.as_ref();
+    let shape = match driven {
+        None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
+        Some(_) => cylinder(&built.drawn.domain, &built.drawn.coordinates, &state.coordinates)
+            .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
+    };
     let recipe = &built.recipe;
     let any = recipe.bars.is_some() || recipe.creases.is_some();
+    let branch = path.traced.branch;
     StateRow {
-        branch: Some(one.branch.0 as i64),
-        sign: Some(i64::from(one.branch.1)),
+        branch: Some(branch.0 as i64),
+        sign: Some(i64::from(branch.1)),
         step: Some(step as i64),
         arc_length: Some(folded.arc_length),
-        curvature: shape.map(|shape| shape.curvature),
-        theta: [0, 1].map(|k| shape.map(|shape| shape.theta[k])),
-        strain: [0, 1, 2].map(|k| shape.map(|shape| shape.strain[k])),
+        curvature: shape.map(|(curvature, ..)| curvature),
+        theta: [0, 1].map(|k| shape.map(|(_, theta, _)| theta[k])),
+        strain: [0, 1, 2].map(|k| shape.map(|(.., strain)| strain[k])),
         energy: [
             recipe.bars.map(|_| state.energy_bars),
             recipe.creases.as_ref().map(|_| state.energy_creases),
             recipe.facets.as_ref().map(|_| state.energy_facets),
             any.then(|| state.total()),
         ],
-        residual_length: None,
-        residual_force: None,
+        residual_length: driven.map(|driven| driven.relaxed.residual_length),
+        residual_force: driven.map(|driven| driven.relaxed.residual_force),
         self_intersecting,
-        fold: folded.angles.clone(),
+        error_to_kinematic: None,
+        fold: state.fold_angle.clone(),
     }
 }
 
-fn summarized(traced: &[Traced]) -> TraceSummary {
-    if traced.is_empty() {
+fn summarized(paths: &[Path<'_>], engine: Engine) -> TraceSummary {
+    if paths.is_empty() {
         let end = "no-real-branch".to_owned();
         return TraceSummary { branches: vec![TrajectorySummary { end, ..TrajectorySummary::default() }] };
     }
-    TraceSummary { branches: traced.iter().map(trajectory).collect() }
+    TraceSummary { branches: paths.iter().map(|path| trajectory(path, engine)).collect() }
 }
 
-fn trajectory(one: &Traced) -> TrajectorySummary {
+fn trajectory(path: &Path<'_>, engine: Engine) -> TrajectorySummary {
+    let one = path.traced;
     let end = match one.end {
+        _ if path.failure().is_some() => "failed",
         End::Closed(_) => "closed",
         End::Stopped { .. } | End::Length => "stop",
         End::Steps | End::Failed | End::Interrupted => "failed",
     };
+    let last = path.len().checked_sub(1).map(|last| &one.states[last]);
+    let newton = |drive: &Drive| drive.states.iter().map(|driven| driven.relaxed.iterations).sum();
     TrajectorySummary {
         branch: Some(one.branch.0),
         sign: Some(one.branch.1),
-        closed: matches!(one.end, End::Closed(_)),
-        arc_length: one.states.last().map_or(0.0, |state| state.arc_length),
-        steps: one.states.len() - 1,
-        iterations: one.corrections,
-        max_residual: one.states.iter().map(|state| state.residual).fold(0.0, f64::max),
+        closed: end == "closed",
+        arc_length: last.map_or(0.0, |state| state.arc_length),
+        steps: path.len() - 1,
+        iterations: path.drive.map_or(one.corrections, newton),
+        max_residual: path.residual(),
         ends_at: one.ends_at.map(|(branch, sign)| RayName { branch, sign }),
         end: end.to_owned(),
         first_self_intersection: one.first_self_intersection.map(|arc_length| ArcLength { arc_length }),
-        error_to_kinematic: None,
+        error_to_kinematic: path.drive.filter(|_| engine == Engine::Both).map(Drive::error),
         turning_points: one.turning_points.iter().map(turning_point).collect(),
     }
 }
