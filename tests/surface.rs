@@ -76,9 +76,10 @@ fn border(surface: &Surface) -> HashSet<usize> {
     edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a])).flatten().copied().collect()
 }
 
-/// Claim: the surface of the reference cell is an oriented manifold of states that close to 1e-12 (asked of an own evaluation), with
-/// two linear motions at each but for the tips, where there are three; both nappes are begun, and its whole border has the
-/// largest curvature to 1e-10. Near the drawn state the sign of the nappe is that of the curvature.
+/// Claim: the surface of the reference cell is an oriented manifold of states that close to 1e-12 (asked of an own
+/// evaluation), with two linear motions at each but for the tips, where there are three; both nappes are begun, and its
+/// whole border has the largest curvature to 1e-10. Near the drawn state the sign of the nappe is that of the
+/// curvature.
 #[test]
 fn surface_of_open_star() {
     let (sheet, surface) = star(0.2, 0.5);
@@ -107,8 +108,8 @@ fn surface_of_open_star() {
     assert_eq!(tips, 3, "the drawn state on both nappes, and another spatially periodic state");
 }
 
-/// Distance of a state from a triangle of states, in the plane of which it is projected; infinite where it falls outside by more
-/// than a tenth.
+/// Distance of a state from a triangle of states, in the plane of which it is projected; infinite where it falls
+/// outside by more than a tenth.
 fn distance(state: &[f64], corners: [&SurfacePoint; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| &corner.angles[..]);
     let (u, v, w) = (way(a, b), way(a, c), way(a, state));
@@ -121,9 +122,9 @@ fn distance(state: &[f64], corners: [&SurfacePoint; 3]) -> f64 {
     (dot(&w, &w) - s * uw - t * vw).max(0.0).sqrt()
 }
 
-/// Claim: folded states that an independent program found on one-dimensional trajectories lie on the surface, nearer to it than
-/// half the square of the radius (the height of triangles over a surface whose curvature radii are of the order of 1, as those of
-/// fold angles are), and nearer by the square on a finer surface.
+/// Claim: folded states that an independent program found on one-dimensional trajectories lie on the surface, nearer to
+/// it than half the square of the radius (the height of triangles over a surface whose curvature radii are of the order
+/// of 1, as those of fold angles are), and nearer by the square on a finer surface.
 #[test]
 fn trajectories_lie_on_the_surface() {
     let reference: Value = serde_json::from_str(REFERENCE).unwrap();
@@ -153,8 +154,8 @@ fn trajectories_lie_on_the_surface() {
     assert!(sums[1] <= 0.5 * sums[0], "{sums:?}");
 }
 
-/// Claim: neighbours are at most two radii apart, and half as far at half the radius, on four times as many triangles; less by a
-/// fifth, since where the surface bends, and at its tips, charts are smaller whatever the radius.
+/// Claim: neighbours are at most two radii apart, and half as far at half the radius, on four times as many triangles;
+/// less by a fifth, since where the surface bends, and at its tips, charts are smaller whatever the radius.
 #[test]
 fn resolution_is_the_distance_of_neighbours() {
     #[derive(Debug)]
@@ -175,16 +176,16 @@ fn resolution_is_the_distance_of_neighbours() {
     assert!((3.0..=4.0).contains(&(fine.triangles / coarse.triangles)), "{coarse:?} {fine:?}");
 }
 
-/// Claim: a flat cell of four vertices, whose six motions satisfy four quadrics along curves of directions, has a surface of
-/// several nappes, in pairs of opposite curvature: turning the sheet over leaves it as it is. So equally many nappes begin with
-/// either sign; and a flat sheet only gets shorter along its lattice vectors.
+/// Claim: a flat cell of four vertices, whose six motions satisfy four quadrics along curves of directions, is left
+/// along several nappes, in pairs of opposite curvature, since turning the sheet over leaves it as it is: equally many
+/// begin with either sign. All states close. (Where directions nearly meet, nappes are too close for charts, and the
+/// coverage is open or, here, stopped.)
 #[test]
 fn flat_cells_have_nappes_in_pairs() {
     let random = RandomDevelopable { seed: 3, ..RandomDevelopable::default() };
     let sheet = generate(&Pattern::RandomDevelopable(random)).unwrap();
     let found = cover(&sheet, &Recipe::default(), Extent { radius: 0.1, max_curvature: 0.05 }, 20_000).unwrap();
-    println!("{:?} {:?} {} points", found.coverage, found.branches, found.points.len());
-    assert!(!found.points.is_empty());
+    assert!(found.points.len() > 1000 && found.branches.len() >= 2, "{:?}", found.branches);
     let signs = |sign| found.branches.iter().filter(|branch| branch.1 == sign).count();
     assert_eq!(signs(1), signs(-1), "{:?}", found.branches);
     let closure = Closure::of_cell(&sheet).unwrap();
@@ -193,8 +194,8 @@ fn flat_cells_have_nappes_in_pairs() {
     }
 }
 
-/// Claim: what has no surface is said. Triangulated Miura-ori: no real direction but the singular one (no points). With rigid
-/// parallelograms it has one motion and no surface. A patch has no strain space.
+/// Claim: what has no surface is said. Triangulated Miura-ori: no real direction but the singular one (no points). With
+/// rigid parallelograms it has one motion and no surface. A patch has no strain space.
 #[test]
 fn what_has_no_surface() {
     let sheet = generate(&Pattern::Miura(Miura { a: 1.0, b: 1.0, sector: 1.0, fold: 0.4 })).unwrap();
@@ -223,9 +224,9 @@ fn an_interrupted_surface_is_kept() {
     assert!(found.points.len() > 500 && found.points.len() < 2000 && !found.triangles.is_empty());
 }
 
-/// Claim: a run writes what the contract says: a row for each state with the columns of states; a VTP file with a point for each
-/// row at its strains, and the arrays; a collection and a picture; and the summary counts the same. The energy is that of the
-/// creases: zero where the sheet rests.
+/// Claim: a run writes what the contract says: a row for each state with the columns of states; a VTP file with a point
+/// for each row at its strains, and the arrays; a collection and a picture; and the summary counts the same. The energy
+/// is that of the creases: zero where the sheet rests.
 #[test]
 fn a_run_writes_its_surface() {
     let out = tempfile::tempdir().unwrap();

@@ -10,8 +10,8 @@ use crate::model::Model;
 
 /// Below this rotation angle `b` comes from the chord, above it from the angle; both are exact there.
 const SMALL_TURN: f64 = 1.0;
-/// Below this rotation angle there is no axis: its direction would be off by the rounding error over the angle, which is more than
-/// what leaving out the turn costs.
+/// Below this rotation angle there is no axis: its direction would be off by the rounding error over the angle, which
+/// is more than what leaving out the turn costs.
 const NO_TURN: f64 = 1e-8;
 
 /// Coordinates of all vertices, and of the screw where the state has a lattice.

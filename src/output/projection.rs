@@ -73,7 +73,8 @@ fn mean_normal(points: &[Vec3], triangles: &[[usize; 3]]) -> Vec3 {
     triangles.iter().map(area).filter(|normal| normal.iter().all(|x| x.is_finite())).sum()
 }
 
-/// The axis or its opposite, whichever agrees with `side`; where `side` does not tell, the one that points to +z, +y, +x.
+/// The axis or its opposite, whichever agrees with `side`; where `side` does not tell, the one that points to +z, +y,
+/// +x.
 fn upright(axis: Vec3, side: Vec3) -> Vec3 {
     let told = axis.dot(&side);
     let sense = if told.abs() > 1e-6 * side.norm() && told != 0.0 {

@@ -1,8 +1,9 @@
 //! A surface of folded states as a picture: strain space seen obliquely, coloured by signed curvature.
 //!
-//! Every axis is scaled to its own range; the eye is on the side of the box on which the drawn state is. Triangles and pieces of paths are painted from back to front. Violet is negative
-//! curvature, orange positive, pale none; the drawn state, where the strain is zero, is a dot. The SVG is written directly, like
-//! that of a sheet ([`super::plot`]): the same surface gives the same bytes.
+//! Every axis is scaled to its own range; the eye is on the side of the box on which the drawn state is. Triangles and
+//! pieces of paths are painted from back to front. Violet is negative curvature, orange positive, pale none; the drawn
+//! state, where the strain is zero, is a dot. The SVG is written directly, like that of a sheet ([`super::plot`]): the
+//! same surface gives the same bytes.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -289,8 +290,8 @@ mod tests {
         text.lines().filter(|line| line.contains(what)).count()
     }
 
-    /// Claim: every triangle and every piece of a path is painted once, the same picture gives the same bytes, and axes and scale
-    /// have their names and numbers.
+    /// Claim: every triangle and every piece of a path is painted once, the same picture gives the same bytes, and axes
+    /// and scale have their names and numbers.
     #[test]
     fn everything_is_drawn_once() {
         let surface = samples::cap(5);

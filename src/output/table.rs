@@ -10,7 +10,8 @@ use super::files;
 use super::picture::ShapeError;
 use crate::sheet::EdgeKey;
 
-/// Reads columns of a table that was written here: one row after the other, NaN where there is no number or no such column.
+/// Reads columns of a table that was written here: one row after the other, NaN where there is no number or no such
+/// column.
 ///
 /// # Errors
 /// [`OutputError::Read`].

@@ -1,5 +1,5 @@
-//! Files for ParaView: VTU (one state), VTP (a surface of states), PVD (the files of a study in their order), and reading VTU
-//! back.
+//! Files for ParaView: VTU (one state), VTP (a surface of states), PVD (the files of a study in their order), and
+//! reading VTU back.
 //!
 //! Arrays are uncompressed, since ParaView has failed to open compressed files of several writers; their lengths are
 //! checked before, since a short one makes it crash.
@@ -350,8 +350,8 @@ mod tests {
         assert!(matches!(fault, VtuFault::Format(_) | VtuFault::NotUnstructured), "{fault}");
     }
 
-    /// Claim: a surface reads back with its triangles, and every array has a value for every point; what was not computed has
-    /// no array; arrays that do not fit are not written.
+    /// Claim: a surface reads back with its triangles, and every array has a value for every point; what was not
+    /// computed has no array; arrays that do not fit are not written.
     #[test]
     fn a_surface_reads_back() {
         let folder = tempfile::tempdir().unwrap();

@@ -222,8 +222,8 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, mesh: &StrainSurface, max_curvat
     Ok(())
 }
 
-/// The trajectories of the `trace` studies before this one, as far as the surface goes: from their tables, which are there also
-/// where an earlier run made them.
+/// The trajectories of the `trace` studies before this one, as far as the surface goes: from their tables, which are
+/// there also where an earlier run made them.
 fn paths(runner: &Runner<'_>, study: &StudySpec, max_curvature: f64) -> Result<Vec<Vec<Vec3>>, RunError> {
     const COLUMNS: [&str; 6] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12"];
     let mut paths = Vec::new();

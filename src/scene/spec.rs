@@ -323,8 +323,8 @@ pub struct CreaseAngle {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSpec {
-    /// Number of states along each direction over a whole turn of fold angles: discs of radius 2 pi / resolution around the
-    /// states, smaller ones where the surface bends, cover it. Left out: 32.
+    /// Number of states along each direction over a whole turn of fold angles: discs of radius 2 pi / resolution around
+    /// the states, smaller ones where the surface bends, cover it. Left out: 32.
     pub resolution: Option<Located<Count>>,
     /// Magnitude of the curvature at which the surface ends, 1/length. Left out: one over the square root of the cell's
     /// area, the curvature of a cylinder as large as the cell.

@@ -1,9 +1,9 @@
 //! Curves and surfaces given by equations `F(x) = 0`: from a predicted point onto them, and the tangents there.
 //!
 //! Newton's method across a frame `T` of orthonormal columns, roughly the tangents at the predicted point `p`: every
-//! correction is the least-squares solution of `J d = -F`, `T^T d = 0`, from the normal equations
-//! `(J^T J + T T^T) d = -J^T F`. They lose digits of `d`, not of the point, since `F` is evaluated anew; and redundant rows
-//! of `J` do no harm. The tangents solve `(J^T J + T T^T) U = T`, once refined, and are then made orthonormal.
+//! correction is the least-squares solution of `J d = -F`, `T^T d = 0`, from the normal equations `(J^T J + T T^T) d =
+//! -J^T F`. They lose digits of `d`, not of the point, since `F` is evaluated anew; and redundant rows of `J` do no
+//! harm. The tangents solve `(J^T J + T T^T) U = T`, once refined, and are then made orthonormal.
 
 use crate::numerics::DenseMatrix;
 use nalgebra::{Cholesky, DVector, Dyn};
@@ -45,8 +45,8 @@ impl Corrector {
         Self { residual: DVector::zeros(rows), jacobian: DenseMatrix::zeros(rows, unknowns) }
     }
 
-    /// Moves `x` across `frame` (tangents one behind the other) onto the solutions, until the largest residual is at most
-    /// `tolerance`, and makes the frame the tangents there, on the same side; `None` where that does not converge.
+    /// Moves `x` across `frame` (tangents one behind the other) onto the solutions, until the largest residual is at
+    /// most `tolerance`, and makes the frame the tangents there, on the same side; `None` where that does not converge.
     pub fn correct(
         &mut self,
         equations: &mut impl Implicit,
@@ -76,7 +76,8 @@ impl Corrector {
         None
     }
 
-    /// Turns a frame into the tangents at `x`, which is near the solutions but need not be one; `None` where that fails.
+    /// Turns a frame into the tangents at `x`, which is near the solutions but need not be one; `None` where that
+    /// fails.
     pub fn turn(&mut self, equations: &mut impl Implicit, x: &[f64], frame: &mut [f64]) -> Option<()> {
         equations.linearize(x, self.residual.as_mut_slice(), &mut self.jacobian);
         let tangents = self.tangents(&columns(frame, x.len()))?;

@@ -1,10 +1,13 @@
 //! The two-dimensional surface of folded states of one cell, repeated by screw motions, as triangles.
 //!
-//! Where `modes - quadrics` of the drawn state is two (a generic periodic cell: 3 and 1; a flat one: `Nv + 2` and `Nv`) the
-//! folded states are a surface in the space of fold angles: at cylinders closure has a null space of dimension two, and the
-//! drawn state is the tip of a cone, at which two nappes or more meet. [`crate::solver::atlas`] covers them with charts, from
-//! a state on each (`starts`), until they close modulo 2 pi or the curvature is met. The hole that charts leave around the tip
-//! is closed with triangles to the drawn state (`tip`).
+//! Where `modes - quadrics` of the drawn state is two (a generic periodic cell: 3 and 1; a flat one: `Nv + 2` and `Nv`)
+//! the folded states are a surface in the space of fold angles: at cylinders closure has a null space of dimension two,
+//! and the drawn state is the tip of a cone, at which two nappes or more meet. [`crate::solver::atlas`] covers them
+//! with charts, from a state on each (`starts`), until they close modulo 2 pi or the curvature is met. The hole that
+//! charts leave around the tip is closed with triangles to the drawn state (`tip`).
+//!
+//! Nappes of a flat cell come close to each other where its directions nearly meet, closer than the smallest charts;
+//! there the coverage stays open, and says so.
 
 mod folding;
 mod starts;
@@ -24,8 +27,8 @@ const MAX_TURN: f64 = 0.4;
 pub struct Question<'a> {
     /// The drawn state; what is locked stays so.
     pub start: branches::Question<'a>,
-    /// Largest radius of a chart, in fold angles: neighbouring states are one to two radii apart, fewer where the surface
-    /// bends.
+    /// Largest radius of a chart, in fold angles: neighbouring states are one to two radii apart, fewer where the
+    /// surface bends.
     pub radius: f64,
     /// Bound on the closure residual.
     pub tolerance: f64,
@@ -64,8 +67,8 @@ pub struct Surface {
     pub oriented: bool,
     /// Whether it has no border.
     pub closed: bool,
-    /// Branch and sign of the nappes from which it was begun. One number is shared by nappes that lie opposite each other at the
-    /// drawn state, and by those that hang together elsewhere.
+    /// Branch and sign of the nappes from which it was begun. One number is shared by nappes that lie opposite each
+    /// other at the drawn state, and by those that hang together elsewhere.
     pub branches: Vec<(usize, i8)>,
 }
 
@@ -105,8 +108,8 @@ pub enum SurfaceError {
     Atlas(#[from] AtlasError),
 }
 
-/// Covers the surface; no points where no direction is real. `observe` is told the number of charts and returns false to
-/// stop.
+/// Covers the surface; no points where no direction is real. `observe` is told the number of charts and returns false
+/// to stop.
 pub fn surface(question: &Question<'_>, observe: &mut dyn FnMut(usize) -> bool) -> Result<Surface, SurfaceError> {
     let start = &question.start;
     if start.surroundings != Surroundings::Screw {

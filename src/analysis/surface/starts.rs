@@ -1,10 +1,10 @@
 //! A state on every piece of the surface, near the drawn one.
 //!
-//! The drawn state is the tip of a cone, the zeros of the obstruction quadrics. Of one quadric with eigenvalues of both signs
-//! the cone has two nappes, `v` and `-v`, with `v` in the plane of the eigenvector whose sign is alone and another. Of several
-//! it is met by hyperplanes in general position, on each of which the real rays are known with multiplicity
-//! ([`crate::kinematics::Rays`]); as many hyperplanes are taken as make it unlikely that a piece meets none. On such a hyperplane the
-//! surface is a curve, followed from the drawn state along its ray.
+//! The drawn state is the tip of a cone, the zeros of the obstruction quadrics. Of one quadric with eigenvalues of both
+//! signs the cone has two nappes, `v` and `-v`, with `v` in the plane of the eigenvector whose sign is alone and
+//! another. Of several it is met by hyperplanes in general position, on each of which the real rays are known with
+//! multiplicity ([`crate::kinematics::Rays`]); as many hyperplanes are taken as make it unlikely that a piece meets
+//! none. On such a hyperplane the surface is a curve, followed from the drawn state along its ray.
 
 use super::folding::{Folding, Section};
 use super::{Question, SurfaceError};
@@ -119,8 +119,8 @@ fn on_sections(second_order: &SecondOrder) -> Result<Vec<Direction>, KinematicsE
     Ok(found)
 }
 
-/// Branch and sign of every start. Starts on one line through the drawn state, and on one piece of the surface, have one
-/// number.
+/// Branch and sign of every start. Starts on one line through the drawn state, and on one piece of the surface, have
+/// one number.
 pub(super) fn branches(atlas: &Atlas, starts: &[Start]) -> Vec<(usize, i8)> {
     let mut piece = pieces(atlas, starts.len());
     for (k, start) in starts.iter().enumerate() {

@@ -1,8 +1,9 @@
 //! Spatially periodic states as the tips of the surface.
 //!
-//! Charts shrink towards a tip and end near it, so that a small hole is left on every nappe. The drawn state is a tip; others
-//! are further spatially periodic states of the cell, such as the drawn one inside out. Newton's method looks for one in every hole,
-//! as a solution of closure together with lattice rotations that are the identity, and joins the rim to it.
+//! Charts shrink towards a tip and end near it, so that a small hole is left on every nappe. The drawn state is a tip;
+//! others are further spatially periodic states of the cell, such as the drawn one inside out. Newton's method looks
+//! for one in every hole, as a solution of closure together with lattice rotations that are the identity, and joins the
+//! rim to it.
 
 use super::folding::Folding;
 use crate::numerics::DenseMatrix;
@@ -57,12 +58,23 @@ fn tip(folding: &Folding<'_>, charts: &[Chart], rim: &[usize]) -> Option<Chart> 
     places.iter().for_each(|place| x.iter_mut().zip(place).for_each(|(x, p)| *x += p / rim.len() as f64));
     let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     let size = places.iter().map(|place| apart(place, &beside.x)).fold(0.0, f64::max);
+    let near = |x: &[f64]| apart(x, &beside.x) <= NEAR * size;
+    let chart = |x: Vec<f64>| Chart {
+        residual: folding.residual(&x),
+        frame: vec![0.0; 2 * x.len()],
+        x,
+        radius: 0.0,
+        limit: f64::NEG_INFINITY,
+        start: beside.start,
+    };
+    let drawn: Vec<f64> = folding.drawn().iter().zip(&beside.x).map(image).collect();
+    if near(&drawn) {
+        return Some(chart(drawn));
+    }
     for _ in 0..STEPS {
         let (residual, jacobian) = folding.periodic(&x);
         if residual.amax() <= CLOSED {
-            let near = apart(&x, &beside.x) <= NEAR * size;
-            let (frame, radius, limit, start) = (vec![0.0; 2 * x.len()], 0.0, f64::NEG_INFINITY, beside.start);
-            return near.then(|| Chart { residual: folding.residual(&x), x, frame, radius, limit, start });
+            return near(&x).then(|| chart(x));
         }
         let right = DenseMatrix::from_column_slice(residual.len(), 1, residual.as_slice());
         let step = least_squares(&jacobian, &right).ok()?.solution;

@@ -121,7 +121,8 @@ impl<'a, S: Surface> Cover<'a, S> {
         if open.is_empty() { Coverage::Complete } else { Coverage::Open { charts: open.len() } }
     }
 
-    /// Places neighbours of a chart until its disc is covered; false where that does not succeed with the smallest radius.
+    /// Places neighbours of a chart until its disc is covered; false where that does not succeed with the smallest
+    /// radius.
     fn surround(&mut self, number: usize) -> bool {
         self.shape(number);
         while let Some(at) = self.polygon.uncovered() {
@@ -166,7 +167,8 @@ impl<'a, S: Surface> Cover<'a, S> {
         self.chart(x, frame, GROWTH * radius, Place { residual: found.residual, start })
     }
 
-    /// A chart at a point of the surface, its radius at most `largest` and such that the tangent plane turns gently over it.
+    /// A chart at a point of the surface, its radius at most `largest` and such that the tangent plane turns gently
+    /// over it.
     ///
     /// `None` where that is less than the smallest radius. The turning is measured at two points beside, in the tangent
     /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does.

@@ -1,8 +1,9 @@
 //! Points near a point, modulo periods.
 //!
-//! A periodic unknown is seen as a point of a circle of that circumference; everything is projected onto a few orthonormal
-//! directions, and by the first three of these sorted into cubes. Circle and projection only shorten distances, so all points
-//! within the side of a cube are in the 27 cubes around, and those whose projections are further apart are not near.
+//! A periodic unknown is seen as a point of a circle of that circumference; everything is projected onto a few
+//! orthonormal directions, and by the first three of these sorted into cubes. Circle and projection only shorten
+//! distances, so all points within the side of a cube are in the 27 cubes around, and those whose projections are
+//! further apart are not near.
 
 use super::{add, dot, norm};
 use std::collections::HashMap;

@@ -1,10 +1,10 @@
 //! Triangles of neighbouring charts.
 //!
-//! A corner of a chart's polygon is where three balls meet: a triangle of the chart and of two neighbours that follow each
-//! other in its ring. In a plane all three see the same triangle. On a curved surface charts may disagree where
-//! four balls meet almost in a point; triangles that all three see are kept, and what is left are small holes, each with
-//! one closed rim, which are filled with the shortest diagonals. Triangles kept are sectors of the rings of
-//! their charts, so that no edge has more than two and the sheet is a manifold.
+//! A corner of a chart's polygon is where three balls meet: a triangle of the chart and of two neighbours that follow
+//! each other in its ring. In a plane all three see the same triangle. On a curved surface charts may disagree where
+//! four balls meet almost in a point; triangles that all three see are kept, and what is left are small holes, each
+//! with one closed rim, which are filled with the shortest diagonals. Triangles kept are sectors of the rings of their
+//! charts, so that no edge has more than two and the sheet is a manifold.
 
 use std::collections::HashSet;
 

@@ -1,10 +1,10 @@
 //! Surfaces `F(x) = 0` covered by an atlas of charts.
 //!
 //! A chart is a point of the surface with two orthonormal tangents and a radius; its ball is cut by those of its
-//! neighbours to a `polygon`. While a corner of the polygon lies outside the ball, a new chart is placed on the rim
-//! and corrected onto the surface (M. E. Henderson, "Multiple parameter continuation: computing implicitly defined
-//! k-manifolds", International Journal of Bifurcation and Chaos 12 (2002) 451-476; here the place is where the rims of two
-//! balls meet, so that centres are no closer than a radius). Points are neighbours modulo the periods of the
+//! neighbours to a `polygon`. While a corner of the polygon lies outside the ball, a new chart is placed on the rim and
+//! corrected onto the surface (M. E. Henderson, "Multiple parameter continuation: computing implicitly defined
+//! k-manifolds", International Journal of Bifurcation and Chaos 12 (2002) 451-476; here the place is where the rims of
+//! two balls meet, so that centres are no closer than a radius). Points are neighbours modulo the periods of the
 //! unknowns, so that a surface can close. The triangles are dual to the polygons, see `mesh`, and are cut where the
 //! surface's limit is met, see `cut`.
 //!
@@ -92,8 +92,8 @@ pub enum Coverage {
 pub struct Atlas {
     /// Charts, those on the border last.
     pub charts: Vec<Chart>,
-    /// Triangles of neighbouring charts, counter-clockwise in their frames. Across the end of a period the nearest images
-    /// are meant.
+    /// Triangles of neighbouring charts, counter-clockwise in their frames. Across the end of a period the nearest
+    /// images are meant.
     pub triangles: Vec<[usize; 3]>,
     /// How the covering ended.
     pub coverage: Coverage,

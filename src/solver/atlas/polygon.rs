@@ -1,14 +1,14 @@
 //! The polygon of a chart: what of its disc no neighbour covers better, in tangent coordinates.
 //!
-//! It begins as a square around the disc. A neighbour at `u` with radius `r` takes away the half-plane behind the line in
-//! which the two balls meet, `u . p > (|u|^2 + R^2 - r^2) / 2`. While a corner lies outside the disc, part of
-//! the disc's rim is covered by no other (M. E. Henderson, International Journal of Bifurcation and Chaos 12 (2002)
+//! It begins as a square around the disc. A neighbour at `u` with radius `r` takes away the half-plane behind the line
+//! in which the two balls meet, `u . p > (|u|^2 + R^2 - r^2) / 2`. While a corner lies outside the disc, part of the
+//! disc's rim is covered by no other (M. E. Henderson, International Journal of Bifurcation and Chaos 12 (2002)
 //! 451-476, section 3).
 
 /// Half the side of the square over the radius.
 const SQUARE: f64 = 1.1;
-/// Corners outside the disc get a chart, and those further out than this part of the radius unless a neighbour is within
-/// the other part: so that no triangle with an angle near 120 degrees is left.
+/// Corners outside the disc get a chart, and those further out than this part of the radius unless a neighbour is
+/// within the other part: so that no triangle with an angle near 120 degrees is left.
 const COVERED: f64 = 0.9;
 const CROWDED: f64 = 0.7;
 
@@ -70,8 +70,8 @@ impl Polygon {
 
     /// A place for a new chart where the disc is not covered well; `None` where it is.
     ///
-    /// On the rim of the disc and of a neighbour where that can be: discs placed there are one radius apart. A corner within
-    /// the disc but close to its rim is itself the place.
+    /// On the rim of the disc and of a neighbour where that can be: discs placed there are one radius apart. A corner
+    /// within the disc but close to its rim is itself the place.
     pub fn uncovered(&self) -> Option<[f64; 2]> {
         let count = self.corners.len();
         let apart = |a: [f64; 2], b: [f64; 2]| length([a[0] - b[0], a[1] - b[1]]);

@@ -164,7 +164,8 @@ fn area(atlas: &Atlas, period: Option<f64>) -> f64 {
 
 /// Claim: the unit sphere, from an equation and its multiple, is covered by a closed oriented triangulation of Euler
 /// characteristic 2, whose area tends to 4 pi with the square of the radius. An equal hexagonal packing of edge h and
-/// flat triangles would miss about h^2/12 of it to h^2/4, by the spread of the edges from one to two radii: 0.35 radius^2.
+/// flat triangles would miss about h^2/12 of it to h^2/4, by the spread of the edges from one to two radii: 0.35
+/// radius^2.
 #[test]
 fn sphere_is_closed() {
     let mut errors = Vec::new();
@@ -207,8 +208,8 @@ fn torus_is_closed() {
     }
 }
 
-/// Claim: a torus of angles closes modulo 2 pi: Euler characteristic 0, no border, area as by the trapezoidal rule (which
-/// converges exponentially) to 0.1 radius^2, half of what is missing at curvatures of 0.5.
+/// Claim: a torus of angles closes modulo 2 pi: Euler characteristic 0, no border, area as by the trapezoidal rule
+/// (which converges exponentially) to 0.1 radius^2, half of what is missing at curvatures of 0.5.
 #[test]
 fn torus_of_angles_closes_over_its_periods() {
     let mut surface = Textbook::new(angles);
@@ -227,8 +228,8 @@ fn torus_of_angles_closes_over_its_periods() {
     assert!(missing.abs() <= 0.1 * 0.25 * 0.25, "{missing}");
 }
 
-/// Claim: a paraboloid cut by the cylinder of radius 1 about its axis is a disc: Euler characteristic 1, border on the limit
-/// to 1e-12, nothing beyond it, area 2 pi (2 sqrt 2 - 1)/3 to 0.5 radius^2; no triangle is thin.
+/// Claim: a paraboloid cut by the cylinder of radius 1 about its axis is a disc: Euler characteristic 1, border on the
+/// limit to 1e-12, nothing beyond it, area 2 pi (2 sqrt 2 - 1)/3 to 0.5 radius^2; no triangle is thin.
 #[test]
 fn limit_is_the_border() {
     for radius in [0.2, 0.1, 0.04] {
@@ -274,6 +275,7 @@ fn a_tip_is_not_crossed() {
     let both = cover(&mut surface, &starts, options, &mut |_| true).unwrap();
     let side = |chart: usize| both.charts[chart].x[2] > 0.0;
     assert!(both.triangles.iter().all(|[a, b, c]| side(*a) == side(*b) && side(*b) == side(*c)));
+    assert!(both.charts.iter().all(|chart| (chart.x[2] > 0.0) == (chart.start != 1)), "each knows its start");
     let upper = both.charts.iter().filter(|chart| chart.x[2] > 0.0).count();
     assert!(upper.abs_diff(atlas.charts.len()) * 20 <= upper && upper < both.charts.len(), "{upper}");
 }
