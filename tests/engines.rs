@@ -74,7 +74,7 @@ fn rigid_bars_meet_the_kinematics_on_both_loops() {
     for traced in &all {
         assert!(matches!(traced.end, End::Closed(_)));
         let found = scene.driven(traced);
-        assert_eq!(found.states.len(), traced.states.len() - 1, "{:?}", found.failure);
+        assert_eq!(found.states.len(), traced.states.len() - 2, "{:?}", found.failure);
         println!("{:?}: {} steps, largest error {:.1e}", traced.branch, found.states.len(), found.error());
         assert!(found.error() <= 1e-10, "{:?}: {:e}", traced.branch, found.error());
         let residual = |state: &drive::Driven| state.relaxed.residual_force.max(state.relaxed.residual_length);
@@ -83,9 +83,9 @@ fn rigid_bars_meet_the_kinematics_on_both_loops() {
 }
 
 /// Claim (theory, section 7): creases that pull the sheet back to the star stretch its bars, and the distance to the exact
-/// kinematics falls as 1/k once k is large: at every step of the short loop `k` times distance is the same at 1e8, 1e10
-/// and 1e12. The bound of 3% is that of the next term at 1e8, where the loop is softest; between the last two it is a
-/// hundredth of that, or the accuracy of a relaxation, 1e-12 times 1e12/k. At 1e6 they differ by up to a third.
+/// kinematics falls as 1/k once k is large: at every step of the short loop `k` times distance at 1e8 is that at 1e10.
+/// Tolerance 0.5%: at 1e6, where the law sets in, they differ by up to a fifth, and the next term in 1/k is a hundredth
+/// of that at 1e8.
 #[test]
 fn soft_bars_approach_it_as_one_over_their_stiffness() {
     let scaled = |bars: f64| -> Vec<Vec<f64>> {
@@ -94,7 +94,9 @@ fn soft_bars_approach_it_as_one_over_their_stiffness() {
         let all = scene.traced(None, Stop::default());
         let found: Vec<Drive> = all.iter().filter(short).map(|traced| scene.driven(traced)).collect();
         let worst = found.iter().map(Drive::error).fold(0.0, f64::max);
-        for d in &found { println!("{:?}", d.failure); }
+        for d in &found {
+            println!("{:?}", d.failure);
+        }
         println!("k = {bars:e}: largest distance {worst:.3e}, times k {:.2}", worst * bars);
         found.iter().map(|drive| drive.states.iter().map(|state| bars * state.error).collect()).collect()
     };
@@ -111,7 +113,7 @@ fn soft_bars_approach_it_as_one_over_their_stiffness() {
         }
     }
     println!("k times distance is off that of 1e10 by {:.3} at 1e6, {:.4} at 1e8", apart[0], apart[1]);
-    assert!(apart[1] <= 0.03, "{apart:?}");
+    assert!(apart[0] <= 0.5 && apart[1] <= 5e-3, "{apart:?}");
 }
 
 /// The lengths of rigid bars and the locked angle, in the unknowns of the chart.

@@ -2,7 +2,8 @@
 //!
 //! At every state of the trajectory the crease that moves fastest there is locked at its angle, and the sheet relaxes at its own
 //! stiffness from where the last relaxation ended, moved on by the same amount again. Only the first step starts from
-//! the rigid state, since all rays leave from the same place. Rigid bars must meet every rigid state to rounding; softer ones
+//! the rigid state, since all rays leave from the same place; and where a trajectory comes back, that place itself, the drawn
+//! state, is not relaxed again: there a locked crease does not say about which axis the sheet folds. Rigid bars must meet every rigid state to rounding; softer ones
 //! stay off it by what the creases pull them.
 
 use super::chart::{self, hinge_angles};
@@ -11,6 +12,7 @@ use super::trace::{Folded, Traced};
 use crate::model::assemble::{Drawn, Recipe, assemble, drawn_angles};
 use crate::model::{Domain, Gauge};
 use crate::sheet::Tiling;
+use crate::solver::continuation::End;
 use crate::solver::{Failure, Options, Step};
 use std::f64::consts::TAU;
 
@@ -45,7 +47,8 @@ pub struct Driven {
 /// The relaxations beside a trajectory.
 #[derive(Clone, Debug)]
 pub struct Drive {
-    /// One state for every state of the trajectory but the first, which is drawn; fewer where one failed.
+    /// One state for every state of the trajectory but the first, which is drawn, and the last where it closes; fewer
+    /// where one failed.
     pub states: Vec<Driven>,
     /// Why the next one failed.
     pub failure: Option<Failure>,
@@ -62,7 +65,8 @@ impl Drive {
 pub fn drive(question: &Question<'_>, traced: &Traced, observe: &mut dyn FnMut(&Step) -> bool) -> Drive {
     let mut drive = Drive { states: Vec::new(), failure: None };
     let mut track = Track::new();
-    let Some((drawn, rest)) = traced.states.split_first() else { return drive };
+    let closed = usize::from(matches!(traced.end, End::Closed(_)));
+    let Some((drawn, rest)) = traced.states[..traced.states.len() - closed].split_first() else { return drive };
     track.angles.clone_from(&drawn.angles);
     for state in rest {
         let crease = fastest(&state.rates, track.crease);

@@ -195,9 +195,15 @@ impl Path<'_> {
         }
     }
 
-    /// Number of states.
+    /// Number of states: up to where a relaxation failed.
     fn len(&self) -> usize {
-        self.drive.map_or(self.traced.states.len(), |drive| drive.states.len() + 1)
+        let failed = self.drive.filter(|drive| drive.failure.is_some());
+        failed.map_or(self.traced.states.len(), |drive| drive.states.len() + 1)
+    }
+
+    /// The relaxation beside a state; none beside the drawn state, where trajectories begin and close.
+    fn driven(&self, step: usize) -> Option<&Driven> {
+        self.drive?.states.get(step.checked_sub(1)?)
     }
 
     /// Largest residual: of closure, or scaled, of relaxations.
@@ -219,7 +225,7 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
         let every = path.len().div_ceil(PICTURES);
         for step in 0..path.len() {
             let folded = &path.traced.states[step];
-            let driven = path.drive.zip(step.checked_sub(1)).map(|(drive, before)| &drive.states[before]);
+            let driven = path.driven(step);
             model.set_angles(&hinge_angles(&model, &folded.angles));
             model.start_from(coordinates(folded));
             let state = driven.map_or_else(|| shown_state(built, &model, folded), relaxed_state);

@@ -19,8 +19,6 @@ const START_CHORDS: i32 = 50;
 /// Most Gauss-Newton steps of a start, and the part of the gap that a whole one must close.
 const START_STEPS: usize = 30;
 const SLOWEST: f64 = 0.3;
-/// Largest scaled gap that a start may keep where no step makes it smaller.
-const CLOSE: f64 = 1e-6;
 const CHORDS: i32 = 12;
 /// Scaled gaps of this size may be rounding error.
 const ROUNDING: f64 = 1e-12;
@@ -275,12 +273,7 @@ impl<P: Problem> Newton<'_, P> {
                 self.problem.accept(&mut self.x);
                 return Ok(());
             }
-            match self.approach(gap) {
-                Some(left) => gap = left,
-                // what is left so near a singular state is for the steps to close
-                None if gap <= CLOSE => return Ok(()),
-                None => break,
-            }
+            gap = self.approach(gap).ok_or(Failure::Infeasible { gap })?;
         }
         Err(Failure::Infeasible { gap })
     }
