@@ -383,7 +383,7 @@ fn studies_that_cannot_be_done() {
         ),
         (
             scene("", "kind = \"trace\"\nengine = \"both\"").replace("[energy]", "domain = \"screw\""),
-            "scene.toml:7:8: this version follows trajectories with the kinematic engine only",
+            "scene.toml:7:8: the energy engine relaxes bars, and this scene has none",
         ),
         (
             scene("", "kind = \"trace\"\nstop = { crease_angle = { crease = [0, 1, 7, 0], angle = 1 } }")

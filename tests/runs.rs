@@ -372,3 +372,32 @@ fn another_scene_keeps_nothing() {
     fs::remove_file(folder.path().join("a/one.csv")).unwrap();
     assert_eq!(kept(&resume), 0);
 }
+
+/// Claim: both engines beside each other: a row for every state, with residuals and the distance to the exact kinematics
+/// wherever a relaxation was made, which is everywhere but in the drawn state; the largest distance is in the summary.
+#[test]
+fn engines_are_compared() {
+    let out = tempfile::tempdir().unwrap();
+    let scene = meshes().join("star-engines.toml");
+    let output = foldwell(out.path(), &["run", scene.to_str().unwrap(), "--out", "run", "--quiet"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let folder = out.path().join("run");
+    let branches = json(&folder.join("summary.json"))["studies"][0]["branches"].as_array().unwrap().clone();
+    let table = fs::read_to_string(folder.join("both.csv")).unwrap();
+    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| header.iter().position(|column| *column == name).unwrap();
+    let at = ["branch", "sign", "step", "residual_force", "error_to_kinematic"].map(column);
+    let rows: Vec<[Option<f64>; 5]> =
+        table.lines().skip(1).map(|line| at.map(|k| line.split(',').nth(k).unwrap().parse().ok())).collect();
+    for branch in &branches {
+        let name = [branch["branch"].as_f64(), branch["sign"].as_f64()];
+        let own: Vec<_> = rows.iter().filter(|row| row[..2] == name).collect();
+        let steps = branch["steps"].as_u64().unwrap() as usize;
+        assert_eq!(own.len(), steps + 1);
+        let relaxed = |row: &[Option<f64>; 5]| row[3].is_some_and(|force| force <= 1e-12) && row[4].is_some();
+        assert!(own.iter().enumerate().all(|(k, row)| relaxed(row) == (k > 0 && k < steps)));
+        let largest = own.iter().filter_map(|row| row[4]).fold(0.0, f64::max);
+        assert!(largest > 1e-6 && largest < 1e-3 && branch["error_to_kinematic"].as_f64() == Some(largest));
+    }
+    assert_eq!(branches.len(), 4);
+}

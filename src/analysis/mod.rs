@@ -4,6 +4,7 @@ pub mod axis;
 pub mod branches;
 pub mod chart;
 pub mod drive;
+pub mod exact;
 pub mod intersections;
 pub mod modes;
 pub mod relax;

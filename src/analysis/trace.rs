@@ -5,7 +5,7 @@
 //! and of the three strains are the zeros of their rates.
 
 use super::branches::{self, BranchesError};
-use crate::kinematics::{Closure, Displacement, Embedding, KinematicsError, Ray, Shape};
+use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, Shape};
 use crate::math::Vec3;
 use crate::model::assemble::Surroundings;
 use crate::numerics::DenseMatrix;
@@ -110,26 +110,16 @@ pub enum TraceError {
 
 /// The closure of a sheet as a curve, with what is watched along it.
 struct Folding<'a, 'b> {
-    closure: &'a Closure,
+    closing: Closing<'a>,
     embedding: &'a Embedding,
-    /// Fold angles of all edges; those that do not fold stay.
-    angles: Vec<f64>,
     periodic: bool,
     stop: Stop,
     intersects: Option<Intersects<'b>>,
 }
 
 impl Folding<'_, '_> {
-    /// All edges, from the numbers of the folding ones and what the others have.
-    fn all(&self, folding: &[f64], others: &[f64]) -> Vec<f64> {
-        let mut all = others.to_vec();
-        self.closure.folding_edges().iter().zip(folding).for_each(|(&edge, &number)| all[edge] = number);
-        all
-    }
-
     fn folded(&self, point: &Point) -> Folded {
-        let angles = self.all(&point.x, &self.angles);
-        let rates = self.all(&point.tangent, &vec![0.0; angles.len()]);
+        let (angles, rates) = (self.closing.angles(&point.x), self.closing.rates(&point.tangent));
         let placement = self.embedding.place(&angles);
         let positions = placement.positions.clone();
         let shape = Shape::of(self.embedding, placement).ok();
@@ -146,16 +136,15 @@ impl Folding<'_, '_> {
 
 impl Implicit for Folding<'_, '_> {
     fn unknowns(&self) -> usize {
-        self.closure.folding_edges().len()
+        self.closing.unknowns()
     }
 
     fn equations(&self) -> usize {
-        3 * self.closure.vertices().len()
+        self.closing.equations()
     }
 
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &angle)| self.angles[edge] = angle);
-        self.closure.linearize_into(&self.angles, residual, jacobian);
+        self.closing.linearize(x, residual, jacobian);
     }
 }
 
@@ -189,8 +178,8 @@ pub fn trace(
     let embedding = Embedding::new(start.sheet)?;
     let angles: Vec<f64> = start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
     let periodic = start.surroundings == Surroundings::Screw;
-    let mut folding =
-        Folding { closure: &closure, embedding: &embedding, angles, periodic, stop: question.stop, intersects };
+    let closing = Closing::new(&closure, angles);
+    let mut folding = Folding { closing, embedding: &embedding, periodic, stop: question.stop, intersects };
     let wanted = rays.iter().filter(|ray| question.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
@@ -213,10 +202,9 @@ fn along(
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Traced {
     let branch = (ray.branch, ray.sign);
-    let edges = folding.closure.folding_edges().to_vec();
-    let of = |all: &[f64]| edges.iter().map(|&edge| all[edge]).collect::<Vec<f64>>();
-    let drawn: Vec<f64> = question.start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
-    folding.angles.clone_from(&drawn);
+    let start = folding.closing.folding(question.start.angles);
+    let directions: Vec<Vec<f64>> = rays.iter().map(|ray| folding.closing.folding(&ray.direction)).collect();
+    let leaving = folding.closing.folding(&ray.direction);
     let mut stops = vec![CURVATURE, CREASE_ANGLE];
     stops.extend(question.stop.self_intersection.then_some(INTERSECTION));
     let options = Options {
@@ -227,10 +215,10 @@ fn along(
         stops,
         ..Options::default()
     };
-    let found = follow(folding, of(&drawn), of(&ray.direction), &options, &mut |point| observe(branch, point));
+    let found = follow(folding, start, leaving, &options, &mut |point| observe(branch, point));
     let Trajectory { points, events, end } = found;
     let ends_at = match &end {
-        End::Closed(back) => arrival(&back.arrival, rays, &of),
+        End::Closed(back) => arrival(&back.arrival, &directions).map(|ray| (rays[ray].branch, rays[ray].sign)),
         _ => None,
     };
     let first_self_intersection = match (&end, points.last(), crossing(&events)) {
@@ -255,11 +243,8 @@ fn crossing(events: &[Event]) -> Option<f64> {
     events.iter().find(|event| event.indicator == INTERSECTION).map(|event| event.point.arc_length)
 }
 
-/// The ray against which a trajectory arrives.
-fn arrival(tangent: &[f64], rays: &[Ray], of: &impl Fn(&[f64]) -> Vec<f64>) -> Option<(usize, i8)> {
-    let against = |ray: &&Ray| {
-        let direction = of(&ray.direction);
-        -direction.iter().zip(tangent).map(|(a, b)| a * b).sum::<f64>() > ALONG
-    };
-    rays.iter().find(against).map(|ray| (ray.branch, ray.sign))
+/// The number of the ray against which a trajectory arrives.
+fn arrival(tangent: &[f64], directions: &[Vec<f64>]) -> Option<usize> {
+    let along = |direction: &Vec<f64>| direction.iter().zip(tangent).map(|(a, b)| a * b).sum::<f64>();
+    directions.iter().position(|direction| -along(direction) > ALONG)
 }

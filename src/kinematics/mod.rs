@@ -3,6 +3,7 @@
 //!
 //! Nothing here knows bars or energies, so that it can judge what the energies find.
 
+pub mod closing;
 pub mod closure;
 pub mod displacement;
 pub mod embedding;
@@ -19,6 +20,7 @@ mod test_sheets;
 pub mod tube;
 mod walk;
 
+pub use closing::Closing;
 pub use closure::{Closure, HingedEdge, drawn_fold_angles};
 pub use displacement::Displacement;
 pub use embedding::{Compatibility, Embedding, Placement};

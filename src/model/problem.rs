@@ -122,6 +122,11 @@ impl Model {
         all
     }
 
+    /// Whether forces pull at vertices, or pins hold some of them.
+    pub fn held_or_loaded(&self) -> bool {
+        !self.loads.is_empty() || (!matches!(self.domain, Domain::Screw) && !self.pinned.is_empty())
+    }
+
     /// Where points come from.
     pub fn domain(&self) -> &Domain {
         &self.domain

@@ -5,6 +5,7 @@ use super::resume::Kept;
 use super::runner::Runner;
 use super::{Progress, RunError, branches, surface, trace};
 use crate::analysis;
+use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::LYING;
 use crate::analysis::modes::{Modes, Question};
 use crate::analysis::relax::{RelaxError, Relaxed};
@@ -70,7 +71,9 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
             write_states(runner, study, [&first, &relaxed.state], residuals)?;
             let coordinates = relaxed.state.coordinates.clone();
             runner.keep_state(study, Kept { coordinates, angles: model.angles() })?;
-            Ok(relaxed_summary(built, study, seconds, &relaxed))
+            let angles = draw::with_all_angles(built, &relaxed.state).fold_angle;
+            let error_to_kinematic = error_to_kinematic(&built.sheet, &built.tiling, &model, &angles);
+            Ok(relaxed_summary(built, study, seconds, (&relaxed, error_to_kinematic)))
         }
         Err(error) => {
             let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
@@ -171,7 +174,12 @@ fn nowhere_to_start(study: &StudySpec) -> StudySummary {
     }
 }
 
-fn relaxed_summary(built: &Built, study: &StudySpec, seconds: f64, relaxed: &Relaxed) -> StudySummary {
+fn relaxed_summary(
+    built: &Built,
+    study: &StudySpec,
+    seconds: f64,
+    (relaxed, error_to_kinematic): (&Relaxed, Option<f64>),
+) -> StudySummary {
     let result = RelaxSummary {
         energy: energy(built, &relaxed.state),
         iterations: relaxed.iterations,
@@ -181,7 +189,7 @@ fn relaxed_summary(built: &Built, study: &StudySpec, seconds: f64, relaxed: &Rel
         residual_length: relaxed.residual_length,
         negative_eigenvalues: Some(relaxed.negative_eigenvalues),
         self_stresses: relaxed.self_stresses,
-        error_to_kinematic: None,
+        error_to_kinematic,
         history: history(&relaxed.history),
     };
     StudySummary {

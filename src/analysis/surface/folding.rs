@@ -1,6 +1,6 @@
 //! The closure of a cell as a surface, and as a curve on it.
 
-use crate::kinematics::{Closure, Displacement, Embedding, KinematicsError, Shape};
+use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Shape};
 use crate::math::rotation;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
@@ -12,15 +12,15 @@ use std::f64::consts::TAU;
 /// Fold angles that close, up to a curvature. The unknowns are the angles of the folding edges.
 pub(super) struct Folding<'a> {
     closure: &'a Closure,
+    closing: Closing<'a>,
     embedding: &'a Embedding,
-    /// Fold angles of all edges; those that do not fold stay as drawn.
-    angles: Vec<f64>,
     max_curvature: f64,
 }
 
 impl<'a> Folding<'a> {
     pub fn new(closure: &'a Closure, embedding: &'a Embedding, max_curvature: f64) -> Self {
-        Self { closure, embedding, angles: embedding.drawn_angles().to_vec(), max_curvature }
+        let closing = Closing::new(closure, embedding.drawn_angles().to_vec());
+        Self { closure, closing, embedding, max_curvature }
     }
 
     /// The drawn angles of the folding edges.
@@ -30,14 +30,12 @@ impl<'a> Folding<'a> {
 
     /// The entries of the folding edges.
     pub fn folding(&self, all: &[f64]) -> Vec<f64> {
-        self.closure.folding_edges().iter().map(|&edge| all[edge]).collect()
+        self.closing.folding(all)
     }
 
     /// The angles of all edges.
     pub fn all(&self, x: &[f64]) -> Vec<f64> {
-        let mut all = self.embedding.drawn_angles().to_vec();
-        self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &angle)| all[edge] = angle);
-        all
+        self.closing.angles(x)
     }
 
     /// The cylinder at the angles of the folding edges.
@@ -73,16 +71,15 @@ impl<'a> Folding<'a> {
 
 impl Implicit for Folding<'_> {
     fn unknowns(&self) -> usize {
-        self.closure.folding_edges().len()
+        self.closing.unknowns()
     }
 
     fn equations(&self) -> usize {
-        3 * self.closure.vertices().len()
+        self.closing.equations()
     }
 
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &angle)| self.angles[edge] = angle);
-        self.closure.linearize_into(&self.angles, residual, jacobian);
+        self.closing.linearize(x, residual, jacobian);
     }
 }
 

@@ -1,0 +1,132 @@
+//! The equilibrium of hinges on exactly rigid faces, in fold angles alone: what a relaxation is compared with.
+//!
+//! Minimises `E = sum (K/2)(rho - rest)^2` among fold angles that close, from angles near such a state. One step: onto the closed
+//! states (Newton's method across their tangents `Z`), then along them with the Hessian of the Lagrangian,
+//! `Z^T (K + sum_r lambda_r B_r) Z`, `J^T lambda = -K (rho - rest)`, `B_r` the second derivative of closure
+//! (J. Nocedal and S. J. Wright, "Numerical Optimization", 2006, section 18.3). No bar enters.
+
+use crate::kinematics::{Closing, Closure};
+use crate::model::{Domain, Model};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::{full_svd, least_squares, null_space, rank_at_largest_gap};
+use crate::sheet::{Sheet, Tiling};
+use crate::solver::Implicit;
+use nalgebra::DVector;
+
+/// Larger sheets are not compared: the matrices here are dense.
+const MOST_EDGES: usize = 300;
+const STEPS: usize = 30;
+const CORRECTIONS: usize = 10;
+/// Residual of closure, and last change of an angle, of a state that is found.
+const CLOSED: f64 = 1e-13;
+const SETTLED: f64 = 1e-11;
+/// Largest change of an angle in a step.
+const LONGEST: f64 = 0.3;
+
+/// Hinges by edge.
+struct Springs {
+    closure: Closure,
+    stiffness: DVector<f64>,
+    rest: DVector<f64>,
+    /// Fold angle of every edge, those of rigid hinges at rest.
+    start: Vec<f64>,
+}
+
+/// Largest difference of a fold angle to the exact equilibrium near a relaxed state with these fold angles, of all edges of the
+/// tiling, in radians.
+///
+/// `None` where there is none to compare with: loads pull, vertices are pinned, the sheet is periodic without screws or has openings, it is too
+/// large, or no exact state is found nearby.
+pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
+    let springs = Springs::new(sheet, tiling, model, angles)?;
+    let exact = springs.equilibrium()?;
+    let known = exact.iter().zip(angles).filter(|(_, angle)| !angle.is_nan());
+    Some(known.map(|(exact, angle)| (exact - angle).abs()).fold(0.0, f64::max))
+}
+
+impl Springs {
+    fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
+        let edges = angles.len();
+        let torus = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus);
+        if edges > MOST_EDGES || model.held_or_loaded() || torus || !sheet.holes.is_empty() {
+            return None;
+        }
+        let mut stiffness = DVector::zeros(edges);
+        let mut rest = DVector::zeros(edges);
+        let mut start: Vec<f64> = angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
+        let mut rigid = Vec::new();
+        for term in model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle()) {
+            for k in 0..term.len() {
+                let (edge, spring) = (term.edge(k), term.spring(k));
+                if spring.stiffness.is_infinite() {
+                    start[edge] = spring.rest;
+                    rigid.push(edge);
+                } else {
+                    (stiffness[edge], rest[edge]) = (spring.stiffness, spring.rest);
+                }
+            }
+        }
+        let closure = Closure::of_tiling(sheet, tiling).ok()?.with_locked(&rigid);
+        (closure.unchecked_loops() == 0).then_some(Self { closure, stiffness, rest, start })
+    }
+
+    /// Fold angles of all edges.
+    fn equilibrium(&self) -> Option<Vec<f64>> {
+        let mut closing = Closing::new(&self.closure, self.start.clone());
+        let mut x = closing.folding(&self.start);
+        for _ in 0..STEPS {
+            self.close(&mut closing, &mut x)?;
+            let step = self.along(&closing, &x)?;
+            let longest = step.amax();
+            let part = (LONGEST / longest).min(1.0);
+            x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x += part * d);
+            if longest <= SETTLED {
+                self.close(&mut closing, &mut x)?;
+                return Some(closing.angles(&x));
+            }
+        }
+        None
+    }
+
+    /// The closed state nearest to `x`, across the tangents there.
+    fn close(&self, closing: &mut Closing<'_>, x: &mut [f64]) -> Option<()> {
+        let mut residual = vec![0.0; closing.equations()];
+        let mut jacobian = DenseMatrix::zeros(residual.len(), x.len());
+        for _ in 0..CORRECTIONS {
+            closing.linearize(x, &mut residual, &mut jacobian);
+            if residual.iter().all(|component| component.abs() <= CLOSED) {
+                return Some(());
+            }
+            let svd = full_svd(&jacobian).ok()?;
+            let rank = rank_at_largest_gap(&svd.singular_values).ok()?.rank;
+            let parts = svd.u.columns(0, rank).tr_mul(&DVector::from_column_slice(&residual));
+            let scaled = DVector::from_fn(rank, |k, _| parts[k] / svd.singular_values[k]);
+            let step = svd.v.columns(0, rank) * scaled;
+            x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x -= d);
+        }
+        None
+    }
+
+    /// Newton's step of the energy along the closed states.
+    fn along(&self, closing: &Closing<'_>, x: &[f64]) -> Option<DVector<f64>> {
+        let folding = self.closure.folding_edges();
+        let angles = closing.angles(x);
+        let jacobian = self.closure.jacobian(&angles);
+        let tangents = null_space(&jacobian).ok()?.basis;
+        if tangents.ncols() == 0 {
+            return Some(DVector::zeros(x.len()));
+        }
+        let stiffness = DVector::from_iterator(folding.len(), folding.iter().map(|&edge| self.stiffness[edge]));
+        let off = folding.iter().map(|&edge| angles[edge] - self.rest[edge]);
+        let force = -stiffness.component_mul(&DVector::from_iterator(folding.len(), off));
+        let right = DenseMatrix::from_column_slice(folding.len(), 1, force.as_slice());
+        let lambda = least_squares(&jacobian.transpose(), &right).ok()?.solution;
+        let mut spread = DenseMatrix::zeros(angles.len(), tangents.ncols());
+        folding.iter().enumerate().for_each(|(row, &edge)| spread.row_mut(edge).copy_from(&tangents.row(row)));
+        let mut hessian = tangents.transpose() * DenseMatrix::from_diagonal(&stiffness) * &tangents;
+        let second = self.closure.second_order(&angles, &spread);
+        lambda.iter().zip(&second).for_each(|(lambda, part)| hessian += part * (2.0 * lambda));
+        let pull = tangents.tr_mul(&right);
+        Some((&tangents * least_squares(&hessian, &pull).ok()?.solution).column(0).into_owned())
+    }
+}
