@@ -1,5 +1,6 @@
 //! Trajectories by three ways that share no equation: closure of fold angles, relaxation of bars with a crease driven, and
 //! the lengths of rigid bars in the chart of screws.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
 
