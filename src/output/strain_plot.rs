@@ -1,6 +1,6 @@
-//! A surface of folded states as a picture: strain space seen obliquely, coloured by signed curvature.
+//! A surface of folded states, or trajectories alone, as a picture: strain space seen obliquely, coloured by signed curvature.
 //!
-//! Every axis is scaled to its own range; the eye is on the side of the box on which the drawn state is. Triangles and
+//! Paths on a surface are dark, without a surface they have the colours. Every axis is scaled to its own range; the eye is on the side of the box on which the drawn state is. Triangles and
 //! pieces of paths are painted from back to front. Violet is negative curvature, orange positive, pale none; the drawn
 //! state, where the strain is zero, is a dot. The SVG is written directly, like that of a sheet ([`super::plot`]): the
 //! same surface gives the same bytes.
@@ -28,6 +28,8 @@ const COLOURS: [[f64; 3]; 5] =
 const AXES: [&str; 3] = ["strain11", "strain22", "strain12"];
 /// Ticks on an axis, about.
 const TICKS: f64 = 7.0;
+/// Mean of the parts of the palest colour of a line.
+const PALEST: f64 = 185.0;
 /// How much nearer to the eye lines are painted than they are, in sides of the box.
 const LIFT: f64 = 0.008;
 /// Top, bottom, left and right of the colour bar.
@@ -38,18 +40,34 @@ macro_rules! put {
     ($text:expr, $($format:tt)*) => { let _ = write!($text, $($format)*); };
 }
 
-/// Writes the picture of a surface with paths on it, each a list of strains.
+/// A state on a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// `(strain11, strain22, strain12)`.
+    pub strain: Vec3,
+    /// Signed curvature.
+    pub curvature: f64,
+}
+
+/// Writes the picture of a surface with paths on it, or of paths alone where the surface is empty.
 ///
 /// # Errors
 /// [`OutputError::Shape`] where the surface's arrays do not fit together, [`OutputError::Write`].
-pub fn write_svg(path: &Path, surface: &StrainSurface, paths: &[Vec<Vec3>], title: &str) -> Result<(), OutputError> {
+pub fn write_svg(
+    path: &Path,
+    surface: &StrainSurface,
+    paths: &[Vec<PathPoint>],
+    title: &str,
+) -> Result<(), OutputError> {
     surface.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
     files::write(path, svg(surface, paths, title))
 }
 
-fn svg(surface: &StrainSurface, paths: &[Vec<Vec3>], title: &str) -> String {
-    let space = Space::around(surface.points.iter().chain(paths.iter().flatten()));
-    let largest = surface.curvature.iter().filter(|k| k.is_finite()).fold(0.0f64, |most, k| most.max(k.abs()));
+fn svg(surface: &StrainSurface, paths: &[Vec<PathPoint>], title: &str) -> String {
+    let along = || paths.iter().flatten();
+    let space = Space::around(surface.points.iter().chain(along().map(|point| &point.strain)));
+    let curvatures = surface.curvature.iter().chain(along().map(|point| &point.curvature));
+    let largest = curvatures.filter(|k| k.is_finite()).fold(0.0f64, |most, k| most.max(k.abs()));
     let title = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" \
@@ -154,11 +172,13 @@ fn panes(text: &mut String, space: &Space) {
 /// What is painted at some depth.
 enum Item {
     Triangle(usize),
-    Piece([Vec3; 2]),
+    /// Two ends, and the colour where there is no surface.
+    Piece([Vec3; 2], String),
     Dot(Vec3),
 }
 
-fn paint(text: &mut String, space: &Space, surface: &StrainSurface, paths: &[Vec<Vec3>], largest: f64) {
+fn paint(text: &mut String, space: &Space, surface: &StrainSurface, paths: &[Vec<PathPoint>], largest: f64) {
+    let alone = surface.triangles.is_empty();
     let places: Vec<Vec3> = surface.points.iter().map(|point| space.boxed(point)).collect();
     let depth = |place: &Vec3| place.dot(&space.view.toward);
     let mut items: Vec<(f64, Item)> = Vec::new();
@@ -166,19 +186,24 @@ fn paint(text: &mut String, space: &Space, surface: &StrainSurface, paths: &[Vec
         items.push((triangle.iter().map(|&point| depth(&places[point])).sum::<f64>() / 3.0, Item::Triangle(k)));
     }
     for ends in paths.iter().flat_map(|path| path.windows(2)) {
-        let [a, b] = [0, 1].map(|k| space.boxed(&ends[k]));
-        items.push((0.5 * (depth(&a) + depth(&b)) + LIFT, Item::Piece([a, b])));
+        let [a, b] = [0, 1].map(|k| space.boxed(&ends[k].strain));
+        let mean = 0.5 * (ends[0].curvature + ends[1].curvature);
+        let style = if alone {
+            format!("stroke=\"{}\" stroke-width=\"4.5\"", hexadecimal(shade(mean / largest)))
+        } else {
+            format!("stroke=\"{INK}\" stroke-width=\"2.4\"")
+        };
+        items.push((0.5 * (depth(&a) + depth(&b)) + LIFT, Item::Piece([a, b], style)));
     }
     let drawn = space.boxed(&Vec3::zeros());
     items.push((depth(&drawn) + 2.0 * LIFT, Item::Dot(drawn)));
     items.retain(|(depth, _)| depth.is_finite());
     items.sort_by(|a, b| a.0.total_cmp(&b.0));
     text.push_str("<g stroke-width=\".6\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n");
-    let stroke = format!("stroke=\"{INK}\" stroke-width=\"2.4\"");
     for (_, item) in items {
         match item {
             Item::Triangle(k) => triangle(text, space, surface, &places, k, largest),
-            Item::Piece(ends) => line(text, space, ends, &stroke),
+            Item::Piece(ends, style) => line(text, space, ends, &style),
             Item::Dot(place) => {
                 let [x, y] = space.on_paper(&place);
                 put!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"6\" stroke=\"{PAPER}\" stroke-width=\"1.5\"/>\n");
@@ -187,8 +212,8 @@ fn paint(text: &mut String, space: &Space, surface: &StrainSurface, paths: &[Vec
     }
     // what of the paths is behind the surface, faintly
     let faint = format!("stroke=\"{INK}\" stroke-width=\"1.3\" stroke-opacity=\".4\"");
-    for path in paths {
-        path.windows(2).for_each(|ends| line(text, space, [0, 1].map(|k| space.boxed(&ends[k])), &faint));
+    for ends in paths.iter().filter(|_| !alone).flat_map(|path| path.windows(2)) {
+        line(text, space, [0, 1].map(|k| space.boxed(&ends[k].strain)), &faint);
     }
     text.push_str("</g>\n");
 }
@@ -202,10 +227,22 @@ fn triangle(text: &mut String, space: &Space, surface: &StrainSurface, places: &
     let facing = if normal.dot(&space.view.toward) < 0.0 { -normal } else { normal };
     let lit = 0.78 + 0.22 * facing.dot(&light).max(0.0);
     let mean = corners.iter().map(|&point| surface.curvature[point]).sum::<f64>() / 3.0;
-    let [red, green, blue] = colour(mean / largest.max(f64::MIN_POSITIVE)).map(|part| (part * lit).round() as u8);
+    let paint = hexadecimal(colour(mean / largest.max(f64::MIN_POSITIVE)).map(|part| part * lit));
     let [a, b, c] = [a, b, c].map(|place| space.on_paper(&place));
     put!(text, "<path d=\"M{:.1} {:.1} {:.1} {:.1} {:.1} {:.1}Z\"", a[0], a[1], b[0], b[1], c[0], c[1]);
-    put!(text, " fill=\"#{red:02x}{green:02x}{blue:02x}\" stroke=\"#{red:02x}{green:02x}{blue:02x}\"/>\n");
+    put!(text, " fill=\"{paint}\" stroke=\"{paint}\"/>\n");
+}
+
+fn hexadecimal(colour: [f64; 3]) -> String {
+    let [red, green, blue] = colour.map(|part| part.round() as u8);
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// The colour of a line: darker where it would be too pale for paper.
+fn shade(part: f64) -> [f64; 3] {
+    let full = colour(part);
+    let brightness = full.iter().sum::<f64>() / 3.0;
+    full.map(|part| part * (PALEST / brightness).min(1.0))
 }
 
 /// The colour of a curvature between -1 and 1.
@@ -261,9 +298,8 @@ fn bar(text: &mut String, largest: f64) {
     let [top, bottom, left, right] = BAR;
     text.push_str("<defs><linearGradient id=\"curvature\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
     for (k, colour) in COLOURS.iter().enumerate() {
-        let [red, green, blue] = colour.map(|part| part as u8);
         let offset = k as f64 / (COLOURS.len() - 1) as f64;
-        put!(text, "<stop offset=\"{offset}\" stop-color=\"#{red:02x}{green:02x}{blue:02x}\"/>");
+        put!(text, "<stop offset=\"{offset}\" stop-color=\"{}\"/>", hexadecimal(*colour));
     }
     text.push_str("</linearGradient></defs>\n");
     let (width, height) = (right - left, bottom - top);
@@ -295,7 +331,8 @@ mod tests {
     #[test]
     fn everything_is_drawn_once() {
         let surface = samples::cap(5);
-        let path = vec![Vec3::new(0.0, 0.0, 0.0), Vec3::new(0.5, 0.0, 0.25), Vec3::new(1.0, 0.0, 1.0)];
+        let point = |x: f64| PathPoint { strain: Vec3::new(x, 0.0, x * x), curvature: x };
+        let path = [0.0, 0.5, 1.0].map(point).to_vec();
         let text = svg(&surface, std::slice::from_ref(&path), "a & b");
         assert!(text.contains("<title>a &amp; b</title>"));
         assert_eq!(count(&text, "Z\" fill"), surface.triangles.len());
@@ -304,7 +341,9 @@ mod tests {
         for word in ["strain11", "strain22", "strain12", "curvature", ">\u{2212}0.5<", ">1<"] {
             assert!(text.contains(word), "{word}");
         }
-        assert_eq!(text, svg(&surface, &[path], "a & b"));
+        assert_eq!(text, svg(&surface, std::slice::from_ref(&path), "a & b"));
+        let alone = svg(&StrainSurface::default(), &[path], "");
+        assert_eq!([count(&alone, "Z\" fill"), count(&alone, "stroke-width=\"4.5\"")], [0, 2]);
     }
 
     /// Claim: what is nearer to the eye is painted later.

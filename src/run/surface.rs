@@ -13,6 +13,7 @@ use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::Gauge;
 use crate::model::assemble::{Recipe, Surroundings, assemble, drawn_angles};
+use crate::output::strain_plot::PathPoint;
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{PieceSummary, StudyResult, StudySummary, SurfaceSummary};
 use crate::output::table::{StateRow, Table, read_columns};
@@ -224,7 +225,7 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, mesh: &StrainSurface, max_curvat
 
 /// The trajectories of the `trace` studies before this one, as far as the surface goes: from their tables, which are
 /// there also where an earlier run made them.
-fn paths(runner: &Runner<'_>, study: &StudySpec, max_curvature: f64) -> Result<Vec<Vec<Vec3>>, RunError> {
+fn paths(runner: &Runner<'_>, study: &StudySpec, max_curvature: f64) -> Result<Vec<Vec<PathPoint>>, RunError> {
     const COLUMNS: [&str; 6] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12"];
     let mut paths = Vec::new();
     let earlier = runner.file.scene.studies.iter().take_while(|earlier| earlier.name.0 != study.name.0);
@@ -238,7 +239,8 @@ fn paths(runner: &Runner<'_>, study: &StudySpec, max_curvature: f64) -> Result<V
                 paths.push(std::mem::take(&mut path));
             }
             last = Some((branch, sign));
-            path.extend(within.then(|| Vec3::new(strain11, strain22, strain12)));
+            let strain = Vec3::new(strain11, strain22, strain12);
+            path.extend(within.then_some(PathPoint { strain, curvature }));
         }
         paths.push(path);
     }

@@ -11,8 +11,11 @@ use crate::analysis::intersections::{LYING, SelfIntersection};
 use crate::analysis::relax::Relaxed;
 use crate::analysis::state::{State, cylinder};
 use crate::analysis::trace::{Folded, Question, Stop, TURNING, Traced, trace};
+use crate::math::Vec3;
 use crate::model::assemble::{Surroundings, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
+use crate::output::strain_plot::{self, PathPoint};
+use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{
     ArcLength, RayName, StudyResult, StudySummary, TraceSummary, TrajectorySummary, TurningPoint,
 };
@@ -20,7 +23,7 @@ use crate::output::table::{StateRow, Table};
 use crate::scene::SceneFile;
 use crate::scene::build::Built;
 use crate::scene::forms::BranchChoice;
-use crate::scene::spec::{Engine, StudySpec, TraceSpec};
+use crate::scene::spec::{Draw, Engine, StudySpec, TraceSpec};
 use crate::sheet::EdgeKey;
 use crate::solver::continuation::End;
 use crate::solver::{Options, Problem};
@@ -244,7 +247,32 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
     let shown: Vec<Shown<'_>> =
         states.iter().zip(marks).map(|(state, marks)| Shown { state, residuals: None, marks }).collect();
     draw::series(runner, study, &shown)?;
+    draw_paths(runner, study, paths, &rows)?;
     keep(runner, study, &model, paths)
+}
+
+/// The trajectories in the space of lattice strains.
+fn draw_paths(
+    runner: &Runner<'_>,
+    study: &StudySpec,
+    paths: &[Path<'_>],
+    mut rows: &[StateRow],
+) -> Result<(), RunError> {
+    let mut lines = Vec::new();
+    for path in paths {
+        let (own, rest) = rows.split_at(path.len());
+        let point = |row: &StateRow| {
+            let [a, b, c] = row.strain;
+            Some(PathPoint { strain: Vec3::new(a?, b?, c?), curvature: row.curvature? })
+        };
+        lines.push(own.iter().filter_map(point).collect::<Vec<PathPoint>>());
+        rows = rest;
+    }
+    if !study.draw.contains(&Draw::Svg) || lines.iter().all(Vec::is_empty) {
+        return Ok(());
+    }
+    let file = runner.path(format!("{}-strain.svg", study.name.0));
+    Ok(strain_plot::write_svg(&file, &StrainSurface::default(), &lines, &runner.file.title())?)
 }
 
 /// Keeps the last state of the first trajectory, for studies that start from it.
