@@ -251,6 +251,14 @@ fn describe_study(study: &StudySummary) -> String {
         Some(StudyResult::Surface(surface)) => {
             format!("{} states, {} triangles, {}", surface.points, surface.triangles, surface.coverage)
         }
+        Some(StudyResult::Landscape(landscape)) => {
+            let modes = landscape.modes.iter().map(|one| {
+                let [k11, k22, k12] = one.mode;
+                let exponent = one.exponent.map_or("?".into(), |exponent| format!("{exponent:.3}"));
+                format!("[{k11}, {k22}, {k12}]: exponent {exponent}, predicted {:.6e}", one.predicted_coefficient)
+            });
+            modes.collect::<Vec<_>>().join("; ")
+        }
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();

@@ -16,6 +16,7 @@ use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
 
 mod branches;
 mod draw;
+mod landscape;
 mod resume;
 mod runner;
 mod studies;

@@ -6,6 +6,7 @@ pub mod chart;
 pub mod drive;
 pub mod exact;
 pub mod intersections;
+pub mod landscape;
 pub mod modes;
 pub mod relax;
 pub mod state;

@@ -80,6 +80,8 @@ pub enum StudyResult {
     Branches(BranchesSummary),
     /// `kind = "surface"`.
     Surface(SurfaceSummary),
+    /// `kind = "landscape"`.
+    Landscape(LandscapeSummary),
     /// Of `trace`.
     Trace(TraceSummary),
 }
@@ -219,6 +221,45 @@ pub struct TurningPoint {
     pub arc_length: f64,
     /// Its value there.
     pub value: f64,
+}
+
+/// The landscapes of a study.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LandscapeSummary {
+    /// One for each mode.
+    pub modes: Vec<ModeLandscape>,
+}
+
+/// What a mode costs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ModeLandscape {
+    /// `[k11, k22, k12]`.
+    pub mode: [f64; 3],
+    /// By rising amplitude.
+    pub samples: Vec<SampleSummary>,
+    /// Slope of log energy on the smallest amplitudes, and its standard error.
+    pub exponent: Option<f64>,
+    /// Standard error of the exponent.
+    pub exponent_error: Option<f64>,
+    /// Limit of energy over the fourth power of the amplitude, from a fit.
+    pub coefficient: Option<f64>,
+    /// Standard error of the coefficient.
+    pub coefficient_error: Option<f64>,
+    /// The same without a fit, from the second order.
+    pub predicted_coefficient: f64,
+    /// Gaussian curvature `k11 k22 - k12^2` of the mode.
+    pub defect: f64,
+}
+
+/// A sample of a landscape.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SampleSummary {
+    /// Amplitude of the mode.
+    pub amplitude: f64,
+    /// Energy of the relaxed patch.
+    pub energy: Option<f64>,
+    /// Whether it was found.
+    pub converged: bool,
 }
 
 /// The surface of folded states.

@@ -1,0 +1,34 @@
+//! Energy landscapes near the rigid limit: what a folding mode of a periodic sheet costs on a patch.
+//!
+//! The rest angles of a patch of `n1 x n2` cells are the same in every cell and are themselves unknowns, but for their
+//! components along the linear folding modes, which are held at an amplitude times a mode. What is left is the cost of not
+//! being a rigid folding. It goes as the fourth power of the amplitude for modes with Gaussian curvature, and its
+//! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone.
+
+pub mod fit;
+mod patch;
+pub mod prediction;
+pub mod samples;
+
+pub use patch::Patch;
+pub use prediction::Prediction;
+pub use samples::{Sample, Samples};
+
+use crate::kinematics::KinematicsError;
+use crate::numerics::dense::DenseError;
+use crate::numerics::factor::FactorError;
+use thiserror::Error;
+
+/// Why there is no landscape.
+#[derive(Debug, Error)]
+pub enum LandscapeError {
+    /// The modes are not known, or not three that curvatures name.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// The patch cannot be factored, or is not stable, or a linear solve loses too many digits.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+    /// A rank is not clear.
+    #[error(transparent)]
+    Dense(#[from] DenseError),
+}

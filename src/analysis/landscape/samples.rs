@@ -1,0 +1,220 @@
+//! Samples of a landscape: patches relaxed with their rest angles held along the modes and free across them.
+//!
+//! The patch relaxes at given rest angles `p = p0 + a phi + C y`; then Newton's method moves `y`, with the gradient
+//! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
+//! predicts where the patch relaxes to next, so that two or three rounds are enough.
+
+use super::patch::{Linear, Patch};
+use super::{LandscapeError, Prediction};
+use crate::analysis::relax::{Relaxed, relax};
+use crate::numerics::DenseMatrix;
+use crate::solver::{Curvature, Failure, Options, Problem, Step};
+use nalgebra::DVector;
+use thiserror::Error;
+
+/// Most rounds of rest angles.
+const ROUNDS: usize = 30;
+/// Torque on a direction of rest angles, over what the hinges would exert if all were off by what they are and agreed,
+/// at which it is zero; hinges off by less than the least angle count as off by that.
+const BALANCED: f64 = 1e-10;
+const LEAST_ANGLE: f64 = 1e-4;
+/// Longest change of a rest angle in a round, in radians.
+const LONGEST: f64 = 0.3;
+
+/// One sample.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// The amplitude.
+    pub amplitude: f64,
+    /// The relaxed patch.
+    pub relaxed: Relaxed,
+    /// Its uniform rest angles less those drawn, by edge of the cell.
+    pub rest: Vec<f64>,
+    /// Newton steps of all relaxations, and relaxations.
+    pub iterations: usize,
+    /// How often rest angles were moved.
+    pub rounds: usize,
+}
+
+/// Why a sample is missing.
+#[derive(Debug, Error)]
+pub enum SampleError {
+    /// A relaxation failed.
+    #[error("a relaxation failed: {0}")]
+    Relaxation(Failure),
+    /// The response of the patch is not known.
+    #[error(transparent)]
+    Landscape(#[from] LandscapeError),
+    /// The rest angles do not settle.
+    #[error("the rest angles do not settle: a torque of {torque:.2e} of the largest is left")]
+    Restless {
+        /// What is left.
+        torque: f64,
+    },
+}
+
+/// Samples along one mode, each from the one before.
+pub struct Samples<'a> {
+    patch: &'a mut Patch,
+    /// Fold rates of the mode.
+    rates: Vec<f64>,
+    /// Amplitude, unknowns and rest angles across the modes of the last sample.
+    last: (f64, Vec<f64>, DVector<f64>),
+    options: Options,
+}
+
+impl<'a> Samples<'a> {
+    /// Along the mode with these fold rates, from the drawn state.
+    pub fn new(patch: &'a mut Patch, rates: Vec<f64>, options: Options) -> Self {
+        let start = patch.drawn();
+        let last = (0.0, start, DVector::zeros(patch.free.ncols()));
+        Self { patch, rates, last, options }
+    }
+
+    /// The sample at an amplitude, from the last one.
+    pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
+        let (before, x, y) = &self.last;
+        let part = if *before == 0.0 { 0.0 } else { amplitude / before };
+        let mut y = y * (part * part);
+        let along = self.patch.motion(&self.rates);
+        let mut x: Vec<f64> = x.iter().zip(&along).map(|(x, v)| x + (amplitude - before) * v).collect();
+        let (mut iterations, mut torque) = (0, f64::INFINITY);
+        for rounds in 0..ROUNDS {
+            let rest = DVector::from_column_slice(&self.rates) * amplitude + &self.patch.free * &y;
+            self.patch.set_rest(rest.as_slice());
+            let edges = self.patch.model.layout().soft.len() + self.patch.model.layout().stiff.len();
+            let relaxed = relax(&mut self.patch.model, x, self.options, edges, observe)
+                .map_err(|error| SampleError::Relaxation(error.failure))?;
+            iterations += relaxed.iterations;
+            let balance = Balance::new(self.patch, &relaxed)?;
+            torque = balance.unbalanced();
+            if torque <= BALANCED {
+                self.last = (amplitude, relaxed.x.clone(), y);
+                return Ok(Sample { amplitude, relaxed, rest: rest.as_slice().to_vec(), iterations, rounds });
+            }
+            let step = balance.step()?;
+            x = relaxed.x.iter().zip(balance.motion(&step)).map(|(x, d)| x + d).collect();
+            y += step;
+        }
+        Err(SampleError::Restless { torque })
+    }
+}
+
+impl Patch {
+    /// The unknowns of the drawn state, made the one from which angles continue.
+    fn drawn(&mut self) -> Vec<f64> {
+        let mut x = self.model.start();
+        self.model.accept(&mut x);
+        x
+    }
+
+    /// Velocities of the unknowns for fold rates along the modes.
+    fn motion(&self, rates: &[f64]) -> Vec<f64> {
+        let a = self.modes.basis.tr_mul(&DVector::from_column_slice(rates));
+        let mut all = vec![0.0; self.motions.first().map_or(0, Vec::len)];
+        for (amplitude, motion) in a.iter().zip(&self.motions) {
+            all.iter_mut().zip(motion).for_each(|(sum, v)| *sum += amplitude * v);
+        }
+        self.model.unknowns(&all)
+    }
+}
+
+/// The torques on the directions of rest angles at an equilibrium, and how they change.
+struct Balance {
+    torque: DVector<f64>,
+    size: DVector<f64>,
+    hessian: DenseMatrix,
+    motions: Vec<Vec<f64>>,
+}
+
+impl Balance {
+    fn new(patch: &Patch, relaxed: &Relaxed) -> Result<Self, LandscapeError> {
+        let model = &patch.model;
+        let mut linear = Linear::new(model, &relaxed.x, &relaxed.tension, Curvature::Full)?;
+        let values = model.values(&relaxed.x);
+        let off: Vec<f64> = values.iter().zip(model.rests()).map(|(value, rest)| value - rest).collect();
+        let forces: Vec<f64> = linear.stiffness().iter().zip(&off).map(|(k, off)| k * off).collect();
+        let least: Vec<f64> =
+            linear.stiffness().iter().zip(&off).map(|(k, off)| k * off.abs().max(LEAST_ANGLE)).collect();
+        let count = patch.free.ncols();
+        let directions: Vec<(Vec<f64>, Vec<f64>)> =
+            patch.free.column_iter().map(|direction| patch.spread(direction.as_slice())).collect();
+        let both = |soft: &[f64], stiff: &[f64], (on_soft, on_stiff): &(Vec<f64>, Vec<f64>)| -> f64 {
+            let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            product(soft, on_soft) + product(stiff, on_stiff)
+        };
+        let torque = DVector::from_fn(count, |j, _| -both(&forces, &relaxed.tension, &directions[j]));
+        let absolute = |list: &[f64]| list.iter().map(|value| value.abs()).collect::<Vec<f64>>();
+        let size = DVector::from_fn(count, |j, _| {
+            let (soft, stiff) = &directions[j];
+            both(&least, &absolute(&relaxed.tension), &(absolute(soft), absolute(stiff)))
+        });
+        let mut hessian = DenseMatrix::zeros(count, count);
+        let mut motions = Vec::new();
+        for (j, (soft, stiff)) in directions.iter().enumerate() {
+            let negative = |list: &[f64]| list.iter().map(|value| -value).collect::<Vec<f64>>();
+            let response = linear.respond(model, &negative(soft), &negative(stiff))?;
+            let turning: Vec<f64> = linear.stiffness().iter().zip(&response.off).map(|(k, off)| k * off).collect();
+            for (i, direction) in directions.iter().enumerate() {
+                hessian[(i, j)] = -both(&turning, &response.tension, direction);
+            }
+            motions.push(response.x);
+        }
+        Ok(Self { torque, size, hessian, motions })
+    }
+
+    /// The largest torque over its size.
+    fn unbalanced(&self) -> f64 {
+        self.torque.iter().zip(self.size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max)
+    }
+
+    /// Newton's step of the rest angles.
+    fn step(&self) -> Result<DVector<f64>, LandscapeError> {
+        let singular = crate::numerics::factor::FactorError::Singular { ratio: 0.0 };
+        let factor = nalgebra::Cholesky::new(0.5 * (&self.hessian + self.hessian.transpose())).ok_or(singular)?;
+        let step = -factor.solve(&self.torque);
+        let longest = step.amax();
+        Ok(step * (LONGEST / longest).min(1.0))
+    }
+
+    /// The motion of the unknowns that goes with a step.
+    fn motion(&self, step: &DVector<f64>) -> Vec<f64> {
+        let mut all = vec![0.0; self.motions.first().map_or(0, Vec::len)];
+        for (part, motion) in step.iter().zip(&self.motions) {
+            all.iter_mut().zip(motion).for_each(|(sum, d)| *sum += part * d);
+        }
+        all
+    }
+}
+
+/// What a landscape along one mode says.
+pub struct Landscape {
+    /// The samples, and why the last one is missing if it is.
+    pub samples: Vec<Sample>,
+    /// Why the next sample is missing.
+    pub failure: Option<SampleError>,
+    /// The coefficient without any fit.
+    pub predicted: f64,
+}
+
+/// Samples along a mode, by rising amplitude, as far as they go.
+pub fn landscape(
+    patch: &mut Patch,
+    rates: Vec<f64>,
+    amplitudes: &[f64],
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Landscape, LandscapeError> {
+    let predicted = Prediction::new(patch)?.coefficient(&rates);
+    let mut along = Samples::new(patch, rates, Options::default());
+    let (mut samples, mut failure) = (Vec::new(), None);
+    for &amplitude in amplitudes {
+        match along.at(amplitude, observe) {
+            Ok(sample) => samples.push(sample),
+            Err(error) => {
+                failure = Some(error);
+                break;
+            }
+        }
+    }
+    Ok(Landscape { samples, failure, predicted })
+}

@@ -1,0 +1,123 @@
+//! What folding modes cost on patches: theory, section 6.
+#![allow(clippy::unwrap_used)] // in helpers of tests as in tests
+
+mod common;
+
+use common::{Case, Numbers};
+use foldwell::analysis::landscape::fit::{coefficient, exponent};
+use foldwell::analysis::landscape::samples::landscape;
+use foldwell::analysis::landscape::{Patch, Prediction};
+use foldwell::model::assemble::Surroundings;
+use foldwell::sheet::generate::Random;
+use foldwell::sheet::{Pattern, generate};
+
+const MODES: [[f64; 3]; 3] = [[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
+/// `k11 k22 = k12^2`.
+const CYLINDERS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.25, 1.0, 0.5]];
+
+fn patch_of(case: &Case, bars: f64) -> Patch {
+    let recipe = case.recipe(bars, 1.0, case.angles.clone());
+    Patch::new(&case.sheet, &case.tiling, &recipe, &case.angles).unwrap()
+}
+
+fn open_star(n: usize, bars: f64) -> Patch {
+    patch_of(&Case::patch("open-star", [n, n]), bars)
+}
+
+fn predicted(patch: &Patch, prediction: &Prediction, mode: [f64; 3]) -> f64 {
+    prediction.coefficient(&patch.modes.named(mode).unwrap())
+}
+
+/// Claim: the coefficient of rigid bars is the one that independent relaxations gave (theory, section 6, six digits),
+/// the same for all modes of equal Gaussian curvature to 1e-6, and on the cone of cylinders at most 1e-9 of it.
+#[test]
+fn coefficients_of_open_star() {
+    for (n, expected) in [(4, 10362.6), (6, 172_207.0), (8, 1_129_540.0), (16, 88_442_900.0)] {
+        let patch = open_star(n, f64::INFINITY);
+        let prediction = Prediction::new(&patch).unwrap();
+        let all = MODES.map(|mode| predicted(&patch, &prediction, mode));
+        println!("{n}: {all:?}");
+        for found in all {
+            assert!((found / expected - 1.0).abs() <= 5e-6 && (found / all[0] - 1.0).abs() <= 1e-6, "{n}: {found}");
+        }
+        for mode in CYLINDERS {
+            let found = predicted(&patch, &prediction, mode);
+            assert!(found.abs() <= 1e-9 * all[0], "{n} {mode:?}: {found:e}");
+        }
+    }
+}
+
+/// A random mode off the cone, and its Gaussian curvature.
+fn off_the_cone(numbers: &mut Numbers) -> ([f64; 3], f64) {
+    loop {
+        let mode = [0; 3].map(|_| numbers.within(1.0));
+        let defect = mode[0] * mode[1] - mode[2] * mode[2];
+        if defect.abs() > 0.01 * mode.iter().map(|k| k * k).sum::<f64>() {
+            return (mode, defect);
+        }
+    }
+}
+
+/// Claim: the energy knows a mode only through its Gaussian curvature: coefficient over its square is the same to 1e-6 for
+/// 100 random modes of the reference cell and for 20 of each of 20 random cells, at rigid and at soft bars.
+#[test]
+fn only_gaussian_curvature_counts() {
+    let spread = |patch: &Patch, modes: usize, seed: u64| {
+        let prediction = Prediction::new(patch).unwrap();
+        let mut numbers = Numbers::new(seed);
+        let quotients: Vec<f64> = (0..modes)
+            .map(|_| {
+                let (mode, defect) = off_the_cone(&mut numbers);
+                predicted(patch, &prediction, mode) / (defect * defect)
+            })
+            .collect();
+        let (low, high) = quotients.iter().fold((f64::INFINITY, 0.0f64), |(l, h), q| (l.min(*q), h.max(*q)));
+        assert!(low > 0.0);
+        high / low - 1.0
+    };
+    for bars in [f64::INFINITY, 1e3] {
+        let found = spread(&open_star(6, bars), 100, 1);
+        println!("open-star, bars {bars:e}: {found:.1e}");
+        assert!(found <= 1e-6, "{found:e}");
+        for seed in 0..20 {
+            let sheet = generate(&Pattern::Random(Random { size: [2, 2], seed, ..Random::default() })).unwrap();
+            let found = spread(&patch_of(&Case::new(sheet, [4, 4], Surroundings::Patch), bars), 20, seed);
+            assert!(found <= 1e-6, "seed {seed}: {found:e}");
+        }
+    }
+}
+
+/// Claim: relaxed patches cost what the prediction says, at every stiffness: the fitted coefficient is within 1e-3 of it
+/// and the exponent within 0.02 of 4. Modes with positive and negative curvature.
+#[test]
+fn relaxations_cost_what_is_predicted() {
+    let amplitudes = [2e-4, 3e-4, 5e-4, 8e-4, 1.2e-3];
+    for bars in [f64::INFINITY, 1e8, 1e4] {
+        for mode in [MODES[0], MODES[2]] {
+            let mut patch = open_star(6, bars);
+            let rates = patch.modes.named(mode).unwrap();
+            let found = landscape(&mut patch, rates, &amplitudes, &mut |_| true).unwrap();
+            assert!(found.failure.is_none(), "{:?}", found.failure);
+            let energies: Vec<(f64, f64)> =
+                found.samples.iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect();
+            let (c4, slope) = (coefficient(&energies).unwrap(), exponent(&energies).unwrap());
+            println!("bars {bars:e} {mode:?}: {c4:?} predicted {}, exponent {slope:?}", found.predicted);
+            assert!((c4.value / found.predicted - 1.0).abs() <= 1e-3, "{c4:?} {}", found.predicted);
+            assert!((slope.value - 4.0).abs() <= 0.02, "{slope:?}");
+        }
+    }
+}
+
+/// Claim: on the cone of cylinders fourth order vanishes, and the energy goes as the sixth power, or a higher one: what the
+/// linear cone is off the exact one. Tolerance: the next term, at amplitudes of 1e-2.
+#[test]
+fn cylinders_cost_sixth_order() {
+    let mut patch = open_star(6, f64::INFINITY);
+    let rates = patch.modes.named(CYLINDERS[0]).unwrap();
+    let found = landscape(&mut patch, rates, &[2e-3, 3e-3, 5e-3], &mut |_| true).unwrap();
+    let energies: Vec<(f64, f64)> =
+        found.samples.iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect();
+    let slope = exponent(&energies).unwrap();
+    println!("exponent {slope:?}, energies {energies:?}");
+    assert!(found.failure.is_none() && slope.value >= 5.9, "{slope:?}");
+}
