@@ -4,12 +4,14 @@
 mod common;
 
 use common::{Case, Numbers};
+use foldwell::analysis::branches;
 use foldwell::analysis::landscape::fit::{coefficient, exponent};
 use foldwell::analysis::landscape::samples::landscape;
 use foldwell::analysis::landscape::{Patch, Prediction};
-use foldwell::model::assemble::Surroundings;
+use foldwell::analysis::trace::{self, Stop};
+use foldwell::model::assemble::{Recipe, Surroundings};
 use foldwell::sheet::generate::Random;
-use foldwell::sheet::{Pattern, generate};
+use foldwell::sheet::{EdgeKey, Pattern, generate};
 
 const MODES: [[f64; 3]; 3] = [[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
 /// `k11 k22 = k12^2`.
@@ -120,4 +122,37 @@ fn cylinders_cost_sixth_order() {
     let slope = exponent(&energies).unwrap();
     println!("exponent {slope:?}, energies {energies:?}");
     assert!(found.failure.is_none() && slope.value >= 5.9, "{slope:?}");
+}
+
+/// Claim: rest angles taken from an exact cylinder, 1 rad along each of the rays that one crease locked leaves, cost nothing:
+/// at most 1e-24 per crease (round-off squared), at every stiffness, and the relaxed sheet has these fold angles to
+/// 1e-10 everywhere. Source: the kinematics, which knows no bars.
+#[test]
+fn exact_cylinders_cost_nothing() {
+    let case = Case::patch("open-star", [6, 6]);
+    let screw = Case::new(common::mesh("open-star"), [1, 1], Surroundings::Screw);
+    let lock = screw.sheet.edges.iter().position(|edge| edge.key == EdgeKey { i: 0, j: 1, shift: [0, 0] }).unwrap();
+    let recipe = Recipe { locks: vec![(lock, screw.angles[lock])], ..Recipe::default() };
+    let start = branches::Question {
+        sheet: &screw.sheet,
+        tiling: &screw.tiling,
+        surroundings: Surroundings::Screw,
+        angles: &screw.angles,
+        recipe: &recipe,
+    };
+    let stop = Stop { arc_length: Some(1.0), ..Stop::default() };
+    let question = trace::Question { start, max_step: 0.25, tolerance: 3e-14, branch: None, stop };
+    for traced in trace::trace(&question, None, &mut |_, _| true).unwrap() {
+        let exact = &traced.states[traced.states.len() - 1].angles;
+        let rest: Vec<f64> = case.tiling.edges.iter().map(|edge| exact[edge.edge]).collect();
+        for bars in [1e2, 1e6, 1e12, f64::INFINITY] {
+            let found = case.relax(&case.recipe(bars, 1.0, rest.clone())).unwrap();
+            let creases = found.state.fold_angle.iter().filter(|angle| !angle.is_nan()).count();
+            let each = found.state.total() / creases as f64;
+            let known = found.state.fold_angle.iter().zip(&rest).filter(|(angle, _)| !angle.is_nan());
+            let off = known.map(|(angle, rest)| (angle - rest).abs()).fold(0.0, f64::max);
+            println!("{:?} bars {bars:e}: {each:.1e} per crease, angles off by {off:.1e}", traced.branch);
+            assert!(each <= 1e-24 && off <= 1e-10, "{each:e} {off:e}");
+        }
+    }
 }
