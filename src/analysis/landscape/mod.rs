@@ -3,8 +3,10 @@
 //! The rest angles of a patch of `n1 x n2` cells are the same in every cell and are themselves unknowns, but for their
 //! components along the linear folding modes, which are held at an amplitude times a mode. What is left is the cost of not
 //! being a rigid folding. It goes as the fourth power of the amplitude for modes with Gaussian curvature, and its
-//! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone.
+//! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone,
+//! `continuum` one cell.
 
+pub mod continuum;
 pub mod fit;
 mod patch;
 pub mod prediction;

@@ -67,6 +67,17 @@ impl Patch {
         self.edges
     }
 
+    /// Stiffness of the hinge over every edge of the cell, per radian; zero where none is soft.
+    pub fn stiffness(&self) -> Vec<f64> {
+        let mut all = vec![0.0; self.edges];
+        let terms = self.model.soft().iter().chain(self.model.stiff());
+        let springs = terms.flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
+        for (edge, stiffness) in self.cell_edge.iter().zip(springs) {
+            edge.iter().for_each(|&edge| all[edge] = stiffness);
+        }
+        all
+    }
+
     /// An amount per edge of the cell for every soft element and every stiff measure; zero where rest values do not float.
     pub fn spread(&self, per_edge: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let of = |edge: &Option<usize>| edge.map_or(0.0, |edge| per_edge[edge]);

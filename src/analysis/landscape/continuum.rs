@@ -1,0 +1,149 @@
+//! The coefficient of a large patch, from one cell's three modes alone.
+//!
+//! A large patch that is bent by `a K` at every point has a strain of second order that no displacement makes, by its
+//! Gaussian curvature `a^2 K_G`. Linear modes whose amplitudes `a^2 lambda` vary over the patch make up for it: their
+//! curvature `B lambda = grad grad w` is that of a normal displacement `w`, and their lattice strain `T lambda` satisfies
+//!
+//! `curl curl (T B^-1 grad grad w) = -K_G`.
+//!
+//! They turn the creases; what is least is `1/2 int lambda^T M lambda` over the patch, `M` the stiffness of the creases of a
+//! cell in the space of modes. All lengths scale: `n x n` cells cost `n^6` times what one parallelogram of cell size
+//! does. Here `w` is a polynomial, a sum of products of Legendre polynomials in the coordinates of the lattice, and satisfies the
+//! condition exactly (theory: curvature and strain of linear modes, compatibility of small strains).
+
+use super::{LandscapeError, Patch};
+use crate::kinematics::metric::LatticeFrame;
+use crate::kinematics::{Displacement, Embedding, KinematicsError};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::full_svd;
+use crate::sheet::{Corner, Sheet};
+use nalgebra::{DVector, Matrix2, Matrix3};
+
+/// Singular values below this part of the largest are zero.
+const ZERO: f64 = 1e-11;
+
+/// The limit of coefficient over `n^6 K_G^2` of `n x n` cells, with `w` of this total degree (4 at least).
+///
+/// `patch` is any patch of the sheet: its modes and the stiffness of its creases are read; bars are rigid. Fails where the
+/// sheet has not three modes that curvatures name.
+pub fn coefficient(sheet: &Sheet, patch: &Patch, degree: usize) -> Result<f64, LandscapeError> {
+    let cell = Cell::new(sheet, patch)?;
+    let basis = Basis::new(degree);
+    let curvature = cell.second_derivatives(&basis);
+    let combined = |map: &Matrix3<f64>, of: &[DenseMatrix; 3], row: usize| -> DenseMatrix {
+        &of[0] * map[(row, 0)] + &of[1] * map[(row, 1)] + &of[2] * map[(row, 2)]
+    };
+    let modes: [DenseMatrix; 3] = std::array::from_fn(|mode| combined(&cell.modes, &curvature, mode));
+    let strain: [DenseMatrix; 3] = std::array::from_fn(|component| combined(&cell.strain, &modes, component));
+    let [xx, yy, xy] = &curvature;
+    let condition = yy * &strain[0] + xx * &strain[1] - xy * &strain[2] * 2.0;
+    let mut source = DVector::zeros(basis.count());
+    source[0] = -1.0;
+    let mut energy = DenseMatrix::zeros(3 * basis.count(), basis.count());
+    for mode in 0..3 {
+        let part = combined(&cell.stiffness_root, &modes, mode);
+        for (row, norm) in basis.norms().enumerate() {
+            energy.row_mut(mode * basis.count() + row).copy_from(&(part.row(row) * norm));
+        }
+    }
+    Ok(0.5 * least_square(&energy, &condition, &source)?)
+}
+
+/// One cell as the continuum sees it.
+struct Cell {
+    /// From lattice coordinates to the plane.
+    frame: LatticeFrame,
+    /// Amplitudes of the modes of a curvature tensor, `B^-1`.
+    modes: Matrix3<f64>,
+    /// Strains of the modes, `T`: components 11, 22, 12.
+    strain: Matrix3<f64>,
+    /// Upper triangular `U` with `U^T U = M`.
+    stiffness_root: Matrix3<f64>,
+}
+
+impl Cell {
+    fn new(sheet: &Sheet, patch: &Patch) -> Result<Self, LandscapeError> {
+        let modes = &patch.modes;
+        if modes.count() != 3 {
+            return Err(KinematicsError::NotThreeModes { modes: modes.count() }.into());
+        }
+        let lattice = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
+        let (embedding, frame) = (Embedding::new(sheet)?, LatticeFrame::new(&lattice));
+        let curvatures = Matrix3::from_fn(|component, mode| modes.curvatures[(component, mode)]);
+        let singular = KinematicsError::SingularCurvatures { condition: f64::INFINITY };
+        let strains: Vec<[f64; 3]> = modes
+            .basis
+            .column_iter()
+            .map(|mode| {
+                let moving = Displacement::new(&embedding, embedding.drawn_angles(), mode.as_slice());
+                let velocity = |shift: [i32; 2]| moving.corner(Corner { vertex: 0, shift }).1;
+                frame.strain_rate(&lattice, &[[1, 0], [0, 1]].map(|shift| velocity(shift) - velocity([0, 0])))
+            })
+            .collect();
+        let weighed = DenseMatrix::from_diagonal(&DVector::from_vec(patch.stiffness())) * &modes.basis;
+        let stiffness = modes.basis.tr_mul(&weighed).fixed_view::<3, 3>(0, 0).into_owned();
+        let root = stiffness.cholesky().map(|factor| factor.l().transpose());
+        Ok(Self {
+            frame,
+            modes: curvatures.try_inverse().ok_or(singular.clone())?,
+            strain: Matrix3::from_fn(|component, mode| 0.5 * strains[mode][component]),
+            stiffness_root: root.ok_or(singular)?,
+        })
+    }
+
+    /// Second derivatives 11, 22, 12 of the basis, with respect to lengths in the plane.
+    fn second_derivatives(&self, basis: &Basis) -> [DenseMatrix; 3] {
+        let along = [0, 1].map(|axis| basis.derivative(axis));
+        let inverse: Matrix2<f64> = self.frame.inverse;
+        let first = [0, 1].map(|i| &along[0] * inverse[(0, i)] + &along[1] * inverse[(1, i)]);
+        [(0, 0), (1, 1), (0, 1)].map(|(i, j)| &first[i] * &first[j])
+    }
+}
+
+/// Products `P_i(2 s - 1) P_j(2 t - 1)` of Legendre polynomials, `i + j` at most the degree, the constant first.
+struct Basis {
+    powers: Vec<[usize; 2]>,
+}
+
+impl Basis {
+    fn new(degree: usize) -> Self {
+        Self { powers: (0..=degree).flat_map(|total| (0..=total).map(move |i| [i, total - i])).collect() }
+    }
+
+    fn count(&self) -> usize {
+        self.powers.len()
+    }
+
+    /// Root mean squares over the unit square.
+    fn norms(&self) -> impl Iterator<Item = f64> + '_ {
+        self.powers.iter().map(|[i, j]| ((2 * i + 1) as f64 * (2 * j + 1) as f64).sqrt().recip())
+    }
+
+    /// `d/ds` or `d/dt`: `P_n' = sum (2k + 1) P_k` over `k = n - 1, n - 3, ...`.
+    fn derivative(&self, axis: usize) -> DenseMatrix {
+        let entry = |row: usize, column: usize| {
+            let (to, from) = (self.powers[row], self.powers[column]);
+            let lower = to[axis] < from[axis] && (from[axis] - to[axis]) % 2 == 1;
+            if lower && to[1 - axis] == from[1 - axis] { 2.0 * (2 * to[axis] + 1) as f64 } else { 0.0 }
+        };
+        DenseMatrix::from_fn(self.count(), self.count(), entry)
+    }
+}
+
+/// The least `|energy c|^2` among all `c` with `condition c = source`.
+fn least_square(energy: &DenseMatrix, condition: &DenseMatrix, source: &DVector<f64>) -> Result<f64, LandscapeError> {
+    let svd = full_svd(condition)?;
+    let rank = rank(&svd.singular_values);
+    let parts = svd.u.columns(0, rank).tr_mul(source);
+    let scaled = DVector::from_fn(rank, |k, _| parts[k] / svd.singular_values[k]);
+    let particular = energy * (svd.v.columns(0, rank) * scaled);
+    let free = energy * svd.v.columns(rank, svd.v.ncols() - rank);
+    let range = full_svd(&free)?;
+    let kept = range.u.columns(0, self::rank(&range.singular_values)).into_owned();
+    Ok((&particular - &kept * kept.tr_mul(&particular)).norm_squared())
+}
+
+fn rank(singular_values: &[f64]) -> usize {
+    let largest = singular_values.first().copied().unwrap_or(0.0);
+    singular_values.iter().take_while(|value| **value > ZERO * largest).count()
+}
