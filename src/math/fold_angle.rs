@@ -11,6 +11,7 @@
 //! of R. Tamstorf and E. Grinspun, "Discrete bending forces and their Jacobians", Graphical Models 75 (2013) 362-370.
 
 use super::Vec3;
+use super::taylor::{Path, Taylor, cross, difference, dot};
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// Gradient over the twelve coordinates of `[i, j, left, right]`.
@@ -44,6 +45,13 @@ pub fn fold_angle_gradient(points: &[Vec3; 4]) -> (f64, HingeGradient) {
 pub fn fold_angle_hessian(points: &[Vec3; 4]) -> (f64, HingeGradient, HingeHessian) {
     let hinge = Hinge::new(points);
     (hinge.angle(), hinge.gradient(), hinge.hessian())
+}
+
+/// The fold angle while its points move, to the fourth power of what they move with.
+pub fn fold_angle_along([i, j, left, right]: &[Path; 4]) -> Taylor {
+    let [e, a, b] = [j, left, right].map(|point| difference(point, i));
+    let (n, m) = (cross(&e, &a), cross(&b, &e));
+    (dot(&e, &e).sqrt() * dot(&a, &m)).atan2(dot(&n, &m))
 }
 
 /// The hinge in the variables of the module's formulas: one side for `left`, one for `right`.

@@ -9,6 +9,7 @@
 //! `x + h` and, with `w = y + i z`, `e^(it) w + b phi(t)` where `phi(t) = (e^(it) - 1)/(it)`. At `kappa = 0` it is a
 //! translation by `(h, b, 0)`; the derivatives with respect to `kappa` are as smooth there as elsewhere.
 
+use crate::math::taylor::{Path, Taylor};
 use crate::math::{Vec3, sinc};
 use nalgebra::{Complex, Matrix3, SMatrix, SVector};
 use std::f64::consts::TAU;
@@ -86,6 +87,21 @@ impl Domain {
             }
         }
         Placed { vertex: vertex_part, shared: shared_part }
+    }
+
+    /// Velocity of a site when all coordinates have these rates.
+    pub fn velocity(&self, x: &[f64], site: Site, rates: &[f64]) -> Vec3 {
+        let placed = self.place(x, site);
+        let shared = &rates[rates.len() - self.shared()..];
+        let by_shared: Vec3 = shared.iter().enumerate().map(|(k, rate)| placed.shared.column(k) * *rate).sum();
+        placed.vertex * vertex(rates, site) + by_shared
+    }
+
+    /// A site on the path `x[0] + a x[1] + a^2 x[2]` of all coordinates. Not for screws, whose maps are not linear.
+    pub fn path(&self, x: &[&[f64]; 3], site: Site) -> Path {
+        let start = self.point(x[0], site);
+        let [first, second] = [x[1], x[2]].map(|rates| self.velocity(x[0], site, rates));
+        std::array::from_fn(|axis| Taylor([start[axis], first[axis], second[axis], 0.0, 0.0]))
     }
 
     /// Appends to `out` the gradient in the element's coordinates of a function whose gradient in its points is `g`.

@@ -1,5 +1,6 @@
 //! Measures: scalars of a few points, with gradient and Hessian.
 
+use crate::math::taylor::{Path, Taylor, difference, dot};
 use crate::math::{Vec3, fold_angle};
 use nalgebra::{Matrix3, SMatrix, SVector};
 
@@ -13,6 +14,8 @@ pub trait Measure<const N: usize, const D: usize> {
     fn gradient(points: &[Vec3; N]) -> (f64, SVector<f64, D>);
     /// The scalar, its gradient and its Hessian.
     fn hessian(points: &[Vec3; N]) -> (f64, SVector<f64, D>, SMatrix<f64, D, D>);
+    /// The scalar while its points move.
+    fn along(points: &[Path; N]) -> Taylor;
 }
 
 /// Length of the bar between two points; not differentiable where they coincide.
@@ -46,6 +49,11 @@ impl Measure<2, 6> for Length {
         }
         (length, gradient, hessian)
     }
+
+    fn along([a, b]: &[Path; 2]) -> Taylor {
+        let bar = difference(b, a);
+        dot(&bar, &bar).sqrt()
+    }
 }
 
 /// Fold angle of the hinge `[i, j, left, right]`, see [`crate::math::fold_angle`].
@@ -65,5 +73,9 @@ impl Measure<4, 12> for FoldAngle {
 
     fn hessian(points: &[Vec3; 4]) -> (f64, SVector<f64, 12>, SMatrix<f64, 12, 12>) {
         fold_angle::fold_angle_hessian(points)
+    }
+
+    fn along(points: &[Path; 4]) -> Taylor {
+        fold_angle::fold_angle_along(points)
     }
 }

@@ -165,6 +165,17 @@ impl Model {
         }
     }
 
+    /// Multiplies the stiffness of every element of the soft terms by its factor.
+    pub fn scale_soft(&mut self, factors: &[f64]) {
+        let mut factors = factors.iter();
+        for term in &mut self.soft {
+            for (k, factor) in (0..term.len()).zip(factors.by_ref()) {
+                let spring = term.spring(k);
+                term.set_spring(k, Spring { stiffness: factor * spring.stiffness, ..spring });
+            }
+        }
+    }
+
     /// Angles of the last accepted state, from which angles continue.
     pub fn angles(&self) -> Vec<f64> {
         self.terms().flat_map(|term| term.angles().iter().copied()).collect()

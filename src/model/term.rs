@@ -2,6 +2,7 @@
 
 use super::domain::{Domain, Site};
 use super::measure::Measure;
+use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
 use std::marker::PhantomData;
 
@@ -72,6 +73,8 @@ pub trait Elements: Send + Sync {
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64;
     /// Puts value and gradient of element `k` into `out`, and its Hessian where wanted.
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local);
+    /// Element `k` on the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not on screws.
+    fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Taylor;
     /// Makes `x` the state from which angles continue.
     fn accept(&mut self, domain: &Domain, x: &[f64]);
     /// Angles of the last accepted state; empty for lengths.
@@ -145,6 +148,10 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
         out.value = self.continued(k, value);
         out.gradient.clear();
         domain.pull_gradient(x, sites, &gradient, &mut out.gradient);
+    }
+
+    fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Taylor {
+        M::along(&self.elements[k].sites.map(|site| domain.path(x, site)))
     }
 
     fn accept(&mut self, domain: &Domain, x: &[f64]) {

@@ -3,7 +3,7 @@
 use super::runner::Runner;
 use super::{RunError, studies};
 use crate::analysis::landscape::samples::{Landscape, landscape};
-use crate::analysis::landscape::{LandscapeError, Patch, fit};
+use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::assemble::{Surroundings, drawn_angles};
 use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult, StudySummary};
@@ -99,8 +99,9 @@ fn along(
     mode: [f64; 3],
 ) -> Result<Landscape, LandscapeError> {
     let built = runner.built;
-    let mut patch = Patch::new(&built.sheet, &built.tiling, &built.recipe, &drawn_angles(&built.drawn, &built.tiling))?;
-    let rates = patch.modes.named(mode)?;
+    let mut patch =
+        HeldSheet::patch(&built.sheet, &built.tiling, &built.recipe, &drawn_angles(&built.drawn, &built.tiling))?;
+    let rates = patch.named(mode)?;
     let mut watch = studies::watcher(runner, study, Options::default().tolerance);
     landscape(&mut patch, rates, &amplitudes(spec), &mut watch)
 }

@@ -18,7 +18,7 @@
 
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{Factor, FactorError, Inertia};
-use crate::numerics::sparse::symmetric_product;
+use crate::numerics::sparse::{Rows, symmetric_product};
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
 const GAMMA: f64 = 1e7;
@@ -159,7 +159,8 @@ impl Saddle {
         let mut last = f64::INFINITY;
         loop {
             let (ra, rb) = self.residual(layout, at, compliance, (a, b), (&dx, &dt));
-            let residual = f64::max(over(norm(&ra), norm(a)), over(norm(&rb), norm(b) + STRETCH * norm(&dx)));
+            let pull = if norm(a) > 0.0 { norm(a) } else { Self::pull(layout, at, &dt) };
+            let residual = f64::max(over(norm(&ra), pull), over(norm(&rb), norm(b) + STRETCH * norm(&dx)));
             if residual <= tolerance || !(residual < SLOWEST * last) {
                 return Solved { dx, dt, residual };
             }
@@ -168,6 +169,16 @@ impl Saddle {
             dx.iter_mut().zip(&ddx).for_each(|(x, d)| *x += d);
             dt.iter_mut().zip(&ddt).for_each(|(t, d)| *t += d);
         }
+    }
+
+    /// What tensions pull with: the unit of forces where no other force acts.
+    fn pull(layout: &Layout, at: &Linearization, tension: &[f64]) -> f64 {
+        let sizes: Vec<f64> = tension.iter().map(|t| t.abs()).collect();
+        let mut pull = vec![0.0; layout.unknowns];
+        let rows = at.rows(layout);
+        let absolute: Vec<f64> = rows.values.iter().map(|value| value.abs()).collect();
+        Rows { cliques: rows.cliques, values: &absolute }.add_transpose_product(&sizes, &mut pull);
+        norm(&pull)
     }
 
     /// The part of `b` that no motion makes, relative to `b`: 1 where `b` is a self stress, 0 where it can be reached.

@@ -11,7 +11,7 @@
 //! does. Here `w` is a polynomial, a sum of products of Legendre polynomials in the coordinates of the lattice, and satisfies the
 //! condition exactly (theory: curvature and strain of linear modes, compatibility of small strains).
 
-use super::{LandscapeError, Patch};
+use super::{HeldSheet, LandscapeError};
 use crate::kinematics::metric::LatticeFrame;
 use crate::kinematics::{Displacement, Embedding, KinematicsError};
 use crate::numerics::DenseMatrix;
@@ -26,7 +26,7 @@ const ZERO: f64 = 1e-11;
 ///
 /// `patch` is any patch of the sheet: its modes and the stiffness of its creases are read; bars are rigid. Fails where the
 /// sheet has not three modes that curvatures name.
-pub fn coefficient(sheet: &Sheet, patch: &Patch, degree: usize) -> Result<f64, LandscapeError> {
+pub fn coefficient(sheet: &Sheet, patch: &HeldSheet, degree: usize) -> Result<f64, LandscapeError> {
     let cell = Cell::new(sheet, patch)?;
     let basis = Basis::new(degree);
     let curvature = cell.second_derivatives(&basis);
@@ -62,8 +62,8 @@ struct Cell {
 }
 
 impl Cell {
-    fn new(sheet: &Sheet, patch: &Patch) -> Result<Self, LandscapeError> {
-        let modes = &patch.modes;
+    fn new(sheet: &Sheet, patch: &HeldSheet) -> Result<Self, LandscapeError> {
+        let modes = patch.bending.as_ref().ok_or(LandscapeError::NoCurvatures)?;
         if modes.count() != 3 {
             return Err(KinematicsError::NotThreeModes { modes: modes.count() }.into());
         }

@@ -7,12 +7,16 @@
 //! `continuum` one cell.
 
 pub mod continuum;
+pub mod expansion;
 pub mod fit;
+mod held;
 mod patch;
 pub mod prediction;
 pub mod samples;
+mod settling;
 
-pub use patch::Patch;
+pub use expansion::Expansion;
+pub use held::HeldSheet;
 pub use prediction::Prediction;
 pub use samples::{Sample, Samples};
 
@@ -30,6 +34,9 @@ pub enum LandscapeError {
     /// The patch cannot be factored, or is not stable, or a linear solve loses too many digits.
     #[error(transparent)]
     Factor(#[from] FactorError),
+    /// Curvatures name no modes here.
+    #[error("curvatures name no modes of a torus")]
+    NoCurvatures,
     /// A rank is not clear.
     #[error(transparent)]
     Dense(#[from] DenseError),

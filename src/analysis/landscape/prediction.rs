@@ -10,15 +10,14 @@
 //! the mode, so the coefficient is a quartic form: one linear solve for each pair of modes and one for each direction of
 //! `p2` give it for all modes at once.
 
-use super::patch::{Linear, Response};
-use super::{LandscapeError, Patch};
-use crate::model::{Domain, Elements};
+use super::settling::{Both, Settling};
+use super::{HeldSheet, LandscapeError};
+use crate::model::{Elements, Model};
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::least_squares;
 use crate::solver::{Curvature, Problem};
 use nalgebra::DVector;
 
-/// The landscape's leading coefficient, for every mode of a patch.
+/// The landscape's leading coefficient, for every mode of a sheet.
 #[derive(Clone, Debug)]
 pub struct Prediction {
     /// Coefficient as a quadratic form in the products `a_i a_j`, `i <= j`, of the amplitudes along the modes' basis.
@@ -28,33 +27,43 @@ pub struct Prediction {
 }
 
 impl Prediction {
-    /// Of a patch in the drawn state.
+    /// Of a sheet in the drawn state.
     ///
     /// Fails as [`LandscapeError`] says.
-    pub fn new(patch: &Patch) -> Result<Self, LandscapeError> {
-        let model = &patch.model;
-        let mut linear =
-            Linear::new(model, &model.start(), &vec![0.0; model.compliance().len()], Curvature::GaussNewton)?;
+    pub fn new(held: &HeldSheet) -> Result<Self, LandscapeError> {
+        let mut settling = drawn(held)?;
         let mut responses = Vec::new();
-        for (i, j) in pairs(patch.modes.count()) {
+        for (i, j) in pairs(held.basis.ncols()) {
             let weight = if i == j { 0.5 } else { 1.0 };
-            let (off, stretch) = second_order(patch, [&patch.motions[i], &patch.motions[j]], weight);
-            responses.push(linear.respond(model, &off, &stretch)?);
+            let (off, stretch) = second_order(&held.model, [&held.motions[i], &held.motions[j]], weight);
+            responses.push(settling.settle((&off, &stretch), None)?);
         }
-        for direction in patch.free.column_iter() {
-            let (off, stretch) = patch.spread((-direction).as_slice());
-            responses.push(linear.respond(model, &off, &stretch)?);
-        }
-        let form = form(patch, &linear, &responses)?;
-        Ok(Self { form, basis: patch.modes.basis.clone() })
+        let product = |i: usize, j: usize| 0.5 * settling.product(&responses[i], &responses[j]);
+        let form = DenseMatrix::from_fn(responses.len(), responses.len(), product);
+        Ok(Self { form, basis: held.basis.clone() })
     }
 
     /// The coefficient of `amplitude^4` of the mode with these fold rates.
     pub fn coefficient(&self, rates: &[f64]) -> f64 {
-        let a = self.basis.tr_mul(&DVector::from_column_slice(rates));
-        let products = DVector::from_iterator(self.form.nrows(), pairs(a.len()).map(|(i, j)| a[i] * a[j]));
+        let products = self.products(rates);
         products.dot(&(&self.form * &products))
     }
+
+    /// The largest coefficient that a mode of the same size could have.
+    pub fn largest(&self, rates: &[f64]) -> f64 {
+        self.form.norm() * self.products(rates).norm_squared()
+    }
+
+    fn products(&self, rates: &[f64]) -> DVector<f64> {
+        let a = self.basis.tr_mul(&DVector::from_column_slice(rates));
+        DVector::from_iterator(self.form.nrows(), pairs(a.len()).map(|(i, j)| a[i] * a[j]))
+    }
+}
+
+/// The sheet linearized in the drawn state.
+pub(super) fn drawn(held: &HeldSheet) -> Result<Settling<'_>, LandscapeError> {
+    let model = &held.model;
+    Settling::new(held, &model.start(), &vec![0.0; model.compliance().len()], Curvature::GaussNewton)
 }
 
 /// Pairs of modes, each once.
@@ -63,52 +72,53 @@ fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// `weight v^T H w` of every soft element and of every stiff measure, `H` its second derivative in the drawn state.
-fn second_order(patch: &Patch, motions: [&[f64]; 2], weight: f64) -> (Vec<f64>, Vec<f64>) {
-    let model = &patch.model;
+fn second_order(model: &Model, [v, w]: [&[f64]; 2], weight: f64) -> Both {
+    let mut found: (Vec<f64>, Vec<f64>) = Default::default();
+    each_curvature(model, v, |element, places, product| {
+        let value = weight * places.iter().zip(product).map(|(&place, h)| w[place] * h).sum::<f64>();
+        if element < model.layout().soft.len() { found.0.push(value) } else { found.1.push(value) }
+    });
+    found
+}
+
+/// `sum f H v` on all coordinates, `f` the forces of the soft elements and of the stiff measures.
+pub(super) fn curvature_forces(model: &Model, v: &[f64], (soft, stiff): (&[f64], &[f64])) -> Vec<f64> {
+    let mut all = vec![0.0; v.len()];
+    each_curvature(model, v, |element, places, product| {
+        let force = soft.get(element).copied().unwrap_or_else(|| stiff[element - soft.len()]);
+        places.iter().zip(product).for_each(|(&place, h)| all[place] += force * h);
+    });
+    all
+}
+
+/// Calls with the number of every element (soft ones first), the coordinates it depends on, and `H v` there: `H` its second
+/// derivative in the drawn state.
+fn each_curvature(model: &Model, v: &[f64], mut call: impl FnMut(usize, &[usize], &[f64])) {
     let x = model.coordinates(&model.start());
+    let shared = x.len() - model.domain().shared()..x.len();
     let mut local = Default::default();
-    let mut of = |terms: &[Box<dyn Elements>]| -> Vec<f64> {
-        let mut found = Vec::new();
-        for (term, k) in terms.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k))) {
-            term.local(k, &Domain::Patch, &x, true, &mut local);
-            let places = term.sites(k).iter().flat_map(|site| 3 * site.vertex..3 * site.vertex + 3);
-            let [v, w] = motions.map(|motion| places.clone().map(|place| motion[place]).collect::<Vec<f64>>());
-            found.push(weight * bilinear(&local.hessian, &v, &w));
-        }
-        found
-    };
-    (of(model.soft()), of(model.stiff()))
-}
-
-/// Half of the energy's form on the responses to pairs of modes, minimised over those to rest angles.
-fn form(patch: &Patch, linear: &Linear, responses: &[Response]) -> Result<DenseMatrix, LandscapeError> {
-    let product = |a: &Response, b: &Response| -> f64 {
-        let hinges = a.off.iter().zip(&b.off).zip(linear.stiffness()).map(|((a, b), k)| k * a * b);
-        let bars = a.tension.iter().zip(&b.tension).zip(patch.model.compliance()).map(|((a, b), c)| c * a * b);
-        hinges.sum::<f64>() + bars.sum::<f64>()
-    };
-    let count = responses.len();
-    let kept = count - patch.free.ncols();
-    let all = DenseMatrix::from_fn(count, count, |i, j| product(&responses[i], &responses[j]));
-    let pairs = all.view((0, 0), (kept, kept));
-    if kept == count {
-        return Ok(0.5 * pairs);
+    let terms: [&[Box<dyn Elements>]; 2] = [model.soft(), model.stiff()];
+    let elements = terms.into_iter().flatten().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+    for (element, (term, k)) in elements.enumerate() {
+        term.local(k, model.domain(), &x, true, &mut local);
+        let vertices = term.sites(k).iter().flat_map(|site| 3 * site.vertex..3 * site.vertex + 3);
+        let places: Vec<usize> = vertices.chain(shared.clone()).collect();
+        let moving: Vec<f64> = places.iter().map(|&place| v[place]).collect();
+        call(element, &places, &product(&local.hessian, &moving));
     }
-    let free = all.view((kept, kept), (count - kept, count - kept)).into_owned();
-    let cross = all.view((kept, 0), (count - kept, kept)).into_owned();
-    let absorbed = least_squares(&free, &cross)?.solution;
-    Ok(0.5 * (pairs - cross.transpose() * absorbed))
 }
 
-/// `v^T H w` from the lower triangle of `H`, row by row.
-fn bilinear(lower: &[f64], v: &[f64], w: &[f64]) -> f64 {
-    let mut sum = 0.0;
+/// `H v` from the lower triangle of `H`, row by row.
+fn product(lower: &[f64], v: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; v.len()];
     let mut entries = lower.iter();
     for row in 0..v.len() {
         for (column, entry) in (0..=row).zip(entries.by_ref()) {
-            let both = if row == column { v[row] * w[row] } else { v[row] * w[column] + v[column] * w[row] };
-            sum += entry * both;
+            product[row] += entry * v[column];
+            if column < row {
+                product[column] += entry * v[row];
+            }
         }
     }
-    sum
+    product
 }

@@ -4,10 +4,9 @@
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
 //! predicts where the patch relaxes to next, so that two or three rounds are enough.
 
-use super::patch::{Linear, Patch};
-use super::{LandscapeError, Prediction};
+use super::settling::Settling;
+use super::{HeldSheet, LandscapeError, Prediction};
 use crate::analysis::relax::{Relaxed, relax};
-use crate::numerics::DenseMatrix;
 use crate::solver::{Curvature, Failure, Options, Problem, Step};
 use nalgebra::DVector;
 use thiserror::Error;
@@ -55,7 +54,7 @@ pub enum SampleError {
 
 /// Samples along one mode, each from the one before.
 pub struct Samples<'a> {
-    patch: &'a mut Patch,
+    patch: &'a mut HeldSheet,
     /// Fold rates of the mode.
     rates: Vec<f64>,
     /// Amplitude, unknowns and rest angles across the modes of the last sample.
@@ -65,7 +64,7 @@ pub struct Samples<'a> {
 
 impl<'a> Samples<'a> {
     /// Along the mode with these fold rates, from the drawn state.
-    pub fn new(patch: &'a mut Patch, rates: Vec<f64>, options: Options) -> Self {
+    pub fn new(patch: &'a mut HeldSheet, rates: Vec<f64>, options: Options) -> Self {
         let start = patch.drawn();
         let last = (0.0, start, DVector::zeros(patch.free.ncols()));
         Self { patch, rates, last, options }
@@ -76,7 +75,7 @@ impl<'a> Samples<'a> {
         let (before, x, y) = &self.last;
         let part = if *before == 0.0 { 0.0 } else { amplitude / before };
         let mut y = y * (part * part);
-        let along = self.patch.motion(&self.rates);
+        let along = self.patch.model.unknowns(&self.patch.motion(&self.rates));
         let mut x: Vec<f64> = x.iter().zip(&along).map(|(x, v)| x + (amplitude - before) * v).collect();
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         for rounds in 0..ROUNDS {
@@ -92,75 +91,46 @@ impl<'a> Samples<'a> {
                 self.last = (amplitude, relaxed.x.clone(), y);
                 return Ok(Sample { amplitude, relaxed, rest: rest.as_slice().to_vec(), iterations, rounds });
             }
-            let step = balance.step()?;
-            x = relaxed.x.iter().zip(balance.motion(&step)).map(|(x, d)| x + d).collect();
+            let (step, motion) = balance.step()?;
+            x = relaxed.x.iter().zip(motion).map(|(x, d)| x + d).collect();
             y += step;
         }
         Err(SampleError::Restless { torque })
     }
 }
 
-impl Patch {
+impl HeldSheet {
     /// The unknowns of the drawn state, made the one from which angles continue.
     fn drawn(&mut self) -> Vec<f64> {
         let mut x = self.model.start();
         self.model.accept(&mut x);
         x
     }
-
-    /// Velocities of the unknowns for fold rates along the modes.
-    fn motion(&self, rates: &[f64]) -> Vec<f64> {
-        let a = self.modes.basis.tr_mul(&DVector::from_column_slice(rates));
-        let mut all = vec![0.0; self.motions.first().map_or(0, Vec::len)];
-        for (amplitude, motion) in a.iter().zip(&self.motions) {
-            all.iter_mut().zip(motion).for_each(|(sum, v)| *sum += amplitude * v);
-        }
-        self.model.unknowns(&all)
-    }
 }
 
 /// The torques on the directions of rest angles at an equilibrium, and how they change.
-struct Balance {
+struct Balance<'a> {
+    settling: Settling<'a>,
     torque: DVector<f64>,
     size: DVector<f64>,
-    hessian: DenseMatrix,
-    motions: Vec<Vec<f64>>,
 }
 
-impl Balance {
-    fn new(patch: &Patch, relaxed: &Relaxed) -> Result<Self, LandscapeError> {
-        let model = &patch.model;
-        let mut linear = Linear::new(model, &relaxed.x, &relaxed.tension, Curvature::Full)?;
+impl<'a> Balance<'a> {
+    fn new(held: &'a HeldSheet, relaxed: &Relaxed) -> Result<Self, LandscapeError> {
+        let model = &held.model;
+        let settling = Settling::new(held, &relaxed.x, &relaxed.tension, Curvature::Full)?;
         let values = model.values(&relaxed.x);
-        let off: Vec<f64> = values.iter().zip(model.rests()).map(|(value, rest)| value - rest).collect();
-        let forces: Vec<f64> = linear.stiffness().iter().zip(&off).map(|(k, off)| k * off).collect();
-        let least: Vec<f64> =
-            linear.stiffness().iter().zip(&off).map(|(k, off)| k * off.abs().max(LEAST_ANGLE)).collect();
-        let count = patch.free.ncols();
-        let directions: Vec<(Vec<f64>, Vec<f64>)> =
-            patch.free.column_iter().map(|direction| patch.spread(direction.as_slice())).collect();
-        let both = |soft: &[f64], stiff: &[f64], (on_soft, on_stiff): &(Vec<f64>, Vec<f64>)| -> f64 {
-            let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            product(soft, on_soft) + product(stiff, on_stiff)
+        let off = values.iter().zip(model.rests()).map(|(value, rest)| value - rest);
+        let (torques, least): (Vec<f64>, Vec<f64>) =
+            settling.stiffness().iter().zip(off).map(|(k, off)| (k * off, k * off.abs().max(LEAST_ANGLE))).unzip();
+        let sum = |soft: &[f64], stiff: &[f64], weigh: fn(f64) -> f64| -> DVector<f64> {
+            let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| weigh(a * b)).sum::<f64>();
+            let directions = settling.directions().iter();
+            DVector::from_vec(directions.map(|(on, along)| product(soft, on) + product(stiff, along)).collect())
         };
-        let torque = DVector::from_fn(count, |j, _| -both(&forces, &relaxed.tension, &directions[j]));
-        let absolute = |list: &[f64]| list.iter().map(|value| value.abs()).collect::<Vec<f64>>();
-        let size = DVector::from_fn(count, |j, _| {
-            let (soft, stiff) = &directions[j];
-            both(&least, &absolute(&relaxed.tension), &(absolute(soft), absolute(stiff)))
-        });
-        let mut hessian = DenseMatrix::zeros(count, count);
-        let mut motions = Vec::new();
-        for (j, (soft, stiff)) in directions.iter().enumerate() {
-            let negative = |list: &[f64]| list.iter().map(|value| -value).collect::<Vec<f64>>();
-            let response = linear.respond(model, &negative(soft), &negative(stiff))?;
-            let turning: Vec<f64> = linear.stiffness().iter().zip(&response.off).map(|(k, off)| k * off).collect();
-            for (i, direction) in directions.iter().enumerate() {
-                hessian[(i, j)] = -both(&turning, &response.tension, direction);
-            }
-            motions.push(response.x);
-        }
-        Ok(Self { torque, size, hessian, motions })
+        let torque = sum(&torques, &relaxed.tension, |value| value);
+        let size = sum(&least, &relaxed.tension, f64::abs);
+        Ok(Self { settling, torque, size })
     }
 
     /// The largest torque over its size.
@@ -168,22 +138,14 @@ impl Balance {
         self.torque.iter().zip(self.size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max)
     }
 
-    /// Newton's step of the rest angles.
-    fn step(&self) -> Result<DVector<f64>, LandscapeError> {
+    /// Newton's step of the rest angles, and the motion of the unknowns that goes with it.
+    fn step(&self) -> Result<(DVector<f64>, Vec<f64>), LandscapeError> {
         let singular = crate::numerics::factor::FactorError::Singular { ratio: 0.0 };
-        let factor = nalgebra::Cholesky::new(0.5 * (&self.hessian + self.hessian.transpose())).ok_or(singular)?;
-        let step = -factor.solve(&self.torque);
-        let longest = step.amax();
-        Ok(step * (LONGEST / longest).min(1.0))
-    }
-
-    /// The motion of the unknowns that goes with a step.
-    fn motion(&self, step: &DVector<f64>) -> Vec<f64> {
-        let mut all = vec![0.0; self.motions.first().map_or(0, Vec::len)];
-        for (part, motion) in step.iter().zip(&self.motions) {
-            all.iter_mut().zip(motion).for_each(|(sum, d)| *sum += part * d);
-        }
-        all
+        let factor = nalgebra::Cholesky::new(self.settling.hessian().clone()).ok_or(singular)?;
+        let step = factor.solve(&self.torque);
+        let step = &step * (LONGEST / step.amax()).min(1.0);
+        let motion = self.settling.motion(&step);
+        Ok((step, motion))
     }
 }
 
@@ -199,7 +161,7 @@ pub struct Landscape {
 
 /// Samples along a mode, by rising amplitude, as far as they go.
 pub fn landscape(
-    patch: &mut Patch,
+    patch: &mut HeldSheet,
     rates: Vec<f64>,
     amplitudes: &[f64],
     observe: &mut dyn FnMut(&Step) -> bool,

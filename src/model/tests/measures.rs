@@ -2,9 +2,11 @@
 
 use super::Numbers;
 use crate::math::Vec3;
+use crate::math::taylor::Taylor;
 use crate::model::measure::{FoldAngle, Length, Measure};
 use crate::numerics::DenseMatrix;
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
+use nalgebra::{SMatrix, SVector};
 use num_dual::{Dual2SVec64, DualNum};
 use std::f64::consts::{PI, TAU};
 
@@ -23,10 +25,49 @@ fn check<M: Measure<N, D>, const N: usize, const D: usize>(x: &[f64], what: &str
     let (by_hessian, again, hessian) = M::hessian(&points(x));
     assert_eq!([home; 2], [by_gradient, by_hessian], "{what}: three functions, one value");
     assert_eq!(gradient, again, "{what}: two functions, one gradient");
+    check_along::<M, N, D>(x, (gradient.as_slice(), &hessian), what);
     let hessian = DenseMatrix::from_column_slice(D, D, hessian.as_slice());
     check_gradient(value, x, gradient.as_slice(), TOLERANCE).unwrap_or_else(|error| panic!("{what}: {error}"));
     check_jacobian(|x| M::gradient(&points(x)).1.as_slice().to_vec(), x, &hessian, TOLERANCE)
         .unwrap_or_else(|error| panic!("{what}, Hessian: {error}"));
+}
+
+/// Checks the series of a measure along a random path: its first two powers against gradient and Hessian, to rounding; the
+/// third and the fourth against central differences over a hundredth of the element's smallest distance, which leave the
+/// square of that and some rounding.
+fn check_along<M: Measure<N, D>, const N: usize, const D: usize>(
+    x: &[f64],
+    (gradient, hessian): (&[f64], &SMatrix<f64, D, D>),
+    what: &str,
+) {
+    let points: [Vec3; N] = points(x);
+    let pairs = (0..N).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let size = pairs.map(|(i, j)| (points[i] - points[j]).norm()).fold(f64::INFINITY, f64::min);
+    let mut numbers = Numbers::new(7);
+    let [v, w] = [numbers.many(D, size), numbers.many(D, size)].map(|v| SVector::<f64, D>::from_column_slice(&v));
+    let series = |start: &[f64]| {
+        let at = |place: usize| Taylor([start[place], v[place], w[place], 0.0, 0.0]);
+        M::along(&std::array::from_fn(|k| std::array::from_fn(|axis| at(3 * k + axis)))).0
+    };
+    let found = series(x);
+    let along = |v: &SVector<f64, D>| gradient.iter().zip(v.iter()).map(|(g, v)| g * v).sum::<f64>();
+    let scale = found.iter().skip(1).fold(0.0f64, |most, c| most.max(c.abs()));
+    let second = along(&w) + 0.5 * (v.transpose() * hessian * v)[0];
+    let off = [found[0] - M::value(&points), found[1] - along(&v), found[2] - second];
+    assert!(off.iter().all(|off| off.abs() <= 1e-9 * (scale + found[0].abs())), "{what}: {off:?} {found:?}");
+    // the path itself has a second power: after a step h its velocity is v + 2 h w
+    let acceleration = |h: f64| -> f64 {
+        let moved: Vec<f64> = (0..D).map(|k| x[k] + h * v[k] + h * h * w[k]).collect();
+        let speed = v + 2.0 * h * w;
+        let (_, gradient, hessian) = M::hessian(&self::points(&moved));
+        2.0 * gradient.dot(&w) + (speed.transpose() * hessian * speed)[0]
+    };
+    let h = 1e-3;
+    let [before, now, after] = [-h, 0.0, h].map(acceleration);
+    let (third, fourth) = ((after - before) / (2.0 * h) / 6.0, (after - 2.0 * now + before) / (h * h) / 24.0);
+    let close = |found: f64, expected: f64, part: f64| (found - expected).abs() <= part * scale.max(expected.abs());
+    assert!(close(found[3], third, 1e-3), "{what}: third power {} and {third}", found[3]);
+    assert!(close(found[4], fourth, 1e-2), "{what}: fourth power {} and {fourth}", found[4]);
 }
 
 /// The hinge `[i, j, left, right]` with an edge of length `edge`, wings at these heights above their feet, and a fold

@@ -1,0 +1,66 @@
+//! What one mode costs, to the sixth power of its amplitude, from linear solves alone.
+//!
+//! The sheet moves by `a x1 + a^2 x2 + a^3 x3 + ...` and its rest angles by `a phi + a^2 p2 + ...`, so hinges are off by
+//! `a^2 h2 + a^3 h3 + ...` and bars have the tensions `a^2 t2 + a^3 t3 + ...`. With `m3`, `m4` the third and fourth powers of
+//! all measures along `x0 + a x1 + a^2 x2` and `f2` the forces of `h2` and `t2`, which balance,
+//!
+//! `E4 = sum (K/2) h2^2 + sum t2^2 / 2k`,  `E5 = f2 . m3`,
+//! `E6 = f2 . m4 + min over x3, p3 of  sum (K/2) h3^2 + sum t3^2 / 2k + f2 . D^2 m [x1, x3]`.
+//!
+//! A mode that is rigid to second order has `h2 = t2 = 0`: then the sixth power leads, and `E6` tells whether it is rigid
+//! to third order.
+
+use super::prediction::{curvature_forces, drawn};
+use super::settling::Both;
+use super::{HeldSheet, LandscapeError};
+use crate::model::Model;
+
+/// Coefficients of the powers of the amplitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expansion {
+    /// Of the fourth.
+    pub fourth: f64,
+    /// Of the fifth.
+    pub fifth: f64,
+    /// Of the sixth.
+    pub sixth: f64,
+}
+
+impl Expansion {
+    /// Of the mode with these rates of the rest angles, in the drawn state.
+    ///
+    /// Fails as [`LandscapeError`] says.
+    pub fn new(held: &HeldSheet, rates: &[f64]) -> Result<Self, LandscapeError> {
+        let model = &held.model;
+        let mut settling = drawn(held)?;
+        let (x0, x1) = (model.coordinates(&model.start()), held.motion(rates));
+        let still = vec![0.0; x0.len()];
+        let [second, _, _] = powers(model, &[&x0, &x1, &still]);
+        let at_second = settling.settle((&second.0, &second.1), None)?;
+        let torques: Vec<f64> = settling.stiffness().iter().zip(&at_second.off).map(|(k, off)| k * off).collect();
+        let work = |(soft, stiff): &Both| dot(&torques, soft) + dot(&at_second.tension, stiff);
+
+        let [_, third, fourth] = powers(model, &[&x0, &x1, &model.velocity(&at_second.x)]);
+        let bent = model.unknowns(&curvature_forces(model, &x1, (&torques, &at_second.tension)));
+        let against: Vec<f64> = bent.iter().map(|force| -force).collect();
+        let at_third = settling.settle((&third.0, &third.1), Some(&against))?;
+        Ok(Self {
+            fourth: 0.5 * settling.product(&at_second, &at_second),
+            fifth: work(&third),
+            sixth: work(&fourth) + 0.5 * settling.product(&at_third, &at_third) + dot(&bent, &at_third.x),
+        })
+    }
+}
+
+/// The second, third and fourth powers of all measures, soft ones and stiff ones, along a path of all coordinates.
+fn powers(model: &Model, path: &[&[f64]; 3]) -> [Both; 3] {
+    let of = |power: usize, terms: &[Box<dyn crate::model::Elements>]| -> Vec<f64> {
+        let elements = terms.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+        elements.map(|(term, k)| term.along(k, model.domain(), path).0[power]).collect()
+    };
+    [2, 3, 4].map(|power| (of(power, model.soft()), of(power, model.stiff())))
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,120 @@
+//! A sheet whose rest angles are held along its modes and free otherwise.
+
+use super::LandscapeError;
+use crate::kinematics::FoldingModes;
+use crate::model::Model;
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::null_space;
+use crate::solver::Problem;
+use nalgebra::DVector;
+
+/// A sheet and its modes.
+///
+/// Rest angles are named by the edges of the piece of sheet that repeats: the edges of a cell on a patch, where all cells have
+/// the same, and all edges on a torus.
+pub struct HeldSheet {
+    /// The modes: orthonormal rates of rest angles as columns, a row for each edge of the piece that repeats.
+    pub basis: DenseMatrix,
+    /// Velocities of all coordinates along each of them.
+    pub motions: Vec<Vec<f64>>,
+    /// Orthonormal directions of rest angles across the modes, as columns; zero for rigid hinges.
+    pub free: DenseMatrix,
+    /// Bars and hinges.
+    pub model: Model,
+    /// The modes of a cell by the curvatures they make; `None` on a torus, which has none.
+    pub bending: Option<FoldingModes>,
+    /// Edge of the repeating piece of every hinge that is not rigid, in the order of the model's elements, soft ones first;
+    /// `None` for all other elements.
+    repeating: Vec<Option<usize>>,
+    /// Rest values as drawn, in the same order.
+    rests: Vec<f64>,
+}
+
+impl HeldSheet {
+    /// A model held along these modes, `locked` being the edges of the repeating piece that are rigid. `repeating` gives the
+    /// edge of the repeating piece of every edge of the tiling.
+    pub(super) fn new(
+        model: Model,
+        (basis, motions): (DenseMatrix, Vec<Vec<f64>>),
+        locked: &[usize],
+        repeating: impl Fn(usize) -> usize,
+    ) -> Result<Self, LandscapeError> {
+        let floats = |term: &dyn crate::model::Elements, k: usize| {
+            let soft = term.is_angle() && term.spring(k).stiffness.is_finite();
+            soft.then(|| repeating(term.edge(k)))
+        };
+        let terms = model.soft().iter().chain(model.stiff());
+        let repeating = terms
+            .flat_map(|term| (0..term.len()).map(|k| floats(term.as_ref(), k)).collect::<Vec<_>>())
+            .collect::<Vec<_>>();
+        let free = across(&basis, locked)?;
+        Ok(Self { basis, motions, free, repeating, rests: model.rests(), bending: None, model })
+    }
+
+    /// Rates of the rest angles of the mode that makes the curvature tensor `[k11, k22, k12]`.
+    ///
+    /// Fails where curvatures name no modes: on a torus, and as [`FoldingModes::named`].
+    pub fn named(&self, curvature: [f64; 3]) -> Result<Vec<f64>, LandscapeError> {
+        let modes = self.bending.as_ref().ok_or(LandscapeError::NoCurvatures)?;
+        Ok(modes.named(curvature)?)
+    }
+
+    /// The curvature tensor `[k11, k22, k12]` of a mode with these rates; `None` on a torus.
+    pub fn curvature(&self, rates: &[f64]) -> Option<[f64; 3]> {
+        let tensor = &self.bending.as_ref()?.curvatures * self.amplitudes(rates);
+        Some([tensor[0], tensor[1], tensor[2]])
+    }
+
+    /// Amplitudes along the basis of the modes.
+    pub fn amplitudes(&self, rates: &[f64]) -> DVector<f64> {
+        self.basis.tr_mul(&DVector::from_column_slice(rates))
+    }
+
+    /// Velocities of all coordinates for rates along the modes.
+    pub fn motion(&self, rates: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; self.motions.first().map_or(0, Vec::len)];
+        for (amplitude, motion) in self.amplitudes(rates).iter().zip(&self.motions) {
+            all.iter_mut().zip(motion).for_each(|(sum, v)| *sum += amplitude * v);
+        }
+        all
+    }
+
+    /// Stiffness of the hinge over every edge of the repeating piece, per radian; zero where none is soft.
+    pub fn stiffness(&self) -> Vec<f64> {
+        let mut all = vec![0.0; self.basis.nrows()];
+        let terms = self.model.soft().iter().chain(self.model.stiff());
+        let springs = terms.flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
+        for (edge, stiffness) in self.repeating.iter().zip(springs) {
+            edge.iter().for_each(|&edge| all[edge] = stiffness);
+        }
+        all
+    }
+
+    /// An amount per edge of the repeating piece for every soft element and every stiff measure; zero where rest values do
+    /// not float.
+    pub fn spread(&self, per_edge: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let of = |edge: &Option<usize>| edge.map_or(0.0, |edge| per_edge[edge]);
+        let all: Vec<f64> = self.repeating.iter().map(of).collect();
+        let (soft, stiff) = all.split_at(self.model.layout().soft.len());
+        (soft.to_vec(), stiff.to_vec())
+    }
+
+    /// Moves the rest angles off the drawn ones.
+    pub fn set_rest(&mut self, per_edge: &[f64]) {
+        let (soft, stiff) = self.spread(per_edge);
+        let rests: Vec<f64> =
+            self.rests.iter().zip(soft.iter().chain(&stiff)).map(|(rest, moved)| rest + moved).collect();
+        self.model.set_rests(&rests, &rests, 1.0);
+    }
+}
+
+/// Directions of rest angles across the modes.
+fn across(basis: &DenseMatrix, locked: &[usize]) -> Result<DenseMatrix, LandscapeError> {
+    let (edges, modes) = basis.shape();
+    let mut held = basis.clone().resize_horizontally(modes + locked.len(), 0.0);
+    locked.iter().enumerate().for_each(|(k, &edge)| held[(edge, modes + k)] = 1.0);
+    if held.ncols() == edges {
+        return Ok(DenseMatrix::zeros(edges, 0));
+    }
+    Ok(null_space(&held.transpose())?.basis)
+}
