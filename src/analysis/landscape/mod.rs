@@ -14,12 +14,15 @@ mod patch;
 pub mod prediction;
 pub mod samples;
 mod settling;
+mod torus;
+pub mod tuning;
 
 pub use expansion::Expansion;
 pub use held::HeldSheet;
 pub use prediction::Prediction;
 pub use samples::{Sample, Samples};
 
+use crate::analysis::bloch::BlochError;
 use crate::kinematics::KinematicsError;
 use crate::numerics::dense::DenseError;
 use crate::numerics::factor::FactorError;
@@ -37,6 +40,32 @@ pub enum LandscapeError {
     /// Curvatures name no modes here.
     #[error("curvatures name no modes of a torus")]
     NoCurvatures,
+    /// There is no determinant to tune.
+    #[error(transparent)]
+    Bloch(#[from] BlochError),
+    /// No height of the vertex makes a zero mode.
+    #[error("no height of vertex {vertex} within half a cell makes a zero mode at this wavenumber")]
+    NotTunable {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// The torus is rigid to first order.
+    #[error("every motion of this torus stretches a bar, but for the rigid ones")]
+    NoZeroModes,
+    /// The torus has zero modes, but none of this wavenumber.
+    #[error("no zero mode goes {wave:?} times round the torus")]
+    NoSuchWave {
+        /// Waves round the torus, along both directions.
+        wave: [i32; 2],
+    },
+    /// The modes of so large a torus are not computed.
+    #[error("a torus of {unknowns} unknowns is too large: at most {most}")]
+    TooLarge {
+        /// Its unknowns.
+        unknowns: usize,
+        /// Most of them.
+        most: usize,
+    },
     /// A rank is not clear.
     #[error(transparent)]
     Dense(#[from] DenseError),
