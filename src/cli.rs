@@ -253,9 +253,13 @@ fn describe_study(study: &StudySummary) -> String {
         }
         Some(StudyResult::Landscape(landscape)) => {
             let modes = landscape.modes.iter().map(|one| {
-                let [k11, k22, k12] = one.mode;
+                let mode = match (one.wave, one.mode) {
+                    (Some(wave), _) => format!("wave {wave:?}"),
+                    (_, mode) => format!("{:?}", mode.unwrap_or([f64::NAN; 3])),
+                };
                 let exponent = one.exponent.map_or("?".into(), |exponent| format!("{exponent:.3}"));
-                format!("[{k11}, {k22}, {k12}]: exponent {exponent}, predicted {:.6e}", one.predicted_coefficient)
+                let [c4, c6] = [one.predicted_coefficient, one.predicted_sixth].map(|c| c.unwrap_or(f64::NAN));
+                format!("{mode}: exponent {exponent}, predicted {c4:.6e} a^4, {c6:.6e} a^6")
             });
             modes.collect::<Vec<_>>().join("; ")
         }

@@ -37,6 +37,18 @@ fn nearest(sheet: &Sheet, wave: [i32; 2], n: usize) -> Option<(usize, Sheet)> {
     all.min_by(|(v, a), (w, b)| moved(*v, a).total_cmp(&moved(*w, b)))
 }
 
+/// Claim: `meshes/star-wave.fold` is the reference cell with vertex 3 moved along z so that a wave goes (2, 3) times round a torus of
+/// 5 x 5 cells, as its text says. Tolerance: rounding of a root.
+#[test]
+fn the_mesh_of_a_wave() {
+    let (vertex, tuned) = nearest(&mesh("open-star"), [2, 3], 5).unwrap();
+    assert_eq!(vertex, 3);
+    let stored = mesh("star-wave");
+    let off = tuned.vertices.iter().zip(&stored.vertices).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    println!("{off:.1e}");
+    assert!(off <= 1e-14);
+}
+
 /// Random cells, each tuned so that exactly one pair of waves goes round a torus of 5 x 5 cells without stretching a bar to first
 /// order.
 fn tuned_cells(count: usize) -> Vec<(Sheet, [i32; 2], usize)> {

@@ -233,8 +233,11 @@ pub struct LandscapeSummary {
 /// What a mode costs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ModeLandscape {
-    /// `[k11, k22, k12]`.
-    pub mode: [f64; 3],
+    /// The curvature tensor `[k11, k22, k12]` of a mode of a patch.
+    pub mode: Option<[f64; 3]>,
+    /// How often a mode of a torus goes round it, where it was named so.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub wave: Option<[i32; 2]>,
     /// By rising amplitude.
     pub samples: Vec<SampleSummary>,
     /// Slope of log energy on the smallest amplitudes, and its standard error.
@@ -246,9 +249,13 @@ pub struct ModeLandscape {
     /// Standard error of the coefficient.
     pub coefficient_error: Option<f64>,
     /// The same without a fit, from the second order.
-    pub predicted_coefficient: f64,
-    /// Gaussian curvature `k11 k22 - k12^2` of the mode.
-    pub defect: f64,
+    pub predicted_coefficient: Option<f64>,
+    /// Coefficient of the fifth power, without a fit.
+    pub predicted_fifth: Option<f64>,
+    /// Coefficient of the sixth power, without a fit: where the fourth vanishes it leads.
+    pub predicted_sixth: Option<f64>,
+    /// Gaussian curvature `k11 k22 - k12^2` of the mode of a patch.
+    pub defect: Option<f64>,
 }
 
 /// A sample of a landscape.

@@ -2,58 +2,93 @@
 
 use super::runner::Runner;
 use super::{RunError, studies};
-use crate::analysis::landscape::samples::{Landscape, landscape};
+use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
-use crate::kinematics::folding_modes_with_locked;
 use crate::model::assemble::{Surroundings, drawn_angles};
 use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
-use crate::scene::build::Built;
+use crate::scene::build::{Built, rates as scene_rates};
 use crate::scene::forms::Mode;
 use crate::scene::spec::{LandscapeSpec, StudySpec};
 use crate::scene::{Located, SceneFile};
-use crate::sheet::{EdgeKey, EdgeKind};
+use crate::sheet::EdgeKey;
 use crate::solver::Options;
 use std::time::Instant;
 
-/// Landscapes are those of patches of periodic sheets, with bars and creases and nothing that holds or pulls.
+/// Landscapes are those of patches and tori of periodic sheets, with bars and creases and nothing that holds or pulls.
 pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &LandscapeSpec) -> Result<(), RunError> {
     let refuse = |message: &str, help: &str| Err(file.error_at(study.kind.span(), message, help).into());
     let recipe = &built.recipe;
-    if built.surroundings != Surroundings::Patch || built.sheet.lattice.is_none() {
-        return refuse("this version has landscapes of patches of periodic sheets", "use domain = \"patch\"");
+    let torus = match built.surroundings {
+        Surroundings::Patch => false,
+        Surroundings::FixedTorus | Surroundings::FreeTorus => true,
+        Surroundings::Screw => return refuse("a landscape needs cells around its own", "use domain = \"patch\""),
+    };
+    if built.sheet.lattice.is_none() {
+        return refuse("a finite sheet has no uniform modes", "give the mesh a lattice");
     }
     if recipe.bars.is_none() || recipe.creases.is_none() {
         let help = "give bars (inf: rigid) and creases a stiffness";
         return refuse("a landscape is the energy of bars and creases", help);
     }
+    if torus && recipe.bars.is_some_and(f64::is_infinite) {
+        let help = "give bars a finite stiffness";
+        return refuse("modes of a torus stretch bars beyond linear order, rigid bars forbid them", help);
+    }
     if !(recipe.locks.is_empty() && recipe.pins.is_empty() && recipe.loads.is_empty()) {
         let help = "leave out [[lock]], [[pin]] and [[load]]";
         return refuse("a landscape holds nothing but the amplitude of a mode", help);
     }
-    for mode in spec.modes.iter() {
-        let Mode::Curvature(curvature) = **mode else {
-            let help = "name the mode by its curvatures: [k11, k22, k12]";
-            return Err(file.error_at(mode.span(), "this version has landscapes of named modes", help).into());
-        };
-        let modes = folding_modes_with_locked(&built.sheet, &rigid_facets(built));
-        let named = modes.and_then(|modes| modes.named(curvature));
-        named.map_err(|error| file.error_at(mode.span(), error.to_string(), "choose a sheet with three modes"))?;
-    }
-    Ok(())
+    let held = held(built).map_err(|error| file.error_at(study.kind.span(), error.to_string(), MODES))?;
+    spec.modes.iter().try_for_each(|mode| rates(file, built, &held, mode).map(|_| ()))
 }
 
-fn rigid_facets(built: &Built) -> Vec<usize> {
-    let rigid = built.recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
-    let facet = |edge: &usize| rigid && built.sheet.edges[*edge].kind == EdgeKind::Facet;
-    (0..built.sheet.edges.len()).filter(facet).collect()
+/// What to do where modes are missing.
+const MODES: &str = "patches have modes named by curvatures, tori those of wavenumbers on zero lines";
+
+/// The patch or the torus of a scene.
+fn held(built: &Built) -> Result<HeldSheet, LandscapeError> {
+    let angles = drawn_angles(&built.drawn, &built.tiling);
+    let (sheet, tiling, recipe) = (&built.sheet, &built.tiling, &built.recipe);
+    match built.surroundings {
+        Surroundings::Patch => HeldSheet::patch(sheet, tiling, recipe, &angles),
+        surroundings => HeldSheet::torus(sheet, tiling, recipe, (surroundings, &angles)),
+    }
+}
+
+/// Rates of the rest angles of a mode.
+fn rates(file: &SceneFile, built: &Built, held: &HeldSheet, mode: &Located<Mode>) -> Result<Vec<f64>, RunError> {
+    let found = match &**mode {
+        Mode::Curvature(curvature) => held.named(*curvature),
+        Mode::Wave(wave) if built.tiling.periodic => held.wave(&built.tiling, *wave.wave),
+        Mode::Wave(_) => Err(LandscapeError::NoWaves),
+        Mode::Rates(name) => held.with_rates(&uniform(file, built, mode, &scene_rates(file, built, name)?)?),
+    };
+    Ok(found.map_err(|error| file.error_at(mode.span(), error.to_string(), MODES))?)
+}
+
+/// From all edges to those of the piece of sheet that repeats: a patch has the same rates in every cell.
+fn uniform(file: &SceneFile, built: &Built, mode: &Located<Mode>, all: &[f64]) -> Result<Vec<f64>, RunError> {
+    if built.tiling.periodic {
+        return Ok(all.to_vec());
+    }
+    let mut cell = vec![f64::NAN; built.sheet.edges.len()];
+    for (tiled, rate) in built.tiling.edges.iter().zip(all) {
+        if !cell[tiled.edge].is_nan() && !rate.is_nan() && cell[tiled.edge] != *rate {
+            let help = "give one row for each crease of the cell, without cell1 and cell2";
+            return Err(file.error_at(mode.span(), "the rates differ from cell to cell", help).into());
+        }
+        if !rate.is_nan() {
+            cell[tiled.edge] = *rate;
+        }
+    }
+    Ok(cell)
 }
 
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &LandscapeSpec) -> Result<StudySummary, RunError> {
     let clock = Instant::now();
-    let found: Result<Vec<([f64; 3], Landscape)>, LandscapeError> =
-        spec.modes.iter().filter_map(curvature).map(|mode| Ok((mode, along(runner, study, spec, mode)?))).collect();
+    let found: Result<Vec<Along>, RunError> = spec.modes.iter().map(|mode| along(runner, study, spec, mode)).collect();
     let mut summary = StudySummary {
         name: study.name.0.clone(),
         kind: study.kind.name().to_owned(),
@@ -63,32 +98,22 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &LandscapeSpec) -
         reason: None,
         result: None,
     };
-    match found {
-        Ok(found) => {
-            table(runner.built, &found).write(&runner.path(format!("{}.csv", study.name.0)))?;
-            let failed = |(mode, landscape): &([f64; 3], Landscape)| {
-                landscape.failure.as_ref().map(|failure| format!("mode {mode:?}: {failure}"))
-            };
-            summary.reason = found.iter().find_map(failed);
-            summary.converged = summary.reason.is_none();
-            let residual = |landscape: &Landscape| -> f64 {
-                let of = landscape
-                    .samples
-                    .iter()
-                    .map(|sample| sample.relaxed.residual_force.max(sample.relaxed.residual_length));
-                of.fold(0.0, f64::max)
-            };
-            summary.error = Some(found.iter().map(|(_, landscape)| residual(landscape)).fold(0.0, f64::max));
-            let modes = found.iter().map(|(mode, landscape)| summarized(*mode, spec, landscape)).collect();
-            summary.result = Some(StudyResult::Landscape(LandscapeSummary { modes }));
-        }
-        Err(error) => summary.reason = Some(error.to_string()),
-    }
+    let found = found?;
+    table(runner.built, &found).write(&runner.path(format!("{}.csv", study.name.0)))?;
+    summary.reason = found.iter().find_map(Along::failure);
+    summary.converged = summary.reason.is_none();
+    summary.error = Some(found.iter().map(Along::residual).fold(0.0, f64::max));
+    let modes = found.iter().map(|along| along.summarized(&amplitudes(spec))).collect();
+    summary.result = Some(StudyResult::Landscape(LandscapeSummary { modes }));
     Ok(summary)
 }
 
-fn curvature(mode: &Located<Mode>) -> Option<[f64; 3]> {
-    if let Mode::Curvature(curvature) = **mode { Some(curvature) } else { None }
+/// The landscape along one mode.
+struct Along {
+    /// As the scene names it.
+    mode: Mode,
+    curvature: Option<[f64; 3]>,
+    landscape: Result<Landscape, LandscapeError>,
 }
 
 /// The landscape along one mode, by rising amplitude.
@@ -96,14 +121,18 @@ fn along(
     runner: &Runner<'_>,
     study: &StudySpec,
     spec: &LandscapeSpec,
-    mode: [f64; 3],
-) -> Result<Landscape, LandscapeError> {
+    mode: &Located<Mode>,
+) -> Result<Along, RunError> {
     let built = runner.built;
-    let mut patch =
-        HeldSheet::patch(&built.sheet, &built.tiling, &built.recipe, &drawn_angles(&built.drawn, &built.tiling))?;
-    let rates = patch.named(mode)?;
+    let mut held = held(built).map_err(|error| runner.file.error_at(mode.span(), error.to_string(), MODES))?;
+    let rates = rates(runner.file, built, &held, mode)?;
+    let curvature = match &**mode {
+        Mode::Curvature(curvature) => Some(*curvature),
+        _ => held.curvature(&rates),
+    };
     let mut watch = studies::watcher(runner, study, Options::default().tolerance);
-    landscape(&mut patch, rates, &amplitudes(spec), &mut watch)
+    let landscape = landscape(&mut held, rates, &amplitudes(spec), &mut watch);
+    Ok(Along { mode: (**mode).clone(), curvature, landscape })
 }
 
 fn amplitudes(spec: &LandscapeSpec) -> Vec<f64> {
@@ -112,9 +141,63 @@ fn amplitudes(spec: &LandscapeSpec) -> Vec<f64> {
     amplitudes
 }
 
-/// A row for each sample: the mode, the amplitude, the energies, and the rest angles less those drawn.
-fn table(built: &Built, found: &[([f64; 3], Landscape)]) -> Table {
+impl Along {
+    fn samples(&self) -> &[Sample] {
+        self.landscape.as_ref().map_or(&[], |landscape| &landscape.samples)
+    }
+
+    /// Why samples are missing.
+    fn failure(&self) -> Option<String> {
+        let why = match &self.landscape {
+            Ok(landscape) => landscape.failure.as_ref()?.to_string(),
+            Err(error) => error.to_string(),
+        };
+        Some(format!("mode {}: {why}", self.name()))
+    }
+
+    fn name(&self) -> String {
+        match (&self.mode, self.curvature) {
+            (Mode::Wave(wave), _) => format!("{{ wave = {:?} }}", *wave.wave),
+            (Mode::Rates(name), _) => format!("{{ rates = {:?} }}", *name.rates),
+            (Mode::Curvature(curvature), _) => format!("{curvature:?}"),
+        }
+    }
+
+    fn residual(&self) -> f64 {
+        let of = |sample: &Sample| sample.relaxed.residual_force.max(sample.relaxed.residual_length);
+        self.samples().iter().map(of).fold(0.0, f64::max)
+    }
+
+    fn summarized(&self, amplitudes: &[f64]) -> ModeLandscape {
+        let energies: Vec<(f64, f64)> =
+            self.samples().iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect();
+        let sample = |(k, amplitude): (usize, &f64)| SampleSummary {
+            amplitude: *amplitude,
+            energy: energies.get(k).map(|(_, energy)| *energy),
+            converged: k < energies.len(),
+        };
+        let (exponent, coefficient) = (fit::exponent(&energies), fit::coefficient(&energies));
+        let predicted = self.landscape.as_ref().ok().map(|landscape| landscape.predicted);
+        ModeLandscape {
+            mode: self.curvature,
+            wave: if let Mode::Wave(wave) = &self.mode { Some(*wave.wave) } else { None },
+            samples: amplitudes.iter().enumerate().map(sample).collect(),
+            exponent: exponent.map(|estimate| estimate.value),
+            exponent_error: exponent.map(|estimate| estimate.error),
+            coefficient: coefficient.map(|estimate| estimate.value),
+            coefficient_error: coefficient.map(|estimate| estimate.error),
+            predicted_coefficient: predicted.map(|expansion| expansion.fourth),
+            predicted_fifth: predicted.map(|expansion| expansion.fifth),
+            predicted_sixth: predicted.map(|expansion| expansion.sixth),
+            defect: self.curvature.map(|[k11, k22, k12]| k11 * k22 - k12 * k12),
+        }
+    }
+}
+
+/// A row for each sample: the mode, the amplitude, the energies, and on patches the rest angles less those drawn.
+fn table(built: &Built, found: &[Along]) -> Table {
     let names = [
+        "mode",
         "k11",
         "k22",
         "k12",
@@ -129,42 +212,22 @@ fn table(built: &Built, found: &[([f64; 3], Landscape)]) -> Table {
         "rounds",
     ];
     let rest = |key: &EdgeKey| format!("rest_{}_{}_{}_{}", key.i, key.j, key.shift[0], key.shift[1]);
-    let edges = built.sheet.edges.iter().map(|edge| rest(&edge.key));
-    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).chain(edges).collect());
-    for (mode, landscape) in found {
-        for sample in &landscape.samples {
+    let uniform = if built.tiling.periodic { &[] } else { built.sheet.edges.as_slice() };
+    let rests = uniform.iter().map(|edge| rest(&edge.key));
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).chain(rests).collect());
+    for (number, along) in found.iter().enumerate() {
+        for sample in along.samples() {
             let (relaxed, state) = (&sample.relaxed, &sample.relaxed.state);
             let facets = built.recipe.facets.as_ref().map(|_| state.energy_facets);
-            let mut row: Vec<Value> = mode.iter().map(|k| Value::Number(*k)).collect();
+            let mut row = vec![Value::Whole(number as i64)];
+            row.extend((0..3).map(|k| Value::from(along.curvature.map(|curvature| curvature[k]))));
             row.extend([sample.amplitude, state.energy_bars, state.energy_creases].map(Value::Number));
             row.push(Value::from(facets));
             row.extend([state.total(), relaxed.residual_force, relaxed.residual_length].map(Value::Number));
             row.extend([sample.iterations, sample.rounds].map(|count| Value::Whole(count as i64)));
-            row.extend(sample.rest.iter().map(|angle| Value::Number(*angle)));
+            row.extend(uniform.iter().zip(&sample.rest).map(|(_, angle)| Value::Number(*angle)));
             table.push(row);
         }
     }
     table
-}
-
-fn summarized(mode: [f64; 3], spec: &LandscapeSpec, found: &Landscape) -> ModeLandscape {
-    let energies: Vec<(f64, f64)> =
-        found.samples.iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect();
-    let sample = |(k, amplitude): (usize, f64)| SampleSummary {
-        amplitude,
-        energy: energies.get(k).map(|(_, energy)| *energy),
-        converged: k < energies.len(),
-    };
-    let (exponent, coefficient) = (fit::exponent(&energies), fit::coefficient(&energies));
-    let [k11, k22, k12] = mode;
-    ModeLandscape {
-        mode,
-        samples: amplitudes(spec).into_iter().enumerate().map(sample).collect(),
-        exponent: exponent.map(|estimate| estimate.value),
-        exponent_error: exponent.map(|estimate| estimate.error),
-        coefficient: coefficient.map(|estimate| estimate.value),
-        coefficient_error: coefficient.map(|estimate| estimate.error),
-        predicted_coefficient: found.predicted,
-        defect: k11 * k22 - k12 * k12,
-    }
 }

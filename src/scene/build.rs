@@ -2,7 +2,7 @@
 
 use super::angles::{AngleRow, read_angles, read_rates};
 use super::error::TableFault;
-use super::forms::{Mode, ModeRest, Rest};
+use super::forms::{Mode, ModeRest, RatesFile, Rest};
 use super::spec::{Domain, Lattice};
 use super::values::{CellIndex, EdgeName};
 use super::{Located, SceneError, SceneFile};
@@ -44,11 +44,16 @@ pub fn build(file: &SceneFile) -> Result<Built, SceneError> {
     size(file, &sheet, cells)?;
     let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
     let drawn = Drawn::new(&sheet, &tiling, surroundings);
-    let builder =
-        Builder { file, sheet: &sheet, tiling: &tiling, names: names(&sheet), angles: drawn_angles(&drawn, &tiling) };
+    let builder = Builder::new(file, &sheet, &tiling, drawn_angles(&drawn, &tiling));
     let recipe = builder.recipe()?;
     let drawn = drawn_for(&sheet, &tiling, surroundings, &recipe);
     Ok(Built { surroundings, drawn, recipe, shown: spec.cells(), tiling, sheet })
+}
+
+/// Rates of a mode from its table, for every edge of the tiling; NaN where the table has none.
+pub fn rates(file: &SceneFile, built: &Built, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
+    let angles = drawn_angles(&built.drawn, &built.tiling);
+    Builder::new(file, &built.sheet, &built.tiling, angles).rates(name)
 }
 
 /// The sheet of a scene, from its mesh or its generator.
@@ -107,7 +112,11 @@ struct Builder<'a> {
     angles: Vec<f64>,
 }
 
-impl Builder<'_> {
+impl<'a> Builder<'a> {
+    fn new(file: &'a SceneFile, sheet: &'a Sheet, tiling: &'a Tiling, angles: Vec<f64>) -> Self {
+        Self { file, sheet, tiling, names: names(sheet), angles }
+    }
+
     fn recipe(&self) -> Result<Recipe, SceneError> {
         let energy = &self.file.scene.energy;
         let creases = match &energy.creases {
@@ -159,9 +168,10 @@ impl Builder<'_> {
 
     fn along_mode(&self, rest: &ModeRest) -> Result<Vec<f64>, SceneError> {
         let rates = match &*rest.mode {
-            Mode::Rates(name) => {
-                let path = self.file.resolve(&name.rates);
-                self.table(&path, &read_rates(&path)?, EdgeKind::Crease, name.rates.span())?
+            Mode::Rates(name) => self.rates(name)?,
+            Mode::Wave(_) => {
+                let help = "name the mode by its curvatures, [k11, k22, k12], or by its rates";
+                return Err(self.file.error_at(rest.mode.span(), "rest angles do not go along waves", help));
             }
             Mode::Curvature(curvature) => {
                 let modes = folding_modes_with_locked(self.sheet, &self.rigid_facets());
@@ -173,6 +183,11 @@ impl Builder<'_> {
         };
         let amplitude = rest.amplitude.0;
         Ok(self.angles.iter().zip(&rates).map(|(angle, rate)| angle + amplitude * rate).collect())
+    }
+
+    fn rates(&self, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
+        let path = self.file.resolve(&name.rates);
+        self.table(&path, &read_rates(&path)?, EdgeKind::Crease, name.rates.span())
     }
 
     /// Values of a table on the edges of the tiling: every hinge of this kind must have one.

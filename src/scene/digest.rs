@@ -36,7 +36,7 @@ fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     let scene = &file.scene;
     let rates = |mode: &Mode| match mode {
         Mode::Rates(name) => Some(name.rates.to_path_buf()),
-        Mode::Curvature(_) => None,
+        Mode::Curvature(_) | Mode::Wave(_) => None,
     };
     let mut found: Vec<PathBuf> = scene.sheet.mesh.iter().map(|mesh| mesh.to_path_buf()).collect();
     match scene.energy.creases.as_ref().and_then(|creases| creases.rest.as_deref()) {

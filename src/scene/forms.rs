@@ -52,6 +52,8 @@ pub enum Mode {
     Curvature([f64; 3]),
     /// A table of fold-angle rates, a row per edge.
     Rates(RatesFile),
+    /// A wave on a torus.
+    Wave(Wave),
 }
 
 /// `{ rates = "file.csv" }`.
@@ -60,6 +62,22 @@ pub enum Mode {
 pub struct RatesFile {
     /// Path relative to the scene file; see [`crate::scene::angles`].
     pub rates: Located<PathBuf>,
+}
+
+/// `{ wave = [m1, m2] }`: goes as `cos(2 pi (m1 c1 / n1 + m2 c2 / n2))` over the cells `(c1, c2)` of a torus of `n1 x n2`.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wave {
+    /// How often it goes round along each direction.
+    pub wave: Located<[i32; 2]>,
+}
+
+/// The two tables of [`Mode`] in one, to see which of them was meant.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ModeTable {
+    rates: Option<Located<PathBuf>>,
+    wave: Option<Located<[i32; 2]>>,
 }
 
 /// The state from which a relaxation starts.
@@ -160,7 +178,7 @@ impl<'de> Deserialize<'de> for Mode {
             type Value = Mode;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a curvature tensor [k11, k22, k12] or { rates = \"file.csv\" }")
+                f.write_str("a curvature tensor [k11, k22, k12], { rates = \"file.csv\" } or { wave = [m1, m2] }")
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Mode, A::Error> {
@@ -173,7 +191,13 @@ impl<'de> Deserialize<'de> for Mode {
             }
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Mode, A::Error> {
-                RatesFile::deserialize(MapAccessDeserializer::new(map)).map(Mode::Rates)
+                let table = ModeTable::deserialize(MapAccessDeserializer::new(map))?;
+                match (table.rates, table.wave) {
+                    (Some(rates), None) => Ok(Mode::Rates(RatesFile { rates })),
+                    (None, Some(wave)) => Ok(Mode::Wave(Wave { wave })),
+                    (None, None) => Err(A::Error::custom("the table is empty, expected { rates } or { wave }")),
+                    _ => Err(A::Error::custom("a mode has rates and a wave at once, expected one of the two")),
+                }
             }
         }
         deserializer.deserialize_any(Form)
@@ -251,7 +275,11 @@ schema_any_of!(Rest, generator, [
     generator.subschema_for::<ModeRest>(),
     generator.subschema_for::<FileName>(),
 ]);
-schema_any_of!(Mode, generator, [generator.subschema_for::<[f64; 3]>(), generator.subschema_for::<RatesFile>()]);
+schema_any_of!(
+    Mode,
+    generator,
+    [generator.subschema_for::<[f64; 3]>(), generator.subschema_for::<RatesFile>(), generator.subschema_for::<Wave>(),]
+);
 schema_any_of!(Start, generator, [
     { "type": "string", "description": "\"drawn\", the name of an earlier study, or a .vtu file" },
     generator.subschema_for::<RandomStart>(),

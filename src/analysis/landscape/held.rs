@@ -4,9 +4,12 @@ use super::LandscapeError;
 use crate::kinematics::FoldingModes;
 use crate::model::Model;
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::null_space;
+use crate::numerics::dense::{least_squares, null_space};
 use crate::solver::Problem;
 use nalgebra::DVector;
+
+/// Largest difference between the rates that were asked for and those of a mode, over the largest rate.
+const OFF: f64 = 1e-6;
 
 /// A sheet and its modes.
 ///
@@ -57,6 +60,20 @@ impl HeldSheet {
     pub fn named(&self, curvature: [f64; 3]) -> Result<Vec<f64>, LandscapeError> {
         let modes = self.bending.as_ref().ok_or(LandscapeError::NoCurvatures)?;
         Ok(modes.named(curvature)?)
+    }
+
+    /// The mode that has these rates on the edges of the repeating piece; NaN: not known there.
+    ///
+    /// Fails where no mode comes near them.
+    pub fn with_rates(&self, rates: &[f64]) -> Result<Vec<f64>, LandscapeError> {
+        let known: Vec<usize> = (0..rates.len()).filter(|&edge| !rates[edge].is_nan()).collect();
+        let right = DenseMatrix::from_fn(known.len(), 1, |row, _| rates[known[row]]);
+        let fit = least_squares(&self.basis.select_rows(&known), &right)?;
+        let off = fit.residual.amax() / right.amax();
+        if fit.rank.rank < self.basis.ncols() || !(off <= OFF) {
+            return Err(LandscapeError::NoSuchMode { off });
+        }
+        Ok((&self.basis * fit.solution).as_slice().to_vec())
     }
 
     /// The curvature tensor `[k11, k22, k12]` of a mode with these rates; `None` on a torus.

@@ -43,6 +43,9 @@ pub enum LandscapeError {
     /// There is no determinant to tune.
     #[error(transparent)]
     Bloch(#[from] BlochError),
+    /// Waves go round tori.
+    #[error("a patch has no waves")]
+    NoWaves,
     /// No height of the vertex makes a zero mode.
     #[error("no height of vertex {vertex} within half a cell makes a zero mode at this wavenumber")]
     NotTunable {
@@ -57,6 +60,12 @@ pub enum LandscapeError {
     NoSuchWave {
         /// Waves round the torus, along both directions.
         wave: [i32; 2],
+    },
+    /// Rates that are no mode.
+    #[error("no mode has these rates: the nearest one is off by {off:.1e} of the largest")]
+    NoSuchMode {
+        /// Largest difference over the largest rate.
+        off: f64,
     },
     /// The modes of so large a torus are not computed.
     #[error("a torus of {unknowns} unknowns is too large: at most {most}")]

@@ -5,7 +5,7 @@
 //! predicts where the patch relaxes to next, so that two or three rounds are enough.
 
 use super::settling::Settling;
-use super::{HeldSheet, LandscapeError, Prediction};
+use super::{Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax};
 use crate::solver::{Curvature, Failure, Options, Problem, Step};
 use nalgebra::DVector;
@@ -155,8 +155,8 @@ pub struct Landscape {
     pub samples: Vec<Sample>,
     /// Why the next sample is missing.
     pub failure: Option<SampleError>,
-    /// The coefficient without any fit.
-    pub predicted: f64,
+    /// The coefficients without any fit.
+    pub predicted: Expansion,
 }
 
 /// Samples along a mode, by rising amplitude, as far as they go.
@@ -166,7 +166,7 @@ pub fn landscape(
     amplitudes: &[f64],
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Landscape, LandscapeError> {
-    let predicted = Prediction::new(patch)?.coefficient(&rates);
+    let predicted = Expansion::new(patch, &rates)?;
     let mut along = Samples::new(patch, rates, Options::default());
     let (mut samples, mut failure) = (Vec::new(), None);
     for &amplitude in amplitudes {
