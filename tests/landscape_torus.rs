@@ -105,12 +105,13 @@ fn tuned_again(n: usize, wave: [i32; 2], amplitude: f64) -> [f64; 4] {
     let (vertex, sheet) = nearest(&mesh("open-star"), wave, n).unwrap();
     let (case, held) = torus(&sheet, n, Surroundings::FreeTorus);
     let rates = held.wave(&case.tiling, wave).unwrap();
+    let (_, course) = Expansion::with_course(&held, &rates).unwrap();
     let recipe = case.recipe(BARS, 1.0, case.angles.clone());
     let energy = |height: f64| -> f64 {
         let mut moved = sheet.clone();
         moved.vertices[vertex].z += height;
         let mut other = held.for_sheet(&moved, &recipe, Surroundings::FreeTorus, [n, n]).unwrap();
-        let sample = Samples::new(&mut other, rates.clone(), Options::default()).at(amplitude, &mut |_| true).unwrap();
+        let sample = Samples::new(&mut other, course.clone(), Options::default()).at(amplitude, &mut |_| true).unwrap();
         sample.relaxed.state.total()
     };
     let untuned = energy(0.0);

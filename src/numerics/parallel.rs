@@ -10,6 +10,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Fewer elements than this are worked on by the calling thread (measured: `cargo bench --bench iteration -- threads`).
 pub const LEAST: usize = 2048;
 const WAVE: usize = 1024;
+/// So many pieces of long work one after the other share a state.
+const TOGETHER: usize = 8;
 
 static THREADS: AtomicUsize = AtomicUsize::new(0);
 static POOL: OnceLock<Option<rayon::ThreadPool>> = OnceLock::new();
@@ -46,6 +48,25 @@ pub fn ordered<T: Default + Send>(
         let work = wave.par_iter_mut().with_min_len(64).enumerate();
         pool.install(|| work.for_each(|(k, result)| compute(start + k, result)));
         wave.iter().enumerate().for_each(|(k, result)| consume(start + k, result));
+    }
+}
+
+/// `compute(state, k)` for `k` in `0..count`, in this order; every worker has a state of its own, made when it begins.
+///
+/// For work that takes long: also few are shared out. The result must not depend on what the state was used for before.
+pub fn each<S, T: Send>(
+    count: usize,
+    make: impl Fn() -> S + Sync + Send,
+    compute: impl Fn(&mut S, usize) -> T + Sync + Send,
+) -> Vec<T> {
+    match (count > 1).then(pool).flatten() {
+        None => {
+            let mut state = make();
+            (0..count).map(|k| compute(&mut state, k)).collect()
+        }
+        Some(pool) => {
+            pool.install(|| (0..count).into_par_iter().with_min_len(TOGETHER).map_init(make, compute).collect())
+        }
     }
 }
 

@@ -12,7 +12,7 @@
 
 use super::prediction::{curvature_forces, drawn};
 use super::settling::Both;
-use super::{HeldSheet, LandscapeError};
+use super::{Course, HeldSheet, LandscapeError};
 use crate::model::Model;
 
 /// Coefficients of the powers of the amplitude.
@@ -31,6 +31,11 @@ impl Expansion {
     ///
     /// Fails as [`LandscapeError`] says.
     pub fn new(held: &HeldSheet, rates: &[f64]) -> Result<Self, LandscapeError> {
+        Ok(Self::with_course(held, rates)?.0)
+    }
+
+    /// The same, and where the sheet goes.
+    pub fn with_course(held: &HeldSheet, rates: &[f64]) -> Result<(Self, Course), LandscapeError> {
         let model = &held.model;
         let mut settling = drawn(held)?;
         let (x0, x1) = (model.coordinates(&model.start()), held.motion(rates));
@@ -44,11 +49,13 @@ impl Expansion {
         let bent = model.unknowns(&curvature_forces(model, &x1, (&torques, &at_second.tension)));
         let against: Vec<f64> = bent.iter().map(|force| -force).collect();
         let at_third = settling.settle((&third.0, &third.1), Some(&against))?;
-        Ok(Self {
+        let expansion = Self {
             fourth: 0.5 * settling.product(&at_second, &at_second),
             fifth: work(&third),
             sixth: work(&fourth) + 0.5 * settling.product(&at_third, &at_third) + dot(&bent, &at_third.x),
-        })
+        };
+        let (rates, first) = (rates.to_vec(), model.unknowns(&x1));
+        Ok((expansion, Course { rates, first, second: at_second.x, rest: at_second.rest }))
     }
 }
 

@@ -31,6 +31,8 @@ pub struct HeldSheet {
     repeating: Vec<Option<usize>>,
     /// Rest values as drawn, in the same order.
     rests: Vec<f64>,
+    /// Angles as drawn, from which angles continue.
+    angles: Vec<f64>,
 }
 
 impl HeldSheet {
@@ -51,7 +53,8 @@ impl HeldSheet {
             .flat_map(|term| (0..term.len()).map(|k| floats(term.as_ref(), k)).collect::<Vec<_>>())
             .collect::<Vec<_>>();
         let free = across(&basis, locked)?;
-        Ok(Self { basis, motions, free, repeating, rests: model.rests(), bending: None, model })
+        let (rests, angles) = (model.rests(), model.angles());
+        Ok(Self { basis, motions, free, repeating, rests, angles, bending: None, model })
     }
 
     /// Rates of the rest angles of the mode that makes the curvature tensor `[k11, k22, k12]`.
@@ -105,6 +108,12 @@ impl HeldSheet {
             edge.iter().for_each(|&edge| all[edge] = stiffness);
         }
         all
+    }
+
+    /// The unknowns of the drawn state, made the one from which angles continue.
+    pub fn drawn(&mut self) -> Vec<f64> {
+        self.model.set_angles(&self.angles);
+        self.model.start()
     }
 
     /// An amount per edge of the repeating piece for every soft element and every stiff measure; zero where rest values do

@@ -6,7 +6,9 @@
 //! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone,
 //! `continuum` one cell.
 
+pub mod cone;
 pub mod continuum;
+mod course;
 pub mod expansion;
 pub mod fit;
 mod held;
@@ -14,9 +16,11 @@ mod patch;
 pub mod prediction;
 pub mod samples;
 mod settling;
+pub mod sphere;
 mod torus;
 pub mod tuning;
 
+pub use course::Course;
 pub use expansion::Expansion;
 pub use held::HeldSheet;
 pub use prediction::Prediction;

@@ -11,7 +11,7 @@
 //! `p2` give it for all modes at once.
 
 use super::settling::{Both, Settling};
-use super::{HeldSheet, LandscapeError};
+use super::{Course, HeldSheet, LandscapeError};
 use crate::model::{Elements, Model};
 use crate::numerics::DenseMatrix;
 use crate::solver::{Curvature, Problem};
@@ -24,6 +24,8 @@ pub struct Prediction {
     form: DenseMatrix,
     /// The modes' basis.
     basis: DenseMatrix,
+    /// What goes with each of the products: motion of the unknowns, and rest angles across the modes.
+    settled: Vec<(Vec<f64>, DVector<f64>)>,
 }
 
 impl Prediction {
@@ -40,7 +42,19 @@ impl Prediction {
         }
         let product = |i: usize, j: usize| 0.5 * settling.product(&responses[i], &responses[j]);
         let form = DenseMatrix::from_fn(responses.len(), responses.len(), product);
-        Ok(Self { form, basis: held.basis.clone() })
+        let settled = responses.into_iter().map(|response| (response.x, response.rest)).collect();
+        Ok(Self { form, basis: held.basis.clone(), settled })
+    }
+
+    /// Where the sheet goes along a mode.
+    pub fn course(&self, held: &HeldSheet, rates: &[f64]) -> Course {
+        let first = held.model.unknowns(&held.motion(rates));
+        let (mut second, mut rest) = (vec![0.0; first.len()], DVector::zeros(held.free.ncols()));
+        for (product, (x, y)) in self.products(rates).iter().zip(&self.settled) {
+            second.iter_mut().zip(x).for_each(|(sum, x)| *sum += product * x);
+            rest += y * *product;
+        }
+        Course { rates: rates.to_vec(), first, second, rest }
     }
 
     /// The coefficient of `amplitude^4` of the mode with these fold rates.

@@ -5,7 +5,7 @@
 //! predicts where the patch relaxes to next, so that two or three rounds are enough.
 
 use super::settling::Settling;
-use super::{Expansion, HeldSheet, LandscapeError};
+use super::{Course, Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax};
 use crate::solver::{Curvature, Failure, Options, Problem, Step};
 use nalgebra::DVector;
@@ -54,38 +54,35 @@ pub enum SampleError {
 
 /// Samples along one mode, each from the one before.
 pub struct Samples<'a> {
-    patch: &'a mut HeldSheet,
-    /// Fold rates of the mode.
-    rates: Vec<f64>,
+    held: &'a mut HeldSheet,
+    course: Course,
     /// Amplitude, unknowns and rest angles across the modes of the last sample.
     last: (f64, Vec<f64>, DVector<f64>),
     options: Options,
 }
 
 impl<'a> Samples<'a> {
-    /// Along the mode with these fold rates, from the drawn state.
-    pub fn new(patch: &'a mut HeldSheet, rates: Vec<f64>, options: Options) -> Self {
-        let start = patch.drawn();
-        let last = (0.0, start, DVector::zeros(patch.free.ncols()));
-        Self { patch, rates, last, options }
+    /// Along this course, from the drawn state.
+    pub fn new(held: &'a mut HeldSheet, course: Course, options: Options) -> Self {
+        let start = held.drawn();
+        let last = (0.0, start, DVector::zeros(held.free.ncols()));
+        Self { held, course, last, options }
     }
 
     /// The sample at an amplitude, from the last one.
     pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
         let (before, x, y) = &self.last;
-        let part = if *before == 0.0 { 0.0 } else { amplitude / before };
-        let mut y = y * (part * part);
-        let along = self.patch.model.unknowns(&self.patch.motion(&self.rates));
-        let mut x: Vec<f64> = x.iter().zip(&along).map(|(x, v)| x + (amplitude - before) * v).collect();
+        let mut y = y + self.course.settling(*before, amplitude);
+        let mut x: Vec<f64> = x.iter().zip(self.course.motion(*before, amplitude)).map(|(x, d)| x + d).collect();
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         for rounds in 0..ROUNDS {
-            let rest = DVector::from_column_slice(&self.rates) * amplitude + &self.patch.free * &y;
-            self.patch.set_rest(rest.as_slice());
-            let edges = self.patch.model.layout().soft.len() + self.patch.model.layout().stiff.len();
-            let relaxed = relax(&mut self.patch.model, x, self.options, edges, observe)
+            let rest = DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * &y;
+            self.held.set_rest(rest.as_slice());
+            let edges = self.held.model.layout().soft.len() + self.held.model.layout().stiff.len();
+            let relaxed = relax(&mut self.held.model, x, self.options, edges, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
-            let balance = Balance::new(self.patch, &relaxed)?;
+            let balance = Balance::new(self.held, &relaxed)?;
             torque = balance.unbalanced();
             if torque <= BALANCED {
                 self.last = (amplitude, relaxed.x.clone(), y);
@@ -96,15 +93,6 @@ impl<'a> Samples<'a> {
             y += step;
         }
         Err(SampleError::Restless { torque })
-    }
-}
-
-impl HeldSheet {
-    /// The unknowns of the drawn state, made the one from which angles continue.
-    fn drawn(&mut self) -> Vec<f64> {
-        let mut x = self.model.start();
-        self.model.accept(&mut x);
-        x
     }
 }
 
@@ -161,13 +149,13 @@ pub struct Landscape {
 
 /// Samples along a mode, by rising amplitude, as far as they go.
 pub fn landscape(
-    patch: &mut HeldSheet,
+    held: &mut HeldSheet,
     rates: Vec<f64>,
     amplitudes: &[f64],
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Landscape, LandscapeError> {
-    let predicted = Expansion::new(patch, &rates)?;
-    let mut along = Samples::new(patch, rates, Options::default());
+    let (predicted, course) = Expansion::with_course(held, &rates)?;
+    let mut along = Samples::new(held, course, Options::default());
     let (mut samples, mut failure) = (Vec::new(), None);
     for &amplitude in amplitudes {
         match along.at(amplitude, observe) {

@@ -25,6 +25,8 @@ pub struct Response {
     pub off: Vec<f64>,
     /// Tensions of the stiff measures.
     pub tension: Vec<f64>,
+    /// Rest angles across the modes.
+    pub rest: DVector<f64>,
 }
 
 /// A held sheet linearized at a state, factored once.
@@ -86,14 +88,15 @@ impl<'a> Settling<'a> {
         let mut turned = vec![0.0; off.len()];
         rows.product(&found.dx, &mut turned);
         let off = off.iter().zip(turned).map(|(off, turned)| off + turned).collect();
-        Ok(Response { x: found.dx, off, tension: found.dt })
+        Ok(Response { x: found.dx, off, tension: found.dt, rest: DVector::zeros(self.directions.len()) })
     }
 
     /// The same with the rest angles across the modes settling too.
     pub fn settle(&mut self, off: (&[f64], &[f64]), force: Option<&[f64]>) -> Result<Response, LandscapeError> {
         let mut response = self.respond(off, force)?;
         let torques = DVector::from_fn(self.free.len(), |j, _| self.torque(&response, j));
-        for (part, free) in self.absorb(&torques)?.iter().zip(&self.free) {
+        response.rest = self.absorb(&torques)?;
+        for (part, free) in response.rest.iter().zip(&self.free) {
             let add = |to: &mut Vec<f64>, from: &[f64]| to.iter_mut().zip(from).for_each(|(to, v)| *to += part * v);
             add(&mut response.x, &free.x);
             add(&mut response.off, &free.off);
