@@ -11,7 +11,6 @@ use foldwell::analysis::landscape::{Expansion, HeldSheet};
 use foldwell::model::assemble::Surroundings;
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Pattern, Sheet, generate};
-use foldwell::solver::Options;
 use std::f64::consts::TAU;
 
 /// Stiffness of the bars.
@@ -111,7 +110,7 @@ fn tuned_again(n: usize, wave: [i32; 2], amplitude: f64) -> [f64; 4] {
         let mut moved = sheet.clone();
         moved.vertices[vertex].z += height;
         let mut other = held.for_sheet(&moved, &recipe, Surroundings::FreeTorus, [n, n]).unwrap();
-        let sample = Samples::new(&mut other, course.clone(), Options::default()).at(amplitude, &mut |_| true).unwrap();
+        let sample = Samples::new(&mut other, course.clone()).at(amplitude, &mut |_| true).unwrap();
         sample.relaxed.state.total()
     };
     let untuned = energy(0.0);

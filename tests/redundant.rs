@@ -106,7 +106,7 @@ fn a_random_developable_patch_on_a_branch() {
         let stiff = {
             let mut model = case.model(&case.recipe(1e5, 1.0, rest.clone()), Gauge::Held);
             let mut numbers = Numbers::new(seed);
-            let start = model.start().iter().map(|x| x + numbers.within(0.1)).collect();
+            let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.1)).collect();
             relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap()
         };
         assert_eq!(stiff.negative_eigenvalues, 0);

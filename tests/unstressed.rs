@@ -31,7 +31,7 @@ fn come_back(domains: &[(Surroundings, [usize; 2])]) {
             for seed in 1..6 {
                 let mut model = case.model(&case.recipe(k, 1.0, case.angles.clone()), Gauge::Held);
                 let mut numbers = Numbers::new(seed);
-                let start = model.start().iter().map(|x| x + numbers.within(0.003)).collect();
+                let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.003)).collect();
                 match relax(&mut model, start, Options::default(), case.edges(), &mut |_| true) {
                     Ok(found) => {
                         let off = common::distance(&found.state.fold_angle, &case.angles);

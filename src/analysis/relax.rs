@@ -2,7 +2,7 @@
 
 use super::state::State;
 use crate::model::Model;
-use crate::solver::{Equilibrium, Failure, NewtonError, Options, Step, minimize, tension};
+use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step, minimize, tension};
 use thiserror::Error;
 
 /// Smallest step of the continuation that is tried before giving up.
@@ -51,17 +51,18 @@ pub struct RelaxError {
     pub history: Vec<Step>,
 }
 
-/// Relaxes from the unknowns `start`. `observe` sees every accepted step and returns false to stop.
+/// Relaxes from a start. `observe` sees every accepted step and returns false to stop.
 ///
 /// Where the direct way fails, all rest angles and locked angles are moved from their values at the start to their
 /// targets in steps that adapt.
 pub fn relax(
     model: &mut Model,
-    start: Vec<f64>,
+    start: impl Into<Start>,
     options: Options,
     edges: usize,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
+    let start = start.into();
     let origin = model.angles();
     let mut history = Vec::new();
     let found = match minimize(model, start.clone(), options, observe) {
@@ -69,7 +70,7 @@ pub fn relax(
         Err(error) => {
             model.set_angles(&origin);
             history.extend(error.history);
-            follow(model, start, options, observe, &mut history)
+            follow(model, start.x, options, observe, &mut history)
         }
         found => found,
     };

@@ -11,6 +11,9 @@ use crate::solver::{Curvature, Layout, Linearization, Problem};
 /// closer to rest than that, residuals are relative to the force of a milliradian instead of to round-off.
 const LEAST_ANGLE: f64 = 1e-3;
 
+/// Rigid motions that the held coordinates cannot tell apart, against the largest one.
+const DEPENDENT: f64 = 1e-9;
+
 /// Bars and hinges of a sheet, with what is held and what pulls.
 pub struct Model {
     domain: Domain,
@@ -93,6 +96,18 @@ impl Model {
         let mut all = vec![0.0; self.base.len()];
         self.free.iter().zip(rates).for_each(|(&k, rate)| all[k as usize] = *rate);
         all
+    }
+
+    /// Velocities of all coordinates less the rigid motion of the drawn state that comes nearest to them on the held coordinates:
+    /// where these are held only against drift, they stand still.
+    pub fn without_drift(&self, velocity: &[f64]) -> Vec<f64> {
+        let motions = gauge::rigid_motions(&self.domain, &self.base, true);
+        let held: Vec<usize> = (0..velocity.len()).zip(self.held()).filter(|(_, held)| *held).map(|(k, _)| k).collect();
+        let rows = nalgebra::DMatrix::from_fn(held.len(), 6, |row, motion| motions[held[row]][motion]);
+        let right = nalgebra::DVector::from_fn(held.len(), |row, _| velocity[held[row]]);
+        let drift = rows.svd(true, true).solve(&right, DEPENDENT).unwrap_or_else(|_| nalgebra::DVector::zeros(6));
+        let moved = motions.iter().map(|motion| motion.iter().zip(drift.iter()).map(|(m, d)| m * d).sum::<f64>());
+        velocity.iter().zip(moved).map(|(v, drift)| v - drift).collect()
     }
 
     /// Puts another state in the place of the drawn one: the gauge holds it where it is (also the height of a screw's

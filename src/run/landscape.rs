@@ -2,7 +2,7 @@
 
 use super::runner::Runner;
 use super::{RunError, studies};
-use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
+use crate::analysis::landscape::samples::{Landscape, OPTIONS, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::assemble::{Surroundings, drawn_angles};
 use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult, StudySummary};
@@ -12,7 +12,6 @@ use crate::scene::forms::Mode;
 use crate::scene::spec::{LandscapeSpec, StudySpec};
 use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKey;
-use crate::solver::Options;
 use std::time::Instant;
 
 /// Landscapes are those of patches and tori of periodic sheets, with bars and creases and nothing that holds or pulls.
@@ -130,7 +129,7 @@ fn along(
         Mode::Curvature(curvature) => Some(*curvature),
         _ => held.curvature(&rates),
     };
-    let mut watch = studies::watcher(runner, study, Options::default().tolerance);
+    let mut watch = studies::watcher(runner, study, OPTIONS.tolerance);
     let landscape = landscape(&mut held, rates, &amplitudes(spec), &mut watch);
     Ok(Along { mode: (**mode).clone(), curvature, landscape })
 }

@@ -9,5 +9,5 @@ pub mod saddle;
 pub mod tension;
 
 pub use implicit::Implicit;
-pub use newton::{Equilibrium, Failure, NewtonError, Options, Step, minimize};
+pub use newton::{Equilibrium, Failure, NewtonError, Options, Start, Step, minimize};
 pub use problem::{Curvature, Layout, Linearization, Problem};

@@ -155,6 +155,21 @@ pub struct NewtonError {
     pub history: Vec<Step>,
 }
 
+/// Where to begin.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// Unknowns.
+    pub x: Vec<f64>,
+    /// Tensions of the stiff measures near a solution, if they are known: the first steps then use the full Hessian.
+    pub tension: Option<Vec<f64>>,
+}
+
+impl From<Vec<f64>> for Start {
+    fn from(x: Vec<f64>) -> Self {
+        Self { x, tension: None }
+    }
+}
+
 /// The iteration's state and its workspaces.
 struct Newton<'a, P: Problem> {
     problem: &'a mut P,
@@ -180,31 +195,31 @@ struct Trial {
     merit: f64,
 }
 
-/// Minimises from `x`. `observe` sees every accepted step and returns false to stop.
+/// Minimises from a start. `observe` sees every accepted step and returns false to stop.
 pub fn minimize<P: Problem>(
     problem: &mut P,
-    x: Vec<f64>,
+    start: impl Into<Start>,
     options: Options,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Equilibrium, NewtonError> {
+    let Start { x, tension } = start.into();
+    let curvature = if tension.is_some() { Curvature::Full } else { Curvature::GaussNewton };
+    let tension = tension.unwrap_or_else(|| vec![0.0; problem.layout().stiff.len()]);
     let at = Linearization::new(problem.layout());
-    let rows = problem.layout().stiff.len();
     let saddle = match Saddle::new(problem.layout(), &at) {
         Ok(saddle) => saddle,
-        Err(error) => {
-            return Err(NewtonError { failure: error.into(), x, tension: vec![0.0; rows], history: vec![] });
-        }
+        Err(error) => return Err(NewtonError { failure: error.into(), x, tension, history: vec![] }),
     };
     let mut newton = Newton {
         problem,
         at,
         saddle,
         x,
-        tension: vec![0.0; rows],
+        tension,
         shift: 0.0,
         hold: 0,
         patience: 1,
-        curvature: Curvature::GaussNewton,
+        curvature,
         certified: false,
         history: vec![],
     };
@@ -267,7 +282,7 @@ impl<P: Problem> Newton<'_, P> {
             if gap <= FEASIBLE {
                 return Ok(());
             }
-            self.saddle.factor_shortest(self.problem.layout(), &self.at, self.problem.compliance())?;
+            self.factor_start()?;
             if let Ok(trial) = self.retract(self.x.clone(), self.tension.clone(), FEASIBLE, START_CHORDS) {
                 (self.x, self.tension) = (trial.x, trial.tension);
                 self.problem.accept(&mut self.x);
@@ -276,6 +291,16 @@ impl<P: Problem> Newton<'_, P> {
             gap = self.approach(gap).ok_or(Failure::Infeasible { gap })?;
         }
         Err(Failure::Infeasible { gap })
+    }
+
+    /// Factors for the retraction of a start: near a solution, where tensions are known, it should cost the least energy; elsewhere
+    /// it should be the shortest.
+    fn factor_start(&mut self) -> Result<(), Failure> {
+        if self.curvature == Curvature::Full {
+            return self.factor(0.0);
+        }
+        self.saddle.factor_shortest(self.problem.layout(), &self.at, self.problem.compliance())?;
+        Ok(())
     }
 
     /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller; that gap.

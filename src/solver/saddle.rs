@@ -31,6 +31,8 @@ const SLOWEST: f64 = 0.7;
 /// Stretches are measured against this many lengths of the step, besides their right-hand side, which may be nothing but
 /// rounding error.
 const STRETCH: f64 = 1e2;
+/// Forces below this part of what tensions pull with may be nothing but rounding error.
+const BALANCED: f64 = 1e-9;
 /// Eigenvalues this much smaller than the largest entry of `S` count as zero.
 const NEUTRAL: f64 = 1e-14;
 
@@ -159,10 +161,11 @@ impl Saddle {
         let mut last = f64::INFINITY;
         loop {
             let (ra, rb) = self.residual(layout, at, compliance, (a, b), (&dx, &dt));
-            let pull = if norm(a) > 0.0 { norm(a) } else { Self::pull(layout, at, &dt) };
-            let residual = f64::max(over(norm(&ra), pull), over(norm(&rb), norm(b) + STRETCH * norm(&dx)));
+            let of_stretch = over(norm(&rb), norm(b) + STRETCH * norm(&dx));
+            let residual = f64::max(over(norm(&ra), norm(a)), of_stretch);
             if residual <= tolerance || !(residual < SLOWEST * last) {
-                return Solved { dx, dt, residual };
+                let unit = f64::max(norm(a), BALANCED * Self::pull(layout, at, &dt));
+                return Solved { dx, dt, residual: f64::max(over(norm(&ra), unit), of_stretch) };
             }
             last = residual;
             let (ddx, ddt) = self.apply(layout, at, &ra, &rb);
@@ -171,7 +174,7 @@ impl Saddle {
         }
     }
 
-    /// What tensions pull with: the unit of forces where no other force acts.
+    /// What tensions pull with, before they balance.
     fn pull(layout: &Layout, at: &Linearization, tension: &[f64]) -> f64 {
         let sizes: Vec<f64> = tension.iter().map(|t| t.abs()).collect();
         let mut pull = vec![0.0; layout.unknowns];

@@ -1,4 +1,6 @@
 //! Where a sheet goes along a mode, to second order: the start of a relaxation.
+//!
+//! Tensions are of second order too: to first order a mode stretches nothing.
 
 use nalgebra::DVector;
 
@@ -11,6 +13,8 @@ pub struct Course {
     pub first: Vec<f64>,
     /// Half their acceleration.
     pub second: Vec<f64>,
+    /// Half the second derivative of the tensions of the stiff measures.
+    pub tension: Vec<f64>,
     /// Half the acceleration of the rest angles, by direction across the modes.
     pub rest: DVector<f64>,
 }
@@ -20,6 +24,12 @@ impl Course {
     pub fn motion(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
         let (first, second) = (to - from, to * to - from * from);
         self.first.iter().zip(&self.second).map(move |(v, w)| first * v + second * w)
+    }
+
+    /// Change of the tensions.
+    pub fn pull(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
+        let second = to * to - from * from;
+        self.tension.iter().map(move |t| second * t)
     }
 
     /// Change of the rest angles across the modes.

@@ -55,7 +55,7 @@ impl Expansion {
             sixth: work(&fourth) + 0.5 * settling.product(&at_third, &at_third) + dot(&bent, &at_third.x),
         };
         let (rates, first) = (rates.to_vec(), model.unknowns(&x1));
-        Ok((expansion, Course { rates, first, second: at_second.x, rest: at_second.rest }))
+        Ok((expansion, Course { rates, first, second: at_second.x, tension: at_second.tension, rest: at_second.rest }))
     }
 }
 

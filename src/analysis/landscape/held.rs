@@ -53,6 +53,7 @@ impl HeldSheet {
             .flat_map(|term| (0..term.len()).map(|k| floats(term.as_ref(), k)).collect::<Vec<_>>())
             .collect::<Vec<_>>();
         let free = across(&basis, locked)?;
+        let motions = motions.iter().map(|motion| model.without_drift(motion)).collect();
         let (rests, angles) = (model.rests(), model.angles());
         Ok(Self { basis, motions, free, repeating, rests, angles, bending: None, model })
     }

@@ -4,10 +4,10 @@
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
 //! predicts where the patch relaxes to next, so that two or three rounds are enough.
 
-use super::settling::Settling;
+use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax};
-use crate::solver::{Curvature, Failure, Options, Problem, Step};
+use crate::solver::{Curvature, Failure, Options, Problem, Start, Step};
 use nalgebra::DVector;
 use thiserror::Error;
 
@@ -17,6 +17,8 @@ const ROUNDS: usize = 30;
 /// at which it is zero; hinges off by less than the least angle count as off by that.
 const BALANCED: f64 = 1e-10;
 const LEAST_ANGLE: f64 = 1e-4;
+/// Tolerance of the relaxations: above the rounding error of forces that are much smaller than the tensions.
+pub const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 200 };
 /// Longest change of a rest angle in a round, in radians.
 const LONGEST: f64 = 0.3;
 
@@ -52,44 +54,57 @@ pub enum SampleError {
     },
 }
 
+/// The last sample.
+struct Last {
+    amplitude: f64,
+    x: Vec<f64>,
+    tension: Vec<f64>,
+    /// Rest angles across the modes.
+    rest: DVector<f64>,
+}
+
 /// Samples along one mode, each from the one before.
 pub struct Samples<'a> {
     held: &'a mut HeldSheet,
     course: Course,
-    /// Amplitude, unknowns and rest angles across the modes of the last sample.
-    last: (f64, Vec<f64>, DVector<f64>),
-    options: Options,
+    last: Last,
 }
 
 impl<'a> Samples<'a> {
     /// Along this course, from the drawn state.
-    pub fn new(held: &'a mut HeldSheet, course: Course, options: Options) -> Self {
-        let start = held.drawn();
-        let last = (0.0, start, DVector::zeros(held.free.ncols()));
-        Self { held, course, last, options }
+    pub fn new(held: &'a mut HeldSheet, course: Course) -> Self {
+        let (x, tension) = (held.drawn(), vec![0.0; held.model.compliance().len()]);
+        let last = Last { amplitude: 0.0, x, tension, rest: DVector::zeros(held.free.ncols()) };
+        Self { held, course, last }
     }
 
     /// The sample at an amplitude, from the last one.
     pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
-        let (before, x, y) = &self.last;
-        let mut y = y + self.course.settling(*before, amplitude);
-        let mut x: Vec<f64> = x.iter().zip(self.course.motion(*before, amplitude)).map(|(x, d)| x + d).collect();
+        let (last, course) = (&self.last, &self.course);
+        let sum = |values: &[f64], change: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
+            values.iter().zip(change).map(|(value, change)| value + change).collect()
+        };
+        let mut x = sum(&last.x, &mut course.motion(last.amplitude, amplitude));
+        let mut tension = sum(&last.tension, &mut course.pull(last.amplitude, amplitude));
+        let mut y = &last.rest + course.settling(last.amplitude, amplitude);
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         for rounds in 0..ROUNDS {
             let rest = DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * &y;
             self.held.set_rest(rest.as_slice());
             let edges = self.held.model.layout().soft.len() + self.held.model.layout().stiff.len();
-            let relaxed = relax(&mut self.held.model, x, self.options, edges, observe)
+            let start = Start { x, tension: Some(tension) };
+            let relaxed = relax(&mut self.held.model, start, OPTIONS, edges, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
             let balance = Balance::new(self.held, &relaxed)?;
             torque = balance.unbalanced();
             if torque <= BALANCED {
-                self.last = (amplitude, relaxed.x.clone(), y);
+                self.last = Last { amplitude, x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: y };
                 return Ok(Sample { amplitude, relaxed, rest: rest.as_slice().to_vec(), iterations, rounds });
             }
-            let (step, motion) = balance.step()?;
-            x = relaxed.x.iter().zip(motion).map(|(x, d)| x + d).collect();
+            let (step, (motion, pull)) = balance.step()?;
+            x = sum(&relaxed.x, &mut motion.into_iter());
+            tension = sum(&relaxed.tension, &mut pull.into_iter());
             y += step;
         }
         Err(SampleError::Restless { torque })
@@ -126,8 +141,8 @@ impl<'a> Balance<'a> {
         self.torque.iter().zip(self.size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max)
     }
 
-    /// Newton's step of the rest angles, and the motion of the unknowns that goes with it.
-    fn step(&self) -> Result<(DVector<f64>, Vec<f64>), LandscapeError> {
+    /// Newton's step of the rest angles, and the motion of the unknowns and the tensions that go with it.
+    fn step(&self) -> Result<(DVector<f64>, Both), LandscapeError> {
         let singular = crate::numerics::factor::FactorError::Singular { ratio: 0.0 };
         let factor = nalgebra::Cholesky::new(self.settling.hessian().clone()).ok_or(singular)?;
         let step = factor.solve(&self.torque);
@@ -155,7 +170,7 @@ pub fn landscape(
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Landscape, LandscapeError> {
     let (predicted, course) = Expansion::with_course(held, &rates)?;
-    let mut along = Samples::new(held, course, Options::default());
+    let mut along = Samples::new(held, course);
     let (mut samples, mut failure) = (Vec::new(), None);
     for &amplitude in amplitudes {
         match along.at(amplitude, observe) {

@@ -17,7 +17,7 @@ const INACCURATE: f64 = 1e-6;
 pub type Both = (Vec<f64>, Vec<f64>);
 
 /// How a sheet settles.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Response {
     /// Motion of the unknowns.
     pub x: Vec<f64>,
@@ -124,13 +124,15 @@ impl<'a> Settling<'a> {
         &self.directions
     }
 
-    /// Motions of the unknowns that go with these rest angles across the modes.
-    pub fn motion(&self, rest: &DVector<f64>) -> Vec<f64> {
-        let mut all = vec![0.0; self.held.model.layout().unknowns];
+    /// Motion of the unknowns and change of the tensions that go with these rest angles across the modes.
+    pub fn motion(&self, rest: &DVector<f64>) -> Both {
+        let layout = self.held.model.layout();
+        let (mut x, mut tension) = (vec![0.0; layout.unknowns], vec![0.0; layout.stiff.len()]);
         for (part, free) in rest.iter().zip(&self.free) {
-            all.iter_mut().zip(&free.x).for_each(|(sum, d)| *sum += part * d);
+            x.iter_mut().zip(&free.x).for_each(|(sum, d)| *sum += part * d);
+            tension.iter_mut().zip(&free.tension).for_each(|(sum, d)| *sum += part * d);
         }
-        all
+        (x, tension)
     }
 
     /// Torque of a response on a direction of the rest angles.

@@ -9,7 +9,6 @@ use super::samples::{Sample, SampleError, Samples};
 use super::{HeldSheet, LandscapeError, Prediction};
 use crate::math::Vec3;
 use crate::numerics::parallel;
-use crate::solver::Options;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
 /// A direction: polar angle from `k11 = k22 > 0`, and azimuth (of which half is the direction of the larger curvature).
@@ -95,7 +94,7 @@ pub fn sample(
 ) -> Result<Sample, SampleError> {
     let rates = held.named(curvature(direction))?;
     let course = prediction.course(held, &rates);
-    Samples::new(held, course, Options::default()).at(amplitude, &mut |_| true)
+    Samples::new(held, course).at(amplitude, &mut |_| true)
 }
 
 /// Samples at points of the unit sphere, shared out over the threads; the same numbers for any number of threads. `go_on` is asked
