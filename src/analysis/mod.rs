@@ -1,6 +1,7 @@
 //! Questions about states: equilibria, modes and spectra. State in, result out; nothing here reads or writes files.
 
 pub mod axis;
+pub mod bloch;
 pub mod branches;
 pub mod chart;
 pub mod drive;
