@@ -1,4 +1,4 @@
-//! Files for ParaView: VTU (one state), VTP (a surface of states), PVD (the files of a study in their order), and
+//! Files for ParaView: VTU (one state), VTP (a surface of states, or curves), VTI (a map), PVD (the files of a study in their order), and
 //! reading VTU back.
 //!
 //! Arrays are uncompressed, since ParaView has failed to open compressed files of several writers; their lengths are
@@ -11,11 +11,11 @@ use std::path::Path;
 use thiserror::Error;
 use vtkio::IOBuffer;
 use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, ElementType, PolyDataPiece,
-    UnstructuredGridPiece, Version, VertexNumbers, Vtk,
+    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, ElementType, Extent, ImageDataPiece, Piece,
+    PolyDataPiece, UnstructuredGridPiece, Version, VertexNumbers, Vtk,
 };
 
-use super::picture::Picture;
+use super::picture::{Picture, ShapeError};
 use super::strain_space::StrainSurface;
 use super::{OutputError, files};
 use crate::math::Vec3;
@@ -120,6 +120,62 @@ pub fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError
         ..PolyDataPiece::default()
     };
     write(path, DataSet::inline(piece))
+}
+
+/// Writes curves in the plane, one after the other, with numbers that belong to whole curves.
+///
+/// Points with z = 0; a cell array for each of `arrays`.
+///
+/// # Errors
+/// [`OutputError::Shape`] where an array has not one number for each curve, [`OutputError::Write`].
+pub fn write_curves(
+    path: &Path,
+    curves: &[Vec<[f64; 2]>],
+    arrays: &[(&'static str, Vec<i32>)],
+) -> Result<(), OutputError> {
+    for (array, values) in arrays.iter().filter(|(_, values)| values.len() != curves.len()) {
+        let fault = ShapeError::Length { array, found: values.len(), expected: curves.len() };
+        return Err(OutputError::Shape { path: path.into(), fault });
+    }
+    let ends = curves.iter().scan(0, |end, curve| {
+        *end += curve.len() as u64;
+        Some(*end)
+    });
+    let count: usize = curves.iter().map(Vec::len).sum();
+    let lines = VertexNumbers::XML { connectivity: (0..count as u64).collect(), offsets: ends.collect() };
+    let cell = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::I32(values.clone()))).collect();
+    let piece = PolyDataPiece {
+        points: IOBuffer::F64(curves.iter().flatten().flat_map(|q| [q[0], q[1], 0.0]).collect()),
+        lines: Some(lines),
+        data: Attributes { point: vec![], cell },
+        ..PolyDataPiece::default()
+    };
+    write(path, DataSet::inline(piece))
+}
+
+/// Writes a map: values at the points `origin + (k1, k2) * spacing`, those of equal `k2` after each other.
+///
+/// # Errors
+/// [`OutputError::Shape`] where an array has not one number for each point, [`OutputError::Write`].
+pub fn write_vti(
+    path: &Path,
+    size: [usize; 2],
+    [origin, spacing]: [[f64; 2]; 2],
+    arrays: &[(&'static str, Vec<f64>)],
+) -> Result<(), OutputError> {
+    let expected = size[0] * size[1];
+    for (array, values) in arrays.iter().filter(|(_, values)| values.len() != expected) {
+        let fault = ShapeError::Length { array, found: values.len(), expected };
+        return Err(OutputError::Shape { path: path.into(), fault });
+    }
+    let [last1, last2] = size.map(|n| n as i32 - 1);
+    let extent = Extent::Ranges([0..=last1, 0..=last2, 0..=0]);
+    let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
+    let piece = ImageDataPiece { extent: extent.clone(), data: Attributes { point, cell: vec![] } };
+    let place = |[x, y]: [f64; 2], z: f32| [x as f32, y as f32, z];
+    let (origin, spacing) = (place(origin, 0.0), place(spacing, 1.0));
+    let pieces = vec![Piece::Inline(Box::new(piece))];
+    write(path, DataSet::ImageData { extent, origin, spacing, meta: None, pieces })
 }
 
 fn write(path: &Path, data: DataSet) -> Result<(), OutputError> {
