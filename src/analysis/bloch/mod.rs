@@ -6,9 +6,11 @@
 
 pub mod decay;
 pub mod determinant;
+pub mod duality;
 pub mod laurent;
 pub mod polarization;
 pub mod rigidity;
+pub mod strain_form;
 pub mod zero_lines;
 pub mod zone;
 
@@ -20,6 +22,7 @@ pub use rigidity::Rigidity;
 pub use zero_lines::ZeroLines;
 pub use zone::Zone;
 
+use crate::kinematics::KinematicsError;
 use crate::numerics::dense::DenseError;
 use thiserror::Error;
 
@@ -63,4 +66,12 @@ pub enum BlochError {
         /// Edges of the grid that contradict; 0 where a line came to no end.
         edges: usize,
     },
+    /// The linear folding modes are not known.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// The way round the sheet does not tell where it begins.
+    #[error(
+        "nothing changes from a cell to the next at these Bloch factors: displacements do not follow from fold rates"
+    )]
+    NoPhase,
 }
