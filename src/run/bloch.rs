@@ -1,9 +1,14 @@
 //! `kind = "bloch"`: asks the analysis, writes the table of decay rates, the map and the zero lines, summarises.
 
 use super::runner::Runner;
-use super::{Progress, RunError};
+use super::{Progress, RunError, studies};
+use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use crate::analysis::bloch::laurent::wavenumber;
-use crate::analysis::bloch::{BlochError, Decay, Determinant, Polarization, Rigidity, ZeroLines, Zone};
+use crate::analysis::bloch::{
+    BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, Root, ZeroLines, Zone,
+};
+use crate::model::assemble::Hinges;
+use crate::output::Picture;
 use crate::output::bloch_plot::{self, BlochPlot};
 use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, StudySummary, ZeroLineSummary};
 use crate::output::table::{Table, Value};
@@ -11,6 +16,8 @@ use crate::output::vtk;
 use crate::scene::SceneFile;
 use crate::scene::build::Built;
 use crate::scene::spec::{BlochSpec, Draw, StudySpec};
+use crate::scene::values::Pair;
+use nalgebra::Complex;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
@@ -20,11 +27,17 @@ const GRID: [usize; 2] = [256, 256];
 const DECAYS: usize = 32;
 /// Wavenumbers over which the polarization is averaged.
 const AVERAGED: usize = 64;
+/// Wavenumbers from each corner of a path to the next.
+const STEPS: usize = 50;
 /// Wavenumbers of decay rates in the picture.
 const DRAWN: usize = 240;
 
 /// Spatially varying modes need a lattice, and as many conditions as coordinates.
-pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &BlochSpec) -> Result<(), RunError> {
+    if let (Some(path), None) = (&spec.path, stiffnesses(built)) {
+        let help = "give bars a finite stiffness and facets too, or leave out `path`";
+        return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
+    }
     let refused = rigidity(built).and_then(|rigidity| rigidity.require_square());
     let help = match &refused {
         Ok(()) => return Ok(()),
@@ -43,6 +56,14 @@ fn rigidity(built: &Built) -> Result<Rigidity, BlochError> {
     Rigidity::of_sheet(&built.sheet, rigid)
 }
 
+/// Stiffnesses of the energy; `None` where it has no bars, or a term is rigid.
+fn stiffnesses(built: &Built) -> Option<Stiffnesses> {
+    let recipe = &built.recipe;
+    let of = |hinges: &Option<Hinges>| hinges.as_ref().map_or(0.0, |hinges| hinges.stiffness);
+    let found = Stiffnesses { bars: recipe.bars?, creases: of(&recipe.creases), facets: of(&recipe.facets) };
+    [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
+}
+
 /// What the analysis found.
 struct Found {
     determinant: Determinant,
@@ -53,6 +74,9 @@ struct Found {
     /// Real and imaginary parts on the grid.
     map: [Vec<f64>; 2],
     grid: [usize; 2],
+    modes: Vec<ModeShape>,
+    /// Wavenumbers along the path, each with its bands.
+    bands: Vec<([f64; 2], Vec<f64>)>,
 }
 
 /// Runs the study.
@@ -71,6 +95,9 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
     match found {
         Ok(Some(found)) => {
             table(&found.decays).write(&runner.path(format!("{}.csv", study.name.0)))?;
+            if !found.bands.is_empty() {
+                band_table(&found.bands).write(&runner.path(format!("{}_bands.csv", study.name.0)))?;
+            }
             draw(runner, study, &found)?;
             summary.error = Some(found.determinant.error);
             summary.result = Some(StudyResult::Bloch(summarized(&found)));
@@ -107,7 +134,30 @@ fn find(runner: &Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Result<Opti
     let grid = spec.grid.as_ref().map_or(GRID, |grid| grid.0);
     let values = determinant.polynomial.map(grid);
     let map = [values.iter().map(|value| value.re).collect(), values.iter().map(|value| value.im).collect()];
-    Ok(watch(4).then_some(Found { determinant, decays, polarization, real, map, grid }))
+    let (modes, bands) = (shapes(runner, spec, &determinant)?, bands(runner, spec)?);
+    Ok(watch(4).then_some(Found { determinant, decays, polarization, real, map, grid, modes, bands }))
+}
+
+/// The modes that the scene names, each of the root nearest to its decay rate.
+fn shapes(runner: &Runner<'_>, spec: &BlochSpec, determinant: &Determinant) -> Result<Vec<ModeShape>, BlochError> {
+    let rigidity = rigidity(runner.built)?;
+    let mut found = Vec::new();
+    for Pair([q1, kappa2]) in spec.modes.iter().flat_map(|modes| modes.iter()) {
+        let decay = Decay::new(determinant, 0, *q1)?;
+        let away = |root: &Root| (root.kappa() - kappa2).abs();
+        if let Some(root) = decay.roots.iter().min_by(|a, b| away(a).total_cmp(&away(b))) {
+            found.push(ModeShape::new(&rigidity, [Complex::from_polar(1.0, *q1), root.z])?);
+        }
+    }
+    Ok(found)
+}
+
+/// The bands along the path of the scene.
+fn bands(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Vec<([f64; 2], Vec<f64>)>, BlochError> {
+    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.built)) else { return Ok(Vec::new()) };
+    let matrix = DynamicalMatrix::new(&runner.built.sheet, stiffnesses)?;
+    let corners: Vec<[f64; 2]> = path.iter().map(|corner| corner.0).collect();
+    along_path(&corners, STEPS).into_iter().map(|q| Ok((q, matrix.bands(q)?))).collect()
 }
 
 fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
@@ -132,6 +182,20 @@ fn table(decays: &[Decay]) -> Table {
     table
 }
 
+/// A row for every wavenumber of the path: its length so far, the wavenumber, and the bands.
+fn band_table(bands: &[([f64; 2], Vec<f64>)]) -> Table {
+    let count = bands.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
+    let names = ["length", "q1", "q2"].map(str::to_owned);
+    let mut table = Table::new(names.into_iter().chain((0..count).map(|k| format!("band_{k}"))).collect());
+    let mut length = 0.0;
+    for (k, (q, values)) in bands.iter().enumerate() {
+        let before = bands[k.saturating_sub(1)].0;
+        length += (q[0] - before[0]).hypot(q[1] - before[1]);
+        table.push([length, q[0], q[1]].iter().chain(values).map(|number| Value::Number(*number)).collect());
+    }
+    table
+}
+
 /// The map, the lines and the picture, as the study asks.
 fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), RunError> {
     let name = &study.name.0;
@@ -149,6 +213,12 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
             let passes = lines.lines.iter().map(|line| line.passes as i32).collect();
             let arrays = [("winding1", winding(0)), ("winding2", winding(1)), ("passes", passes)];
             vtk::write_curves(&runner.path(&files[1].1), &curves, &arrays)?;
+        }
+        for (k, mode) in found.modes.iter().enumerate() {
+            let displacement = mode.on_cells(runner.view.patch.cells);
+            let picture = Picture { displacement, ..studies::drawn_picture(runner, study) };
+            files.push((files.len() as f64, format!("{name}/{name}_mode_{k:04}.vtu")));
+            vtk::write_vtu(&runner.path(format!("{name}/{name}_mode_{k:04}.vtu")), &picture)?;
         }
         vtk::write_pvd(&runner.path(format!("{name}.pvd")), &files)?;
     }

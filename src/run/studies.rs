@@ -41,7 +41,7 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
         StudyKind::Trace(spec) => trace::check(file, built, study, spec),
         StudyKind::Surface(_) => surface::check(file, built, study),
         StudyKind::Landscape(spec) => landscape::check(file, built, study, spec),
-        StudyKind::Bloch(_) => bloch::check(file, built, study),
+        StudyKind::Bloch(spec) => bloch::check(file, built, study, spec),
     }
 }
 
@@ -315,7 +315,7 @@ fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<
 }
 
 /// The drawn state, of which modes are velocities.
-fn drawn_picture(runner: &Runner<'_>, study: &StudySpec) -> Picture {
+pub fn drawn_picture(runner: &Runner<'_>, study: &StudySpec) -> Picture {
     let built = runner.built;
     let edges = built.tiling.edges.len();
     let nan = || vec![f64::NAN; edges];

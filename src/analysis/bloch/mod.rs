@@ -4,10 +4,12 @@
 //! rigidity matrix `R(z1, z2)` is singular (McInerney, Chen, Theran, Santangelo, Rocklin, PNAS 117, 30252 (2020), last
 //! section and appendix J; C. L. Kane, T. C. Lubensky, Nature Physics 10, 39 (2014)).
 
+pub mod bands;
 pub mod decay;
 pub mod determinant;
 pub mod duality;
 pub mod laurent;
+pub mod mode_shape;
 pub mod polarization;
 pub mod rigidity;
 pub mod strain_form;
@@ -17,6 +19,7 @@ pub mod zone;
 pub use decay::{Decay, Root};
 pub use determinant::Determinant;
 pub use laurent::Laurent;
+pub use mode_shape::ModeShape;
 pub use polarization::Polarization;
 pub use rigidity::Rigidity;
 pub use zero_lines::ZeroLines;

@@ -17,6 +17,8 @@ const GRID: usize = 192;
 const START: f64 = 1e-4;
 /// Corrections end when they are as small as this.
 const CORRECTED: f64 = 1e-14;
+/// Relative size of corrections that may be rounding, where they do not become smaller.
+const STALLED: f64 = 1e-9;
 const CORRECTIONS: usize = 8;
 /// Largest turn of the tangent in a step, in radians.
 const LARGEST_TURN: f64 = 0.15;
@@ -187,6 +189,8 @@ impl<'a> Tracer<'a> {
 
     fn closed(&self, start: [f64; 2]) -> Result<Arc, BlochError> {
         let (start, _) = self.corrected(start)?;
+        // not on the edge of the grid itself, where rounding would decide whether it is crossed
+        let start = self.step(start, 0.3 * self.longest).map_or(start, |(off, _)| off);
         let along = tangent(self.zone.at(start).1);
         self.follow(start, End::Start(along))
     }
@@ -239,15 +243,18 @@ impl<'a> Tracer<'a> {
 
     /// Corrections along the gradient, and the size of the last.
     fn corrected(&self, mut q: [f64; 2]) -> Result<([f64; 2], f64), BlochError> {
+        let mut before = f64::INFINITY;
         for _ in 0..CORRECTIONS {
             let (value, gradient) = self.zone.at(q);
             let squared = gradient[0] * gradient[0] + gradient[1] * gradient[1];
             let step = gradient.map(|g| value * g / squared);
             q = [0, 1].map(|a| q[a] - step[a]);
             let size = norm(step);
-            if size <= CORRECTED * (1.0 + norm(q)) {
+            let stalled = size <= STALLED * norm(q.map(reduced)) && size > 0.25 * before;
+            if size <= CORRECTED || stalled {
                 return Ok((q, size));
             }
+            before = size;
         }
         Err(BlochError::ZeroLines { edges: 0 })
     }
