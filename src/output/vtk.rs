@@ -133,10 +133,7 @@ pub fn write_curves(
     curves: &[Vec<[f64; 2]>],
     arrays: &[(&'static str, Vec<i32>)],
 ) -> Result<(), OutputError> {
-    for (array, values) in arrays.iter().filter(|(_, values)| values.len() != curves.len()) {
-        let fault = ShapeError::Length { array, found: values.len(), expected: curves.len() };
-        return Err(OutputError::Shape { path: path.into(), fault });
-    }
+    check_lengths(path, arrays, curves.len())?;
     let ends = curves.iter().scan(0, |end, curve| {
         *end += curve.len() as u64;
         Some(*end)
@@ -163,11 +160,7 @@ pub fn write_vti(
     [origin, spacing]: [[f64; 2]; 2],
     arrays: &[(&'static str, Vec<f64>)],
 ) -> Result<(), OutputError> {
-    let expected = size[0] * size[1];
-    for (array, values) in arrays.iter().filter(|(_, values)| values.len() != expected) {
-        let fault = ShapeError::Length { array, found: values.len(), expected };
-        return Err(OutputError::Shape { path: path.into(), fault });
-    }
+    check_lengths(path, arrays, size[0] * size[1])?;
     let [last1, last2] = size.map(|n| n as i32 - 1);
     let extent = Extent::Ranges([0..=last1, 0..=last2, 0..=0]);
     let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
@@ -176,6 +169,17 @@ pub fn write_vti(
     let (origin, spacing) = (place(origin, 0.0), place(spacing, 1.0));
     let pieces = vec![Piece::Inline(Box::new(piece))];
     write(path, DataSet::ImageData { extent, origin, spacing, meta: None, pieces })
+}
+
+/// Whether every array has the length that it should have.
+fn check_lengths<T>(path: &Path, arrays: &[(&'static str, Vec<T>)], expected: usize) -> Result<(), OutputError> {
+    match arrays.iter().find(|(_, values)| values.len() != expected) {
+        None => Ok(()),
+        Some((array, values)) => {
+            let fault = ShapeError::Length { array, found: values.len(), expected };
+            Err(OutputError::Shape { path: path.into(), fault })
+        }
+    }
 }
 
 fn write(path: &Path, data: DataSet) -> Result<(), OutputError> {
@@ -439,6 +443,27 @@ mod tests {
         let error = write_vtp(&path, &surface).unwrap_err();
         let fault = ShapeError::Length { array: "fold", found: 24, expected: 25 };
         assert!(matches!(error, OutputError::Shape { fault: found, .. } if found == fault));
+    }
+
+    /// Claim: curves and maps read back with their points, numbers and places, and are not written where numbers are missing.
+    #[test]
+    fn curves_and_maps_read_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.vtp");
+        let curves = [vec![[0.0, 1.0], [2.0, 3.0], [4.0, 5.0]], vec![[6.0, 7.0], [8.0, 9.0]]];
+        write_curves(&path, &curves, &[("winding1", vec![2, -1])]).unwrap();
+        let read = |path: &Path| Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap().data;
+        let piece = PolyDataPiece::try_from(read(&path)).unwrap();
+        assert_eq!((piece.num_points(), piece.num_lines()), (5, 2));
+        assert_eq!(piece.lines.unwrap().into_xml(), (vec![0, 1, 2, 3, 4], vec![3, 5]));
+        assert!(write_curves(&path, &curves, &[("winding1", vec![2])]).is_err());
+        let path = folder.path().join("a.vti");
+        let values = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        write_vti(&path, [3, 2], [[-1.0, -2.0], [0.5, 0.25]], &[("determinant", values.clone())]).unwrap();
+        let DataSet::ImageData { extent, origin, spacing, .. } = read(&path) else { panic!("a map is an image") };
+        assert_eq!((extent, origin), (Extent::Ranges([0..=2, 0..=1, 0..=0]), [-1.0, -2.0, 0.0]));
+        assert_eq!(spacing, [0.5, 0.25, 1.0]);
+        assert!(write_vti(&path, [3, 3], [[0.0; 2]; 2], &[("determinant", values)]).is_err());
     }
 
     proptest! {

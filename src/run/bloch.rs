@@ -75,8 +75,13 @@ struct Found {
     map: [Vec<f64>; 2],
     grid: [usize; 2],
     modes: Vec<ModeShape>,
-    /// Wavenumbers along the path, each with its bands.
-    bands: Vec<([f64; 2], Vec<f64>)>,
+    bands: Vec<Bands>,
+}
+
+/// The bands at a wavenumber of the path.
+struct Bands {
+    q: [f64; 2],
+    values: Vec<f64>,
 }
 
 /// Runs the study.
@@ -153,11 +158,11 @@ fn shapes(runner: &Runner<'_>, spec: &BlochSpec, determinant: &Determinant) -> R
 }
 
 /// The bands along the path of the scene.
-fn bands(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Vec<([f64; 2], Vec<f64>)>, BlochError> {
+fn bands(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Vec<Bands>, BlochError> {
     let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.built)) else { return Ok(Vec::new()) };
     let matrix = DynamicalMatrix::new(&runner.built.sheet, stiffnesses)?;
     let corners: Vec<[f64; 2]> = path.iter().map(|corner| corner.0).collect();
-    along_path(&corners, STEPS).into_iter().map(|q| Ok((q, matrix.bands(q)?))).collect()
+    along_path(&corners, STEPS).into_iter().map(|q| Ok(Bands { q, values: matrix.bands(q)? })).collect()
 }
 
 fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
@@ -183,13 +188,13 @@ fn table(decays: &[Decay]) -> Table {
 }
 
 /// A row for every wavenumber of the path: its length so far, the wavenumber, and the bands.
-fn band_table(bands: &[([f64; 2], Vec<f64>)]) -> Table {
-    let count = bands.iter().map(|(_, values)| values.len()).max().unwrap_or(0);
+fn band_table(bands: &[Bands]) -> Table {
+    let count = bands.iter().map(|at| at.values.len()).max().unwrap_or(0);
     let names = ["length", "q1", "q2"].map(str::to_owned);
     let mut table = Table::new(names.into_iter().chain((0..count).map(|k| format!("band_{k}"))).collect());
     let mut length = 0.0;
-    for (k, (q, values)) in bands.iter().enumerate() {
-        let before = bands[k.saturating_sub(1)].0;
+    for (k, Bands { q, values }) in bands.iter().enumerate() {
+        let before = bands[k.saturating_sub(1)].q;
         length += (q[0] - before[0]).hypot(q[1] - before[1]);
         table.push([length, q[0], q[1]].iter().chain(values).map(|number| Value::Number(*number)).collect());
     }

@@ -16,6 +16,8 @@ use std::collections::{HashMap, VecDeque};
 
 /// A complex vector in space.
 type ComplexVec3 = Vector3<Complex<f64>>;
+/// A vertex or a face, and the cell of the copy that is meant.
+type Placed = (usize, [i32; 2]);
 
 /// Smallest difference of a phase factor from 1 that fixes where an integration begins.
 const LEAST_PHASE: f64 = 1e-6;
@@ -51,7 +53,7 @@ pub fn displacement(
     };
     let numbers: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
     // the face on either side of every edge, and the cell in which it stands when the edge is at home
-    let mut sides: Vec<[Option<(usize, [i32; 2])>; 2]> = vec![[None; 2]; sheet.edges.len()];
+    let mut sides: Vec<[Option<Placed>; 2]> = vec![[None; 2]; sheet.edges.len()];
     for (face, triangle) in sheet.triangles.iter().enumerate() {
         for side in triangle.sides() {
             sides[numbers[&side.key]][side.side] = Some((face, side.base.shift.map(|n| -n)));
@@ -78,8 +80,8 @@ fn complex(v: Vec3) -> ComplexVec3 {
 
 /// `z^shift w` at `to` less the same at `from` is `by`.
 struct Difference {
-    from: (usize, [i32; 2]),
-    to: (usize, [i32; 2]),
+    from: Placed,
+    to: Placed,
     by: ComplexVec3,
 }
 
