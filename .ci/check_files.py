@@ -3,7 +3,7 @@
 
     python .ci/check_files.py OUT... [--render PICTURE.png]        needs: vtk, pyvista, meshio, numpy
 
-OUT is the folder of a run. Every .vtu is opened by VTK and by meshio, every .vtp by VTK, every .pvd by PyVista; counts, cell arrays, tables
+OUT is the folder of a run. Every .vtu is opened by VTK and by meshio, every .vtp and .vti by VTK, every .pvd by PyVista; counts, cell arrays, tables
 and summary.json have to agree. --render draws the last state off-screen with PyVista. The exit status is 1 where a check
 fails. A table has the fold angles of one cell: of a patch or a torus the one in the middle, of a screw the only one there is.
 Each of them must be among the angles that the lines of this edge have in the last picture; where all of these agree, as on
@@ -33,6 +33,8 @@ KINDS = {
               "error_to_kinematic", "history"},
     "surface": {"points", "triangles", "coverage", "closed", "oriented", "tips", "max_curvature", "radius", "max_residual",
                 "branches"},
+    "bloch": {"determinant", "symmetry_error", "imaginary_part", "decay", "pairing_error", "polarization",
+              "positive_fraction", "zero_lines"},
     "modes": {"zero_modes", "self_stresses", "rigid_motions", "folding_modes", "maxwell_count", "gap", "eigenvalues"},
 }
 STATE_COLUMNS = ("branch,sign,step,arc_length,curvature,theta1,theta2,strain11,strain22,strain12,energy_bars,"
@@ -132,6 +134,46 @@ def check_vtp(checks, path, table, study):
     checks.that(np.array_equal(arrays.get("theta"), theta), f"{path}: theta is that of the table")
 
 
+def determinant(study, q1, q2):
+    """The centred determinant from the coefficients of the summary."""
+    return sum(c * np.exp(1j * (m * q1 + n * q2)) for m, n, c in study["determinant"])
+
+
+def check_map(checks, path, study):
+    """The determinant over the zone: the sum of the coefficients in the summary."""
+    reader = vtk.vtkXMLImageDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    image = reader.GetOutput()
+    if not checks.that(not reader.GetErrorCode() and image.GetNumberOfPoints() > 0, f"{path}: VTK opens it"):
+        return
+    n1, n2, _ = image.GetDimensions()
+    q = lambda n: (np.arange(n) + 0.5) * 2 * np.pi / n - np.pi
+    expected = determinant(study, q(n1)[None, :], q(n2)[:, None]).ravel()
+    largest = np.abs(expected).max()
+    for name, part in [("determinant", expected.real), ("imaginary_part", expected.imag)]:
+        found = vtk_to_numpy(image.GetPointData().GetArray(name))
+        checks.that(np.abs(found - part).max() <= 1e-12 * largest, f"{path}: {name} is that of the coefficients")
+    corner = [image.GetOrigin()[0] - q(n1)[0], image.GetOrigin()[1] - q(n2)[0]]
+    checks.that(np.abs(corner).max() <= 1e-6, f"{path}: the corner of the zone")
+
+
+def check_curves(checks, path, study):
+    """Zero lines: as many as the summary says, and the determinant vanishes on them."""
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    curves = reader.GetOutput()
+    if not checks.that(not reader.GetErrorCode(), f"{path}: VTK opens it"):
+        return
+    checks.that(curves.GetNumberOfLines() == study["zero_lines"], f"{path}: {study['zero_lines']} lines")
+    if curves.GetNumberOfPoints():
+        points = vtk_to_numpy(curves.GetPoints().GetData())
+        largest = max(abs(c) for _, _, c in study["determinant"])
+        values = np.abs(determinant(study, points[:, 0], points[:, 1]))
+        checks.that(values.max() <= 1e-10 * largest, f"{path}: the determinant is {values.max():.1e} on its zero lines")
+
+
 def check_meshio(checks, path, grid):
     """The second reader sees the same."""
     mesh = meshio.read(path)
@@ -192,15 +234,15 @@ def check_collection(checks, out, name):
     path = out / f"{name}.pvd"
     files = [out / entry.get("file") for entry in xml.parse(path).getroot().iter("DataSet")]
     checks.that(files and all(file.exists() for file in files), f"{path}: its files are there")
-    there = [file for ending in ["vtu", "vtp"] for file in (out / name).glob(f"*.{ending}")]
+    there = [file for ending in ["vtu", "vtp", "vti"] for file in (out / name).glob(f"*.{ending}")]
     checks.that(sorted(files) == sorted(there), f"{path}: lists every state of {name}/")
     reader = pyvista.get_reader(str(path))
     times = list(reader.time_values)
     checks.that(len(times) == len(files) and times == sorted(times), f"{path}: PyVista finds {len(times)} times")
     reader.set_active_time_value(times[-1])
     last = reader.read()
-    if files[-1].suffix == ".vtp":
-        checks.that(sum(block.n_cells for block in last) > 0, f"{path}: PyVista's surface")
+    if files[-1].suffix != ".vtu":
+        checks.that(sum(block.n_points for block in last) > 0, f"{path}: PyVista's surface, curves or map")
         return None
     checks.that(sum(block.n_cells for block in last) == len(read_vtk(files[-1])["types"]), f"{path}: PyVista's last state")
     return files[-1]
@@ -215,7 +257,12 @@ def check_study(checks, out, study, edges):
     table = check_table(checks, out / f"{name}.csv", kind, edges) if study["converged"] else None
     grids = {path: check_vtu(checks, path) for path in sorted((out / name).glob("*.vtu"))}
     for path in sorted((out / name).glob("*.vtp")):
-        check_vtp(checks, path, out / f"{name}.csv", study)
+        if kind == "bloch":
+            check_curves(checks, path, study)
+        else:
+            check_vtp(checks, path, out / f"{name}.csv", study)
+    for path in sorted((out / name).glob("*.vti")):
+        check_map(checks, path, study)
     if (out / f"{name}.svg").exists():
         root = xml.parse(out / f"{name}.svg").getroot()
         checks.that(root.tag.endswith("svg") and len(root) > 3, f"{name}.svg: a picture")

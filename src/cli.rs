@@ -263,6 +263,13 @@ fn describe_study(study: &StudySummary) -> String {
             });
             modes.collect::<Vec<_>>().join("; ")
         }
+        Some(StudyResult::Bloch(bloch)) => {
+            let [p1, p2] = bloch.polarization;
+            format!(
+                "{} zero lines, pairing error {:.1e}, polarization ({p1}, {p2})",
+                bloch.zero_lines, bloch.pairing_error
+            )
+        }
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();

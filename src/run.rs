@@ -14,6 +14,7 @@ use crate::sheet::build::{self, Drawn};
 use crate::sheet::error::Defect;
 use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
 
+mod bloch;
 mod branches;
 mod draw;
 mod landscape;

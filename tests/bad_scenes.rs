@@ -370,10 +370,6 @@ fn studies_that_cannot_be_done() {
     let cases = [
         (scene("", "kind = \"relax\""), "scene.toml:7:8: there is no energy to relax"),
         (
-            scene(creases, "kind = \"bloch\""),
-            "scene.toml:7:8: studies of kind `bloch` are not available in this version",
-        ),
-        (
             scene(creases, "kind = \"surface\""),
             "scene.toml:7:8: a surface of folded states is drawn in the space of lattice strains",
         ),
@@ -391,8 +387,8 @@ fn studies_that_cannot_be_done() {
             "the sheet has no crease [0, 1, 7, 0]",
         ),
         (
-            scene(creases, "kind = \"bloch\""),
-            "scene.toml:7:8: studies of kind `bloch` are not available in this version",
+            scene(creases, "kind = \"bloch\"").replace("mesh = \"star.fold\"", "generate = { pattern = \"miura\" }"),
+            "16 conditions (bars and rigid facets) for 12 coordinates of a cell",
         ),
         (scene(creases, "kind = \"relax\"\nstart = \"none.vtu\""), "none.vtu: "),
         (scene(creases, "kind = \"relax\"\nstart = \"a.vtu\""), "a.vtu: "),

@@ -82,6 +82,8 @@ pub enum StudyResult {
     Surface(SurfaceSummary),
     /// `kind = "landscape"`.
     Landscape(LandscapeSummary),
+    /// `kind = "bloch"`.
+    Bloch(BlochSummary),
     /// Of `trace`.
     Trace(TraceSummary),
 }
@@ -267,6 +269,74 @@ pub struct SampleSummary {
     pub energy: Option<f64>,
     /// Whether it was found.
     pub converged: bool,
+}
+
+/// Spatially varying modes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BlochSummary {
+    /// `[m, n, c]` of the centred determinant `sum c z1^m z2^n`.
+    pub determinant: Vec<[f64; 3]>,
+    /// Largest `|c_mn - c_-m,-n|` over the largest coefficient.
+    pub symmetry_error: f64,
+    /// Largest imaginary part on the zone over the largest magnitude.
+    pub imaginary_part: f64,
+    /// At every given `q1`.
+    pub decay: Vec<DecaySummary>,
+    /// Largest `|kappa2 + kappa2'|` of a pair.
+    pub pairing_error: f64,
+    /// Largest condition number of the roots of these pairs.
+    pub pairing_condition: f64,
+    /// Roots left out of the pairing, whose condition is larger.
+    pub ill_conditioned: usize,
+    /// Half the difference of the numbers of roots `z1`, `z2` inside and outside the unit circle, averaged.
+    pub polarization: [f64; 2],
+    /// Mean numbers of roots on the unit circle.
+    pub on_circle: [f64; 2],
+    /// Part of the zone in which the determinant is positive; `None` where it is not real.
+    pub positive_fraction: Option<f64>,
+    /// Number of lines of zeros in the zone.
+    pub zero_lines: usize,
+    /// The lines.
+    pub lines: Vec<ZeroLineSummary>,
+    /// Parts of the zone of one sign, the largest first.
+    pub regions: Vec<RegionSummary>,
+    /// Order to which the determinant vanishes at `q = 0`; `None` where it is not real.
+    pub order_at_origin: Option<usize>,
+    /// Angles in the plane of `(q1, q2)` at which zero lines pass `q = 0`.
+    pub directions: Vec<f64>,
+}
+
+/// Roots at one wavenumber.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DecaySummary {
+    /// The wavenumber.
+    pub q1: f64,
+    /// `log|z2|` of every root, ascending.
+    pub kappa2: Vec<f64>,
+    /// Condition number of every root.
+    pub condition: Vec<f64>,
+}
+
+/// A line of zeros of the determinant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ZeroLineSummary {
+    /// How often it goes round the zone along both wavenumbers.
+    pub winding: [i32; 2],
+    /// How often it passes `q = 0`.
+    pub passes: usize,
+    /// Length in the plane of `(q1, q2)`.
+    pub length: f64,
+    /// Largest error of a point.
+    pub residual: f64,
+}
+
+/// A part of the zone in which the determinant has one sign.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RegionSummary {
+    /// The sign, +1 or -1.
+    pub sign: i8,
+    /// Its part of the zone.
+    pub fraction: f64,
 }
 
 /// The surface of folded states.

@@ -1,4 +1,4 @@
-//! Files for ParaView: VTU (one state), VTP (a surface of states), PVD (the files of a study in their order), and
+//! Files for ParaView: VTU (one state), VTP (a surface of states, or curves), VTI (a map), PVD (the files of a study in their order), and
 //! reading VTU back.
 //!
 //! Arrays are uncompressed, since ParaView has failed to open compressed files of several writers; their lengths are
@@ -11,11 +11,11 @@ use std::path::Path;
 use thiserror::Error;
 use vtkio::IOBuffer;
 use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, ElementType, PolyDataPiece,
-    UnstructuredGridPiece, Version, VertexNumbers, Vtk,
+    Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, ElementType, Extent, ImageDataPiece, Piece,
+    PolyDataPiece, UnstructuredGridPiece, Version, VertexNumbers, Vtk,
 };
 
-use super::picture::Picture;
+use super::picture::{Picture, ShapeError};
 use super::strain_space::StrainSurface;
 use super::{OutputError, files};
 use crate::math::Vec3;
@@ -120,6 +120,66 @@ pub fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError
         ..PolyDataPiece::default()
     };
     write(path, DataSet::inline(piece))
+}
+
+/// Writes curves in the plane, one after the other, with numbers that belong to whole curves.
+///
+/// Points with z = 0; a cell array for each of `arrays`.
+///
+/// # Errors
+/// [`OutputError::Shape`] where an array has not one number for each curve, [`OutputError::Write`].
+pub fn write_curves(
+    path: &Path,
+    curves: &[Vec<[f64; 2]>],
+    arrays: &[(&'static str, Vec<i32>)],
+) -> Result<(), OutputError> {
+    check_lengths(path, arrays, curves.len())?;
+    let ends = curves.iter().scan(0, |end, curve| {
+        *end += curve.len() as u64;
+        Some(*end)
+    });
+    let count: usize = curves.iter().map(Vec::len).sum();
+    let lines = VertexNumbers::XML { connectivity: (0..count as u64).collect(), offsets: ends.collect() };
+    let cell = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::I32(values.clone()))).collect();
+    let piece = PolyDataPiece {
+        points: IOBuffer::F64(curves.iter().flatten().flat_map(|q| [q[0], q[1], 0.0]).collect()),
+        lines: Some(lines),
+        data: Attributes { point: vec![], cell },
+        ..PolyDataPiece::default()
+    };
+    write(path, DataSet::inline(piece))
+}
+
+/// Writes a map: values at the points `origin + (k1, k2) * spacing`, those of equal `k2` after each other.
+///
+/// # Errors
+/// [`OutputError::Shape`] where an array has not one number for each point, [`OutputError::Write`].
+pub fn write_vti(
+    path: &Path,
+    size: [usize; 2],
+    [origin, spacing]: [[f64; 2]; 2],
+    arrays: &[(&'static str, Vec<f64>)],
+) -> Result<(), OutputError> {
+    check_lengths(path, arrays, size[0] * size[1])?;
+    let [last1, last2] = size.map(|n| n as i32 - 1);
+    let extent = Extent::Ranges([0..=last1, 0..=last2, 0..=0]);
+    let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
+    let piece = ImageDataPiece { extent: extent.clone(), data: Attributes { point, cell: vec![] } };
+    let place = |[x, y]: [f64; 2], z: f32| [x as f32, y as f32, z];
+    let (origin, spacing) = (place(origin, 0.0), place(spacing, 1.0));
+    let pieces = vec![Piece::Inline(Box::new(piece))];
+    write(path, DataSet::ImageData { extent, origin, spacing, meta: None, pieces })
+}
+
+/// Whether every array has the length that it should have.
+fn check_lengths<T>(path: &Path, arrays: &[(&'static str, Vec<T>)], expected: usize) -> Result<(), OutputError> {
+    match arrays.iter().find(|(_, values)| values.len() != expected) {
+        None => Ok(()),
+        Some((array, values)) => {
+            let fault = ShapeError::Length { array, found: values.len(), expected };
+            Err(OutputError::Shape { path: path.into(), fault })
+        }
+    }
 }
 
 fn write(path: &Path, data: DataSet) -> Result<(), OutputError> {
@@ -383,6 +443,27 @@ mod tests {
         let error = write_vtp(&path, &surface).unwrap_err();
         let fault = ShapeError::Length { array: "fold", found: 24, expected: 25 };
         assert!(matches!(error, OutputError::Shape { fault: found, .. } if found == fault));
+    }
+
+    /// Claim: curves and maps read back with their points, numbers and places, and are not written where numbers are missing.
+    #[test]
+    fn curves_and_maps_read_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.vtp");
+        let curves = [vec![[0.0, 1.0], [2.0, 3.0], [4.0, 5.0]], vec![[6.0, 7.0], [8.0, 9.0]]];
+        write_curves(&path, &curves, &[("winding1", vec![2, -1])]).unwrap();
+        let read = |path: &Path| Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap().data;
+        let piece = PolyDataPiece::try_from(read(&path)).unwrap();
+        assert_eq!((piece.num_points(), piece.num_lines()), (5, 2));
+        assert_eq!(piece.lines.unwrap().into_xml(), (vec![0, 1, 2, 3, 4], vec![3, 5]));
+        assert!(write_curves(&path, &curves, &[("winding1", vec![2])]).is_err());
+        let path = folder.path().join("a.vti");
+        let values = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        write_vti(&path, [3, 2], [[-1.0, -2.0], [0.5, 0.25]], &[("determinant", values.clone())]).unwrap();
+        let DataSet::ImageData { extent, origin, spacing, .. } = read(&path) else { panic!("a map is an image") };
+        assert_eq!((extent, origin), (Extent::Ranges([0..=2, 0..=1, 0..=0]), [-1.0, -2.0, 0.0]));
+        assert_eq!(spacing, [0.5, 0.25, 1.0]);
+        assert!(write_vti(&path, [3, 3], [[0.0; 2]; 2], &[("determinant", values)]).is_err());
     }
 
     proptest! {

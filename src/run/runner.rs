@@ -1,7 +1,7 @@
 //! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
 
 use super::resume::{Earlier, Kept, write_state};
-use super::{Observer, Progress, RunError, RunOptions, RunReport, branches, landscape, studies, surface, trace};
+use super::{Observer, Progress, RunError, RunOptions, RunReport, bloch, branches, landscape, studies, surface, trace};
 use crate::analysis::view::View;
 use crate::numerics::parallel;
 use crate::output::files;
@@ -84,7 +84,7 @@ impl<'a> Runner<'a> {
             StudyKind::Trace(spec) => trace::study(self, study, spec)?,
             StudyKind::Surface(spec) => surface::study(self, study, spec)?,
             StudyKind::Landscape(spec) => landscape::study(self, study, spec)?,
-            _ => return Err(studies::not_available(self.file, study)),
+            StudyKind::Bloch(spec) => bloch::study(self, study, spec)?,
         };
         self.push(found)
     }

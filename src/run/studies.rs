@@ -3,7 +3,7 @@
 use super::draw::{self, Shown};
 use super::resume::Kept;
 use super::runner::Runner;
-use super::{Progress, RunError, branches, landscape, surface, trace};
+use super::{Progress, RunError, bloch, branches, landscape, surface, trace};
 use crate::analysis;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::LYING;
@@ -41,19 +41,8 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
         StudyKind::Trace(spec) => trace::check(file, built, study, spec),
         StudyKind::Surface(_) => surface::check(file, built, study),
         StudyKind::Landscape(spec) => landscape::check(file, built, study, spec),
-        _ => Err(not_available(file, study)),
+        StudyKind::Bloch(spec) => bloch::check(file, built, study, spec),
     }
-}
-
-/// The refusal of a kind of study that a later version does.
-pub fn not_available(file: &SceneFile, study: &StudySpec) -> RunError {
-    let message = format!("studies of kind `{}` are not available in this version", study.kind.name());
-    file.error_at(
-        study.kind.span(),
-        message,
-        "the kinds here are `relax`, `modes`, `branches`, `trace`, `surface` and `landscape`",
-    )
-    .into()
 }
 
 /// `kind = "relax"`.
@@ -326,7 +315,7 @@ fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<
 }
 
 /// The drawn state, of which modes are velocities.
-fn drawn_picture(runner: &Runner<'_>, study: &StudySpec) -> Picture {
+pub fn drawn_picture(runner: &Runner<'_>, study: &StudySpec) -> Picture {
     let built = runner.built;
     let edges = built.tiling.edges.len();
     let nan = || vec![f64::NAN; edges];

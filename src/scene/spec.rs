@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 use super::Located;
 use super::forms::{BranchChoice, Mode, Rest, Start};
-use super::values::{Axes, CellIndex, Cells, Count, EdgeName, Finite, Name, Positive, Stiffness, Triple};
+use super::values::{Axes, CellIndex, Cells, Count, EdgeName, Finite, Name, Pair, Positive, Stiffness, Triple};
 
 /// A whole scene.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -358,10 +358,14 @@ pub struct LandscapeSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlochSpec {
-    /// Wavenumbers sampled along each direction.
+    /// Wavenumbers sampled along each direction; left out: [256, 256].
     pub grid: Option<Located<Cells>>,
-    /// First wavenumbers at which decay rates are wanted, in radians per cell.
+    /// First wavenumbers at which decay rates are wanted, in radians per cell; left out: 32 that divide the zone evenly.
     pub q1: Option<Located<Vec<Finite>>>,
+    /// Modes of which the displacement is written, each `[q1, kappa2]`: of the roots at `q1` the one of nearest decay rate.
+    pub modes: Option<Located<Vec<Pair>>>,
+    /// Corners `[q1, q2]` of a path through the zone along which the bands of the energy are wanted.
+    pub path: Option<Located<Vec<Pair>>>,
 }
 
 impl StudyKind {

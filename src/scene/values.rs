@@ -155,6 +155,22 @@ impl TryFrom<Exactly<f64, 3>> for Triple {
     }
 }
 
+/// Two finite numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "Exactly<f64, 2>")]
+pub struct Pair(pub [f64; 2]);
+
+impl TryFrom<Exactly<f64, 2>> for Pair {
+    type Error = ValueError;
+
+    fn try_from(Exactly(value): Exactly<f64, 2>) -> Result<Self, ValueError> {
+        match value.iter().find(|x| !x.is_finite()) {
+            Some(&bad) => Err(ValueError::NotFinite(bad)),
+            None => Ok(Self(value)),
+        }
+    }
+}
+
 /// A cell of a patch, counted from [0, 0].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default, Deserialize, JsonSchema)]
 #[serde(from = "Exactly<usize, 2>")]

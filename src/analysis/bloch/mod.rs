@@ -4,10 +4,29 @@
 //! rigidity matrix `R(z1, z2)` is singular (McInerney, Chen, Theran, Santangelo, Rocklin, PNAS 117, 30252 (2020), last
 //! section and appendix J; C. L. Kane, T. C. Lubensky, Nature Physics 10, 39 (2014)).
 
+pub mod bands;
+pub mod decay;
+pub mod determinant;
+pub mod duality;
+pub mod laurent;
+pub mod mode_shape;
+pub mod polarization;
 pub mod rigidity;
+pub mod strain_form;
+pub mod zero_lines;
+pub mod zone;
 
+pub use decay::{Decay, Root};
+pub use determinant::Determinant;
+pub use laurent::Laurent;
+pub use mode_shape::ModeShape;
+pub use polarization::Polarization;
 pub use rigidity::Rigidity;
+pub use zero_lines::ZeroLines;
+pub use zone::Zone;
 
+use crate::kinematics::KinematicsError;
+use crate::numerics::dense::DenseError;
 use thiserror::Error;
 
 /// Why there is no answer about spatially varying modes.
@@ -24,4 +43,38 @@ pub enum BlochError {
         /// Coordinates of a cell.
         columns: usize,
     },
+    /// The determinant is rounding.
+    #[error(
+        "the determinant is known to {error:.1e} of its size only, more than {limit:e}: it vanishes at all wavenumbers, as for a \
+         flat sheet, or the cell is too ill-conditioned"
+    )]
+    NoDeterminant {
+        /// Difference to the matrix over the largest magnitude.
+        error: f64,
+        /// The largest that is accepted.
+        limit: f64,
+    },
+    /// A decomposition failed.
+    #[error(transparent)]
+    Dense(#[from] DenseError),
+    /// The determinant is not real on the zone.
+    #[error("the determinant is not symmetric (relative asymmetry {asymmetry:.1e}): it has no lines of zeros")]
+    NotSymmetric {
+        /// Largest difference of opposite coefficients over the largest.
+        asymmetry: f64,
+    },
+    /// The zero lines that were followed do not agree with the signs of the determinant.
+    #[error("lines of zero modes could not be followed: {edges} edges of the grid contradict them")]
+    ZeroLines {
+        /// Edges of the grid that contradict; 0 where a line came to no end.
+        edges: usize,
+    },
+    /// The linear folding modes are not known.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// The way round the sheet does not tell where it begins.
+    #[error(
+        "nothing changes from a cell to the next at these Bloch factors: displacements do not follow from fold rates"
+    )]
+    NoPhase,
 }

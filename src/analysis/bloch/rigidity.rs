@@ -11,11 +11,9 @@ use super::BlochError;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
 use crate::math::fold_angle::fold_angle_gradient;
+use crate::numerics::complex::{ComplexMatrix, determinant};
 use crate::sheet::{Corner, EdgeKind, Sheet};
-use nalgebra::{Complex, DMatrix};
-
-/// A complex matrix, dense.
-pub type ComplexMatrix = DMatrix<Complex<f64>>;
+use nalgebra::Complex;
 
 /// One condition on the displacements: the sum of `direction . u` over some corners is zero.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,7 +96,7 @@ impl Rigidity {
     /// `det R(z1, z2)`, not centred. Fails where the matrix is not square.
     pub fn determinant(&self, z: [Complex<f64>; 2]) -> Result<Complex<f64>, BlochError> {
         self.require_square()?;
-        Ok(self.at(z).determinant())
+        Ok(determinant(self.at(z)))
     }
 
     /// Lowest and highest power of `z1` (`a` = 0) or `z2` (1) that the determinant can have: every row contributes one of

@@ -1,0 +1,43 @@
+//! What spatially varying modes cost.
+//!
+//! ```text
+//! cargo bench --bench bloch
+//! ```
+//!
+//! Random cells of 4 to 16 vertices. `coefficients`: the determinant from the matrix; `map`: its values at 512 x 512
+//! wavenumbers from the coefficients; `zero lines`: all of them, followed to rounding; `decay`: the roots at one wavenumber.
+//! Times are medians of runs taken in turns, in milliseconds.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{in_turns, measuring, seconds};
+use foldwell::analysis::bloch::{Decay, Determinant, Rigidity, ZeroLines, Zone};
+use foldwell::sheet::generate::Random;
+use foldwell::sheet::{Pattern, generate};
+
+fn main() {
+    let (rounds, side) = if measuring() { (21, 512) } else { (1, 16) };
+    println!(
+        "{:>9} {:>13} {:>9} {:>11} {:>9} {:>7}",
+        "vertices", "coefficients", "map", "zero lines", "decay", "lines"
+    );
+    for size in [[2, 2], [3, 3], [4, 4]] {
+        let sheet = generate(&Pattern::Random(Random { size, seed: 1, ..Random::default() })).unwrap();
+        let rigidity = Rigidity::of_sheet(&sheet, false).unwrap();
+        let determinant = Determinant::new(&rigidity).unwrap();
+        let zone = Zone::new(&determinant).unwrap();
+        let lines = ZeroLines::new(&zone).unwrap().lines.len();
+        let times = in_turns(
+            rounds,
+            &mut [
+                &mut || seconds(|| Determinant::new(&rigidity).unwrap()),
+                &mut || seconds(|| determinant.polynomial.map([side, side])),
+                &mut || seconds(|| ZeroLines::new(&zone).unwrap()),
+                &mut || seconds(|| Decay::new(&determinant, 0, 0.9).unwrap()),
+            ],
+        );
+        let [coefficients, map, zero_lines, decay] = [0, 1, 2, 3].map(|k| 1e3 * times[k]);
+        println!("{:>9} {coefficients:>13.2} {map:>9.2} {zero_lines:>11.2} {decay:>9.3} {lines:>7}", size[0] * size[1]);
+    }
+}

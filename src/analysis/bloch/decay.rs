@@ -1,0 +1,104 @@
+//! Inverse decay rates: the roots `z_b` of the determinant at a real wavenumber `q_a`.
+//!
+//! A mode with root `z` is multiplied by `z` from a cell to the next and grows by `kappa = log|z|` per cell. On a sheet without
+//! openings a root `z` at wavenumber `q` has the partner `1/conj(z)`: decay rates come in pairs of opposite sign.
+
+use super::{BlochError, Determinant};
+use crate::numerics::polynomial::{Roots, roots, value_and_slope};
+use nalgebra::Complex;
+
+/// Roots of a larger condition number are left out of the pairing: they are known to less than ten digits.
+pub const WELL_CONDITIONED: f64 = 1e5;
+/// Roots nearer to the circle than this are on it, and those nearer than so many times their rounding error.
+const ON_CIRCLE: f64 = 1e-9;
+const ROUNDINGS: f64 = 100.0;
+
+/// A root of the determinant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root {
+    /// Factor from a cell to the next.
+    pub z: Complex<f64>,
+    /// Change of `log z` per change of the determinant's coefficients by so much of the largest.
+    pub condition: f64,
+}
+
+impl Root {
+    /// `log|z|`, per cell.
+    pub fn kappa(&self) -> f64 {
+        self.z.norm().ln()
+    }
+
+    /// Real part of the wavenumber, in `(-pi, pi]`.
+    pub fn wavenumber(&self) -> f64 {
+        self.z.arg()
+    }
+
+    /// Whether the mode neither grows nor decays, as far as its condition tells.
+    pub fn on_circle(&self) -> bool {
+        self.kappa().abs() <= ON_CIRCLE.max(ROUNDINGS * f64::EPSILON * self.condition)
+    }
+}
+
+/// All roots at one wavenumber.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decay {
+    /// The given wavenumber.
+    pub q: f64,
+    /// The roots neither zero nor infinite, by ascending `kappa`.
+    pub roots: Vec<Root>,
+    /// Roots that are zero: modes of the first cell alone.
+    pub at_zero: usize,
+    /// Roots that are infinite: modes of the last cell alone.
+    pub at_infinity: usize,
+}
+
+/// How well decay rates of opposite sign pair.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pairing {
+    /// Largest `|kappa + kappa'|` of the k-th smallest and the k-th largest.
+    pub error: f64,
+    /// The largest condition number of a root that was compared.
+    pub condition: f64,
+    /// Roots left out because their condition is too large.
+    pub left_out: usize,
+}
+
+impl Decay {
+    /// The roots `z2` at `z1 = exp(i q)` (`a` = 0), or `z1` at `z2 = exp(i q)` (`a` = 1).
+    ///
+    /// Fails where the determinant vanishes for all of them.
+    pub fn new(determinant: &Determinant, a: usize, q: f64) -> Result<Self, BlochError> {
+        let polynomial = &determinant.polynomial;
+        let (coefficients, sizes) = (polynomial.along(a, q), polynomial.sizes(a));
+        let Roots { finite, at_zero, at_infinity } = roots(&coefficients)?;
+        let largest = polynomial.largest();
+        let condition = |z: Complex<f64>| {
+            // every coefficient carries the rounding of the largest
+            let size: f64 = sizes
+                .iter()
+                .map(|size| size.max(largest))
+                .enumerate()
+                .map(|(k, size)| size * z.norm().powi(k as i32))
+                .sum();
+            size / (z * value_and_slope(&coefficients, z)[1]).norm()
+        };
+        let mut roots: Vec<Root> = finite.into_iter().map(|z| Root { z, condition: condition(z) }).collect();
+        roots.sort_by(|a, b| a.kappa().total_cmp(&b.kappa()));
+        Ok(Self { q, roots, at_zero, at_infinity })
+    }
+
+    /// How well the rates of the finite roots pair.
+    pub fn pairing(&self) -> Pairing {
+        let mut found = Pairing::default();
+        for (low, high) in self.roots.iter().zip(self.roots.iter().rev()) {
+            let condition = low.condition.max(high.condition);
+            if condition <= WELL_CONDITIONED {
+                found.error = found.error.max((low.kappa() + high.kappa()).abs());
+                found.condition = found.condition.max(condition);
+            } else {
+                found.left_out += 1;
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,72 @@
+//! The directions in which zero lines leave `q = 0`, from the three linear folding modes alone.
+//!
+//! A long wave bends the sheet by curvature tensors along `k k^T`, `k` its wave vector in the plane. A uniform mode of curvature
+//! `K` has the lattice strain `eps(K)`. Strains that vary along `k` only are those of an in-plane displacement unless they
+//! stretch across: the wave costs no energy where `k' . eps(k k^T) . k' = 0`, `k'` being `k` turned by a right angle. This
+//! quartic is the leading form of the determinant at `q = 0` up to a constant. It is as symmetric as it looks:
+//! `cof(K') : eps(K) = cof(K) : eps(K')` for any two modes.
+
+use super::BlochError;
+use crate::kinematics::metric::LatticeFrame;
+use crate::kinematics::{Displacement, Embedding, KinematicsError, folding_modes};
+use crate::math::Vec3;
+use crate::sheet::{Corner, Sheet};
+use nalgebra::Matrix3;
+
+/// Strains of the linear folding modes of a spatially periodic sheet.
+#[derive(Clone, Debug)]
+pub struct StrainForm {
+    /// `[strain11, strain22, strain12]` of the modes `[k11, k22, k12]` = unit vectors, as columns; 1/curvature.
+    pub strains: Matrix3<f64>,
+    /// The drawn lattice.
+    pub frame: LatticeFrame,
+}
+
+impl StrainForm {
+    /// From the modes of the drawn state. Fails where there are not three, or curvatures do not name them.
+    pub fn new(sheet: &Sheet) -> Result<Self, BlochError> {
+        let lattice = sheet.lattice.ok_or(BlochError::NoLattice)?;
+        let (modes, embedding, frame) = (folding_modes(sheet)?, Embedding::new(sheet)?, LatticeFrame::new(&lattice));
+        let strain = |mode: usize| -> Result<Vec3, KinematicsError> {
+            let mut curvature = [0.0; 3];
+            curvature[mode] = 1.0;
+            let moving = Displacement::new(&embedding, embedding.drawn_angles(), &modes.named(curvature)?);
+            let velocity = |shift: [i32; 2]| moving.corner(Corner { vertex: 0, shift }).1;
+            let rates = [[1, 0], [0, 1]].map(|shift| velocity(shift) - velocity([0, 0]));
+            Ok(Vec3::from(frame.strain_rate(&lattice, &rates)))
+        };
+        Ok(Self { strains: Matrix3::from_columns(&[strain(0)?, strain(1)?, strain(2)?]), frame })
+    }
+
+    /// `cof(other) : eps(curvature)`, both tensors as `[k11, k22, k12]`.
+    pub fn pairing(&self, curvature: [f64; 3], other: [f64; 3]) -> f64 {
+        let strain = self.strains * Vec3::from(curvature);
+        other[1] * strain[0] + other[0] * strain[1] - 2.0 * other[2] * strain[2]
+    }
+
+    /// The quartic: coefficients of `q1^(4 - k) q2^k`, wavenumbers in radians per cell.
+    pub fn quartic(&self) -> [f64; 5] {
+        // the wave vector a^-T q, as polynomials in q of degree 1
+        let inverse = self.frame.inverse;
+        let [x, y] = [0, 1].map(|i| [inverse[(0, i)], inverse[(1, i)]]);
+        let tensor = [product(&x, &x), product(&y, &y), product(&x, &y)];
+        let mut quartic = [0.0; 5];
+        for (row, (cofactor, weight)) in [(1, 1.0), (0, 1.0), (2, -2.0)].into_iter().enumerate() {
+            for column in 0..3 {
+                let part = product(&tensor[cofactor], &tensor[column]);
+                let factor = weight * self.strains[(row, column)];
+                quartic.iter_mut().zip(part).for_each(|(sum, c)| *sum += factor * c);
+            }
+        }
+        quartic
+    }
+}
+
+/// The product of two polynomials.
+fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let mut found = vec![0.0; a.len() + b.len() - 1];
+    for (i, x) in a.iter().enumerate() {
+        b.iter().enumerate().for_each(|(j, y)| found[i + j] += x * y);
+    }
+    found
+}

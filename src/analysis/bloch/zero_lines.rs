@@ -1,0 +1,394 @@
+//! Lines of zero modes: the curves in the Brillouin zone on which a real determinant is zero.
+//!
+//! Curves are followed with the positive side on their left, by steps along the tangent and corrections along the gradient.
+//! They begin on the rays at which the form at `q = 0` vanishes, and wherever else the signs of the determinant on a grid
+//! differ between neighbours. At the end every edge of the grid must be crossed by curves an odd number of times where its
+//! ends differ in sign, and an even number of times where they do not: that is how one knows that no line is missing, except
+//! closed ones smaller than the grid's mesh.
+
+use super::BlochError;
+use super::laurent::wavenumber;
+use super::zone::{Zone, reduced};
+use std::f64::consts::{PI, TAU};
+
+/// Grid points along each direction.
+const GRID: usize = 192;
+/// Distance from `q = 0` at which the curves through it begin and end.
+const START: f64 = 1e-4;
+/// Corrections end when they are as small as this.
+const CORRECTED: f64 = 1e-14;
+/// Relative size of corrections that may be rounding, where they do not become smaller.
+const STALLED: f64 = 1e-9;
+const CORRECTIONS: usize = 8;
+/// Largest turn of the tangent in a step, in radians.
+const LARGEST_TURN: f64 = 0.15;
+/// Longest step near `q = 0`, in distances from it.
+const LONGEST_NEAR: f64 = 0.2;
+/// Steps shorter than this are a failure.
+const SHORTEST: f64 = 1e-10;
+const MOST_STEPS: usize = 200_000;
+/// Attempts, each with steps a quarter as long.
+const ATTEMPTS: usize = 3;
+
+/// A closed curve of zero modes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ZeroLine {
+    /// Wavenumbers along it, continuous, not reduced to the zone; the last is the first moved by the winding.
+    pub points: Vec<[f64; 2]>,
+    /// How often it goes round the zone in both directions; `[0, 0]`: it closes in itself.
+    pub winding: [i32; 2],
+    /// How often it passes `q = 0`.
+    pub passes: usize,
+    /// Largest distance of a point from the zero of the determinant, estimated by its last correction.
+    pub residual: f64,
+}
+
+/// A part of the zone in which the determinant has one sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// The sign.
+    pub positive: bool,
+    /// Its part of the zone.
+    pub fraction: f64,
+}
+
+/// All lines and what they enclose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ZeroLines {
+    /// The lines, those through `q = 0` first, taken straight through it.
+    pub lines: Vec<ZeroLine>,
+    /// The regions, the largest first.
+    pub regions: Vec<Region>,
+    /// Edges of the grid that were compared with the crossings of the lines.
+    pub compared: usize,
+}
+
+impl ZeroLines {
+    /// Follows all lines.
+    pub fn new(zone: &Zone) -> Result<Self, BlochError> {
+        let mut longest = 0.6 * TAU / GRID as f64;
+        let mut last = Err(BlochError::ZeroLines { edges: 0 });
+        for _ in 0..ATTEMPTS {
+            last = Tracer::new(zone, longest).and_then(Tracer::all);
+            if last.is_ok() {
+                break;
+            }
+            longest /= 4.0;
+        }
+        last
+    }
+
+    /// How many lines leave `q = 0`: half the number of ends there.
+    pub fn through_origin(&self) -> usize {
+        self.lines.iter().map(|line| line.passes).sum()
+    }
+}
+
+/// A piece of a line: all of one that closes, or from a ray at `q = 0` to another.
+struct Arc {
+    points: Vec<[f64; 2]>,
+    residual: f64,
+}
+
+/// Where a piece ends.
+enum End<'a> {
+    /// Where it began, with this tangent.
+    Start([f64; 2]),
+    /// At `q = 0`, on one of these rays.
+    Origin(&'a mut Vec<bool>),
+}
+
+struct Tracer<'a> {
+    zone: &'a Zone,
+    longest: f64,
+    /// Angles of the rays at `q = 0`.
+    rays: Vec<f64>,
+    /// Whether the determinant is positive at the grid points, `q2` by `q1`.
+    positive: Vec<bool>,
+    /// Crossings of the edges to the next point in `q1` and in `q2`.
+    crossings: [Vec<u32>; 2],
+}
+
+impl<'a> Tracer<'a> {
+    fn new(zone: &'a Zone, longest: f64) -> Result<Self, BlochError> {
+        let lines = zone.directions()?;
+        let rays = lines.iter().flat_map(|&angle| [angle, angle + PI]).collect();
+        let at = |k: usize| [wavenumber(k % GRID, GRID), wavenumber(k / GRID, GRID)];
+        let positive = (0..GRID * GRID).map(|k| zone.at(at(k)).0 > 0.0).collect();
+        let crossings = [vec![0; GRID * GRID], vec![0; GRID * GRID]];
+        Ok(Self { zone, longest, rays, positive, crossings })
+    }
+
+    fn all(mut self) -> Result<ZeroLines, BlochError> {
+        let mut lines = self.through_origin()?;
+        for a in 0..2 {
+            for k in 0..GRID * GRID {
+                if self.changes(a, k) && self.crossings[a][k] == 0 {
+                    let arc = self.closed(self.start_on(a, k))?;
+                    self.count(&arc.points);
+                    lines.push(line(arc.points, 0, arc.residual));
+                }
+            }
+        }
+        let edges = (0..2).flat_map(|a| (0..GRID * GRID).map(move |k| (a, k)));
+        let missed = edges.filter(|&(a, k)| (self.crossings[a][k] % 2 == 1) != self.changes(a, k));
+        match missed.count() {
+            0 => Ok(ZeroLines { lines, regions: regions(&self.positive), compared: 2 * GRID * GRID }),
+            edges => Err(BlochError::ZeroLines { edges }),
+        }
+    }
+
+    /// Whether the signs at the ends of an edge of the grid differ.
+    fn changes(&self, a: usize, k: usize) -> bool {
+        self.positive[k] != self.positive[next(a, k)]
+    }
+
+    /// The zero on an edge of the grid whose ends differ in sign, by bisection.
+    fn start_on(&self, a: usize, k: usize) -> [f64; 2] {
+        let low = [wavenumber(k % GRID, GRID), wavenumber(k / GRID, GRID)];
+        let (mut inside, mut step) = (low, TAU / GRID as f64);
+        for _ in 0..50 {
+            step *= 0.5;
+            let mut middle = inside;
+            middle[a] += step;
+            if (self.zone.at(middle).0 > 0.0) == self.positive[k] {
+                inside = middle;
+            }
+        }
+        inside
+    }
+
+    /// The pieces between rays at `q = 0`, joined straight through it.
+    fn through_origin(&mut self) -> Result<Vec<ZeroLine>, BlochError> {
+        let mut used = vec![false; self.rays.len()];
+        let mut arcs: Vec<([usize; 2], Arc)> = Vec::new();
+        for ray in 0..self.rays.len() {
+            let (sine, cosine) = self.rays[ray].sin_cos();
+            let (start, _) = self.corrected([START * cosine, START * sine])?;
+            let tangent = tangent(self.zone.at(start).1);
+            if used[ray] || tangent[0] * cosine + tangent[1] * sine <= 0.0 {
+                continue;
+            }
+            used[ray] = true;
+            let arc = self.follow(start, End::Origin(&mut used))?;
+            self.count(&arc.points);
+            let last = arc.points[arc.points.len() - 1].map(reduced);
+            arcs.push(([ray, self.nearest_ray(last)], arc));
+        }
+        if used.iter().any(|used| !used) || arcs.len() * 2 != self.rays.len() {
+            return Err(BlochError::ZeroLines { edges: 0 });
+        }
+        Ok(joined(arcs))
+    }
+
+    fn nearest_ray(&self, q: [f64; 2]) -> usize {
+        let angle = q[1].atan2(q[0]);
+        let away = |ray: &usize| reduced(self.rays[*ray] - angle).abs();
+        (0..self.rays.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
+    }
+
+    fn closed(&self, start: [f64; 2]) -> Result<Arc, BlochError> {
+        let (start, _) = self.corrected(start)?;
+        // not on the edge of the grid itself, where rounding would decide whether it is crossed
+        let start = self.step(start, 0.3 * self.longest).map_or(start, |(off, _)| off);
+        let along = tangent(self.zone.at(start).1);
+        self.follow(start, End::Start(along))
+    }
+
+    /// Follows a line from a point on it to its end.
+    fn follow(&self, start: [f64; 2], mut end: End<'_>) -> Result<Arc, BlochError> {
+        let mut arc = Arc { points: vec![start], residual: 0.0 };
+        let (mut here, mut step) = (start, self.longest);
+        for _ in 0..MOST_STEPS {
+            let from_origin = if self.rays.is_empty() { f64::INFINITY } else { norm(here.map(reduced)) };
+            step = step.min(self.longest).min(LONGEST_NEAR * from_origin);
+            let Some((there, residual)) = self.step(here, step) else {
+                step *= 0.5;
+                if step < SHORTEST {
+                    return Err(BlochError::ZeroLines { edges: 0 });
+                }
+                continue;
+            };
+            if let End::Start(along) = end
+                && arc.points.len() > 2
+                && passes(start, along, here, there, step)
+            {
+                let turns = [0, 1].map(|a| ((there[a] - start[a]) / TAU).round());
+                arc.points.push([0, 1].map(|a| start[a] + TAU * turns[a]));
+                return Ok(arc);
+            }
+            arc.points.push(there);
+            arc.residual = arc.residual.max(residual);
+            (here, step) = (there, 1.3 * step);
+            if let End::Origin(used) = &mut end
+                && arrives(here, self.zone)
+            {
+                used[self.nearest_ray(here.map(reduced))] = true;
+                return Ok(arc);
+            }
+        }
+        Err(BlochError::ZeroLines { edges: 0 })
+    }
+
+    /// One step, and the size of its last correction; `None` where it is too long.
+    fn step(&self, from: [f64; 2], length: f64) -> Option<([f64; 2], f64)> {
+        let along = tangent(self.zone.at(from).1);
+        let predicted = [0, 1].map(|a| from[a] + length * along[a]);
+        let (there, residual) = self.corrected(predicted).ok()?;
+        let now = tangent(self.zone.at(there).1);
+        let cosine = along[0] * now[0] + along[1] * now[1];
+        let off = norm([0, 1].map(|a| there[a] - predicted[a]));
+        (cosine >= LARGEST_TURN.cos() && off <= 0.2 * length).then_some((there, residual))
+    }
+
+    /// Corrections along the gradient, and the size of the last.
+    fn corrected(&self, mut q: [f64; 2]) -> Result<([f64; 2], f64), BlochError> {
+        let mut before = f64::INFINITY;
+        for _ in 0..CORRECTIONS {
+            let (value, gradient) = self.zone.at(q);
+            let squared = gradient[0] * gradient[0] + gradient[1] * gradient[1];
+            let step = gradient.map(|g| value * g / squared);
+            q = [0, 1].map(|a| q[a] - step[a]);
+            let size = norm(step);
+            let stalled = size <= STALLED * norm(q.map(reduced)) && size > 0.25 * before;
+            if size <= CORRECTED || stalled {
+                return Ok((q, size));
+            }
+            before = size;
+        }
+        Err(BlochError::ZeroLines { edges: 0 })
+    }
+
+    /// Adds the crossings of a polygon with the edges of the grid.
+    fn count(&mut self, points: &[[f64; 2]]) {
+        let spacing = TAU / GRID as f64;
+        let place = |q: f64| ((q + PI) / spacing - 0.5).floor() as i64;
+        for pair in points.windows(2) {
+            for a in 0..2 {
+                let [low, high] = [pair[0][a].min(pair[1][a]), pair[0][a].max(pair[1][a])];
+                for line in place(low) + 1..=place(high) {
+                    let level = (line as f64 + 0.5) * spacing - PI;
+                    let part = (level - pair[0][a]) / (pair[1][a] - pair[0][a]);
+                    let guess = pair[0][1 - a] + part * (pair[1][1 - a] - pair[0][1 - a]);
+                    let other = place(self.on_line(a, level, guess)).rem_euclid(GRID as i64) as usize;
+                    let line = line.rem_euclid(GRID as i64) as usize;
+                    // an edge along the other direction, on the line of equal q_a
+                    let k = if a == 0 { other * GRID + line } else { line * GRID + other };
+                    self.crossings[1 - a][k] += 1;
+                }
+            }
+        }
+    }
+
+    /// The zero near `guess` on the line `q_a = level`, by Newton's method as far as it makes small steps.
+    fn on_line(&self, a: usize, level: f64, guess: f64) -> f64 {
+        let mut other = guess;
+        for _ in 0..4 {
+            let mut q = [level; 2];
+            q[1 - a] = other;
+            let (value, gradient) = self.zone.at(q);
+            let step = value / gradient[1 - a];
+            if !(step.abs() <= 0.1 * self.longest) {
+                return other;
+            }
+            other -= step;
+        }
+        other
+    }
+}
+
+/// The neighbour of a grid point in the direction `a`.
+fn next(a: usize, k: usize) -> usize {
+    let (column, row) = (k % GRID, k / GRID);
+    if a == 0 { row * GRID + (column + 1) % GRID } else { (row + 1) % GRID * GRID + column }
+}
+
+fn norm(v: [f64; 2]) -> f64 {
+    v[0].hypot(v[1])
+}
+
+/// The unit tangent with the gradient on its left.
+fn tangent(gradient: [f64; 2]) -> [f64; 2] {
+    let size = norm(gradient);
+    [gradient[1] / size, -gradient[0] / size]
+}
+
+/// Whether a step of a curve passes the point where it began, up to turns round the zone.
+fn passes(start: [f64; 2], along: [f64; 2], from: [f64; 2], to: [f64; 2], step: f64) -> bool {
+    let ahead = |q: [f64; 2]| [0, 1].map(|a| reduced(q[a] - start[a]));
+    let (before, after) = (ahead(from), ahead(to));
+    let part = |v: [f64; 2]| v[0] * along[0] + v[1] * along[1];
+    norm(before) <= 1.5 * step && norm(after) <= 1.5 * step && part(before) < 0.0 && part(after) >= 0.0
+}
+
+/// Whether a curve has come back to `q = 0`: as near as where curves begin, and moving inwards.
+fn arrives(q: [f64; 2], zone: &Zone) -> bool {
+    let near = q.map(reduced);
+    let along = tangent(zone.at(q).1);
+    norm(near) <= 1.25 * START && near[0] * along[0] + near[1] * along[1] < 0.0
+}
+
+fn line(points: Vec<[f64; 2]>, passes: usize, residual: f64) -> ZeroLine {
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let winding = [0, 1].map(|a| ((last[a] - first[a]) / TAU).round() as i32);
+    ZeroLine { points, winding, passes, residual }
+}
+
+/// Pieces joined at `q = 0`: a line that arrives along one ray leaves along the opposite one.
+fn joined(arcs: Vec<([usize; 2], Arc)>) -> Vec<ZeroLine> {
+    let mut left: Vec<Option<([usize; 2], Arc)>> = arcs.into_iter().map(Some).collect();
+    let mut lines = Vec::new();
+    while let Some(([first, mut ray], arc)) = left.iter_mut().find_map(Option::take) {
+        let (mut points, mut residual, mut passes) = (vec![[0.0; 2]], arc.residual, 1);
+        append(&mut points, arc.points);
+        while ray ^ 1 != first {
+            let leaves =
+                |piece: &Option<([usize; 2], Arc)>| piece.as_ref().is_some_and(|(ends, _)| ends.contains(&(ray ^ 1)));
+            let Some((ends, mut arc)) = left.iter_mut().find(|piece| leaves(piece)).and_then(Option::take) else {
+                break;
+            };
+            if ends[0] != ray ^ 1 {
+                arc.points.reverse();
+            }
+            ray = if ends[0] == ray ^ 1 { ends[1] } else { ends[0] };
+            append(&mut points, arc.points);
+            (residual, passes) = (residual.max(arc.residual), passes + 1);
+        }
+        lines.push(line(points, passes, residual));
+    }
+    lines
+}
+
+/// Continues a curve that has come to a copy of `q = 0` with a piece from there to the next, and ends it on that copy.
+fn append(points: &mut Vec<[f64; 2]>, piece: Vec<[f64; 2]>) {
+    let here = points[points.len() - 1];
+    let home = piece[0].map(|q| TAU * (q / TAU).round());
+    let moved = |q: [f64; 2]| [0, 1].map(|a| q[a] - home[a] + here[a]);
+    points.extend(piece.into_iter().map(moved));
+    let last = points[points.len() - 1];
+    points.push(last.map(|q| TAU * (q / TAU).round()));
+}
+
+/// Connected parts of the grid of equal sign, the largest first.
+fn regions(positive: &[bool]) -> Vec<Region> {
+    let mut seen = vec![false; positive.len()];
+    let mut regions = Vec::new();
+    for first in 0..positive.len() {
+        let (mut stack, mut count) = (vec![first], 0usize);
+        while let Some(k) = stack.pop() {
+            if std::mem::replace(&mut seen[k], true) {
+                continue;
+            }
+            count += 1;
+            let (column, row) = (k % GRID, k / GRID);
+            let back = [row * GRID + (column + GRID - 1) % GRID, (row + GRID - 1) % GRID * GRID + column];
+            let neighbours = [next(0, k), next(1, k), back[0], back[1]];
+            stack.extend(neighbours.into_iter().filter(|&other| !seen[other] && positive[other] == positive[k]));
+        }
+        if count > 0 {
+            regions.push(Region { positive: positive[first], fraction: count as f64 / positive.len() as f64 });
+        }
+    }
+    regions.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
+    regions
+}

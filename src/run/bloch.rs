@@ -1,0 +1,287 @@
+//! `kind = "bloch"`: asks the analysis, writes the table of decay rates, the map and the zero lines, summarises.
+
+use super::runner::Runner;
+use super::{Progress, RunError, studies};
+use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
+use crate::analysis::bloch::laurent::wavenumber;
+use crate::analysis::bloch::{
+    BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, Root, ZeroLines, Zone,
+};
+use crate::model::assemble::Hinges;
+use crate::output::Picture;
+use crate::output::bloch_plot::{self, BlochPlot};
+use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, StudySummary, ZeroLineSummary};
+use crate::output::table::{Table, Value};
+use crate::output::vtk;
+use crate::scene::SceneFile;
+use crate::scene::build::Built;
+use crate::scene::spec::{BlochSpec, Draw, StudySpec};
+use crate::scene::values::Pair;
+use nalgebra::Complex;
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+/// Wavenumbers along each direction where the scene says nothing.
+const GRID: [usize; 2] = [256, 256];
+/// Wavenumbers of decay rates where the scene says nothing.
+const DECAYS: usize = 32;
+/// Wavenumbers over which the polarization is averaged.
+const AVERAGED: usize = 64;
+/// Wavenumbers from each corner of a path to the next.
+const STEPS: usize = 50;
+/// Wavenumbers of decay rates in the picture.
+const DRAWN: usize = 240;
+
+/// Spatially varying modes need a lattice, and as many conditions as coordinates.
+pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &BlochSpec) -> Result<(), RunError> {
+    if let (Some(path), None) = (&spec.path, stiffnesses(built)) {
+        let help = "give bars a finite stiffness and facets too, or leave out `path`";
+        return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
+    }
+    let refused = rigidity(built).and_then(|rigidity| rigidity.require_square());
+    let help = match &refused {
+        Ok(()) => return Ok(()),
+        Err(BlochError::NoLattice) => "a periodic sheet has the key `foldwell:lattice` in its mesh",
+        Err(_) => "give facets a stiffness, so that polygons bend: bars alone make as many conditions as coordinates",
+    };
+    match refused {
+        Err(error) => Err(file.error_at(study.kind.span(), error.to_string(), help).into()),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Bars, and the locks of polygons that are rigid.
+fn rigidity(built: &Built) -> Result<Rigidity, BlochError> {
+    let rigid = built.recipe.facets.as_ref().is_some_and(|facets| facets.stiffness.is_infinite());
+    Rigidity::of_sheet(&built.sheet, rigid)
+}
+
+/// Stiffnesses of the energy; `None` where it has no bars, or a term is rigid.
+fn stiffnesses(built: &Built) -> Option<Stiffnesses> {
+    let recipe = &built.recipe;
+    let of = |hinges: &Option<Hinges>| hinges.as_ref().map_or(0.0, |hinges| hinges.stiffness);
+    let found = Stiffnesses { bars: recipe.bars?, creases: of(&recipe.creases), facets: of(&recipe.facets) };
+    [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
+}
+
+/// What the analysis found.
+struct Found {
+    determinant: Determinant,
+    decays: Vec<Decay>,
+    polarization: Polarization,
+    /// Zone and lines; `None` where the determinant is not real.
+    real: Option<(Zone, ZeroLines)>,
+    /// Real and imaginary parts on the grid.
+    map: [Vec<f64>; 2],
+    grid: [usize; 2],
+    modes: Vec<ModeShape>,
+    bands: Vec<Bands>,
+}
+
+/// The bands at a wavenumber of the path.
+struct Bands {
+    q: [f64; 2],
+    values: Vec<f64>,
+}
+
+/// Runs the study.
+pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Result<StudySummary, RunError> {
+    let clock = Instant::now();
+    let found = find(runner, study, spec);
+    let mut summary = StudySummary {
+        name: study.name.0.clone(),
+        kind: study.kind.name().to_owned(),
+        converged: found.is_ok(),
+        seconds: clock.elapsed().as_secs_f64(),
+        error: None,
+        reason: None,
+        result: None,
+    };
+    match found {
+        Ok(Some(found)) => {
+            table(&found.decays).write(&runner.path(format!("{}.csv", study.name.0)))?;
+            if !found.bands.is_empty() {
+                band_table(&found.bands).write(&runner.path(format!("{}_bands.csv", study.name.0)))?;
+            }
+            draw(runner, study, &found)?;
+            summary.error = Some(found.determinant.error);
+            summary.result = Some(StudyResult::Bloch(summarized(&found)));
+        }
+        Ok(None) => (summary.converged, summary.reason) = (false, Some("interrupted".to_owned())),
+        Err(error) => summary.reason = Some(error.to_string()),
+    }
+    Ok(summary)
+}
+
+/// All answers; `None` where the observer asked to stop.
+fn find(runner: &Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Result<Option<Found>, BlochError> {
+    let watch = |step: usize| {
+        let (study, of) = (study.name.0.clone(), Some(4));
+        runner.watch(&Progress { study, step, of, residual: f64::NAN, target: None })
+    };
+    let determinant = Determinant::new(&rigidity(runner.built)?)?;
+    if !watch(1) {
+        return Ok(None);
+    }
+    let decays = wavenumbers(spec).into_iter().map(|q1| Decay::new(&determinant, 0, q1)).collect::<Result<_, _>>()?;
+    if !watch(2) {
+        return Ok(None);
+    }
+    let polarization = Polarization::new(&determinant, AVERAGED)?;
+    if !watch(3) {
+        return Ok(None);
+    }
+    let real = match Zone::new(&determinant) {
+        Ok(zone) => Some((zone.clone(), ZeroLines::new(&zone)?)),
+        Err(BlochError::NotSymmetric { .. }) => None,
+        Err(error) => return Err(error),
+    };
+    let grid = spec.grid.as_ref().map_or(GRID, |grid| grid.0);
+    let values = determinant.polynomial.map(grid);
+    let map = [values.iter().map(|value| value.re).collect(), values.iter().map(|value| value.im).collect()];
+    let (modes, bands) = (shapes(runner, spec, &determinant)?, bands(runner, spec)?);
+    Ok(watch(4).then_some(Found { determinant, decays, polarization, real, map, grid, modes, bands }))
+}
+
+/// The modes that the scene names, each of the root nearest to its decay rate.
+fn shapes(runner: &Runner<'_>, spec: &BlochSpec, determinant: &Determinant) -> Result<Vec<ModeShape>, BlochError> {
+    let rigidity = rigidity(runner.built)?;
+    let mut found = Vec::new();
+    for Pair([q1, kappa2]) in spec.modes.iter().flat_map(|modes| modes.iter()) {
+        let decay = Decay::new(determinant, 0, *q1)?;
+        let away = |root: &Root| (root.kappa() - kappa2).abs();
+        if let Some(root) = decay.roots.iter().min_by(|a, b| away(a).total_cmp(&away(b))) {
+            found.push(ModeShape::new(&rigidity, [Complex::from_polar(1.0, *q1), root.z])?);
+        }
+    }
+    Ok(found)
+}
+
+/// The bands along the path of the scene.
+fn bands(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Vec<Bands>, BlochError> {
+    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.built)) else { return Ok(Vec::new()) };
+    let matrix = DynamicalMatrix::new(&runner.built.sheet, stiffnesses)?;
+    let corners: Vec<[f64; 2]> = path.iter().map(|corner| corner.0).collect();
+    along_path(&corners, STEPS).into_iter().map(|q| Ok(Bands { q, values: matrix.bands(q)? })).collect()
+}
+
+fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
+    match &spec.q1 {
+        Some(list) => list.iter().map(|q1| q1.0).collect(),
+        None => (0..DECAYS).map(|k| wavenumber(k, DECAYS)).collect(),
+    }
+}
+
+/// A row for every root at every wavenumber.
+fn table(decays: &[Decay]) -> Table {
+    let names = ["q1", "root", "kappa2", "q2", "condition", "on_circle"];
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    for decay in decays {
+        for (k, root) in decay.roots.iter().enumerate() {
+            let numbers = [root.kappa(), root.wavenumber(), root.condition].map(Value::Number);
+            let (first, last) =
+                ([Value::Number(decay.q), Value::Whole(k as i64)], Value::Whole(root.on_circle().into()));
+            table.push(first.into_iter().chain(numbers).chain([last]).collect());
+        }
+    }
+    table
+}
+
+/// A row for every wavenumber of the path: its length so far, the wavenumber, and the bands.
+fn band_table(bands: &[Bands]) -> Table {
+    let count = bands.iter().map(|at| at.values.len()).max().unwrap_or(0);
+    let names = ["length", "q1", "q2"].map(str::to_owned);
+    let mut table = Table::new(names.into_iter().chain((0..count).map(|k| format!("band_{k}"))).collect());
+    let mut length = 0.0;
+    for (k, Bands { q, values }) in bands.iter().enumerate() {
+        let before = bands[k.saturating_sub(1)].q;
+        length += (q[0] - before[0]).hypot(q[1] - before[1]);
+        table.push([length, q[0], q[1]].iter().chain(values).map(|number| Value::Number(*number)).collect());
+    }
+    table
+}
+
+/// The map, the lines and the picture, as the study asks.
+fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), RunError> {
+    let name = &study.name.0;
+    if study.draw.contains(&Draw::Vtk) {
+        let mut files = vec![(0.0, format!("{name}/{name}_determinant.vti"))];
+        let spacing = found.grid.map(|n| TAU / n as f64);
+        let origin = found.grid.map(|n| wavenumber(0, n));
+        let [real, imaginary] = found.map.clone();
+        let arrays = [("determinant", real), ("imaginary_part", imaginary)];
+        vtk::write_vti(&runner.path(&files[0].1), found.grid, [origin, spacing], &arrays)?;
+        if let Some((_, lines)) = &found.real {
+            files.push((1.0, format!("{name}/{name}_zero_lines.vtp")));
+            let curves: Vec<Vec<[f64; 2]>> = lines.lines.iter().map(|line| line.points.clone()).collect();
+            let winding = |a: usize| lines.lines.iter().map(|line| line.winding[a]).collect();
+            let passes = lines.lines.iter().map(|line| line.passes as i32).collect();
+            let arrays = [("winding1", winding(0)), ("winding2", winding(1)), ("passes", passes)];
+            vtk::write_curves(&runner.path(&files[1].1), &curves, &arrays)?;
+        }
+        for (k, mode) in found.modes.iter().enumerate() {
+            let displacement = mode.on_cells(runner.view.patch.cells);
+            let picture = Picture { displacement, ..studies::drawn_picture(runner, study) };
+            files.push((files.len() as f64, format!("{name}/{name}_mode_{k:04}.vtu")));
+            vtk::write_vtu(&runner.path(format!("{name}/{name}_mode_{k:04}.vtu")), &picture)?;
+        }
+        vtk::write_pvd(&runner.path(format!("{name}.pvd")), &files)?;
+    }
+    if study.draw.contains(&Draw::Svg) {
+        let lines = found.real.iter().flat_map(|(_, lines)| &lines.lines).map(|line| line.points.clone()).collect();
+        let plot = BlochPlot { rates: rates(&found.determinant), polynomial: &found.determinant.polynomial, lines };
+        bloch_plot::write_svg(&runner.path(format!("{name}.svg")), &plot, &runner.file.title())?;
+    }
+    Ok(())
+}
+
+/// `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers; those at which the determinant vanishes for all
+/// `z2` are left out.
+fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
+    let decays = (0..DRAWN).filter_map(|k| Decay::new(determinant, 0, wavenumber(k, DRAWN)).ok());
+    decays
+        .flat_map(|decay| decay.roots.into_iter().map(move |root| (decay.q, root.kappa(), root.on_circle())))
+        .collect()
+}
+
+fn summarized(found: &Found) -> BlochSummary {
+    let Found { determinant, decays, polarization, real, map, .. } = found;
+    let pairings: Vec<_> = decays.iter().map(Decay::pairing).collect();
+    let decay = |decay: &Decay| DecaySummary {
+        q1: decay.q,
+        kappa2: decay.roots.iter().map(|root| root.kappa()).collect(),
+        condition: decay.roots.iter().map(|root| root.condition.min(f64::MAX)).collect(),
+    };
+    let positive = map[0].iter().filter(|value| **value > 0.0).count() as f64 / map[0].len() as f64;
+    let lines = real.as_ref().map_or(&[][..], |(_, lines)| &lines.lines);
+    let length = |points: &[[f64; 2]]| points.windows(2).map(|q| (q[1][0] - q[0][0]).hypot(q[1][1] - q[0][1])).sum();
+    let region = |region: &crate::analysis::bloch::zero_lines::Region| RegionSummary {
+        sign: if region.positive { 1 } else { -1 },
+        fraction: region.fraction,
+    };
+    BlochSummary {
+        determinant: determinant.polynomial.terms().map(|(m, n, c)| [m, n, c]).collect(),
+        symmetry_error: determinant.symmetry_error,
+        imaginary_part: determinant.imaginary_part,
+        decay: decays.iter().map(decay).collect(),
+        pairing_error: pairings.iter().map(|pairing| pairing.error).fold(0.0, f64::max),
+        pairing_condition: pairings.iter().map(|pairing| pairing.condition).fold(0.0, f64::max),
+        ill_conditioned: pairings.iter().map(|pairing| pairing.left_out).sum(),
+        polarization: polarization.polarization,
+        on_circle: polarization.on_circle,
+        positive_fraction: real.as_ref().map(|_| positive),
+        zero_lines: lines.len(),
+        lines: lines
+            .iter()
+            .map(|line| ZeroLineSummary {
+                winding: line.winding,
+                passes: line.passes,
+                length: length(&line.points),
+                residual: line.residual,
+            })
+            .collect(),
+        regions: real.iter().flat_map(|(_, lines)| lines.regions.iter().map(region)).collect(),
+        order_at_origin: real.as_ref().map(|(zone, _)| zone.order),
+        directions: real.iter().flat_map(|(zone, _)| zone.directions().unwrap_or_default()).collect(),
+    }
+}
