@@ -2,6 +2,7 @@
 //!
 //! Every writer goes through [`files`]: a file appears whole or not at all.
 
+pub mod chart;
 pub mod error;
 pub mod files;
 pub mod picture;

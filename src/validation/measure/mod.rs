@@ -1,0 +1,26 @@
+//! Measurements: experiments that no scene describes. One idea a file.
+
+use super::experiment::{Bench, ExperimentError, Findings};
+
+mod sizes;
+mod steps;
+mod stiffness;
+mod threads;
+mod tolerance;
+
+/// A measurement.
+pub type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
+
+/// The measurements by name.
+const MEASUREMENTS: &[(&str, Measurement)] = &[
+    ("sizes", sizes::measure),
+    ("steps", steps::measure),
+    ("stiffness", stiffness::measure),
+    ("threads", threads::measure),
+    ("tolerance", tolerance::measure),
+];
+
+/// The measurement of this name.
+pub fn find(name: &str) -> Option<Measurement> {
+    MEASUREMENTS.iter().find(|(known, _)| *known == name).map(|(_, measurement)| *measurement)
+}
