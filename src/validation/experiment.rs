@@ -5,9 +5,11 @@ use super::precision::Diagram;
 use super::{library, measure};
 use crate::analysis::relax::RelaxError;
 use crate::analysis::trace::TraceError;
+use crate::output::chart::Chart;
 use crate::output::{OutputError, files};
 use crate::run::{Observer, Progress, RunError, RunOptions, run_scene};
 use crate::sheet::SheetError;
+use serde::Serialize;
 use serde_json::Value;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -60,7 +62,7 @@ pub enum ExperimentError {
 }
 
 /// A table of a report.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Grid {
     /// What it shows.
     pub title: String,
@@ -77,6 +79,8 @@ pub struct Findings {
     pub values: Value,
     /// Its diagrams of error against run time.
     pub diagrams: Vec<Diagram>,
+    /// Its other charts.
+    pub charts: Vec<Chart>,
     /// Its tables.
     pub tables: Vec<Grid>,
 }

@@ -15,6 +15,9 @@ const STEPS: usize = 200;
 const UPDATES: usize = 200;
 const TOLERANCE: f64 = 1e-12;
 const HALVINGS: i32 = 40;
+/// What the energy may rise by for rounding error, relative; a step that is expected to gain less than that, and does not
+/// make the force smaller, is the last.
+const NOISE: f64 = 1e-14;
 /// First shift of a Hessian that is not that of a minimum, and its growth.
 const FIRST_SHIFT: f64 = 1e-2;
 const RAISE: f64 = 4.0;
@@ -70,13 +73,15 @@ pub fn minimize(model: &mut Model, form: Form) -> Result<Outcome, FactorError> {
         Form::Augmented(weight) => (1.0 / weight, UPDATES),
     };
     let mut run = Weighted { model, softness, before, at, factor, x, iterations: 0 };
+    let mut best = f64::INFINITY;
     for _ in 0..updates {
         run.descend();
         run.before = run.tension(&run.x);
         let [force, length] = run.residuals();
-        if length <= TOLERANCE || force > TOLERANCE {
+        if force.max(length) <= TOLERANCE || run.iterations >= STEPS || !(length < best) {
             break;
         }
+        best = length;
     }
     let residuals = run.residuals();
     let converged = residuals.iter().all(|residual| *residual <= TOLERANCE);
@@ -105,6 +110,7 @@ impl Weighted<'_> {
 
     /// Newton's method until the force is small or no step lowers the energy.
     fn descend(&mut self) {
+        let mut last = f64::INFINITY;
         while self.iterations < STEPS {
             let tension = self.tension(&self.x);
             self.model.linearize(&self.x, &tension, Curvature::Full, &mut self.at);
@@ -112,15 +118,20 @@ impl Weighted<'_> {
             if force.iter().all(|f| f.abs() <= TOLERANCE * self.at.largest_force) {
                 return;
             }
-            let Some(next) = self.step(&force) else { return };
+            let size = force.iter().fold(0.0f64, |most, f| most.max(f.abs()));
+            let Some((next, gain)) = self.step(&force) else { return };
+            if gain <= NOISE * self.energy(&self.x) && size > 0.5 * last {
+                return;
+            }
+            last = size;
             self.x = next;
             self.model.accept(&mut self.x);
             self.iterations += 1;
         }
     }
 
-    /// The state after one step; `None` where no fraction of it lowers the energy.
-    fn step(&mut self, force: &[f64]) -> Option<Vec<f64>> {
+    /// The state after one step, and what a whole one is expected to gain; `None` where no fraction lowers the energy.
+    fn step(&mut self, force: &[f64]) -> Option<(Vec<f64>, f64)> {
         let mut matrix = self.at.hessian.clone();
         for (row, c) in self.model.compliance().iter().enumerate() {
             self.at.add_outer(self.model.layout(), row, self.weight(*c), &mut matrix);
@@ -140,7 +151,8 @@ impl Weighted<'_> {
         let before = self.energy(&self.x);
         (0..HALVINGS).map(|halving| 0.5f64.powi(halving)).find_map(|fraction| {
             let trial: Vec<f64> = self.x.iter().zip(&step).map(|(x, d)| x + fraction * d).collect();
-            (self.energy(&trial) <= before - 1e-4 * fraction * slope).then_some(trial)
+            let most = before * (1.0 + NOISE) - 1e-4 * fraction * slope;
+            (self.energy(&trial) <= most).then_some((trial, 0.5 * slope))
         })
     }
 }

@@ -38,6 +38,10 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "sizes-growth"
     "threads-exact"
     "threads-same-bytes"
+    "extremes-nothing-wrong"
+    "extremes-mostly-right"
+    "random-nothing-wrong"
+    "random-mostly-right"
 );
 
 /// Files of `meshes` that claims need.

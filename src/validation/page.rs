@@ -31,6 +31,7 @@ pub fn html(report: &Report) -> String {
         text += &svg(&diagram.chart());
         text += &table(&cheapest(diagram));
     }
+    report.charts.iter().for_each(|chart| text += &svg(chart));
     report.tables.iter().for_each(|grid| text += &table(grid));
     text + "</body></html>\n"
 }

@@ -5,6 +5,7 @@ use super::experiment::{Grid, Outcome};
 use super::page;
 use super::precision::{Diagram, Setting};
 use super::verdict::{compare, numbers_at};
+use crate::output::chart::Chart;
 use crate::output::summary::to_json;
 use crate::output::{OutputError, files};
 use serde::Serialize;
@@ -63,8 +64,10 @@ pub struct Report {
     pub cases: Vec<Case>,
     /// Diagrams of error against run time.
     pub diagrams: Vec<Diagram>,
-    /// Tables of what was measured besides.
+    /// Other charts; what they show stands in the tables.
     #[serde(skip)]
+    pub charts: Vec<Chart>,
+    /// Tables of what was measured besides.
     pub tables: Vec<Grid>,
 }
 
@@ -138,6 +141,7 @@ impl Report {
             self.seconds += outcome.seconds;
             if let Ok(findings) = &outcome.found {
                 self.diagrams.extend(findings.diagrams.iter().cloned());
+                self.charts.extend(findings.charts.iter().cloned());
                 self.tables.extend(findings.tables.iter().cloned());
             }
         }

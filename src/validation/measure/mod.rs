@@ -2,6 +2,7 @@
 
 use super::experiment::{Bench, ExperimentError, Findings};
 
+mod extremes;
 mod sizes;
 mod steps;
 mod stiffness;
@@ -13,6 +14,8 @@ pub type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
 
 /// The measurements by name.
 const MEASUREMENTS: &[(&str, Measurement)] = &[
+    ("extremes", extremes::measure),
+    ("random scenes", extremes::random_scenes),
     ("sizes", sizes::measure),
     ("steps", steps::measure),
     ("stiffness", stiffness::measure),

@@ -72,7 +72,8 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
         "most iterations over moderate": most(&|k| tension(k) / tension(MODERATE)),
         "scaled error at 1e10 over 1e12": scaled(4) / scaled(5),
     });
-    Ok(Findings { values, tables: vec![table(&all, &seconds, &names)], diagrams: vec![diagram] })
+    let tables = vec![table(&all, &seconds, &names)];
+    Ok(Findings { values, tables, diagrams: vec![diagram], ..Findings::default() })
 }
 
 /// The exact equilibrium: the rigid state, once the exact kinematics has confirmed it.

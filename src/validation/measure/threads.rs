@@ -1,7 +1,8 @@
 //! What more threads buy. The number of threads is set once in a process, so the program starts itself.
 
-use super::super::experiment::{Bench, ExperimentError, Findings};
-use super::super::precision::{Diagram, Method, Setting};
+use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
+use super::super::precision::Setting;
+use super::super::report::figure;
 use super::super::star::Star;
 use super::super::{library, star};
 use crate::output::OutputError;
@@ -50,12 +51,13 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
         "different tables": tables.iter().filter(|table| **table != tables[0]).count(),
         "two over one": settings[1].seconds / settings[0].seconds,
     });
-    let diagram = Diagram {
-        title: "Number of threads, 32 x 32 rigid cells".into(),
-        error: "largest error of a fold angle against exact kinematics (rad)".into(),
-        methods: vec![Method { name: "tension form, rigid".into(), settings }],
+    let row = |s: &Setting| vec![s.label.clone(), figure(s.error), figure(s.seconds)];
+    let grid = Grid {
+        title: "Number of threads, 32 x 32 rigid cells rolled up to an exact cylinder".into(),
+        header: ["", "error (rad)", "seconds"].map(str::to_owned).to_vec(),
+        rows: settings.iter().map(row).collect(),
     };
-    Ok(Findings { values, diagrams: vec![diagram], tables: vec![] })
+    Ok(Findings { values, tables: vec![grid], ..Findings::default() })
 }
 
 /// Seconds of the study, and its table.

@@ -39,5 +39,5 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
         error: "largest error of a fold angle against exact kinematics (rad)".into(),
         methods: vec![Method { name: "tension form".into(), settings }],
     };
-    Ok(Findings { values, diagrams: vec![diagram], tables: vec![] })
+    Ok(Findings { values, diagrams: vec![diagram], ..Findings::default() })
 }

@@ -1,0 +1,146 @@
+//! One relaxation far from the ordinary, and a verdict on it: right, refused for a reason, or wrong.
+
+use crate::analysis::exact::error_to_kinematic;
+use crate::analysis::relax::relax;
+use crate::analysis::state::State;
+use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use crate::model::{Gauge, Model};
+use crate::sheet::{EdgeKind, Sheet, tile};
+use crate::solver::Options;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
+
+/// A relaxation that takes longer is taken for one that hangs.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Largest relative change of the length of a rigid bar.
+const KEPT: f64 = 1e-9;
+
+/// What came of a trial.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// As an independent computation says, to this error in fold angles.
+    Right(f64),
+    /// Converged, with the lengths of rigid bars kept to this relative error, where nothing independent is at hand.
+    Unjudged(f64),
+    /// Refused, for this reason.
+    Refused(String),
+    /// Anything else: a wrong number, a panic, no end.
+    Wrong(String),
+}
+
+/// A sheet with bars and creases, whose creases want other angles.
+pub struct Trial {
+    /// The cell, or the finite sheet.
+    pub sheet: Sheet,
+    /// Its cells.
+    pub cells: [usize; 2],
+    /// What surrounds them.
+    pub surroundings: Surroundings,
+    /// Stiffness of bars and creases; facets are rigid.
+    pub stiffness: [f64; 2],
+    /// Rest angles are the drawn ones and at most this much more or less, at random, in radians.
+    pub off: f64,
+    /// Seed of these numbers.
+    pub seed: u64,
+    /// An edge with the angle that it has to have.
+    pub lock: Option<(usize, f64)>,
+}
+
+/// Where a trial ended.
+pub struct Found {
+    /// Fold angle of every edge; NaN where there is no hinge.
+    pub angles: Vec<f64>,
+    /// Largest difference of a fold angle to the exact kinematics; `None` where there is nothing to compare with.
+    pub to_kinematic: Option<f64>,
+    /// Largest relative change of the length of a bar.
+    pub stretch: f64,
+}
+
+impl Trial {
+    /// A patch with rigid bars and creases of 1.
+    pub fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
+        let stiffness = [f64::INFINITY, 1.0];
+        Self { sheet, cells, surroundings: Surroundings::Patch, stiffness, off, seed: 1, lock: None }
+    }
+
+    /// Relaxes from the drawn state. `Err`: why not.
+    pub fn run(&self) -> Result<Found, String> {
+        let Self { sheet, surroundings, stiffness: [bars, creases], .. } = self;
+        let tiling = tile(sheet, self.cells, *surroundings != Surroundings::Patch);
+        let drawn = Drawn::new(sheet, &tiling, *surroundings);
+        let angles = drawn_angles(&drawn, &tiling);
+        let mut numbers = ChaCha8Rng::seed_from_u64(self.seed);
+        let mut off = |angle: &f64| angle + self.off * (2.0 * numbers.random::<f64>() - 1.0);
+        let rest = angles.iter().map(&mut off).collect();
+        let polygons = tiling.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
+        let recipe = Recipe {
+            bars: Some(*bars),
+            creases: Some(Hinges { stiffness: *creases, rest }),
+            facets: polygons.then(|| Hinges { stiffness: f64::INFINITY, rest: angles }),
+            locks: self.lock.into_iter().collect(),
+            ..Recipe::default()
+        };
+        let mut model = assemble(&drawn, &tiling, &recipe, Gauge::Held);
+        let (start, clock) = (model.start(), Instant::now());
+        let options = Options::default();
+        let edges = tiling.edges.len();
+        let found = relax(&mut model, start, options, edges, &mut |_| clock.elapsed() < PATIENCE);
+        let found = found.map_err(|error| error.failure.to_string())?;
+        if !(found.residual_force <= 1e-9 && found.residual_length <= options.tolerance) {
+            return Ok(Found { angles: vec![], to_kinematic: Some(f64::NAN), stretch: f64::NAN });
+        }
+        let state = State::new(&model, &found.x, &found.tension, edges);
+        let to_kinematic = error_to_kinematic(sheet, &tiling, &model, &state.fold_angle);
+        Ok(Found { stretch: stretch(&model, &found.x), angles: state.fold_angle, to_kinematic })
+    }
+
+    /// Whether rigid bars end at the exact kinematics to `allowed` radians; where that cannot be asked, whether they kept
+    /// their lengths.
+    pub fn against_kinematics(&self, allowed: f64) -> Outcome {
+        judge(|found| match found.to_kinematic {
+            Some(error) => within(error, allowed),
+            None if found.stretch <= KEPT => Outcome::Unjudged(found.stretch),
+            None => Outcome::Wrong(format!("a bar changed its length by {:.1e}", found.stretch)),
+        })(self)
+    }
+
+    /// Whether the fold angles are these to `allowed` radians.
+    pub fn against(&self, expected: &[f64], allowed: f64) -> Outcome {
+        judge(|found| within(distance(&found.angles, expected), allowed))(self)
+    }
+}
+
+/// The verdict on a trial; a panic is wrong, and so is one that was cut short.
+pub fn judge(verdict: impl Fn(&Found) -> Outcome) -> impl Fn(&Trial) -> Outcome {
+    move |trial| match catch_unwind(AssertUnwindSafe(|| trial.run())) {
+        Ok(Ok(found)) => verdict(&found),
+        Ok(Err(reason)) if reason.contains("stopped on request") => {
+            Outcome::Wrong(format!("no end after {} s", PATIENCE.as_secs()))
+        }
+        Ok(Err(reason)) => Outcome::Refused(reason),
+        Err(_) => Outcome::Wrong("panic".into()),
+    }
+}
+
+/// Right where an error is at most `allowed`.
+pub fn within(error: f64, allowed: f64) -> Outcome {
+    if error <= allowed { Outcome::Right(error) } else { Outcome::Wrong(format!("off by {error:.1e}")) }
+}
+
+/// Largest difference where both have numbers; NaN where one has none that the other has.
+pub fn distance(angles: &[f64], expected: &[f64]) -> f64 {
+    let known = angles.iter().zip(expected).filter(|(_, expected)| !expected.is_nan());
+    let worst = known.map(|(a, b)| (a - b).abs()).fold(0.0, |m: f64, d| if d.is_nan() { d } else { m.max(d) });
+    if angles.len() == expected.len() { worst } else { f64::NAN }
+}
+
+/// Largest relative change of the length of a bar, from the points themselves.
+fn stretch(model: &Model, x: &[f64]) -> f64 {
+    let coordinates = model.coordinates(x);
+    let bars = model.stiff().iter().filter(|term| !term.is_angle());
+    let each = bars.flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+    let change = each.map(|(term, k)| term.value(k, model.domain(), &coordinates) / term.spring(k).rest - 1.0);
+    change.fold(0.0, |most: f64, change| if change.is_nan() { change } else { most.max(change.abs()) })
+}
