@@ -63,7 +63,7 @@ fn stiffness(cell: &Sheet) -> Result<Family, ExperimentError> {
     let trial = |k: f64| Trial { stiffness: [k, 1.0], ..Trial::rigid(cell.clone(), [3, 3], 0.1) };
     let exact = reference(&trial(f64::INFINITY))?;
     let scaled = 1e10 * distance(&reference(&trial(1e10))?, &exact);
-    let ratios = (0..=30).map(|k| 10f64.powi(10 * k)).chain([1e2, 1e4, 1e6, 1e8, f64::INFINITY]);
+    let ratios = [1.0, 1e2, 1e4, 1e6, 1e8, 1e10, 1e16, 1e50, 1e100, 1e200, 1e300, f64::INFINITY].into_iter();
     let cases = ratios.map(|k| {
         let (exact, trial) = (exact.clone(), trial(k));
         case(format!("{k:e}"), move || {
@@ -72,16 +72,15 @@ fn stiffness(cell: &Sheet) -> Result<Family, ExperimentError> {
                 match k {
                     // from here on the law holds to a tenth
                     1e7.. => within((off - scaled / k).abs(), 0.1 * scaled / k + 1e-12),
-                    // softer: nothing independent is at hand, but they move no further than the creases pull
-                    _ if off <= 0.4 => Outcome::Unjudged(off),
-                    _ => Outcome::Wrong(format!("{off:.1e} off the rigid state")),
+                    // softer ones are compared with the augmented form
+                    _ => found.to_augmented.map_or(Outcome::Unjudged, |error| within(error, 1e-6)),
                 }
             })(&trial)
         })
     });
     Ok(Family {
         name: "stiffness of bars over that of creases",
-        compared: "the rigid state and one over k",
+        compared: "the augmented form; from 1e7 on, one over k",
         cases: cases.collect(),
     })
 }
@@ -123,7 +122,7 @@ fn stretched(cell: &Sheet, name: &'static str, factors: fn(f64) -> Vec3) -> Fami
     let cases = [1, 2, 3, 4, 6, 8, 10, 12, 15].map(|power| {
         let by = factors(10f64.powi(-power));
         let sheet = mapped(cell, |p| p.component_mul(&by));
-        case(format!("1e-{power}"), move || Trial::rigid(sheet, [3, 3], 1e-3).against_kinematics(1e-6))
+        case(format!("1e-{power}"), move || Trial::rigid(sheet, [3, 3], 1e-3).judged(1e-6))
     });
     Family { name, compared: "the exact kinematics", cases: cases.into() }
 }
@@ -132,7 +131,7 @@ fn skewed(cell: &Sheet) -> Family {
     let cases = [1, 2, 3, 4, 6, 8, 12].map(|power| {
         let by = 10f64.powi(power);
         let sheet = mapped(cell, |p| Vec3::new(p.x + by * p.y, p.y, p.z));
-        case(format!("x + 1e{power} y"), move || Trial::rigid(sheet, [3, 3], 1e-3).against_kinematics(1e-6))
+        case(format!("x + 1e{power} y"), move || Trial::rigid(sheet, [3, 3], 1e-3).judged(1e-6))
     });
     Family {
         name: "nearly singular lattices: 3 x 3 cells, sheared",
@@ -150,7 +149,7 @@ fn flat() -> Result<Family, ExperimentError> {
         let places = sheet.vertices.iter_mut().enumerate().skip(1);
         places.for_each(|(k, p)| p.z += height * (k as f64 * 0.618).fract());
         let name = power.map_or("flat".into(), |power| format!("1e-{power} from flat"));
-        case(name, move || Trial::rigid(sheet, [2, 2], 0.1).against_kinematics(1e-6))
+        case(name, move || Trial::rigid(sheet, [2, 2], 0.1).judged(1e-6))
     });
     Ok(Family { name: "flat cells whose creases rest folded", compared: "the exact kinematics", cases: cases.into() })
 }
@@ -167,8 +166,8 @@ fn folded() -> Result<Family, ExperimentError> {
     let signs: Vec<f64> =
         sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).map_or(f64::NAN, f64::signum)).collect();
     let lock = *creases.iter().find(|&&k| zigzag(k)).ok_or(ExperimentError::Other("Miura-ori has no zigzag"))?;
-    let angles = [1e-12, 1e-9, 1e-6, 1e-3].map(|a| (format!("{a:e}"), a));
-    let ends = [1e-3, 1e-6, 1e-9, 1e-12].map(|a| (format!("pi - {a:e}"), PI - a));
+    let angles = [1e-12, 1e-6, 1e-3, 1e-2, 0.05, 0.2].map(|a| (format!("{a:e}"), a));
+    let ends = [0.2, 0.05, 1e-2, 1e-3, 1e-6, 1e-12].map(|a| (format!("pi - {a:e}"), PI - a));
     let cases = angles.into_iter().chain(ends).map(|(name, angle)| {
         let straight = 2.0 * (FRAC_PI_3.cos() * (angle / 2.0).tan()).atan();
         let mut expected = vec![f64::NAN; sheet.edges.len()];
@@ -197,7 +196,7 @@ fn vertices() -> Result<Family, ExperimentError> {
         let pattern = Pattern::Random(Random { size, seed: 2, ..Random::default() });
         let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("a random cell cannot be generated"))?;
         let trial = Trial { surroundings: Surroundings::Screw, ..Trial::rigid(sheet, [1, 1], 0.02) };
-        cases.push(case(format!("{} vertices", size[0] * size[1]), move || trial.against_kinematics(1e-9)));
+        cases.push(case(format!("{} vertices", size[0] * size[1]), move || trial.judged(1e-9)));
     }
     Ok(Family { name: "vertices of a screw-periodic cell", compared: "the exact kinematics", cases })
 }
@@ -214,7 +213,7 @@ fn degrees() -> Result<Family, ExperimentError> {
         let faces = (0..degree).map(|k| vec![0, 1 + k, 1 + (k + 1) % degree]).collect();
         let drawn = Drawn { coords, faces, ..Drawn::default() };
         let sheet = build::build(&drawn).map_err(|_| ExperimentError::Other("a fan cannot be built"))?;
-        cases.push(case(format!("{degree}"), move || Trial::rigid(sheet, [1, 1], 0.05).against_kinematics(1e-9)));
+        cases.push(case(format!("{degree}"), move || Trial::rigid(sheet, [1, 1], 0.05).judged(1e-9)));
     }
     Ok(Family { name: "degree of a single vertex", compared: "the exact kinematics", cases })
 }
@@ -225,7 +224,7 @@ fn patches(cell: &Sheet, quick: bool) -> Family {
     let cases = sizes.map(|cells| {
         let sheet = cell.clone();
         let off = if cells[0] * cells[1] > 100 { 1e-3 } else { 0.05 };
-        case(format!("{} x {}", cells[0], cells[1]), move || Trial::rigid(sheet, cells, off).against_kinematics(1e-9))
+        case(format!("{} x {}", cells[0], cells[1]), move || Trial::rigid(sheet, cells, off).judged(1e-9))
     });
     Family { name: "cells of a patch", compared: "the exact kinematics, up to 300 edges", cases: cases.collect() }
 }

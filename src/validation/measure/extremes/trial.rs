@@ -1,5 +1,6 @@
 //! One relaxation far from the ordinary, and a verdict on it: right, refused for a reason, or wrong.
 
+use super::super::super::forms::{self, Form};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::relax::relax;
 use crate::analysis::state::State;
@@ -16,14 +17,19 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Largest relative change of the length of a rigid bar.
 const KEPT: f64 = 1e-9;
+/// Largest residual, scaled, of a state that counts as an equilibrium.
+const BALANCED: f64 = 1e-9;
+/// Weight of the augmented form over the stiffness of the creases, and the difference in fold angles up to which it agrees.
+const WEIGHT: f64 = 1e4;
+const AGREES: f64 = 1e-6;
 
 /// What came of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// As an independent computation says, to this error in fold angles.
     Right(f64),
-    /// Converged, with the lengths of rigid bars kept to this relative error, where nothing independent is at hand.
-    Unjudged(f64),
+    /// Converged, where nothing independent is at hand.
+    Unjudged,
     /// Refused, for this reason.
     Refused(String),
     /// Anything else: a wrong number, a panic, no end.
@@ -54,8 +60,12 @@ pub struct Found {
     pub angles: Vec<f64>,
     /// Largest difference of a fold angle to the exact kinematics; `None` where there is nothing to compare with.
     pub to_kinematic: Option<f64>,
+    /// Largest difference of a fold angle to the augmented form's equilibrium; `None` where that finds none.
+    pub to_augmented: Option<f64>,
     /// Largest relative change of the length of a bar.
     pub stretch: f64,
+    /// The larger one of the scaled residuals that the program states.
+    pub residual: f64,
 }
 
 impl Trial {
@@ -63,6 +73,13 @@ impl Trial {
     pub fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
         let stiffness = [f64::INFINITY, 1.0];
         Self { sheet, cells, surroundings: Surroundings::Patch, stiffness, off, seed: 1, lock: None }
+    }
+
+    /// What it is, in a few words.
+    pub fn description(&self) -> String {
+        let Self { sheet, cells: [n1, n2], surroundings, stiffness: [bars, _], off, seed, .. } = self;
+        let vertices = sheet.vertices.len();
+        format!("{surroundings:?} of {n1} x {n2} cells of {vertices}, bars {bars:.1e}, rest {off:.1e} off, seed {seed}")
     }
 
     /// Relaxes from the drawn state. `Err`: why not.
@@ -88,21 +105,26 @@ impl Trial {
         let edges = tiling.edges.len();
         let found = relax(&mut model, start, options, edges, &mut |_| clock.elapsed() < PATIENCE);
         let found = found.map_err(|error| error.failure.to_string())?;
-        if !(found.residual_force <= 1e-9 && found.residual_length <= options.tolerance) {
-            return Ok(Found { angles: vec![], to_kinematic: Some(f64::NAN), stretch: f64::NAN });
-        }
         let state = State::new(&model, &found.x, &found.tension, edges);
-        let to_kinematic = error_to_kinematic(sheet, &tiling, &model, &state.fold_angle);
-        Ok(Found { stretch: stretch(&model, &found.x), angles: state.fold_angle, to_kinematic })
+        let (rigid, angles) = (bars.is_infinite(), state.fold_angle);
+        Ok(Found {
+            to_kinematic: rigid.then(|| error_to_kinematic(sheet, &tiling, &model, &angles)).flatten(),
+            to_augmented: if rigid { None } else { augmented(&mut model, edges, creases) }
+                .map(|a| distance(&angles, &a)),
+            stretch: stretch(&model, &found.x),
+            residual: found.residual_force.max(found.residual_length),
+            angles,
+        })
     }
 
     /// Whether rigid bars end at the exact kinematics to `allowed` radians; where that cannot be asked, whether they kept
-    /// their lengths.
-    pub fn against_kinematics(&self, allowed: f64) -> Outcome {
-        judge(|found| match found.to_kinematic {
-            Some(error) => within(error, allowed),
-            None if found.stretch <= KEPT => Outcome::Unjudged(found.stretch),
-            None => Outcome::Wrong(format!("a bar changed its length by {:.1e}", found.stretch)),
+    /// their lengths. Whether soft ones end where the augmented form does, if it finds the same minimum.
+    pub fn judged(&self, allowed: f64) -> Outcome {
+        judge(|found| match (found.to_kinematic, found.to_augmented) {
+            (Some(error), _) => within(error, allowed),
+            (None, Some(error)) if error <= AGREES => Outcome::Right(error),
+            (None, _) if self.stiffness[0].is_finite() || found.stretch <= KEPT => Outcome::Unjudged,
+            (None, _) => Outcome::Wrong(format!("a rigid bar changed its length by {:.1e}", found.stretch)),
         })(self)
     }
 
@@ -115,6 +137,9 @@ impl Trial {
 /// The verdict on a trial; a panic is wrong, and so is one that was cut short.
 pub fn judge(verdict: impl Fn(&Found) -> Outcome) -> impl Fn(&Trial) -> Outcome {
     move |trial| match catch_unwind(AssertUnwindSafe(|| trial.run())) {
+        Ok(Ok(found)) if !(found.residual <= BALANCED) => {
+            Outcome::Wrong(format!("called converged at a residual of {:.1e}", found.residual))
+        }
         Ok(Ok(found)) => verdict(&found),
         Ok(Err(reason)) if reason.contains("stopped on request") => {
             Outcome::Wrong(format!("no end after {} s", PATIENCE.as_secs()))
@@ -134,6 +159,13 @@ pub fn distance(angles: &[f64], expected: &[f64]) -> f64 {
     let known = angles.iter().zip(expected).filter(|(_, expected)| !expected.is_nan());
     let worst = known.map(|(a, b)| (a - b).abs()).fold(0.0, |m: f64, d| if d.is_nan() { d } else { m.max(d) });
     if angles.len() == expected.len() { worst } else { f64::NAN }
+}
+
+/// Fold angles of the augmented form's equilibrium.
+fn augmented(model: &mut Model, edges: usize, creases: &f64) -> Option<Vec<f64>> {
+    let found = forms::minimize(model, Form::Augmented(WEIGHT * creases)).ok()?;
+    let balanced = found.residuals.iter().all(|residual| *residual <= BALANCED);
+    balanced.then(|| State::new(model, &found.x, &found.tension, edges).fold_angle)
 }
 
 /// Largest relative change of the length of a bar, from the points themselves.
