@@ -42,6 +42,11 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "extremes-mostly-right"
     "random-nothing-wrong"
     "random-mostly-right"
+    "invariant-angles"
+    "invariant-energy"
+    "killed-runs-leave-whole-files"
+    "resumed-runs-end-the-same"
+    "two-runs-in-one-folder"
 );
 
 /// Files of `meshes` that claims need.

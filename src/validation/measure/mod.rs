@@ -3,17 +3,22 @@
 use super::experiment::{Bench, ExperimentError, Findings};
 
 mod extremes;
+mod files;
+mod invariances;
 mod sizes;
 mod steps;
 mod stiffness;
 mod threads;
 mod tolerance;
+mod trial;
 
 /// A measurement.
 pub type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
 
 /// The measurements by name.
 const MEASUREMENTS: &[(&str, Measurement)] = &[
+    ("files", files::measure),
+    ("invariances", invariances::measure),
     ("extremes", extremes::measure),
     ("random scenes", extremes::random_scenes),
     ("sizes", sizes::measure),

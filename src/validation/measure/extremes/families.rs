@@ -1,6 +1,6 @@
 //! The families of extreme cases, each with what its result is compared with.
 
-use super::trial::{Outcome, Trial, distance, judge, within};
+use super::super::trial::{Outcome, Trial, distance, judge, within};
 use crate::math::Vec3;
 use crate::model::assemble::Surroundings;
 use crate::sheet::build::{self, Drawn};

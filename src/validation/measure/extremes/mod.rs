@@ -1,16 +1,15 @@
 //! Stiff and extreme cases: each is right, or refused for a reason; never a silent wrong number, a hang or a panic.
 
 mod families;
-mod trial;
 
 use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
+use super::trial::{Outcome, Rest, Trial};
 use crate::model::assemble::Surroundings;
 use crate::sheet::generate::Random;
 use crate::sheet::{Pattern, generate};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use trial::{Outcome, Trial};
 
 /// Random scenes in a row.
 const QUICK: usize = 300;
@@ -114,5 +113,5 @@ fn random_trial(numbers: &mut ChaCha8Rng, seed: u64) -> Result<Trial, Experiment
     let bars = if rigid { f64::INFINITY } else { 10f64.powf(power) };
     let sheet = generate(&Pattern::Random(Random { size, seed, ..Random::default() }))
         .map_err(|_| ExperimentError::Other("a random cell cannot be generated"))?;
-    Ok(Trial { sheet, cells, surroundings, stiffness: [bars, 1.0], off: spread, seed, lock: None })
+    Ok(Trial { sheet, cells, surroundings, stiffness: [bars, 1.0], rest: Rest::Random(spread, seed), lock: None })
 }

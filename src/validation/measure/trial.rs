@@ -1,12 +1,13 @@
 //! One relaxation far from the ordinary, and a verdict on it: right, refused for a reason, or wrong.
 
-use super::super::super::forms::{self, Form};
+use super::super::forms::{self, Form};
+use crate::analysis::axis::drawn_for;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::relax::relax;
 use crate::analysis::state::State;
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
-use crate::sheet::{EdgeKind, Sheet, tile};
+use crate::sheet::{Edge, EdgeKind, Sheet, TiledEdge, Tiling, tile};
 use crate::solver::Options;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -46,12 +47,20 @@ pub struct Trial {
     pub surroundings: Surroundings,
     /// Stiffness of bars and creases; facets are rigid.
     pub stiffness: [f64; 2],
-    /// Rest angles are the drawn ones and at most this much more or less, at random, in radians.
-    pub off: f64,
-    /// Seed of these numbers.
-    pub seed: u64,
+    /// Rest angles of the creases.
+    pub rest: Rest,
     /// An edge with the angle that it has to have.
     pub lock: Option<(usize, f64)>,
+}
+
+/// Rest angles, in radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rest {
+    /// The drawn ones and at most this much more or less, at random with this seed.
+    Random(f64, u64),
+    /// The drawn ones and this much times the sine of ten times the edge's length over the mean: the same however the sheet
+    /// is turned, cut or numbered.
+    ByLength(f64),
 }
 
 /// Where a trial ended.
@@ -64,6 +73,8 @@ pub struct Found {
     pub to_augmented: Option<f64>,
     /// Largest relative change of the length of a bar.
     pub stretch: f64,
+    /// Energy.
+    pub energy: f64,
     /// The larger one of the scaled residuals that the program states.
     pub residual: f64,
 }
@@ -72,14 +83,21 @@ impl Trial {
     /// A patch with rigid bars and creases of 1.
     pub fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
         let stiffness = [f64::INFINITY, 1.0];
-        Self { sheet, cells, surroundings: Surroundings::Patch, stiffness, off, seed: 1, lock: None }
+        let rest = Rest::Random(off, 1);
+        Self { sheet, cells, surroundings: Surroundings::Patch, stiffness, rest, lock: None }
     }
 
     /// What it is, in a few words.
     pub fn description(&self) -> String {
-        let Self { sheet, cells: [n1, n2], surroundings, stiffness: [bars, _], off, seed, .. } = self;
-        let vertices = sheet.vertices.len();
-        format!("{surroundings:?} of {n1} x {n2} cells of {vertices}, bars {bars:.1e}, rest {off:.1e} off, seed {seed}")
+        let Self { sheet, cells: [n1, n2], surroundings, stiffness: [bars, _], rest, .. } = self;
+        let (vertices, off) = (
+            sheet.vertices.len(),
+            match rest {
+                Rest::Random(off, seed) => format!("{off:.1e} off, seed {seed}"),
+                Rest::ByLength(off) => format!("{off:.1e} off by length"),
+            },
+        );
+        format!("{surroundings:?} of {n1} x {n2} cells of {vertices}, bars {bars:.1e}, rest {off}")
     }
 
     /// Relaxes from the drawn state. `Err`: why not.
@@ -88,9 +106,7 @@ impl Trial {
         let tiling = tile(sheet, self.cells, *surroundings != Surroundings::Patch);
         let drawn = Drawn::new(sheet, &tiling, *surroundings);
         let angles = drawn_angles(&drawn, &tiling);
-        let mut numbers = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut off = |angle: &f64| angle + self.off * (2.0 * numbers.random::<f64>() - 1.0);
-        let rest = angles.iter().map(&mut off).collect();
+        let rest = self.rest_angles(&tiling, &angles);
         let polygons = tiling.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
         let recipe = Recipe {
             bars: Some(*bars),
@@ -99,6 +115,7 @@ impl Trial {
             locks: self.lock.into_iter().collect(),
             ..Recipe::default()
         };
+        let drawn = drawn_for(sheet, &tiling, *surroundings, &recipe);
         let mut model = assemble(&drawn, &tiling, &recipe, Gauge::Held);
         let (start, clock) = (model.start(), Instant::now());
         let options = Options::default();
@@ -112,9 +129,26 @@ impl Trial {
             to_augmented: if rigid { None } else { augmented(&mut model, edges, creases) }
                 .map(|a| distance(&angles, &a)),
             stretch: stretch(&model, &found.x),
+            energy: found.state.total(),
             residual: found.residual_force.max(found.residual_length),
             angles,
         })
+    }
+
+    fn rest_angles(&self, tiling: &Tiling, drawn: &[f64]) -> Vec<f64> {
+        match self.rest {
+            Rest::Random(most, seed) => {
+                let mut numbers = ChaCha8Rng::seed_from_u64(seed);
+                drawn.iter().map(|angle| angle + most * (2.0 * numbers.random::<f64>() - 1.0)).collect()
+            }
+            Rest::ByLength(most) => {
+                let ends = |edge: &Edge| edge.key.ends().map(|end| self.sheet.position(end));
+                let lengths: Vec<f64> = self.sheet.edges.iter().map(ends).map(|[a, b]| (b - a).norm()).collect();
+                let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+                let off = |edge: &TiledEdge| most * (10.0 * lengths[edge.edge] / mean).sin();
+                drawn.iter().zip(&tiling.edges).map(|(angle, edge)| angle + off(edge)).collect()
+            }
+        }
     }
 
     /// Whether rigid bars end at the exact kinematics to `allowed` radians; where that cannot be asked, whether they kept
