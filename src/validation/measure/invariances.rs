@@ -119,12 +119,16 @@ fn relisted(mut drawn: Drawn) -> Drawn {
     drawn
 }
 
-/// Copies of faces, moved by a lattice vector.
+/// Copies of faces, moved by a lattice vector; vertices that are drawn there already are used again.
 fn moved(drawn: &mut Drawn, faces: std::ops::Range<usize>, by: Vec3) -> Vec<Vec<usize>> {
     let mut copies = drawn.faces[faces].to_vec();
     for vertex in copies.iter_mut().flatten() {
-        drawn.coords.push(drawn.coords[*vertex] + by);
-        *vertex = drawn.coords.len() - 1;
+        let place = drawn.coords[*vertex] + by;
+        let known = drawn.coords.iter().position(|p| (p - place).norm() <= 1e-9);
+        *vertex = known.unwrap_or_else(|| {
+            drawn.coords.push(place);
+            drawn.coords.len() - 1
+        });
     }
     copies
 }
@@ -135,7 +139,21 @@ fn shifted(mut drawn: Drawn) -> Drawn {
         let copies = moved(&mut drawn, 0..half, along);
         drawn.faces.splice(0..half, copies);
     }
-    drawn
+    without_unused(drawn)
+}
+
+/// Without the vertices that no face has.
+fn without_unused(mut drawn: Drawn) -> Drawn {
+    let mut numbers = vec![None; drawn.coords.len()];
+    let mut coords = Vec::new();
+    for vertex in drawn.faces.iter_mut().flatten() {
+        let number = numbers[*vertex].get_or_insert_with(|| {
+            coords.push(drawn.coords[*vertex]);
+            coords.len() - 1
+        });
+        *vertex = *number;
+    }
+    Drawn { coords, ..drawn }
 }
 
 fn doubled(mut drawn: Drawn) -> Drawn {
