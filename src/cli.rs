@@ -16,7 +16,8 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use foldwell::output::summary::{StudyResult, StudySummary, to_json};
-use foldwell::run::{self, RunError, RunOptions, RunReport, ValidateOptions};
+use foldwell::run::{self, RunError, RunOptions, RunReport};
+use foldwell::validation::{self, ValidateOptions, ValidationError};
 use miette::{Diagnostic, GraphicalReportHandler};
 
 use crate::parameters::{self, ParameterError};
@@ -83,6 +84,8 @@ enum Command {
     },
     /// Check the claims about this program, and write a report
     Validate {
+        /// Only these claims [default: all]
+        claims: Vec<String>,
         /// Leave out what takes long
         #[arg(long)]
         quick: bool,
@@ -102,6 +105,7 @@ enum Command {
 /// Why a command did not give its answer.
 enum Failure {
     Run(RunError),
+    Validation(ValidationError),
     Parameters(ParameterError),
     StandardOutput(io::Error),
 }
@@ -116,6 +120,7 @@ impl Failure {
     fn exit_status(&self) -> u8 {
         match self {
             Self::Run(error) => error.exit_status(),
+            Self::Validation(error) => error.exit_status(),
             Self::Parameters(_) => WRONG_INPUT,
             Self::StandardOutput(_) => BROKEN_PLACE,
         }
@@ -150,12 +155,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             run::convert(&from, &to)?;
             Ok(0)
         }
-        Command::Validate { quick, out } => {
-            let watch = Watch::new(false);
-            let passed = run::validate(&ValidateOptions { quick, out }, &|progress| watch.step(progress));
-            watch.finish();
-            Ok(if passed? { 0 } else { FAILED })
-        }
+        Command::Validate { claims, quick, out } => validate(&ValidateOptions { quick, out, only: claims }),
         Command::Schema => say(&foldwell::scene::schema()),
         Command::Completions { shell } => say(&completions(shell)),
     }
@@ -172,6 +172,24 @@ fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Res
         say(&describe_run(&report))?;
     }
     Ok(match (report.interrupted, report.summary.converged()) {
+        (true, _) => INTERRUPTED,
+        (false, true) => 0,
+        (false, false) => FAILED,
+    })
+}
+
+/// Checks the claims; each is a line on standard error once it is decided.
+fn validate(options: &ValidateOptions) -> Result<u8, Failure> {
+    let watch = Watch::new(false);
+    let report = validation::validate(options, &|progress| watch.step(progress), &mut |case| {
+        let mark = if case.passed { "holds" } else { "FAILS" };
+        eprintln!("{mark}  {}: {} ({:.2} s)", case.name, case.distance(), case.seconds);
+        case.failure.iter().for_each(|failure| eprintln!("       {failure}"));
+    });
+    watch.finish();
+    let report = report.map_err(Failure::Validation)?;
+    say(&format!("{}\n", report.verdict()))?;
+    Ok(match (report.interrupted, report.all_passed()) {
         (true, _) => INTERRUPTED,
         (false, true) => 0,
         (false, false) => FAILED,
@@ -197,6 +215,7 @@ fn completions(shell: Shell) -> String {
 fn report(failure: &Failure) {
     let text = match failure {
         Failure::Run(error) => fancy(error),
+        Failure::Validation(error) => fancy(error),
         Failure::Parameters(error) => format!("Error: {error}\n"),
         Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),
     };

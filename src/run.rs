@@ -68,15 +68,6 @@ pub struct RunReport {
     pub interrupted: bool,
 }
 
-/// What the command line can change about the validation.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ValidateOptions {
-    /// Leave out the claims that take long.
-    pub quick: bool,
-    /// Folder for the reports; `None`: `validation-report`.
-    pub out: Option<PathBuf>,
-}
-
 /// Why there is no answer.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RunError {
@@ -118,9 +109,6 @@ pub enum RunError {
         /// The endings that are known.
         expected: &'static str,
     },
-    /// A command that a later version has.
-    #[error("command `{0}` is not available in this version")]
-    NotAvailable(&'static str),
 }
 
 impl RunError {
@@ -227,15 +215,6 @@ fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
     }
 }
 
-/// Checks the claims of the validation; gives whether all passed.
-///
-/// # Errors
-/// [`RunError`] where the reports cannot be written.
-pub fn validate(options: &ValidateOptions, observer: Observer) -> Result<bool, RunError> {
-    let _ = (options, observer);
-    Err(RunError::NotAvailable("validate"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -249,10 +228,5 @@ mod tests {
         assert_eq!(RunError::from(read(io::ErrorKind::PermissionDenied)).exit_status(), 3);
         let write = OutputError::Write { path: "a".into(), source: io::ErrorKind::StorageFull.into() };
         assert_eq!(RunError::from(write).exit_status(), 3);
-        let later = RunError::NotAvailable("validate");
-        assert_eq!(
-            (later.exit_status(), later.to_string().as_str()),
-            (2, "command `validate` is not available in this version")
-        );
     }
 }

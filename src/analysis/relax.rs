@@ -1,12 +1,20 @@
 //! Relaxation: from a start to the equilibrium of a model, directly or by raising what drives it step by step.
 
 use super::state::State;
-use crate::model::Model;
-use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step, minimize, tension};
+use crate::model::{Domain, Model};
+use crate::numerics::sparse::FIXED;
+use crate::solver::saddle::Saddle;
+use crate::solver::{
+    Curvature, Equilibrium, Failure, Linearization, NewtonError, Options, Problem, Start, Step, minimize, tension,
+};
 use thiserror::Error;
 
 /// Smallest step of the continuation that is tried before giving up.
 const LEAST_STEP: f64 = 1.0 / 64.0;
+/// Largest angle, in radians, by which a converged state may still be off.
+const CERTAIN: f64 = 1e-7;
+/// Relative residual of the linear system that tells this angle.
+const ROUGH: f64 = 0.1;
 /// Tolerance of the states in between.
 const LOOSE: f64 = 1e-6;
 
@@ -75,7 +83,14 @@ pub fn relax(
         found => found,
     };
     match found {
-        Ok(equilibrium) => Ok(finish(model, equilibrium, history, edges)),
+        Ok(found) => match uncertainty(model, &found, options.tolerance) {
+            Some(angle) if angle > CERTAIN => {
+                let state = State::new(model, &found.x, &found.tension, edges);
+                history.extend(found.history);
+                Err(Box::new(RelaxError { failure: Failure::Uncertain { angle }, state, x: found.x, history }))
+            }
+            _ => Ok(finish(model, found, history, edges)),
+        },
         Err(error) => {
             history.extend(error.history);
             let state = State::new(model, &error.x, &error.tension, edges);
@@ -121,6 +136,30 @@ fn follow(
             }
         }
     }
+}
+
+/// The largest change of a soft hinge's angle that one more Newton step would make, in radians: what the residual
+/// means for the state. Asked where it may mean much: where rounding errors kept it above the tolerance, and on screws, whose axis
+/// has next to no direction near zero curvature. `None` elsewhere, and where the Hessian is singular.
+fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64> {
+    let last = found.history.last()?;
+    if last.residual_force <= tolerance && !matches!(model.domain(), Domain::Screw) {
+        return None;
+    }
+    let (layout, compliance) = (model.layout(), model.compliance());
+    let mut at = Linearization::new(layout);
+    model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
+    let mut saddle = Saddle::new(layout, &at).ok()?;
+    saddle.factor(layout, &at, compliance, 0.0).ok()?;
+    let gaps = at.gaps.iter().zip(&found.tension).zip(compliance);
+    let open: Vec<f64> = gaps.map(|((gap, tension), c)| c * tension - gap).collect();
+    let step = saddle.solve(layout, &at, compliance, (&at.force(layout, &found.tension), &open), ROUGH);
+    let moved = |&member: &u32| if member == FIXED { 0.0 } else { step.dx[member as usize] };
+    let change = |element: usize| {
+        let gradient = &at.soft_gradients[layout.soft.range(element)];
+        layout.soft.members(element).iter().map(moved).zip(gradient).map(|(d, g)| d * g).sum::<f64>().abs()
+    };
+    (step.residual <= ROUGH).then(|| (0..layout.soft.len()).map(change).fold(0.0, f64::max))
 }
 
 fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>, edges: usize) -> Relaxed {

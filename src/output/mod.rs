@@ -3,6 +3,7 @@
 //! Every writer goes through [`files`]: a file appears whole or not at all.
 
 pub mod bloch_plot;
+pub mod chart;
 pub mod error;
 pub mod files;
 pub mod picture;

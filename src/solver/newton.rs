@@ -133,6 +133,14 @@ pub enum Failure {
         /// Scaled residual length.
         length: f64,
     },
+    /// The forces balance, but rounding errors or a direction that costs next to nothing leave the state open.
+    #[error(
+        "the forces balance, but the angles are known to {angle:.1e} rad only: rounding, or a direction without cost"
+    )]
+    Uncertain {
+        /// Largest change of an angle that one more Newton step would make, in radians.
+        angle: f64,
+    },
     /// The linear algebra failed.
     #[error(transparent)]
     Factor(#[from] FactorError),

@@ -1,0 +1,220 @@
+//! A chart with logarithmic axes: points joined by lines, one colour and mark for each series.
+//!
+//! The SVG is written directly, like the pictures of sheets ([`super::plot`]), so that it can stand inside an HTML page and
+//! the same chart gives the same bytes. Numbers that have no logarithm (0, negative, not finite) are left out.
+
+use std::fmt::Write;
+
+const WIDTH: f64 = 760.0;
+const HEIGHT: f64 = 470.0;
+/// Left, right, top and bottom of the frame on the paper.
+const FRAME: [f64; 4] = [92.0, 540.0, 56.0, 400.0];
+const PAPER: &str = "#fcfbf8";
+const GRID: &str = "#dcd9cf";
+const INK: &str = "#2e3238";
+/// Colours that stay apart also for those who see fewer of them, by brightness as well as hue.
+const COLOURS: [&str; 6] = ["#1d62b0", "#c8372d", "#3f265d", "#d98a1f", "#2c8a6b", "#7d7a72"];
+/// Most numbers along an axis.
+const TICKS: i32 = 9;
+
+/// Appends formatted text; writing to a string does not fail.
+macro_rules! put {
+    ($text:expr, $($format:tt)*) => { let _ = write!($text, $($format)*); };
+}
+
+/// A chart.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Chart {
+    /// What it shows.
+    pub title: String,
+    /// Quantity and unit along the horizontal axis.
+    pub x: String,
+    /// Quantity and unit along the vertical axis.
+    pub y: String,
+    /// What is drawn.
+    pub series: Vec<Series>,
+}
+
+/// Points that belong together.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its points, joined in this order.
+    pub points: Vec<Point>,
+}
+
+/// A point.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Point {
+    /// Along the horizontal axis.
+    pub x: f64,
+    /// Along the vertical axis.
+    pub y: f64,
+    /// Which setting it is: shown when the pointer rests on it, and beside the ends of a series.
+    pub label: String,
+}
+
+/// The text of a chart, an `<svg>` element.
+pub fn svg(chart: &Chart) -> String {
+    let drawable = |point: &&Point| [point.x, point.y].iter().all(|v| v.is_finite() && *v > 0.0);
+    let points = || chart.series.iter().flat_map(|series| &series.points).filter(drawable);
+    let axes = [Axis::around(points().map(|p| p.x)), Axis::around(points().map(|p| p.y))];
+    let title = escaped(&chart.title);
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" \
+         height=\"{HEIGHT}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"{INK}\">\n\
+         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" rx=\"8\" fill=\"{PAPER}\"/>\n\
+         <text x=\"{}\" y=\"30\" font-size=\"16\" font-weight=\"bold\">{title}</text>\n",
+        FRAME[0]
+    );
+    grid(&mut text, &axes, chart);
+    for (number, series) in chart.series.iter().enumerate() {
+        let places: Vec<([f64; 2], &Point)> =
+            series.points.iter().filter(drawable).map(|point| (place(&axes, point), point)).collect();
+        paint(&mut text, &places, number);
+        legend(&mut text, &series.name, number);
+    }
+    text.push_str("</svg>\n");
+    text
+}
+
+/// A range of decades.
+struct Axis {
+    low: i32,
+    high: i32,
+}
+
+impl Axis {
+    fn around(values: impl Iterator<Item = f64>) -> Self {
+        let logs = values.map(f64::log10);
+        let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+        if low > high {
+            return Self { low: -1, high: 1 };
+        }
+        let (low, high) = ((low - 0.05).floor() as i32, (high + 0.05).ceil() as i32);
+        Self { low, high: high.max(low + 1) }
+    }
+
+    /// From 0 at the lower end to 1 at the upper one.
+    fn part(&self, value: f64) -> f64 {
+        (value.log10() - f64::from(self.low)) / f64::from(self.high - self.low)
+    }
+
+    /// Decades that carry a number.
+    fn decades(&self) -> impl Iterator<Item = i32> {
+        let every = (self.high - self.low + TICKS - 1) / TICKS;
+        (self.low..=self.high).filter(move |decade| decade.rem_euclid(every) == 0)
+    }
+}
+
+fn place(axes: &[Axis; 2], point: &Point) -> [f64; 2] {
+    let [left, right, top, bottom] = FRAME;
+    [left + axes[0].part(point.x) * (right - left), bottom - axes[1].part(point.y) * (bottom - top)]
+}
+
+fn grid(text: &mut String, axes: &[Axis; 2], chart: &Chart) {
+    let [left, right, top, bottom] = FRAME;
+    let tick = |decade: i32| format!("10<tspan dy=\"-5\" font-size=\"10\">{}</tspan>", signed(decade));
+    for decade in axes[0].decades() {
+        let x = left + axes[0].part(10f64.powi(decade)) * (right - left);
+        put!(text, "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"{GRID}\"/>\n");
+        put!(text, "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\n", bottom + 20.0, tick(decade));
+    }
+    for decade in axes[1].decades() {
+        let y = bottom - axes[1].part(10f64.powi(decade)) * (bottom - top);
+        put!(text, "<path d=\"M{left} {y:.1}H{right}\" stroke=\"{GRID}\"/>\n");
+        put!(text, "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>\n", left - 8.0, y + 5.0, tick(decade));
+    }
+    put!(text, "<path d=\"M{left} {top}V{bottom}H{right}\" fill=\"none\" stroke=\"{INK}\"/>\n");
+    let (middle, level) = (0.5 * (left + right), 0.5 * (top + bottom));
+    put!(text, "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", bottom + 48.0, escaped(&chart.x));
+    put!(
+        text,
+        "<text transform=\"translate(26 {level}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+        escaped(&chart.y)
+    );
+}
+
+fn paint(text: &mut String, places: &[([f64; 2], &Point)], number: usize) {
+    let colour = COLOURS[number % COLOURS.len()];
+    if let Some(([x, y], _)) = places.first() {
+        put!(text, "<path fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\" d=\"M{x:.1} {y:.1}");
+        for ([x, y], _) in &places[1..] {
+            put!(text, "L{x:.1} {y:.1}");
+        }
+        text.push_str("\"/>\n");
+    }
+    for (at, (place, point)) in places.iter().enumerate() {
+        put!(text, "<g fill=\"{colour}\"><title>{}</title>", escaped(&point.label));
+        mark(text, *place, number);
+        text.push_str("</g>\n");
+        if at == 0 || at + 1 == places.len() {
+            let [x, y] = place;
+            put!(text, "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" ", x + 7.0, y - 7.0);
+            put!(text, "fill=\"{colour}\">{}</text>\n", escaped(&point.label));
+        }
+    }
+}
+
+/// A disc, a square, a triangle, in turns: series differ in more than colour.
+fn mark(text: &mut String, [x, y]: [f64; 2], number: usize) {
+    *text += &match number % 3 {
+        0 => format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>"),
+        1 => format!("<rect x=\"{:.1}\" y=\"{:.1}\" width=\"7\" height=\"7\"/>", x - 3.5, y - 3.5),
+        _ => format!("<path d=\"M{x:.1} {:.1}l5 8.5h-10z\"/>", y - 5.5),
+    };
+}
+
+fn legend(text: &mut String, name: &str, number: usize) {
+    let (x, y) = (FRAME[1] + 24.0, FRAME[2] + 14.0 + 24.0 * number as f64);
+    put!(text, "<g fill=\"{}\">", COLOURS[number % COLOURS.len()]);
+    mark(text, [x, y - 4.5], number);
+    put!(text, "</g><text x=\"{}\" y=\"{y}\">{}</text>\n", x + 14.0, escaped(name));
+}
+
+/// With a true minus.
+fn signed(number: i32) -> String {
+    number.to_string().replace('-', "\u{2212}")
+}
+
+/// Text as it stands in XML and HTML.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chart(values: &[(f64, f64)]) -> Chart {
+        let points = values.iter().map(|&(x, y)| Point { x, y, label: "a < b".into() }).collect();
+        Chart { title: "t & u".into(), series: vec![Series { name: "s".into(), points }], ..Chart::default() }
+    }
+
+    /// Claim: every point is drawn once, three decades apart are three equal distances apart, and words are escaped.
+    #[test]
+    fn points_stand_where_their_logarithms_say() {
+        let text = svg(&chart(&[(1e-6, 1e-3), (1e-3, 1e-2), (1.0, 1e-1)]));
+        let numbers = |key: &str| -> Vec<f64> {
+            let circles = text.lines().filter(|line| line.contains("<circle") && line.contains("<title>"));
+            let after = |line: &str| line.split(key).nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+            circles.map(after).collect()
+        };
+        let (x, y) = (numbers("cx=\""), numbers("cy=\""));
+        assert_eq!(x.len(), 3);
+        assert!((x[1] - x[0] - (x[2] - x[1])).abs() <= 0.2 && x[1] > x[0], "{x:?}");
+        assert!((y[1] - y[0] - (y[2] - y[1])).abs() <= 0.2 && y[1] < y[0], "{y:?}");
+        assert!(text.contains("t &amp; u") && text.contains("a &lt; b") && !text.contains("a < b"));
+    }
+
+    /// Claim: what has no logarithm is left out, and spoils nothing; so does a chart without points.
+    #[test]
+    fn what_has_no_logarithm_is_left_out() {
+        for values in [&[(0.0, 1.0), (f64::NAN, 1.0), (1.0, -1.0), (2.0, f64::INFINITY), (3.0, 2.0)][..], &[]] {
+            let text = svg(&chart(values));
+            assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+            assert_eq!(text.matches("<title>").count(), values.len().min(1));
+        }
+    }
+}

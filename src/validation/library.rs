@@ -1,0 +1,107 @@
+//! Claims, scenes and meshes as the repository has them, inside the program: it validates itself wherever it is installed.
+
+use super::claim::{Claim, ClaimError};
+
+/// Names and texts of files under a folder of the repository.
+macro_rules! files {
+    ($folder:literal, $ending:literal: $($name:literal)*) => {
+        &[$(($name, include_str!(concat!("../../", $folder, "/", $name, $ending)))),*]
+    };
+}
+
+/// Files of `validation/claims`, without their ending, in the order in which they are checked and reported.
+const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
+    "loops-of-open-star"
+    "loops-close"
+    "loops-stay-closed"
+    "engines-agree"
+    "sixteen-solutions"
+    "twenty-eight-rays"
+    "miura-spectrum"
+    "torus-self-stresses"
+    "screw-modes"
+    "landscape-coefficients"
+    "landscape-exponents"
+    "landscape-fits"
+    "landscape-cylinder"
+    "tolerance-finest"
+    "tolerance-is-kept"
+    "stiffness-residuals"
+    "stiffness-cost"
+    "stiffness-iterations"
+    "stiffness-penalty-fails"
+    "stiffness-rigid-limit"
+    "stiffness-one-over-k"
+    "steps-order"
+    "steps-default"
+    "sizes-exact"
+    "sizes-growth"
+    "threads-exact"
+    "threads-same-bytes"
+    "extremes-nothing-wrong"
+    "extremes-mostly-right"
+    "random-nothing-wrong"
+    "random-mostly-right"
+    "invariant-angles"
+    "invariant-energy"
+    "killed-runs-leave-whole-files"
+    "resumed-runs-end-the-same"
+    "two-runs-in-one-folder"
+);
+
+/// Files of `meshes` that claims need.
+const MESHES: &[(&str, &str)] = files!("meshes", "":
+    "flat-branches.toml"
+    "miura-spectrum.toml"
+    "open-flat.fold"
+    "open-star.fold"
+    "star-engines.toml"
+    "star-landscape.toml"
+    "star-screw.toml"
+    "star-torus-fixed.toml"
+    "star-trace.toml"
+);
+
+/// All claims.
+///
+/// # Errors
+/// [`ClaimError`] of the first file that states none.
+pub fn claims() -> Result<Vec<Claim>, ClaimError> {
+    CLAIMS.iter().map(|(name, text)| Claim::parse(name, text)).collect()
+}
+
+/// Names and texts of the scenes and meshes.
+pub fn meshes() -> &'static [(&'static str, &'static str)] {
+    MESHES
+}
+
+/// The text of a mesh or scene.
+pub fn mesh(name: &str) -> Option<&'static str> {
+    MESHES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::claim::Experiment;
+    use super::super::measure;
+    use super::*;
+
+    /// Claim: every file of the folder is a claim of the program, each claim can be read, and what it names is there.
+    #[test]
+    fn every_file_is_a_claim() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("validation/claims");
+        let mut files: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+            .collect();
+        let mut known: Vec<String> = CLAIMS.iter().map(|(name, _)| (*name).to_owned()).collect();
+        (files.sort(), known.sort());
+        assert_eq!(files, known);
+        for claim in claims().unwrap() {
+            match &claim.experiment {
+                Experiment::Scene(scene) => assert!(mesh(scene).is_some(), "{}: {scene}", claim.name),
+                Experiment::Measurement(name) => assert!(measure::find(name).is_some(), "{}: {name}", claim.name),
+            }
+        }
+    }
+}

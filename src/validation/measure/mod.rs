@@ -1,0 +1,34 @@
+//! Measurements: experiments that no scene describes. One idea a file.
+
+use super::experiment::{Bench, ExperimentError, Findings};
+
+mod extremes;
+mod files;
+mod invariances;
+mod sizes;
+mod steps;
+mod stiffness;
+mod threads;
+mod tolerance;
+mod trial;
+
+/// A measurement.
+pub type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
+
+/// The measurements by name.
+const MEASUREMENTS: &[(&str, Measurement)] = &[
+    ("files", files::measure),
+    ("invariances", invariances::measure),
+    ("extremes", extremes::measure),
+    ("random scenes", extremes::random_scenes),
+    ("sizes", sizes::measure),
+    ("steps", steps::measure),
+    ("stiffness", stiffness::measure),
+    ("threads", threads::measure),
+    ("tolerance", tolerance::measure),
+];
+
+/// The measurement of this name.
+pub fn find(name: &str) -> Option<Measurement> {
+    MEASUREMENTS.iter().find(|(known, _)| *known == name).map(|(_, measurement)| *measurement)
+}

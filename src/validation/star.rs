@@ -1,0 +1,116 @@
+//! Patches of the reference cell whose creases all want another angle: what costs are measured on.
+
+use super::experiment::ExperimentError;
+use super::library;
+use crate::analysis::branches;
+use crate::analysis::relax::{RelaxError, Relaxed, relax};
+use crate::analysis::trace::{self, Stop, Traced, trace};
+use crate::kinematics::drawn_fold_angles;
+use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use crate::model::{Gauge, Model};
+use crate::sheet::{Sheet, SheetError, Tiling, fold, tile};
+use crate::solver::{Options, Problem};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// A patch of `meshes/open-star.fold` with rest angles.
+pub struct Star {
+    /// The cell.
+    pub sheet: Sheet,
+    /// The patch.
+    pub tiling: Tiling,
+    /// The drawn state.
+    pub drawn: Drawn,
+    /// Rest angle of every edge, in radians; NaN where there is no hinge.
+    pub rest: Vec<f64>,
+}
+
+/// The reference cell.
+///
+/// # Errors
+/// None that the repository's own mesh could cause.
+pub fn cell() -> Result<Sheet, SheetError> {
+    fold::parse(library::mesh("open-star.fold").unwrap_or_default(), "open-star.fold")
+}
+
+impl Star {
+    /// `n1 x n2` cells; the rest angle of every hinge is the drawn one and at most `most` radians more or less, at random,
+    /// the same on every machine.
+    ///
+    /// # Errors
+    /// None that the repository's own mesh could cause.
+    pub fn new(cells: [usize; 2], most: f64) -> Result<Self, SheetError> {
+        let mut star = Self::drawn(cells)?;
+        let mut numbers = ChaCha8Rng::seed_from_u64(1);
+        let off = |angle: &mut f64| *angle += most * (2.0 * numbers.random::<f64>() - 1.0);
+        star.rest.iter_mut().for_each(off);
+        Ok(star)
+    }
+
+    /// `n1 x n2` cells whose creases rest with the same angle in every cell, one for each edge of the cell.
+    ///
+    /// # Errors
+    /// None that the repository's own mesh could cause.
+    pub fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, SheetError> {
+        let mut star = Self::drawn(cells)?;
+        for (rest, edge) in star.rest.iter_mut().zip(&star.tiling.edges).filter(|(rest, _)| !rest.is_nan()) {
+            *rest = angles[edge.edge];
+        }
+        Ok(star)
+    }
+
+    fn drawn(cells: [usize; 2]) -> Result<Self, SheetError> {
+        let sheet = cell()?;
+        let tiling = tile(&sheet, cells, false);
+        let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+        let rest = drawn_angles(&drawn, &tiling);
+        Ok(Self { sheet, tiling, drawn, rest })
+    }
+
+    /// The trajectories of the cell with its first edge, (0, 1, 0, 0), locked, followed with steps of at most this length.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Trace`] where there are none.
+    pub fn traced(max_step: f64, stop: Stop) -> Result<Vec<Traced>, ExperimentError> {
+        let sheet = cell()?;
+        let tiling = tile(&sheet, [1, 1], true);
+        let angles = drawn_fold_angles(&sheet);
+        let recipe = Recipe { locks: vec![(0, angles[0])], ..Recipe::default() };
+        let surroundings = Surroundings::Screw;
+        let start =
+            branches::Question { sheet: &sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &recipe };
+        let question = trace::Question { start, max_step, tolerance: 3e-14, branch: None, stop };
+        Ok(trace(&question, None, &mut |_, _| true)?)
+    }
+
+    /// Fold angles of the edges of the cell, folded along its first ray over this arc length: an exact cylinder.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Trace`] where there is none.
+    pub fn cylinder(arc_length: f64) -> Result<Vec<f64>, ExperimentError> {
+        let all = Self::traced(0.25, Stop { arc_length: Some(arc_length), ..Stop::default() })?;
+        let last = all.first().and_then(|traced| traced.states.last());
+        Ok(last.ok_or(ExperimentError::Other("there is no ray"))?.angles.clone())
+    }
+
+    /// The model with this stiffness of every bar, `EA`, over that of the creases, which is 1 per length.
+    pub fn model(&self, stiffness: f64) -> Model {
+        let creases = Hinges { stiffness: 1.0, rest: self.rest.clone() };
+        let recipe = Recipe { bars: Some(stiffness), creases: Some(creases), ..Recipe::default() };
+        assemble(&self.drawn, &self.tiling, &recipe, Gauge::Held)
+    }
+
+    /// Relaxes `model` from the drawn state.
+    ///
+    /// # Errors
+    /// [`RelaxError`] where it does not converge.
+    pub fn relax(&self, model: &mut Model, options: Options) -> Result<Relaxed, Box<RelaxError>> {
+        let start = model.start();
+        relax(model, start, options, self.tiling.edges.len(), &mut |_| true)
+    }
+}
+
+/// Unknowns and stiff measures of a model.
+pub fn size(model: &Model) -> (usize, usize) {
+    (model.layout().unknowns, model.layout().stiff.len())
+}
