@@ -18,6 +18,7 @@ mod bloch;
 mod branches;
 mod draw;
 mod landscape;
+mod landscape_map;
 mod resume;
 mod runner;
 mod studies;

@@ -233,7 +233,8 @@ fn triangle(text: &mut String, space: &Space, surface: &StrainSurface, places: &
     put!(text, " fill=\"{paint}\" stroke=\"{paint}\"/>\n");
 }
 
-fn hexadecimal(colour: [f64; 3]) -> String {
+/// A colour in the words of SVG.
+pub(super) fn hexadecimal(colour: [f64; 3]) -> String {
     let [red, green, blue] = colour.map(|part| part.round() as u8);
     format!("#{red:02x}{green:02x}{blue:02x}")
 }

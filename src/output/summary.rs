@@ -230,6 +230,28 @@ pub struct TurningPoint {
 pub struct LandscapeSummary {
     /// One for each mode.
     pub modes: Vec<ModeLandscape>,
+    /// Energies in all directions, where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub map: Option<MapSummary>,
+}
+
+/// Energies over the sphere of curvature tensors.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MapSummary {
+    /// Norm of the tensors.
+    pub amplitude: f64,
+    /// Samples.
+    pub samples: usize,
+    /// Those that did not converge.
+    pub failed: usize,
+    /// Newton steps of all samples.
+    pub iterations: usize,
+    /// Largest energy.
+    pub largest_energy: f64,
+    /// Points on the exact cone of cylinders that the kinematics found.
+    pub cone_points: usize,
+    /// Largest angle, in radians, between some of these points and the zeros of the energy beside them.
+    pub cone_distance: Option<f64>,
 }
 
 /// What a mode costs.

@@ -122,6 +122,36 @@ pub fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError
     write(path, DataSet::inline(piece))
 }
 
+/// Writes a surface of triangles and curves between its points, with numbers at the points.
+///
+/// # Errors
+/// [`OutputError::Shape`] where an array has not one number for each point, [`OutputError::Write`].
+pub fn write_surface(
+    path: &Path,
+    points: &[Vec3],
+    (triangles, curves): (&[[usize; 3]], &[Vec<usize>]),
+    arrays: &[(&'static str, Vec<f64>)],
+) -> Result<(), OutputError> {
+    check_lengths(path, arrays, points.len())?;
+    let numbers = |lists: &mut dyn Iterator<Item = &[usize]>| {
+        let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
+        for list in lists {
+            connectivity.extend(list.iter().map(|&point| point as u64));
+            offsets.push(connectivity.len() as u64);
+        }
+        VertexNumbers::XML { connectivity, offsets }
+    };
+    let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
+    let piece = PolyDataPiece {
+        points: coordinates(points),
+        lines: Some(numbers(&mut curves.iter().map(Vec::as_slice))),
+        polys: Some(numbers(&mut triangles.iter().map(|triangle| triangle.as_slice()))),
+        data: Attributes { point, cell: vec![] },
+        ..PolyDataPiece::default()
+    };
+    write(path, DataSet::inline(piece))
+}
+
 /// Writes curves in the plane, one after the other, with numbers that belong to whole curves.
 ///
 /// Points with z = 0; a cell array for each of `arrays`.

@@ -1,7 +1,7 @@
 //! `kind = "landscape"`: samples every mode of a patch, fits, compares with the prediction, writes a table, summarises.
 
 use super::runner::Runner;
-use super::{RunError, studies};
+use super::{RunError, landscape_map, studies};
 use crate::analysis::landscape::samples::{Landscape, OPTIONS, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::assemble::{Surroundings, drawn_angles};
@@ -39,14 +39,20 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &Landscap
         return refuse("a landscape holds nothing but the amplitude of a mode", help);
     }
     let held = held(built).map_err(|error| file.error_at(study.kind.span(), error.to_string(), MODES))?;
+    if let Some(map) = &spec.map {
+        held.named([1.0, 0.0, 0.0]).map_err(|error| file.error_at(map.span(), error.to_string(), NO_MAP))?;
+    }
     spec.modes.iter().try_for_each(|mode| rates(file, built, &held, mode).map(|_| ()))
 }
+
+/// What to do where there is no map.
+const NO_MAP: &str = "maps are of patches with three modes that curvatures name; leave out `map`";
 
 /// What to do where modes are missing.
 const MODES: &str = "patches have modes named by curvatures, tori those of wavenumbers on zero lines";
 
 /// The patch or the torus of a scene.
-fn held(built: &Built) -> Result<HeldSheet, LandscapeError> {
+pub fn held(built: &Built) -> Result<HeldSheet, LandscapeError> {
     let angles = drawn_angles(&built.drawn, &built.tiling);
     let (sheet, tiling, recipe) = (&built.sheet, &built.tiling, &built.recipe);
     match built.surroundings {
@@ -103,7 +109,13 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &LandscapeSpec) -
     summary.converged = summary.reason.is_none();
     summary.error = Some(found.iter().map(Along::residual).fold(0.0, f64::max));
     let modes = found.iter().map(|along| along.summarized(&amplitudes(spec))).collect();
-    summary.result = Some(StudyResult::Landscape(LandscapeSummary { modes }));
+    let map = spec.map.as_ref().map(|map| landscape_map::map(runner, study, map)).transpose()?;
+    if let Some(why) = map.as_ref().and_then(|map| map.reason.clone()) {
+        summary.reason.get_or_insert(why);
+    }
+    summary.converged = summary.reason.is_none();
+    summary.seconds = clock.elapsed().as_secs_f64();
+    summary.result = Some(StudyResult::Landscape(LandscapeSummary { modes, map: map.map(|map| map.summary) }));
     Ok(summary)
 }
 

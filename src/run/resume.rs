@@ -38,6 +38,11 @@ impl Earlier {
         found.filter(|earlier| earlier.digest == digest).unwrap_or_default()
     }
 
+    /// Whether there was one.
+    pub fn is_of_this_scene(&self) -> bool {
+        !self.digest.is_empty()
+    }
+
     /// What the earlier run found for a study, and the state it left where later studies start from it; `None` where it
     /// has to be computed.
     pub fn study(&self, file: &SceneFile, out: &Path, study: &StudySpec) -> Option<(StudySummary, Option<Kept>)> {

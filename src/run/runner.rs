@@ -24,6 +24,7 @@ pub struct Runner<'a> {
     pub view: View,
     /// Where files go.
     pub out: PathBuf,
+    resumed: bool,
     states: HashMap<String, Kept>,
     kept: Vec<String>,
     summary: Summary,
@@ -51,9 +52,10 @@ impl<'a> Runner<'a> {
         }
         let digest = digest(file)?;
         let earlier = if options.resume { Earlier::read(&out, &digest) } else { Earlier::default() };
+        let resumed = earlier.is_of_this_scene();
         let summary = summary(file, built, digest);
         let (states, kept, interrupted) = (HashMap::new(), Vec::new(), AtomicBool::new(false));
-        let mut runner = Self { file, built, view, out, states, kept, summary, observer, interrupted };
+        let mut runner = Self { file, built, view, out, resumed, states, kept, summary, observer, interrupted };
         runner.keep(&earlier)?;
         Ok(runner)
     }
@@ -105,6 +107,11 @@ impl<'a> Runner<'a> {
         write_state(self.file, &self.out, &study.name.0, &state)?;
         self.states.insert(study.name.0.clone(), state);
         Ok(())
+    }
+
+    /// Whether the run goes on where an earlier one of the same scene ended.
+    pub fn resumed(&self) -> bool {
+        self.resumed
     }
 
     /// The state in which a study ended.

@@ -352,6 +352,18 @@ pub struct LandscapeSpec {
     pub modes: Located<Vec<Located<Mode>>>,
     /// The amplitudes along each.
     pub amplitudes: Located<Vec<Positive>>,
+    /// Energies in all directions; left out: none.
+    pub map: Option<Located<MapSpec>>,
+}
+
+/// `map = { amplitude, rings }`: energies over the sphere of curvature tensors of one norm.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MapSpec {
+    /// The norm of the tensors, `sqrt(k11^2 + k22^2 + 2 k12^2)`, 1/length.
+    pub amplitude: Located<Positive>,
+    /// Rings of samples from a pole (`k11 = k22`) to the equator, with four times as many samples on each; left out: 8.
+    pub rings: Option<Located<Count>>,
 }
 
 /// `kind = "bloch"`.

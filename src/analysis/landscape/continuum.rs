@@ -39,13 +39,20 @@ pub fn coefficient(sheet: &Sheet, patch: &HeldSheet, degree: usize) -> Result<f6
     let condition = yy * &strain[0] + xx * &strain[1] - xy * &strain[2] * 2.0;
     let mut source = DVector::zeros(basis.count());
     source[0] = -1.0;
+    let norms: Vec<f64> = basis.norms().collect();
+    let weigh = |rows: &DenseMatrix| DenseMatrix::from_fn(rows.nrows(), rows.ncols(), |i, j| norms[i] * rows[(i, j)]);
     let mut energy = DenseMatrix::zeros(3 * basis.count(), basis.count());
     for mode in 0..3 {
-        let part = combined(&cell.stiffness_root, &modes, mode);
-        for (row, norm) in basis.norms().enumerate() {
-            energy.row_mut(mode * basis.count() + row).copy_from(&(part.row(row) * norm));
-        }
+        let part = weigh(&combined(&cell.stiffness_root, &modes, mode));
+        energy.rows_mut(mode * basis.count(), basis.count()).copy_from(&part);
     }
+    // columns of norm 1, without those of linear functions, which bend nothing
+    let sizes: Vec<f64> = energy.column_iter().map(|column| column.norm()).collect();
+    let bending: Vec<usize> = (0..basis.count()).filter(|&k| sizes[k] > 0.0).collect();
+    let unit = |of: &DenseMatrix| {
+        DenseMatrix::from_fn(of.nrows(), bending.len(), |row, k| of[(row, bending[k])] / sizes[bending[k]])
+    };
+    let (energy, condition) = (unit(&energy), unit(&weigh(&condition)));
     Ok(0.5 * least_square(&energy, &condition, &source)?)
 }
 

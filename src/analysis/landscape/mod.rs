@@ -23,6 +23,7 @@ pub mod tuning;
 pub use course::Course;
 pub use expansion::Expansion;
 pub use held::HeldSheet;
+pub use patch::rigid_facets;
 pub use prediction::Prediction;
 pub use samples::{Sample, Samples};
 

@@ -11,9 +11,7 @@ impl HeldSheet {
     ///
     /// Fails where the modes are not known.
     pub fn patch(sheet: &Sheet, tiling: &Tiling, recipe: &Recipe, drawn: &[f64]) -> Result<Self, LandscapeError> {
-        let rigid = recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
-        let facets = (0..sheet.edges.len()).filter(|&edge| sheet.edges[edge].kind == EdgeKind::Facet);
-        let locked: Vec<usize> = if rigid { facets.collect() } else { Vec::new() };
+        let locked = rigid_facets(sheet, recipe);
         let modes = folding_modes_with_locked(sheet, &locked)?;
         let recipe = at_rest_as_drawn(recipe, drawn);
         let model = assemble(&Drawn::new(sheet, tiling, Surroundings::Patch), tiling, &recipe, Gauge::Held);
@@ -22,6 +20,12 @@ impl HeldSheet {
         held.bending = Some(modes);
         Ok(held)
     }
+}
+
+/// Diagonals of the cell's polygons where these are rigid.
+pub fn rigid_facets(sheet: &Sheet, recipe: &Recipe) -> Vec<usize> {
+    let rigid = recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
+    (0..sheet.edges.len()).filter(|&edge| rigid && sheet.edges[edge].kind == EdgeKind::Facet).collect()
 }
 
 /// The recipe with all hinges at rest as drawn.

@@ -1,0 +1,199 @@
+//! The map of a landscape: energies over the sphere of curvature tensors, with the exact cone of cylinders.
+//!
+//! Samples are written as they come, so that an interrupted map goes on where it stopped.
+
+use super::RunError;
+use super::landscape::held;
+use super::runner::Runner;
+use crate::analysis::landscape::cone::{Cone, distance};
+use crate::analysis::landscape::samples::{Sample, SampleError};
+use crate::analysis::landscape::sphere::{self, Direction, Net};
+use crate::analysis::landscape::{HeldSheet, LandscapeError, Prediction, rigid_facets};
+use crate::math::Vec3;
+use crate::output::sphere_plot::{self, Sphere};
+use crate::output::summary::MapSummary;
+use crate::output::table::{Table, Value, read_columns};
+use crate::output::vtk;
+use crate::run::Progress;
+use crate::scene::spec::{Draw, MapSpec, StudySpec};
+use std::f64::consts::{FRAC_PI_4, TAU};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Rings where the scene says nothing.
+const RINGS: u32 = 8;
+/// Samples between two writings of the table.
+const BATCH: usize = 64;
+/// Points of the exact cone on each nappe, and those where the zero of the energy is sought.
+const CONE: usize = 96;
+const PROBES: usize = 8;
+/// Columns of the table; a sample that failed has no energy.
+const COLUMNS: [&str; 9] = [
+    "k11",
+    "k22",
+    "k12",
+    "energy_bars",
+    "energy_creases",
+    "energy_total",
+    "residual_force",
+    "residual_length",
+    "iterations",
+];
+const TOTAL: usize = 5;
+const ITERATIONS: usize = 8;
+
+type Row = [f64; COLUMNS.len()];
+
+/// What a map found.
+pub struct Map {
+    /// For the summary.
+    pub summary: MapSummary,
+    /// Why it is not whole.
+    pub reason: Option<String>,
+}
+
+/// Samples the map, writes its table and its pictures.
+pub fn map(runner: &Runner<'_>, study: &StudySpec, spec: &MapSpec) -> Result<Map, RunError> {
+    let (amplitude, rings) = (spec.amplitude.0, spec.rings.as_ref().map_or(RINGS, |count| count.0) as usize);
+    let net = Net::new(rings);
+    let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
+    let (rows, mut reason) = sampled(runner, study, &points, amplitude)?;
+    let (cone, cone_distance) = match cone(runner, amplitude) {
+        Ok(found) => found,
+        Err(error) => {
+            reason.get_or_insert(error.to_string());
+            Default::default()
+        }
+    };
+    let energies: Vec<f64> = rows.iter().map(|row| row[TOTAL]).collect();
+    if rows.len() == points.len() {
+        draw(runner, study, Sphere { points: &points, triangles: &net.triangles, energies: &energies, cone: &cone })?;
+    }
+    let summary = MapSummary {
+        amplitude,
+        samples: rows.len(),
+        failed: energies.iter().filter(|energy| energy.is_nan()).count(),
+        iterations: rows.iter().map(|row| row[ITERATIONS] as usize).sum(),
+        largest_energy: energies.iter().fold(0.0, |most: f64, energy| most.max(*energy)),
+        cone_points: cone.iter().map(Vec::len).sum(),
+        cone_distance,
+    };
+    Ok(Map { summary, reason })
+}
+
+fn path(runner: &Runner<'_>, study: &StudySpec) -> PathBuf {
+    runner.path(format!("{}-map.csv", study.name.0))
+}
+
+/// A row for every point, those of an interrupted run first; and why some are missing.
+fn sampled(
+    runner: &Runner<'_>,
+    study: &StudySpec,
+    points: &[Vec3],
+    amplitude: f64,
+) -> Result<(Vec<Row>, Option<String>), RunError> {
+    let make = || held(runner.built);
+    let prediction = match make().and_then(|held| Prediction::new(&held)) {
+        Ok(prediction) => prediction,
+        Err(error) => return Ok((Vec::new(), Some(error.to_string()))),
+    };
+    let path = path(runner, study);
+    let mut rows: Vec<Row> = if runner.resumed() && path.exists() { read_columns(&path, COLUMNS)? } else { Vec::new() };
+    rows.truncate(points.len());
+    let mut reason = None;
+    let done = AtomicUsize::new(rows.len());
+    let go_on = || {
+        let (step, of) = (done.fetch_add(1, Ordering::Relaxed) + 1, Some(points.len()));
+        runner.watch(&Progress { study: study.name.0.clone(), step, of, residual: f64::NAN, target: None })
+    };
+    while rows.len() < points.len() && reason.is_none() {
+        let batch = &points[rows.len()..points.len().min(rows.len() + BATCH)];
+        let found = sphere::samples(&make, &prediction, batch, amplitude, &go_on);
+        for (point, sample) in batch.iter().zip(found) {
+            match sample {
+                Some(sample) if reason.is_none() => rows.push(row(point, sample)),
+                _ => reason = Some("interrupted".to_owned()),
+            }
+        }
+        table(&rows).write(&path)?;
+    }
+    let failed = rows.iter().filter(|row| row[TOTAL].is_nan()).count();
+    Ok((rows, reason.or_else(|| (failed > 0).then(|| format!("{failed} samples of the map did not converge")))))
+}
+
+fn row(point: &Vec3, sample: Result<Sample, SampleError>) -> Row {
+    let [k11, k22, k12] = sphere::curvature(point);
+    let nan = f64::NAN;
+    sample.map_or([k11, k22, k12, nan, nan, nan, nan, nan, 0.0], |sample| {
+        let (relaxed, state) = (&sample.relaxed, &sample.relaxed.state);
+        let residuals = [relaxed.residual_force, relaxed.residual_length];
+        let energies = [state.energy_bars, state.energy_creases, state.total()];
+        let [bars, creases, total] = energies;
+        [k11, k22, k12, bars, creases, total, residuals[0], residuals[1], sample.iterations as f64]
+    })
+}
+
+fn table(rows: &[Row]) -> Table {
+    let mut table = Table::new(COLUMNS.iter().map(|name| (*name).to_owned()).collect());
+    rows.iter().for_each(|row| table.push(row.iter().map(|number| Value::Number(*number)).collect()));
+    table
+}
+
+/// The exact cone, as a closed curve on each nappe, and the largest angle to zeros of the energy.
+fn cone(runner: &Runner<'_>, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f64>), SampleError> {
+    let mut held: HeldSheet = held(runner.built)?;
+    let prediction = Prediction::new(&held)?;
+    let modes = held.bending.clone().ok_or(LandscapeError::NoCurvatures)?;
+    let (sheet, recipe) = (&runner.built.sheet, &runner.built.recipe);
+    let exact = Cone::new(sheet, &modes, &rigid_facets(sheet, recipe)).map_err(LandscapeError::from)?;
+    let mut largest: Option<f64> = None;
+    let mut curves = Vec::new();
+    for nappe in [1, -1] {
+        let at = |k: usize| exact.point(k as f64 * TAU / CONE as f64, nappe, amplitude);
+        let curve: Vec<Vec3> = (0..CONE).filter_map(at).collect();
+        for point in curve.iter().step_by(CONE / PROBES) {
+            let off = distance(&mut held, &prediction, point, amplitude)?;
+            largest = Some(largest.map_or(off, |most| most.max(off)));
+        }
+        curves.push(curve);
+    }
+    Ok((curves, largest))
+}
+
+fn draw(runner: &Runner<'_>, study: &StudySpec, sphere: Sphere<'_>) -> Result<(), RunError> {
+    let name = &study.name.0;
+    if study.draw.contains(&Draw::Vtk) {
+        let file = format!("{name}/{name}_map.vtp");
+        write_vtp(runner, &file, &sphere)?;
+        vtk::write_pvd(&runner.path(format!("{name}.pvd")), &[(0.0, file)])?;
+    }
+    if study.draw.contains(&Draw::Svg) {
+        sphere_plot::write_svg(&runner.path(format!("{name}.svg")), &sphere, FRAC_PI_4, &runner.file.title())?;
+    }
+    Ok(())
+}
+
+/// The sphere in `(k11, k22, sqrt(2) k12)`, and on it the closed curves of the cone, where the energy is zero.
+fn write_vtp(runner: &Runner<'_>, file: &str, sphere: &Sphere<'_>) -> Result<(), RunError> {
+    let all: Vec<Vec3> = sphere.points.iter().chain(sphere.cone.iter().flatten()).copied().collect();
+    let mut start = sphere.points.len();
+    let closed = |curve: &Vec<Vec3>| {
+        let first = start;
+        start += curve.len();
+        (first..start).chain((!curve.is_empty()).then_some(first)).collect()
+    };
+    let curves: Vec<Vec<usize>> = sphere.cone.iter().map(closed).collect();
+    let tensors: Vec<[f64; 3]> = all.iter().map(sphere::curvature).collect();
+    let component = |k: usize| tensors.iter().map(|tensor| tensor[k]).collect::<Vec<f64>>();
+    let energy = sphere.energies.iter().copied().chain(std::iter::repeat(0.0)).take(all.len()).collect();
+    let arrays = [
+        ("energy", energy),
+        ("k11", component(0)),
+        ("k22", component(1)),
+        ("k12", component(2)),
+        ("gaussian_curvature", tensors.iter().map(|[k11, k22, k12]| k11 * k22 - k12 * k12).collect()),
+    ];
+    let places: Vec<Vec3> =
+        tensors.iter().map(|[k11, k22, k12]| Vec3::new(*k11, *k22, std::f64::consts::SQRT_2 * k12)).collect();
+    Ok(vtk::write_surface(&runner.path(file), &places, (sphere.triangles, &curves), &arrays)?)
+}
