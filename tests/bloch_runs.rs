@@ -47,7 +47,10 @@ fn reference_cell() {
     for name in names.iter().chain(&pictures) {
         assert!(folder.path().join(name).exists(), "{name}");
     }
-    assert_eq!((lines(&folder.path().join("modes.csv")), lines(&folder.path().join("modes_bands.csv"))), (1 + 7 * 4, 152));
+    assert_eq!(
+        (lines(&folder.path().join("modes.csv")), lines(&folder.path().join("modes_bands.csv"))),
+        (1 + 7 * 4, 152)
+    );
     let again = run(&meshes().join("star-bloch.toml"), folder.path(), true).unwrap();
     assert_eq!(again.kept, ["modes"]);
     assert_eq!(result(&again), found);
@@ -79,8 +82,8 @@ fn what_cannot_be_done() {
         ("generate = { pattern = \"miura\" }", "", "conditions (bars and rigid facets)"),
         ("generate = { pattern = \"kresling\" }", "", "without lattice vectors"),
         ("generate = { pattern = \"random\" }", "path = [[0, 0], [1, 0]]", "bands need an energy of springs"),
-        ("generate = { pattern = \"random\" }", "modes = [[0.1, inf]]", "finite number"),
-        ("generate = { pattern = \"random\" }", "q1 = [nan]", "finite number"),
+        ("generate = { pattern = \"random\" }", "modes = [[0.1, inf]]", "the number is inf"),
+        ("generate = { pattern = \"random\" }", "q1 = [nan]", "the number is NaN"),
     ];
     for (sheet, keys, expected) in cases {
         let error = run(&scene(sheet, keys), &out, false).unwrap_err();
