@@ -26,8 +26,8 @@ fn lines(path: &Path) -> usize {
     std::fs::read_to_string(path).unwrap().lines().count()
 }
 
-/// Claim: the scene of the reference cell writes all its files, its decay rates are the stored ones, nothing is polarized; and a
-/// run that resumes keeps the study, so that its summary reads back.
+/// Claim: the scene of the reference cell writes all its files, its decay rates are the stored ones, nothing is
+/// polarized; and a run that resumes keeps the study, so that its summary reads back.
 #[test]
 fn reference_cell() {
     let folder = tempfile::tempdir().unwrap();
@@ -67,7 +67,8 @@ fn kirigami_cell() {
     assert_eq!((found.zero_lines, found.positive_fraction, found.order_at_origin), (0, None, None));
 }
 
-/// Claim: what cannot be done is refused before anything is written, and a sheet without a determinant is a study that failed.
+/// Claim: what cannot be done is refused before anything is written, and a sheet without a determinant is a study that
+/// failed.
 #[test]
 fn what_cannot_be_done() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,9 +1,11 @@
-//! Spatially varying modes as a picture: decay rates against `q1`, and beside them the determinant over the Brillouin zone with
-//! its lines of zeros (the figure of McInerney and others, PNAS 117, 30252 (2020), on spatially varying modes).
+//! Spatially varying modes as a picture: decay rates against `q1`, and beside them the determinant over the Brillouin
+//! zone with its lines of zeros (the figure of McInerney and others, PNAS 117, 30252 (2020), on spatially varying
+//! modes).
 //!
-//! Decay rates are dots, dark where the mode neither grows nor decays. The map is blue where the determinant is positive and
-//! red where it is negative, the deeper the larger its fourth root is, since it vanishes to fourth order at `q = 0`; a
-//! determinant that is not real is drawn by its magnitude. The SVG is written directly: the same numbers give the same bytes.
+//! Decay rates are dots, dark where the mode neither grows nor decays. The map is blue where the determinant is
+//! positive and red where it is negative, the deeper the larger its fourth root is, since it vanishes to fourth order
+//! at `q = 0`; a determinant that is not real is drawn by its magnitude. The SVG is written directly: the same numbers
+//! give the same bytes.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
@@ -181,8 +183,9 @@ mod tests {
     use super::*;
     use crate::numerics::DenseMatrix;
 
-    /// Claim: a picture has a dot for every rate within the range, a square for every part of the map, and a path for every
-    /// line, which is cut where it leaves the zone; a determinant without lines is said to be drawn by its magnitude.
+    /// Claim: a picture has a dot for every rate within the range, a square for every part of the map, and a path for
+    /// every line, which is cut where it leaves the zone; a determinant without lines is said to be drawn by its
+    /// magnitude.
     #[test]
     fn everything_is_drawn() {
         let polynomial =
