@@ -5,8 +5,8 @@
 //! ```
 //!
 //! Random cells of 4 to 16 vertices. `coefficients`: the determinant from the matrix; `map`: its values at 512 x 512
-//! wavenumbers from the coefficients; `zero lines`: all of them, followed to rounding; `decay`: the roots at one wavenumber.
-//! Times are medians of runs taken in turns, in milliseconds.
+//! wavenumbers from the coefficients; `zero lines`: all of them, followed to rounding; `decay`: the roots at one
+//! wavenumber. Times are medians of runs taken in turns, in milliseconds.
 #![allow(clippy::unwrap_used)]
 
 mod common;

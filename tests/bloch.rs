@@ -32,8 +32,9 @@ fn determinant(sheet: &Sheet) -> Determinant {
     Determinant::new(&Rigidity::of_sheet(sheet, false).unwrap()).unwrap()
 }
 
-/// Claim: the coefficients of the reference cell are those that an independent program found (exact up to the sign), and its
-/// decay rates at q1 = 0.9 too. Tolerance: 1e-14 of coefficients of 0.05; 1e-13 for decay rates of condition below 100.
+/// Claim: the coefficients of the reference cell are those that an independent program found (exact up to the sign),
+/// and its decay rates at q1 = 0.9 too. Tolerance: 1e-14 of coefficients of 0.05; 1e-13 for decay rates of condition
+/// below 100.
 #[test]
 fn stored_numbers_of_open_star() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/open-star.json");
@@ -63,8 +64,8 @@ fn stored_numbers_of_open_star() {
     }
 }
 
-/// Claim: on 200 random cells the centred determinant is symmetric and real to 1e-12, powers are whole numbers, decay rates pair
-/// to 1e-9 where they are well conditioned, and as many roots are inside as outside: no polarization.
+/// Claim: on 200 random cells the centred determinant is symmetric and real to 1e-12, powers are whole numbers, decay
+/// rates pair to 1e-9 where they are well conditioned, and as many roots are inside as outside: no polarization.
 #[test]
 fn random_cells_are_symmetric_and_not_polarized() {
     let (mut symmetry, mut imaginary, mut error, mut pairing, mut left_out, mut pairs) =
@@ -91,7 +92,7 @@ fn random_cells_are_symmetric_and_not_polarized() {
         assert_eq!(polarization, [0.0, 0.0], "{}", sheet.description);
     }
     println!(
-        "symmetry {symmetry:e}, imaginary {imaginary:e}, error {error:e}, pairing {pairing:e}, left out {left_out} of {pairs}"
+        "symmetry {symmetry:e}, imaginary {imaginary:e}, error {error:e}, pairing {pairing:e}, {left_out} of {pairs} left out"
     );
     assert!(symmetry <= 1e-12 && imaginary <= 1e-12 && error <= 1e-12);
     assert!(8 * left_out <= pairs, "{left_out} roots of {pairs} are ill-conditioned");
@@ -105,10 +106,11 @@ fn flat_sheets_have_no_determinant() {
     assert!(message.contains("flat sheet"), "{message}");
 }
 
-/// Claim: the leading quartic that the strains of the three linear modes give is that of the determinant's expansion up to one
-/// factor (1e-8 of its largest coefficient; rounding of moments of some 100 coefficients), reciprocity of any two modes holds to
-/// 1e-12, the determinant vanishes to fourth order, and the traced lines leave `q = 0` in the directions of the real roots,
-/// which are 0, 2 or 4 in number: on 200 random cells. All lines agree with the signs on a grid (`ZeroLines` refuses others).
+/// Claim: the leading quartic that the strains of the three linear modes give is that of the determinant's expansion up
+/// to one factor (1e-8 of its largest coefficient; rounding of moments of some 100 coefficients), reciprocity of any
+/// two modes holds to 1e-12, the determinant vanishes to fourth order, and the traced lines leave `q = 0` in the
+/// directions of the real roots, which are 0, 2 or 4 in number: on 200 random cells. All lines agree with the signs on
+/// a grid (`ZeroLines` refuses others).
 #[test]
 fn zero_lines_of_random_cells() {
     let (mut apart, mut reciprocity, mut counts) = (0.0f64, 0.0f64, [0; 5]);
@@ -170,10 +172,11 @@ fn zero_lines_of_random_cells() {
     assert!(angles <= 1e-2, "{angles:e}");
 }
 
-/// Claim: at every wavenumber there are as many zero modes as self stresses at the opposite one, and by the fold rates as many at
-/// the same one (duality): from a null vector of `R(z)` the fold rates are a self stress at `z`, whose displacement is that
-/// null vector again; a left null vector is a self stress at `1/z`, and has a displacement there that stretches no bar. On
-/// roots of random cells and at a complex pair. Tolerance: 1e-9 for null vectors of roots known to 1e-10.
+/// Claim: at every wavenumber there are as many zero modes as self stresses at the opposite one, and by the fold rates
+/// as many at the same one (duality): from a null vector of `R(z)` the fold rates are a self stress at `z`, whose
+/// displacement is that null vector again; a left null vector is a self stress at `1/z`, and has a displacement there
+/// that stretches no bar. On roots of random cells and at a complex pair. Tolerance: 1e-9 for null vectors of roots
+/// known to 1e-10.
 #[test]
 fn duality_at_finite_wavenumber() {
     let mut worst = [0.0f64; 4];
@@ -243,7 +246,8 @@ fn singular(rigidity: &Rigidity, z1: Complex<f64>, mut z: Complex<f64>) -> Compl
     z
 }
 
-/// Claim: decay rates are those of a matrix pencil, which knows no determinant, to 1e-9 where roots are well conditioned.
+/// Claim: decay rates are those of a matrix pencil, which knows no determinant, to 1e-9 where roots are well
+/// conditioned.
 #[test]
 fn decay_rates_agree_with_the_matrix_pencil() {
     let (mut worst, mut compared) = (0.0f64, 0);
@@ -265,8 +269,9 @@ fn decay_rates_agree_with_the_matrix_pencil() {
     assert!(worst <= 1e-9 && compared > 2000, "{worst:e}, {compared}");
 }
 
-/// Claim: cells with an edge a millionth as long as the others, or stretched a million times along one lattice vector, have an
-/// answer that the matrix pencil confirms to 1e-6 where it calls itself well conditioned, or an error that says so.
+/// Claim: cells with an edge a millionth as long as the others, or stretched a million times along one lattice vector,
+/// have an answer that the matrix pencil confirms to 1e-6 where it calls itself well conditioned, or an error that says
+/// so.
 #[test]
 fn ill_conditioned_cells() {
     let short = |seed: u64| {
@@ -307,9 +312,9 @@ fn kirigami(sheet: &Sheet) -> Determinant {
     Determinant::new(&Rigidity::of_sheet(sheet, true).unwrap()).unwrap()
 }
 
-/// Claim: on a kirigami cell with one rigid quadrilateral and one hole the checks of origami fail: the determinant is not
-/// symmetric, decay rates do not pair, and the polarization is (1/2, 1/2), as an independent program (NumPy) found from the same
-/// coordinates with both diagonals of the skew quadrilateral as bars.
+/// Claim: on a kirigami cell with one rigid quadrilateral and one hole the checks of origami fail: the determinant is
+/// not symmetric, decay rates do not pair, and the polarization is (1/2, 1/2), as an independent program (NumPy) found
+/// from the same coordinates with both diagonals of the skew quadrilateral as bars.
 #[test]
 fn kirigami_is_polarized() {
     let found = kirigami(&mesh("kirigami"));
@@ -326,8 +331,8 @@ fn kirigami_is_polarized() {
 }
 
 /// Claim (Finbow-Singh and Whiteley's swap): with faces and holes exchanged, folding motions become self stresses: the
-/// determinant of the exchanged sheet at `1/z` is that of the sheet at `z` up to a monomial and a factor. Tolerance: 1e-10 of
-/// the largest coefficient.
+/// determinant of the exchanged sheet at `1/z` is that of the sheet at `z` up to a monomial and a factor. Tolerance:
+/// 1e-10 of the largest coefficient.
 #[test]
 fn faces_and_holes_swap() {
     let sheet = mesh("kirigami");
@@ -345,9 +350,10 @@ fn faces_and_holes_swap() {
     assert!(apart <= 1e-10, "{apart:e}");
 }
 
-/// Claim (theory, section 8): on a cylinder the determinant of screw-periodic modes is symmetric, vanishes to second order at
-/// `q = 0`, and at `+-(theta1, theta2)`, the rigid rotations about directions across the axis, and a zero line passes there; the roots
-/// pair as on a flat lattice. Tolerances: 1e-12 for symmetry; states close to 1e-12, and the zero is simple.
+/// Claim (theory, section 8): on a cylinder the determinant of screw-periodic modes is symmetric, vanishes to second
+/// order at `q = 0`, and at `+-(theta1, theta2)`, the rigid rotations about directions across the axis, and a zero line
+/// passes there; the roots pair as on a flat lattice. Tolerances: 1e-12 for symmetry; states close to 1e-12, and the
+/// zero is simple.
 #[test]
 fn cylinders() {
     let sheet = mesh("open-star");
@@ -384,9 +390,10 @@ fn cylinders() {
     }
 }
 
-/// Claim: the zero modes of a strip of 40 cells with free edges, periodic along the first lattice vector with wavenumber 0.9, grow
-/// and decay across it as the roots say: factors from a cell to the next, fitted to the modes of the strip alone, agree to 1e-3
-/// (rounding of a null space: 1e-6 and better). The strip has as many zero modes as bars that its edges cut.
+/// Claim: the zero modes of a strip of 40 cells with free edges, periodic along the first lattice vector with
+/// wavenumber 0.9, grow and decay across it as the roots say: factors from a cell to the next, fitted to the modes of
+/// the strip alone, agree to 1e-3 (rounding of a null space: 1e-6 and better). The strip has as many zero modes as bars
+/// that its edges cut.
 #[test]
 fn strips_decay_as_predicted() {
     for (sheet, q1) in [(mesh("open-star"), 0.9), (random([2, 2], 3), 0.7), (random([2, 3], 5), 1.4)] {
@@ -435,9 +442,9 @@ fn strips_decay_as_predicted() {
     }
 }
 
-/// Claim: the dynamical matrix is that of the energies: along real wavenumbers its quadratic form is twice the energy per cell of
-/// the wave, checked as `R^H k R` for bars alone; its three lowest bands vanish at `q = 0`, and on a zero line of the bars one
-/// more vanishes without creases but not with them.
+/// Claim: the dynamical matrix is that of the energies: along real wavenumbers its quadratic form is twice the energy
+/// per cell of the wave, checked as `R^H k R` for bars alone; its three lowest bands vanish at `q = 0`, and on a zero
+/// line of the bars one more vanishes without creases but not with them.
 #[test]
 fn bands_of_the_energy() {
     let sheet = mesh("open-star");

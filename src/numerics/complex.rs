@@ -143,8 +143,8 @@ mod tests {
         ComplexMatrix::from_fn(n, n, |i, j| Complex::new(part(n * i + j), part(7 * n * j + i + 3)))
     }
 
-    /// Claim: the determinant is that of another library (nalgebra), the product of the eigenvalues, and in size that of the
-    /// singular values; the singular vectors multiply back. Tolerance: some n * epsilon.
+    /// Claim: the determinant is that of another library (nalgebra), the product of the eigenvalues, and in size that
+    /// of the singular values; the singular vectors multiply back. Tolerance: some n * epsilon.
     #[test]
     fn determinants_three_ways() {
         for n in [1, 2, 5, 24, 48] {

@@ -6,7 +6,8 @@ use rustfft::FftPlanner;
 
 /// `c_mn` with `values_jk = sum c_mn exp(2 pi i (m j / n1 + n k / n2))`, of an `n1 x n2` matrix.
 ///
-/// Exponents are known modulo `n1` and `n2` only: `c_mn` stands at row `m`, column `n` for `0 <= m < n1`, `0 <= n < n2`.
+/// Exponents are known modulo `n1` and `n2` only: `c_mn` stands at row `m`, column `n` for `0 <= m < n1`, `0 <= n <
+/// n2`.
 pub fn coefficients(values: &ComplexMatrix) -> ComplexMatrix {
     let mut planner = FftPlanner::new();
     let [rows, columns] = [values.nrows(), values.ncols()];
@@ -24,8 +25,8 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Claim: a polynomial sampled at roots of unity gives its coefficients back, negative powers at the far end; also for
-    /// counts that are no powers of two. Tolerance: rounding.
+    /// Claim: a polynomial sampled at roots of unity gives its coefficients back, negative powers at the far end; also
+    /// for counts that are no powers of two. Tolerance: rounding.
     #[test]
     fn coefficients_come_back() {
         for [n1, n2] in [[8, 8], [5, 9], [7, 1]] {

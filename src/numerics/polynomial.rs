@@ -65,8 +65,8 @@ pub fn value_and_slope(coefficients: &[Complex<f64>], z: Complex<f64>) -> [Compl
 mod tests {
     use super::*;
 
-    /// Claim: a polynomial made from its roots gives them back, those of zero coefficients at the ends apart. Tolerance:
-    /// rounding times the condition of roots a quarter apart.
+    /// Claim: a polynomial made from its roots gives them back, those of zero coefficients at the ends apart.
+    /// Tolerance: rounding times the condition of roots a quarter apart.
     #[test]
     fn roots_come_back() {
         let expected = [(0.3, 0.1), (-2.0, 1.0), (0.9, -0.4), (1.5, 0.0), (-0.2, -0.7)];

@@ -1,9 +1,11 @@
-//! Spatially varying modes as a picture: decay rates against `q1`, and beside them the determinant over the Brillouin zone with
-//! its lines of zeros (the figure of McInerney and others, PNAS 117, 30252 (2020), on spatially varying modes).
+//! Spatially varying modes as a picture: decay rates against `q1`, and beside them the determinant over the Brillouin
+//! zone with its lines of zeros (the figure of McInerney and others, PNAS 117, 30252 (2020), on spatially varying
+//! modes).
 //!
-//! Decay rates are dots, dark where the mode neither grows nor decays. The map is blue where the determinant is positive and
-//! red where it is negative, the deeper the larger its fourth root is, since it vanishes to fourth order at `q = 0`; a
-//! determinant that is not real is drawn by its magnitude. The SVG is written directly: the same numbers give the same bytes.
+//! Decay rates are dots, dark where the mode neither grows nor decays. The map is blue where the determinant is
+//! positive and red where it is negative, the deeper the larger its fourth root is, since it vanishes to fourth order
+//! at `q = 0`; a determinant that is not real is drawn by its magnitude. The SVG is written directly: the same numbers
+//! give the same bytes.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
@@ -20,6 +22,8 @@ const TOP: f64 = 70.0;
 const LEFT: [f64; 2] = [95.0, 675.0];
 /// Squares of the map along each direction.
 const SQUARES: usize = 120;
+/// Shades of either colour.
+const SHADES: f64 = 32.0;
 /// Largest decay rate that is drawn.
 const MOST: f64 = 6.0;
 const PAPER: &str = "#fcfbf8";
@@ -125,10 +129,13 @@ fn map(text: &mut String, plot: &BlochPlot<'_>) {
     text.push_str("<g shape-rendering=\"crispEdges\">\n");
     for row in 0..SQUARES {
         let y = TOP + SIDE - side * (row as f64 + 1.0);
-        for column in 0..SQUARES {
-            let x = LEFT[1] + side * column as f64;
-            let colour = colour(shown(row * SQUARES + column) / largest);
-            put!(text, "<path d=\"M{x:.1} {y:.1}h{side:.1}v{side:.1}h-{side:.1}z\" fill=\"{colour}\"/>\n");
+        let colours: Vec<String> = (0..SQUARES).map(|k| colour(shown(row * SQUARES + k) / largest)).collect();
+        let mut column = 0;
+        // neighbours of one colour are one rectangle
+        for run in colours.chunk_by(|a, b| a == b) {
+            let (x, width) = (LEFT[1] + side * column as f64, side * run.len() as f64);
+            put!(text, "<path d=\"M{x:.1} {y:.1}h{width:.1}v{side:.1}h-{width:.1}z\" fill=\"{}\"/>\n", run[0]);
+            column += run.len();
         }
     }
     text.push_str("</g>\n");
@@ -144,7 +151,7 @@ fn map(text: &mut String, plot: &BlochPlot<'_>) {
 /// From pale at zero to deep at one.
 fn colour(value: f64) -> String {
     let deep = if value < 0.0 { NEGATIVE } else { POSITIVE };
-    let part = value.abs().powf(0.25);
+    let part = (SHADES * value.abs().powf(0.25)).round() / SHADES;
     let [red, green, blue] = [0, 1, 2].map(|i| (PALE[i] + (deep[i] - PALE[i]) * part).round() as u8);
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
@@ -176,8 +183,9 @@ mod tests {
     use super::*;
     use crate::numerics::DenseMatrix;
 
-    /// Claim: a picture has a dot for every rate within the range, a square for every part of the map, and a path for every
-    /// line, which is cut where it leaves the zone; a determinant without lines is said to be drawn by its magnitude.
+    /// Claim: a picture has a dot for every rate within the range, a square for every part of the map, and a path for
+    /// every line, which is cut where it leaves the zone; a determinant without lines is said to be drawn by its
+    /// magnitude.
     #[test]
     fn everything_is_drawn() {
         let polynomial =
@@ -188,7 +196,9 @@ mod tests {
         let text = svg(&plot, "a < b");
         assert!(text.contains("<title>a &lt; b</title>") && !text.contains("NaN"));
         assert_eq!(text.matches("<circle").count(), 3);
-        assert_eq!(text.matches("h4.0v4.0").count(), SQUARES * SQUARES);
+        let width = |path: &str| path.split_once('h')?.1.split_once("v4.0h-")?.0.parse::<f64>().ok();
+        let widths: f64 = text.lines().filter(|line| line.contains("fill=\"#")).filter_map(width).sum();
+        assert!((widths - SIDE * SQUARES as f64).abs() <= 0.1, "{widths}");
         let path = text.lines().find(|line| line.contains("stroke-width=\"2.2\"")).unwrap();
         assert_eq!(path.matches('M').count(), 2, "{path}");
         let magnitude = svg(&BlochPlot { lines: vec![], ..plot }, "");

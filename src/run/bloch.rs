@@ -235,8 +235,8 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
     Ok(())
 }
 
-/// `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers; those at which the determinant vanishes for all
-/// `z2` are left out.
+/// `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers; those at which the determinant vanishes for
+/// all `z2` are left out.
 fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
     let decays = (0..DRAWN).filter_map(|k| Decay::new(determinant, 0, wavenumber(k, DRAWN)).ok());
     decays

@@ -1,9 +1,10 @@
 //! Bands: the stiffness of a periodic sheet against waves, from the energies of its bars and hinges.
 //!
-//! In the drawn state, at rest, the energy of a wave `u exp(i q . n)` is half of `u^H D(q) u` per cell, with the dynamical matrix
-//! `D = sum over elements of k g g^H`, `g` the gradient of a length or of a fold angle at the Bloch factors, `k` its spring
-//! constant: `EA / L0` of a bar, stiffness times `L0` of a hinge. Its eigenvalues are squared frequencies for unit masses on
-//! the vertices. Three of them vanish at `q = 0`; zero modes of the bars cost only what their creases do.
+//! In the drawn state, at rest, the energy of a wave `u exp(i q . n)` is half of `u^H D(q) u` per cell, with the
+//! dynamical matrix `D = sum over elements of k g g^H`, `g` the gradient of a length or of a fold angle at the Bloch
+//! factors, `k` its spring constant: `EA / L0` of a bar, stiffness times `L0` of a hinge. Its eigenvalues are squared
+//! frequencies for unit masses on the vertices. Three of them vanish at `q = 0`; zero modes of the bars cost only what
+//! their creases do.
 
 use super::BlochError;
 use super::rigidity::power;
@@ -91,7 +92,8 @@ impl DynamicalMatrix {
     }
 }
 
-/// Wavenumbers along the straight lines between corners of a path, `steps` of them from each to the next, the last corner too.
+/// Wavenumbers along the straight lines between corners of a path, `steps` of them from each to the next, the last
+/// corner too.
 pub fn along_path(corners: &[[f64; 2]], steps: usize) -> Vec<[f64; 2]> {
     let between =
         |pair: &[[f64; 2]], k: usize| [0, 1].map(|a| pair[0][a] + (pair[1][a] - pair[0][a]) * k as f64 / steps as f64);

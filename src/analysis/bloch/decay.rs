@@ -1,7 +1,8 @@
 //! Inverse decay rates: the roots `z_b` of the determinant at a real wavenumber `q_a`.
 //!
-//! A mode with root `z` is multiplied by `z` from a cell to the next and grows by `kappa = log|z|` per cell. On a sheet without
-//! openings a root `z` at wavenumber `q` has the partner `1/conj(z)`: decay rates come in pairs of opposite sign.
+//! A mode with root `z` is multiplied by `z` from a cell to the next and grows by `kappa = log|z|` per cell. On a sheet
+//! without openings a root `z` at wavenumber `q` has the partner `1/conj(z)`: decay rates come in pairs of opposite
+//! sign.
 
 use super::{BlochError, Determinant};
 use crate::numerics::polynomial::{Roots, roots, value_and_slope};

@@ -1,8 +1,9 @@
 //! The determinant of the rigidity matrix as a Laurent polynomial.
 //!
-//! Its coefficients come from its values at roots of unity by one Fourier transform. How the cell is cut multiplies it by a
-//! monomial, which is taken out: for a sheet without openings the powers are centred so that the coefficients are symmetric,
-//! `c_mn = c_-m,-n` (zero modes at `z` and at `1/z`); where they are not, so that lowest and highest powers are opposite.
+//! Its coefficients come from its values at roots of unity by one Fourier transform. How the cell is cut multiplies it
+//! by a monomial, which is taken out: for a sheet without openings the powers are centred so that the coefficients are
+//! symmetric, `c_mn = c_-m,-n` (zero modes at `z` and at `1/z`); where they are not, so that lowest and highest powers
+//! are opposite.
 
 use super::laurent::Laurent;
 use super::{BlochError, Rigidity};
@@ -42,8 +43,8 @@ pub struct Determinant {
 impl Determinant {
     /// The determinant of a rigidity matrix.
     ///
-    /// Fails where the matrix is not square, and where the determinant is nothing but rounding: it vanishes identically, as
-    /// for a flat sheet, or the cell is too ill-conditioned.
+    /// Fails where the matrix is not square, and where the determinant is nothing but rounding: it vanishes
+    /// identically, as for a flat sheet, or the cell is too ill-conditioned.
     pub fn new(rigidity: &Rigidity) -> Result<Self, BlochError> {
         rigidity.require_square()?;
         let lowest = [0, 1].map(|a| rigidity.powers(a)[0]);

@@ -1,10 +1,10 @@
 //! Fold rates of displacements and displacements of fold rates, at Bloch factors.
 //!
-//! The rate `phi` of an edge of direction `r` is the difference of the angular velocities of its faces, `w_left - w_right =
-//! phi r`. Round a vertex these add up to zero: fold rates of a displacement are a self stress of the bars, at the same Bloch
-//! factors, and a self stress is the fold rates of a displacement that stretches no bar (H. Crapo, W. Whiteley 1982; the
-//! paper's mapping at finite wavenumber). So there are as many zero modes as self stresses at `z`; those of the transposed matrix
-//! are at `1/z`; and zero modes come in pairs `z`, `1/z`.
+//! The rate `phi` of an edge of direction `r` is the difference of the angular velocities of its faces, `w_left -
+//! w_right = phi r`. Round a vertex these add up to zero: fold rates of a displacement are a self stress of the bars,
+//! at the same Bloch factors, and a self stress is the fold rates of a displacement that stretches no bar (H. Crapo, W.
+//! Whiteley 1982; the paper's mapping at finite wavenumber). So there are as many zero modes as self stresses at `z`;
+//! those of the transposed matrix are at `1/z`; and zero modes come in pairs `z`, `1/z`.
 
 use super::BlochError;
 use super::rigidity::power;
@@ -22,7 +22,8 @@ type Placed = (usize, [i32; 2]);
 /// Smallest difference of a phase factor from 1 that fixes where an integration begins.
 const LEAST_PHASE: f64 = 1e-6;
 
-/// Rates of the fold angles of all edges for a displacement `(u_0x, u_0y, u_0z, u_1x, ..)` at Bloch factors; zero on rims.
+/// Rates of the fold angles of all edges for a displacement `(u_0x, u_0y, u_0z, u_1x, ..)` at Bloch factors; zero on
+/// rims.
 pub fn fold_rates(sheet: &Sheet, z: [Complex<f64>; 2], displacement: &[Complex<f64>]) -> Vec<Complex<f64>> {
     let rate = |edge: &crate::sheet::Edge| {
         let [left, right] = [edge.wings[0]?, edge.wings[1]?];
@@ -85,8 +86,8 @@ struct Difference {
     by: ComplexVec3,
 }
 
-/// The vectors with given differences: all in terms of the first along a tree, and the first from the difference that is
-/// farthest from the tree's by a phase.
+/// The vectors with given differences: all in terms of the first along a tree, and the first from the difference that
+/// is farthest from the tree's by a phase.
 fn integrate(count: usize, differences: &[Difference], z: [Complex<f64>; 2]) -> Result<Vec<ComplexVec3>, BlochError> {
     // w = factor * first + offset
     let mut found: Vec<Option<(Complex<f64>, ComplexVec3)>> = vec![None; count];

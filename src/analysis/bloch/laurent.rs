@@ -63,7 +63,8 @@ impl Laurent {
         }
     }
 
-    /// Values at the wavenumbers [`wavenumber`]`(k1, n1)`, [`wavenumber`]`(k2, n2)`, those of equal `k2` after each other.
+    /// Values at the wavenumbers [`wavenumber`]`(k1, n1)`, [`wavenumber`]`(k2, n2)`, those of equal `k2` after each
+    /// other.
     pub fn map(&self, [n1, n2]: [usize; 2]) -> Vec<Complex<f64>> {
         let (rows, columns) = (self.count(0), self.count(1));
         let steps: Vec<Complex<f64>> = (0..n1).map(|k| Complex::from_polar(1.0, wavenumber(k, n1))).collect();
@@ -87,8 +88,8 @@ impl Laurent {
     }
 }
 
-/// The `k`-th of `n` wavenumbers that divide the zone from `-pi` to `pi` evenly, half a step away from its ends; for even
-/// `n` none of them is 0.
+/// The `k`-th of `n` wavenumbers that divide the zone from `-pi` to `pi` evenly, half a step away from its ends; for
+/// even `n` none of them is 0.
 pub fn wavenumber(k: usize, n: usize) -> f64 {
     (k as f64 + 0.5) * TAU / n as f64 - PI
 }

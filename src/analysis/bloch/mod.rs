@@ -1,4 +1,5 @@
-//! Spatially varying modes of periodic sheets: displacements that are multiplied by `z1` and `z2` from a cell to the next.
+//! Spatially varying modes of periodic sheets: displacements that are multiplied by `z1` and `z2` from a cell to the
+//! next.
 //!
 //! `z = exp(i q)` with wavenumbers `q` in radians per cell, which may be complex. The bars keep their lengths where the
 //! rigidity matrix `R(z1, z2)` is singular (McInerney, Chen, Theran, Santangelo, Rocklin, PNAS 117, 30252 (2020), last
@@ -45,8 +46,8 @@ pub enum BlochError {
     },
     /// The determinant is rounding.
     #[error(
-        "the determinant is known to {error:.1e} of its size only, more than {limit:e}: it vanishes at all wavenumbers, as for a \
-         flat sheet, or the cell is too ill-conditioned"
+        "the determinant is known to {error:.1e} of its size only, more than {limit:e}: it vanishes at all \
+         wavenumbers, as for a flat sheet, or the cell is too ill-conditioned"
     )]
     NoDeterminant {
         /// Difference to the matrix over the largest magnitude.

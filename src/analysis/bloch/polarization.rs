@@ -1,9 +1,9 @@
 //! Polarization: whether more modes are bound to one edge than to the opposite one.
 //!
-//! At a real wavenumber along an edge every root of the determinant inside the unit circle is a mode bound to one edge, every
-//! root outside one bound to the opposite edge. Half their difference, averaged over the wavenumber, is the polarization of
-//! the centred determinant. Where no root is on the circle it is the winding number of the determinant round the zone; roots
-//! on it (zero modes of the bulk) make that ill-defined, and are counted apart.
+//! At a real wavenumber along an edge every root of the determinant inside the unit circle is a mode bound to one edge,
+//! every root outside one bound to the opposite edge. Half their difference, averaged over the wavenumber, is the
+//! polarization of the centred determinant. Where no root is on the circle it is the winding number of the determinant
+//! round the zone; roots on it (zero modes of the bulk) make that ill-defined, and are counted apart.
 
 use super::laurent::wavenumber;
 use super::{BlochError, Decay, Determinant};

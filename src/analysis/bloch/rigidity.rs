@@ -1,9 +1,10 @@
 //! The rigidity matrix of one cell at Bloch factors `z1`, `z2`.
 //!
-//! In a Bloch mode vertex `j` of cell `(n1, n2)` moves by `z1^n1 z2^n2 u_j`. The bar `(i, j, n1, n2)` with unit direction
-//! `r` then stretches by `r . (z1^n1 z2^n2 u_j - u_i)`: its row has `+r z1^n1 z2^n2` at `j` and `-r` at `i`. A facet that is
-//! locked has the gradient of its fold angle as a row, scaled to the norm of a bar's. On a cylinder cells are turned by the
-//! lattice rotations `S`, the copy moves by `z1^n1 z2^n2 S u_j`, and `r` is replaced by `S^T r` at `j`.
+//! In a Bloch mode vertex `j` of cell `(n1, n2)` moves by `z1^n1 z2^n2 u_j`. The bar `(i, j, n1, n2)` with unit
+//! direction `r` then stretches by `r . (z1^n1 z2^n2 u_j - u_i)`: its row has `+r z1^n1 z2^n2` at `j` and `-r` at `i`.
+//! A facet that is locked has the gradient of its fold angle as a row, scaled to the norm of a bar's. On a cylinder
+//! cells are turned by the lattice rotations `S`, the copy moves by `z1^n1 z2^n2 S u_j`, and `r` is replaced by `S^T r`
+//! at `j`.
 //!
 //! Forces of tensions `t` that are multiplied in the same way are balanced where `R(1/z1, 1/z2)^T t = 0`.
 
@@ -32,7 +33,8 @@ pub struct Rigidity {
 }
 
 impl Rigidity {
-    /// The bars of a spatially periodic sheet as drawn; with `rigid_facets` also the locks of the diagonals of polygons.
+    /// The bars of a spatially periodic sheet as drawn; with `rigid_facets` also the locks of the diagonals of
+    /// polygons.
     ///
     /// Fails for a finite sheet.
     pub fn of_sheet(sheet: &Sheet, rigid_facets: bool) -> Result<Self, BlochError> {
@@ -99,8 +101,8 @@ impl Rigidity {
         Ok(determinant(self.at(z)))
     }
 
-    /// Lowest and highest power of `z1` (`a` = 0) or `z2` (1) that the determinant can have: every row contributes one of
-    /// its terms.
+    /// Lowest and highest power of `z1` (`a` = 0) or `z2` (1) that the determinant can have: every row contributes one
+    /// of its terms.
     pub fn powers(&self, a: usize) -> [i32; 2] {
         let of_row = |row: &Row| {
             let shifts = row.terms.iter().map(|(corner, _)| corner.shift[a]);
@@ -196,8 +198,8 @@ mod tests {
         }
     }
 
-    /// Claim: the row of a locked facet is the derivative of the fold angle, up to its scale, so that a rigid motion of the
-    /// whole sheet (`z = 1`) changes no row; and locked polygons of an origami sheet make more rows than columns.
+    /// Claim: the row of a locked facet is the derivative of the fold angle, up to its scale, so that a rigid motion of
+    /// the whole sheet (`z = 1`) changes no row; and locked polygons of an origami sheet make more rows than columns.
     #[test]
     fn locks_keep_rigid_motions() {
         let sheet = generate(&Pattern::Miura(Default::default())).unwrap();
@@ -213,8 +215,8 @@ mod tests {
         }
     }
 
-    /// Claim: a state that is not bent is its own cylinder: the two constructions give the same determinant, in whichever
-    /// frame the state is embedded. Tolerance: rounding of a 12 x 12 determinant.
+    /// Claim: a state that is not bent is its own cylinder: the two constructions give the same determinant, in
+    /// whichever frame the state is embedded. Tolerance: rounding of a 12 x 12 determinant.
     #[test]
     fn flat_cylinders_are_periodic() {
         let sheet = random(5);

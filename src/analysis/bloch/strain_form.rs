@@ -1,10 +1,10 @@
 //! The directions in which zero lines leave `q = 0`, from the three linear folding modes alone.
 //!
-//! A long wave bends the sheet by curvature tensors along `k k^T`, `k` its wave vector in the plane. A uniform mode of curvature
-//! `K` has the lattice strain `eps(K)`. Strains that vary along `k` only are those of an in-plane displacement unless they
-//! stretch across: the wave costs no energy where `k' . eps(k k^T) . k' = 0`, `k'` being `k` turned by a right angle. This
-//! quartic is the leading form of the determinant at `q = 0` up to a constant. It is as symmetric as it looks:
-//! `cof(K') : eps(K) = cof(K) : eps(K')` for any two modes.
+//! A long wave bends the sheet by curvature tensors along `k k^T`, `k` its wave vector in the plane. A uniform mode of
+//! curvature `K` has the lattice strain `eps(K)`. Strains that vary along `k` only are those of an in-plane
+//! displacement unless they stretch across: the wave costs no energy where `k' . eps(k k^T) . k' = 0`, `k'` being `k`
+//! turned by a right angle. This quartic is the leading form of the determinant at `q = 0` up to a constant. It is as
+//! symmetric as it looks: `cof(K') : eps(K) = cof(K) : eps(K')` for any two modes.
 
 use super::BlochError;
 use crate::kinematics::metric::LatticeFrame;

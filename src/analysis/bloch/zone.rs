@@ -1,9 +1,9 @@
 //! A symmetric determinant as a real function on the Brillouin zone, with its gradient, also close to `q = 0`.
 //!
-//! It vanishes at `q = 0` to fourth order on a spatially periodic sheet, to second order on a cylinder. There the cosines of
-//! `sum c_mn cos(m q1 + n q2)` cancel; near `q = 0` each is replaced by what is left of it when the terms that add up to
-//! zero are taken out: `cos t - 1`, or `cos t - 1 + t^2/2` by its series. So signs, zeros and directions of lines are right at
-//! any distance from `q = 0`.
+//! It vanishes at `q = 0` to fourth order on a spatially periodic sheet, to second order on a cylinder. There the
+//! cosines of `sum c_mn cos(m q1 + n q2)` cancel; near `q = 0` each is replaced by what is left of it when the terms
+//! that add up to zero are taken out: `cos t - 1`, or `cos t - 1 + t^2/2` by its series. So signs, zeros and directions
+//! of lines are right at any distance from `q = 0`.
 
 use super::laurent::Laurent;
 use super::{BlochError, Determinant};
@@ -57,8 +57,8 @@ impl Zone {
         (value, gradient)
     }
 
-    /// Directions in which zero lines leave `q = 0`: angles to the first axis in `(-pi/2, pi/2]`, ascending; those of the
-    /// real roots of the form.
+    /// Directions in which zero lines leave `q = 0`: angles to the first axis in `(-pi/2, pi/2]`, ascending; those of
+    /// the real roots of the form.
     pub fn directions(&self) -> Result<Vec<f64>, BlochError> {
         if self.order == 0 {
             return Ok(Vec::new());
@@ -131,8 +131,9 @@ fn form(polynomial: &Laurent, order: usize) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Claim: the remainders are what is left of the cosine, at both sides of where the series ends, and to all digits for
-    /// small arguments, where they are their first terms. Tolerance: the rounding of the cosine above, 1e-15 of it below.
+    /// Claim: the remainders are what is left of the cosine, at both sides of where the series ends, and to all digits
+    /// for small arguments, where they are their first terms. Tolerance: the rounding of the cosine above, 1e-15 of it
+    /// below.
     #[test]
     fn remainders_of_the_cosine() {
         for t in [0.3f64, 0.999, 1.001, 2.5, -0.7] {
