@@ -42,11 +42,15 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "extremes-mostly-right"
     "random-nothing-wrong"
     "random-mostly-right"
+    "random-seldom-refused"
     "invariant-angles"
     "invariant-energy"
     "killed-runs-leave-whole-files"
     "resumed-runs-end-the-same"
     "two-runs-in-one-folder"
+    "large-residuals"
+    "large-time"
+    "large-memory"
 );
 
 /// Files of `meshes` that claims need.

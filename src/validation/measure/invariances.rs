@@ -74,10 +74,11 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
 
 fn spectrum(change: &Change, surroundings: Surroundings, cells: [usize; 2]) -> Result<Spectrum, ExperimentError> {
     let drawn = (change.draw)(draw(&star::cell()?));
-    let sheet = build(&drawn).map_err(|_| ExperimentError::Other(change.name))?;
+    let sheet = build(&drawn).map_err(|_| ExperimentError::Other(format!("{}: no sheet", change.name)))?;
     let (stiffness, rest) = ([BARS, 1.0], Rest::ByLength(change.sign * OFF));
     let trial = Trial { sheet, cells, surroundings, stiffness, rest, lock: None };
-    let found = trial.run().map_err(|_| ExperimentError::Other("a drawing does not relax"))?;
+    let found =
+        trial.run().map_err(|why| ExperimentError::Other(format!("{}, {surroundings:?}: {why}", change.name)))?;
     let mut angles: Vec<f64> = found.angles.iter().filter(|a| !a.is_nan()).map(|a| change.sign * a).collect();
     angles.sort_by(f64::total_cmp);
     Ok((angles, found.energy))

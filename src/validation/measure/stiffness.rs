@@ -82,8 +82,8 @@ fn exact(star: &Star) -> Result<Vec<f64>, ExperimentError> {
     let angles = star.relax(&mut model, Options::default())?.state.fold_angle;
     match error_to_kinematic(&star.sheet, &star.tiling, &model, &angles) {
         Some(error) if error <= 1e-11 => Ok(angles),
-        Some(_) => Err(ExperimentError::Other("the rigid state is not that of the exact kinematics")),
-        None => Err(ExperimentError::Other("there is no exact state to compare with")),
+        Some(_) => Err(ExperimentError::Other("the rigid state is not that of the exact kinematics".into())),
+        None => Err(ExperimentError::Other("there is no exact state to compare with".into())),
     }
 }
 
@@ -95,7 +95,8 @@ fn by_tension(star: &Star, k: f64) -> Result<Reached, ExperimentError> {
 
 fn by_form(star: &Star, k: f64, form: Form) -> Result<Reached, ExperimentError> {
     let mut model = star.model(k);
-    let found = forms::minimize(&mut model, form).map_err(|_| ExperimentError::Other("a pattern is too large"))?;
+    let found =
+        forms::minimize(&mut model, form).map_err(|_| ExperimentError::Other("a pattern is too large".into()))?;
     let state = State::new(&model, &found.x, &found.tension, star.tiling.edges.len());
     let residual = found.residuals[0].max(found.residuals[1]);
     Ok(Reached { angles: state.fold_angle, residual, iterations: found.iterations })

@@ -50,11 +50,11 @@ fn case(name: impl Into<String>, attempt: impl FnOnce() -> Outcome + 'static) ->
 }
 
 fn reference(trial: &Trial) -> Result<Vec<f64>, ExperimentError> {
-    let found = trial.run().map_err(|_| ExperimentError::Other("the ordinary case does not converge"))?;
+    let found = trial.run().map_err(|_| ExperimentError::Other("the ordinary case does not converge".into()))?;
     match found.to_kinematic {
         Some(error) if error <= 1e-10 => Ok(found.angles),
         _ if trial.stiffness[0].is_finite() => Ok(found.angles),
-        _ => Err(ExperimentError::Other("the ordinary case is not that of the exact kinematics")),
+        _ => Err(ExperimentError::Other("the ordinary case is not that of the exact kinematics".into())),
     }
 }
 
@@ -157,7 +157,7 @@ fn flat() -> Result<Family, ExperimentError> {
 /// Miura-ori by its closed form: `tan(straight/2) = cos(sector) tan(zigzag/2)`.
 fn folded() -> Result<Family, ExperimentError> {
     let pattern = Pattern::MiuraPatch(MiuraPatch { cells: [2, 2], ..MiuraPatch::default() });
-    let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("Miura-ori cannot be generated"))?;
+    let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("Miura-ori cannot be generated".into()))?;
     let zigzag = |k: usize| {
         let [a, b] = sheet.edges[k].key.ends().map(|end| sheet.position(end));
         (a.x - b.x).abs() > 1e-9
@@ -165,7 +165,7 @@ fn folded() -> Result<Family, ExperimentError> {
     let creases: Vec<usize> = (0..sheet.edges.len()).filter(|&k| sheet.edges[k].kind == EdgeKind::Crease).collect();
     let signs: Vec<f64> =
         sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).map_or(f64::NAN, f64::signum)).collect();
-    let lock = *creases.iter().find(|&&k| zigzag(k)).ok_or(ExperimentError::Other("Miura-ori has no zigzag"))?;
+    let lock = *creases.iter().find(|&&k| zigzag(k)).ok_or(ExperimentError::Other("Miura-ori has no zigzag".into()))?;
     let angles = [1e-12, 1e-6, 1e-3, 1e-2, 0.05, 0.2].map(|a| (format!("{a:e}"), a));
     let ends = [0.2, 0.05, 1e-2, 1e-3, 1e-6, 1e-12].map(|a| (format!("pi - {a:e}"), PI - a));
     let cases = angles.into_iter().chain(ends).map(|(name, angle)| {
@@ -194,7 +194,8 @@ fn vertices() -> Result<Family, ExperimentError> {
     let mut cases = Vec::new();
     for size in [[1, 3], [2, 2], [3, 3], [5, 5], [7, 7], [10, 10], [20, 20]] {
         let pattern = Pattern::Random(Random { size, seed: 2, ..Random::default() });
-        let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("a random cell cannot be generated"))?;
+        let sheet =
+            generate(&pattern).map_err(|_| ExperimentError::Other("a random cell cannot be generated".into()))?;
         let trial = Trial { surroundings: Surroundings::Screw, ..Trial::rigid(sheet, [1, 1], 0.02) };
         cases.push(case(format!("{} vertices", size[0] * size[1]), move || trial.judged(1e-9)));
     }
@@ -212,7 +213,7 @@ fn degrees() -> Result<Family, ExperimentError> {
         let coords: Vec<Vec3> = [Vec3::zeros()].into_iter().chain(rim).collect();
         let faces = (0..degree).map(|k| vec![0, 1 + k, 1 + (k + 1) % degree]).collect();
         let drawn = Drawn { coords, faces, ..Drawn::default() };
-        let sheet = build::build(&drawn).map_err(|_| ExperimentError::Other("a fan cannot be built"))?;
+        let sheet = build::build(&drawn).map_err(|_| ExperimentError::Other("a fan cannot be built".into()))?;
         cases.push(case(format!("{degree}"), move || Trial::rigid(sheet, [1, 1], 0.05).judged(1e-9)));
     }
     Ok(Family { name: "degree of a single vertex", compared: "the exact kinematics", cases })
