@@ -17,6 +17,9 @@ const CERTAIN: f64 = 1e-7;
 const ROUGH: f64 = 0.1;
 /// Scaled force above which the state of a sheet under torques is not balanced.
 const UNBALANCED: f64 = 1e-9;
+/// Unknowns that all cells of a screw share, and the part of all forces on one of them that may be left.
+const SHARED: usize = 5;
+const BALANCED: f64 = 1e-6;
 /// Tolerance of the states in between.
 const LOOSE: f64 = 1e-6;
 
@@ -152,6 +155,9 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     let mut at = Linearization::new(layout);
     model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
     let mut saddle = Saddle::new(layout, &at).ok()?;
+    if matches!(model.domain(), Domain::Screw) && strained(model, &found.x) && pulled(model, &at, found) {
+        return Some(f64::INFINITY);
+    }
     let unknown = || (last.residual_force > UNBALANCED && strained(model, &found.x)).then_some(f64::INFINITY);
     if saddle.factor(layout, &at, compliance, 0.0).is_err() {
         return unknown();
@@ -168,6 +174,33 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
         return unknown();
     }
     Some((0..layout.soft.len()).map(change).fold(0.0, f64::max))
+}
+
+/// Whether curvature or lattice of a screw are pulled: the force on one of these five unknowns is more than a millionth of what the
+/// elements do to it. They have other units than the coordinates, so the scaled residual may not see them.
+fn pulled(model: &Model, at: &Linearization, found: &Equilibrium) -> bool {
+    let layout = model.layout();
+    let first = layout.unknowns.saturating_sub(SHARED);
+    let mut all = vec![0.0; SHARED];
+    let mut add = |members: &[u32], gradient: &[f64], force: f64| {
+        for (&member, g) in members.iter().zip(gradient).filter(|(member, _)| **member != FIXED) {
+            if let Some(shared) = (member as usize).checked_sub(first) {
+                all[shared] += (force * g).abs();
+            }
+        }
+    };
+    let coordinates = model.coordinates(&found.x);
+    let hinges = model.soft().iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+    for (element, (term, k)) in hinges.enumerate() {
+        let off = term.value(k, model.domain(), &coordinates) - term.spring(k).rest;
+        let gradient = &at.soft_gradients[layout.soft.range(element)];
+        add(layout.soft.members(element), gradient, at.soft_stiffness[element] * off);
+    }
+    for (row, &tension) in found.tension.iter().enumerate() {
+        add(layout.stiff.members(row), &at.jacobian[layout.stiff.range(row)], tension);
+    }
+    let force = at.force(layout, &found.tension);
+    force[first..].iter().zip(&all).any(|(force, all)| force.abs() > BALANCED * all)
 }
 
 /// Whether some soft hinge is off its rest angle by more than rounding errors.
