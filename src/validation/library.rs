@@ -99,7 +99,8 @@ mod tests {
             .map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
             .collect();
         let mut known: Vec<String> = CLAIMS.iter().map(|(name, _)| (*name).to_owned()).collect();
-        (files.sort(), known.sort());
+        files.sort();
+        known.sort();
         assert_eq!(files, known);
         for claim in claims().unwrap() {
             match &claim.experiment {

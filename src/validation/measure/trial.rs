@@ -109,7 +109,7 @@ impl Trial {
         let recipe = Recipe {
             bars: Some(*bars),
             creases: Some(Hinges { stiffness: *creases, rest }),
-            facets: polygons.then(|| Hinges { stiffness: f64::INFINITY, rest: angles }),
+            facets: polygons.then_some(Hinges { stiffness: f64::INFINITY, rest: angles }),
             locks: self.lock.into_iter().collect(),
             ..Recipe::default()
         };
