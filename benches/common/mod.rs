@@ -8,7 +8,6 @@ use foldwell::analysis::relax::Relaxed;
 use foldwell::model::Model;
 use foldwell::solver::Options;
 use foldwell::validation::star;
-pub use foldwell::validation::star::size;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -35,6 +34,11 @@ impl Star {
     pub fn relax(&self, model: &mut Model) -> Option<Relaxed> {
         self.0.relax(model, Options::default()).ok()
     }
+}
+
+/// Unknowns and stiff measures of a model.
+pub fn size(model: &Model) -> (usize, usize) {
+    star::size(model)
 }
 
 /// Random numbers, the same on every machine.
