@@ -24,6 +24,7 @@ use foldwell::numerics::factor::{Factor, Inertia};
 use foldwell::numerics::parallel;
 use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, symmetric_product};
 use foldwell::solver::{Curvature, Layout, Linearization, Options, Problem, minimize};
+use foldwell::validation::forms;
 
 /// Weight of rigid measures over the largest entry of the Hessian, as in `solver::saddle`.
 const GAMMA: f64 = 1e7;
@@ -397,54 +398,11 @@ fn ours(star: &Star, k: f64) -> Outcome {
     Outcome { x, iterations, seconds, converged }
 }
 
-/// Newton's method on `E + sum k m^2 / 2` with backtracking, at most 200 steps; the same scaled tolerance on the force.
+/// The plain penalty of the validation, with the same scaled tolerance.
 fn penalty(star: &Star, k: f64) -> Outcome {
     let mut model = star.model(k);
-    let mut x = model.start();
-    let (mut iterations, mut converged) = (0, false);
-    let seconds = seconds(|| {
-        let mut at = Linearization::new(model.layout());
-        let layout = model.layout().clone();
-        let mut factor = Factor::new(at.pattern(), &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
-        while iterations < 200 {
-            let tension: Vec<f64> = model.gaps(&x).iter().zip(model.compliance()).map(|(m, c)| m / c).collect();
-            model.linearize(&x, &tension, Curvature::Full, &mut at);
-            let force = at.force(&layout, &tension);
-            converged = force.iter().all(|f| f.abs() <= 1e-12 * at.largest_force);
-            let Some(next) = (!converged).then(|| penalty_step(&model, &at, &mut factor, &x, &force)).flatten() else {
-                break;
-            };
-            x = next;
-            model.accept(&mut x);
-            iterations += 1;
-        }
-    });
-    Outcome { x, iterations, seconds, converged }
-}
-
-/// The state after one step; `None` where no fraction of it lowers the energy.
-fn penalty_step(model: &Model, at: &Linearization, factor: &mut Factor, x: &[f64], force: &[f64]) -> Option<Vec<f64>> {
-    let layout = model.layout();
-    let mut matrix = at.hessian.clone();
-    for (row, c) in model.compliance().iter().enumerate() {
-        at.add_outer(layout, row, 1.0 / c, &mut matrix);
-    }
-    let mut shift = 0.0;
-    while !factor.factor(at.pattern(), &matrix).is_ok_and(|inertia| inertia.negative == 0) {
-        let more = if shift == 0.0 { 1e-2 } else { 3.0 * shift };
-        at.pattern().add_to_diagonal(&mut matrix, more);
-        shift += more;
-    }
-    let mut step = force.to_vec();
-    factor.solve(&mut step);
-    let slope: f64 = step.iter().zip(force).map(|(d, f)| d * f).sum();
-    let energy = |x: &[f64]| {
-        let stiff = model.gaps(x).iter().zip(model.compliance()).map(|(m, c)| 0.5 * m * m / c).sum::<f64>();
-        model.energy(x) + stiff
-    };
-    let before = energy(x);
-    (0..40).map(|halving| 0.5f64.powi(halving)).find_map(|fraction| {
-        let trial: Vec<f64> = x.iter().zip(&step).map(|(x, d)| x + fraction * d).collect();
-        (energy(&trial) <= before - 1e-4 * fraction * slope).then_some(trial)
-    })
+    let mut found = None;
+    let seconds = seconds(|| found = forms::minimize(&mut model, forms::Form::Penalty).ok());
+    let found = found.unwrap();
+    Outcome { x: found.x, iterations: found.iterations, seconds, converged: found.converged }
 }

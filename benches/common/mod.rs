@@ -4,55 +4,41 @@
 pub mod kernels;
 
 use cpu_time::ThreadTime;
-use foldwell::analysis::relax::{Relaxed, relax};
-use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
-use foldwell::model::{Gauge, Model};
-use foldwell::sheet::{Tiling, fold, tile};
-use foldwell::solver::{Options, Problem};
+use foldwell::analysis::relax::Relaxed;
+use foldwell::model::Model;
+use foldwell::solver::Options;
+use foldwell::validation::star;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// A patch of `meshes/open-star.fold` whose creases all want another angle.
-pub struct Star {
-    tiling: Tiling,
-    drawn: Drawn,
-    rest: Vec<f64>,
-}
+/// The patch of the validation, with rest angles within 0.1 rad of the drawn ones.
+pub struct Star(star::Star);
 
 impl Star {
-    /// `n x n` cells; the rest angle of every hinge is the drawn one and at most 0.1 rad more or less, at random.
+    /// `n x n` cells.
     pub fn new(n: usize) -> Self {
         Self::oblong([n, n])
     }
 
-    /// The same on `n1 x n2` cells.
+    /// `n1 x n2` cells.
     pub fn oblong(cells: [usize; 2]) -> Self {
-        let text = include_str!("../../meshes/open-star.fold");
-        let sheet = fold::parse(text, "open-star.fold").expect("the mesh of the repository");
-        let tiling = tile(&sheet, cells, false);
-        let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
-        let mut numbers = random(1);
-        let rest = drawn_angles(&drawn, &tiling).iter().map(|a| a + uniform(&mut numbers, 0.1)).collect();
-        Self { tiling, drawn, rest }
+        Self(star::Star::new(cells, 0.1).expect("the mesh of the repository"))
     }
 
     /// The model with this stiffness `k` of every bar (spring constant) over that of the creases, which is 1.
     pub fn model(&self, stiffness: f64) -> Model {
-        let creases = Hinges { stiffness: 1.0, rest: self.rest.clone() };
-        let recipe = Recipe { bars: Some(stiffness), creases: Some(creases), ..Recipe::default() };
-        assemble(&self.drawn, &self.tiling, &recipe, Gauge::Held)
+        self.0.model(stiffness)
     }
 
     /// Relaxes `model` from the drawn state; `None` where it does not converge.
     pub fn relax(&self, model: &mut Model) -> Option<Relaxed> {
-        let start = model.start();
-        relax(model, start, Options::default(), self.tiling.edges.len(), &mut |_| true).ok()
+        self.0.relax(model, Options::default()).ok()
     }
 }
 
 /// Unknowns and stiff measures of a model.
 pub fn size(model: &Model) -> (usize, usize) {
-    (model.layout().unknowns, model.layout().stiff.len())
+    star::size(model)
 }
 
 /// Random numbers, the same on every machine.

@@ -15,6 +15,11 @@ const LEAST_STEP: f64 = 1.0 / 64.0;
 const CERTAIN: f64 = 1e-7;
 /// Relative residual of the linear system that tells this angle.
 const ROUGH: f64 = 0.1;
+/// Scaled force above which the state of a sheet under torques is not balanced.
+const UNBALANCED: f64 = 1e-9;
+/// Unknowns that all cells of a screw share, and the part of all forces on one of them that may be left.
+const SHARED: usize = 5;
+const BALANCED: f64 = 1e-6;
 /// Tolerance of the states in between.
 const LOOSE: f64 = 1e-6;
 
@@ -140,7 +145,8 @@ fn follow(
 
 /// The largest change of a soft hinge's angle that one more Newton step would make, in radians: what the residual
 /// means for the state. Asked where it may mean much: where rounding errors kept it above the tolerance, and on screws, whose axis
-/// has next to no direction near zero curvature. `None` elsewhere, and where the Hessian is singular.
+/// has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a state under
+/// torques has a residual that is no rounding error of theirs.
 fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64> {
     let last = found.history.last()?;
     if last.residual_force <= tolerance && !matches!(model.domain(), Domain::Screw) {
@@ -150,7 +156,13 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     let mut at = Linearization::new(layout);
     model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
     let mut saddle = Saddle::new(layout, &at).ok()?;
-    saddle.factor(layout, &at, compliance, 0.0).ok()?;
+    if matches!(model.domain(), Domain::Screw) && strained(model, &found.x) && pulled(model, &at, found) {
+        return Some(f64::INFINITY);
+    }
+    let unknown = || (last.residual_force > UNBALANCED && strained(model, &found.x)).then_some(f64::INFINITY);
+    if saddle.factor(layout, &at, compliance, 0.0).is_err() {
+        return unknown();
+    }
     let gaps = at.gaps.iter().zip(&found.tension).zip(compliance);
     let open: Vec<f64> = gaps.map(|((gap, tension), c)| c * tension - gap).collect();
     let step = saddle.solve(layout, &at, compliance, (&at.force(layout, &found.tension), &open), ROUGH);
@@ -159,7 +171,45 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
         let gradient = &at.soft_gradients[layout.soft.range(element)];
         layout.soft.members(element).iter().map(moved).zip(gradient).map(|(d, g)| d * g).sum::<f64>().abs()
     };
-    (step.residual <= ROUGH).then(|| (0..layout.soft.len()).map(change).fold(0.0, f64::max))
+    if !(step.residual <= ROUGH) {
+        return unknown();
+    }
+    Some((0..layout.soft.len()).map(change).fold(0.0, f64::max))
+}
+
+/// Whether curvature or lattice of a screw are pulled: the force on one of these five unknowns is more than a millionth of what the
+/// elements do to it. They have other units than the coordinates, so the scaled residual may not see them.
+fn pulled(model: &Model, at: &Linearization, found: &Equilibrium) -> bool {
+    let layout = model.layout();
+    let first = layout.unknowns.saturating_sub(SHARED);
+    let mut all = vec![0.0; SHARED];
+    let mut add = |members: &[u32], gradient: &[f64], force: f64| {
+        for (&member, g) in members.iter().zip(gradient).filter(|(member, _)| **member != FIXED) {
+            if let Some(shared) = (member as usize).checked_sub(first) {
+                all[shared] += (force * g).abs();
+            }
+        }
+    };
+    let coordinates = model.coordinates(&found.x);
+    let hinges = model.soft().iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+    for (element, (term, k)) in hinges.enumerate() {
+        let off = term.value(k, model.domain(), &coordinates) - term.spring(k).rest;
+        let gradient = &at.soft_gradients[layout.soft.range(element)];
+        add(layout.soft.members(element), gradient, at.soft_stiffness[element] * off);
+    }
+    for (row, &tension) in found.tension.iter().enumerate() {
+        add(layout.stiff.members(row), &at.jacobian[layout.stiff.range(row)], tension);
+    }
+    let force = at.force(layout, &found.tension);
+    force[first..].iter().zip(&all).any(|(force, all)| force.abs() > BALANCED * all)
+}
+
+/// Whether some soft hinge is off its rest angle by more than rounding errors.
+fn strained(model: &Model, x: &[f64]) -> bool {
+    let coordinates = model.coordinates(x);
+    let hinges = model.soft().iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+    let mut off = hinges.map(|(term, k)| term.value(k, model.domain(), &coordinates) - term.spring(k).rest);
+    off.any(|off| off.abs() > CERTAIN)
 }
 
 fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>, edges: usize) -> Relaxed {

@@ -36,7 +36,7 @@ pub enum ExperimentError {
     Trace(#[from] TraceError),
     /// Something else.
     #[error("{0}")]
-    Other(&'static str),
+    Other(String),
     /// A study of a scene gave no answer.
     #[error("study {study}: {reason}")]
     Study {
@@ -171,7 +171,7 @@ impl<'a> Laboratory<'a> {
             return Err(ExperimentError::Study { study: study.name.clone(), reason });
         }
         let values = serde_json::from_str(&report.summary.to_json());
-        let values = values.map_err(|_| ExperimentError::Other("the summary is no JSON"))?;
+        let values = values.map_err(|_| ExperimentError::Other("the summary is no JSON".into()))?;
         Ok(Findings { values, ..Findings::default() })
     }
 

@@ -90,7 +90,7 @@ impl Star {
     pub fn cylinder(arc_length: f64) -> Result<Vec<f64>, ExperimentError> {
         let all = Self::traced(0.25, Stop { arc_length: Some(arc_length), ..Stop::default() })?;
         let last = all.first().and_then(|traced| traced.states.last());
-        Ok(last.ok_or(ExperimentError::Other("there is no ray"))?.angles.clone())
+        Ok(last.ok_or(ExperimentError::Other("there is no ray".into()))?.angles.clone())
     }
 
     /// The model with this stiffness of every bar, `EA`, over that of the creases, which is 1 per length.

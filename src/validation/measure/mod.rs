@@ -5,6 +5,7 @@ use super::experiment::{Bench, ExperimentError, Findings};
 mod extremes;
 mod files;
 mod invariances;
+mod large;
 mod sizes;
 mod steps;
 mod stiffness;
@@ -20,6 +21,7 @@ const MEASUREMENTS: &[(&str, Measurement)] = &[
     ("files", files::measure),
     ("invariances", invariances::measure),
     ("extremes", extremes::measure),
+    ("large", large::measure),
     ("random scenes", extremes::random_scenes),
     ("sizes", sizes::measure),
     ("steps", steps::measure),

@@ -44,12 +44,12 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
 
 fn short_loop(max_step: f64) -> Result<Traced, ExperimentError> {
     let all = Star::traced(max_step, Stop::default())?;
-    all.into_iter().find(|traced| traced.branch == (0, -1)).ok_or(ExperimentError::Other("there is no such ray"))
+    all.into_iter().find(|traced| traced.branch == (0, -1)).ok_or(ExperimentError::Other("there is no such ray".into()))
 }
 
 fn length(max_step: f64) -> Result<f64, ExperimentError> {
     match short_loop(max_step)?.end {
         End::Closed(back) => Ok(back.arc_length),
-        _ => Err(ExperimentError::Other("the loop did not close")),
+        _ => Err(ExperimentError::Other("the loop did not close".into())),
     }
 }

@@ -34,6 +34,7 @@ pub fn families(quick: bool) -> Result<Vec<Family>, ExperimentError> {
         stiffness(&cell)?,
         both_stiffnesses(&cell)?,
         units(&cell)?,
+        screw_units(&cell)?,
         stretched(&cell, "needles: 3 x 3 cells, drawn narrower", |a| Vec3::new(1.0, a, a)),
         stretched(&cell, "nearly flat: 3 x 3 cells, drawn lower", |a| Vec3::new(1.0, 1.0, a)),
         skewed(&cell),
@@ -50,11 +51,11 @@ fn case(name: impl Into<String>, attempt: impl FnOnce() -> Outcome + 'static) ->
 }
 
 fn reference(trial: &Trial) -> Result<Vec<f64>, ExperimentError> {
-    let found = trial.run().map_err(|_| ExperimentError::Other("the ordinary case does not converge"))?;
+    let found = trial.run().map_err(|_| ExperimentError::Other("the ordinary case does not converge".into()))?;
     match found.to_kinematic {
         Some(error) if error <= 1e-10 => Ok(found.angles),
         _ if trial.stiffness[0].is_finite() => Ok(found.angles),
-        _ => Err(ExperimentError::Other("the ordinary case is not that of the exact kinematics")),
+        _ => Err(ExperimentError::Other("the ordinary case is not that of the exact kinematics".into())),
     }
 }
 
@@ -111,6 +112,18 @@ fn units(cell: &Sheet) -> Result<Family, ExperimentError> {
     Ok(Family { name: "units of length", compared: "the same at 1", cases: cases.collect() })
 }
 
+/// The unknowns of a screw have different units, so here the unit matters sooner.
+fn screw_units(cell: &Sheet) -> Result<Family, ExperimentError> {
+    let trial = |sheet: Sheet| Trial { surroundings: Surroundings::Screw, ..Trial::rigid(sheet, [1, 1], 0.1) };
+    let expected = reference(&trial(cell.clone()))?;
+    let cases = [-12, -6, -3, -2, -1, 1, 2, 3, 6, 12].map(|power| {
+        let unit = 10f64.powi(power);
+        let (trial, expected) = (trial(mapped(cell, |p| p * unit)), expected.clone());
+        case(format!("unit 1e{power}"), move || trial.against(&expected, 1e-9))
+    });
+    Ok(Family { name: "units of length, screw-periodic cell", compared: "the same at 1", cases: cases.into() })
+}
+
 fn mapped(sheet: &Sheet, map: impl Fn(&Vec3) -> Vec3) -> Sheet {
     let mut sheet = sheet.clone();
     sheet.vertices = sheet.vertices.iter().map(&map).collect();
@@ -122,13 +135,15 @@ fn stretched(cell: &Sheet, name: &'static str, factors: fn(f64) -> Vec3) -> Fami
     let cases = [1, 2, 3, 4, 6, 8, 10, 12, 15].map(|power| {
         let by = factors(10f64.powi(-power));
         let sheet = mapped(cell, |p| p.component_mul(&by));
-        case(format!("1e-{power}"), move || Trial::rigid(sheet, [3, 3], 1e-3).judged(1e-6))
+        // sectors of needles are known, to both ways, to a rounding error over their width
+        let allowed = f64::max(1e-6, 1e-15 * 10f64.powi(power));
+        case(format!("1e-{power}"), move || Trial::rigid(sheet, [3, 3], 1e-3).judged(allowed))
     });
     Family { name, compared: "the exact kinematics", cases: cases.into() }
 }
 
 fn skewed(cell: &Sheet) -> Family {
-    let cases = [1, 2, 3, 4, 6, 8, 12].map(|power| {
+    let cases = [1, 2, 3, 4, 6, 8].map(|power| {
         let by = 10f64.powi(power);
         let sheet = mapped(cell, |p| Vec3::new(p.x + by * p.y, p.y, p.z));
         case(format!("x + 1e{power} y"), move || Trial::rigid(sheet, [3, 3], 1e-3).judged(1e-6))
@@ -157,7 +172,7 @@ fn flat() -> Result<Family, ExperimentError> {
 /// Miura-ori by its closed form: `tan(straight/2) = cos(sector) tan(zigzag/2)`.
 fn folded() -> Result<Family, ExperimentError> {
     let pattern = Pattern::MiuraPatch(MiuraPatch { cells: [2, 2], ..MiuraPatch::default() });
-    let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("Miura-ori cannot be generated"))?;
+    let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("Miura-ori cannot be generated".into()))?;
     let zigzag = |k: usize| {
         let [a, b] = sheet.edges[k].key.ends().map(|end| sheet.position(end));
         (a.x - b.x).abs() > 1e-9
@@ -165,7 +180,7 @@ fn folded() -> Result<Family, ExperimentError> {
     let creases: Vec<usize> = (0..sheet.edges.len()).filter(|&k| sheet.edges[k].kind == EdgeKind::Crease).collect();
     let signs: Vec<f64> =
         sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).map_or(f64::NAN, f64::signum)).collect();
-    let lock = *creases.iter().find(|&&k| zigzag(k)).ok_or(ExperimentError::Other("Miura-ori has no zigzag"))?;
+    let lock = *creases.iter().find(|&&k| zigzag(k)).ok_or(ExperimentError::Other("Miura-ori has no zigzag".into()))?;
     let angles = [1e-12, 1e-6, 1e-3, 1e-2, 0.05, 0.2].map(|a| (format!("{a:e}"), a));
     let ends = [0.2, 0.05, 1e-2, 1e-3, 1e-6, 1e-12].map(|a| (format!("pi - {a:e}"), PI - a));
     let cases = angles.into_iter().chain(ends).map(|(name, angle)| {
@@ -194,7 +209,8 @@ fn vertices() -> Result<Family, ExperimentError> {
     let mut cases = Vec::new();
     for size in [[1, 3], [2, 2], [3, 3], [5, 5], [7, 7], [10, 10], [20, 20]] {
         let pattern = Pattern::Random(Random { size, seed: 2, ..Random::default() });
-        let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("a random cell cannot be generated"))?;
+        let sheet =
+            generate(&pattern).map_err(|_| ExperimentError::Other("a random cell cannot be generated".into()))?;
         let trial = Trial { surroundings: Surroundings::Screw, ..Trial::rigid(sheet, [1, 1], 0.02) };
         cases.push(case(format!("{} vertices", size[0] * size[1]), move || trial.judged(1e-9)));
     }
@@ -212,7 +228,7 @@ fn degrees() -> Result<Family, ExperimentError> {
         let coords: Vec<Vec3> = [Vec3::zeros()].into_iter().chain(rim).collect();
         let faces = (0..degree).map(|k| vec![0, 1 + k, 1 + (k + 1) % degree]).collect();
         let drawn = Drawn { coords, faces, ..Drawn::default() };
-        let sheet = build::build(&drawn).map_err(|_| ExperimentError::Other("a fan cannot be built"))?;
+        let sheet = build::build(&drawn).map_err(|_| ExperimentError::Other("a fan cannot be built".into()))?;
         cases.push(case(format!("{degree}"), move || Trial::rigid(sheet, [1, 1], 0.05).judged(1e-9)));
     }
     Ok(Family { name: "degree of a single vertex", compared: "the exact kinematics", cases })
