@@ -24,6 +24,9 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "landscape-exponents"
     "landscape-fits"
     "landscape-cylinder"
+    "landscape-cone"
+    "wave-fixed"
+    "wave-free"
     "tolerance-finest"
     "tolerance-is-kept"
     "stiffness-residuals"
@@ -61,9 +64,13 @@ const MESHES: &[(&str, &str)] = files!("meshes", "":
     "open-star.fold"
     "star-engines.toml"
     "star-landscape.toml"
+    "star-map.toml"
     "star-screw.toml"
     "star-torus-fixed.toml"
     "star-trace.toml"
+    "star-wave-fixed.toml"
+    "star-wave-free.toml"
+    "star-wave.fold"
 );
 
 /// All claims.

@@ -1,0 +1,67 @@
+//! What a map of a landscape costs, against relaxations of the same patch.
+//!
+//! ```text
+//! cargo bench --bench landscape
+//! ```
+//!
+//! Patches of 6 x 6 reference cells with rigid bars. One relaxation: from the drawn sheet, its rest angles along a mode and fixed.
+//! A map: directions all over the sphere of curvature tensors, rest angles free across the modes, each sample from where second
+//! order says it is, on one thread and on two. In turns, medians of rounds; what counts are the ratios.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{in_turns, measuring};
+use foldwell::analysis::landscape::sphere::{Direction, Net, samples};
+use foldwell::analysis::landscape::{HeldSheet, Prediction};
+use foldwell::analysis::relax::relax;
+use foldwell::math::Vec3;
+use foldwell::model::Gauge;
+use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use foldwell::numerics::parallel;
+use foldwell::sheet::{fold, tile};
+use foldwell::solver::Options;
+use std::time::Instant;
+
+const AMPLITUDE: f64 = 1e-3;
+
+fn main() {
+    let (rounds, rings) = if measuring() { (5, 11) } else { (1, 1) };
+    let sheet = fold::parse(include_str!("../meshes/open-star.fold"), "open-star.fold").unwrap();
+    let tiling = tile(&sheet, [6, 6], false);
+    let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+    let angles = drawn_angles(&drawn, &tiling);
+    let recipe = |rest: Vec<f64>| Recipe {
+        bars: Some(f64::INFINITY),
+        creases: Some(Hinges { stiffness: 1.0, rest }),
+        ..Recipe::default()
+    };
+    let make = || HeldSheet::patch(&sheet, &tiling, &recipe(angles.clone()), &angles);
+    let held = make().unwrap();
+    let prediction = Prediction::new(&held).unwrap();
+    let rates = held.named([0.8, -0.3, 0.4]).unwrap();
+    let bent: Vec<f64> = tiling.edges.iter().zip(&angles).map(|(e, angle)| angle + AMPLITUDE * rates[e.edge]).collect();
+    let points: Vec<Vec3> = Net::new(rings).directions.iter().map(Direction::point).collect();
+    let relaxation = || {
+        let clock = Instant::now();
+        for _ in 0..20 {
+            let mut model = assemble(&drawn, &tiling, &recipe(bent.clone()), Gauge::Held);
+            let start = model.start();
+            relax(&mut model, start, Options::default(), tiling.edges.len(), &mut |_| true).unwrap();
+        }
+        clock.elapsed().as_secs_f64() / 20.0
+    };
+    let map = |threads: usize| {
+        parallel::set_threads(threads);
+        let clock = Instant::now();
+        let found = samples(&make, &prediction, &points, AMPLITUDE, &|| true);
+        assert!(found.iter().all(|sample| sample.as_ref().is_some_and(Result::is_ok)));
+        clock.elapsed().as_secs_f64() / points.len() as f64
+    };
+    let times = in_turns(rounds, &mut [&mut || relaxation(), &mut || map(1), &mut || map(2)]);
+    let [one, alone, shared] = [times[0], times[1], times[2]];
+    println!("{} samples of 6 x 6 cells", points.len());
+    println!("a relaxation            {:8.3} ms", 1e3 * one);
+    println!("a sample, one thread    {:8.3} ms, {:.2} relaxations", 1e3 * alone, alone / one);
+    println!("a sample, two threads   {:8.3} ms, {:.2} relaxations", 1e3 * shared, shared / one);
+}
