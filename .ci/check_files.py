@@ -134,6 +134,29 @@ def check_vtp(checks, path, table, study):
     checks.that(np.array_equal(arrays.get("theta"), theta), f"{path}: theta is that of the table")
 
 
+def check_sphere(checks, path, table, study):
+    """Energies over the sphere of curvature tensors: a point for each row of the table, then the cone where they vanish."""
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    sphere = reader.GetOutput()
+    if not checks.that(not reader.GetErrorCode() and sphere.GetPoints() is not None, f"{path}: VTK opens it"):
+        return
+    header, rows = read_table(table)
+    column = lambda name: np.array([float(row[header.index(name)]) for row in rows])
+    points, data = vtk_to_numpy(sphere.GetPoints().GetData()), sphere.GetPointData()
+    array = lambda name: vtk_to_numpy(data.GetArray(name))
+    tensors = np.column_stack([column("k11"), column("k22"), np.sqrt(2) * column("k12")])
+    checks.that(len(rows) == study["map"]["samples"], f"{path}: {len(rows)} samples")
+    checks.that(np.allclose(points[: len(rows)], tensors, rtol=0, atol=1e-15), f"{path}: points are the tensors of the table")
+    checks.that(np.allclose(np.linalg.norm(points, axis=1), 1, rtol=0, atol=1e-12), f"{path}: points of the unit sphere")
+    checks.that(np.array_equal(array("energy")[: len(rows)], column("energy_total")), f"{path}: energies of the table")
+    checks.that(np.all(array("energy")[len(rows) :] == 0), f"{path}: no energy on the cone")
+    checks.that(len(points) - len(rows) == study["map"]["cone_points"], f"{path}: points of the cone")
+    euler = len(rows) - sphere.GetNumberOfPolys() // 2
+    checks.that(euler == 2 and sphere.GetNumberOfLines() == 2, f"{path}: a closed surface and two curves")
+
+
 def determinant(study, q1, q2):
     """The centred determinant from the coefficients of the summary."""
     return sum(c * np.exp(1j * (m * q1 + n * q2)) for m, n, c in study["determinant"])
@@ -259,6 +282,8 @@ def check_study(checks, out, study, edges):
     for path in sorted((out / name).glob("*.vtp")):
         if kind == "bloch":
             check_curves(checks, path, study)
+        elif kind == "landscape":
+            check_sphere(checks, path, out / f"{name}-map.csv", study)
         else:
             check_vtp(checks, path, out / f"{name}.csv", study)
     for path in sorted((out / name).glob("*.vti")):

@@ -135,7 +135,10 @@ fn row(point: &Vec3, sample: Result<Sample, SampleError>) -> Row {
 
 fn table(rows: &[Row]) -> Table {
     let mut table = Table::new(COLUMNS.iter().map(|name| (*name).to_owned()).collect());
-    rows.iter().for_each(|row| table.push(row.iter().map(|number| Value::Number(*number)).collect()));
+    let value = |(column, number): (usize, &f64)| {
+        if column == ITERATIONS { Value::Whole(*number as i64) } else { Value::Number(*number) }
+    };
+    rows.iter().for_each(|row| table.push(row.iter().enumerate().map(value).collect()));
     table
 }
 
