@@ -56,7 +56,7 @@ fn maps_go_on_where_they_stopped() {
     assert!(1 < done && done < all, "{done} of {all}");
     let resumed = run(&scene, &parts, (1, true), usize::MAX);
     assert!(resumed.converged);
-    for file in ["a.csv", "a-map.csv", "a.svg", "a.pvd", "a/a_map.vtp"] {
+    for file in ["a.csv", "a-map.csv", "a.svg", "a-map.svg", "a.pvd", "a/a_map.vtp"] {
         assert_eq!(fs::read(whole.join(file)).unwrap(), fs::read(parts.join(file)).unwrap(), "{file}");
     }
 }

@@ -196,9 +196,12 @@ mod tests {
         let text = svg(&plot, "a < b");
         assert!(text.contains("<title>a &lt; b</title>") && !text.contains("NaN"));
         assert_eq!(text.matches("<circle").count(), 3);
-        let width = |path: &str| path.split_once('h')?.1.split_once("v4.0h-")?.0.parse::<f64>().ok();
-        let widths: f64 = text.lines().filter(|line| line.contains("fill=\"#")).filter_map(width).sum();
-        assert!((widths - SIDE * SQUARES as f64).abs() <= 0.1, "{widths}");
+        let squares = |path: &str| {
+            let width: f64 = path.split_once('M')?.1.split_once('h')?.1.split_once('v')?.0.parse().ok()?;
+            Some((width * SQUARES as f64 / SIDE).round() as usize)
+        };
+        let painted: usize = text.lines().filter(|line| line.contains("z\" fill=\"#")).filter_map(squares).sum();
+        assert_eq!(painted, SQUARES * SQUARES);
         let path = text.lines().find(|line| line.contains("stroke-width=\"2.2\"")).unwrap();
         assert_eq!(path.matches('M').count(), 2, "{path}");
         let magnitude = svg(&BlochPlot { lines: vec![], ..plot }, "");

@@ -5,11 +5,13 @@ use super::{RunError, landscape_map, studies};
 use crate::analysis::landscape::samples::{Landscape, OPTIONS, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::assemble::{Surroundings, drawn_angles};
+use crate::output::chart::{self, Chart, Point, Series};
+use crate::output::files;
 use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
 use crate::scene::build::{Built, rates as scene_rates};
 use crate::scene::forms::Mode;
-use crate::scene::spec::{LandscapeSpec, StudySpec};
+use crate::scene::spec::{Draw, LandscapeSpec, StudySpec};
 use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKey;
 use std::time::Instant;
@@ -105,6 +107,10 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &LandscapeSpec) -
     };
     let found = found?;
     table(runner.built, &found).write(&runner.path(format!("{}.csv", study.name.0)))?;
+    if study.draw.contains(&Draw::Svg) {
+        let picture = chart::svg(&energies(&runner.file.title(), &found));
+        files::write(&runner.path(format!("{}.svg", study.name.0)), picture)?;
+    }
     summary.reason = found.iter().find_map(Along::failure);
     summary.converged = summary.reason.is_none();
     summary.error = Some(found.iter().map(Along::residual).fold(0.0, f64::max));
@@ -179,9 +185,13 @@ impl Along {
         self.samples().iter().map(of).fold(0.0, f64::max)
     }
 
+    /// Amplitudes and energies.
+    fn energies(&self) -> Vec<(f64, f64)> {
+        self.samples().iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
+    }
+
     fn summarized(&self, amplitudes: &[f64]) -> ModeLandscape {
-        let energies: Vec<(f64, f64)> =
-            self.samples().iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect();
+        let energies = self.energies();
         let sample = |(k, amplitude): (usize, &f64)| SampleSummary {
             amplitude: *amplitude,
             energy: energies.get(k).map(|(_, energy)| *energy),
@@ -202,6 +212,20 @@ impl Along {
             predicted_sixth: predicted.map(|expansion| expansion.sixth),
             defect: self.curvature.map(|[k11, k22, k12]| k11 * k22 - k12 * k12),
         }
+    }
+}
+
+/// Energies against amplitudes, a line for each mode.
+fn energies(title: &str, found: &[Along]) -> Chart {
+    let series = |along: &Along| {
+        let point = |(amplitude, energy)| Point { x: amplitude, y: energy, label: String::new() };
+        Series { name: along.name(), points: along.energies().into_iter().map(point).collect() }
+    };
+    Chart {
+        title: title.to_owned(),
+        x: "amplitude of the mode".to_owned(),
+        y: "energy".to_owned(),
+        series: found.iter().map(series).collect(),
     }
 }
 

@@ -171,7 +171,7 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, sphere: Sphere<'_>) -> Result<()
         vtk::write_pvd(&runner.path(format!("{name}.pvd")), &[(0.0, file)])?;
     }
     if study.draw.contains(&Draw::Svg) {
-        sphere_plot::write_svg(&runner.path(format!("{name}.svg")), &sphere, FRAC_PI_4, &runner.file.title())?;
+        sphere_plot::write_svg(&runner.path(format!("{name}-map.svg")), &sphere, FRAC_PI_4, &runner.file.title())?;
     }
     Ok(())
 }
