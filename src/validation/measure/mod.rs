@@ -6,6 +6,7 @@ mod extremes;
 mod files;
 mod invariances;
 mod large;
+mod rigid_limit;
 mod sizes;
 mod steps;
 mod stiffness;
@@ -23,6 +24,7 @@ const MEASUREMENTS: &[(&str, Measurement)] = &[
     ("extremes", extremes::measure),
     ("large", large::measure),
     ("random scenes", extremes::random_scenes),
+    ("rigid limit", rigid_limit::measure),
     ("sizes", sizes::measure),
     ("steps", steps::measure),
     ("stiffness", stiffness::measure),

@@ -5,6 +5,7 @@ use super::super::forms::{self, Form};
 use super::super::precision::shortest;
 use super::super::report::figure;
 use super::super::star::{Star, size};
+use super::trial::distance;
 use crate::analysis::state::State;
 use crate::output::chart::{Chart, Point, Series};
 use crate::solver::Options;
@@ -61,13 +62,13 @@ fn relaxed(star: &Star, n: usize) -> Result<Size, ExperimentError> {
     let penalty = (n <= MOST_FOR_PENALTY).then(|| {
         let mut angles = Vec::new();
         let seconds = shortest(1, &mut [Box::new(|| angles = by_penalty(star))])[0];
-        [error(&angles, &star.rest), seconds]
+        [distance(&angles, &star.rest), seconds]
     });
     Ok(Size {
         cells: n,
         unknowns: size(&star.model(f64::INFINITY)).0,
         iterations: found.iterations,
-        error: error(&found.state.fold_angle, &star.rest),
+        error: distance(&found.state.fold_angle, &star.rest),
         seconds,
         penalty,
     })
@@ -110,12 +111,6 @@ fn by_penalty(star: &Star) -> Vec<f64> {
     let mut model = star.model(STIFFNESS);
     let found = forms::minimize(&mut model, Form::Penalty);
     found.map_or(vec![], |found| State::new(&model, &found.x, &found.tension, star.tiling.edges.len()).fold_angle)
-}
-
-/// The largest difference; NaN where there is no state.
-fn error(angles: &[f64], exact: &[f64]) -> f64 {
-    let known = angles.iter().zip(exact).filter(|(_, exact)| !exact.is_nan());
-    known.map(|(a, b)| (a - b).abs()).reduce(f64::max).unwrap_or(f64::NAN)
 }
 
 /// Exponent `p` of the power law `y ~ x^p` that fits best in logarithms.

@@ -5,6 +5,7 @@ use super::super::forms::{self, Form};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::report::figure;
 use super::super::star::Star;
+use super::trial::distance;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::state::State;
 use crate::solver::Options;
@@ -119,11 +120,6 @@ fn times(star: &Star) -> Vec<[f64; 3]> {
     let in_turns = shortest(ROUNDS, &mut STIFFNESSES.map(tension));
     seconds.iter_mut().zip(in_turns).for_each(|(all, time)| all[0] = time);
     seconds
-}
-
-fn distance(angles: &[f64], exact: &[f64]) -> f64 {
-    let known = angles.iter().zip(exact).filter(|(_, exact)| !exact.is_nan());
-    known.fold(0.0, |most: f64, (a, b)| if (a - b).is_nan() { f64::NAN } else { most.max((a - b).abs()) })
 }
 
 fn table(all: &[[Option<Reached>; 3]], seconds: &[[f64; 3]], names: &[&str; 3]) -> Grid {
