@@ -55,6 +55,8 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "killed-runs-leave-whole-files"
     "resumed-runs-end-the-same"
     "two-runs-in-one-folder"
+    "full-disks-break-nothing"
+    "unusable-folders"
     "large-residuals"
     "large-time"
     "large-memory"
