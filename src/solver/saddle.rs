@@ -82,6 +82,11 @@ impl Saddle {
         self.factor.factor(at.pattern(), &self.values)
     }
 
+    /// Entries of the matrix that was factored last, in the pattern of the linearization: its lower triangle, by columns.
+    pub fn entries(&self) -> &[f64] {
+        &self.values
+    }
+
     /// Factors `S` with the identity in the place of the Hessian: solves then give the shortest motion.
     pub fn factor_shortest(
         &mut self,

@@ -18,8 +18,6 @@ pub use closing::Return;
 use super::implicit::{Corrector, Implicit};
 use hermite::Hermite;
 
-/// Points of a step's interpolant.
-const POINTS: usize = 3;
 /// Error of a prediction that is aimed at, and the one above which a step is refused.
 const AIM: f64 = 3e-6;
 const MOST_ERROR: f64 = 1e-2;
@@ -69,12 +67,14 @@ pub struct Options {
     pub period: Option<f64>,
     /// Indicators that end it.
     pub stops: Vec<usize>,
+    /// Points of the interpolant of a step, 2 to 4: its degree is twice that, less one.
+    pub points: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
         let (length, steps) = (f64::INFINITY, 100_000);
-        Self { tolerance: 1e-13, max_step: 0.25, length, steps, period: None, stops: Vec::new() }
+        Self { tolerance: 1e-13, max_step: 0.25, length, steps, period: None, stops: Vec::new(), points: 3 }
     }
 }
 
@@ -124,8 +124,9 @@ struct Follower<'a, C> {
     corrector: Corrector,
     tolerance: f64,
     points: Vec<Point>,
-    /// Interpolant of the last step.
+    /// Interpolant of the last step, through this many points.
     dense: Hermite,
+    memory: usize,
     spare: Vec<f64>,
 }
 
@@ -148,6 +149,7 @@ pub fn follow<C: Curve>(
         tolerance: options.tolerance,
         points: vec![start],
         dense: Hermite::default(),
+        memory: options.points.clamp(2, hermite::MOST),
         spare,
     };
     let mut events = Vec::new();
@@ -189,7 +191,7 @@ impl<C: Curve> Follower<'_, C> {
 
     /// One accepted step of about this length, or shorter; the length of the next, `None` where there is none.
     fn step(&mut self, mut length: f64) -> Option<f64> {
-        let first = self.points.len().saturating_sub(POINTS);
+        let first = self.points.len().saturating_sub(self.memory);
         let known: Vec<&Point> = self.points[first..].iter().collect();
         let order = 2 * known.len();
         self.dense.fit(&known);
@@ -219,7 +221,7 @@ impl<C: Curve> Follower<'_, C> {
         let mut length = guess;
         for _ in 0..4 {
             point.arc_length = last + length;
-            let first = self.points.len().saturating_sub(POINTS - 1);
+            let first = self.points.len().saturating_sub(self.memory - 1);
             let near: Vec<&Point> = self.points[first..].iter().chain([&point]).collect();
             self.dense.fit(&near);
             let mut x = point.x.clone();
