@@ -119,13 +119,13 @@ fn flat_sheets_have_no_determinant() {
 }
 
 /// Distance of real wavenumbers from a singular `R` along the gradient: the smallest singular value over its gradient,
-/// `Re(u^H dR v)`.
+/// `u^H dR v`; what singular values may be by rounding, 1e-15 of the largest, is taken off.
 fn distance_from_singular(rigidity: &Rigidity, q: [f64; 2]) -> f64 {
     let z = q.map(|q| Complex::from_polar(1.0, q));
     let ComplexSvd { u, singular_values, v } = complex_svd(&rigidity.at(z)).unwrap();
     let last = singular_values.len() - 1;
     let slope = |a: usize| (u.column(last).adjoint() * rigidity.derivative(z, a) * v.column(last))[(0, 0)] * z[a];
-    singular_values[last] / slope(0).norm().hypot(slope(1).norm())
+    (singular_values[last] - 1e-15 * singular_values[0]).max(0.0) / slope(0).norm().hypot(slope(1).norm())
 }
 
 /// Claim: the leading quartic that the strains of the three linear modes give is that of the determinant's expansion up
@@ -159,6 +159,25 @@ fn zero_lines_of_random_cells() {
         let lines = ZeroLines::new(&zone).unwrap_or_else(|error| panic!("{}: {error}", sheet.description));
         let lines = lines.refined(&zone, &rigidity);
         slowest = slowest.max(clock.elapsed().as_secs_f64());
+        // SCRATCH
+        if lines.lines.iter().any(|line| line.residual > 1e-12) {
+            let bad = lines.lines.iter().flat_map(|line| &line.points).filter_map(|q| {
+                if q[0].rem_euclid(TAU) == 0.0 && q[1].rem_euclid(TAU) == 0.0 { return None; }
+                let (v, g) = zone.at(*q);
+                let known = (v.abs() + zone.uncertainty(*q)) / g[0].hypot(g[1]);
+                let m = foldwell::analysis::bloch::singular::Search::new(&rigidity).on_zone(*q);
+                let err = m.map_or(f64::NAN, |m| m.1);
+                (known > 1e-12 && !(err <= 1e-12)).then_some((*q, known, m))
+            });
+            let bad: Vec<_> = bad.collect();
+            println!("BAD {} {} points of {}", sheet.vertices.len(), bad.len(), lines.lines.iter().map(|l| l.points.len()).sum::<usize>());
+            for (q, known, m) in bad.iter().step_by(bad.len().div_ceil(5)) {
+                let z = q.map(|q| Complex::from_polar(1.0, q));
+                let s = complex_svd(&rigidity.at(z)).unwrap().singular_values;
+                println!("   {q:?} known {known:e} {m:?} sv {:e} {:e} {:e}", s[s.len()-1], s[s.len()-2], s[s.len()-3]);
+            }
+        }
+        // END
         let away = |q: &&[f64; 2]| q.iter().any(|q| ((q + PI).rem_euclid(TAU) - PI).abs() > 0.1);
         for q in lines.lines.iter().flat_map(|line| &line.points).filter(away).step_by(29) {
             by_matrix = by_matrix.max(distance_from_singular(&rigidity, *q));

@@ -9,6 +9,7 @@ pub mod bands;
 pub mod decay;
 pub mod determinant;
 pub mod duality;
+pub mod extended;
 pub mod extrema;
 pub mod laurent;
 pub mod mode_shape;

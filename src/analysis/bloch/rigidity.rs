@@ -9,12 +9,13 @@
 //! Forces of tensions `t` that are multiplied in the same way are balanced where `R(1/z1, 1/z2)^T t = 0`.
 
 use super::BlochError;
+use super::extended::Twice;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
 use crate::math::fold_angle::fold_angle_gradient;
 use crate::model::{Domain, Site};
 use crate::numerics::complex::{ComplexMatrix, determinant};
-use crate::sheet::{Corner, EdgeKind, Sheet};
+use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
 use nalgebra::{Complex, Matrix3, Rotation3};
 
 /// One condition on the displacements: the sum of `direction . u` over some corners is zero.
@@ -22,6 +23,15 @@ use nalgebra::{Complex, Matrix3, Rotation3};
 pub struct Row {
     /// Corners and the direction that each contributes; no unit.
     pub terms: Vec<(Corner, Vec3)>,
+    /// What the rounding of the directions has left out; zero where they are known no better, as on a cylinder.
+    pub rests: Vec<Vec3>,
+}
+
+impl Row {
+    fn rounded(terms: Vec<(Corner, Vec3)>) -> Self {
+        let rests = vec![Vec3::zeros(); terms.len()];
+        Self { terms, rests }
+    }
 }
 
 /// The rigidity matrix between two vectors.
@@ -50,10 +60,14 @@ impl Rigidity {
     ///
     /// Fails for a finite sheet.
     pub fn of_sheet(sheet: &Sheet, rigid_facets: bool) -> Result<Self, BlochError> {
-        if sheet.lattice.is_none() {
-            return Err(BlochError::NoLattice);
+        let lattice = sheet.lattice.ok_or(BlochError::NoLattice)?;
+        let mut found = Self::placed(sheet, rigid_facets, |corner| sheet.position(corner), |_| Matrix3::identity());
+        for (row, edge) in found.rows.iter_mut().zip(&sheet.edges) {
+            let (direction, rest) = precise_direction(sheet, &edge.key, &lattice);
+            let [i, j] = edge.key.ends();
+            *row = Row { terms: vec![(i, -direction), (j, direction)], rests: vec![-rest, rest] };
         }
-        Ok(Self::placed(sheet, rigid_facets, |corner| sheet.position(corner), |_| Matrix3::identity()))
+        Ok(found)
     }
 
     /// The bars of a cylinder: a state of the sheet whose cells are moved by screw motions.
@@ -86,13 +100,13 @@ impl Rigidity {
         let bars = sheet.edges.iter().map(|edge| {
             let [i, j] = edge.key.ends();
             let along = (place(j) - place(i)).normalize();
-            Row { terms: vec![term(i, -along), term(j, along)] }
+            Row::rounded(vec![term(i, -along), term(j, along)])
         });
         let locks = sheet.edges.iter().filter(|edge| rigid_facets && edge.kind == EdgeKind::Facet).filter_map(|edge| {
             let [i, j] = edge.key.ends();
             let corners = [i, j, edge.wings[0]?, edge.wings[1]?];
             let directions = lock(&corners.map(&place));
-            Some(Row { terms: (0..4).map(|k| term(corners[k], directions[k])).collect() })
+            Some(Row::rounded((0..4).map(|k| term(corners[k], directions[k])).collect()))
         });
         Self { vertices: sheet.vertices.len(), rows: bars.chain(locks).collect() }
     }
@@ -173,6 +187,19 @@ impl Rigidity {
         }
         matrix
     }
+}
+
+/// The direction of an edge, of length one but for rounding, as a sum of two vectors: differences of coordinates are
+/// taken without rounding, and all divided by one number.
+fn precise_direction(sheet: &Sheet, key: &EdgeKey, lattice: &[Vec3; 2]) -> (Vec3, Vec3) {
+    let [from, to] = [sheet.vertices[key.i], sheet.vertices[key.j]];
+    let along = [0, 1, 2].map(|axis| {
+        let shifted = [0, 1].map(|a| Twice::product(f64::from(key.shift[a]), lattice[a][axis]));
+        Twice::sum(to[axis], -from[axis]).plus(shifted[0]).plus(shifted[1])
+    });
+    let scale = Twice { high: Vec3::from(along.map(|x| x.high)).norm().recip(), low: 0.0 };
+    let unit = along.map(|x| x.times(scale));
+    (Vec3::from(unit.map(|x| x.high)), Vec3::from(unit.map(|x| x.low)))
 }
 
 /// The gradient of a fold angle, scaled to the norm of a bar's row.

@@ -10,9 +10,9 @@
 //! right to second order near by: one factorization gives a Newton step and the error of the point where it leads
 //! (A. Griewank, G. W. Reddien, IMA J. Numer. Anal. 4, 295 (1984)).
 
-use super::Rigidity;
 use super::decay::Root;
 use super::rigidity::Pairing;
+use super::{Rigidity, extended};
 use nalgebra::{Complex, DMatrix, DVector};
 
 type ComplexVector = DVector<Complex<f64>>;
@@ -21,8 +21,8 @@ type ComplexVector = DVector<Complex<f64>>;
 const ROUNDS: usize = 8;
 /// Newton steps with one pair of null vectors.
 const STEPS: usize = 3;
-/// A round that moves `log z` by less than this is the last: the square of it is rounding.
-const SETTLED: f64 = 1e-8;
+/// A round that moves `log z` by less than this, or by rounding, is the last: what it leaves is of its square.
+const SETTLED: f64 = 1e-12;
 /// Longest way of `log z` from where a search begins.
 const FARTHEST: f64 = 0.2;
 /// Borders are taken anew where null vectors have more than this of their squared norm across them.
@@ -60,8 +60,9 @@ impl<'a> Search<'a> {
             if !((z[a] / start).ln().norm() <= FARTHEST) {
                 return None;
             }
-            if (z[a] / before - 1.0).norm() <= SETTLED {
-                return Some(Root { z: z[a], condition: at.size / at.slopes[a].norm() });
+            let condition = at.size / at.slopes[a].norm();
+            if (z[a] / before - 1.0).norm() <= SETTLED.max(f64::EPSILON * condition) {
+                return Some(Root { z: z[a], condition });
             }
         }
         None
@@ -70,26 +71,28 @@ impl<'a> Search<'a> {
     /// The point near real wavenumbers at which a determinant that is real there vanishes, along its gradient, and the
     /// error of that point. `None` where Newton's method does not settle near by.
     ///
-    /// Up to a phase `g` is real there: the step is that of least squares for its two parts.
+    /// Up to a phase `g` is real there: the step is that of least squares for its two parts. It is taken to
+    /// [twice the digits](super::extended), since the gradient may be as small as it likes.
     pub fn on_zone(&mut self, start: [f64; 2]) -> Option<([f64; 2], f64)> {
         let mut q = start;
         for _ in 0..ROUNDS {
-            let factors = |q: [f64; 2]| q.map(|q| Complex::from_polar(1.0, q));
-            let pair = self.null_pair(factors(q))?;
-            let (before, mut last, mut rounding) = (q, f64::NAN, f64::NAN);
+            let z = q.map(|q| Complex::from_polar(1.0, q));
+            let pair = self.null_pair(z)?;
+            let slopes = self.pairing(z, &pair).slopes;
+            let squared = slopes[0].norm_sqr() + slopes[1].norm_sqr();
+            let (before, mut last) = (q, f64::NAN);
             for _ in 0..STEPS {
-                let Pairing { value, slopes, size } = self.pairing(factors(q), &pair);
-                let squared = slopes[0].norm_sqr() + slopes[1].norm_sqr();
-                let step = slopes.map(|slope| -(Complex::<f64>::I * slope).conj() * value / squared).map(|step| step.re);
+                let value = extended::pairing(self.rigidity, q, pair[0].as_slice(), pair[1].as_slice());
+                let step = slopes.map(|slope| (-(Complex::<f64>::I * slope).conj() * value / squared).re);
                 q = [0, 1].map(|a| q[a] + step[a]);
-                (last, rounding) = (step[0].hypot(step[1]), f64::EPSILON * size / squared.sqrt());
+                last = step[0].hypot(step[1]);
             }
             let moved = |from: [f64; 2]| (q[0] - from[0]).hypot(q[1] - from[1]);
             if !(moved(start) <= FARTHEST) {
                 return None;
             }
             if moved(before) <= SETTLED {
-                return Some((q, last.max(rounding)));
+                return Some((q, last.max(f64::EPSILON)));
             }
         }
         None
