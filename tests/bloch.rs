@@ -8,7 +8,10 @@ use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path}
 use foldwell::analysis::bloch::decay::WELL_CONDITIONED;
 use foldwell::analysis::bloch::duality::{displacement, fold_rates};
 use foldwell::analysis::bloch::strain_form::StrainForm;
-use foldwell::analysis::bloch::{BlochError, Decay, Determinant, Laurent, ModeShape, Polarization, Rigidity, ZeroLines, Zone};
+use foldwell::analysis::bloch::zero_lines::ZeroLine;
+use foldwell::analysis::bloch::{
+    BlochError, Decay, Determinant, Laurent, ModeShape, Polarization, Rigidity, ZeroLines, Zone,
+};
 use foldwell::kinematics::{Embedding, Shape};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
@@ -17,7 +20,7 @@ use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Corner, EdgeKey, Pattern, Sheet, generate};
 use nalgebra::Complex;
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{PI, TAU};
 
 fn random(size: [usize; 2], seed: u64) -> Sheet {
@@ -67,8 +70,8 @@ fn stored_numbers_of_open_star() {
 }
 
 /// Claim: on 200 random cells the centred determinant is symmetric and real to 1e-12, powers are whole numbers, decay
-/// rates pair to 1e-9 where they are well conditioned, and as many roots are inside as outside: no polarization. One
-/// root in ten is ill-conditioned in the polynomial, and one in a hundred still is in the matrix.
+/// rates pair to 1e-9 where they are well conditioned, and as many roots are inside as outside: no polarization. Of
+/// roots corrected on the matrix at most one in a hundred is ill-conditioned.
 #[test]
 fn random_cells_are_symmetric_and_not_polarized() {
     let (mut symmetry, mut imaginary, mut error, mut pairing) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
@@ -89,11 +92,6 @@ fn random_cells_are_symmetric_and_not_polarized() {
             first_left_out += first.pairing().left_out;
             let pairs_here = first.clone().refined(&rigidity);
             let here = pairs_here.pairing();
-            for root in &pairs_here.roots {
-                if root.condition > WELL_CONDITIONED {
-                    println!("{} {q1}: {root:?} {}", sheet.description.len(), root.kappa());
-                }
-            }
             assert!(here.error <= 1e-9, "{}: {here:?}", sheet.description);
             pairing = pairing.max(here.error);
             left_out += here.left_out;
@@ -107,7 +105,7 @@ fn random_cells_are_symmetric_and_not_polarized() {
          out, {first_left_out} by the polynomial"
     );
     assert!(symmetry <= 1e-12 && imaginary <= 1e-12 && error <= 1e-12);
-    assert!(8 * left_out <= pairs, "{left_out} roots of {pairs} are ill-conditioned");
+    assert!(100 * left_out <= pairs, "{left_out} roots of {pairs} are ill-conditioned");
 }
 
 /// Claim: at a flat state the determinant vanishes identically (theory, section 8): this is said, not computed with.
@@ -126,6 +124,18 @@ fn distance_from_singular(rigidity: &Rigidity, q: [f64; 2]) -> f64 {
     let last = singular_values.len() - 1;
     let slope = |a: usize| (u.column(last).adjoint() * rigidity.derivative(z, a) * v.column(last))[(0, 0)] * z[a];
     (singular_values[last] - 1e-15 * singular_values[0]).max(0.0) / slope(0).norm().hypot(slope(1).norm())
+}
+
+/// How far a line leaves `q = 0` off the nearest of some directions, in radians; 0 where it does not pass there.
+fn off_directions(line: &ZeroLine, directions: &[f64]) -> f64 {
+    let last = line.points.len() - 1;
+    // the second point is the first after q = 0, the one before the last comes back to it
+    let ends = [line.points[1], [0, 1].map(|a| line.points[last - 1][a] - line.points[last][a])];
+    let off = |q: &[f64; 2]| {
+        let from = |angle: &f64| (q[1].atan2(q[0]) - angle).sin().abs();
+        directions.iter().map(from).fold(f64::INFINITY, f64::min)
+    };
+    if line.passes > 0 { ends.iter().map(off).fold(0.0, f64::max) } else { 0.0 }
 }
 
 /// Claim: the leading quartic that the strains of the three linear modes give is that of the determinant's expansion up
@@ -159,25 +169,6 @@ fn zero_lines_of_random_cells() {
         let lines = ZeroLines::new(&zone).unwrap_or_else(|error| panic!("{}: {error}", sheet.description));
         let lines = lines.refined(&zone, &rigidity);
         slowest = slowest.max(clock.elapsed().as_secs_f64());
-        // SCRATCH
-        if lines.lines.iter().any(|line| line.residual > 1e-12) {
-            let bad = lines.lines.iter().flat_map(|line| &line.points).filter_map(|q| {
-                if q[0].rem_euclid(TAU) == 0.0 && q[1].rem_euclid(TAU) == 0.0 { return None; }
-                let (v, g) = zone.at(*q);
-                let known = (v.abs() + zone.uncertainty(*q)) / g[0].hypot(g[1]);
-                let m = foldwell::analysis::bloch::singular::Search::new(&rigidity).on_zone(*q);
-                let err = m.map_or(f64::NAN, |m| m.1);
-                (known > 1e-12 && !(err <= 1e-12)).then_some((*q, known, m))
-            });
-            let bad: Vec<_> = bad.collect();
-            println!("BAD {} {} points of {}", sheet.vertices.len(), bad.len(), lines.lines.iter().map(|l| l.points.len()).sum::<usize>());
-            for (q, known, m) in bad.iter().step_by(bad.len().div_ceil(5)) {
-                let z = q.map(|q| Complex::from_polar(1.0, q));
-                let s = complex_svd(&rigidity.at(z)).unwrap().singular_values;
-                println!("   {q:?} known {known:e} {m:?} sv {:e} {:e} {:e}", s[s.len()-1], s[s.len()-2], s[s.len()-3]);
-            }
-        }
-        // END
         let away = |q: &&[f64; 2]| q.iter().any(|q| ((q + PI).rem_euclid(TAU) - PI).abs() > 0.1);
         for q in lines.lines.iter().flat_map(|line| &line.points).filter(away).step_by(29) {
             by_matrix = by_matrix.max(distance_from_singular(&rigidity, *q));
@@ -189,16 +180,7 @@ fn zero_lines_of_random_cells() {
         residuals.push(lines.lines.iter().map(|line| line.residual).fold(0.0, f64::max));
         for line in &lines.lines {
             *topologies.entry((line.passes, line.winding.map(i32::abs))).or_insert(0) += 1;
-            if line.passes > 0 {
-                // the second point is the first after q = 0, the one before the last comes back to it
-                for q in [line.points[1], {
-                    let k = line.points.len() - 2;
-                    [0, 1].map(|a| line.points[k][a] - line.points[k + 1][a])
-                }] {
-                    let off = |angle: &f64| (q[1].atan2(q[0]) - angle).sin().abs();
-                    angles = angles.max(directions.iter().map(off).fold(f64::INFINITY, f64::min));
-                }
-            }
+            angles = angles.max(off_directions(line, &directions));
         }
         let sum: f64 = lines.regions.iter().map(|region| region.fraction).sum();
         assert!((sum - 1.0).abs() <= 1e-12);
@@ -384,7 +366,8 @@ fn places(sheet: &Sheet, numbers: &mut Numbers) -> Vec<(&'static str, [Complex<f
     let off_origin = points.filter(|q| q.iter().any(|q| ((q + PI).rem_euclid(TAU) - PI).abs() > 0.3));
     places.extend(off_origin.step_by(97).map(|q| ("zero line", on_zone(*q))));
     let decay = Decay::new(&found, 0, 0.9).unwrap().refined(&rigidity);
-    let roots = decay.roots.iter().filter(|root| !root.on_circle() && root.condition <= 1e3 && root.kappa().abs() < 2.0);
+    let roots =
+        decay.roots.iter().filter(|root| !root.on_circle() && root.condition <= 1e3 && root.kappa().abs() < 2.0);
     places.extend(roots.map(|root| ("complex root", [Complex::from_polar(1.0, 0.9), root.z])));
     places
 }
@@ -593,6 +576,19 @@ fn polarizations_of_random_kirigami() {
     for (cells, values) in &tables {
         println!("{cells:?}: twice the polarization, (cells, first seed): {values:?}");
     }
+    let values: BTreeSet<[i32; 2]> = tables.values().flat_map(|values| values.keys().copied()).collect();
+    assert!(values.len() >= 15 && [[-2, 3], [0, 3], [2, 1], [-1, 0]].iter().all(|value| values.contains(value)));
+}
+
+/// Claim: the mesh of a strong polarization is the cell of that scan, and has it.
+#[test]
+fn mesh_of_another_polarization() {
+    let (sheet, cell) = (mesh("kirigami-polarized"), random_kirigami([3, 2], 1, 0).unwrap());
+    let same = sheet.vertices.iter().zip(&cell.vertices).all(|(a, b)| (a - b).norm() <= 1e-12);
+    assert!(same && sheet.vertices.len() == cell.vertices.len() && sheet.polygons.len() == cell.polygons.len());
+    let found = kirigami(&sheet);
+    let Polarization { polarization, on_circle } = Polarization::new(&found, 64).unwrap();
+    assert_eq!((polarization, on_circle, winding(&found)), ([-1.0, 1.5], [0.0, 0.0], Some([-1.0, 1.5])));
 }
 
 /// Claim (Finbow-Singh and Whiteley's swap): with faces and holes exchanged, folding motions become self stresses: the
@@ -601,8 +597,7 @@ fn polarizations_of_random_kirigami() {
 #[test]
 fn faces_and_holes_swap() {
     let sheet = mesh("kirigami");
-    let [one, other] =
-        [kirigami(&sheet), kirigami(&exchanged(&sheet))].map(|found| found.polynomial.coefficients);
+    let [one, other] = [kirigami(&sheet), kirigami(&exchanged(&sheet))].map(|found| found.polynomial.coefficients);
     assert_eq!(one.shape(), other.shape());
     let (rows, columns) = one.shape();
     let turned = DenseMatrix::from_fn(rows, columns, |i, j| other[(rows - 1 - i, columns - 1 - j)]);

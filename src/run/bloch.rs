@@ -12,7 +12,7 @@ use crate::analysis::bloch::{
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
 use crate::model::Domain;
-use crate::model::assemble::{Drawn, Hinges};
+use crate::model::assemble::Drawn;
 use crate::output::Picture;
 use crate::output::bloch_plot::{self, BlochPlot};
 use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, StudySummary, ZeroLineSummary};
@@ -23,6 +23,7 @@ use crate::scene::forms::Start;
 use crate::scene::spec::{BlochSpec, Draw, StudySpec};
 use crate::scene::values::Pair;
 use crate::scene::{Located, SceneFile};
+use crate::sheet::EdgeKind;
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -43,11 +44,11 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &BlochSpe
     if let Some(start) = &spec.start {
         check_start(file, built, spec, start)?;
     }
-    if let (Some(path), None) = (&spec.path, stiffnesses(built)) {
+    if let (Some(path), None) = (&spec.path, stiffnesses(file, built)) {
         let help = "give bars a finite stiffness and facets too, or leave out `path`";
         return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
     }
-    let refused = rigidity(built).and_then(|rigidity| rigidity.require_square());
+    let refused = rigidity(file, built).and_then(|rigidity| rigidity.require_square());
     let help = match &refused {
         Ok(()) => return Ok(()),
         Err(BlochError::NoLattice) => "a periodic sheet has the key `foldwell:lattice` in its mesh",
@@ -89,29 +90,33 @@ struct Ground {
 /// The state that the scene names; `None` where the study that should have found it did not.
 fn ground(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Option<Ground>, BlochError> {
     let Some(Start::Study(name)) = spec.start.as_deref() else {
-        return Ok(Some(Ground { rigidity: rigidity(runner.built)?, folded: None }));
+        return Ok(Some(Ground { rigidity: rigidity(runner.file, runner.built)?, folded: None }));
     };
     let Built { sheet, drawn, .. } = runner.built;
     let fits = |kept: &&Kept| kept.coordinates.len() == drawn.coordinates.len();
     let Some(kept) = runner.state(name).filter(fits) else { return Ok(None) };
-    let rigidity = Rigidity::of_state(sheet, rigid_facets(runner.built), &drawn.domain, &kept.coordinates)?;
+    let rigid = facet_stiffness(runner.file).is_infinite();
+    let rigidity = Rigidity::of_state(sheet, rigid, &drawn.domain, &kept.coordinates)?;
     Ok(Some(Ground { rigidity, folded: Some(kept.coordinates.clone()) }))
 }
 
-fn rigid_facets(built: &Built) -> bool {
-    built.recipe.facets.as_ref().is_some_and(|facets| facets.stiffness.is_infinite())
+/// Stiffness of the diagonals of polygons, which are rigid where the scene says nothing. The model of a patch does not
+/// have those that its rim cuts.
+fn facet_stiffness(file: &SceneFile) -> f64 {
+    file.scene.energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0)
 }
 
 /// Bars of the drawn state, and the locks of polygons that are rigid.
-fn rigidity(built: &Built) -> Result<Rigidity, BlochError> {
-    Rigidity::of_sheet(&built.sheet, rigid_facets(built))
+fn rigidity(file: &SceneFile, built: &Built) -> Result<Rigidity, BlochError> {
+    Rigidity::of_sheet(&built.sheet, facet_stiffness(file).is_infinite())
 }
 
 /// Stiffnesses of the energy; `None` where it has no bars, or a term is rigid.
-fn stiffnesses(built: &Built) -> Option<Stiffnesses> {
-    let recipe = &built.recipe;
-    let of = |hinges: &Option<Hinges>| hinges.as_ref().map_or(0.0, |hinges| hinges.stiffness);
-    let found = Stiffnesses { bars: recipe.bars?, creases: of(&recipe.creases), facets: of(&recipe.facets) };
+fn stiffnesses(file: &SceneFile, built: &Built) -> Option<Stiffnesses> {
+    let creases = built.recipe.creases.as_ref().map_or(0.0, |creases| creases.stiffness);
+    let has_facets = built.sheet.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
+    let facets = if has_facets { facet_stiffness(file) } else { 0.0 };
+    let found = Stiffnesses { bars: built.recipe.bars?, creases, facets };
     [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
 }
 
@@ -170,12 +175,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
 }
 
 /// All answers; `None` where the observer asked to stop.
-fn find(
-    runner: &Runner<'_>,
-    study: &StudySpec,
-    spec: &BlochSpec,
-    ground: Ground,
-) -> Result<Option<Found>, BlochError> {
+fn find(runner: &Runner<'_>, study: &StudySpec, spec: &BlochSpec, ground: Ground) -> Result<Option<Found>, BlochError> {
     let watch = |step: usize| {
         let (study, of) = (study.name.0.clone(), Some(4));
         runner.watch(&Progress { study, step, of, residual: f64::NAN, target: None })
@@ -221,7 +221,9 @@ fn shapes(rigidity: &Rigidity, spec: &BlochSpec, determinant: &Determinant) -> R
 
 /// The bands along the path of the scene.
 fn bands(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Vec<Bands>, BlochError> {
-    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.built)) else { return Ok(Vec::new()) };
+    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.file, runner.built)) else {
+        return Ok(Vec::new());
+    };
     let matrix = DynamicalMatrix::new(&runner.built.sheet, stiffnesses)?;
     let corners: Vec<[f64; 2]> = path.iter().map(|corner| corner.0).collect();
     along_path(&corners, STEPS).into_iter().map(|q| Ok(Bands { q, values: matrix.bands(q)? })).collect()
@@ -299,12 +301,7 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
 }
 
 /// A mode on the cells that are shown, in the frame of the mesh file, as velocities of the state of which it is.
-fn moving_picture(
-    runner: &Runner<'_>,
-    study: &StudySpec,
-    folded: Option<&Vec<f64>>,
-    mode: &ModeShape,
-) -> Picture {
+fn moving_picture(runner: &Runner<'_>, study: &StudySpec, folded: Option<&Vec<f64>>, mode: &ModeShape) -> Picture {
     let displacement = mode.on_cells(runner.view.patch.cells);
     let Some(x) = folded else { return Picture { displacement, ..studies::drawn_picture(runner, study) } };
     let Built { sheet, drawn: Drawn { domain, frame, .. }, .. } = runner.built;
