@@ -126,6 +126,12 @@ fn distance_from_singular(rigidity: &Rigidity, q: [f64; 2]) -> f64 {
     (singular_values[last] - 1e-15 * singular_values[0]).max(0.0) / slope(0).norm().hypot(slope(1).norm())
 }
 
+/// Largest distance of a point of a line from its first.
+fn extent(line: &ZeroLine) -> f64 {
+    let from = |q: &[f64; 2]| (q[0] - line.points[0][0]).hypot(q[1] - line.points[0][1]);
+    line.points.iter().map(from).fold(0.0, f64::max)
+}
+
 /// How far a line leaves `q = 0` off the nearest of some directions, in radians; 0 where it does not pass there.
 fn off_directions(line: &ZeroLine, directions: &[f64]) -> f64 {
     let last = line.points.len() - 1;
@@ -147,7 +153,7 @@ fn off_directions(line: &ZeroLine, directions: &[f64]) -> f64 {
 #[test]
 fn zero_lines_of_random_cells() {
     let (mut apart, mut reciprocity, mut counts) = (0.0f64, 0.0f64, [0; 5]);
-    let (mut residuals, mut by_matrix, mut checked) = (Vec::new(), 0.0f64, 0);
+    let (mut residuals, mut by_matrix, mut checked, mut small) = (Vec::new(), 0.0f64, 0, 0);
     let mut topologies = BTreeMap::new();
     let (mut angles, mut slowest) = (0.0f64, 0.0f64);
     for sheet in random_cells() {
@@ -178,6 +184,7 @@ fn zero_lines_of_random_cells() {
         counts[directions.len()] += 1;
         assert_eq!(lines.through_origin(), directions.len(), "{}", sheet.description);
         residuals.push(lines.lines.iter().map(|line| line.residual).fold(0.0, f64::max));
+        small += lines.lines.iter().filter(|line| extent(line) < TAU / 192.0).count();
         for line in &lines.lines {
             *topologies.entry((line.passes, line.winding.map(i32::abs))).or_insert(0) += 1;
             angles = angles.max(off_directions(line, &directions));
@@ -194,7 +201,7 @@ fn zero_lines_of_random_cells() {
         residuals[100],
         residuals[199]
     );
-    println!("passes and windings {topologies:?}, slowest {slowest}");
+    println!("passes and windings {topologies:?}, {small} lines smaller than the mesh, slowest {slowest}");
     println!("smallest singular value over its gradient at {checked} points: {by_matrix:e}");
     assert!(reciprocity <= 1e-12 && counts[1] == 0 && counts[3] == 0);
     assert!(residuals[199] <= 1e-12 && by_matrix <= 1e-12 && checked > 5000);
@@ -456,7 +463,8 @@ fn ill_conditioned_cells() {
             Ok(found) => {
                 let direct = pencil_roots(&rigidity, 0.9);
                 let limit = 1e-9 / found.error.max(1e-16);
-                for root in Decay::new(&found, 0, 0.9).unwrap().roots.iter().filter(|root| root.condition <= limit) {
+                let decay = Decay::new(&found, 0, 0.9).unwrap().refined(&rigidity);
+                for root in decay.roots.iter().filter(|root| root.condition <= limit) {
                     let apart = direct.iter().map(|z| (z / root.z - 1.0).norm()).fold(f64::INFINITY, f64::min);
                     worst = worst.max(apart);
                     answers += 1;
