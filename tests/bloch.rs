@@ -3,12 +3,15 @@
 
 mod common;
 
-use common::mesh;
+use common::{Numbers, mesh};
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use foldwell::analysis::bloch::decay::WELL_CONDITIONED;
 use foldwell::analysis::bloch::duality::{displacement, fold_rates};
 use foldwell::analysis::bloch::strain_form::StrainForm;
-use foldwell::analysis::bloch::{BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, ZeroLines, Zone};
+use foldwell::analysis::bloch::zero_lines::ZeroLine;
+use foldwell::analysis::bloch::{
+    BlochError, Decay, Determinant, Laurent, ModeShape, Polarization, Rigidity, ZeroLines, Zone,
+};
 use foldwell::kinematics::{Embedding, Shape};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
@@ -17,6 +20,8 @@ use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Corner, EdgeKey, Pattern, Sheet, generate};
 use nalgebra::Complex;
 use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::{PI, TAU};
 
 fn random(size: [usize; 2], seed: u64) -> Sheet {
     generate(&Pattern::Random(Random { size, seed, ..Random::default() })).unwrap()
@@ -65,13 +70,15 @@ fn stored_numbers_of_open_star() {
 }
 
 /// Claim: on 200 random cells the centred determinant is symmetric and real to 1e-12, powers are whole numbers, decay
-/// rates pair to 1e-9 where they are well conditioned, and as many roots are inside as outside: no polarization.
+/// rates pair to 1e-9 where they are well conditioned, and as many roots are inside as outside: no polarization. Of
+/// roots corrected on the matrix at most one in a hundred is ill-conditioned.
 #[test]
 fn random_cells_are_symmetric_and_not_polarized() {
-    let (mut symmetry, mut imaginary, mut error, mut pairing, mut left_out, mut pairs) =
-        (0.0f64, 0.0f64, 0.0f64, 0.0f64, 0, 0);
+    let (mut symmetry, mut imaginary, mut error, mut pairing) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
+    let (mut left_out, mut first_left_out, mut pairs) = (0, 0, 0);
     for sheet in random_cells() {
-        let found = determinant(&sheet);
+        let rigidity = Rigidity::of_sheet(&sheet, false).unwrap();
+        let found = Determinant::new(&rigidity).unwrap();
         assert!(
             found.symmetric && found.polynomial.lowest.iter().all(|low| low.fract() == 0.0),
             "{}",
@@ -81,7 +88,9 @@ fn random_cells_are_symmetric_and_not_polarized() {
         imaginary = imaginary.max(found.imaginary_part);
         error = error.max(found.error);
         for q1 in [-2.5, -1.0, 0.4, 0.9, 1.7, 2.9] {
-            let pairs_here = Decay::new(&found, 0, q1).unwrap();
+            let first = Decay::new(&found, 0, q1).unwrap();
+            first_left_out += first.pairing().left_out;
+            let pairs_here = first.clone().refined(&rigidity);
             let here = pairs_here.pairing();
             assert!(here.error <= 1e-9, "{}: {here:?}", sheet.description);
             pairing = pairing.max(here.error);
@@ -92,10 +101,11 @@ fn random_cells_are_symmetric_and_not_polarized() {
         assert_eq!(polarization, [0.0, 0.0], "{}", sheet.description);
     }
     println!(
-        "symmetry {symmetry:e}, imaginary {imaginary:e}, error {error:e}, pairing {pairing:e}, {left_out} of {pairs} left out"
+        "symmetry {symmetry:e}, imaginary {imaginary:e}, error {error:e}, pairing {pairing:e}, {left_out} of {pairs} left \
+         out, {first_left_out} by the polynomial"
     );
     assert!(symmetry <= 1e-12 && imaginary <= 1e-12 && error <= 1e-12);
-    assert!(8 * left_out <= pairs, "{left_out} roots of {pairs} are ill-conditioned");
+    assert!(100 * left_out <= pairs, "{left_out} roots of {pairs} are ill-conditioned");
 }
 
 /// Claim: at a flat state the determinant vanishes identically (theory, section 8): this is said, not computed with.
@@ -106,19 +116,49 @@ fn flat_sheets_have_no_determinant() {
     assert!(message.contains("flat sheet"), "{message}");
 }
 
+/// Distance of real wavenumbers from a singular `R` along the gradient: the smallest singular value over its gradient,
+/// `u^H dR v`; what singular values may be by rounding, 1e-15 of the largest, is taken off.
+fn distance_from_singular(rigidity: &Rigidity, q: [f64; 2]) -> f64 {
+    let z = q.map(|q| Complex::from_polar(1.0, q));
+    let ComplexSvd { u, singular_values, v } = complex_svd(&rigidity.at(z)).unwrap();
+    let last = singular_values.len() - 1;
+    let slope = |a: usize| (u.column(last).adjoint() * rigidity.derivative(z, a) * v.column(last))[(0, 0)] * z[a];
+    (singular_values[last] - 1e-15 * singular_values[0]).max(0.0) / slope(0).norm().hypot(slope(1).norm())
+}
+
+/// Largest distance of a point of a line from its first.
+fn extent(line: &ZeroLine) -> f64 {
+    let from = |q: &[f64; 2]| (q[0] - line.points[0][0]).hypot(q[1] - line.points[0][1]);
+    line.points.iter().map(from).fold(0.0, f64::max)
+}
+
+/// How far a line leaves `q = 0` off the nearest of some directions, in radians; 0 where it does not pass there.
+fn off_directions(line: &ZeroLine, directions: &[f64]) -> f64 {
+    let last = line.points.len() - 1;
+    // the second point is the first after q = 0, the one before the last comes back to it
+    let ends = [line.points[1], [0, 1].map(|a| line.points[last - 1][a] - line.points[last][a])];
+    let off = |q: &[f64; 2]| {
+        let from = |angle: &f64| (q[1].atan2(q[0]) - angle).sin().abs();
+        directions.iter().map(from).fold(f64::INFINITY, f64::min)
+    };
+    if line.passes > 0 { ends.iter().map(off).fold(0.0, f64::max) } else { 0.0 }
+}
+
 /// Claim: the leading quartic that the strains of the three linear modes give is that of the determinant's expansion up
 /// to one factor (1e-8 of its largest coefficient; rounding of moments of some 100 coefficients), reciprocity of any
 /// two modes holds to 1e-12, the determinant vanishes to fourth order, and the traced lines leave `q = 0` in the
 /// directions of the real roots, which are 0, 2 or 4 in number: on 200 random cells. All lines agree with the signs on
-/// a grid (`ZeroLines` refuses others).
+/// a grid (`ZeroLines` refuses others), and their points are zeros to 1e-12, by their own estimate and by the singular
+/// values of the matrix.
 #[test]
 fn zero_lines_of_random_cells() {
     let (mut apart, mut reciprocity, mut counts) = (0.0f64, 0.0f64, [0; 5]);
-    let mut residuals = Vec::new();
-    let mut topologies = std::collections::BTreeMap::new();
+    let (mut residuals, mut by_matrix, mut checked, mut small) = (Vec::new(), 0.0f64, 0, 0);
+    let mut topologies = BTreeMap::new();
     let (mut angles, mut slowest) = (0.0f64, 0.0f64);
     for sheet in random_cells() {
-        let zone = Zone::new(&determinant(&sheet)).unwrap();
+        let rigidity = Rigidity::of_sheet(&sheet, false).unwrap();
+        let zone = Zone::new(&Determinant::new(&rigidity).unwrap()).unwrap();
         assert_eq!(zone.order, 4, "{}", sheet.description);
         let form = StrainForm::new(&sheet).unwrap();
         let quartic = form.quartic();
@@ -133,23 +173,21 @@ fn zero_lines_of_random_cells() {
         reciprocity = reciprocity.max((one - two).abs() / form.strains.norm());
         let clock = std::time::Instant::now();
         let lines = ZeroLines::new(&zone).unwrap_or_else(|error| panic!("{}: {error}", sheet.description));
+        let lines = lines.refined(&zone, &rigidity);
         slowest = slowest.max(clock.elapsed().as_secs_f64());
+        let away = |q: &&[f64; 2]| q.iter().any(|q| ((q + PI).rem_euclid(TAU) - PI).abs() > 0.1);
+        for q in lines.lines.iter().flat_map(|line| &line.points).filter(away).step_by(29) {
+            by_matrix = by_matrix.max(distance_from_singular(&rigidity, *q));
+            checked += 1;
+        }
         let directions = zone.directions().unwrap();
         counts[directions.len()] += 1;
         assert_eq!(lines.through_origin(), directions.len(), "{}", sheet.description);
         residuals.push(lines.lines.iter().map(|line| line.residual).fold(0.0, f64::max));
+        small += lines.lines.iter().filter(|line| extent(line) < TAU / 192.0).count();
         for line in &lines.lines {
             *topologies.entry((line.passes, line.winding.map(i32::abs))).or_insert(0) += 1;
-            if line.passes > 0 {
-                // the second point is the first after q = 0, the one before the last comes back to it
-                for q in [line.points[1], {
-                    let k = line.points.len() - 2;
-                    [0, 1].map(|a| line.points[k][a] - line.points[k + 1][a])
-                }] {
-                    let off = |angle: &f64| (q[1].atan2(q[0]) - angle).sin().abs();
-                    angles = angles.max(directions.iter().map(off).fold(f64::INFINITY, f64::min));
-                }
-            }
+            angles = angles.max(off_directions(line, &directions));
         }
         let sum: f64 = lines.regions.iter().map(|region| region.fraction).sum();
         assert!((sum - 1.0).abs() <= 1e-12);
@@ -163,13 +201,56 @@ fn zero_lines_of_random_cells() {
         residuals[100],
         residuals[199]
     );
-    println!("passes and windings {topologies:?}, slowest {slowest}");
+    println!("passes and windings {topologies:?}, {small} lines smaller than the mesh, slowest {slowest}");
+    println!("smallest singular value over its gradient at {checked} points: {by_matrix:e}");
     assert!(reciprocity <= 1e-12 && counts[1] == 0 && counts[3] == 0);
-    // where the determinant is flat, its rounding over its gradient is more than 1e-12
-    assert!(residuals[100] <= 1e-12 && residuals[199] <= 1e-9);
+    assert!(residuals[199] <= 1e-12 && by_matrix <= 1e-12 && checked > 5000);
     assert!(counts[0] > 0 && counts[2] > 0, "{counts:?}");
     // the curves are 1e-4 away from q = 0 there
     assert!(angles <= 1e-2, "{angles:e}");
+}
+
+/// The determinant `(cos q1 - cos s1)^2 + (cos q2 - cos s2)^2 - depth` without a sheet: zero on four closed lines round
+/// `(+-s1, +-s2)`, ellipses of the semiaxes `sqrt(depth) / sin s` up to terms of their cube; nowhere for negative depth.
+fn four_loops(s: [f64; 2], depth: f64) -> Determinant {
+    let mut coefficients = DenseMatrix::zeros(5, 5);
+    for (a, cosine) in s.map(f64::cos).into_iter().enumerate() {
+        for (power, c) in [(0, 0.25), (1, -cosine), (2, 0.5 + cosine * cosine), (3, -cosine), (4, 0.25)] {
+            coefficients[if a == 0 { (power, 2) } else { (2, power) }] += c;
+        }
+    }
+    coefficients[(2, 2)] -= depth;
+    let polynomial = Laurent { coefficients, lowest: [-2.0, -2.0] };
+    let none = f64::EPSILON;
+    Determinant { polynomial, symmetric: true, symmetry_error: 0.0, imaginary_part: 0.0, error: none, magnitude: 8.0 }
+}
+
+/// Claim: closed lines a thousandth as large as the mesh of the grid are found, which no sign on the grid betrays, all
+/// four and nothing else, and they are where the polynomial has them; a determinant that nearly touches zero has none.
+/// Tolerance: 1e-4 of the semiaxes for the terms of their cube, and for lengths of polygons of turns of 0.15.
+#[test]
+fn lines_smaller_than_the_mesh() {
+    let mesh = TAU / 192.0;
+    for s in [[1.234f64, 2.1], [0.7, 0.31], [2.9, 1.6]] {
+        for radius in [1e-3 * mesh, 0.3 * mesh] {
+            let axes = s.map(|angle| radius * s[0].sin() / angle.sin());
+            let depth = (radius * s[0].sin()).powi(2);
+            let lines = ZeroLines::new(&Zone::new(&four_loops(s, depth)).unwrap()).unwrap();
+            assert_eq!(lines.lines.len(), 4, "{s:?} {radius:e}");
+            for line in &lines.lines {
+                assert_eq!((line.winding, line.passes), ([0, 0], 0));
+                for q in &line.points {
+                    let part = |a: usize| (((q[a] + PI).rem_euclid(TAU) - PI).abs() - s[a]) / axes[a];
+                    let off = (part(0).hypot(part(1)) - 1.0).abs();
+                    assert!(off <= 2.0 * radius / s[0].sin().min(s[1].sin()) + 1e-6, "{off:e}");
+                }
+            }
+        }
+        for depth in [-1e-9, -1e-13] {
+            let none = ZeroLines::new(&Zone::new(&four_loops(s, depth)).unwrap()).unwrap();
+            assert!(none.lines.is_empty() && none.regions.len() == 1);
+        }
+    }
 }
 
 /// Claim: at every wavenumber there are as many zero modes as self stresses at the opposite one, and by the fold rates
@@ -208,6 +289,94 @@ fn duality_at_finite_wavenumber() {
     }
     println!("duality: {worst:?}");
     assert!(worst.iter().all(|error| *error <= 1e-9), "{worst:?}");
+}
+
+/// Forces on the vertices of tensions in some bars, multiplied by `z1` and `z2` from a cell to the next, put together
+/// vertex by vertex from the edges: `rows x columns` of coordinates by bars.
+fn equilibrium(sheet: &Sheet, bars: &[usize], z: [Complex<f64>; 2]) -> ComplexMatrix {
+    let mut matrix = ComplexMatrix::zeros(3 * sheet.vertices.len(), bars.len());
+    for (column, &bar) in bars.iter().enumerate() {
+        let key = sheet.edges[bar].key;
+        let [i, j] = key.ends();
+        let pull = (sheet.position(j) - sheet.position(i)).normalize();
+        // vertex j of cell (0, 0) ends the copy of the bar that starts `shift` before it
+        let there = z[0].powi(-key.shift[0]) * z[1].powi(-key.shift[1]);
+        for axis in 0..3 {
+            matrix[(3 * key.i + axis, column)] += Complex::from(pull[axis]);
+            matrix[(3 * key.j + axis, column)] -= there * pull[axis];
+        }
+    }
+    matrix
+}
+
+/// The number of singular values above 1e-9 of the largest, zeros added to make the matrix square.
+fn rank(matrix: &ComplexMatrix) -> usize {
+    let n = matrix.nrows().max(matrix.ncols());
+    let square = matrix.clone().resize(n, n, Complex::ZERO);
+    let values = complex_svd(&square).unwrap().singular_values;
+    values.iter().filter(|value| **value > 1e-9 * values[0]).count()
+}
+
+/// Claim (index theorem): at every pair of factors the zero modes less the self stresses are coordinates less bars: of
+/// triangulated cells, where both numbers are those at `1/z` too (duality); of cells with a bar less; of one with an
+/// opening. At random real and complex wavenumbers, on zero lines, on complex roots and at `q = 0`; modes from the
+/// rigidity matrix at `z`, self stresses at `1/z` from forces put together on their own. The numbers found are printed:
+/// they are generic off the lines, and larger on them.
+#[test]
+fn index_theorem() {
+    let mut numbers = Numbers::new(5);
+    let mut found: BTreeMap<(&str, &str, isize), BTreeMap<[usize; 2], usize>> = BTreeMap::new();
+    let mut kirigami_sheets = vec![mesh("kirigami")];
+    kirigami_sheets.extend((0..8).filter_map(|seed| random_kirigami([3, 3], 2, seed)));
+    let triangulated = random_cells().step_by(5).map(|sheet| ("triangulated", sheet));
+    for (kind, sheet) in triangulated.chain(kirigami_sheets.into_iter().map(|sheet| ("opening", sheet))) {
+        let full = Rigidity::of_sheet(&sheet, false).unwrap();
+        for (kind, missing) in [(kind, None), ("bar less", Some(numbers.many(1, 0.49)[0] + 0.5))] {
+            let out = missing.map(|part| (part * sheet.edges.len() as f64) as usize);
+            let bars: Vec<usize> = (0..sheet.edges.len()).filter(|&bar| Some(bar) != out).collect();
+            let rows = bars.iter().map(|&bar| full.rows[bar].clone()).collect();
+            let rigidity = Rigidity { vertices: full.vertices, rows };
+            let count = rigidity.columns() as isize - bars.len() as isize;
+            for (place, z) in places(&sheet, &mut numbers) {
+                let zero_modes = rigidity.columns() - rank(&rigidity.at(z));
+                let stresses = |z| bars.len() - rank(&equilibrium(&sheet, &bars, z));
+                let opposite = stresses(z.map(|z| z.inv()));
+                assert_eq!(zero_modes as isize - opposite as isize, count, "{kind} {place} {z:?}");
+                if kind == "triangulated" {
+                    assert_eq!(stresses(z), zero_modes, "{place} {z:?}");
+                }
+                *found.entry((kind, place, count)).or_default().entry([zero_modes, opposite]).or_insert(0) += 1;
+            }
+        }
+    }
+    for (case, numbers) in &found {
+        println!("{case:?}: [zero modes, self stresses] and how often: {numbers:?}");
+    }
+    assert_eq!(found[&("triangulated", "random real", 0)].keys().next(), Some(&[0, 0]));
+    assert_eq!(found[&("triangulated", "zero line", 0)].keys().next(), Some(&[1, 1]));
+}
+
+/// Factors of all kinds: random ones, and for a triangulated cell on its zero lines and roots.
+fn places(sheet: &Sheet, numbers: &mut Numbers) -> Vec<(&'static str, [Complex<f64>; 2])> {
+    let on_zone = |q: [f64; 2]| q.map(|q| Complex::from_polar(1.0, q));
+    let mut places = vec![("q = 0", [Complex::ONE; 2])];
+    for _ in 0..5 {
+        let [q1, q2, k1, k2] = [PI, PI, 1.0, 1.0].map(|size| numbers.within(size));
+        places.push(("random real", on_zone([q1, q2])));
+        places.push(("random complex", [Complex::from_polar(k1.exp(), q1), Complex::from_polar(k2.exp(), q2)]));
+    }
+    let rigidity = Rigidity::of_sheet(sheet, false).unwrap();
+    let Ok(found) = Determinant::new(&rigidity) else { return places };
+    let Ok(zone) = Zone::new(&found) else { return places };
+    let lines = ZeroLines::new(&zone).unwrap().refined(&zone, &rigidity);
+    let points = lines.lines.iter().flat_map(|line| &line.points);
+    let off_origin = points.filter(|q| q.iter().any(|q| ((q + PI).rem_euclid(TAU) - PI).abs() > 0.3));
+    places.extend(off_origin.step_by(97).map(|q| ("zero line", on_zone(*q))));
+    let decay = Decay::new(&found, 0, 0.9).unwrap().refined(&rigidity);
+    let roots =
+        decay.roots.iter().filter(|root| !root.on_circle() && root.condition <= 1e3 && root.kappa().abs() < 2.0);
+    places.extend(roots.map(|root| ("complex root", [Complex::from_polar(1.0, 0.9), root.z])));
+    places
 }
 
 /// The roots `z2` at `q1` from the matrix itself: every row scaled by a power of `z2` to `A + z2 B`, whose roots are
@@ -256,9 +425,8 @@ fn decay_rates_agree_with_the_matrix_pencil() {
         let found = determinant(&sheet);
         for q1 in [0.4, 0.9, -2.2] {
             let direct = pencil_roots(&rigidity, q1);
-            for root in
-                Decay::new(&found, 0, q1).unwrap().roots.iter().filter(|root| root.condition <= WELL_CONDITIONED)
-            {
+            let decay = Decay::new(&found, 0, q1).unwrap().refined(&rigidity);
+            for root in decay.roots.iter().filter(|root| root.condition <= WELL_CONDITIONED) {
                 let apart = direct.iter().map(|z| (z / root.z - 1.0).norm()).fold(f64::INFINITY, f64::min);
                 worst = worst.max(apart);
                 compared += 1;
@@ -295,7 +463,8 @@ fn ill_conditioned_cells() {
             Ok(found) => {
                 let direct = pencil_roots(&rigidity, 0.9);
                 let limit = 1e-9 / found.error.max(1e-16);
-                for root in Decay::new(&found, 0, 0.9).unwrap().roots.iter().filter(|root| root.condition <= limit) {
+                let decay = Decay::new(&found, 0, 0.9).unwrap().refined(&rigidity);
+                for root in decay.roots.iter().filter(|root| root.condition <= limit) {
                     let apart = direct.iter().map(|z| (z / root.z - 1.0).norm()).fold(f64::INFINITY, f64::min);
                     worst = worst.max(apart);
                     answers += 1;
@@ -330,17 +499,113 @@ fn kirigami_is_polarized() {
     assert!(matches!(Zone::new(&found), Err(BlochError::NotSymmetric { .. })));
 }
 
+/// A random cell of which pairs of triangles are merged to `pairs` rigid quadrilaterals and as many openings; `None`
+/// where no two of them are apart, or the mesh is refused.
+fn random_kirigami(size: [usize; 2], pairs: usize, seed: u64) -> Option<Sheet> {
+    let mut numbers = Numbers::new(seed);
+    let drawn = draw(&random(size, seed));
+    let mut faces = drawn.faces.clone();
+    let mut quadrilaterals = Vec::new();
+    while quadrilaterals.len() < 2 * pairs {
+        let mut joined = Vec::new();
+        for (i, face) in faces.iter().enumerate() {
+            for k in 0..3 {
+                let [p, q, r] = [0, 1, 2].map(|step| face[(k + step) % 3]);
+                let other = faces.iter().position(|other| (0..3).any(|k| other[k] == q && other[(k + 1) % 3] == p));
+                if let Some(j) = other.filter(|&j| j > i) {
+                    let far = faces[j].iter().copied().find(|&v| v != p && v != q)?;
+                    joined.push(([i, j], vec![p, far, q, r]));
+                }
+            }
+        }
+        let at = (joined.len() as f64 * (0.5 + numbers.within(0.5))) as usize;
+        let ([i, j], quadrilateral) = joined.into_iter().nth(at)?;
+        faces.remove(j);
+        faces.remove(i);
+        quadrilaterals.push(quadrilateral);
+    }
+    let holes = quadrilaterals.split_off(pairs);
+    build(&Drawn { faces: [faces, quadrilaterals].concat(), holes, ..drawn }).ok()
+}
+
+/// The sheet with its rigid polygons and its openings exchanged.
+fn exchanged(sheet: &Sheet) -> Sheet {
+    let drawn = draw(sheet);
+    let (blocks, triangles): (Vec<_>, Vec<_>) = drawn.faces.iter().cloned().partition(|face| face.len() > 3);
+    build(&Drawn { faces: [triangles, drawn.holes.clone()].concat(), holes: blocks, ..drawn }).unwrap()
+}
+
+/// How often the centred determinant goes round zero along both directions, at some other wavenumber; `None` where it
+/// is nearly zero on the way, or turns too far between neighbours to tell.
+fn winding(found: &Determinant) -> Option<[f64; 2]> {
+    let steps = 2000;
+    let along = |a: usize, other: f64| {
+        let value = |k: usize| {
+            let mut q = [other; 2];
+            q[a] = TAU * k as f64 / steps as f64;
+            found.polynomial.at(q)
+        };
+        let turn = |k: usize| (value(k + 1) / value(k)).arg();
+        let turns: Vec<f64> = (0..steps).map(turn).collect();
+        let clear = turns.iter().all(|turn| turn.abs() < 1.0);
+        clear.then(|| (turns.iter().sum::<f64>() / TAU * 2.0).round() / 2.0)
+    };
+    Some([along(0, 0.37)?, along(1, 0.37)?])
+}
+
+/// Claim: random kirigami cells have polarizations of many values, printed here with how many cells have them; where no
+/// root is on the circle they are halves of whole numbers, and the winding numbers of the determinant round the zone;
+/// with faces and openings exchanged they change sign, as dual sheets must.
+#[test]
+fn polarizations_of_random_kirigami() {
+    let mut tables = BTreeMap::new();
+    let (mut gapped, mut cells) = (0, 0);
+    for (size, pairs) in [([2, 2], 1), ([3, 2], 1), ([3, 2], 2), ([3, 3], 1), ([3, 3], 2)] {
+        for seed in 0..60 {
+            let Some(sheet) = random_kirigami(size, pairs, seed) else { continue };
+            let Ok(found) = Determinant::new(&Rigidity::of_sheet(&sheet, true).unwrap()) else { continue };
+            cells += 1;
+            let Polarization { polarization, on_circle } = Polarization::new(&found, 24).unwrap();
+            let halves = polarization.map(|p| (2.0 * p).round() as i32);
+            let constant = (0..2).all(|a| (2.0 * polarization[a] - f64::from(halves[a])).abs() <= 1e-12);
+            if on_circle != [0.0, 0.0] || !constant {
+                continue; // roots cross the circle
+            }
+            gapped += 1;
+            assert_eq!(winding(&found).unwrap_or(polarization), polarization, "{size:?} {pairs} {seed}");
+            if seed % 5 == 0 {
+                let other = Polarization::new(&kirigami(&exchanged(&sheet)), 8).unwrap();
+                assert_eq!(other.polarization, polarization.map(|p| 0.0 - p), "{size:?} {pairs} {seed}");
+            }
+            tables.entry((size, pairs)).or_insert_with(BTreeMap::new).entry(halves).or_insert((0, seed)).0 += 1;
+        }
+    }
+    println!("{gapped} of {cells} cells have no root on the circle");
+    for (cells, values) in &tables {
+        println!("{cells:?}: twice the polarization, (cells, first seed): {values:?}");
+    }
+    let values: BTreeSet<[i32; 2]> = tables.values().flat_map(|values| values.keys().copied()).collect();
+    assert!(values.len() >= 15 && [[-2, 3], [0, 3], [2, 1], [-1, 0]].iter().all(|value| values.contains(value)));
+}
+
+/// Claim: the mesh of a strong polarization is the cell of that scan, and has it.
+#[test]
+fn mesh_of_another_polarization() {
+    let (sheet, cell) = (mesh("kirigami-polarized"), random_kirigami([3, 2], 1, 0).unwrap());
+    let same = sheet.vertices.iter().zip(&cell.vertices).all(|(a, b)| (a - b).norm() <= 1e-12);
+    assert!(same && sheet.vertices.len() == cell.vertices.len() && sheet.polygons.len() == cell.polygons.len());
+    let found = kirigami(&sheet);
+    let Polarization { polarization, on_circle } = Polarization::new(&found, 64).unwrap();
+    assert_eq!((polarization, on_circle, winding(&found)), ([-1.0, 1.5], [0.0, 0.0], Some([-1.0, 1.5])));
+}
+
 /// Claim (Finbow-Singh and Whiteley's swap): with faces and holes exchanged, folding motions become self stresses: the
 /// determinant of the exchanged sheet at `1/z` is that of the sheet at `z` up to a monomial and a factor. Tolerance:
 /// 1e-10 of the largest coefficient.
 #[test]
 fn faces_and_holes_swap() {
     let sheet = mesh("kirigami");
-    let drawn = draw(&sheet);
-    let (blocks, triangles): (Vec<_>, Vec<_>) = drawn.faces.iter().cloned().partition(|face| face.len() == 4);
-    let swapped = Drawn { faces: [triangles, drawn.holes.clone()].concat(), holes: blocks, ..drawn };
-    let [one, other] =
-        [kirigami(&sheet), kirigami(&build(&swapped).unwrap())].map(|found| found.polynomial.coefficients);
+    let [one, other] = [kirigami(&sheet), kirigami(&exchanged(&sheet))].map(|found| found.polynomial.coefficients);
     assert_eq!(one.shape(), other.shape());
     let (rows, columns) = one.shape();
     let turned = DenseMatrix::from_fn(rows, columns, |i, j| other[(rows - 1 - i, columns - 1 - j)]);

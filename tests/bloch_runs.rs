@@ -67,6 +67,40 @@ fn kirigami_cell() {
     assert_eq!((found.zero_lines, found.positive_fraction, found.order_at_origin), (0, None, None));
 }
 
+/// Claim: a rigid polygon that the rim of one drawn cell cuts is as rigid as any: the second kirigami scene has a
+/// determinant, and the polarization that the scan of random cells found.
+#[test]
+fn polygons_cut_by_the_rim_are_rigid() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = run(&meshes().join("kirigami-polarized-bloch.toml"), folder.path(), false).unwrap();
+    assert_eq!((result(&report).polarization, result(&report).on_circle), ([-1.0, 1.5], [0.0, 0.0]));
+}
+
+/// Claim: the scene of the cylinder gives modes of the rolled state: a determinant that vanishes to second order at `q =
+/// 0` and at the rotation angles of the lattice to 1e-12 (theory, section 8), symmetric, with rates that pair; mode
+/// shapes are velocities of the rolled cells; the rings are drawn; and a run that resumes knows the state still.
+#[test]
+fn cylinder() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = run(&meshes().join("star-cylinder-bloch.toml"), folder.path(), false).unwrap();
+    let Some(StudyResult::Bloch(found)) = &report.summary.studies[1].result else { panic!("{:?}", report.summary) };
+    assert!(report.summary.converged() && found.symmetry_error <= 1e-12 && found.pairing_error <= 1e-9);
+    println!("theta {:?}, from a zero {:e}", found.theta, found.theta_to_zero.unwrap());
+    assert_eq!((found.order_at_origin, found.polarization), (Some(2), [0.0, 0.0]));
+    assert!(found.theta.unwrap().iter().all(|theta| theta.abs() > 0.01));
+    assert!(found.theta_to_zero.unwrap() <= 1e-12, "{:?}", found.theta_to_zero);
+    let picture = std::fs::read_to_string(folder.path().join("modes.svg")).unwrap();
+    assert_eq!(picture.matches("r=\"9\"").count(), 2);
+    let points = |file: &str| foldwell::output::vtk::read_vtu(&folder.path().join(file)).unwrap().points;
+    let [mode, rolled] = ["modes/modes_mode_0000.vtu", "rolled/rolled_0001.vtu"].map(points);
+    let apart = mode.iter().zip(&rolled).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    assert!(mode.len() == rolled.len() && apart <= 1e-12, "{apart:e}");
+    std::fs::remove_file(folder.path().join("modes.csv")).unwrap();
+    let again = run(&meshes().join("star-cylinder-bloch.toml"), folder.path(), true).unwrap();
+    assert_eq!(again.kept, ["rolled"]);
+    assert_eq!(again.summary.studies[1].result, report.summary.studies[1].result);
+}
+
 /// Claim: what cannot be done is refused before anything is written, and a sheet without a determinant is a study that
 /// failed.
 #[test]
@@ -85,6 +119,16 @@ fn what_cannot_be_done() {
         ("generate = { pattern = \"random\" }", "path = [[0, 0], [1, 0]]", "bands need an energy of springs"),
         ("generate = { pattern = \"random\" }", "modes = [[0.1, inf]]", "the number is inf"),
         ("generate = { pattern = \"random\" }", "q1 = [nan]", "the number is NaN"),
+        ("generate = { pattern = \"random\" }", "grid = [0, 8]", "0"),
+        ("generate = { pattern = \"random\" }", "modes = [[0.1]]", "the list has 1 values"),
+        ("generate = { pattern = \"random\" }", "kappa = 1", "kappa"),
+        ("generate = { pattern = \"random\" }", "start = \"rolled\"", "no earlier study is called"),
+        (
+            "generate = { pattern = \"random\" }",
+            "start = { random = 0.1, seed = 1 }",
+            "a state that an earlier study found",
+        ),
+        ("generate = { pattern = \"random\" }", "start = \"a.vtu\"", "a state that an earlier study found"),
     ];
     for (sheet, keys, expected) in cases {
         let error = run(&scene(sheet, keys), &out, false).unwrap_err();
@@ -92,6 +136,23 @@ fn what_cannot_be_done() {
         assert!(error.to_string().contains(expected), "{error}");
         assert!(!out.exists());
     }
+    let relaxed = |domain: &str, keys: &str| {
+        let energy = "[energy]\nbars = { stiffness = 100.0 }\ncreases = { stiffness = 1.0 }\n[[study]]\nname = \"r\"\nkind = \
+                      \"relax\"\ntolerance = 1e-9";
+        scene(&format!("generate = {{ pattern = \"random\" }}\n{domain}\n{energy}"), &format!("start = \"r\"\n{keys}"))
+    };
+    let cases = [
+        ("domain = \"patch\"", "", "those of a state of one cell"),
+        ("domain = \"torus\"\ncells = [2, 1]", "", "those of a state of one cell"),
+        ("domain = \"torus\"", "path = [[0, 0], [1, 0]]", "bands are those of the drawn state"),
+    ];
+    for (domain, keys, expected) in cases {
+        let error = run(&relaxed(domain, keys), &out, false).unwrap_err();
+        assert!(error.exit_status() == 2 && error.to_string().contains(expected) && !out.exists(), "{error}");
+    }
+    let report = run(&relaxed("domain = \"torus\"", ""), &out, false).unwrap();
+    let Some(StudyResult::Bloch(still)) = &report.summary.studies[1].result else { panic!("{:?}", report.summary) };
+    assert_eq!((still.theta, still.order_at_origin), (Some([0.0; 2]), Some(4)));
     let report = run(&scene("generate = { pattern = \"random-developable\" }", ""), &out, false).unwrap();
     let study = &report.summary.studies[0];
     assert!(!study.converged && study.reason.as_ref().unwrap().contains("flat sheet"), "{study:?}");

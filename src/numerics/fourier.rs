@@ -1,4 +1,11 @@
 //! Coefficients of a Laurent polynomial in two variables from its values at roots of unity, by fast Fourier transform.
+//!
+//! Why rustfft: it is pure Rust, takes any length (the number of powers of a determinant is seldom a power of two), is
+//! what most of the ecosystem uses (31 million downloads in all, 9 million in a quarter, when 6.4.1 of September 2025
+//! was the newest), and a search of its issues found no open report of unsound code; its paths for vector instructions,
+//! where most of its `unsafe` is, are switched off here. phastft takes powers of two only, which would mean up to four
+//! times as many determinants; realfft is rustfft for real values; bindings of FFTW need a C library. At the lengths here,
+//! some tens, a direct sum would do as well: the determinants cost far more than the transform.
 
 use super::complex::ComplexMatrix;
 use nalgebra::Complex;

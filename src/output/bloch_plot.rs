@@ -4,7 +4,8 @@
 //!
 //! Decay rates are dots, dark where the mode neither grows nor decays. The map is blue where the determinant is
 //! positive and red where it is negative, the deeper the larger its fourth root is, since it vanishes to fourth order
-//! at `q = 0`; a determinant that is not real is drawn by its magnitude. The SVG is written directly: the same numbers
+//! at `q = 0`; a determinant that is not real is drawn by its magnitude. Rings mark the wavenumbers of a cylinder's
+//! rotations. The SVG is written directly: the same numbers
 //! give the same bytes.
 
 use std::f64::consts::{PI, TAU};
@@ -48,6 +49,8 @@ pub struct BlochPlot<'a> {
     pub polynomial: &'a Laurent,
     /// Lines of zeros, continuous in wavenumbers.
     pub lines: Vec<Vec<[f64; 2]>>,
+    /// Wavenumbers that are marked on the map.
+    pub marks: Vec<[f64; 2]>,
 }
 
 /// Writes the picture.
@@ -68,6 +71,7 @@ fn svg(plot: &BlochPlot<'_>, title: &str) -> String {
     rates(&mut text, plot);
     map(&mut text, plot);
     lines(&mut text, plot);
+    marks(&mut text, plot);
     text.push_str("</svg>\n");
     text
 }
@@ -178,6 +182,15 @@ fn lines(text: &mut String, plot: &BlochPlot<'_>) {
     }
 }
 
+/// Rings at the marked wavenumbers.
+fn marks(text: &mut String, plot: &BlochPlot<'_>) {
+    for q in &plot.marks {
+        let [x, y] = q.map(|q| along((q + PI).rem_euclid(TAU) - PI));
+        let (x, y) = (LEFT[1] + x, TOP + SIDE - y);
+        put!(text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"9\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"2\"/>\n");
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -192,10 +205,12 @@ mod tests {
             Laurent { coefficients: DenseMatrix::from_row_slice(1, 3, &[0.5, 0.2, 0.5]), lowest: [0.0, -1.0] };
         let rates = vec![(0.5, 0.3, false), (0.5, -0.3, false), (0.7, 0.0, true), (1.0, 40.0, false)];
         let across = vec![[PI - 0.1, 0.0], [PI - 0.01, 0.1], [PI + 0.1, 0.2]];
-        let plot = BlochPlot { rates, polynomial: &polynomial, lines: vec![across] };
+        let plot = BlochPlot { rates, polynomial: &polynomial, lines: vec![across], marks: vec![[0.3, -0.2 + TAU]] };
         let text = svg(&plot, "a < b");
         assert!(text.contains("<title>a &lt; b</title>") && !text.contains("NaN"));
-        assert_eq!(text.matches("<circle").count(), 3);
+        assert_eq!(text.matches("<circle").count(), 3 + 1);
+        let ring = format!("cx=\"{:.1}\" cy=\"{:.1}\"", LEFT[1] + along(0.3), TOP + SIDE - along(-0.2));
+        assert!(text.contains(&ring), "{ring}");
         let squares = |path: &str| {
             let width: f64 = path.split_once('M')?.1.split_once('h')?.1.split_once('v')?.0.parse().ok()?;
             Some((width * SQUARES as f64 / SIDE).round() as usize)

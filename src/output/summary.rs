@@ -326,6 +326,11 @@ pub struct BlochSummary {
     pub order_at_origin: Option<usize>,
     /// Angles in the plane of `(q1, q2)` at which zero lines pass `q = 0`.
     pub directions: Vec<f64>,
+    /// Rotation angles from a cell to the next of the state that was asked about: wavenumbers of its rotations about
+    /// directions across the axis. `None` of the drawn state.
+    pub theta: Option<[f64; 2]>,
+    /// Distance of these wavenumbers from a zero of the determinant, its value there over its gradient.
+    pub theta_to_zero: Option<f64>,
 }
 
 /// Roots at one wavenumber.

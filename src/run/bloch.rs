@@ -1,22 +1,29 @@
 //! `kind = "bloch"`: asks the analysis, writes the table of decay rates, the map and the zero lines, summarises.
 
+use super::resume::Kept;
 use super::runner::Runner;
 use super::{Progress, RunError, studies};
 use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use crate::analysis::bloch::laurent::wavenumber;
+use crate::analysis::bloch::rigidity::cell_rotation;
 use crate::analysis::bloch::{
     BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, Root, ZeroLines, Zone,
 };
-use crate::model::assemble::Hinges;
+use crate::analysis::state::cylinder;
+use crate::math::Vec3;
+use crate::model::Domain;
+use crate::model::assemble::Drawn;
 use crate::output::Picture;
 use crate::output::bloch_plot::{self, BlochPlot};
 use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, StudySummary, ZeroLineSummary};
 use crate::output::table::{Table, Value};
 use crate::output::vtk;
-use crate::scene::SceneFile;
 use crate::scene::build::Built;
+use crate::scene::forms::Start;
 use crate::scene::spec::{BlochSpec, Draw, StudySpec};
 use crate::scene::values::Pair;
+use crate::scene::{Located, SceneFile};
+use crate::sheet::EdgeKind;
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -34,11 +41,14 @@ const DRAWN: usize = 240;
 
 /// Spatially varying modes need a lattice, and as many conditions as coordinates.
 pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &BlochSpec) -> Result<(), RunError> {
-    if let (Some(path), None) = (&spec.path, stiffnesses(built)) {
+    if let Some(start) = &spec.start {
+        check_start(file, built, spec, start)?;
+    }
+    if let (Some(path), None) = (&spec.path, stiffnesses(file, built)) {
         let help = "give bars a finite stiffness and facets too, or leave out `path`";
         return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
     }
-    let refused = rigidity(built).and_then(|rigidity| rigidity.require_square());
+    let refused = rigidity(file, built).and_then(|rigidity| rigidity.require_square());
     let help = match &refused {
         Ok(()) => return Ok(()),
         Err(BlochError::NoLattice) => "a periodic sheet has the key `foldwell:lattice` in its mesh",
@@ -50,22 +60,69 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &BlochSpe
     }
 }
 
-/// Bars, and the locks of polygons that are rigid.
-fn rigidity(built: &Built) -> Result<Rigidity, BlochError> {
-    let rigid = built.recipe.facets.as_ref().is_some_and(|facets| facets.stiffness.is_infinite());
-    Rigidity::of_sheet(&built.sheet, rigid)
+/// A state of one cell that an earlier study found.
+fn check_start(file: &SceneFile, built: &Built, spec: &BlochSpec, start: &Located<Start>) -> Result<(), RunError> {
+    let wrong = |message: &str, help: &str| Err(file.error_at(start.span(), message, help).into());
+    match &**start {
+        Start::Drawn => Ok(()),
+        Start::Study(_) if matches!(built.drawn.domain, Domain::Patch) || built.tiling.cells != [1, 1] => {
+            let help = "give domain = \"screw\", or \"torus\" with cells = [1, 1]";
+            wrong("spatially varying modes are those of a state of one cell", help)
+        }
+        Start::Study(_) if spec.path.is_some() => {
+            wrong("bands are those of the drawn state, which is at rest", "leave out `path` or `start`")
+        }
+        Start::Study(_) => Ok(()),
+        Start::Random(_) | Start::File(_) => {
+            wrong("spatially varying modes need a state that an earlier study found", "give the name of that study")
+        }
+    }
+}
+
+/// The state of which modes are wanted.
+struct Ground {
+    /// Bars, and the locks of polygons that are rigid.
+    rigidity: Rigidity,
+    /// All coordinates of the state of an earlier study; `None`: as drawn.
+    folded: Option<Vec<f64>>,
+}
+
+/// The state that the scene names; `None` where the study that should have found it did not.
+fn ground(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Option<Ground>, BlochError> {
+    let Some(Start::Study(name)) = spec.start.as_deref() else {
+        return Ok(Some(Ground { rigidity: rigidity(runner.file, runner.built)?, folded: None }));
+    };
+    let Built { sheet, drawn, .. } = runner.built;
+    let fits = |kept: &&Kept| kept.coordinates.len() == drawn.coordinates.len();
+    let Some(kept) = runner.state(name).filter(fits) else { return Ok(None) };
+    let rigid = facet_stiffness(runner.file).is_infinite();
+    let rigidity = Rigidity::of_state(sheet, rigid, &drawn.domain, &kept.coordinates)?;
+    Ok(Some(Ground { rigidity, folded: Some(kept.coordinates.clone()) }))
+}
+
+/// Stiffness of the diagonals of polygons, which are rigid where the scene says nothing. The model of a patch does not
+/// have those that its rim cuts.
+fn facet_stiffness(file: &SceneFile) -> f64 {
+    file.scene.energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0)
+}
+
+/// Bars of the drawn state, and the locks of polygons that are rigid.
+fn rigidity(file: &SceneFile, built: &Built) -> Result<Rigidity, BlochError> {
+    Rigidity::of_sheet(&built.sheet, facet_stiffness(file).is_infinite())
 }
 
 /// Stiffnesses of the energy; `None` where it has no bars, or a term is rigid.
-fn stiffnesses(built: &Built) -> Option<Stiffnesses> {
-    let recipe = &built.recipe;
-    let of = |hinges: &Option<Hinges>| hinges.as_ref().map_or(0.0, |hinges| hinges.stiffness);
-    let found = Stiffnesses { bars: recipe.bars?, creases: of(&recipe.creases), facets: of(&recipe.facets) };
+fn stiffnesses(file: &SceneFile, built: &Built) -> Option<Stiffnesses> {
+    let creases = built.recipe.creases.as_ref().map_or(0.0, |creases| creases.stiffness);
+    let has_facets = built.sheet.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
+    let facets = if has_facets { facet_stiffness(file) } else { 0.0 };
+    let found = Stiffnesses { bars: built.recipe.bars?, creases, facets };
     [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
 }
 
 /// What the analysis found.
 struct Found {
+    ground: Ground,
     determinant: Determinant,
     decays: Vec<Decay>,
     polarization: Polarization,
@@ -87,7 +144,11 @@ struct Bands {
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Result<StudySummary, RunError> {
     let clock = Instant::now();
-    let found = find(runner, study, spec);
+    let found = match ground(runner, spec) {
+        Ok(Some(ground)) => find(runner, study, spec, ground),
+        Ok(None) => return Ok(studies::nowhere_to_start(study)),
+        Err(error) => Err(error),
+    };
     let mut summary = StudySummary {
         name: study.name.0.clone(),
         kind: study.kind.name().to_owned(),
@@ -105,7 +166,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
             }
             draw(runner, study, &found)?;
             summary.error = Some(found.determinant.error);
-            summary.result = Some(StudyResult::Bloch(summarized(&found)));
+            summary.result = Some(StudyResult::Bloch(summarized(runner.built, &found)));
         }
         Ok(None) => (summary.converged, summary.reason) = (false, Some("interrupted".to_owned())),
         Err(error) => summary.reason = Some(error.to_string()),
@@ -114,16 +175,18 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
 }
 
 /// All answers; `None` where the observer asked to stop.
-fn find(runner: &Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Result<Option<Found>, BlochError> {
+fn find(runner: &Runner<'_>, study: &StudySpec, spec: &BlochSpec, ground: Ground) -> Result<Option<Found>, BlochError> {
     let watch = |step: usize| {
         let (study, of) = (study.name.0.clone(), Some(4));
         runner.watch(&Progress { study, step, of, residual: f64::NAN, target: None })
     };
-    let determinant = Determinant::new(&rigidity(runner.built)?)?;
+    let rigidity = &ground.rigidity;
+    let determinant = Determinant::new(rigidity)?;
     if !watch(1) {
         return Ok(None);
     }
-    let decays = wavenumbers(spec).into_iter().map(|q1| Decay::new(&determinant, 0, q1)).collect::<Result<_, _>>()?;
+    let decay = |q1| Decay::new(&determinant, 0, q1).map(|decay| decay.refined(rigidity));
+    let decays = wavenumbers(spec).into_iter().map(decay).collect::<Result<_, _>>()?;
     if !watch(2) {
         return Ok(None);
     }
@@ -132,26 +195,25 @@ fn find(runner: &Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Result<Opti
         return Ok(None);
     }
     let real = match Zone::new(&determinant) {
-        Ok(zone) => Some((zone.clone(), ZeroLines::new(&zone)?)),
+        Ok(zone) => Some((zone.clone(), ZeroLines::new(&zone)?.refined(&zone, rigidity))),
         Err(BlochError::NotSymmetric { .. }) => None,
         Err(error) => return Err(error),
     };
     let grid = spec.grid.as_ref().map_or(GRID, |grid| grid.0);
     let values = determinant.polynomial.map(grid);
     let map = [values.iter().map(|value| value.re).collect(), values.iter().map(|value| value.im).collect()];
-    let (modes, bands) = (shapes(runner, spec, &determinant)?, bands(runner, spec)?);
-    Ok(watch(4).then_some(Found { determinant, decays, polarization, real, map, grid, modes, bands }))
+    let (modes, bands) = (shapes(rigidity, spec, &determinant)?, bands(runner, spec)?);
+    Ok(watch(4).then_some(Found { ground, determinant, decays, polarization, real, map, grid, modes, bands }))
 }
 
 /// The modes that the scene names, each of the root nearest to its decay rate.
-fn shapes(runner: &Runner<'_>, spec: &BlochSpec, determinant: &Determinant) -> Result<Vec<ModeShape>, BlochError> {
-    let rigidity = rigidity(runner.built)?;
+fn shapes(rigidity: &Rigidity, spec: &BlochSpec, determinant: &Determinant) -> Result<Vec<ModeShape>, BlochError> {
     let mut found = Vec::new();
     for Pair([q1, kappa2]) in spec.modes.iter().flat_map(|modes| modes.iter()) {
-        let decay = Decay::new(determinant, 0, *q1)?;
+        let decay = Decay::new(determinant, 0, *q1)?.refined(rigidity);
         let away = |root: &Root| (root.kappa() - kappa2).abs();
         if let Some(root) = decay.roots.iter().min_by(|a, b| away(a).total_cmp(&away(b))) {
-            found.push(ModeShape::new(&rigidity, [Complex::from_polar(1.0, *q1), root.z])?);
+            found.push(ModeShape::new(rigidity, [Complex::from_polar(1.0, *q1), root.z])?);
         }
     }
     Ok(found)
@@ -159,7 +221,9 @@ fn shapes(runner: &Runner<'_>, spec: &BlochSpec, determinant: &Determinant) -> R
 
 /// The bands along the path of the scene.
 fn bands(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Vec<Bands>, BlochError> {
-    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.built)) else { return Ok(Vec::new()) };
+    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.file, runner.built)) else {
+        return Ok(Vec::new());
+    };
     let matrix = DynamicalMatrix::new(&runner.built.sheet, stiffnesses)?;
     let corners: Vec<[f64; 2]> = path.iter().map(|corner| corner.0).collect();
     along_path(&corners, STEPS).into_iter().map(|q| Ok(Bands { q, values: matrix.bands(q)? })).collect()
@@ -220,8 +284,7 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
             vtk::write_curves(&runner.path(&files[1].1), &curves, &arrays)?;
         }
         for (k, mode) in found.modes.iter().enumerate() {
-            let displacement = mode.on_cells(runner.view.patch.cells);
-            let picture = Picture { displacement, ..studies::drawn_picture(runner, study) };
+            let picture = moving_picture(runner, study, found.ground.folded.as_ref(), mode);
             files.push((files.len() as f64, format!("{name}/{name}_mode_{k:04}.vtu")));
             vtk::write_vtu(&runner.path(format!("{name}/{name}_mode_{k:04}.vtu")), &picture)?;
         }
@@ -229,10 +292,31 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
     }
     if study.draw.contains(&Draw::Svg) {
         let lines = found.real.iter().flat_map(|(_, lines)| &lines.lines).map(|line| line.points.clone()).collect();
-        let plot = BlochPlot { rates: rates(&found.determinant), polynomial: &found.determinant.polynomial, lines };
+        let marks = theta(runner.built, &found.ground).map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
+        let (rates, polynomial) = (rates(&found.determinant), &found.determinant.polynomial);
+        let plot = BlochPlot { rates, polynomial, lines, marks };
         bloch_plot::write_svg(&runner.path(format!("{name}.svg")), &plot, &runner.file.title())?;
     }
     Ok(())
+}
+
+/// A mode on the cells that are shown, in the frame of the mesh file, as velocities of the state of which it is.
+fn moving_picture(runner: &Runner<'_>, study: &StudySpec, folded: Option<&Vec<f64>>, mode: &ModeShape) -> Picture {
+    let displacement = mode.on_cells(runner.view.patch.cells);
+    let Some(x) = folded else { return Picture { displacement, ..studies::drawn_picture(runner, study) } };
+    let Built { sheet, drawn: Drawn { domain, frame, .. }, .. } = runner.built;
+    let turned = |(k, u): (usize, Vec3)| {
+        let (cell, across) = (k / sheet.vertices.len(), runner.view.patch.cells[0]);
+        frame.transpose() * cell_rotation(domain, x, [(cell % across) as i32, (cell / across) as i32]) * u
+    };
+    let displacement = displacement.into_iter().enumerate().map(turned).collect();
+    Picture { displacement, ..studies::picture_at(runner, study, x.clone()) }
+}
+
+/// Rotation angles from a cell of the state to the next; `None` of the drawn state.
+fn theta(built: &Built, ground: &Ground) -> Option<[f64; 2]> {
+    let x = ground.folded.as_ref()?;
+    cylinder(&built.drawn.domain, &built.drawn.coordinates, x).map(|cylinder| cylinder.theta)
 }
 
 /// `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers; those at which the determinant vanishes for
@@ -244,7 +328,7 @@ fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
         .collect()
 }
 
-fn summarized(found: &Found) -> BlochSummary {
+fn summarized(built: &Built, found: &Found) -> BlochSummary {
     let Found { determinant, decays, polarization, real, map, .. } = found;
     let pairings: Vec<_> = decays.iter().map(Decay::pairing).collect();
     let decay = |decay: &Decay| DecaySummary {
@@ -254,6 +338,11 @@ fn summarized(found: &Found) -> BlochSummary {
     };
     let positive = map[0].iter().filter(|value| **value > 0.0).count() as f64 / map[0].len() as f64;
     let lines = real.as_ref().map_or(&[][..], |(_, lines)| &lines.lines);
+    let theta = theta(built, &found.ground);
+    let to_zero = |(zone, q): (&Zone, [f64; 2])| {
+        let (value, gradient) = zone.at(q);
+        value.abs() / gradient[0].hypot(gradient[1])
+    };
     let length = |points: &[[f64; 2]]| points.windows(2).map(|q| (q[1][0] - q[0][0]).hypot(q[1][1] - q[0][1])).sum();
     let region = |region: &crate::analysis::bloch::zero_lines::Region| RegionSummary {
         sign: if region.positive { 1 } else { -1 },
@@ -283,5 +372,7 @@ fn summarized(found: &Found) -> BlochSummary {
         regions: real.iter().flat_map(|(_, lines)| lines.regions.iter().map(region)).collect(),
         order_at_origin: real.as_ref().map(|(zone, _)| zone.order),
         directions: real.iter().flat_map(|(zone, _)| zone.directions().unwrap_or_default()).collect(),
+        theta,
+        theta_to_zero: real.as_ref().map(|(zone, _)| zone).zip(theta).map(to_zero),
     }
 }

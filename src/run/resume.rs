@@ -10,7 +10,7 @@ use crate::output::files;
 use crate::output::summary::StudySummary;
 use crate::scene::SceneFile;
 use crate::scene::forms::Start;
-use crate::scene::spec::{StudyKind, StudySpec};
+use crate::scene::spec::{BlochSpec, RelaxSpec, StudyKind, StudySpec};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -59,7 +59,9 @@ impl Earlier {
 /// Whether a later study starts from this one.
 fn is_start(file: &SceneFile, name: &str) -> bool {
     file.scene.studies.iter().any(|study| match &*study.kind {
-        StudyKind::Relax(spec) => matches!(spec.start.as_deref(), Some(Start::Study(start)) if start == name),
+        StudyKind::Relax(RelaxSpec { start, .. }) | StudyKind::Bloch(BlochSpec { start, .. }) => {
+            matches!(start.as_deref(), Some(Start::Study(start)) if start == name)
+        }
         _ => false,
     })
 }

@@ -156,7 +156,8 @@ fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
     model.start_from(coordinates)
 }
 
-fn nowhere_to_start(study: &StudySpec) -> StudySummary {
+/// What there is to say of a study that starts from one without a state.
+pub fn nowhere_to_start(study: &StudySpec) -> StudySummary {
     StudySummary {
         name: study.name.0.clone(),
         kind: study.kind.name().to_owned(),
@@ -316,19 +317,24 @@ fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<
 
 /// The drawn state, of which modes are velocities.
 pub fn drawn_picture(runner: &Runner<'_>, study: &StudySpec) -> Picture {
+    picture_at(runner, study, runner.built.drawn.coordinates.clone())
+}
+
+/// A state of which modes are velocities, from all its coordinates.
+pub fn picture_at(runner: &Runner<'_>, study: &StudySpec, coordinates: Vec<f64>) -> Picture {
     let built = runner.built;
-    let edges = built.tiling.edges.len();
-    let nan = || vec![f64::NAN; edges];
+    let nan = || vec![f64::NAN; built.tiling.edges.len()];
     let state = State {
-        coordinates: built.drawn.coordinates.clone(),
+        coordinates,
         energy_bars: 0.0,
         energy_creases: 0.0,
         energy_facets: 0.0,
-        fold_angle: crate::model::assemble::drawn_angles(&built.drawn, &built.tiling),
+        fold_angle: nan(),
         rest_angle: nan(),
         strain: nan(),
         energy: nan(),
     };
+    let state = draw::with_all_angles(built, &state);
     let picture = Picture::of_state(&runner.view, &built.drawn, &state);
     match draw::self_intersection(runner, study) {
         Some(mut check) => picture.with_crossing(&check.marks(&built.drawn, &state, LYING).faces),

@@ -5,7 +5,7 @@ use std::hash::Hash;
 use std::ops::Range;
 
 use super::forms::Start;
-use super::spec::{Domain, LandscapeSpec, StopSpec, StudyKind, StudySpec};
+use super::spec::{BlochSpec, Domain, LandscapeSpec, RelaxSpec, StopSpec, StudyKind, StudySpec};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
 
@@ -128,10 +128,12 @@ fn studies(file: &SceneFile) -> Checked {
 
 fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {
     match &*study.kind {
-        StudyKind::Relax(relax) => relax.start.as_ref().map_or(Ok(()), |start| earlier_study(file, start, earlier)),
+        StudyKind::Relax(RelaxSpec { start, .. }) | StudyKind::Bloch(BlochSpec { start, .. }) => {
+            start.as_ref().map_or(Ok(()), |start| earlier_study(file, start, earlier))
+        }
         StudyKind::Trace(trace) => trace.stop.as_ref().map_or(Ok(()), |stop| some_condition(file, stop)),
         StudyKind::Landscape(landscape) => not_empty(file, landscape),
-        StudyKind::Surface(_) | StudyKind::Modes(_) | StudyKind::Branches(_) | StudyKind::Bloch(_) => Ok(()),
+        StudyKind::Surface(_) | StudyKind::Modes(_) | StudyKind::Branches(_) => Ok(()),
     }
 }
 

@@ -370,6 +370,8 @@ pub struct MapSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlochSpec {
+    /// The state of which modes are wanted: an earlier study of one cell. Left out: as drawn.
+    pub start: Option<Located<Start>>,
     /// Wavenumbers sampled along each direction; left out: [256, 256].
     pub grid: Option<Located<Cells>>,
     /// First wavenumbers at which decay rates are wanted, in radians per cell; left out: 32 that divide the zone evenly.

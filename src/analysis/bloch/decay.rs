@@ -4,7 +4,8 @@
 //! without openings a root `z` at wavenumber `q` has the partner `1/conj(z)`: decay rates come in pairs of opposite
 //! sign.
 
-use super::{BlochError, Determinant};
+use super::singular::Search;
+use super::{BlochError, Determinant, Rigidity};
 use crate::numerics::polynomial::{Roots, roots, value_and_slope};
 use nalgebra::Complex;
 
@@ -13,13 +14,16 @@ pub const WELL_CONDITIONED: f64 = 1e5;
 /// Roots nearer to the circle than this are on it, and those nearer than so many times their rounding error.
 const ON_CIRCLE: f64 = 1e-9;
 const ROUNDINGS: f64 = 100.0;
+/// Roots of a larger condition number are corrected on the matrix.
+const WELL_KNOWN: f64 = 1e3;
 
 /// A root of the determinant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
     /// Factor from a cell to the next.
     pub z: Complex<f64>,
-    /// Change of `log z` per change of the determinant's coefficients by so much of the largest.
+    /// Change of `log z` per change of the determinant's coefficients by so much of the largest; of a root corrected on
+    /// the matrix, per relative change of its entries.
     pub condition: f64,
 }
 
@@ -34,9 +38,14 @@ impl Root {
         self.z.arg()
     }
 
+    /// How well `log z` is known.
+    fn rounding(&self) -> f64 {
+        ROUNDINGS * f64::EPSILON * self.condition
+    }
+
     /// Whether the mode neither grows nor decays, as far as its condition tells.
     pub fn on_circle(&self) -> bool {
-        self.kappa().abs() <= ON_CIRCLE.max(ROUNDINGS * f64::EPSILON * self.condition)
+        self.kappa().abs() <= ON_CIRCLE.max(self.rounding())
     }
 }
 
@@ -45,6 +54,8 @@ impl Root {
 pub struct Decay {
     /// The given wavenumber.
     pub q: f64,
+    /// Its direction, 0 or 1; the roots are factors along the other.
+    pub along: usize,
     /// The roots neither zero nor infinite, by ascending `kappa`.
     pub roots: Vec<Root>,
     /// Roots that are zero: modes of the first cell alone.
@@ -85,7 +96,29 @@ impl Decay {
         };
         let mut roots: Vec<Root> = finite.into_iter().map(|z| Root { z, condition: condition(z) }).collect();
         roots.sort_by(|a, b| a.kappa().total_cmp(&b.kappa()));
-        Ok(Self { q, roots, at_zero, at_infinity })
+        Ok(Self { q, along: a, roots, at_zero, at_infinity })
+    }
+
+    /// The roots corrected on the matrix of which they are, those that the polynomial knows to less than twelve digits:
+    /// the condition is then that of the matrix. A root to which the matrix leads from two others stays as it is, and so
+    /// does one from which it leads nowhere.
+    pub fn refined(mut self, rigidity: &Rigidity) -> Self {
+        let (mut search, b) = (Search::new(rigidity), 1 - self.along);
+        let corrected = |root: &Root| {
+            let mut z = [Complex::from_polar(1.0, self.q); 2];
+            z[b] = root.z;
+            if root.condition > WELL_KNOWN { search.root(z, b) } else { None }
+        };
+        let found: Vec<Option<Root>> = self.roots.iter().map(corrected).collect();
+        let now: Vec<Root> = found.iter().zip(&self.roots).map(|(new, old)| new.unwrap_or(*old)).collect();
+        for (k, new) in found.iter().enumerate() {
+            let same = |j: usize| j != k && new.is_some_and(|new| (now[j].z / new.z - 1.0).norm() <= new.rounding());
+            if let (Some(new), false) = (new, (0..now.len()).any(same)) {
+                self.roots[k] = *new;
+            }
+        }
+        self.roots.sort_by(|a, b| a.kappa().total_cmp(&b.kappa()));
+        self
     }
 
     /// How well the rates of the finite roots pair.

@@ -38,6 +38,8 @@ pub struct Determinant {
     pub imaginary_part: f64,
     /// Largest difference of polynomial and matrix at wavenumbers that were not sampled, over the largest magnitude.
     pub error: f64,
+    /// The largest magnitude at the roots of unity.
+    pub magnitude: f64,
 }
 
 impl Determinant {
@@ -60,7 +62,7 @@ impl Determinant {
         }
         let symmetry_error = asymmetry(&polynomial);
         let imaginary_part = imaginary(&values, absolute) / largest;
-        Ok(Self { polynomial, symmetric: center.symmetric, symmetry_error, imaginary_part, error })
+        Ok(Self { polynomial, symmetric: center.symmetric, symmetry_error, imaginary_part, error, magnitude: largest })
     }
 
     /// The symmetric part of the polynomial: what is left of the other is rounding where the determinant is symmetric.

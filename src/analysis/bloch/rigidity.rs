@@ -9,18 +9,40 @@
 //! Forces of tensions `t` that are multiplied in the same way are balanced where `R(1/z1, 1/z2)^T t = 0`.
 
 use super::BlochError;
+use super::extended::Twice;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
 use crate::math::fold_angle::fold_angle_gradient;
+use crate::model::{Domain, Site};
 use crate::numerics::complex::{ComplexMatrix, determinant};
-use crate::sheet::{Corner, EdgeKind, Sheet};
-use nalgebra::Complex;
+use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
+use nalgebra::{Complex, Matrix3, Rotation3};
 
 /// One condition on the displacements: the sum of `direction . u` over some corners is zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Corners and the direction that each contributes; no unit.
     pub terms: Vec<(Corner, Vec3)>,
+    /// What the rounding of the directions has left out; zero where they are known no better, as on a cylinder.
+    pub rests: Vec<Vec3>,
+}
+
+impl Row {
+    fn rounded(terms: Vec<(Corner, Vec3)>) -> Self {
+        let rests = vec![Vec3::zeros(); terms.len()];
+        Self { terms, rests }
+    }
+}
+
+/// The rigidity matrix between two vectors.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pairing {
+    /// `left^H R right`.
+    pub value: Complex<f64>,
+    /// Its derivatives by `log z1` and `log z2`.
+    pub slopes: [Complex<f64>; 2],
+    /// Sum of the magnitudes of the products that make the value.
+    pub size: f64,
 }
 
 /// The rigidity matrix as a function of the Bloch factors.
@@ -38,31 +60,55 @@ impl Rigidity {
     ///
     /// Fails for a finite sheet.
     pub fn of_sheet(sheet: &Sheet, rigid_facets: bool) -> Result<Self, BlochError> {
-        if sheet.lattice.is_none() {
-            return Err(BlochError::NoLattice);
+        let lattice = sheet.lattice.ok_or(BlochError::NoLattice)?;
+        let mut found = Self::placed(sheet, rigid_facets, |corner| sheet.position(corner), |_| Matrix3::identity());
+        for (row, edge) in found.rows.iter_mut().zip(&sheet.edges) {
+            let (direction, rest) = precise_direction(sheet, &edge.key, &lattice);
+            let [i, j] = edge.key.ends();
+            *row = Row { terms: vec![(i, -direction), (j, direction)], rests: vec![-rest, rest] };
         }
-        let bars = sheet.edges.iter().map(|edge| {
-            let [i, j] = edge.key.ends();
-            let along = (sheet.position(j) - sheet.position(i)).normalize();
-            Row { terms: vec![(i, -along), (j, along)] }
-        });
-        let locks = sheet.edges.iter().filter(|edge| rigid_facets && edge.kind == EdgeKind::Facet).filter_map(|edge| {
-            let [i, j] = edge.key.ends();
-            let corners = [i, j, edge.wings[0]?, edge.wings[1]?];
-            Some(lock(corners, &corners.map(|corner| sheet.position(corner))))
-        });
-        Ok(Self { vertices: sheet.vertices.len(), rows: bars.chain(locks).collect() })
+        Ok(found)
     }
 
     /// The bars of a cylinder: a state of the sheet whose cells are moved by screw motions.
     pub fn of_cylinder(sheet: &Sheet, shape: &Shape) -> Self {
-        let rows = sheet.edges.iter().map(|edge| {
+        let place = |corner: Corner| shape.screw.motion(corner.shift).apply(&shape.positions[corner.vertex]);
+        Self::placed(sheet, false, place, |shift| shape.screw.motion(shift).rotation)
+    }
+
+    /// The bars of a state of one cell, periodic or screw-periodic as its domain says, with all coordinates of the state
+    /// in the domain's frame; with `rigid_facets` also the locks of the diagonals of polygons.
+    ///
+    /// Fails on a patch.
+    pub fn of_state(sheet: &Sheet, rigid_facets: bool, domain: &Domain, x: &[f64]) -> Result<Self, BlochError> {
+        let place = |Corner { vertex, shift }| domain.point(x, Site { vertex, shift });
+        if matches!(domain, Domain::Patch) {
+            return Err(BlochError::NoLattice);
+        }
+        Ok(Self::placed(sheet, rigid_facets, place, |shift| cell_rotation(domain, x, shift)))
+    }
+
+    /// The bars, and locks of facets, of a sheet whose corners are at some places, with the rotations of its cells.
+    fn placed(
+        sheet: &Sheet,
+        rigid_facets: bool,
+        place: impl Fn(Corner) -> Vec3,
+        turn: impl Fn([i32; 2]) -> Matrix3<f64>,
+    ) -> Self {
+        // the direction as seen from the cell of the corner
+        let term = |corner: Corner, direction: Vec3| (corner, turn(corner.shift).transpose() * direction);
+        let bars = sheet.edges.iter().map(|edge| {
             let [i, j] = edge.key.ends();
-            let there = shape.screw.motion(j.shift);
-            let along = (there.apply(&shape.positions[j.vertex]) - shape.positions[i.vertex]).normalize();
-            Row { terms: vec![(i, -along), (j, there.rotation.transpose() * along)] }
+            let along = (place(j) - place(i)).normalize();
+            Row::rounded(vec![term(i, -along), term(j, along)])
         });
-        Self { vertices: sheet.vertices.len(), rows: rows.collect() }
+        let locks = sheet.edges.iter().filter(|edge| rigid_facets && edge.kind == EdgeKind::Facet).filter_map(|edge| {
+            let [i, j] = edge.key.ends();
+            let corners = [i, j, edge.wings[0]?, edge.wings[1]?];
+            let directions = lock(&corners.map(&place));
+            Some(Row::rounded((0..4).map(|k| term(corners[k], directions[k])).collect()))
+        });
+        Self { vertices: sheet.vertices.len(), rows: bars.chain(locks).collect() }
     }
 
     /// Number of columns: three coordinates of every vertex.
@@ -88,6 +134,24 @@ impl Rigidity {
             lower[a] -= 1;
             power(z, lower) * f64::from(shift[a])
         })
+    }
+
+    /// `left^H R(z1, z2) right`, its derivatives by `log z1` and `log z2`, and the sum of the magnitudes of the products
+    /// that make it; rows by `left`, columns by `right`.
+    pub fn pairing(&self, z: [Complex<f64>; 2], left: &[Complex<f64>], right: &[Complex<f64>]) -> Pairing {
+        let mut found = Pairing::default();
+        for (row, weight) in self.rows.iter().zip(left) {
+            for (corner, direction) in &row.terms {
+                let moved = &right[3 * corner.vertex..][..3];
+                let along: Complex<f64> = (0..3).map(|axis| moved[axis] * direction[axis]).sum();
+                let product = weight.conj() * power(z, corner.shift) * along;
+                found.value += product;
+                found.slopes = [0, 1].map(|a| found.slopes[a] + product * f64::from(corner.shift[a]));
+                let size: f64 = (0..3).map(|axis| (moved[axis] * direction[axis]).norm()).sum();
+                found.size += weight.norm() * power(z, corner.shift).norm() * size;
+            }
+        }
+        found
     }
 
     /// `R(1/z1, 1/z2)^T`: forces on the vertices of tensions multiplied by `z1`, `z2` from a cell to the next.
@@ -125,12 +189,35 @@ impl Rigidity {
     }
 }
 
+/// The direction of an edge, of length one but for rounding, as a sum of two vectors: differences of coordinates are
+/// taken without rounding, and all divided by one number.
+fn precise_direction(sheet: &Sheet, key: &EdgeKey, lattice: &[Vec3; 2]) -> (Vec3, Vec3) {
+    let [from, to] = [sheet.vertices[key.i], sheet.vertices[key.j]];
+    let along = [0, 1, 2].map(|axis| {
+        let shifted = [0, 1].map(|a| Twice::product(f64::from(key.shift[a]), lattice[a][axis]));
+        Twice::sum(to[axis], -from[axis]).plus(shifted[0]).plus(shifted[1])
+    });
+    let scale = Twice { high: Vec3::from(along.map(|x| x.high)).norm().recip(), low: 0.0 };
+    let unit = along.map(|x| x.times(scale));
+    (Vec3::from(unit.map(|x| x.high)), Vec3::from(unit.map(|x| x.low)))
+}
+
 /// The gradient of a fold angle, scaled to the norm of a bar's row.
-fn lock(corners: [Corner; 4], points: &[Vec3; 4]) -> Row {
+fn lock(points: &[Vec3; 4]) -> [Vec3; 4] {
     let gradient = fold_angle_gradient(points).1;
     let scale = std::f64::consts::SQRT_2 / gradient.norm();
-    let direction = |k: usize| gradient.fixed_rows::<3>(3 * k) * scale;
-    Row { terms: (0..4).map(|k| (corners[k], direction(k))).collect() }
+    [0, 1, 2, 3].map(|k| gradient.fixed_rows::<3>(3 * k) * scale)
+}
+
+/// How cell `(n1, n2)` of a state is turned against cell `(0, 0)`, from all coordinates of the state.
+pub fn cell_rotation(domain: &Domain, x: &[f64], [n1, n2]: [i32; 2]) -> Matrix3<f64> {
+    match (domain, x) {
+        (Domain::Screw, [.., kappa, b1, b2, _, _]) => {
+            let angle = kappa * (f64::from(n1) * b1 + f64::from(n2) * b2);
+            Rotation3::from_axis_angle(&Vec3::x_axis(), angle).into_inner()
+        }
+        _ => Matrix3::identity(),
+    }
 }
 
 /// `z1^n1 z2^n2`.

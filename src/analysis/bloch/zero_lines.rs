@@ -1,14 +1,20 @@
 //! Lines of zero modes: the curves in the Brillouin zone on which a real determinant is zero.
 //!
 //! Curves are followed with the positive side on their left, by steps along the tangent and corrections along the
-//! gradient. They begin on the rays at which the form at `q = 0` vanishes, and wherever else the signs of the
-//! determinant on a grid differ between neighbours. At the end every edge of the grid must be crossed by curves an odd
-//! number of times where its ends differ in sign, and an even number of times where they do not: that is how one knows
-//! that no line is missing, except closed ones smaller than the grid's mesh.
+//! gradient. They begin on the rays at which the form at `q = 0` vanishes, wherever else the signs of the determinant on
+//! a grid differ between neighbours, and round the extrema that the grid's signs hide (see
+//! [`extrema`](super::extrema)). At the end every edge of the grid must be crossed by curves an odd number of times
+//! where its ends differ in sign, and an even number of times where they do not: that is how one knows that no line is
+//! missing.
+//!
+//! Where the determinant is so flat that its rounding moves a point by more than 1e-12, the point is corrected on the
+//! rigidity matrix itself (see [`singular`](super::singular)).
 
-use super::BlochError;
+use super::extrema::{Hidden, hidden};
 use super::laurent::wavenumber;
+use super::singular::Search;
 use super::zone::{Zone, reduced};
+use super::{BlochError, Rigidity};
 use std::f64::consts::{PI, TAU};
 
 /// Grid points along each direction.
@@ -29,6 +35,12 @@ const SHORTEST: f64 = 1e-10;
 const MOST_STEPS: usize = 200_000;
 /// Attempts, each with steps a quarter as long.
 const ATTEMPTS: usize = 3;
+/// A point that lies off a chord by more than this part of its length is on no curve that has it.
+const BULGE: f64 = 0.05;
+/// Points that the polynomial knows worse than this are corrected on the matrix.
+const EXACT: f64 = 1e-12;
+/// Longest correction on the matrix, over the distance from `q = 0` and over the length of the next chord.
+const LONGEST_CORRECTION: f64 = 0.01;
 
 /// A closed curve of zero modes.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +51,8 @@ pub struct ZeroLine {
     pub winding: [i32; 2],
     /// How often it passes `q = 0`.
     pub passes: usize,
-    /// Largest distance of a point from the zero of the determinant, estimated by its last correction.
+    /// Largest distance of a point from the zero of the determinant, estimated by its last correction; of
+    /// [refined](ZeroLines::refined) lines also by the rounding of the determinant.
     pub residual: f64,
 }
 
@@ -78,6 +91,28 @@ impl ZeroLines {
         last
     }
 
+    /// The lines with their points corrected on the matrix of which the zone has the determinant, where the polynomial
+    /// knows them worse than to 1e-12; the error of a point is that of the better of the two.
+    pub fn refined(mut self, zone: &Zone, rigidity: &Rigidity) -> Self {
+        let mut search = Search::new(rigidity);
+        for line in &mut self.lines {
+            line.residual = 0.0;
+            let last = line.points.len() - 1;
+            for k in 0..last {
+                let q = line.points[k];
+                if line.passes > 0 && norm(q.map(reduced)) < 0.5 * START {
+                    continue; // exactly q = 0
+                }
+                let next = line.points[k + 1];
+                let near = norm(q.map(reduced)).min(norm([0, 1].map(|a| next[a] - q[a])));
+                let (there, error) = corrected_on_matrix(zone, &mut search, q, LONGEST_CORRECTION * near);
+                (line.points[k], line.residual) = (there, line.residual.max(error));
+            }
+            line.points[last] = [0, 1].map(|a| line.points[0][a] + TAU * f64::from(line.winding[a]));
+        }
+        self
+    }
+
     /// How many lines leave `q = 0`: half the number of ends there.
     pub fn through_origin(&self) -> usize {
         self.lines.iter().map(|line| line.passes).sum()
@@ -105,6 +140,8 @@ struct Tracer<'a> {
     rays: Vec<f64>,
     /// Whether the determinant is positive at the grid points, `q2` by `q1`.
     positive: Vec<bool>,
+    /// Norm of the gradient there.
+    steepness: Vec<f64>,
     /// Crossings of the edges to the next point in `q1` and in `q2`.
     crossings: [Vec<u32>; 2],
 }
@@ -114,9 +151,10 @@ impl<'a> Tracer<'a> {
         let lines = zone.directions()?;
         let rays = lines.iter().flat_map(|&angle| [angle, angle + PI]).collect();
         let at = |k: usize| [wavenumber(k % GRID, GRID), wavenumber(k / GRID, GRID)];
-        let positive = (0..GRID * GRID).map(|k| zone.at(at(k)).0 > 0.0).collect();
+        let of = |(value, gradient)| (value > 0.0, norm(gradient));
+        let (positive, steepness) = (0..GRID * GRID).map(|k| of(zone.at(at(k)))).unzip();
         let crossings = [vec![0; GRID * GRID], vec![0; GRID * GRID]];
-        Ok(Self { zone, longest, rays, positive, crossings })
+        Ok(Self { zone, longest, rays, positive, steepness, crossings })
     }
 
     fn all(mut self) -> Result<ZeroLines, BlochError> {
@@ -124,10 +162,19 @@ impl<'a> Tracer<'a> {
         for a in 0..2 {
             for k in 0..GRID * GRID {
                 if self.changes(a, k) && self.crossings[a][k] == 0 {
-                    let arc = self.closed(self.start_on(a, k))?;
+                    let arc = self.closed(self.start_on(a, k), self.longest)?;
                     self.count(&arc.points);
                     lines.push(line(arc.points, 0, arc.residual));
                 }
+            }
+        }
+        for hidden in hidden(self.zone, GRID, &self.positive, &self.steepness) {
+            let start = self.start_beside(&hidden);
+            if !lines.iter().any(|line| contains(line, start)) {
+                let radius = norm([0, 1].map(|a| start[a] - hidden.extremum[a]));
+                let arc = self.closed(start, self.longest.min(0.3 * radius))?;
+                self.count(&arc.points);
+                lines.push(line(arc.points, 0, arc.residual));
             }
         }
         let edges = (0..2).flat_map(|a| (0..GRID * GRID).map(move |k| (a, k)));
@@ -158,6 +205,17 @@ impl<'a> Tracer<'a> {
         inside
     }
 
+    /// The zero between an extremum and a point of the grid where the determinant has the other sign, by bisection.
+    fn start_beside(&self, hidden: &Hidden) -> [f64; 2] {
+        let [mut inside, mut outside] = [hidden.extremum, hidden.outside];
+        for _ in 0..60 {
+            let middle = [0, 1].map(|a| 0.5 * (inside[a] + outside[a]));
+            let end = if (self.zone.at(middle).0 > 0.0) == hidden.positive { &mut inside } else { &mut outside };
+            *end = middle;
+        }
+        inside
+    }
+
     /// The pieces between rays at `q = 0`, joined straight through it.
     fn through_origin(&mut self) -> Result<Vec<ZeroLine>, BlochError> {
         let mut used = vec![false; self.rays.len()];
@@ -170,7 +228,7 @@ impl<'a> Tracer<'a> {
                 continue;
             }
             used[ray] = true;
-            let arc = self.follow(start, End::Origin(&mut used))?;
+            let arc = self.follow(start, self.longest, End::Origin(&mut used))?;
             self.count(&arc.points);
             let last = arc.points[arc.points.len() - 1].map(reduced);
             arcs.push(([ray, self.nearest_ray(last)], arc));
@@ -187,18 +245,19 @@ impl<'a> Tracer<'a> {
         (0..self.rays.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
     }
 
-    fn closed(&self, start: [f64; 2]) -> Result<Arc, BlochError> {
+    /// A closed curve through a point near it, with a first step of some length.
+    fn closed(&self, start: [f64; 2], first: f64) -> Result<Arc, BlochError> {
         let (start, _) = self.corrected(start)?;
         // not on the edge of the grid itself, where rounding would decide whether it is crossed
-        let start = self.step(start, 0.3 * self.longest).map_or(start, |(off, _)| off);
+        let start = self.step(start, 0.3 * first).map_or(start, |(off, _)| off);
         let along = tangent(self.zone.at(start).1);
-        self.follow(start, End::Start(along))
+        self.follow(start, first, End::Start(along))
     }
 
     /// Follows a line from a point on it to its end.
-    fn follow(&self, start: [f64; 2], mut end: End<'_>) -> Result<Arc, BlochError> {
+    fn follow(&self, start: [f64; 2], first: f64, mut end: End<'_>) -> Result<Arc, BlochError> {
         let mut arc = Arc { points: vec![start], residual: 0.0 };
-        let (mut here, mut step) = (start, self.longest);
+        let (mut here, mut step) = (start, first);
         for _ in 0..MOST_STEPS {
             let from_origin = if self.rays.is_empty() { f64::INFINITY } else { norm(here.map(reduced)) };
             step = step.min(self.longest).min(LONGEST_NEAR * from_origin);
@@ -295,6 +354,30 @@ impl<'a> Tracer<'a> {
         }
         other
     }
+}
+
+/// A point near a zero line moved onto it, and its error: by the matrix where the polynomial does not know it well.
+fn corrected_on_matrix(zone: &Zone, search: &mut Search<'_>, q: [f64; 2], longest: f64) -> ([f64; 2], f64) {
+    let (value, gradient) = zone.at(q);
+    let known = (value.abs() + zone.uncertainty(q)) / norm(gradient);
+    if known <= EXACT {
+        return (q, known);
+    }
+    match search.on_zone(q) {
+        Some((there, error)) if error < known && norm([0, 1].map(|a| there[a] - q[a])) <= longest => (there, error),
+        _ => (q, known),
+    }
+}
+
+/// Whether a point of a zero line is on this one.
+fn contains(line: &ZeroLine, q: [f64; 2]) -> bool {
+    line.points.windows(2).any(|pair| {
+        let (chord, from) = ([0, 1].map(|a| pair[1][a] - pair[0][a]), [0, 1].map(|a| reduced(q[a] - pair[0][a])));
+        let squared = chord[0] * chord[0] + chord[1] * chord[1];
+        let along = (from[0] * chord[0] + from[1] * chord[1]) / squared;
+        let off = (from[0] * chord[1] - from[1] * chord[0]) / squared;
+        off.abs() <= BULGE && (-BULGE..=1.0 + BULGE).contains(&along)
+    })
 }
 
 /// The neighbour of a grid point in the direction `a`.

@@ -27,6 +27,8 @@ pub struct Zone {
     pub order: usize,
     /// The form of this degree with which it begins there: coefficients of `q1^(order - k) q2^k`.
     pub form: Vec<f64>,
+    /// How well values are known away from `q = 0`.
+    rounding: f64,
 }
 
 impl Zone {
@@ -39,14 +41,14 @@ impl Zone {
         let order = order(&polynomial);
         let half = polynomial.terms().filter(|&(m, n, c)| c != 0.0 && (m, n) >= (0.0, 0.0));
         let terms = half.map(|(m, n, c)| [m, n, if (m, n) == (0.0, 0.0) { c } else { 2.0 * c }]).collect();
-        Ok(Self { terms, order, form: form(&polynomial, order) })
+        let rounding = determinant.error.max(f64::EPSILON) * determinant.magnitude;
+        Ok(Self { terms, order, form: form(&polynomial, order), rounding })
     }
 
     /// Value and gradient.
     pub fn at(&self, q: [f64; 2]) -> (f64, [f64; 2]) {
         let q = q.map(reduced);
-        let near = q.iter().all(|q| q.abs() < NEAR);
-        let parts = if near { self.order } else { 0 };
+        let parts = self.parts(q);
         let (mut value, mut gradient) = (0.0, [0.0; 2]);
         for &[m, n, c] in &self.terms {
             let (f, slope) = remainder(m * q[0] + n * q[1], parts);
@@ -55,6 +57,34 @@ impl Zone {
             gradient[1] += c * n * slope;
         }
         (value, gradient)
+    }
+
+    /// How well the value is known: every coefficient carries the rounding of the largest value, and near `q = 0` each
+    /// counts as little as what is left of its cosine.
+    pub fn uncertainty(&self, q: [f64; 2]) -> f64 {
+        let q = q.map(reduced);
+        let parts = self.parts(q);
+        let squares = self.terms.iter().map(|[m, n, _]| remainder(m * q[0] + n * q[1], parts).0.powi(2));
+        self.rounding * (squares.sum::<f64>() / self.terms.len() as f64).sqrt()
+    }
+
+    /// Second derivatives, `[11, 22, 12]`.
+    pub fn curvature(&self, q: [f64; 2]) -> [f64; 3] {
+        let q = q.map(reduced);
+        let bent = |t: f64| match self.parts(q) {
+            4 => 2.0 * (0.5 * t).sin().powi(2),
+            _ => -t.cos(),
+        };
+        let add = |sum: [f64; 3], &[m, n, c]: &[f64; 3]| {
+            let bent = c * bent(m * q[0] + n * q[1]);
+            [sum[0] + m * m * bent, sum[1] + n * n * bent, sum[2] + m * n * bent]
+        };
+        self.terms.iter().fold([0.0; 3], add)
+    }
+
+    /// Order of the terms that are taken out of the cosines at reduced wavenumbers.
+    fn parts(&self, q: [f64; 2]) -> usize {
+        if q.iter().all(|q| q.abs() < NEAR) { self.order } else { 0 }
     }
 
     /// Directions in which zero lines leave `q = 0`: angles to the first axis in `(-pi/2, pi/2]`, ascending; those of
