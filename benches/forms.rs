@@ -131,7 +131,7 @@ struct Weighted {
 impl Weighted {
     fn new(system: &System, gamma: f64) -> Self {
         let layout = system.layout();
-        let factor = Factor::new(system.at.pattern(), &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
+        let factor = Factor::of(layout.symbolic().unwrap()).unwrap();
         Self { gamma, factor, values: Vec::new(), weights: vec![0.0; layout.stiff.len()] }
     }
 }

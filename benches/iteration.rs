@@ -207,6 +207,12 @@ struct Bare {
     right: Vec<f64>,
 }
 
+/// Seconds to analyse couplings and to make room, which a problem needs once.
+fn set_up(layout: &Layout) -> f64 {
+    let fresh = Layout::new(layout.node.clone(), layout.soft.clone(), layout.stiff.clone());
+    seconds(|| Saddle::new(&fresh, &Linearization::new(&fresh)).is_ok())
+}
+
 impl Bare {
     fn new(step: &Step) -> Self {
         let layout = step.model.layout();
@@ -214,7 +220,7 @@ impl Bare {
         for row in 0..layout.stiff.len() {
             step.at.add_outer(layout, row, 1e6, &mut values);
         }
-        let factor = Factor::new(step.at.pattern(), &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
+        let factor = Factor::of(layout.symbolic().unwrap()).unwrap();
         Self { factor, values, right: step.right.0.clone() }
     }
 
@@ -265,12 +271,7 @@ fn split(sizes: &[usize]) {
         let mut times = [const { Vec::new() }; 6];
         for _ in 0..rounds {
             runs.push(minimise(&star, SOME_STEPS).0);
-            let layout = step.model.layout();
-            let nodes = &[&layout.soft, &layout.stiff];
-            times[4].push(
-                seconds(|| Linearization::new(layout))
-                    + seconds(|| Factor::new(step.at.pattern(), &layout.node, nodes).unwrap()),
-            );
+            times[4].push(set_up(step.model.layout()));
             for _ in 0..3 {
                 times[0].push(bare.factor(&step));
                 times[1].push(bare.solve());
@@ -329,11 +330,7 @@ fn study(sizes: &[usize]) {
                     seconds(|| star.relax(&mut model))
                 },
                 &mut || seconds(|| tension::settle(&model, &found)),
-                &mut || {
-                    let at = Linearization::new(model.layout());
-                    seconds(|| Saddle::new(model.layout(), &at).is_ok())
-                        + seconds(|| Linearization::new(model.layout()))
-                },
+                &mut || set_up(model.layout()),
             ],
         );
         let [whole, settle, setup] = medians[..] else { unreachable!("three pieces of work") };

@@ -52,7 +52,7 @@ fn one(n: usize, folder: Option<&Path>) {
     let right = vector(2, unknowns, 1.0);
     let mut solution = Vec::new();
     let (layout, pattern, entries) = (model.layout(), at.pattern(), saddle.entries());
-    let mut factor = Factor::new(pattern, &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
+    let mut factor = Factor::of(layout.symbolic().unwrap()).unwrap();
     let factoring = in_turns(ROUNDS, &mut [&mut || seconds(|| factor.factor(pattern, entries))]);
     let solving = in_turns(
         ROUNDS,

@@ -238,7 +238,7 @@ fn layout(
     let mut used = blocks.clone();
     used.dedup();
     blocks.iter_mut().for_each(|b| *b = used.binary_search(b).unwrap_or(0) as u32);
-    Layout { unknowns: free.len(), node: blocks, soft: collect(soft), stiff: collect(stiff) }
+    Layout::new(blocks, collect(soft), collect(stiff))
 }
 
 /// Term and element of the `k`-th element of all terms together.

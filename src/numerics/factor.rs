@@ -1,6 +1,6 @@
 //! `L D L^T` factorization of symmetric matrices, with inertia, for one pattern and many sets of numbers.
 //!
-//! Sparse: faer's supernodal `L D L^T` without pivoting, on one thread. The pattern is analysed once. Small matrices
+//! Sparse: faer's supernodal `L D L^T` without pivoting, on one thread. The pattern is analysed once ([`Symbolic`]). Small matrices
 //! go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia:
 //! the signs of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
 
@@ -15,6 +15,7 @@ use faer::sparse::linalg::cholesky::{
     factorize_symbolic_cholesky,
 };
 use faer::{Conj, MatMut, MatRef, Par, Side};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Matrices up to this size are factored dense. It is no faster (`cargo bench --bench iteration -- dense`: 1.4 times as long up to 42
@@ -64,6 +65,14 @@ pub struct Inertia {
     pub ratio: f64,
 }
 
+/// The analysis of a pattern: the order of elimination and where the factor has entries. Shared by all its factorizations.
+#[derive(Clone, Debug)]
+pub struct Symbolic {
+    size: usize,
+    /// `None`: dense.
+    sparse: Option<Arc<SymbolicCholesky<u32>>>,
+}
+
 /// A factorization of one pattern, refilled with numbers as often as wanted.
 pub struct Factor {
     kind: Kind,
@@ -76,22 +85,27 @@ enum Kind {
 }
 
 struct Sparse {
-    symbolic: SymbolicCholesky<u32>,
+    symbolic: Arc<SymbolicCholesky<u32>>,
     values: Vec<f64>,
     memory: MemBuffer,
 }
 
 impl Factor {
-    /// Analyses a pattern. `node` groups unknowns into blocks for the ordering, see [`super::order`].
+    /// Analyses a pattern and makes room, as [`Symbolic::new`].
     pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
-        let size = pattern.size();
-        let kind = if size <= DENSE_LIMIT {
-            Kind::Dense(None)
-        } else {
-            let order = super::order::nested_dissection(node, cliques);
-            Kind::Sparse(Box::new(Sparse::new(pattern, &order)?))
+        Self::of(&Symbolic::new(pattern, node, cliques)?)
+    }
+
+    /// Room for a factorization of a pattern that was analysed.
+    ///
+    /// # Errors
+    /// [`FactorError::TooLarge`] where there is not enough memory.
+    pub fn of(symbolic: &Symbolic) -> Result<Self, FactorError> {
+        let kind = match &symbolic.sparse {
+            None => Kind::Dense(None),
+            Some(sparse) => Kind::Sparse(Box::new(Sparse::new(sparse.clone())?)),
         };
-        Ok(Self { kind, size })
+        Ok(Self { kind, size: symbolic.size })
     }
 
     /// Factors the matrix with these values.
@@ -128,10 +142,18 @@ impl Factor {
     }
 }
 
-impl Sparse {
-    fn new(pattern: &Pattern, order: &[u32]) -> Result<Self, FactorError> {
-        let n = pattern.size();
-        let mut inverse = vec![0u32; n];
+impl Symbolic {
+    /// Analyses a pattern. `node` groups unknowns into blocks for the ordering, see [`super::order`].
+    ///
+    /// # Errors
+    /// [`FactorError::TooLarge`] where memory or indices run out.
+    pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
+        let size = pattern.size();
+        if size <= DENSE_LIMIT {
+            return Ok(Self { size, sparse: None });
+        }
+        let order = super::order::nested_dissection(node, cliques);
+        let mut inverse = vec![0u32; size];
         for (new, &old) in order.iter().enumerate() {
             inverse[old as usize] = new as u32;
         }
@@ -139,15 +161,21 @@ impl Sparse {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..default()
         };
-        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, n));
-        let symbolic = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, ordering, params)
-            .map_err(|_| FactorError::TooLarge { size: n })?;
+        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, size));
+        let sparse = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, ordering, params)
+            .map_err(|_| FactorError::TooLarge { size })?;
+        Ok(Self { size, sparse: Some(Arc::new(sparse)) })
+    }
+}
+
+impl Sparse {
+    fn new(symbolic: Arc<SymbolicCholesky<u32>>) -> Result<Self, FactorError> {
         let memory = MemBuffer::try_new(
             symbolic
                 .factorize_numeric_ldlt_scratch::<f64>(Par::Seq, default())
                 .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq)),
         )
-        .map_err(|_| FactorError::TooLarge { size: n })?;
+        .map_err(|_| FactorError::TooLarge { size: symbolic.nrows() })?;
         Ok(Self { values: vec![0.0; symbolic.len_val()], symbolic, memory })
     }
 
@@ -177,7 +205,7 @@ impl Sparse {
         let n = x.len();
         let stack = MemStack::new(&mut self.memory);
         let mut x = MatMut::from_column_major_slice_mut(x, n, 1);
-        LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(Conj::No, x.rb_mut(), Par::Seq, stack);
+        LdltRef::new(&*self.symbolic, &self.values).solve_in_place_with_conj(Conj::No, x.rb_mut(), Par::Seq, stack);
     }
 }
 

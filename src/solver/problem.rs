@@ -4,7 +4,9 @@
 //! its rest value) and compliances `c_r = 1/k_r >= 0`. A compliance of zero is the constraint `m_r(x) = 0`. The
 //! tension `t_r` of a measure is an unknown of its own, `m_r = c_r t_r`, so nothing is ever multiplied by `k_r`.
 
+use crate::numerics::factor::{FactorError, Symbolic};
 use crate::numerics::sparse::{Cliques, FIXED, Pattern, Rows, Slots};
+use std::sync::{Arc, OnceLock};
 
 /// Which unknowns there are and which are coupled.
 #[derive(Clone, Debug)]
@@ -17,6 +19,43 @@ pub struct Layout {
     pub soft: Cliques,
     /// Unknowns of each stiff measure.
     pub stiff: Cliques,
+    /// Made when it is first asked for; the couplings do not change after that.
+    plan: OnceLock<Arc<Plan>>,
+}
+
+/// What follows from the couplings alone, for all states and all solves: the pattern of the Hessian, where elements go in it, and
+/// how it is factored.
+#[derive(Debug)]
+struct Plan {
+    pattern: Pattern,
+    soft: Slots,
+    stiff: Slots,
+    symbolic: OnceLock<Result<Symbolic, FactorError>>,
+}
+
+impl Layout {
+    /// Of these blocks of the unknowns and couplings.
+    pub fn new(node: Vec<u32>, soft: Cliques, stiff: Cliques) -> Self {
+        Self { unknowns: node.len(), node, soft, stiff, plan: OnceLock::new() }
+    }
+
+    fn plan(&self) -> &Arc<Plan> {
+        self.plan.get_or_init(|| {
+            let pattern = Pattern::new(self.unknowns, &[&self.soft, &self.stiff]);
+            let (soft, stiff) = (Slots::new(&pattern, &self.soft), Slots::new(&pattern, &self.stiff));
+            Arc::new(Plan { pattern, soft, stiff, symbolic: OnceLock::new() })
+        })
+    }
+
+    /// How matrices of the Hessian's pattern are factored; analysed once.
+    ///
+    /// # Errors
+    /// As [`Symbolic::new`].
+    pub fn symbolic(&self) -> Result<&Symbolic, FactorError> {
+        let plan = self.plan();
+        let found = plan.symbolic.get_or_init(|| Symbolic::new(&plan.pattern, &self.node, &[&self.soft, &self.stiff]));
+        found.as_ref().map_err(|error| *error)
+    }
 }
 
 /// How much of the soft Hessian to take.
@@ -64,27 +103,23 @@ pub struct Linearization {
     pub soft_stiffness: Vec<f64>,
     /// Largest force of a single element on a single unknown.
     pub largest_force: f64,
-    pattern: Pattern,
-    soft: Slots,
-    stiff: Slots,
+    plan: Arc<Plan>,
 }
 
 impl Linearization {
     /// Space for a problem of this layout.
     pub fn new(layout: &Layout) -> Self {
-        let pattern = Pattern::new(layout.unknowns, &[&layout.soft, &layout.stiff]);
+        let plan = layout.plan().clone();
         Self {
             energy: 0.0,
             gradient: vec![0.0; layout.unknowns],
             gaps: vec![0.0; layout.stiff.len()],
             jacobian: vec![0.0; layout.stiff.total()],
-            hessian: vec![0.0; pattern.entries()],
+            hessian: vec![0.0; plan.pattern.entries()],
             soft_gradients: vec![0.0; layout.soft.total()],
             soft_stiffness: vec![0.0; layout.soft.len()],
             largest_force: 0.0,
-            soft: Slots::new(&pattern, &layout.soft),
-            stiff: Slots::new(&pattern, &layout.stiff),
-            pattern,
+            plan,
         }
     }
 
@@ -106,36 +141,36 @@ impl Linearization {
                 self.gradient[member as usize] += f * g;
             }
         }
-        self.soft.add_curvature(element, (k, g), (f, h), &mut self.hessian);
+        self.plan.soft.add_curvature(element, (k, g), (f, h), &mut self.hessian);
     }
 
     /// Adds `shift` times the metric, the Gauss-Newton part `sum k g g^T` of the soft Hessian, to `values`.
     pub fn add_metric(&self, layout: &Layout, shift: f64, values: &mut [f64]) {
         for (element, k) in self.soft_stiffness.iter().enumerate() {
             let gradient = &self.soft_gradients[layout.soft.range(element)];
-            self.soft.add_outer(element, shift * k, gradient, values);
+            self.plan.soft.add_outer(element, shift * k, gradient, values);
         }
     }
 
     /// Adds the Hessian of a stiff measure (lower triangle, row by row) times its tension.
     pub fn add_stiff(&mut self, measure: usize, tension: f64, block: &[f64]) {
-        self.stiff.add_block(measure, tension, block, &mut self.hessian);
+        self.plan.stiff.add_block(measure, tension, block, &mut self.hessian);
     }
 
     /// Adds `weight g g^T` of stiff measure `measure` to `values`.
     pub fn add_outer(&self, layout: &Layout, measure: usize, weight: f64, values: &mut [f64]) {
         let gradient = &self.jacobian[layout.stiff.range(measure)];
-        self.stiff.add_outer(measure, weight, gradient, values);
+        self.plan.stiff.add_outer(measure, weight, gradient, values);
     }
 
     /// Adds `amount` times the identity to the Hessian.
     pub fn add_identity(&mut self, amount: f64) {
-        self.pattern.add_to_diagonal(&mut self.hessian, amount);
+        self.plan.pattern.add_to_diagonal(&mut self.hessian, amount);
     }
 
     /// Pattern of the Hessian; it has room for the outer products of the stiff gradients.
     pub fn pattern(&self) -> &Pattern {
-        &self.pattern
+        &self.plan.pattern
     }
 
     /// The Jacobian of the stiff measures.

@@ -59,11 +59,10 @@ pub struct Saddle {
 }
 
 impl Saddle {
-    /// Analyses the pattern of a problem.
+    /// Room for a problem of this layout.
     pub fn new(layout: &Layout, linearization: &Linearization) -> Result<Self, FactorError> {
-        let pattern = linearization.pattern();
-        let factor = Factor::new(pattern, &layout.node, &[&layout.soft, &layout.stiff])?;
-        let values = vec![0.0; pattern.entries()];
+        let factor = Factor::of(layout.symbolic()?)?;
+        let values = vec![0.0; linearization.pattern().entries()];
         let shifted = values.clone();
         let weights = vec![0.0; layout.stiff.len()];
         Ok(Self { factor, shifted, values, weights, factorizations: 0, solves: 0 })

@@ -66,7 +66,7 @@ struct Weighted<'a> {
 pub fn minimize(model: &mut Model, form: Form) -> Result<Outcome, FactorError> {
     let at = Linearization::new(model.layout());
     let layout = model.layout();
-    let factor = Factor::new(at.pattern(), &layout.node, &[&layout.soft, &layout.stiff])?;
+    let factor = Factor::of(layout.symbolic()?)?;
     let (x, before) = (model.start(), vec![0.0; layout.stiff.len()]);
     let (softness, updates) = match form {
         Form::Penalty => (0.0, 1),

@@ -19,8 +19,7 @@ pub struct Textbook {
 
 impl Textbook {
     pub fn new(unknowns: usize) -> Self {
-        let layout =
-            Layout { unknowns, node: (0..unknowns as u32).collect(), soft: Cliques::new(), stiff: Cliques::new() };
+        let layout = Layout::new((0..unknowns as u32).collect(), Cliques::new(), Cliques::new());
         Self { layout, soft: vec![], stiff: vec![], load: vec![0.0; unknowns], compliance: vec![], scale: vec![] }
     }
 

@@ -126,6 +126,11 @@ impl HeldSheet {
         (soft.to_vec(), stiff.to_vec())
     }
 
+    /// What the directions of rest angles across the modes are for every soft element and every stiff measure.
+    pub fn directions(&self) -> Vec<(Vec<f64>, Vec<f64>)> {
+        self.free.column_iter().map(|direction| self.spread(direction.as_slice())).collect()
+    }
+
     /// Moves the rest angles off the drawn ones.
     pub fn set_rest(&mut self, per_edge: &[f64]) {
         let (soft, stiff) = self.spread(per_edge);

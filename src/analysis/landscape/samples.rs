@@ -2,7 +2,7 @@
 //!
 //! The patch relaxes at given rest angles `p = p0 + a phi + C y`; then Newton's method moves `y`, with the gradient
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
-//! predicts where the patch relaxes to next, so that two or three rounds are enough.
+//! predicts where the patch relaxes to next, so that one or two rounds are enough.
 
 use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
@@ -88,6 +88,7 @@ impl<'a> Samples<'a> {
         let mut tension = sum(&last.tension, &mut course.pull(last.amplitude, amplitude));
         let mut y = &last.rest + course.settling(last.amplitude, amplitude);
         let (mut iterations, mut torque) = (0, f64::INFINITY);
+        let directions = self.held.directions();
         for rounds in 0..ROUNDS {
             let rest = DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * &y;
             self.held.set_rest(rest.as_slice());
@@ -96,13 +97,13 @@ impl<'a> Samples<'a> {
             let relaxed = relax(&mut self.held.model, start, OPTIONS, edges, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
-            let balance = Balance::new(self.held, &relaxed)?;
-            torque = balance.unbalanced();
+            let (unbalanced, left) = torques(self.held, &directions, &relaxed);
+            torque = unbalanced;
             if torque <= BALANCED {
                 self.last = Last { amplitude, x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: y };
                 return Ok(Sample { amplitude, relaxed, rest: rest.as_slice().to_vec(), iterations, rounds });
             }
-            let (step, (motion, pull)) = balance.step()?;
+            let (step, (motion, pull)) = step(self.held, &relaxed, &left)?;
             x = sum(&relaxed.x, &mut motion.into_iter());
             tension = sum(&relaxed.tension, &mut pull.into_iter());
             y += step;
@@ -111,45 +112,33 @@ impl<'a> Samples<'a> {
     }
 }
 
-/// The torques on the directions of rest angles at an equilibrium, and how they change.
-struct Balance<'a> {
-    settling: Settling<'a>,
-    torque: DVector<f64>,
-    size: DVector<f64>,
+/// The largest torque on a direction of rest angles, over its size, and all of them.
+fn torques(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> (f64, DVector<f64>) {
+    let model = &held.model;
+    let stiffness = model.soft().iter().flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
+    let values = model.values(&relaxed.x);
+    let off = values.iter().zip(model.rests()).map(|(value, rest)| value - rest);
+    let (torques, least): (Vec<f64>, Vec<f64>) =
+        stiffness.zip(off).map(|(k, off)| (k * off, k * off.abs().max(LEAST_ANGLE))).unzip();
+    let sum = |soft: &[f64], stiff: &[f64], weigh: fn(f64) -> f64| -> DVector<f64> {
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| weigh(a * b)).sum::<f64>();
+        DVector::from_vec(directions.iter().map(|(on, along)| product(soft, on) + product(stiff, along)).collect())
+    };
+    let torque = sum(&torques, &relaxed.tension, |value| value);
+    let size = sum(&least, &relaxed.tension, f64::abs);
+    let unbalanced = torque.iter().zip(size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max);
+    (unbalanced, torque)
 }
 
-impl<'a> Balance<'a> {
-    fn new(held: &'a HeldSheet, relaxed: &Relaxed) -> Result<Self, LandscapeError> {
-        let model = &held.model;
-        let settling = Settling::new(held, &relaxed.x, &relaxed.tension, Curvature::Full)?;
-        let values = model.values(&relaxed.x);
-        let off = values.iter().zip(model.rests()).map(|(value, rest)| value - rest);
-        let (torques, least): (Vec<f64>, Vec<f64>) =
-            settling.stiffness().iter().zip(off).map(|(k, off)| (k * off, k * off.abs().max(LEAST_ANGLE))).unzip();
-        let sum = |soft: &[f64], stiff: &[f64], weigh: fn(f64) -> f64| -> DVector<f64> {
-            let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| weigh(a * b)).sum::<f64>();
-            let directions = settling.directions().iter();
-            DVector::from_vec(directions.map(|(on, along)| product(soft, on) + product(stiff, along)).collect())
-        };
-        let torque = sum(&torques, &relaxed.tension, |value| value);
-        let size = sum(&least, &relaxed.tension, f64::abs);
-        Ok(Self { settling, torque, size })
-    }
-
-    /// The largest torque over its size.
-    fn unbalanced(&self) -> f64 {
-        self.torque.iter().zip(self.size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max)
-    }
-
-    /// Newton's step of the rest angles, and the motion of the unknowns and the tensions that go with it.
-    fn step(&self) -> Result<(DVector<f64>, Both), LandscapeError> {
-        let singular = crate::numerics::factor::FactorError::Singular { ratio: 0.0 };
-        let factor = nalgebra::Cholesky::new(self.settling.hessian().clone()).ok_or(singular)?;
-        let step = factor.solve(&self.torque);
-        let step = &step * (LONGEST / step.amax()).min(1.0);
-        let motion = self.settling.motion(&step);
-        Ok((step, motion))
-    }
+/// Newton's step of the rest angles against these torques, and the motion of the unknowns and the tensions that go with it.
+fn step(held: &HeldSheet, relaxed: &Relaxed, torque: &DVector<f64>) -> Result<(DVector<f64>, Both), LandscapeError> {
+    let settling = Settling::new(held, &relaxed.x, &relaxed.tension, Curvature::Full)?;
+    let singular = crate::numerics::factor::FactorError::Singular { ratio: 0.0 };
+    let factor = nalgebra::Cholesky::new(settling.hessian().clone()).ok_or(singular)?;
+    let step = factor.solve(torque);
+    let step = &step * (LONGEST / step.amax()).min(1.0);
+    let motion = settling.motion(&step);
+    Ok((step, motion))
 }
 
 /// What a landscape along one mode says.

@@ -55,8 +55,7 @@ impl<'a> Settling<'a> {
         if inertia.negative > 0 {
             return Err(FactorError::Singular { ratio: inertia.ratio }.into());
         }
-        let directions: Vec<Both> =
-            held.free.column_iter().map(|direction| held.spread(direction.as_slice())).collect();
+        let directions = held.directions();
         let mut settling = Self { held, at, saddle, directions, free: Vec::new(), hessian: DenseMatrix::zeros(0, 0) };
         settling.free = (0..settling.directions.len())
             .map(|j| {
@@ -117,11 +116,6 @@ impl<'a> Settling<'a> {
     /// The Hessian of the energy in the rest angles across the modes.
     pub fn hessian(&self) -> &DenseMatrix {
         &self.hessian
-    }
-
-    /// Directions of the rest angles across the modes.
-    pub fn directions(&self) -> &[Both] {
-        &self.directions
     }
 
     /// Motion of the unknowns and change of the tensions that go with these rest angles across the modes.
