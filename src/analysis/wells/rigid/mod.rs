@@ -1,0 +1,203 @@
+//! Wells and passes of exactly rigid sheets, in fold angles alone: no bar, no random start.
+//!
+//! The folded states of one cell, or of a small finite sheet, are curves or a surface that leave the drawn state
+//! ([`curves`], [`surface`]). On states sampled there wells are the lowest of their neighbours and passes are found by flooding
+//! ([`flood`]); each is then made exact by Newton's method for the energy of the creases along the closed states
+//! ([`crate::analysis::exact`]), and its index counted. States at which a crease is folded by more than `pi`, where panels have gone
+//! through each other, do not belong to this landscape.
+//!
+//! The drawn state itself may be a pass: branches cross there, and no Hessian says so. Its energy is the height all the same.
+
+mod curves;
+mod flood;
+mod surface;
+
+use super::Question;
+use crate::analysis::branches::{self, BranchesError};
+use crate::analysis::exact::{Springs, Stationary};
+use crate::analysis::surface::SurfaceError;
+use crate::kinematics::KinematicsError;
+use crate::model::assemble::{Surroundings, assemble, drawn_angles};
+use crate::model::Gauge;
+use flood::Merge;
+use thiserror::Error;
+
+/// Two stationary states are one where no angle differs by more.
+const SAME: f64 = 1e-7;
+/// How far, in fold angles, a sampled state may be from the stationary one next to it, in distances of neighbours.
+const NEAR: f64 = 4.0;
+
+/// How finely and how far the folded states are sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Distance of neighbours in fold angles.
+    pub step: f64,
+    /// Magnitude of the curvature at which a surface ends.
+    pub max_curvature: f64,
+}
+
+/// Sampled states that hang together.
+pub(super) struct Net {
+    /// Fold angles of all edges.
+    pub angles: Vec<Vec<f64>>,
+    /// Neighbours.
+    pub links: Vec<[usize; 2]>,
+    /// Whether branches cross at a state: it has no tangents of its own.
+    pub singular: Vec<bool>,
+    /// Whether the landscape ends at a state.
+    pub border: Vec<bool>,
+    /// Dimension: 1 or 2.
+    pub dimension: usize,
+}
+
+/// A pass.
+#[derive(Clone, Debug)]
+pub struct RigidPass {
+    /// The lowest wells on its two sides, by number.
+    pub joins: [usize; 2],
+    /// Energy.
+    pub energy: f64,
+    /// Fold angles of all edges.
+    pub angles: Vec<f64>,
+    /// Whether it is the state at which branches cross; otherwise its Hessian has one negative eigenvalue.
+    pub singular: bool,
+}
+
+/// Wells and passes.
+#[derive(Clone, Debug)]
+pub struct RigidLandscape {
+    /// Dimension of the folded states: 1 or 2.
+    pub dimension: usize,
+    /// Sampled states.
+    pub states: usize,
+    /// Wells, by energy.
+    pub wells: Vec<Stationary>,
+    /// Passes by energy, from each the two sides of which were not joined below it.
+    pub passes: Vec<RigidPass>,
+    /// Wells and passes of the sampled states that could not be made exact.
+    pub lost: usize,
+}
+
+/// Why there is no landscape of this kind.
+#[derive(Debug, Error)]
+pub enum RigidError {
+    /// Neither a curve nor a surface.
+    #[error("the rigid states have {dimension} dimensions: wells are counted on curves and surfaces only")]
+    Dimension {
+        /// What second order says.
+        dimension: i64,
+    },
+    /// The energy is not one of hinges alone.
+    #[error("the rigid landscape is that of one cell, or of a small sheet, with creases and nothing else")]
+    NotOfHinges,
+    /// What leaves the drawn state is not known.
+    #[error(transparent)]
+    Branches(#[from] BranchesError),
+    /// The sheet cannot be put together.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// The surface is not known.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// The observer asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// The landscape of a sheet. `go_on` returns false to stop.
+pub fn landscape(
+    question: &Question<'_>,
+    sampling: &Sampling,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<RigidLandscape, RigidError> {
+    let Question { sheet, tiling, surroundings, drawn, recipe } = *question;
+    let angles = drawn_angles(drawn, tiling);
+    let model = assemble(drawn, tiling, recipe, Gauge::Held);
+    let springs = Springs::new(sheet, tiling, &model, &angles).ok_or(RigidError::NotOfHinges)?;
+    let start = branches::Question { sheet, tiling, surroundings, angles: &angles, recipe };
+    let net = match surroundings {
+        Surroundings::Screw => surface::net(start, sampling, go_on)?,
+        _ => curves::net(&start, sampling, go_on)?,
+    };
+    Ok(polished(&springs, &net, sampling.step))
+}
+
+/// Wells and passes of a net, made exact.
+fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
+    let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
+    let flood::Flood { minima, merges } = flood::flood(&energies, &net.links);
+    let near = |at: usize, index: usize| exact(springs, &net.angles[at], (index, NEAR * step));
+    let (mut wells, mut lost): (Vec<Stationary>, usize) = (Vec::new(), 0);
+    // the well of each minimum; none where the landscape ends there, or where it is no well
+    let mut well = vec![None; net.angles.len()];
+    for &at in &minima {
+        if net.border[at] {
+            continue;
+        }
+        match near(at, 0) {
+            Some(found) => well[at] = Some(known(&mut wells, found)),
+            // where branches cross nothing is stationary in general: the state is a lowest one of samples only
+            None => lost += usize::from(!net.singular[at]),
+        }
+    }
+    let mut passes = Vec::new();
+    for Merge { lower, at } in merges {
+        let [Some(a), Some(b)] = lower.map(|minimum| well[minimum]) else { continue };
+        if a == b {
+            continue;
+        }
+        let found = if net.singular[at] { None } else { near(at, 1) };
+        match found {
+            Some(pass) => passes.push(RigidPass { joins: [a, b], energy: pass.energy, angles: pass.angles, singular: false }),
+            None if net.singular[at] => {
+                let (energy, angles) = (energies[at], net.angles[at].clone());
+                passes.push(RigidPass { joins: [a, b], energy, angles, singular: true });
+            }
+            None => lost += 1,
+        }
+    }
+    let mut landscape = RigidLandscape { dimension: net.dimension, states: net.angles.len(), wells, passes, lost };
+    landscape.sort();
+    landscape
+}
+
+/// The stationary state of this index next to a sampled one.
+fn exact(springs: &Springs, angles: &[f64], (index, reach): (usize, f64)) -> Option<Stationary> {
+    let found = springs.stationary(angles)?;
+    let apart = found.angles.iter().zip(angles).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    (found.negative_eigenvalues == index && apart <= reach).then_some(found)
+}
+
+/// The number of a well, which is added where it is new.
+fn known(wells: &mut Vec<Stationary>, found: Stationary) -> usize {
+    let same = |well: &Stationary| well.angles.iter().zip(&found.angles).all(|(a, b)| (a - b).abs() <= SAME);
+    wells.iter().position(same).unwrap_or_else(|| {
+        wells.push(found);
+        wells.len() - 1
+    })
+}
+
+impl RigidLandscape {
+    /// Wells and passes by energy.
+    fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.wells.len()).collect();
+        order.sort_by(|&a, &b| self.wells[a].energy.total_cmp(&self.wells[b].energy));
+        let place = |old: usize| order.iter().position(|&well| well == old).unwrap_or(old);
+        self.passes.iter_mut().for_each(|pass| pass.joins = pass.joins.map(place));
+        self.wells = order.iter().map(|&well| self.wells[well].clone()).collect();
+        self.passes.sort_by(|a, b| a.energy.total_cmp(&b.energy));
+    }
+
+    /// The lowest pass that has to be crossed between two wells; `None` where none joins them.
+    pub fn between(&self, a: usize, b: usize) -> Option<&RigidPass> {
+        let mut side: Vec<usize> = (0..self.wells.len()).collect();
+        for pass in &self.passes {
+            let [one, other] = pass.joins.map(|well| side[well]);
+            side.iter_mut().filter(|side| **side == other).for_each(|side| *side = one);
+            if side[a] == side[b] {
+                return Some(pass);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,133 @@
+//! Relaxations that go on from each other, freely or held near given fold angles.
+//!
+//! Held is the proximal step (implicit Euler) of the descent in the metric `sum k (d rho)^2` of the creases: the minimum of
+//! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
+//! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
+
+use super::Question;
+use crate::analysis::relax::{RelaxError, Relaxed, relax};
+use crate::model::assemble::{Recipe, assemble};
+use crate::model::{Gauge, Model};
+use crate::solver::{Options, Problem, Start, Step};
+
+/// A state from which relaxations begin.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// All coordinates.
+    pub coordinates: Vec<f64>,
+    /// Angles of all hinges, from which angles continue.
+    pub angles: Vec<f64>,
+    /// Tensions of the stiff measures.
+    pub tension: Vec<f64>,
+}
+
+/// A settled state.
+#[derive(Clone, Debug)]
+pub struct Settled {
+    /// Where it is.
+    pub place: Place,
+    /// Fold angles of the soft hinges.
+    pub rho: Vec<f64>,
+    /// Energy, what holds it near its target left out.
+    pub energy: f64,
+    /// The relaxation.
+    pub relaxed: Relaxed,
+}
+
+/// A model that can be held near given fold angles.
+pub struct Settler {
+    free: Model,
+    held: Model,
+    /// How much stiffer than its creases is what holds the sheet.
+    strength: f64,
+    rest: Vec<f64>,
+    stiffness: Vec<f64>,
+    edges: usize,
+}
+
+impl Settler {
+    /// Of a sheet with these parts.
+    pub fn new(question: &Question<'_>, recipe: &Recipe, strength: f64) -> Self {
+        let model = || assemble(question.drawn, question.tiling, recipe, Gauge::Held);
+        let (free, mut held) = (model(), model());
+        let count = free.layout().soft.len();
+        held.scale_soft(&vec![1.0 + strength; count]);
+        let springs = free.soft().iter().flat_map(|term| (0..term.len()).map(move |k| term.spring(k)));
+        let (rest, stiffness) = springs.map(|spring| (spring.rest, spring.stiffness)).unzip();
+        Self { free, held, strength, rest, stiffness, edges: question.tiling.edges.len() }
+    }
+
+    /// The drawn state.
+    pub fn drawn(&self) -> Place {
+        let coordinates = self.free.coordinates(&self.free.start());
+        Place { coordinates, angles: self.free.angles(), tension: vec![0.0; self.free.compliance().len()] }
+    }
+
+    /// The model with the sheet's own rest angles.
+    pub fn model(&mut self) -> &mut Model {
+        &mut self.free
+    }
+
+    /// Stiffness of the soft hinges: the metric.
+    pub fn stiffness(&self) -> &[f64] {
+        &self.stiffness
+    }
+
+    /// Rest angles of the soft hinges.
+    pub fn rest(&self) -> &[f64] {
+        &self.rest
+    }
+
+    /// Relaxes from a place, whose tensions are used where they are near the solution.
+    pub fn free(
+        &mut self,
+        from: &Place,
+        warm: bool,
+        options: Options,
+        observe: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Settled, Box<RelaxError>> {
+        let relaxed = go(&mut self.free, from, warm, options, self.edges, observe)?;
+        Ok(self.settled(relaxed, false))
+    }
+
+    /// The same held near these fold angles of the soft hinges.
+    pub fn near(
+        &mut self,
+        from: &Place,
+        target: &[f64],
+        options: Options,
+        observe: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Settled, Box<RelaxError>> {
+        let mut rests = self.held.rests();
+        for (at, target) in target.iter().enumerate() {
+            rests[at] = (self.rest[at] + self.strength * target) / (1.0 + self.strength);
+        }
+        self.held.set_rests(&rests, &rests, 1.0);
+        let relaxed = go(&mut self.held, from, false, options, self.edges, observe)?;
+        Ok(self.settled(relaxed, true))
+    }
+
+    fn settled(&self, relaxed: Relaxed, held: bool) -> Settled {
+        let model = if held { &self.held } else { &self.free };
+        let mut rho = model.values(&relaxed.x);
+        rho.truncate(self.rest.len());
+        let creases = rho.iter().zip(&self.rest).zip(&self.stiffness).map(|((rho, rest), k)| k * (rho - rest).powi(2));
+        let stiff = relaxed.tension.iter().zip(model.compliance()).map(|(t, c)| c * t * t);
+        let energy = 0.5 * (creases.sum::<f64>() + stiff.sum::<f64>());
+        let (coordinates, tension) = (relaxed.state.coordinates.clone(), relaxed.tension.clone());
+        Settled { place: Place { coordinates, angles: model.angles(), tension }, rho, energy, relaxed }
+    }
+}
+
+fn go(
+    model: &mut Model,
+    from: &Place,
+    warm: bool,
+    options: Options,
+    edges: usize,
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Relaxed, Box<RelaxError>> {
+    model.set_angles(&from.angles);
+    let x = model.start_from(from.coordinates.clone());
+    relax(model, Start { x, tension: warm.then(|| from.tension.clone()) }, options, edges, observe)
+}
