@@ -96,7 +96,8 @@ impl Springs {
 
     /// The energy of the hinges at fold angles of all edges.
     pub fn energy(&self, angles: &[f64]) -> f64 {
-        let off = angles.iter().zip(&self.rest).zip(&self.stiffness).map(|((angle, rest), k)| k * (angle - rest).powi(2));
+        let off =
+            angles.iter().zip(&self.rest).zip(&self.stiffness).map(|((angle, rest), k)| k * (angle - rest).powi(2));
         0.5 * off.sum::<f64>()
     }
 

@@ -412,6 +412,8 @@ pub struct RigidSummary {
     pub states: usize,
     /// Energies of the wells.
     pub wells: Vec<f64>,
+    /// Energies of states that only the contact of two panels holds, a crease being shut.
+    pub contacts: Vec<f64>,
     /// The passes at which lakes around wells meet as the water rises.
     pub passes: Vec<RigidPassSummary>,
     /// Wells and passes of the samples that could not be made exact.

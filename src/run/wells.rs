@@ -6,11 +6,11 @@ use super::surface::curvature_of_cell;
 use super::{Progress, RunError};
 use crate::analysis::intersections::{LYING, SelfIntersection};
 use crate::analysis::state::State;
+use crate::analysis::wells::Question;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limit};
 use crate::analysis::wells::merge::{SAME, Translations, Well, wells};
 use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
 use crate::analysis::wells::starts::{Outcome, Starts, relax_all};
-use crate::analysis::wells::Question;
 use crate::output::chart::{self, Chart, Point, Series};
 use crate::output::files;
 use crate::output::summary::{
@@ -167,7 +167,9 @@ impl Found {
     fn barrier(&self, between: [usize; 2], found: &Result<Barrier, BarrierError>) -> BarrierSummary {
         let found = match found {
             Ok(found) => found,
-            Err(error) => return BarrierSummary { between, reason: Some(error.to_string()), ..BarrierSummary::default() },
+            Err(error) => {
+                return BarrierSummary { between, reason: Some(error.to_string()), ..BarrierSummary::default() };
+            }
         };
         let limit = rigid_limit(&found.heights);
         let energy = if found.singular { limit.map(|limit| limit.energy) } else { Some(found.pass.energy) };
@@ -209,6 +211,7 @@ fn rigid(found: &RigidLandscape) -> RigidSummary {
         dimension: found.dimension,
         states: found.states,
         wells: found.wells.iter().map(|well| well.energy).collect(),
+        contacts: found.contacts.clone(),
         passes: found.passes.iter().map(pass).collect(),
         lost: found.lost,
     }
@@ -243,7 +246,8 @@ fn write(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Ru
     heights(&passes).write(&runner.path(format!("{name}-barriers.csv")))?;
     draw::states(runner, study, &shown)?;
     if study.draw.contains(&Draw::Svg) {
-        let picture = if passes.is_empty() { None } else { Some(chart::linear_svg(&paths(&runner.file.title(), &passes))) };
+        let picture =
+            if passes.is_empty() { None } else { Some(chart::linear_svg(&paths(&runner.file.title(), &passes))) };
         match (picture, shown.first()) {
             (Some(picture), _) => files::write(&runner.path(format!("{name}.svg")), picture)?,
             (None, Some(lowest)) => draw::svg(runner, study, &draw::picture(runner, lowest))?,

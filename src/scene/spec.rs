@@ -11,7 +11,9 @@ use serde::Deserialize;
 
 use super::Located;
 use super::forms::{BranchChoice, Mode, Rest, Start};
-use super::values::{Axes, CellIndex, Cells, Count, EdgeName, Finite, Name, Pair, Positive, Stiffness, Triple, WellPair};
+use super::values::{
+    Axes, CellIndex, Cells, Count, EdgeName, Finite, Name, Pair, Positive, Stiffness, Triple, WellPair,
+};
 
 /// A whole scene.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

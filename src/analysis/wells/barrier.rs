@@ -22,7 +22,7 @@ const ALMOST_RIGID: f64 = 1e12;
 /// Tries from ever stiffer bars.
 const TRIES: usize = 6;
 /// Tolerance of a pass.
-const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 100 };
+const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 /// Differences of energies, relative, from which their law is read.
 const CLEAR: f64 = 1e-8;
 /// Shortest factor between two stiffnesses.
@@ -54,7 +54,9 @@ pub enum BarrierError {
         failure: Failure,
     },
     /// The equilibrium near the highest state is no pass.
-    #[error("with bars of {stiffness:e} the equilibrium near the highest state has {found} negative eigenvalues, not one")]
+    #[error(
+        "with bars of {stiffness:e} the equilibrium near the highest state has {found} negative eigenvalues, not one"
+    )]
     Index {
         /// Stiffness of the bars.
         stiffness: f64,

@@ -73,9 +73,8 @@ pub fn wells(found: impl Iterator<Item = Settled>, translations: &Translations) 
     let mut wells: Vec<Well> = Vec::new();
     for settled in found {
         let angles = &settled.relaxed.state.fold_angle;
-        let known = wells.iter_mut().find(|well| {
-            translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME
-        });
+        let known =
+            wells.iter_mut().find(|well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME);
         match known {
             Some(well) => well.reached += 1,
             None => wells.push(Well { settled, reached: 1 }),

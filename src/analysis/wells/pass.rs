@@ -6,17 +6,20 @@
 use super::Question;
 use super::settle::{Place, Settled, Settler};
 use crate::analysis::state::State;
-use crate::model::{Gauge, assemble::assemble};
+use crate::model::{Gauge, Model, assemble::assemble};
 use crate::numerics::factor::FactorError;
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Failure, Linearization, Options, Problem, tension};
 
-/// Most steps, and the largest change of a fold angle in one.
-const STEPS: usize = 60;
+/// Largest change of a fold angle in a step.
 const LONGEST: f64 = 0.2;
 /// Relative residual of a step's linear system that is asked for, and the one that is refused.
 const ACCURACY: f64 = 1e-9;
 const INACCURATE: f64 = 0.1;
+
+/// Steps of the descent from a pass before the sheet is set free, and their tolerance.
+const DESCENT: usize = 12;
+const LOOSE: Options = Options { tolerance: 1e-10, iterations: 60 };
 
 /// An equilibrium that Newton's method found.
 #[derive(Clone, Debug)]
@@ -40,55 +43,71 @@ pub struct Pass {
 }
 
 /// The equilibrium near a place, with bars of this stiffness.
-pub fn equilibrium(
-    question: &Question<'_>,
-    stiffness: f64,
-    from: &Place,
-    options: Options,
-) -> Result<Pass, Failure> {
+pub fn equilibrium(question: &Question<'_>, stiffness: f64, from: &Place, options: Options) -> Result<Pass, Failure> {
     let mut model = assemble(question.drawn, question.tiling, &question.with_bars(stiffness), Gauge::Held);
     model.set_angles(&from.angles);
     let mut x = model.start_from(from.coordinates.clone());
     let mut t = from.tension.clone();
     let mut at = Linearization::new(model.layout());
     let mut saddle = Saddle::new(model.layout(), &at)?;
-    for iterations in 0..=STEPS {
+    for iterations in 0.. {
         model.linearize(&x, &t, Curvature::Full, &mut at);
         let (force, length) = tension::residuals(&model, &at, &t);
         if force <= options.tolerance && length <= options.tolerance {
             let negative_eigenvalues = saddle.inertia(model.layout(), &at, model.compliance())?.negative;
-            let state = State::new(&model, &x, &t, question.tiling.edges.len());
-            let mut rho = model.values(&x);
-            rho.truncate(model.layout().soft.len());
-            let place = Place { coordinates: state.coordinates.clone(), angles: model.angles(), tension: t };
-            let (energy, residual_force, residual_length) = (state.total(), force, length);
-            return Ok(Pass {
-                place,
-                state,
-                rho,
-                energy,
-                negative_eigenvalues,
-                residual_force,
-                residual_length,
-                iterations,
-            });
+            let found = Found { negative_eigenvalues, residual_force: force, residual_length: length, iterations };
+            return Ok(found.pass(&model, &x, t, question.tiling.edges.len()));
         }
-        if iterations == STEPS || !(force.is_finite() && length.is_finite()) {
+        if iterations == options.iterations || !(force.is_finite() && length.is_finite()) {
             return Err(Failure::TooManySteps { iterations, force, length });
         }
-        let (layout, compliance) = (model.layout(), model.compliance());
-        saddle.factor(layout, &at, compliance, 0.0)?;
-        let open: Vec<f64> = at.gaps.iter().zip(&t).zip(compliance).map(|((gap, t), c)| c * t - gap).collect();
-        let step = saddle.solve(layout, &at, compliance, (&at.force(layout, &t), &open), ACCURACY);
-        if !(step.residual <= INACCURATE) {
-            return Err(FactorError::Inaccurate { residual: step.residual }.into());
-        }
-        let part = (LONGEST / largest_turn(&model, &at, &step.dx)).min(1.0);
-        x.iter_mut().zip(&step.dx).for_each(|(x, d)| *x += part * d);
-        t.iter_mut().zip(&step.dt).for_each(|(t, d)| *t += part * d);
+        let (dx, dt) = step(&model, &mut saddle, &at, &t)?;
+        x.iter_mut().zip(&dx).for_each(|(x, d)| *x += d);
+        t.iter_mut().zip(&dt).for_each(|(t, d)| *t += d);
         model.accept(&mut x);
     }
-    Err(Failure::Interrupted)
+    Err(Failure::TooManySteps { iterations: options.iterations, force: f64::NAN, length: f64::NAN })
+}
+
+/// Newton's step in unknowns and tensions, shortened where it would fold too far.
+fn step(model: &Model, saddle: &mut Saddle, at: &Linearization, t: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    let (layout, compliance) = (model.layout(), model.compliance());
+    saddle.factor(layout, at, compliance, 0.0)?;
+    let open: Vec<f64> = at.gaps.iter().zip(t).zip(compliance).map(|((gap, t), c)| c * t - gap).collect();
+    let step = saddle.solve(layout, at, compliance, (&at.force(layout, t), &open), ACCURACY);
+    if !(step.residual <= INACCURATE) {
+        return Err(FactorError::Inaccurate { residual: step.residual }.into());
+    }
+    let part = (LONGEST / largest_turn(model, at, &step.dx)).min(1.0);
+    let scaled = |list: Vec<f64>| list.into_iter().map(|value| part * value).collect();
+    Ok((scaled(step.dx), scaled(step.dt)))
+}
+
+/// What is known of an equilibrium beside where it is.
+struct Found {
+    negative_eigenvalues: usize,
+    residual_force: f64,
+    residual_length: f64,
+    iterations: usize,
+}
+
+impl Found {
+    fn pass(self, model: &Model, x: &[f64], tension: Vec<f64>, edges: usize) -> Pass {
+        let state = State::new(model, x, &tension, edges);
+        let mut rho = model.values(x);
+        rho.truncate(model.layout().soft.len());
+        let Self { negative_eigenvalues, residual_force, residual_length, iterations } = self;
+        Pass {
+            place: Place { coordinates: state.coordinates.clone(), angles: model.angles(), tension },
+            rho,
+            energy: state.total(),
+            state,
+            negative_eigenvalues,
+            residual_force,
+            residual_length,
+            iterations,
+        }
+    }
 }
 
 /// Largest change of a soft hinge's angle along a step, to first order.
@@ -101,12 +120,7 @@ fn largest_turn(model: &impl Problem, at: &Linearization, dx: &[f64]) -> f64 {
 }
 
 /// Where the sheet goes from a pass when pushed along a change of its fold angles, and against it.
-pub fn sides(
-    settler: &mut Settler,
-    pass: &Pass,
-    along: &[f64],
-    options: Options,
-) -> Result<[Settled; 2], Failure> {
+pub fn sides(settler: &mut Settler, pass: &Pass, along: &[f64], options: Options) -> Result<[Settled; 2], Failure> {
     let mut side = |sign: f64| -> Result<Settled, Failure> {
         let mut target: Vec<f64> = pass.rho.iter().zip(along).map(|(rho, d)| rho + sign * d).collect();
         let mut place = pass.place.clone();
@@ -118,7 +132,3 @@ pub fn sides(
     };
     Ok([side(1.0)?, side(-1.0)?])
 }
-
-/// Steps of the descent from a pass before the sheet is set free, and their tolerance.
-const DESCENT: usize = 12;
-const LOOSE: Options = Options { tolerance: 1e-6, iterations: 60 };

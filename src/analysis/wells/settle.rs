@@ -63,19 +63,9 @@ impl Settler {
         Place { coordinates, angles: self.free.angles(), tension: vec![0.0; self.free.compliance().len()] }
     }
 
-    /// The model with the sheet's own rest angles.
-    pub fn model(&mut self) -> &mut Model {
-        &mut self.free
-    }
-
     /// Stiffness of the soft hinges: the metric.
     pub fn stiffness(&self) -> &[f64] {
         &self.stiffness
-    }
-
-    /// Rest angles of the soft hinges.
-    pub fn rest(&self) -> &[f64] {
-        &self.rest
     }
 
     /// Relaxes from a place, whose tensions are used where they are near the solution.

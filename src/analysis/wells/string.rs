@@ -15,8 +15,8 @@ const STATES: usize = 17;
 /// Most sweeps, and the movement in a sweep, over the length of the row, at which it is at rest.
 const SWEEPS: usize = 80;
 const AT_REST: f64 = 1e-3;
-/// The states of a row need not be converged further than this.
-const LOOSE: Options = Options { tolerance: 1e-6, iterations: 60 };
+/// When the states of a row are converged.
+const LOOSE: Options = Options { tolerance: 1e-10, iterations: 60 };
 
 /// The row of states between two wells.
 pub fn string(
@@ -55,11 +55,7 @@ fn grown(
 }
 
 /// One sweep; the largest movement of a state.
-fn sweep(
-    settler: &mut Settler,
-    row: &mut [Settled],
-    observe: &mut dyn FnMut(&Step) -> bool,
-) -> Result<f64, Failure> {
+fn sweep(settler: &mut Settler, row: &mut [Settled], observe: &mut dyn FnMut(&Step) -> bool) -> Result<f64, Failure> {
     let places = stations(settler, row);
     let (whole, last) = (places[row.len() - 1], row.len() - 1);
     let mut moved: f64 = 0.0;

@@ -8,6 +8,9 @@ use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, End, Options, Point, follow};
 use std::f64::consts::{PI, TAU};
 
+/// Steps on curves over those on surfaces: they cost next to nothing.
+const FINER: f64 = 0.25;
+
 /// Closed angles, with the distance of the sharpest fold from `pi`.
 struct Folding<'a>(Closing<'a>);
 
@@ -53,7 +56,7 @@ pub(super) fn net(
     let crossing = rays.len() > 2;
     let mut net =
         Net { angles: vec![drawn.clone()], links: vec![], singular: vec![crossing], border: vec![false], dimension: 1 };
-    let options = Options { max_step: sampling.step, period: Some(TAU), stops: vec![0], ..Options::default() };
+    let options = Options { max_step: FINER * sampling.step, period: Some(TAU), stops: vec![0], ..Options::default() };
     for ray in &rays {
         let [x, tangent] = [&drawn, &ray.direction].map(|all| folding.0.folding(all));
         let found = follow(&mut folding, x, tangent, &options, &mut |_| go_on());

@@ -17,9 +17,10 @@ use crate::analysis::branches::{self, BranchesError};
 use crate::analysis::exact::{Springs, Stationary};
 use crate::analysis::surface::SurfaceError;
 use crate::kinematics::KinematicsError;
-use crate::model::assemble::{Surroundings, assemble, drawn_angles};
 use crate::model::Gauge;
+use crate::model::assemble::{Surroundings, assemble, drawn_angles};
 use flood::Merge;
+use std::f64::consts::PI;
 use thiserror::Error;
 
 /// Two stationary states are one where no angle differs by more.
@@ -72,6 +73,9 @@ pub struct RigidLandscape {
     pub states: usize,
     /// Wells, by energy.
     pub wells: Vec<Stationary>,
+    /// Energies of the ends of curves where a crease is folded by `pi` and the torque folds it further: states that the contact of two
+    /// panels holds. They are no equilibria of the creases alone, and not among the wells.
+    pub contacts: Vec<f64>,
     /// Passes by energy, from each the two sides of which were not joined below it.
     pub passes: Vec<RigidPass>,
     /// Wells and passes of the sampled states that could not be made exact.
@@ -125,18 +129,21 @@ pub fn landscape(
 /// Wells and passes of a net, made exact.
 fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
     let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
-    let flood::Flood { minima, merges } = flood::flood(&energies, &net.links);
+    let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
     let near = |at: usize, index: usize| exact(springs, &net.angles[at], (index, NEAR * step));
     let (mut wells, mut lost): (Vec<Stationary>, usize) = (Vec::new(), 0);
+    let mut contacts = Vec::new();
     // the well of each minimum; none where the landscape ends there, or where it is no well
     let mut well = vec![None; net.angles.len()];
     for &at in &minima {
         if net.border[at] {
+            contacts.extend(touches(net, at).then_some(energies[at]));
             continue;
         }
-        match near(at, 0) {
+        // where branches cross there are no tangents: a well next to it is found from beside
+        let beside = net.links.iter().filter(|link| net.singular[at] && link.contains(&at)).map(|[a, b]| a + b - at);
+        match beside.chain([at]).find_map(|start| near(start, 0)) {
             Some(found) => well[at] = Some(known(&mut wells, found)),
-            // where branches cross nothing is stationary in general: the state is a lowest one of samples only
             None => lost += usize::from(!net.singular[at]),
         }
     }
@@ -148,7 +155,9 @@ fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
         }
         let found = if net.singular[at] { None } else { near(at, 1) };
         match found {
-            Some(pass) => passes.push(RigidPass { joins: [a, b], energy: pass.energy, angles: pass.angles, singular: false }),
+            Some(pass) => {
+                passes.push(RigidPass { joins: [a, b], energy: pass.energy, angles: pass.angles, singular: false })
+            }
             None if net.singular[at] => {
                 let (energy, angles) = (energies[at], net.angles[at].clone());
                 passes.push(RigidPass { joins: [a, b], energy, angles, singular: true });
@@ -156,9 +165,16 @@ fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
             None => lost += 1,
         }
     }
-    let mut landscape = RigidLandscape { dimension: net.dimension, states: net.angles.len(), wells, passes, lost };
+    let (dimension, states) = (net.dimension, net.angles.len());
+    let mut landscape = RigidLandscape { dimension, states, wells, contacts, passes, lost };
     landscape.sort();
     landscape
+}
+
+/// Whether a curve ends in a state because a crease is shut.
+fn touches(net: &Net, at: usize) -> bool {
+    let sharpest = net.angles[at].iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
+    net.dimension == 1 && (sharpest - PI).abs() <= SAME
 }
 
 /// The stationary state of this index next to a sampled one.
@@ -186,6 +202,7 @@ impl RigidLandscape {
         self.passes.iter_mut().for_each(|pass| pass.joins = pass.joins.map(place));
         self.wells = order.iter().map(|&well| self.wells[well].clone()).collect();
         self.passes.sort_by(|a, b| a.energy.total_cmp(&b.energy));
+        self.contacts.sort_by(f64::total_cmp);
     }
 
     /// The lowest pass that has to be crossed between two wells; `None` where none joins them.
