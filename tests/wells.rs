@@ -189,15 +189,7 @@ fn four_wells_in_three_ways() {
     let recipe = case.recipe(f64::INFINITY, 1.0, rest);
     let question = question(&case, &recipe);
     let exact = landscape(&question, &SAMPLING, &mut || true).unwrap();
-    let found = reached(&question, 256, PI);
-    for well in &found {
-        println!(
-            "{} reached {} tension {:.1e}",
-            well.settled.energy,
-            well.reached,
-            well.settled.place.tension.iter().fold(0.0f64, |m, t| m.max(t.abs()))
-        );
-    }
+    let found = reached(&question, 200, PI);
     let inside = |well: &&Well| well.settled.rho.iter().all(|angle| angle.abs() <= PI);
     let energies: Vec<f64> = found.iter().filter(inside).map(|well| well.settled.energy).collect();
     println!("{energies:?} against {:?}", exact.wells.iter().map(|well| well.energy).collect::<Vec<_>>());

@@ -10,6 +10,9 @@ use std::collections::HashMap;
 /// Largest difference of a fold angle between two finds of one well, in radians.
 pub const SAME: f64 = 1e-5;
 
+/// Rest angles of copies of a crease that are the same differ by no more, in radians.
+const ROUNDING: f64 = 1e-9;
+
 /// A stable state.
 #[derive(Clone, Debug)]
 pub struct Well {
@@ -57,11 +60,12 @@ fn unfelt(question: &Question<'_>, moved: &[usize]) -> bool {
     let recipe = question.recipe;
     let same = |rest: &[f64]| {
         let pairs = rest.iter().zip(moved).map(|(rest, &to)| [*rest, rest_of(question, to)]);
-        pairs.into_iter().all(|[a, b]| a == b || (a.is_nan() && b.is_nan()))
+        pairs.into_iter().all(|[a, b]| (a - b).abs() <= ROUNDING || (a.is_nan() && b.is_nan()))
     };
-    let locks: HashMap<usize, u64> = recipe.locks.iter().map(|(edge, angle)| (*edge, angle.to_bits())).collect();
+    let locks: HashMap<usize, f64> = recipe.locks.iter().copied().collect();
+    let locked = |edge: usize, angle: f64| locks.get(&edge).is_some_and(|other| (other - angle).abs() <= ROUNDING);
     recipe.creases.as_ref().is_none_or(|hinges| same(&hinges.rest))
-        && locks.iter().all(|(edge, angle)| locks.get(&moved[*edge]) == Some(angle))
+        && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
 }
 
 fn rest_of(question: &Question<'_>, edge: usize) -> f64 {

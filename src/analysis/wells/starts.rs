@@ -20,8 +20,6 @@ const SOFT: f64 = 1e3;
 const MOVED: f64 = 0.05;
 /// When a crumpled state is good enough to be released.
 const CRUMPLED: Options = Options { tolerance: 1e-4, iterations: 60 };
-/// Largest tension of a well, over the stiffness of creases.
-const MOST_TENSION: f64 = 1e6;
 /// How often a start that ends in no well is crumpled anew.
 const TRIES: usize = 4;
 
@@ -94,17 +92,9 @@ fn one(question: &Question<'_>, starts: &Starts, number: usize) -> Outcome {
 fn released(question: &Question<'_>, from: &Place, options: Options) -> Outcome {
     match Settler::new(question, question.recipe, 1.0).free(from, false, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),
-        Ok(found) if overstrung(question, &found) => Outcome::Failed(Failure::Uncertain { angle: f64::INFINITY }),
         Ok(found) if found.relaxed.negative_eigenvalues > 0 => Outcome::Saddle,
         Ok(found) => Outcome::Well(Box::new(found)),
     }
-}
-
-/// Whether tensions are out of all proportion to the torques that they should balance. Where panels nearly lie on each other rigid bars
-/// can grow such tensions, and then a force that nothing balances is small against them.
-fn overstrung(question: &Question<'_>, found: &Settled) -> bool {
-    let stiffness = question.recipe.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
-    found.place.tension.iter().any(|tension| !(tension.abs() <= MOST_TENSION * stiffness))
 }
 
 /// A state near random fold angles.

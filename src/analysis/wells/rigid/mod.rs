@@ -130,51 +130,62 @@ pub fn landscape(
 fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
     let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
     let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
-    let near = |at: usize, index: usize| exact(springs, &net.angles[at], (index, NEAR * step));
-    let (mut wells, mut lost): (Vec<Stationary>, usize) = (Vec::new(), 0);
-    let mut contacts = Vec::new();
-    // the well of each minimum; none where the landscape ends there, or where it is no well
-    let mut well = vec![None; net.angles.len()];
-    for &at in &minima {
-        if net.border[at] {
-            contacts.extend(touches(net, at).then_some(energies[at]));
-            continue;
-        }
-        // where branches cross there are no tangents: a well next to it is found from beside
-        let beside = net.links.iter().filter(|link| net.singular[at] && link.contains(&at)).map(|[a, b]| a + b - at);
-        match beside.chain([at]).find_map(|start| near(start, 0)) {
-            Some(found) => well[at] = Some(known(&mut wells, found)),
-            None => lost += usize::from(!net.singular[at]),
-        }
-    }
-    let mut passes = Vec::new();
-    for Merge { lower, at } in merges {
-        let [Some(a), Some(b)] = lower.map(|minimum| well[minimum]) else { continue };
-        if a == b {
-            continue;
-        }
-        let found = if net.singular[at] { None } else { near(at, 1) };
-        match found {
-            Some(pass) => {
-                passes.push(RigidPass { joins: [a, b], energy: pass.energy, angles: pass.angles, singular: false })
-            }
-            None if net.singular[at] => {
-                let (energy, angles) = (energies[at], net.angles[at].clone());
-                passes.push(RigidPass { joins: [a, b], energy, angles, singular: true });
-            }
-            None => lost += 1,
-        }
-    }
     let (dimension, states) = (net.dimension, net.angles.len());
-    let mut landscape = RigidLandscape { dimension, states, wells, contacts, passes, lost };
+    let (wells, contacts, passes) = (Vec::new(), Vec::new(), Vec::new());
+    let mut landscape = RigidLandscape { dimension, states, wells, contacts, passes, lost: 0 };
+    // the well of each minimum; none where the landscape ends there, or where it is no well
+    let mut well = vec![None; states];
+    for &at in &minima {
+        let found = if net.border[at] || net.singular[at] {
+            net.beside(at).find_map(|other| between(springs, net, [at, other]))
+        } else {
+            exact(springs, &net.angles[at], (0, NEAR * step))
+        };
+        match found {
+            Some(found) => well[at] = Some(known(&mut landscape.wells, found)),
+            None if net.border[at] => landscape.contacts.extend(net.touches(at).then_some(energies[at])),
+            // where branches cross nothing is stationary: the state is the lowest of the samples only
+            None => landscape.lost += usize::from(!net.singular[at]),
+        }
+    }
+    // wells so near to where branches cross that no sample lies between
+    for at in (0..states).filter(|&at| net.singular[at] && dimension == 1) {
+        let hidden = net.beside(at).filter_map(|other| between(springs, net, [at, other]));
+        hidden.for_each(|found| {
+            known(&mut landscape.wells, found);
+        });
+    }
+    for Merge { lower, at } in merges {
+        if let [Some(a), Some(b)] = lower.map(|minimum| well[minimum]) {
+            landscape.add_pass(springs, net, ([a, b], at), step);
+        }
+    }
     landscape.sort();
     landscape
 }
 
-/// Whether a curve ends in a state because a crease is shut.
-fn touches(net: &Net, at: usize) -> bool {
-    let sharpest = net.angles[at].iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
-    net.dimension == 1 && (sharpest - PI).abs() <= SAME
+impl Net {
+    /// Neighbours of a state.
+    fn beside(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
+        self.links.iter().filter(move |link| link.contains(&at)).map(move |[a, b]| a + b - at)
+    }
+
+    /// Whether a curve ends in a state because a crease is shut.
+    fn touches(&self, at: usize) -> bool {
+        let sharpest = self.angles[at].iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
+        self.dimension == 1 && (sharpest - PI).abs() <= SAME
+    }
+}
+
+/// The well between two neighbours, the first of which has no tangents or lies on the border.
+fn between(springs: &Springs, net: &Net, [at, other]: [usize; 2]) -> Option<Stationary> {
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    let [here, there] = [at, other].map(|state| &net.angles[state]);
+    let length = apart(here, there);
+    let found = springs.stationary(there)?;
+    let inside = [here, there].iter().all(|end| apart(&found.angles, end) <= (1.0 + SAME) * length)
+        && found.angles.iter().all(|angle| angle.abs() <= PI);
+    (found.negative_eigenvalues == 0 && inside).then_some(found)
 }
 
 /// The stationary state of this index next to a sampled one.
@@ -194,6 +205,24 @@ fn known(wells: &mut Vec<Stationary>, found: Stationary) -> usize {
 }
 
 impl RigidLandscape {
+    /// Makes the pass at a state exact.
+    fn add_pass(&mut self, springs: &Springs, net: &Net, (joins, at): ([usize; 2], usize), step: f64) {
+        if joins[0] == joins[1] {
+            return;
+        }
+        if net.singular[at] {
+            let angles = net.angles[at].clone();
+            self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular: true });
+            return;
+        }
+        match exact(springs, &net.angles[at], (1, NEAR * step)) {
+            Some(Stationary { angles, energy, .. }) => {
+                self.passes.push(RigidPass { joins, energy, angles, singular: false });
+            }
+            None => self.lost += 1,
+        }
+    }
+
     /// Wells and passes by energy.
     fn sort(&mut self) {
         let mut order: Vec<usize> = (0..self.wells.len()).collect();
