@@ -121,11 +121,11 @@ impl Axis {
         if low > high {
             return Self { scale, step: 1.0, low: -1, high: 1 };
         }
-        let step = match scale {
-            Scale::Logarithmic => 1.0,
-            Scale::Linear => round_step(high - low),
+        let (step, margin) = match scale {
+            Scale::Logarithmic => (1.0, 0.05),
+            Scale::Linear => (round_step(high - low), 0.0),
         };
-        let (low, high) = ((low / step - 0.05).floor() as i32, (high / step + 0.05).ceil() as i32);
+        let (low, high) = ((low / step - margin).floor() as i32, (high / step + margin).ceil() as i32);
         Self { scale, step, low, high: high.max(low + 1) }
     }
 

@@ -141,7 +141,7 @@ fn from_softness(
         string::stations(&settler, &row).into_iter().zip(&row).map(|(at, settled)| (at, settled.energy)).collect();
     let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
     let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
-    let first = index_one(question, stiffness, &row[top])?;
+    let first = index_one(question, stiffness, [top, top - 1, top + 1].map(|at| &row[at]))?;
     let Followed { pass, heights, singular } = followed(question, first, stiffness)?;
     let own = if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { question.stiffness() };
     let mut own = Settler::new(question, &question.with_bars(own), string::STRENGTH);
@@ -156,13 +156,18 @@ fn from_softness(
     }
 }
 
-fn index_one(question: &Question<'_>, stiffness: f64, near: &Settled) -> Result<Pass, BarrierError> {
-    let found = equilibrium(question, stiffness, &near.place, OPTIONS);
-    let pass = found.map_err(|failure| BarrierError::NoPass { stiffness, failure })?;
-    match pass.negative_eigenvalues {
-        1 => Ok(pass),
-        found => Err(BarrierError::Index { stiffness, found }),
+/// The pass next to the first of these states at which there is one.
+fn index_one(question: &Question<'_>, stiffness: f64, near: [&Settled; 3]) -> Result<Pass, BarrierError> {
+    let mut why = None;
+    for state in near {
+        let reason = match equilibrium(question, stiffness, &state.place, OPTIONS) {
+            Ok(pass) if pass.negative_eigenvalues == 1 => return Ok(pass),
+            Ok(pass) => BarrierError::Index { stiffness, found: pass.negative_eigenvalues },
+            Err(failure) => BarrierError::NoPass { stiffness, failure },
+        };
+        why.get_or_insert(reason);
     }
+    Err(why.unwrap_or(BarrierError::LeadsElsewhere))
 }
 
 /// A pass at the sheet's own stiffness, or as near to it as it is regular.
@@ -213,7 +218,8 @@ pub fn rigid_limit(heights: &[Height]) -> Option<RigidLimit> {
         let even = three.windows(2).all(|pair| (pair[1].stiffness / pair[0].stiffness / STIFFER - 1.0).abs() <= 1e-9);
         let [first, second] = [three[1].energy - three[0].energy, three[2].energy - three[1].energy];
         let ratio = second / first;
-        if !even || !(second.abs() > CLEAR * three[2].energy.abs()) || !(0.0 < ratio && ratio < 1.0) {
+        let clear = second.abs() > CLEAR * three[2].energy.abs() && 0.0 < ratio && ratio < 1.0;
+        if !(even && clear) {
             return None;
         }
         Some(RigidLimit { exponent: -ratio.log10(), energy: three[2].energy + second * ratio / (1.0 - ratio) })

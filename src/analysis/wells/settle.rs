@@ -13,11 +13,11 @@ use crate::analysis::relax::{RelaxError, Relaxed, relax};
 use crate::math::{Vec3, rotation};
 use crate::model::assemble::{Recipe, Surroundings, assemble};
 use crate::model::{Gauge, Model};
-use crate::solver::{Options, Problem, Start, Step};
+use crate::solver::{Failure, Options, Problem, Start, Step};
 
-/// How a patch is turned, as a rotation vector in radians, and how often.
+/// How a patch is turned, as a rotation vector in radians, and how often at most.
 const TURN: [f64; 3] = [0.9, -0.5, 0.7];
-const TURNS: usize = 6;
+const TURNS: usize = 40;
 /// Largest change of a fold angle of what stays, in radians.
 const STILL: f64 = 1e-7;
 
@@ -53,6 +53,14 @@ pub struct Settled {
     pub energy: f64,
     /// The relaxation.
     pub relaxed: Relaxed,
+}
+
+impl Settled {
+    /// The failure of a state that moves by so much when it is turned.
+    fn unsettled(self, angle: f64) -> Box<RelaxError> {
+        let Relaxed { state, x, history, .. } = self.relaxed;
+        Box::new(RelaxError { failure: Failure::Uncertain { angle }, state, x, history })
+    }
 }
 
 /// A model that can be held near given fold angles.
@@ -102,16 +110,17 @@ impl Settler {
     ) -> Result<Settled, Box<RelaxError>> {
         let relaxed = go(&mut self.free, from, warm, options, self.edges, observe)?;
         let mut found = self.settled(relaxed, false);
-        for _ in 0..if self.turns { TURNS } else { 0 } {
-            let relaxed = go(&mut self.free, &found.place.turned(), false, options, self.edges, observe)?;
-            let again = self.settled(relaxed, false);
-            let moved = found.rho.iter().zip(&again.rho).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            found = again;
+        let mut moved = if self.turns { f64::INFINITY } else { 0.0 };
+        for _ in 0..TURNS {
             if moved <= STILL {
                 break;
             }
+            let relaxed = go(&mut self.free, &found.place.turned(), false, options, self.edges, observe)?;
+            let again = self.settled(relaxed, false);
+            moved = found.rho.iter().zip(&again.rho).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            found = again;
         }
-        Ok(found)
+        if moved <= STILL { Ok(found) } else { Err(found.unsettled(moved)) }
     }
 
     /// The same held near these fold angles of the soft hinges.

@@ -1,8 +1,8 @@
 //! Wells and passes of exactly rigid sheets, in fold angles alone: no bar, no random start.
 //!
 //! The folded states of one cell, or of a small finite sheet, are curves or a surface that leave the drawn state
-//! ([`curves`], [`surface`]). On states sampled there wells are the lowest of their neighbours and passes are found by flooding
-//! ([`flood`]); each is then made exact by Newton's method for the energy of the creases along the closed states
+//! (`curves`, `surface`). On states sampled there wells are the lowest of their neighbours and passes are found by flooding
+//! (`flood`); each is then made exact by Newton's method for the energy of the creases along the closed states
 //! ([`crate::analysis::exact`]), and its index counted. States at which a crease is folded by more than `pi`, where panels have gone
 //! through each other, do not belong to this landscape.
 //!

@@ -2,7 +2,7 @@
 
 use super::{Net, RigidError, Sampling};
 use crate::analysis::branches;
-use crate::analysis::surface::{Question, Surface, surface};
+use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
 use crate::solver::atlas::Coverage;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -11,6 +11,9 @@ use std::f64::consts::PI;
 const TOLERANCE: f64 = 3e-14;
 /// States beyond which a surface is given up.
 const MOST_POINTS: usize = 300_000;
+
+/// Largest difference of an angle between two tips in one state.
+const ONE: f64 = 1e-9;
 
 /// Samples the surface.
 pub(super) fn net(
@@ -45,8 +48,9 @@ pub(super) fn net(
     }
     // neighbours across the end of a period are none here: a turn more is another state
     let near = |a: usize, b: usize| points[a].angles.iter().zip(&points[b].angles).all(|(a, b)| (a - b).abs() <= PI);
-    let links: BTreeSet<[usize; 2]> =
+    let mut links: BTreeSet<[usize; 2]> =
         count.into_keys().filter(|&[a, b]| inside[a] && inside[b] && near(a, b)).collect();
+    links.extend(tips(&points));
     Ok(Net {
         singular: points.iter().map(|point| point.radius == 0.0).collect(),
         angles: points.into_iter().map(|point| point.angles).collect(),
@@ -54,4 +58,12 @@ pub(super) fn net(
         border,
         dimension: 2,
     })
+}
+
+/// Every nappe has a tip of its own; those in one state hang together.
+fn tips(points: &[SurfacePoint]) -> Vec<[usize; 2]> {
+    let tips: Vec<usize> = (0..points.len()).filter(|&k| points[k].radius == 0.0).collect();
+    let pairs = tips.iter().enumerate().flat_map(|(k, &a)| tips[..k].iter().map(move |&b| [b, a]));
+    let same = |a: usize, b: usize| points[a].angles.iter().zip(&points[b].angles).all(|(a, b)| (a - b).abs() <= ONE);
+    pairs.filter(|&[a, b]| same(a, b)).collect()
 }
