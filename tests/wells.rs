@@ -232,6 +232,32 @@ fn barriers_of_a_vertex() {
     assert!(exact.passes[0].singular && !exact.passes[1].singular);
 }
 
+/// Claim: what is no barrier does not look like one. A well of a crease that is folded through itself, far from the others, has no pass that the
+/// string finds: an error, not a number; and every barrier that is confirmed lies above both wells between which it was sought.
+#[test]
+fn no_barrier_lies_below_its_wells() {
+    let (case, rest) = near_cross();
+    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
+    let question = question(&case, &recipe);
+    let starts = Starts { count: 64, seed: 0, spread: PI, options: Options::default() };
+    let minima = relax_all(&question, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
+        Outcome::Well(settled) => Some(*settled),
+        _ => None,
+    });
+    let found = wells(minima, &Translations::new(&question));
+    assert!(
+        found.iter().any(|well| well.settled.rho.iter().any(|angle| angle.abs() > PI)),
+        "one is folded through itself"
+    );
+    let mut confirmed = 0;
+    for other in 1..found.len() {
+        let Ok(barrier) = barrier(&question, &found, [0, other], &mut || true) else { continue };
+        assert!(barrier.pass.energy > found[other].settled.energy && barrier.pass.negative_eigenvalues == 1);
+        confirmed += 1;
+    }
+    assert!(confirmed >= 2, "{confirmed}");
+}
+
 /// Claim: the energy of the reference cell's creases on the surface of its folded states has three wells for these rest angles, which random starts
 /// of rigid bars reach too; the pass between the two lowest, by strings of bars of every stiffness from soft to rigid, tends to the one on the surface
 /// as 1/stiffness and meets it in rigid bars. Tolerance 1e-9 of the energies: relaxations to 1e-12.

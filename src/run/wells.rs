@@ -286,7 +286,7 @@ fn paths(title: &str, passes: &[&Barrier]) -> Chart {
     };
     Chart {
         title: title.to_owned(),
-        x: "distance along the path, root of energy".to_owned(),
+        x: "distance along the path, sqrt(sum k (d rho)^2)".to_owned(),
         y: "energy".to_owned(),
         series: passes.iter().map(series).collect(),
     }

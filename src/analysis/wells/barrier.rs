@@ -4,7 +4,8 @@
 //! ([`super::string`]) finds a path there. The highest state of its row is close to a pass; Newton's method
 //! ([`super::pass`]) makes it one, and goes on from it in bars ten times as stiff, and so on, up to those of the sheet; infinity is
 //! the last step. Where that ends early the path is sought again in stiffer bars. At the end the pass counts only where its
-//! Hessian has exactly one negative eigenvalue and the sheet descends from it into two different wells.
+//! Hessian has exactly one negative eigenvalue, it lies above the wells between which it was sought, and the sheet descends from it into
+//! two different wells: those, or others on the way, which are reported then.
 
 use super::Question;
 use super::merge::{Translations, Well, which};
@@ -25,6 +26,8 @@ const TRIES: usize = 6;
 const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 /// Differences of energies, relative, from which their law is read.
 const CLEAR: f64 = 1e-8;
+/// Least distance of two wells, in `sqrt(sum k (d rho)^2)`.
+const APART: f64 = 1e-3;
 /// Shortest factor between two stiffnesses.
 const SHORTEST: f64 = 1.05;
 
@@ -32,7 +35,7 @@ const SHORTEST: f64 = 1.05;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BarrierError {
     /// A well is none with the bars in which paths were sought.
-    #[error("with bars of {stiffness:e} the wells are no longer two")]
+    #[error("with bars of {stiffness:e} the wells are no longer these two")]
     OneWell {
         /// Stiffness of those bars.
         stiffness: f64,
@@ -62,6 +65,14 @@ pub enum BarrierError {
         stiffness: f64,
         /// Negative eigenvalues.
         found: usize,
+    },
+    /// It is no barrier between the wells, one of which lies higher.
+    #[error("the pass that was found, of energy {pass}, lies below a well that it should lead to, of energy {well}")]
+    TooLow {
+        /// Energy of the pass.
+        pass: f64,
+        /// Energy of the higher of the wells.
+        well: f64,
     },
     /// It does not lie between two of the wells.
     #[error("the pass does not lead into two different wells that are known")]
@@ -133,7 +144,9 @@ fn from_softness(
         let place = &wells[well].settled.place;
         soft.push(settler.free(place, false, OPTIONS, &mut |_| go_on()).map_err(|error| failed(error.failure))?);
     }
-    if string::distance(&settler, &soft[0].rho, &soft[1].rho) <= 1e-3 {
+    let apart = |soft: &Settled, well: usize| string::distance(&settler, &soft.rho, &wells[well].settled.rho);
+    let stayed = (0..2).all(|k| apart(&soft[k], between[k]) < apart(&soft[k], between[1 - k]));
+    if !stayed || string::distance(&settler, &soft[0].rho, &soft[1].rho) <= APART {
         return Err(BarrierError::OneWell { stiffness });
     }
     let row = string(&mut settler, [&soft[0], &soft[1]], &mut |_| go_on()).map_err(failed)?;
@@ -148,6 +161,10 @@ fn from_softness(
     let ends = sides(&mut own, &pass, &along, OPTIONS).map_err(failed)?;
     let translations = Translations::new(question);
     let number = |end: &Settled| which(wells, &end.relaxed.state.fold_angle, &translations);
+    let higher = between.iter().map(|well| wells[*well].settled.energy).fold(f64::NEG_INFINITY, f64::max);
+    if !(pass.energy > higher) {
+        return Err(BarrierError::TooLow { pass: pass.energy, well: higher });
+    }
     match [number(&ends[1]), number(&ends[0])] {
         [Some(a), Some(b)] if a != b => {
             Ok(Barrier { between, joins: [a, b], pass, singular, heights, stiffness, path })
