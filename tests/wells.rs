@@ -1,5 +1,5 @@
-//! Wells and barriers: vertices of degree four with as many stable states as the literature says, and passes by strings of bars against
-//! passes in fold angles alone.
+//! Wells and barriers: vertices of degree four with as many stable states as the literature says, and passes by strings
+//! of bars against passes in fold angles alone.
 #![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
 mod common;
@@ -62,9 +62,9 @@ fn reached(question: &Question<'_>, count: usize, spread: f64) -> Vec<Well> {
 
 /// Fold angles along the two branches of a vertex of degree four with these sectors, from spherical trigonometry alone.
 ///
-/// The creases meet the unit sphere in a quadrilateral with the sectors as sides. Its diagonal from crease 1 to crease 3 takes every value
-/// between its largest, where the sheet is flat, and its smallest; creases 0 and 2 lie on either side of it. Each branch is
-/// two mirror images that meet in the flat state, cut where a crease is first folded by pi.
+/// The creases meet the unit sphere in a quadrilateral with the sectors as sides. Its diagonal from crease 1 to crease
+/// 3 takes every value between its largest, where the sheet is flat, and its smallest; creases 0 and 2 lie on either
+/// side of it. Each branch is two mirror images that meet in the flat state, cut where a crease is first folded by pi.
 fn branches(sectors: [f64; 4], points: usize) -> [Vec<[f64; 4]>; 2] {
     let [t0, t1, t2, t3] = sectors;
     let (most, least) = ((t0 + t3).min(TAU - t0 - t3), (t0 - t3).abs().max((t1 - t2).abs()));
@@ -135,11 +135,12 @@ fn rigid(directions: &[f64; 4], rest: [f64; 4]) -> RigidLandscape {
     landscape(&question(&case, &recipe), &SAMPLING, &mut || true).unwrap()
 }
 
-/// Claim: wells of random vertices counted in fold angles by the program are those counted along the closed form of spherical
-/// trigonometry, and so are the ends that contact holds; with these every vertex has two stable states at least, since two branches meet in the
-/// flat state, and none has more than five. Source: S. Waitukaitis, R. Menaut, B. G. Chen, M. van Hecke, PRL 114, 055503 (2015):
-/// generic vertices are at least bistable and have up to five stable states. Tolerance: the closed form is sampled, so a well next to
-/// where a crease is shut may be missed: one vertex in 200.
+/// Claim: wells of random vertices counted in fold angles by the program are those counted along the closed form of
+/// spherical trigonometry, and so are the ends that contact holds; with these every vertex has two stable states at
+/// least, since two branches meet in the flat state, and none has more than five. Source: S. Waitukaitis, R. Menaut, B.
+/// G. Chen, M. van Hecke, PRL 114, 055503 (2015): generic vertices are at least bistable and have up to five stable
+/// states. Tolerance: the closed form is sampled, so a well next to where a crease is shut may be missed: one vertex in
+/// 200.
 #[test]
 fn random_vertices_have_two_to_five_stable_states() {
     let mut numbers = Numbers::new(2);
@@ -159,8 +160,8 @@ fn random_vertices_have_two_to_five_stable_states() {
     assert!(differ <= 5, "{differ}");
 }
 
-/// Claim: five stable states, three wells and two states that contact holds, as the source above says is possible; found by a search among
-/// some 400,000 vertices near a cross.
+/// Claim: five stable states, three wells and two states that contact holds, as the source above says is possible;
+/// found by a search among some 400,000 vertices near a cross.
 #[test]
 fn a_vertex_with_five_stable_states() {
     let (directions, rest) = ([0.0, 1.569, 2.716, 4.267], [2.841, -2.986, -2.856, 2.901]);
@@ -181,8 +182,8 @@ fn pass_between(question: &Question<'_>, wells: &[Well], energies: [f64; 2]) -> 
     barrier(question, wells, energies.map(number), &mut || true).unwrap()
 }
 
-/// Claim: a vertex with four stable states: rigid bars from random starts, trajectories in fold angles and the closed form count the same, and
-/// the first two agree in the energies. Tolerance 1e-9: of relaxations to 1e-12.
+/// Claim: a vertex with four stable states: rigid bars from random starts, trajectories in fold angles and the closed
+/// form count the same, and the first two agree in the energies. Tolerance 1e-9: of relaxations to 1e-12.
 #[test]
 fn four_wells_in_three_ways() {
     let (case, rest) = near_cross();
@@ -232,8 +233,9 @@ fn barriers_of_a_vertex() {
     assert!(exact.passes[0].singular && !exact.passes[1].singular);
 }
 
-/// Claim: what is no barrier does not look like one. A well of a crease that is folded through itself, far from the others, has no pass that the
-/// string finds: an error, not a number; and every barrier that is confirmed lies above both wells between which it was sought.
+/// Claim: what is no barrier does not look like one. A well of a crease that is folded through itself, far from the
+/// others, has no pass that the string finds: an error, not a number; and every barrier that is confirmed lies above
+/// both wells between which it was sought.
 #[test]
 fn no_barrier_lies_below_its_wells() {
     let (case, rest) = near_cross();
@@ -258,9 +260,10 @@ fn no_barrier_lies_below_its_wells() {
     assert!(confirmed >= 2, "{confirmed}");
 }
 
-/// Claim: the energy of the reference cell's creases on the surface of its folded states has three wells for these rest angles, which random starts
-/// of rigid bars reach too; the pass between the two lowest, by strings of bars of every stiffness from soft to rigid, tends to the one on the surface
-/// as 1/stiffness and meets it in rigid bars. Tolerance 1e-9 of the energies: relaxations to 1e-12.
+/// Claim: the energy of the reference cell's creases on the surface of its folded states has three wells for these rest
+/// angles, which random starts of rigid bars reach too; the pass between the two lowest, by strings of bars of every
+/// stiffness from soft to rigid, tends to the one on the surface as 1/stiffness and meets it in rigid bars. Tolerance
+/// 1e-9 of the energies: relaxations to 1e-12.
 #[test]
 fn barrier_of_the_reference_cell() {
     let case = Case::new(mesh("open-star"), [1, 1], Surroundings::Screw);
@@ -283,13 +286,15 @@ fn barrier_of_the_reference_cell() {
     println!("{} by string, {} on the surface, {limit:?}", strung.pass.energy, pass.energy);
     assert!(!pass.singular && !strung.singular && strung.joins.iter().all(|well| *well < 2));
     assert!((strung.pass.energy - pass.energy).abs() <= 1e-9 && (limit.exponent - 1.0).abs() <= 1e-2);
-    // the third well lies on the other nappe: the way there leads through the drawn state, a regular pass in screw coordinates
+    // the third well lies on the other nappe: the way there leads through the drawn state, a regular pass in screw
+    // coordinates
     let (strung, pass) = (pass_between(&question, &found, [energies[1], energies[2]]), exact.between(1, 2).unwrap());
     println!("{} by string, {} at the tip", strung.pass.energy, pass.energy);
     assert!(pass.singular && !strung.singular && (strung.pass.energy - pass.energy).abs() <= 1e-9);
 }
 
-/// Claim: a sheet held near the fold angles of its well stays there, and its energy is told without what holds it. Tolerance: of relaxations.
+/// Claim: a sheet held near the fold angles of its well stays there, and its energy is told without what holds it.
+/// Tolerance: of relaxations.
 #[test]
 fn a_held_well_stays() {
     let (case, rest) = near_cross();
@@ -305,8 +310,8 @@ fn a_held_well_stays() {
     assert!(moved.energy > well.energy + 1e-6 && common::distance(&moved.rho, &well.rho) > 1e-3);
 }
 
-/// Claim: on a torus states that a translation takes into each other are one well, where the rest angles are those of the cell; not where they
-/// differ from cell to cell.
+/// Claim: on a torus states that a translation takes into each other are one well, where the rest angles are those of
+/// the cell; not where they differ from cell to cell.
 #[test]
 fn translations_are_not_told_apart() {
     let case = Case::new(mesh("open-star"), [3, 2], Surroundings::FixedTorus);
@@ -346,8 +351,9 @@ fn starts_do_not_know_threads() {
     assert_eq!(run(1), run(2));
 }
 
-/// Claim: the law of the rigid limit is read off energies that follow it, from the last ones that differ by more than rounding errors; there is none where
-/// energies do not tend to anything. Tolerance: rounding over the last differences.
+/// Claim: the law of the rigid limit is read off energies that follow it, from the last ones that differ by more than
+/// rounding errors; there is none where energies do not tend to anything. Tolerance: rounding over the last
+/// differences.
 #[test]
 fn the_rigid_limit_is_extrapolated() {
     let energies = |law: &dyn Fn(f64) -> f64| -> Vec<Height> {
@@ -393,8 +399,8 @@ fn run(scene: &Path, out: &Path, threads: usize, most_steps: usize) -> (StudySum
     (study, wells)
 }
 
-/// Claim: a run tells wells and passes from each other and writes them all, the same bytes for one thread and for two; a barrier between wells that
-/// do not exist, and a run that was interrupted, are no answers and say why.
+/// Claim: a run tells wells and passes from each other and writes them all, the same bytes for one thread and for two;
+/// a barrier between wells that do not exist, and a run that was interrupted, are no answers and say why.
 #[test]
 fn runs_write_wells_and_passes() {
     let folder = tempfile::tempdir().unwrap();
@@ -425,8 +431,8 @@ fn runs_write_wells_and_passes() {
     assert!(!wells.unwrap().wells.is_empty());
 }
 
-/// Claim: wells of what has no energy of bars and creases, or is held or pulled, and keys that mean nothing, are refused with their reason
-/// before anything is written.
+/// Claim: wells of what has no energy of bars and creases, or is held or pulled, and keys that mean nothing, are
+/// refused with their reason before anything is written.
 #[test]
 fn refusals() {
     let cases = [
@@ -450,7 +456,8 @@ fn refusals() {
     }
 }
 
-/// Claim: a sheet whose rigid states are neither curves nor a surface has wells all the same, and says that it has no rigid landscape.
+/// Claim: a sheet whose rigid states are neither curves nor a surface has wells all the same, and says that it has no
+/// rigid landscape.
 #[test]
 fn rigid_states_of_other_dimensions() {
     let folder = tempfile::tempdir().unwrap();

@@ -217,7 +217,8 @@ fn rigid(found: &RigidLandscape) -> RigidSummary {
     }
 }
 
-/// The wells and then the passes, as a table and as pictures; the energies of passes against stiffness; energies along the paths.
+/// The wells and then the passes, as a table and as pictures; the energies of passes against stiffness; energies along
+/// the paths.
 fn write(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), RunError> {
     let (name, built) = (&study.name.0, runner.built);
     let passes: Vec<&Barrier> = found.barriers.iter().filter_map(|(_, found)| found.as_ref().ok()).collect();

@@ -1,11 +1,12 @@
 //! The barrier between two wells: a path with soft bars, its pass, and the pass followed to the sheet's own stiffness.
 //!
-//! With bars a hundred times as stiff as the creases states hang together also across folded states that do not, so the string method
-//! ([`super::string`]) finds a path there. The highest state of its row is close to a pass; Newton's method
-//! ([`super::pass`]) makes it one, and goes on from it in bars ten times as stiff, and so on, up to those of the sheet; infinity is
-//! the last step. Where that ends early the path is sought again in stiffer bars. At the end the pass counts only where its
-//! Hessian has exactly one negative eigenvalue, it lies above the wells between which it was sought, and the sheet descends from it into
-//! two different wells: those, or others on the way, which are reported then.
+//! With bars a hundred times as stiff as the creases states hang together also across folded states that do not, so the
+//! string method ([`super::string`]) finds a path there. The highest state of its row is close to a pass; Newton's
+//! method ([`super::pass`]) makes it one, and goes on from it in bars ten times as stiff, and so on, up to those of the
+//! sheet; infinity is the last step. Where that ends early the path is sought again in stiffer bars. At the end the
+//! pass counts only where its Hessian has exactly one negative eigenvalue, it lies above the wells between which it was
+//! sought, and the sheet descends from it into two different wells: those, or others on the way, which are reported
+//! then.
 
 use super::Question;
 use super::merge::{Translations, Well, which};
@@ -97,7 +98,8 @@ pub struct Barrier {
     pub joins: [usize; 2],
     /// The pass, with one negative eigenvalue; where it is singular in rigid bars, the last one that is not.
     pub pass: Pass,
-    /// Whether the bars are rigid and the pass, which exists at every finite stiffness, is singular there: branches cross in it.
+    /// Whether the bars are rigid and the pass, which exists at every finite stiffness, is singular there: branches
+    /// cross in it.
     pub singular: bool,
     /// The pass on its way to this stiffness.
     pub heights: Vec<Height>,
@@ -227,8 +229,8 @@ pub struct RigidLimit {
     pub energy: f64,
 }
 
-/// The law through the last three energies, at stiffnesses ten times apart, that differ by more than rounding errors; `None` where there are
-/// none.
+/// The law through the last three energies, at stiffnesses ten times apart, that differ by more than rounding errors;
+/// `None` where there are none.
 pub fn rigid_limit(heights: &[Height]) -> Option<RigidLimit> {
     let known: Vec<&Height> = heights.iter().filter(|height| height.stiffness.is_finite()).collect();
     known.windows(3).rev().find_map(|three| {

@@ -1,7 +1,8 @@
-//! Wells told apart by their fold angles: rigid motions change none of them, and the translations of a torus exchange them.
+//! Wells told apart by their fold angles: rigid motions change none of them, and the translations of a torus exchange
+//! them.
 //!
-//! A translation counts where it leaves rest angles and locked angles as they are. Angles are not taken modulo whole turns,
-//! because the energy is not: a crease wound once more is another well, and passes through itself.
+//! A translation counts where it leaves rest angles and locked angles as they are. Angles are not taken modulo whole
+//! turns, because the energy is not: a crease wound once more is another well, and passes through itself.
 
 use super::Question;
 use super::settle::Settled;
@@ -22,8 +23,8 @@ pub struct Well {
     pub reached: usize,
 }
 
-/// The translations of a torus that its energy does not feel, each as the edge to which every edge of the tiling goes; elsewhere
-/// only the one that moves nothing.
+/// The translations of a torus that its energy does not feel, each as the edge to which every edge of the tiling goes;
+/// elsewhere only the one that moves nothing.
 #[derive(Clone, Debug)]
 pub struct Translations(Vec<Vec<usize>>);
 

@@ -1,7 +1,8 @@
 //! Passes: equilibria with exactly one negative eigenvalue.
 //!
-//! Newton's method on the whole system of coordinates and tensions, without shift, from a state near a pass; it converges to whatever
-//! equilibrium is near, so the inertia is counted afterwards. What a pass joins is found by descending from it on both sides.
+//! Newton's method on the whole system of coordinates and tensions, without shift, from a state near a pass; it
+//! converges to whatever equilibrium is near, so the inertia is counted afterwards. What a pass joins is found by
+//! descending from it on both sides.
 
 use super::Question;
 use super::settle::{Place, Settled, Settler};

@@ -4,9 +4,10 @@
 //! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
 //! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
 //!
-//! Against rigid motions a model holds coordinates that are chosen in the drawn state. Much later on the way these may not suffice, and
-//! then folding is held where nothing should hold it: a patch ends in what is no equilibrium. So a patch that has relaxed is turned
-//! in space, which means nothing to a true equilibrium, and relaxed again until it stays.
+//! Against rigid motions a model holds coordinates that are chosen in the drawn state. Much later on the way these may
+//! not suffice, and then folding is held where nothing should hold it: a patch ends in what is no equilibrium. So a
+//! patch that has relaxed is turned in space, which means nothing to a true equilibrium, and relaxed again until it
+//! stays.
 
 use super::Question;
 use crate::analysis::relax::{RelaxError, Relaxed, relax};

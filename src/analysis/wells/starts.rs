@@ -1,9 +1,10 @@
 //! Random starts: the sheet crumpled to random fold angles, with soft bars, and then released.
 //!
-//! Every crease is given a rest angle at random around the drawn one, every coordinate is moved at random (flat sheets have to leave
-//! the flat state), a screw gets an axis at random, and the sheet relaxes with bars of at most a thousand times the stiffness of its
-//! creases, so that no folded state is out of reach. From there it relaxes with its own bars and rest angles. Where that ends in no
-//! well the start is made anew, a few times. Its random numbers depend on the seed and its own number alone.
+//! Every crease is given a rest angle at random around the drawn one, every coordinate is moved at random (flat sheets
+//! have to leave the flat state), a screw gets an axis at random, and the sheet relaxes with bars of at most a thousand
+//! times the stiffness of its creases, so that no folded state is out of reach. From there it relaxes with its own bars
+//! and rest angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the
+//! seed and its own number alone.
 
 use super::Question;
 use super::settle::{Place, Settled, Settler};

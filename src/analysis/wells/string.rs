@@ -1,9 +1,10 @@
 //! The string method: a path of lowest energy between two wells, as a row of states.
 //!
 //! W. E, W. Ren and E. Vanden-Eijnden, "Simplified and improved string method for computing the minimum energy paths in
-//! barrier-crossing events", Journal of Chemical Physics 126, 164103 (2007): the states of the row descend and are then put at equal
-//! distances along it, again and again. Distances are those of fold angles, `sqrt(sum k (d rho)^2)`, and both halves of a sweep are
-//! one relaxation for every state: held ([`super::settle`]) near the point of the row where it belongs.
+//! barrier-crossing events", Journal of Chemical Physics 126, 164103 (2007): the states of the row descend and are then
+//! put at equal distances along it, again and again. Distances are those of fold angles, `sqrt(sum k (d rho)^2)`, and
+//! both halves of a sweep are one relaxation for every state: held ([`super::settle`]) near the point of the row where
+//! it belongs.
 
 use super::settle::{Settled, Settler};
 use crate::solver::{Failure, Options, Step};

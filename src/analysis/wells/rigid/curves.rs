@@ -1,4 +1,5 @@
-//! Folded states that are curves: trajectories along every ray of the drawn state, until they come back or a crease is folded by `pi`.
+//! Folded states that are curves: trajectories along every ray of the drawn state, until they come back or a crease is
+//! folded by `pi`.
 
 use super::{Net, RigidError, Sampling};
 use crate::analysis::branches;

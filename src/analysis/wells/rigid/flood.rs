@@ -1,8 +1,9 @@
 //! Flooding: the minima of numbers on a net, and where the lakes around them meet as the water rises.
 //!
-//! Nodes are taken by rising number and joined to their lower neighbours (union-find). A node without lower neighbours is a minimum;
-//! one whose lower neighbours belong to several lakes is a pass between them. A lake is named by its lowest minimum; one that lies on
-//! the border gives way to any other, so that passes are found also between lakes that meet below a low border.
+//! Nodes are taken by rising number and joined to their lower neighbours (union-find). A node without lower neighbours
+//! is a minimum; one whose lower neighbours belong to several lakes is a pass between them. A lake is named by its
+//! lowest minimum; one that lies on the border gives way to any other, so that passes are found also between lakes that
+//! meet below a low border.
 
 /// Minima, and where lakes meet.
 pub(super) struct Flood {
@@ -65,8 +66,8 @@ fn lowest(lake: &mut [Option<usize>], node: usize) -> Option<usize> {
 mod tests {
     use super::*;
 
-    /// Claim: on a line with three lakes the shallower one of each pair joins the deeper one at the ridge between them, the lower
-    /// ridge first; the ends count as lakes where they are low.
+    /// Claim: on a line with three lakes the shallower one of each pair joins the deeper one at the ridge between them,
+    /// the lower ridge first; the ends count as lakes where they are low.
     #[test]
     fn lakes_on_a_line() {
         let heights = [3.0, 1.0, 4.0, 0.0, 5.0, 2.0, 6.0];
@@ -77,7 +78,8 @@ mod tests {
         assert_eq!(merges, [([3, 1], 2), ([3, 5], 4)]);
     }
 
-    /// Claim: two lakes that meet by way of a third one, whose lowest node lies on the border, are joined at the higher of the ridges.
+    /// Claim: two lakes that meet by way of a third one, whose lowest node lies on the border, are joined at the higher
+    /// of the ridges.
     #[test]
     fn lakes_behind_a_border() {
         let heights = [1.0, 3.0, 0.0, 4.0, 2.0];
@@ -87,7 +89,8 @@ mod tests {
         assert_eq!(merges, [([0, 2], 1), ([0, 4], 3)]);
     }
 
-    /// Claim: three lakes that meet in one node are joined there by two passes, and what hangs together nowhere stays apart.
+    /// Claim: three lakes that meet in one node are joined there by two passes, and what hangs together nowhere stays
+    /// apart.
     #[test]
     fn lakes_at_a_crossing() {
         let heights = [9.0, 1.0, 2.0, 3.0, 0.5];

@@ -1,12 +1,13 @@
 //! Wells and passes of exactly rigid sheets, in fold angles alone: no bar, no random start.
 //!
 //! The folded states of one cell, or of a small finite sheet, are curves or a surface that leave the drawn state
-//! (`curves`, `surface`). On states sampled there wells are the lowest of their neighbours and passes are found by flooding
-//! (`flood`); each is then made exact by Newton's method for the energy of the creases along the closed states
-//! ([`crate::analysis::exact`]), and its index counted. States at which a crease is folded by more than `pi`, where panels have gone
-//! through each other, do not belong to this landscape.
+//! (`curves`, `surface`). On states sampled there wells are the lowest of their neighbours and passes are found by
+//! flooding (`flood`); each is then made exact by Newton's method for the energy of the creases along the closed states
+//! ([`crate::analysis::exact`]), and its index counted. States at which a crease is folded by more than `pi`, where
+//! panels have gone through each other, do not belong to this landscape.
 //!
-//! The drawn state itself may be a pass: branches cross there, and no Hessian says so. Its energy is the height all the same.
+//! The drawn state itself may be a pass: branches cross there, and no Hessian says so. Its energy is the height all the
+//! same.
 
 mod curves;
 mod flood;
@@ -73,8 +74,8 @@ pub struct RigidLandscape {
     pub states: usize,
     /// Wells, by energy.
     pub wells: Vec<Stationary>,
-    /// Energies of the ends of curves where a crease is folded by `pi` and the torque folds it further: states that the contact of two
-    /// panels holds. They are no equilibria of the creases alone, and not among the wells.
+    /// Energies of the ends of curves where a crease is folded by `pi` and the torque folds it further: states that the
+    /// contact of two panels holds. They are no equilibria of the creases alone, and not among the wells.
     pub contacts: Vec<f64>,
     /// Passes by energy, from each the two sides of which were not joined below it.
     pub passes: Vec<RigidPass>,
