@@ -35,6 +35,7 @@ KINDS = {
                 "branches"},
     "bloch": {"determinant", "symmetry_error", "imaginary_part", "decay", "pairing_error", "polarization",
               "positive_fraction", "zero_lines"},
+    "wells": {"starts", "failed", "saddles", "wells", "barriers", "rigid"},
     "modes": {"zero_modes", "self_stresses", "rigid_motions", "folding_modes", "maxwell_count", "gap", "eigenvalues"},
 }
 STATE_COLUMNS = ("branch,sign,step,arc_length,curvature,theta1,theta2,strain11,strain22,strain12,energy_bars,"
@@ -229,7 +230,7 @@ def check_table(checks, path, kind, edges):
                 float(field or 0)
             except ValueError:
                 checks.that(False, f"{path}: `{field}` in column {column} is a number")
-    if kind not in ("relax", "trace", "surface"):
+    if kind not in ("relax", "trace", "surface", "wells"):
         return None
     checks.that(header[: len(STATE_COLUMNS)] == STATE_COLUMNS, f"{path}: the first columns")
     fold = header[-edges:]
@@ -278,6 +279,8 @@ def check_study(checks, out, study, edges):
     checks.that(not missing or not study["converged"], f"summary of {name}: keys {sorted(missing)}")
     checks.that(study["converged"] or "reason" in study, f"summary of {name}: a failure has a reason")
     table = check_table(checks, out / f"{name}.csv", kind, edges) if study["converged"] else None
+    if kind == "wells" and study["converged"]:
+        check_wells(checks, out, study)
     grids = {path: check_vtu(checks, path) for path in sorted((out / name).glob("*.vtu"))}
     for path in sorted((out / name).glob("*.vtp")):
         if kind == "bloch":
@@ -298,6 +301,23 @@ def check_study(checks, out, study, edges):
     if table is not None and grids.get(last) is not None:
         check_angles(checks, last, grids[last], table)
     return last
+
+
+def check_wells(checks, out, study):
+    """A row for every well, by rising energy, then one for every pass that was found; a pass lies above the wells that it joins."""
+    header, rows = read_table(out / f"{study['name']}.csv")
+    energy = [float(row[header.index("energy_total")]) for row in rows]
+    wells = [well["energy"] for well in study["wells"]]
+    found = [barrier for barrier in study["barriers"] if barrier["confirmed"]]
+    where = f"{study['name']}.csv"
+    checks.that(len(rows) == len(wells) + len(found), f"{where}: {len(wells)} wells and {len(found)} passes")
+    checks.that(wells == sorted(wells) and np.allclose(wells, energy[: len(wells)], rtol=1e-9), f"{where}: wells by energy")
+    for barrier in found:
+        heights = [barrier["energy"] - wells[well] for well in barrier["joins"]]
+        checks.that(np.allclose(heights, barrier["height"], rtol=0, atol=1e-9), f"{where}: height of {barrier['between']}")
+        checks.that(min(heights) > 0, f"{where}: the pass of {barrier['between']} lies above its wells")
+    _, passes = read_table(out / f"{study['name']}-barriers.csv")
+    checks.that(len(passes) == sum(len(barrier["heights"]) for barrier in found), f"{where}: heights of all passes")
 
 
 def render(path, picture):

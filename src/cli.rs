@@ -289,6 +289,14 @@ fn describe_study(study: &StudySummary) -> String {
                 bloch.zero_lines, bloch.pairing_error
             )
         }
+        Some(StudyResult::Wells(found)) => {
+            let energies = found.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");
+            let barriers = found.barriers.iter().map(|barrier| {
+                let energy = barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e}"));
+                format!("; pass {:?} {energy}", barrier.between)
+            });
+            format!("{} wells ({energies}){}", found.wells.len(), barriers.collect::<String>())
+        }
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();

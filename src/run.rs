@@ -24,6 +24,7 @@ mod runner;
 mod studies;
 mod surface;
 mod trace;
+mod wells;
 
 use runner::Runner;
 

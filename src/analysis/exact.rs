@@ -8,7 +8,7 @@
 use crate::kinematics::{Closing, Closure};
 use crate::model::{Domain, Model};
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::{full_svd, least_squares, null_space, rank_at_largest_gap};
+use crate::numerics::dense::{full_svd, least_squares, null_space, rank_at_largest_gap, symmetric_eigenvalues};
 use crate::sheet::{Sheet, Tiling};
 use crate::solver::Implicit;
 use nalgebra::DVector;
@@ -23,13 +23,35 @@ const SETTLED: f64 = 1e-11;
 /// Largest change of an angle in a step.
 const LONGEST: f64 = 0.3;
 
-/// Hinges by edge.
-struct Springs {
+/// Hinges by edge: the energy of exactly folded states.
+pub struct Springs {
     closure: Closure,
     stiffness: DVector<f64>,
     rest: DVector<f64>,
     /// Fold angle of every edge, those of rigid hinges at rest.
     start: Vec<f64>,
+}
+
+/// An exactly folded state at which the energy is stationary.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stationary {
+    /// Fold angles of all edges.
+    pub angles: Vec<f64>,
+    /// Energy of the hinges.
+    pub energy: f64,
+    /// Directions along which folding lowers the energy: eigenvalues of the reduced Hessian that are negative.
+    pub negative_eigenvalues: usize,
+    /// Largest component of the closure residual.
+    pub residual: f64,
+}
+
+/// The energy along the closed states at one of them, to second order in coordinates along its tangents.
+struct Along {
+    /// Rates of the folding edges, orthonormal columns.
+    tangents: DenseMatrix,
+    /// Falls of the energy.
+    pull: DenseMatrix,
+    hessian: DenseMatrix,
 }
 
 /// Largest difference of a fold angle to the exact equilibrium near a relaxed state with these fold angles, of all edges of the
@@ -39,13 +61,15 @@ struct Springs {
 /// large, or no exact state is found nearby.
 pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
     let springs = Springs::new(sheet, tiling, model, angles)?;
-    let exact = springs.equilibrium()?;
+    let exact = springs.stationary(&springs.start)?.angles;
     let known = exact.iter().zip(angles).filter(|(_, angle)| !angle.is_nan());
     Some(known.map(|(exact, angle)| (exact - angle).abs()).fold(0.0, f64::max))
 }
 
 impl Springs {
-    fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
+    /// The hinges of a model, rigid ones at rest and the others from these angles of all edges; `None` where nothing can be said, as
+    /// [`error_to_kinematic`].
+    pub fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
         let edges = angles.len();
         let torus = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus);
         if edges > MOST_EDGES || model.held_or_loaded() || torus || !sheet.holes.is_empty() {
@@ -70,19 +94,30 @@ impl Springs {
         (closure.unchecked_loops() == 0).then_some(Self { closure, stiffness, rest, start })
     }
 
-    /// Fold angles of all edges.
-    fn equilibrium(&self) -> Option<Vec<f64>> {
+    /// The energy of the hinges at fold angles of all edges.
+    pub fn energy(&self, angles: &[f64]) -> f64 {
+        let off =
+            angles.iter().zip(&self.rest).zip(&self.stiffness).map(|((angle, rest), k)| k * (angle - rest).powi(2));
+        0.5 * off.sum::<f64>()
+    }
+
+    /// The stationary state near these fold angles of all edges, of whatever index; `None` where Newton's method finds none.
+    pub fn stationary(&self, start: &[f64]) -> Option<Stationary> {
         let mut closing = Closing::new(&self.closure, self.start.clone());
-        let mut x = closing.folding(&self.start);
+        let mut x = closing.folding(start);
         for _ in 0..STEPS {
             self.close(&mut closing, &mut x)?;
-            let step = self.along(&closing, &x)?;
+            let along = self.along(&closing, &x)?;
+            let step = along.step()?;
             let longest = step.amax();
             let part = (LONGEST / longest).min(1.0);
             x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x += part * d);
             if longest <= SETTLED {
                 self.close(&mut closing, &mut x)?;
-                return Some(closing.angles(&x));
+                let angles = closing.angles(&x);
+                let negative = self.along(&closing, &x)?.negative()?;
+                let (energy, residual) = (self.energy(&angles), self.closure.residual(&angles).amax());
+                return Some(Stationary { angles, energy, negative_eigenvalues: negative, residual });
             }
         }
         None
@@ -107,15 +142,12 @@ impl Springs {
         None
     }
 
-    /// Newton's step of the energy along the closed states.
-    fn along(&self, closing: &Closing<'_>, x: &[f64]) -> Option<DVector<f64>> {
+    /// The energy along the closed states.
+    fn along(&self, closing: &Closing<'_>, x: &[f64]) -> Option<Along> {
         let folding = self.closure.folding_edges();
         let angles = closing.angles(x);
         let jacobian = self.closure.jacobian(&angles);
         let tangents = null_space(&jacobian).ok()?.basis;
-        if tangents.ncols() == 0 {
-            return Some(DVector::zeros(x.len()));
-        }
         let stiffness = DVector::from_iterator(folding.len(), folding.iter().map(|&edge| self.stiffness[edge]));
         let off = folding.iter().map(|&edge| angles[edge] - self.rest[edge]);
         let force = -stiffness.component_mul(&DVector::from_iterator(folding.len(), off));
@@ -127,6 +159,24 @@ impl Springs {
         let second = self.closure.second_order(&angles, &spread);
         lambda.iter().zip(&second).for_each(|(lambda, part)| hessian += part * (2.0 * lambda));
         let pull = tangents.tr_mul(&right);
-        Some((&tangents * least_squares(&hessian, &pull).ok()?.solution).column(0).into_owned())
+        Some(Along { tangents, pull, hessian })
+    }
+}
+
+impl Along {
+    /// Newton's step of the angles.
+    fn step(&self) -> Option<DVector<f64>> {
+        if self.tangents.ncols() == 0 {
+            return Some(DVector::zeros(self.tangents.nrows()));
+        }
+        Some((&self.tangents * least_squares(&self.hessian, &self.pull).ok()?.solution).column(0).into_owned())
+    }
+
+    /// Number of negative eigenvalues.
+    fn negative(&self) -> Option<usize> {
+        if self.tangents.ncols() == 0 {
+            return Some(0);
+        }
+        Some(symmetric_eigenvalues(&self.hessian).ok()?.iter().filter(|value| **value < 0.0).count())
     }
 }

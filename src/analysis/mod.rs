@@ -14,3 +14,4 @@ pub mod state;
 pub mod surface;
 pub mod trace;
 pub mod view;
+pub mod wells;

@@ -1,7 +1,8 @@
-//! A chart with logarithmic axes: points joined by lines, one colour and mark for each series.
+//! A chart with logarithmic or linear axes: points joined by lines, one colour and mark for each series.
 //!
 //! The SVG is written directly, like the pictures of sheets ([`super::plot`]), so that it can stand inside an HTML page and
-//! the same chart gives the same bytes. Numbers that have no logarithm (0, negative, not finite) are left out.
+//! the same chart gives the same bytes. Numbers that have no place on an axis are left out: those that are not finite, and on a
+//! logarithmic one those without logarithm.
 
 use std::fmt::Write;
 
@@ -55,11 +56,26 @@ pub struct Point {
     pub label: String,
 }
 
-/// The text of a chart, an `<svg>` element.
+/// The text of a chart with logarithmic axes, an `<svg>` element.
 pub fn svg(chart: &Chart) -> String {
-    let drawable = |point: &&Point| [point.x, point.y].iter().all(|v| v.is_finite() && *v > 0.0);
+    drawn(chart, Scale::Logarithmic)
+}
+
+/// The same with linear axes.
+pub fn linear_svg(chart: &Chart) -> String {
+    drawn(chart, Scale::Linear)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Scale {
+    Logarithmic,
+    Linear,
+}
+
+fn drawn(chart: &Chart, scale: Scale) -> String {
+    let drawable = |point: &&Point| [point.x, point.y].iter().all(|v| scale.place(*v).is_finite());
     let points = || chart.series.iter().flat_map(|series| &series.points).filter(drawable);
-    let axes = [Axis::around(points().map(|p| p.x)), Axis::around(points().map(|p| p.y))];
+    let axes = [Axis::around(scale, points().map(|p| p.x)), Axis::around(scale, points().map(|p| p.y))];
     let title = escaped(&chart.title);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" \
@@ -79,33 +95,71 @@ pub fn svg(chart: &Chart) -> String {
     text
 }
 
-/// A range of decades.
+impl Scale {
+    fn place(self, value: f64) -> f64 {
+        match self {
+            Self::Logarithmic => value.log10(),
+            Self::Linear => value,
+        }
+    }
+}
+
+/// A range of steps: decades, or round numbers.
 struct Axis {
+    scale: Scale,
+    /// Length of a step; of a logarithmic axis 1.
+    step: f64,
+    /// The ends, in steps.
     low: i32,
     high: i32,
 }
 
 impl Axis {
-    fn around(values: impl Iterator<Item = f64>) -> Self {
-        let logs = values.map(f64::log10);
-        let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+    fn around(scale: Scale, values: impl Iterator<Item = f64>) -> Self {
+        let places = values.map(|value| scale.place(value));
+        let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low > high {
-            return Self { low: -1, high: 1 };
+            return Self { scale, step: 1.0, low: -1, high: 1 };
         }
-        let (low, high) = ((low - 0.05).floor() as i32, (high + 0.05).ceil() as i32);
-        Self { low, high: high.max(low + 1) }
+        let (step, margin) = match scale {
+            Scale::Logarithmic => (1.0, 0.05),
+            Scale::Linear => (round_step(high - low), 0.0),
+        };
+        let (low, high) = ((low / step - margin).floor() as i32, (high / step + margin).ceil() as i32);
+        Self { scale, step, low, high: high.max(low + 1) }
     }
 
     /// From 0 at the lower end to 1 at the upper one.
     fn part(&self, value: f64) -> f64 {
-        (value.log10() - f64::from(self.low)) / f64::from(self.high - self.low)
+        (self.scale.place(value) / self.step - f64::from(self.low)) / f64::from(self.high - self.low)
     }
 
-    /// Decades that carry a number.
-    fn decades(&self) -> impl Iterator<Item = i32> {
+    /// Steps that carry a number.
+    fn ticks(&self) -> impl Iterator<Item = i32> {
         let every = (self.high - self.low + TICKS - 1) / TICKS;
-        (self.low..=self.high).filter(move |decade| decade.rem_euclid(every) == 0)
+        (self.low..=self.high).filter(move |step| step.rem_euclid(every) == 0)
     }
+
+    /// Where a step is, and how it is written.
+    fn tick(&self, step: i32) -> (f64, String) {
+        match self.scale {
+            Scale::Logarithmic => {
+                (10f64.powi(step), format!("10<tspan dy=\"-5\" font-size=\"10\">{}</tspan>", signed(step)))
+            }
+            Scale::Linear => {
+                let value = f64::from(step) * self.step;
+                let digits = (-self.step.log10().floor()).clamp(0.0, 12.0) as usize;
+                (value, format!("{value:.digits$}").replace('-', "\u{2212}"))
+            }
+        }
+    }
+}
+
+/// One, two or five times a power of ten, five to twelve of them in a range.
+fn round_step(range: f64) -> f64 {
+    let wanted = range.max(f64::MIN_POSITIVE) / 6.0;
+    let power = 10f64.powf(wanted.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power).into_iter().find(|step| *step >= wanted).unwrap_or(10.0 * power)
 }
 
 fn place(axes: &[Axis; 2], point: &Point) -> [f64; 2] {
@@ -115,16 +169,15 @@ fn place(axes: &[Axis; 2], point: &Point) -> [f64; 2] {
 
 fn grid(text: &mut String, axes: &[Axis; 2], chart: &Chart) {
     let [left, right, top, bottom] = FRAME;
-    let tick = |decade: i32| format!("10<tspan dy=\"-5\" font-size=\"10\">{}</tspan>", signed(decade));
-    for decade in axes[0].decades() {
-        let x = left + axes[0].part(10f64.powi(decade)) * (right - left);
+    for (x, label) in axes[0].ticks().map(|step| axes[0].tick(step)) {
+        let x = left + axes[0].part(x) * (right - left);
         put!(text, "<path d=\"M{x:.1} {top}V{bottom}\" stroke=\"{GRID}\"/>\n");
-        put!(text, "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>\n", bottom + 20.0, tick(decade));
+        put!(text, "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>\n", bottom + 20.0);
     }
-    for decade in axes[1].decades() {
-        let y = bottom - axes[1].part(10f64.powi(decade)) * (bottom - top);
+    for (y, label) in axes[1].ticks().map(|step| axes[1].tick(step)) {
+        let y = bottom - axes[1].part(y) * (bottom - top);
         put!(text, "<path d=\"M{left} {y:.1}H{right}\" stroke=\"{GRID}\"/>\n");
-        put!(text, "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>\n", left - 8.0, y + 5.0, tick(decade));
+        put!(text, "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>\n", left - 8.0, y + 5.0);
     }
     put!(text, "<path d=\"M{left} {top}V{bottom}H{right}\" fill=\"none\" stroke=\"{INK}\"/>\n");
     let (middle, level) = (0.5 * (left + right), 0.5 * (top + bottom));
@@ -206,6 +259,17 @@ mod tests {
         assert!((x[1] - x[0] - (x[2] - x[1])).abs() <= 0.2 && x[1] > x[0], "{x:?}");
         assert!((y[1] - y[0] - (y[2] - y[1])).abs() <= 0.2 && y[1] < y[0], "{y:?}");
         assert!(text.contains("t &amp; u") && text.contains("a &lt; b") && !text.contains("a < b"));
+    }
+
+    /// Claim: on linear axes equal differences are equal distances, also below zero, and the numbers beside the axes are round.
+    #[test]
+    fn linear_axes() {
+        let text = linear_svg(&chart(&[(-1.0, 0.0), (0.0, 0.5), (1.0, 1.0)]));
+        let x = |line: &str| -> f64 { line.split("cx=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap() };
+        let places: Vec<f64> = text.lines().filter(|line| line.contains("<title>")).map(x).collect();
+        assert!(places.len() == 3 && (places[2] - 2.0 * places[1] + places[0]).abs() <= 0.21, "{places:?}");
+        assert!(text.contains(">\u{2212}1.0<") && text.contains(">0.4<"), "{text}");
+        assert_eq!([0.9, 6.0, 31.0].map(round_step), [0.2, 1.0, 10.0]);
     }
 
     /// Claim: what has no logarithm is left out, and spoils nothing; so does a chart without points.

@@ -84,6 +84,8 @@ pub enum StudyResult {
     Landscape(LandscapeSummary),
     /// `kind = "bloch"`.
     Bloch(BlochSummary),
+    /// `kind = "wells"`.
+    Wells(WellsSummary),
     /// Of `trace`.
     Trace(TraceSummary),
 }
@@ -333,6 +335,107 @@ pub struct BlochSummary {
     pub theta_to_zero: Option<f64>,
 }
 
+/// Stable states, and the barriers between them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WellsSummary {
+    /// Random starts.
+    pub starts: usize,
+    /// Those in which a relaxation failed, however often it was tried.
+    pub failed: usize,
+    /// Those that ended in an equilibrium which is no minimum.
+    pub saddles: usize,
+    /// By rising energy.
+    pub wells: Vec<WellSummary>,
+    /// Those that were asked for.
+    pub barriers: Vec<BarrierSummary>,
+    /// The same in fold angles alone, where it was asked for.
+    pub rigid: Option<RigidSummary>,
+}
+
+/// A stable state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct WellSummary {
+    /// Energy.
+    pub energy: f64,
+    /// How many starts reached it.
+    pub reached: usize,
+    /// Whether faces pass through each other.
+    pub self_intersecting: bool,
+    /// Largest unbalanced force over the largest force of any term.
+    pub residual_force: f64,
+    /// Largest error of a length over the mean edge.
+    pub residual_length: f64,
+    /// Number of the well of the rigid sheet with these fold angles, if there is one.
+    pub rigid: Option<usize>,
+}
+
+/// A barrier that was asked for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BarrierSummary {
+    /// Between which wells.
+    pub between: [usize; 2],
+    /// Whether a pass was found: one negative eigenvalue, two different wells on its sides.
+    pub confirmed: bool,
+    /// The wells into which the sheet descends from the pass.
+    pub joins: Option<[usize; 2]>,
+    /// Energy of the pass at the sheet's own stiffness; where it is singular in the rigid limit, what the energies at finite stiffness tend to.
+    pub energy: Option<f64>,
+    /// Energy of the pass above that of either of the wells that it joins.
+    pub height: Option<[f64; 2]>,
+    /// Whether there is no regular pass at the sheet's own stiffness, which is infinite: branches cross there.
+    pub singular: bool,
+    /// Energies tend to their rigid limit as this power of 1/stiffness; `None` where they are too few or too close.
+    pub exponent: Option<f64>,
+    /// Their limit, extrapolated.
+    pub limit: Option<f64>,
+    /// The lowest pass of the rigid sheet between these wells, in fold angles alone.
+    pub rigid: Option<f64>,
+    /// Largest scaled residual of the pass.
+    pub residual: Option<f64>,
+    /// The pass on its way from soft bars.
+    pub heights: Vec<HeightSummary>,
+    /// Why there is no pass.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub reason: Option<String>,
+}
+
+/// A pass at one stiffness of the bars.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct HeightSummary {
+    /// Stiffness of the bars; `None`: rigid.
+    pub bars: Option<f64>,
+    /// Energy of the pass.
+    pub energy: f64,
+}
+
+/// Wells and passes of a rigid sheet.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RigidSummary {
+    /// Dimension of the folded states.
+    pub dimension: usize,
+    /// How many were sampled.
+    pub states: usize,
+    /// Energies of the wells.
+    pub wells: Vec<f64>,
+    /// Energies of states that only the contact of two panels holds, a crease being shut.
+    pub contacts: Vec<f64>,
+    /// The passes at which lakes around wells meet as the water rises.
+    pub passes: Vec<RigidPassSummary>,
+    /// Wells and passes of the samples that could not be made exact.
+    pub lost: usize,
+}
+
+/// A pass of a rigid sheet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RigidPassSummary {
+    /// The lowest wells on its sides.
+    pub joins: [usize; 2],
+    /// Energy.
+    pub energy: f64,
+    /// Whether branches cross there.
+    pub singular: bool,
+}
+
 /// Roots at one wavenumber.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct DecaySummary {
@@ -444,6 +547,21 @@ pub struct RaySummary {
     pub direction: Vec<f64>,
     /// Sign of the curvature, positive towards the face normals; `None` for a finite sheet.
     pub curvature_sign: Option<i8>,
+}
+
+impl StudySummary {
+    /// The summary of a study that has given no answer yet.
+    pub fn unanswered(name: &str, kind: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            kind: kind.to_owned(),
+            converged: false,
+            seconds: 0.0,
+            error: None,
+            reason: None,
+            result: None,
+        }
+    }
 }
 
 impl Summary {

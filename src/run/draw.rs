@@ -81,18 +81,25 @@ fn cell_angles(runner: &Runner<'_>, state: &State) -> Vec<f64> {
     angles
 }
 
+/// The picture of a state, with what passes through itself.
+pub fn picture(runner: &Runner<'_>, shown: &Shown<'_>) -> Picture {
+    let picture = Picture::of_state(&runner.view, &runner.built.drawn, shown.state);
+    shown.marks.iter().fold(picture, |picture, marks| picture.with_crossing(&marks.faces))
+}
+
 /// Writes the VTK series and the picture of the last state, as the study asks.
 pub fn series(runner: &Runner<'_>, study: &StudySpec, states: &[Shown<'_>]) -> Result<(), RunError> {
-    let picture = |shown: &Shown<'_>| {
-        let picture = Picture::of_state(&runner.view, &runner.built.drawn, shown.state);
-        shown.marks.iter().fold(picture, |picture, marks| picture.with_crossing(&marks.faces))
-    };
-    let pictures: Vec<Picture> = states.iter().map(picture).collect();
+    let pictures: Vec<Picture> = states.iter().map(|shown| picture(runner, shown)).collect();
     write(runner, study, &pictures)?;
     if let (true, Some(last)) = (study.draw.contains(&Draw::Svg), pictures.last()) {
         svg(runner, study, last)?;
     }
     Ok(())
+}
+
+/// Writes the VTK series alone, as the study asks.
+pub fn states(runner: &Runner<'_>, study: &StudySpec, states: &[Shown<'_>]) -> Result<(), RunError> {
+    write(runner, study, &states.iter().map(|shown| picture(runner, shown)).collect::<Vec<_>>())
 }
 
 /// Writes pictures as a VTK series, time being their number.

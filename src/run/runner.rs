@@ -1,7 +1,9 @@
 //! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
 
 use super::resume::{Earlier, Kept, write_state};
-use super::{Observer, Progress, RunError, RunOptions, RunReport, bloch, branches, landscape, studies, surface, trace};
+use super::{
+    Observer, Progress, RunError, RunOptions, RunReport, bloch, branches, landscape, studies, surface, trace, wells,
+};
 use crate::analysis::view::View;
 use crate::numerics::parallel;
 use crate::output::files;
@@ -87,6 +89,7 @@ impl<'a> Runner<'a> {
             StudyKind::Surface(spec) => surface::study(self, study, spec)?,
             StudyKind::Landscape(spec) => landscape::study(self, study, spec)?,
             StudyKind::Bloch(spec) => bloch::study(self, study, spec)?,
+            StudyKind::Wells(spec) => wells::study(self, study, spec)?,
         };
         self.push(found)
     }

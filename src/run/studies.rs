@@ -3,7 +3,7 @@
 use super::draw::{self, Shown};
 use super::resume::Kept;
 use super::runner::Runner;
-use super::{Progress, RunError, bloch, branches, landscape, surface, trace};
+use super::{Progress, RunError, bloch, branches, landscape, surface, trace, wells};
 use crate::analysis;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::LYING;
@@ -42,6 +42,7 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
         StudyKind::Surface(_) => surface::check(file, built, study),
         StudyKind::Landscape(spec) => landscape::check(file, built, study, spec),
         StudyKind::Bloch(spec) => bloch::check(file, built, study, spec),
+        StudyKind::Wells(_) => wells::check(file, built, study),
     }
 }
 

@@ -97,7 +97,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> 
 }
 
 /// One over the square root of the area of the cell.
-fn curvature_of_cell(built: &Built) -> f64 {
+pub fn curvature_of_cell(built: &Built) -> f64 {
     built.sheet.lattice.map_or(1.0, |[first, second]| first.cross(&second).norm().sqrt().recip())
 }
 

@@ -5,7 +5,7 @@ use std::hash::Hash;
 use std::ops::Range;
 
 use super::forms::Start;
-use super::spec::{BlochSpec, Domain, LandscapeSpec, RelaxSpec, StopSpec, StudyKind, StudySpec};
+use super::spec::{BlochSpec, Domain, LandscapeSpec, RelaxSpec, StopSpec, StudyKind, StudySpec, WellsSpec};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
 
@@ -134,6 +134,7 @@ fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {
         StudyKind::Trace(trace) => trace.stop.as_ref().map_or(Ok(()), |stop| some_condition(file, stop)),
         StudyKind::Landscape(landscape) => not_empty(file, landscape),
         StudyKind::Surface(_) | StudyKind::Modes(_) | StudyKind::Branches(_) => Ok(()),
+        StudyKind::Wells(wells) => of_rigid(file, wells),
     }
 }
 
@@ -166,6 +167,21 @@ fn some_condition(file: &SceneFile, stop: &Located<StopSpec>) -> Checked {
         && stop.self_intersection != Some(true);
     let help = "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true";
     if none { Err(file.error_at(stop.span(), "no condition to stop at", help)) } else { Ok(()) }
+}
+
+/// Keys that say how the rigid states are sampled need `rigid`.
+fn of_rigid(file: &SceneFile, wells: &WellsSpec) -> Checked {
+    let given = [
+        ("resolution", wells.resolution.as_ref().map(Located::span)),
+        ("max_curvature", wells.max_curvature.as_ref().map(Located::span)),
+    ];
+    match given.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        Some((key, span)) if !wells.rigid => {
+            let message = format!("`{key}` is given, but the rigid states are not asked for");
+            Err(file.error_at(span, message, "add rigid = true, or leave it out"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn not_empty(file: &SceneFile, landscape: &LandscapeSpec) -> Checked {

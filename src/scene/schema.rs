@@ -16,7 +16,7 @@ pub(super) fn common_study_keys() -> [&'static str; 4] {
 }
 
 /// The kinds of studies.
-pub(super) fn kinds() -> [&'static str; 7] {
+pub(super) fn kinds() -> [&'static str; 8] {
     keys_of_kinds().map(|(kind, _)| kind)
 }
 
@@ -25,7 +25,7 @@ pub(super) fn kinds_with_key(key: &str) -> Vec<&'static str> {
     keys_of_kinds().into_iter().filter(|(_, keys)| keys.iter().any(|k| k == key)).map(|(kind, _)| kind).collect()
 }
 
-fn keys_of_kinds() -> [(&'static str, Vec<String>); 7] {
+fn keys_of_kinds() -> [(&'static str, Vec<String>); 8] {
     [
         ("relax", keys::<spec::RelaxSpec>()),
         ("trace", keys::<spec::TraceSpec>()),
@@ -34,6 +34,7 @@ fn keys_of_kinds() -> [(&'static str, Vec<String>); 7] {
         ("branches", keys::<spec::BranchesSpec>()),
         ("landscape", keys::<spec::LandscapeSpec>()),
         ("bloch", keys::<spec::BlochSpec>()),
+        ("wells", keys::<spec::WellsSpec>()),
     ]
 }
 

@@ -11,7 +11,9 @@ use serde::Deserialize;
 
 use super::Located;
 use super::forms::{BranchChoice, Mode, Rest, Start};
-use super::values::{Axes, CellIndex, Cells, Count, EdgeName, Finite, Name, Pair, Positive, Stiffness, Triple};
+use super::values::{
+    Axes, CellIndex, Cells, Count, EdgeName, Finite, Name, Pair, Positive, Stiffness, Triple, WellPair,
+};
 
 /// A whole scene.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -253,6 +255,8 @@ pub enum StudyKind {
     Landscape(LandscapeSpec),
     /// Modes of nonzero wavenumber.
     Bloch(BlochSpec),
+    /// Stable states and the barriers between them.
+    Wells(WellsSpec),
 }
 
 /// `kind = "relax"`.
@@ -382,6 +386,31 @@ pub struct BlochSpec {
     pub path: Option<Located<Vec<Pair>>>,
 }
 
+/// `kind = "wells"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WellsSpec {
+    /// Number of random starts; left out: 64.
+    pub starts: Option<Located<Count>>,
+    /// Seed of their random numbers; left out: 0.
+    #[serde(default)]
+    pub seed: u64,
+    /// Largest distance of the random fold angles towards which the sheet is crumpled from the drawn ones, in radians; left out: pi.
+    pub spread: Option<Located<Positive>>,
+    /// Pairs of wells between which the barrier is wanted, each `[a, b]`: wells are numbered by rising energy, from 0. Left out: none.
+    #[serde(default)]
+    pub barriers: Vec<Located<WellPair>>,
+    /// Whether wells and passes are also sought in fold angles alone, on the rigidly folded states: of a screw, or of a sheet that folds
+    /// along curves.
+    #[serde(default)]
+    pub rigid: bool,
+    /// With `rigid`, states over a whole turn of fold angles; left out: 64.
+    pub resolution: Option<Located<Count>>,
+    /// With `rigid`, magnitude of the curvature up to which the states of a screw are sought, 1/length. Left out: one over the square root
+    /// of the cell's area.
+    pub max_curvature: Option<Located<Positive>>,
+}
+
 impl StudyKind {
     /// The word in the scene.
     pub fn name(&self) -> &'static str {
@@ -393,6 +422,7 @@ impl StudyKind {
             Self::Branches(_) => "branches",
             Self::Landscape(_) => "landscape",
             Self::Bloch(_) => "bloch",
+            Self::Wells(_) => "wells",
         }
     }
 }

@@ -51,6 +51,9 @@ pub enum ValueError {
     /// A shift of an edge out of range.
     #[error("cell {0} of an edge is out of range, expected n1 and n2 of [i, j, n1, n2] to be small whole numbers")]
     Shift(i64),
+    /// A well and itself.
+    #[error("the barrier is sought from well {0} to itself, expected two different wells in [a, b]")]
+    OneWell(usize),
     /// An edge from a vertex to itself.
     #[error("the edge runs from vertex {0} to itself, expected two different ends in [i, j, n1, n2]")]
     Loop(usize),
@@ -179,6 +182,19 @@ pub struct CellIndex(pub [usize; 2]);
 impl From<Exactly<usize, 2>> for CellIndex {
     fn from(Exactly(cell): Exactly<usize, 2>) -> Self {
         Self(cell)
+    }
+}
+
+/// Two different wells, numbered by energy from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(try_from = "Exactly<usize, 2>")]
+pub struct WellPair(pub [usize; 2]);
+
+impl TryFrom<Exactly<usize, 2>> for WellPair {
+    type Error = ValueError;
+
+    fn try_from(Exactly([a, b]): Exactly<usize, 2>) -> Result<Self, ValueError> {
+        if a == b { Err(ValueError::OneWell(a)) } else { Ok(Self([a, b])) }
     }
 }
 

@@ -10,7 +10,7 @@
 //! the mode, so the coefficient is a quartic form: one linear solve for each pair of modes and one for each direction of
 //! `p2` give it for all modes at once.
 
-use super::settling::{Both, Response, Settling};
+use super::settling::{self, Both, Response, Settling};
 use super::{Course, HeldSheet, LandscapeError};
 use crate::model::{Elements, Model};
 use crate::numerics::DenseMatrix;
@@ -79,7 +79,8 @@ impl Prediction {
 /// The sheet linearized in the drawn state.
 pub(super) fn drawn(held: &HeldSheet) -> Result<Settling<'_>, LandscapeError> {
     let model = &held.model;
-    Settling::new(held, &model.start(), &vec![0.0; model.compliance().len()], Curvature::GaussNewton)
+    let still = vec![0.0; model.compliance().len()];
+    Settling::new(held, (&model.start(), &still), Curvature::GaussNewton, settling::FINE)
 }
 
 /// Pairs of modes, each once.

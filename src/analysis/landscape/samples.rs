@@ -19,6 +19,8 @@ const BALANCED: f64 = 1e-10;
 const LEAST_ANGLE: f64 = 1e-4;
 /// Tolerance of the relaxations: above the rounding error of forces that are much smaller than the tensions.
 pub const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 200 };
+/// Accuracy of the linear solves for a step of the rest angles.
+const ROUGH: f64 = 1e-7;
 /// Longest change of a rest angle in a round, in radians.
 const LONGEST: f64 = 0.3;
 
@@ -132,7 +134,7 @@ fn torques(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> (f64, DV
 
 /// Newton's step of the rest angles against these torques, and the motion of the unknowns and the tensions that go with it.
 fn step(held: &HeldSheet, relaxed: &Relaxed, torque: &DVector<f64>) -> Result<(DVector<f64>, Both), LandscapeError> {
-    let settling = Settling::new(held, &relaxed.x, &relaxed.tension, Curvature::Full)?;
+    let settling = Settling::new(held, (&relaxed.x, &relaxed.tension), Curvature::Full, ROUGH)?;
     let singular = crate::numerics::factor::FactorError::Singular { ratio: 0.0 };
     let factor = nalgebra::Cholesky::new(settling.hessian().clone()).ok_or(singular)?;
     let step = factor.solve(torque);

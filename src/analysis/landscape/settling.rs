@@ -9,8 +9,9 @@ use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Problem};
 use nalgebra::DVector;
 
-/// Accuracy of the linear solves that is asked for, and the residual above which they are refused.
-const ACCURACY: f64 = 1e-13;
+/// Accuracy of the linear solves where the response itself is wanted.
+pub const FINE: f64 = 1e-13;
+/// Residual above which they are refused.
 const INACCURATE: f64 = 1e-6;
 
 /// Amounts on every soft hinge and on every stiff measure.
@@ -40,13 +41,20 @@ pub struct Settling<'a> {
     free: Vec<Response>,
     /// Energies of pairs of these responses: the Hessian of the energy in the rest angles.
     hessian: DenseMatrix,
+    /// Accuracy of the linear solves that is asked for.
+    accuracy: f64,
 }
 
 impl<'a> Settling<'a> {
-    /// At these unknowns and tensions.
+    /// At these unknowns and tensions, by linear solves of this accuracy.
     ///
     /// Fails where the sheet is not stable there.
-    pub fn new(held: &'a HeldSheet, x: &[f64], tension: &[f64], curvature: Curvature) -> Result<Self, LandscapeError> {
+    pub fn new(
+        held: &'a HeldSheet,
+        (x, tension): (&[f64], &[f64]),
+        curvature: Curvature,
+        accuracy: f64,
+    ) -> Result<Self, LandscapeError> {
         let model = &held.model;
         let mut at = Linearization::new(model.layout());
         model.linearize(x, tension, curvature, &mut at);
@@ -56,7 +64,8 @@ impl<'a> Settling<'a> {
             return Err(FactorError::Singular { ratio: inertia.ratio }.into());
         }
         let directions = held.directions();
-        let mut settling = Self { held, at, saddle, directions, free: Vec::new(), hessian: DenseMatrix::zeros(0, 0) };
+        let (free, hessian) = (Vec::new(), DenseMatrix::zeros(0, 0));
+        let mut settling = Self { held, at, saddle, directions, free, hessian, accuracy };
         settling.free = (0..settling.directions.len())
             .map(|j| {
                 let (soft, stiff) = &settling.directions[j];
@@ -80,7 +89,7 @@ impl<'a> Settling<'a> {
         let mut force = force.map_or_else(|| vec![0.0; layout.unknowns], <[f64]>::to_vec);
         rows.add_transpose_product(&forces, &mut force);
         let missing = negative(stretch);
-        let found = self.saddle.solve(layout, &self.at, model.compliance(), (&force, &missing), ACCURACY);
+        let found = self.saddle.solve(layout, &self.at, model.compliance(), (&force, &missing), self.accuracy);
         if !(found.residual <= INACCURATE) {
             return Err(FactorError::Inaccurate { residual: found.residual }.into());
         }

@@ -1,0 +1,246 @@
+//! The barrier between two wells: a path with soft bars, its pass, and the pass followed to the sheet's own stiffness.
+//!
+//! With bars a hundred times as stiff as the creases states hang together also across folded states that do not, so the
+//! string method ([`super::string`]) finds a path there. The highest state of its row is close to a pass; Newton's
+//! method ([`super::pass`]) makes it one, and goes on from it in bars ten times as stiff, and so on, up to those of the
+//! sheet; infinity is the last step. Where that ends early the path is sought again in stiffer bars. At the end the
+//! pass counts only where its Hessian has exactly one negative eigenvalue, it lies above the wells between which it was
+//! sought, and the sheet descends from it into two different wells: those, or others on the way, which are reported
+//! then.
+
+use super::Question;
+use super::merge::{Translations, Well, which};
+use super::pass::{Pass, equilibrium, sides};
+use super::settle::{Settled, Settler};
+use super::string::{self, string};
+use crate::solver::{Failure, Options};
+use thiserror::Error;
+
+/// Stiffness of bars over that of creases at which a path is sought first, and the factor to the next.
+const SOFTEST: f64 = 1e2;
+const STIFFER: f64 = 10.0;
+/// Stiffness over that of creases after which the next is the rigid limit.
+const ALMOST_RIGID: f64 = 1e12;
+/// Tries from ever stiffer bars.
+const TRIES: usize = 6;
+/// Tolerance of a pass.
+const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
+/// Differences of energies, relative, from which their law is read.
+const CLEAR: f64 = 1e-8;
+/// Least distance of two wells, in `sqrt(sum k (d rho)^2)`.
+const APART: f64 = 1e-3;
+/// Shortest factor between two stiffnesses.
+const SHORTEST: f64 = 1.05;
+
+/// Why there is no pass.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum BarrierError {
+    /// A well is none with the bars in which paths were sought.
+    #[error("with bars of {stiffness:e} the wells are no longer these two")]
+    OneWell {
+        /// Stiffness of those bars.
+        stiffness: f64,
+    },
+    /// A relaxation on the way failed.
+    #[error("the path could not be followed with bars of {stiffness:e}: {failure}")]
+    Path {
+        /// Stiffness of the bars.
+        stiffness: f64,
+        /// Why.
+        failure: Failure,
+    },
+    /// Newton's method does not find the pass.
+    #[error("no pass was found with bars of {stiffness:e}: {failure}")]
+    NoPass {
+        /// Stiffness of the bars.
+        stiffness: f64,
+        /// Why.
+        failure: Failure,
+    },
+    /// The equilibrium near the highest state is no pass.
+    #[error(
+        "with bars of {stiffness:e} the equilibrium near the highest state has {found} negative eigenvalues, not one"
+    )]
+    Index {
+        /// Stiffness of the bars.
+        stiffness: f64,
+        /// Negative eigenvalues.
+        found: usize,
+    },
+    /// It is no barrier between the wells, one of which lies higher.
+    #[error("the pass that was found, of energy {pass}, lies below a well that it should lead to, of energy {well}")]
+    TooLow {
+        /// Energy of the pass.
+        pass: f64,
+        /// Energy of the higher of the wells.
+        well: f64,
+    },
+    /// It does not lie between two of the wells.
+    #[error("the pass does not lead into two different wells that are known")]
+    LeadsElsewhere,
+}
+
+/// A pass at one stiffness of the bars.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Height {
+    /// Stiffness of the bars.
+    pub stiffness: f64,
+    /// Energy of the pass.
+    pub energy: f64,
+}
+
+/// What was found between two wells.
+#[derive(Clone, Debug)]
+pub struct Barrier {
+    /// The wells between which it was sought.
+    pub between: [usize; 2],
+    /// The wells into which the sheet descends from the pass; those sought, or others on the way.
+    pub joins: [usize; 2],
+    /// The pass, with one negative eigenvalue; where it is singular in rigid bars, the last one that is not.
+    pub pass: Pass,
+    /// Whether the bars are rigid and the pass, which exists at every finite stiffness, is singular there: branches
+    /// cross in it.
+    pub singular: bool,
+    /// The pass on its way to this stiffness.
+    pub heights: Vec<Height>,
+    /// Stiffness of the bars in which the path was found.
+    pub stiffness: f64,
+    /// Distances along that path, in `sqrt(sum k (d rho)^2)`, and energies.
+    pub path: Vec<(f64, f64)>,
+}
+
+/// The barrier between two of the wells. `go_on` returns false to stop.
+pub fn barrier(
+    question: &Question<'_>,
+    wells: &[Well],
+    between: [usize; 2],
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Barrier, BarrierError> {
+    let creases = question.recipe.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
+    let mut last = Err(BarrierError::LeadsElsewhere);
+    for attempt in 0..TRIES {
+        let stiffness = SOFTEST * creases * STIFFER.powi(attempt as i32);
+        if attempt > 0 && stiffness >= question.stiffness() {
+            break;
+        }
+        last = from_softness(question, wells, between, stiffness.min(question.stiffness()), go_on);
+        if last.is_ok() || !go_on() {
+            break;
+        }
+    }
+    last
+}
+
+/// The barrier by way of bars of this stiffness.
+fn from_softness(
+    question: &Question<'_>,
+    wells: &[Well],
+    between: [usize; 2],
+    stiffness: f64,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Barrier, BarrierError> {
+    let failed = |failure| BarrierError::Path { stiffness, failure };
+    let mut settler = Settler::new(question, &question.with_bars(stiffness), string::STRENGTH);
+    let mut soft = Vec::new();
+    for well in between {
+        let place = &wells[well].settled.place;
+        soft.push(settler.free(place, false, OPTIONS, &mut |_| go_on()).map_err(|error| failed(error.failure))?);
+    }
+    let apart = |soft: &Settled, well: usize| string::distance(&settler, &soft.rho, &wells[well].settled.rho);
+    let stayed = (0..2).all(|k| apart(&soft[k], between[k]) < apart(&soft[k], between[1 - k]));
+    if !stayed || string::distance(&settler, &soft[0].rho, &soft[1].rho) <= APART {
+        return Err(BarrierError::OneWell { stiffness });
+    }
+    let row = string(&mut settler, [&soft[0], &soft[1]], &mut |_| go_on()).map_err(failed)?;
+    let path: Vec<(f64, f64)> =
+        string::stations(&settler, &row).into_iter().zip(&row).map(|(at, settled)| (at, settled.energy)).collect();
+    let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
+    let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
+    let first = index_one(question, stiffness, [top, top - 1, top + 1].map(|at| &row[at]))?;
+    let Followed { pass, heights, singular } = followed(question, first, stiffness)?;
+    let own = if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { question.stiffness() };
+    let mut own = Settler::new(question, &question.with_bars(own), string::STRENGTH);
+    let ends = sides(&mut own, &pass, &along, OPTIONS).map_err(failed)?;
+    let translations = Translations::new(question);
+    let number = |end: &Settled| which(wells, &end.relaxed.state.fold_angle, &translations);
+    let higher = between.iter().map(|well| wells[*well].settled.energy).fold(f64::NEG_INFINITY, f64::max);
+    if !(pass.energy > higher) {
+        return Err(BarrierError::TooLow { pass: pass.energy, well: higher });
+    }
+    match [number(&ends[1]), number(&ends[0])] {
+        [Some(a), Some(b)] if a != b => {
+            Ok(Barrier { between, joins: [a, b], pass, singular, heights, stiffness, path })
+        }
+        _ => Err(BarrierError::LeadsElsewhere),
+    }
+}
+
+/// The pass next to the first of these states at which there is one.
+fn index_one(question: &Question<'_>, stiffness: f64, near: [&Settled; 3]) -> Result<Pass, BarrierError> {
+    let mut why = None;
+    for state in near {
+        let reason = match equilibrium(question, stiffness, &state.place, OPTIONS) {
+            Ok(pass) if pass.negative_eigenvalues == 1 => return Ok(pass),
+            Ok(pass) => BarrierError::Index { stiffness, found: pass.negative_eigenvalues },
+            Err(failure) => BarrierError::NoPass { stiffness, failure },
+        };
+        why.get_or_insert(reason);
+    }
+    Err(why.unwrap_or(BarrierError::LeadsElsewhere))
+}
+
+/// A pass at the sheet's own stiffness, or as near to it as it is regular.
+struct Followed {
+    pass: Pass,
+    heights: Vec<Height>,
+    singular: bool,
+}
+
+/// The pass with ever stiffer bars, up to those of the sheet.
+fn followed(question: &Question<'_>, first: Pass, stiffness: f64) -> Result<Followed, BarrierError> {
+    let goal = question.stiffness();
+    let creases = question.recipe.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
+    let mut heights = vec![Height { stiffness, energy: first.energy }];
+    let (mut pass, mut at, mut factor) = (first, stiffness, STIFFER);
+    while at < goal {
+        let next = if at >= ALMOST_RIGID * creases { goal } else { (at * factor).min(goal) };
+        match equilibrium(question, next, &pass.place, OPTIONS) {
+            Ok(found) if found.negative_eigenvalues == 1 => {
+                heights.push(Height { stiffness: next, energy: found.energy });
+                (pass, at, factor) = (found, next, (factor * factor).min(STIFFER));
+            }
+            _ if next.is_infinite() => return Ok(Followed { pass, heights, singular: true }),
+            Ok(found) if factor < SHORTEST => {
+                return Err(BarrierError::Index { stiffness: next, found: found.negative_eigenvalues });
+            }
+            Err(failure) if factor < SHORTEST => return Err(BarrierError::NoPass { stiffness: next, failure }),
+            _ => factor = factor.sqrt(),
+        }
+    }
+    Ok(Followed { pass, heights, singular: false })
+}
+
+/// How the energies of a pass tend to their rigid limit: `limit - constant * stiffness^-exponent`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidLimit {
+    /// The power of one over the stiffness.
+    pub exponent: f64,
+    /// The limit.
+    pub energy: f64,
+}
+
+/// The law through the last three energies, at stiffnesses ten times apart, that differ by more than rounding errors;
+/// `None` where there are none.
+pub fn rigid_limit(heights: &[Height]) -> Option<RigidLimit> {
+    let known: Vec<&Height> = heights.iter().filter(|height| height.stiffness.is_finite()).collect();
+    known.windows(3).rev().find_map(|three| {
+        let even = three.windows(2).all(|pair| (pair[1].stiffness / pair[0].stiffness / STIFFER - 1.0).abs() <= 1e-9);
+        let [first, second] = [three[1].energy - three[0].energy, three[2].energy - three[1].energy];
+        let ratio = second / first;
+        let clear = second.abs() > CLEAR * three[2].energy.abs() && 0.0 < ratio && ratio < 1.0;
+        if !(even && clear) {
+            return None;
+        }
+        Some(RigidLimit { exponent: -ratio.log10(), energy: three[2].energy + second * ratio / (1.0 - ratio) })
+    })
+}

@@ -1,0 +1,96 @@
+//! Wells told apart by their fold angles: rigid motions change none of them, and the translations of a torus exchange
+//! them.
+//!
+//! A translation counts where it leaves rest angles and locked angles as they are. Angles are not taken modulo whole
+//! turns, because the energy is not: a crease wound once more is another well, and passes through itself.
+
+use super::Question;
+use super::settle::Settled;
+use std::collections::HashMap;
+
+/// Largest difference of a fold angle between two finds of one well, in radians.
+pub const SAME: f64 = 1e-5;
+
+/// Rest angles of copies of a crease that are the same differ by no more, in radians.
+const ROUNDING: f64 = 1e-9;
+
+/// A stable state.
+#[derive(Clone, Debug)]
+pub struct Well {
+    /// Its first find.
+    pub settled: Settled,
+    /// How many starts reached it.
+    pub reached: usize,
+}
+
+/// The translations of a torus that its energy does not feel, each as the edge to which every edge of the tiling goes;
+/// elsewhere only the one that moves nothing.
+#[derive(Clone, Debug)]
+pub struct Translations(Vec<Vec<usize>>);
+
+impl Translations {
+    /// Of a sheet.
+    pub fn new(question: &Question<'_>) -> Self {
+        let tiling = question.tiling;
+        if !tiling.periodic {
+            return Self(vec![(0..tiling.edges.len()).collect()]);
+        }
+        let number: HashMap<(usize, [usize; 2]), usize> =
+            tiling.edges.iter().enumerate().map(|(k, edge)| ((edge.edge, edge.cell), k)).collect();
+        let [n1, n2] = tiling.cells;
+        let shifts = (0..n2).flat_map(|m2| (0..n1).map(move |m1| [m1, m2]));
+        let moved = |[m1, m2]: [usize; 2]| -> Vec<usize> {
+            let to = |[c1, c2]: [usize; 2]| [(c1 + m1) % n1, (c2 + m2) % n2];
+            tiling.edges.iter().map(|edge| number[&(edge.edge, to(edge.cell))]).collect()
+        };
+        Self(shifts.map(moved).filter(|moved| unfelt(question, moved)).collect())
+    }
+
+    /// Smallest over the translations of the largest difference of two lists of fold angles of all edges.
+    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let differ = |moved: &Vec<usize>| {
+            let differences = a.iter().zip(moved).map(|(a, &to)| (a - b[to]).abs()).filter(|d| !d.is_nan());
+            differences.fold(0.0, f64::max)
+        };
+        self.0.iter().map(differ).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Whether rest angles and locks go over into themselves.
+fn unfelt(question: &Question<'_>, moved: &[usize]) -> bool {
+    let recipe = question.recipe;
+    let same = |rest: &[f64]| {
+        let pairs = rest.iter().zip(moved).map(|(rest, &to)| [*rest, rest_of(question, to)]);
+        pairs.into_iter().all(|[a, b]| (a - b).abs() <= ROUNDING || (a.is_nan() && b.is_nan()))
+    };
+    let locks: HashMap<usize, f64> = recipe.locks.iter().copied().collect();
+    let locked = |edge: usize, angle: f64| locks.get(&edge).is_some_and(|other| (other - angle).abs() <= ROUNDING);
+    recipe.creases.as_ref().is_none_or(|hinges| same(&hinges.rest))
+        && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
+}
+
+fn rest_of(question: &Question<'_>, edge: usize) -> f64 {
+    question.recipe.creases.as_ref().map_or(f64::NAN, |hinges| hinges.rest[edge])
+}
+
+/// The wells among these states, sorted by energy.
+pub fn wells(found: impl Iterator<Item = Settled>, translations: &Translations) -> Vec<Well> {
+    let mut wells: Vec<Well> = Vec::new();
+    for settled in found {
+        let angles = &settled.relaxed.state.fold_angle;
+        let known =
+            wells.iter_mut().find(|well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME);
+        match known {
+            Some(well) => well.reached += 1,
+            None => wells.push(Well { settled, reached: 1 }),
+        }
+    }
+    wells.sort_by(|a, b| a.settled.energy.total_cmp(&b.settled.energy));
+    wells
+}
+
+/// The number of the well that a state is.
+pub fn which(wells: &[Well], angles: &[f64], translations: &Translations) -> Option<usize> {
+    let same = |well: &Well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME;
+    wells.iter().position(same)
+}

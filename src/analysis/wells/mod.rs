@@ -1,0 +1,45 @@
+//! Wells and barriers: the stable states of a sheet whose creases do not rest as drawn, and the passes between them.
+//!
+//! Wells are reached from random starts ([`starts`]), are minima by inertia, and are told apart by their fold angles
+//! ([`merge`]). A path between two of them is found by the string method ([`string`]) and its highest state made a
+//! saddle by Newton's method ([`pass`]), which then is followed to the stiffness of the bars that is asked for
+//! ([`barrier`]). Beside this, without any bar: the energy of the creases on the folded states of the exact kinematics,
+//! on curves and on surfaces ([`rigid`]).
+
+pub mod barrier;
+pub mod merge;
+pub mod pass;
+pub mod rigid;
+pub mod settle;
+pub mod starts;
+pub mod string;
+
+use crate::model::assemble::{Drawn, Recipe, Surroundings};
+use crate::sheet::{Sheet, Tiling};
+
+/// A sheet and its energy.
+#[derive(Clone, Copy)]
+pub struct Question<'a> {
+    /// The sheet.
+    pub sheet: &'a Sheet,
+    /// Its cells.
+    pub tiling: &'a Tiling,
+    /// What surrounds them.
+    pub surroundings: Surroundings,
+    /// The drawn state.
+    pub drawn: &'a Drawn,
+    /// Bars, creases, and what holds or pulls.
+    pub recipe: &'a Recipe,
+}
+
+impl Question<'_> {
+    /// Stiffness `EA` of the bars; infinite where there are none to stretch.
+    pub fn stiffness(&self) -> f64 {
+        self.recipe.bars.unwrap_or(f64::INFINITY)
+    }
+
+    /// The parts with bars of another stiffness.
+    pub fn with_bars(&self, stiffness: f64) -> Recipe {
+        Recipe { bars: Some(stiffness), ..self.recipe.clone() }
+    }
+}

@@ -1,0 +1,135 @@
+//! Passes: equilibria with exactly one negative eigenvalue.
+//!
+//! Newton's method on the whole system of coordinates and tensions, without shift, from a state near a pass; it
+//! converges to whatever equilibrium is near, so the inertia is counted afterwards. What a pass joins is found by
+//! descending from it on both sides.
+
+use super::Question;
+use super::settle::{Place, Settled, Settler};
+use crate::analysis::state::State;
+use crate::model::{Gauge, Model, assemble::assemble};
+use crate::numerics::factor::FactorError;
+use crate::solver::saddle::Saddle;
+use crate::solver::{Curvature, Failure, Linearization, Options, Problem, tension};
+
+/// Largest change of a fold angle in a step.
+const LONGEST: f64 = 0.2;
+/// Relative residual of a step's linear system that is asked for, and the one that is refused.
+const ACCURACY: f64 = 1e-9;
+const INACCURATE: f64 = 0.1;
+
+/// Steps of the descent from a pass before the sheet is set free, and their tolerance.
+const DESCENT: usize = 12;
+const LOOSE: Options = Options { tolerance: 1e-10, iterations: 60 };
+
+/// An equilibrium that Newton's method found.
+#[derive(Clone, Debug)]
+pub struct Pass {
+    /// Where it is.
+    pub place: Place,
+    /// What it looks like.
+    pub state: State,
+    /// Fold angles of the soft hinges.
+    pub rho: Vec<f64>,
+    /// Its energy.
+    pub energy: f64,
+    /// Negative eigenvalues of the energy's Hessian on what rigid bars leave free: one at a pass.
+    pub negative_eigenvalues: usize,
+    /// Largest unbalanced force over the largest force of an element.
+    pub residual_force: f64,
+    /// Largest gap over the mean edge.
+    pub residual_length: f64,
+    /// Newton steps.
+    pub iterations: usize,
+}
+
+/// The equilibrium near a place, with bars of this stiffness.
+pub fn equilibrium(question: &Question<'_>, stiffness: f64, from: &Place, options: Options) -> Result<Pass, Failure> {
+    let mut model = assemble(question.drawn, question.tiling, &question.with_bars(stiffness), Gauge::Held);
+    model.set_angles(&from.angles);
+    let mut x = model.start_from(from.coordinates.clone());
+    let mut t = from.tension.clone();
+    let mut at = Linearization::new(model.layout());
+    let mut saddle = Saddle::new(model.layout(), &at)?;
+    for iterations in 0.. {
+        model.linearize(&x, &t, Curvature::Full, &mut at);
+        let (force, length) = tension::residuals(&model, &at, &t);
+        if force <= options.tolerance && length <= options.tolerance {
+            let negative_eigenvalues = saddle.inertia(model.layout(), &at, model.compliance())?.negative;
+            let found = Found { negative_eigenvalues, residual_force: force, residual_length: length, iterations };
+            return Ok(found.pass(&model, &x, t, question.tiling.edges.len()));
+        }
+        if iterations == options.iterations || !(force.is_finite() && length.is_finite()) {
+            return Err(Failure::TooManySteps { iterations, force, length });
+        }
+        let (dx, dt) = step(&model, &mut saddle, &at, &t)?;
+        x.iter_mut().zip(&dx).for_each(|(x, d)| *x += d);
+        t.iter_mut().zip(&dt).for_each(|(t, d)| *t += d);
+        model.accept(&mut x);
+    }
+    Err(Failure::TooManySteps { iterations: options.iterations, force: f64::NAN, length: f64::NAN })
+}
+
+/// Newton's step in unknowns and tensions, shortened where it would fold too far.
+fn step(model: &Model, saddle: &mut Saddle, at: &Linearization, t: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Failure> {
+    let (layout, compliance) = (model.layout(), model.compliance());
+    saddle.factor(layout, at, compliance, 0.0)?;
+    let open: Vec<f64> = at.gaps.iter().zip(t).zip(compliance).map(|((gap, t), c)| c * t - gap).collect();
+    let step = saddle.solve(layout, at, compliance, (&at.force(layout, t), &open), ACCURACY);
+    if !(step.residual <= INACCURATE) {
+        return Err(FactorError::Inaccurate { residual: step.residual }.into());
+    }
+    let part = (LONGEST / largest_turn(model, at, &step.dx)).min(1.0);
+    let scaled = |list: Vec<f64>| list.into_iter().map(|value| part * value).collect();
+    Ok((scaled(step.dx), scaled(step.dt)))
+}
+
+/// What is known of an equilibrium beside where it is.
+struct Found {
+    negative_eigenvalues: usize,
+    residual_force: f64,
+    residual_length: f64,
+    iterations: usize,
+}
+
+impl Found {
+    fn pass(self, model: &Model, x: &[f64], tension: Vec<f64>, edges: usize) -> Pass {
+        let state = State::new(model, x, &tension, edges);
+        let mut rho = model.values(x);
+        rho.truncate(model.layout().soft.len());
+        let Self { negative_eigenvalues, residual_force, residual_length, iterations } = self;
+        Pass {
+            place: Place { coordinates: state.coordinates.clone(), angles: model.angles(), tension },
+            rho,
+            energy: state.total(),
+            state,
+            negative_eigenvalues,
+            residual_force,
+            residual_length,
+            iterations,
+        }
+    }
+}
+
+/// Largest change of a soft hinge's angle along a step, to first order.
+fn largest_turn(model: &impl Problem, at: &Linearization, dx: &[f64]) -> f64 {
+    let layout = model.layout();
+    let rows = crate::numerics::sparse::Rows { cliques: &layout.soft, values: &at.soft_gradients };
+    let mut turns = vec![0.0; layout.soft.len()];
+    rows.product(dx, &mut turns);
+    turns.iter().fold(0.0, |most: f64, turn| most.max(turn.abs()))
+}
+
+/// Where the sheet goes from a pass when pushed along a change of its fold angles, and against it.
+pub fn sides(settler: &mut Settler, pass: &Pass, along: &[f64], options: Options) -> Result<[Settled; 2], Failure> {
+    let mut side = |sign: f64| -> Result<Settled, Failure> {
+        let mut target: Vec<f64> = pass.rho.iter().zip(along).map(|(rho, d)| rho + sign * d).collect();
+        let mut place = pass.place.clone();
+        for _ in 0..DESCENT {
+            let found = settler.near(&place, &target, LOOSE, &mut |_| true).map_err(|error| error.failure)?;
+            (place, target) = (found.place, found.rho);
+        }
+        settler.free(&place, false, options, &mut |_| true).map_err(|error| error.failure)
+    };
+    Ok([side(1.0)?, side(-1.0)?])
+}

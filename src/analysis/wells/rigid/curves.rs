@@ -1,0 +1,83 @@
+//! Folded states that are curves: trajectories along every ray of the drawn state, until they come back or a crease is
+//! folded by `pi`.
+
+use super::{Net, RigidError, Sampling};
+use crate::analysis::branches;
+use crate::kinematics::{Closing, Closure, KinematicsError, Rays, SecondOrder};
+use crate::numerics::DenseMatrix;
+use crate::solver::Implicit;
+use crate::solver::continuation::{Curve, End, Options, Point, follow};
+use std::f64::consts::{PI, TAU};
+
+/// Steps on curves over those on surfaces: they cost next to nothing.
+const FINER: f64 = 0.25;
+
+/// Closed angles, with the distance of the sharpest fold from `pi`.
+struct Folding<'a>(Closing<'a>);
+
+impl Implicit for Folding<'_> {
+    fn unknowns(&self) -> usize {
+        self.0.unknowns()
+    }
+
+    fn equations(&self) -> usize {
+        self.0.equations()
+    }
+
+    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
+        self.0.linearize(x, residual, jacobian);
+    }
+}
+
+impl Curve for Folding<'_> {
+    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
+        out.push(point.x.iter().fold(0.0, |most: f64, angle| most.max(angle.abs())) - PI);
+    }
+}
+
+/// Samples the trajectories; they hang together in the drawn state.
+pub(super) fn net(
+    start: &branches::Question<'_>,
+    sampling: &Sampling,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Net, RigidError> {
+    let closure = Closure::of_tiling(start.sheet, start.tiling)?.with_locked(&branches::locked(start));
+    match closure.unchecked_loops() {
+        0 if start.sheet.holes.is_empty() => {}
+        loops => return Err(KinematicsError::Openings { loops: loops.max(start.sheet.holes.len()) }.into()),
+    }
+    let drawn: Vec<f64> = start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
+    let second_order = SecondOrder::new(&closure, &drawn)?;
+    let dimension = second_order.count() as i64 - second_order.quadrics.len() as i64;
+    if dimension != 1 {
+        return Err(RigidError::Dimension { dimension });
+    }
+    let rays = Rays::new(&second_order)?.rays;
+    let mut folding = Folding(Closing::new(&closure, drawn.clone()));
+    let crossing = rays.len() > 2;
+    let mut net =
+        Net { angles: vec![drawn.clone()], links: vec![], singular: vec![crossing], border: vec![false], dimension: 1 };
+    let options = Options { max_step: FINER * sampling.step, period: Some(TAU), stops: vec![0], ..Options::default() };
+    for ray in &rays {
+        let [x, tangent] = [&drawn, &ray.direction].map(|all| folding.0.folding(all));
+        let found = follow(&mut folding, x, tangent, &options, &mut |_| go_on());
+        if found.end == End::Interrupted {
+            return Err(RigidError::Interrupted);
+        }
+        let back = matches!(found.end, End::Closed(_));
+        let last = found.points.len() - 1;
+        let mut before = 0;
+        for (k, point) in found.points.iter().enumerate().skip(1) {
+            if back && k == last {
+                net.links.push([before, 0]);
+                continue;
+            }
+            net.links.push([before, net.angles.len()]);
+            before = net.angles.len();
+            net.angles.push(folding.0.angles(&point.x));
+            net.singular.push(false);
+            net.border.push(k == last);
+        }
+    }
+    Ok(net)
+}

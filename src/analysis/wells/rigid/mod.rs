@@ -1,0 +1,250 @@
+//! Wells and passes of exactly rigid sheets, in fold angles alone: no bar, no random start.
+//!
+//! The folded states of one cell, or of a small finite sheet, are curves or a surface that leave the drawn state
+//! (`curves`, `surface`). On states sampled there wells are the lowest of their neighbours and passes are found by
+//! flooding (`flood`); each is then made exact by Newton's method for the energy of the creases along the closed states
+//! ([`crate::analysis::exact`]), and its index counted. States at which a crease is folded by more than `pi`, where
+//! panels have gone through each other, do not belong to this landscape.
+//!
+//! The drawn state itself may be a pass: branches cross there, and no Hessian says so. Its energy is the height all the
+//! same.
+
+mod curves;
+mod flood;
+mod surface;
+
+use super::Question;
+use crate::analysis::branches::{self, BranchesError};
+use crate::analysis::exact::{Springs, Stationary};
+use crate::analysis::surface::SurfaceError;
+use crate::kinematics::KinematicsError;
+use crate::model::Gauge;
+use crate::model::assemble::{Surroundings, assemble, drawn_angles};
+use flood::Merge;
+use std::f64::consts::PI;
+use thiserror::Error;
+
+/// Two stationary states are one where no angle differs by more.
+const SAME: f64 = 1e-7;
+/// How far, in fold angles, a sampled state may be from the stationary one next to it, in distances of neighbours.
+const NEAR: f64 = 4.0;
+
+/// How finely and how far the folded states are sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Distance of neighbours in fold angles.
+    pub step: f64,
+    /// Magnitude of the curvature at which a surface ends.
+    pub max_curvature: f64,
+}
+
+/// Sampled states that hang together.
+pub(super) struct Net {
+    /// Fold angles of all edges.
+    pub angles: Vec<Vec<f64>>,
+    /// Neighbours.
+    pub links: Vec<[usize; 2]>,
+    /// Whether branches cross at a state: it has no tangents of its own.
+    pub singular: Vec<bool>,
+    /// Whether the landscape ends at a state.
+    pub border: Vec<bool>,
+    /// Dimension: 1 or 2.
+    pub dimension: usize,
+}
+
+/// A pass.
+#[derive(Clone, Debug)]
+pub struct RigidPass {
+    /// The lowest wells on its two sides, by number.
+    pub joins: [usize; 2],
+    /// Energy.
+    pub energy: f64,
+    /// Fold angles of all edges.
+    pub angles: Vec<f64>,
+    /// Whether it is the state at which branches cross; otherwise its Hessian has one negative eigenvalue.
+    pub singular: bool,
+}
+
+/// Wells and passes.
+#[derive(Clone, Debug)]
+pub struct RigidLandscape {
+    /// Dimension of the folded states: 1 or 2.
+    pub dimension: usize,
+    /// Sampled states.
+    pub states: usize,
+    /// Wells, by energy.
+    pub wells: Vec<Stationary>,
+    /// Energies of the ends of curves where a crease is folded by `pi` and the torque folds it further: states that the
+    /// contact of two panels holds. They are no equilibria of the creases alone, and not among the wells.
+    pub contacts: Vec<f64>,
+    /// Passes by energy, from each the two sides of which were not joined below it.
+    pub passes: Vec<RigidPass>,
+    /// Wells and passes of the sampled states that could not be made exact.
+    pub lost: usize,
+}
+
+/// Why there is no landscape of this kind.
+#[derive(Debug, Error)]
+pub enum RigidError {
+    /// Neither a curve nor a surface.
+    #[error("the rigid states have {dimension} dimensions: wells are counted on curves and surfaces only")]
+    Dimension {
+        /// What second order says.
+        dimension: i64,
+    },
+    /// The energy is not one of hinges alone.
+    #[error("the rigid landscape is that of one cell, or of a small sheet, with creases and nothing else")]
+    NotOfHinges,
+    /// What leaves the drawn state is not known.
+    #[error(transparent)]
+    Branches(#[from] BranchesError),
+    /// The sheet cannot be put together.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// The surface is not known.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// The observer asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// The landscape of a sheet. `go_on` returns false to stop.
+pub fn landscape(
+    question: &Question<'_>,
+    sampling: &Sampling,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<RigidLandscape, RigidError> {
+    let Question { sheet, tiling, surroundings, drawn, recipe } = *question;
+    let angles = drawn_angles(drawn, tiling);
+    let model = assemble(drawn, tiling, recipe, Gauge::Held);
+    let springs = Springs::new(sheet, tiling, &model, &angles).ok_or(RigidError::NotOfHinges)?;
+    let start = branches::Question { sheet, tiling, surroundings, angles: &angles, recipe };
+    let net = match surroundings {
+        Surroundings::Screw => surface::net(start, sampling, go_on)?,
+        _ => curves::net(&start, sampling, go_on)?,
+    };
+    Ok(polished(&springs, &net, sampling.step))
+}
+
+/// Wells and passes of a net, made exact.
+fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
+    let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
+    let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
+    let (dimension, states) = (net.dimension, net.angles.len());
+    let (wells, contacts, passes) = (Vec::new(), Vec::new(), Vec::new());
+    let mut landscape = RigidLandscape { dimension, states, wells, contacts, passes, lost: 0 };
+    // the well of each minimum; none where the landscape ends there, or where it is no well
+    let mut well = vec![None; states];
+    for &at in &minima {
+        let found = if net.border[at] || net.singular[at] {
+            net.beside(at).find_map(|other| between(springs, net, [at, other]))
+        } else {
+            exact(springs, &net.angles[at], (0, NEAR * step))
+        };
+        match found {
+            Some(found) => well[at] = Some(known(&mut landscape.wells, found)),
+            None if net.border[at] => landscape.contacts.extend(net.touches(at).then_some(energies[at])),
+            // where branches cross nothing is stationary: the state is the lowest of the samples only
+            None => landscape.lost += usize::from(!net.singular[at]),
+        }
+    }
+    // wells so near to where branches cross that no sample lies between
+    for at in (0..states).filter(|&at| net.singular[at] && dimension == 1) {
+        let hidden = net.beside(at).filter_map(|other| between(springs, net, [at, other]));
+        hidden.for_each(|found| {
+            known(&mut landscape.wells, found);
+        });
+    }
+    for Merge { lower, at } in merges {
+        if let [Some(a), Some(b)] = lower.map(|minimum| well[minimum]) {
+            landscape.add_pass(springs, net, ([a, b], at), step);
+        }
+    }
+    landscape.sort();
+    landscape
+}
+
+impl Net {
+    /// Neighbours of a state.
+    fn beside(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
+        self.links.iter().filter(move |link| link.contains(&at)).map(move |[a, b]| a + b - at)
+    }
+
+    /// Whether a curve ends in a state because a crease is shut.
+    fn touches(&self, at: usize) -> bool {
+        let sharpest = self.angles[at].iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
+        self.dimension == 1 && (sharpest - PI).abs() <= SAME
+    }
+}
+
+/// The well between two neighbours, the first of which has no tangents or lies on the border.
+fn between(springs: &Springs, net: &Net, [at, other]: [usize; 2]) -> Option<Stationary> {
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    let [here, there] = [at, other].map(|state| &net.angles[state]);
+    let length = apart(here, there);
+    let found = springs.stationary(there)?;
+    let inside = [here, there].iter().all(|end| apart(&found.angles, end) <= (1.0 + SAME) * length)
+        && found.angles.iter().all(|angle| angle.abs() <= PI);
+    (found.negative_eigenvalues == 0 && inside).then_some(found)
+}
+
+/// The stationary state of this index next to a sampled one.
+fn exact(springs: &Springs, angles: &[f64], (index, reach): (usize, f64)) -> Option<Stationary> {
+    let found = springs.stationary(angles)?;
+    let apart = found.angles.iter().zip(angles).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    (found.negative_eigenvalues == index && apart <= reach).then_some(found)
+}
+
+/// The number of a well, which is added where it is new.
+fn known(wells: &mut Vec<Stationary>, found: Stationary) -> usize {
+    let same = |well: &Stationary| well.angles.iter().zip(&found.angles).all(|(a, b)| (a - b).abs() <= SAME);
+    wells.iter().position(same).unwrap_or_else(|| {
+        wells.push(found);
+        wells.len() - 1
+    })
+}
+
+impl RigidLandscape {
+    /// Makes the pass at a state exact.
+    fn add_pass(&mut self, springs: &Springs, net: &Net, (joins, at): ([usize; 2], usize), step: f64) {
+        if joins[0] == joins[1] {
+            return;
+        }
+        if net.singular[at] {
+            let angles = net.angles[at].clone();
+            self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular: true });
+            return;
+        }
+        match exact(springs, &net.angles[at], (1, NEAR * step)) {
+            Some(Stationary { angles, energy, .. }) => {
+                self.passes.push(RigidPass { joins, energy, angles, singular: false });
+            }
+            None => self.lost += 1,
+        }
+    }
+
+    /// Wells and passes by energy.
+    fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.wells.len()).collect();
+        order.sort_by(|&a, &b| self.wells[a].energy.total_cmp(&self.wells[b].energy));
+        let place = |old: usize| order.iter().position(|&well| well == old).unwrap_or(old);
+        self.passes.iter_mut().for_each(|pass| pass.joins = pass.joins.map(place));
+        self.wells = order.iter().map(|&well| self.wells[well].clone()).collect();
+        self.passes.sort_by(|a, b| a.energy.total_cmp(&b.energy));
+        self.contacts.sort_by(f64::total_cmp);
+    }
+
+    /// The lowest pass that has to be crossed between two wells; `None` where none joins them.
+    pub fn between(&self, a: usize, b: usize) -> Option<&RigidPass> {
+        let mut side: Vec<usize> = (0..self.wells.len()).collect();
+        for pass in &self.passes {
+            let [one, other] = pass.joins.map(|well| side[well]);
+            side.iter_mut().filter(|side| **side == other).for_each(|side| *side = one);
+            if side[a] == side[b] {
+                return Some(pass);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,69 @@
+//! Folded states that are a surface: one periodic cell, repeated by screw motions.
+
+use super::{Net, RigidError, Sampling};
+use crate::analysis::branches;
+use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
+use crate::solver::atlas::Coverage;
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
+
+/// Bound on the closure residual.
+const TOLERANCE: f64 = 3e-14;
+/// States beyond which a surface is given up.
+const MOST_POINTS: usize = 300_000;
+
+/// Largest difference of an angle between two tips in one state.
+const ONE: f64 = 1e-9;
+
+/// Samples the surface.
+pub(super) fn net(
+    start: branches::Question<'_>,
+    sampling: &Sampling,
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Net, RigidError> {
+    let question = Question {
+        start,
+        radius: sampling.step,
+        tolerance: TOLERANCE,
+        max_curvature: sampling.max_curvature,
+        max_points: MOST_POINTS,
+    };
+    let Surface { points, triangles, coverage, .. } = surface(&question, &mut |_| go_on())?;
+    if coverage == Coverage::Interrupted {
+        return Err(RigidError::Interrupted);
+    }
+    let inside: Vec<bool> = points.iter().map(|point| point.angles.iter().all(|angle| angle.abs() <= PI)).collect();
+    let mut count: std::collections::BTreeMap<[usize; 2], usize> = Default::default();
+    for &[a, b, c] in &triangles {
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            *count.entry([a.min(b), a.max(b)]).or_default() += 1;
+        }
+    }
+    let mut border: Vec<bool> = inside.iter().map(|inside| !inside).collect();
+    for ([a, b], triangles) in &count {
+        let open = *triangles == 1;
+        let (out_a, out_b) = (!inside[*a], !inside[*b]);
+        border[*a] |= open || out_b;
+        border[*b] |= open || out_a;
+    }
+    // neighbours across the end of a period are none here: a turn more is another state
+    let near = |a: usize, b: usize| points[a].angles.iter().zip(&points[b].angles).all(|(a, b)| (a - b).abs() <= PI);
+    let mut links: BTreeSet<[usize; 2]> =
+        count.into_keys().filter(|&[a, b]| inside[a] && inside[b] && near(a, b)).collect();
+    links.extend(tips(&points));
+    Ok(Net {
+        singular: points.iter().map(|point| point.radius == 0.0).collect(),
+        angles: points.into_iter().map(|point| point.angles).collect(),
+        links: links.into_iter().collect(),
+        border,
+        dimension: 2,
+    })
+}
+
+/// Every nappe has a tip of its own; those in one state hang together.
+fn tips(points: &[SurfacePoint]) -> Vec<[usize; 2]> {
+    let tips: Vec<usize> = (0..points.len()).filter(|&k| points[k].radius == 0.0).collect();
+    let pairs = tips.iter().enumerate().flat_map(|(k, &a)| tips[..k].iter().map(move |&b| [b, a]));
+    let same = |a: usize, b: usize| points[a].angles.iter().zip(&points[b].angles).all(|(a, b)| (a - b).abs() <= ONE);
+    pairs.filter(|&[a, b]| same(a, b)).collect()
+}

@@ -1,0 +1,167 @@
+//! Relaxations that go on from each other, freely or held near given fold angles.
+//!
+//! Held is the proximal step (implicit Euler) of the descent in the metric `sum k (d rho)^2` of the creases: the minimum of
+//! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
+//! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
+//!
+//! Against rigid motions a model holds coordinates that are chosen in the drawn state. Much later on the way these may
+//! not suffice, and then folding is held where nothing should hold it: a patch ends in what is no equilibrium. So a
+//! patch that has relaxed is turned in space, which means nothing to a true equilibrium, and relaxed again until it
+//! stays.
+
+use super::Question;
+use crate::analysis::relax::{RelaxError, Relaxed, relax};
+use crate::math::{Vec3, rotation};
+use crate::model::assemble::{Recipe, Surroundings, assemble};
+use crate::model::{Gauge, Model};
+use crate::solver::{Failure, Options, Problem, Start, Step};
+
+/// How a patch is turned, as a rotation vector in radians, and how often at most.
+const TURN: [f64; 3] = [0.9, -0.5, 0.7];
+const TURNS: usize = 40;
+/// Largest change of a fold angle of what stays, in radians.
+const STILL: f64 = 1e-7;
+
+/// A state from which relaxations begin.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// All coordinates.
+    pub coordinates: Vec<f64>,
+    /// Angles of all hinges, from which angles continue.
+    pub angles: Vec<f64>,
+    /// Tensions of the stiff measures.
+    pub tension: Vec<f64>,
+}
+
+impl Place {
+    /// The same state of a patch turned in space.
+    fn turned(&self) -> Self {
+        let turn = rotation::exp(&Vec3::from(TURN));
+        let points =
+            self.coordinates.chunks_exact(3).flat_map(|p| <[f64; 3]>::from(turn * Vec3::new(p[0], p[1], p[2])));
+        Self { coordinates: points.collect(), ..self.clone() }
+    }
+}
+
+/// A settled state.
+#[derive(Clone, Debug)]
+pub struct Settled {
+    /// Where it is.
+    pub place: Place,
+    /// Fold angles of the soft hinges.
+    pub rho: Vec<f64>,
+    /// Energy, what holds it near its target left out.
+    pub energy: f64,
+    /// The relaxation.
+    pub relaxed: Relaxed,
+}
+
+impl Settled {
+    /// The failure of a state that moves by so much when it is turned.
+    fn unsettled(self, angle: f64) -> Box<RelaxError> {
+        let Relaxed { state, x, history, .. } = self.relaxed;
+        Box::new(RelaxError { failure: Failure::Uncertain { angle }, state, x, history })
+    }
+}
+
+/// A model that can be held near given fold angles.
+pub struct Settler {
+    free: Model,
+    held: Model,
+    /// How much stiffer than its creases is what holds the sheet.
+    strength: f64,
+    rest: Vec<f64>,
+    stiffness: Vec<f64>,
+    edges: usize,
+    /// Whether turning the sheet in space changes nothing.
+    turns: bool,
+}
+
+impl Settler {
+    /// Of a sheet with these parts.
+    pub fn new(question: &Question<'_>, recipe: &Recipe, strength: f64) -> Self {
+        let model = || assemble(question.drawn, question.tiling, recipe, Gauge::Held);
+        let (free, mut held) = (model(), model());
+        let count = free.layout().soft.len();
+        held.scale_soft(&vec![1.0 + strength; count]);
+        let springs = free.soft().iter().flat_map(|term| (0..term.len()).map(move |k| term.spring(k)));
+        let (rest, stiffness) = springs.map(|spring| (spring.rest, spring.stiffness)).unzip();
+        let (edges, turns) = (question.tiling.edges.len(), question.surroundings == Surroundings::Patch);
+        Self { free, held, strength, rest, stiffness, edges, turns }
+    }
+
+    /// The drawn state.
+    pub fn drawn(&self) -> Place {
+        let coordinates = self.free.coordinates(&self.free.start());
+        Place { coordinates, angles: self.free.angles(), tension: vec![0.0; self.free.compliance().len()] }
+    }
+
+    /// Stiffness of the soft hinges: the metric.
+    pub fn stiffness(&self) -> &[f64] {
+        &self.stiffness
+    }
+
+    /// Relaxes from a place, whose tensions are used where they are near the solution.
+    pub fn free(
+        &mut self,
+        from: &Place,
+        warm: bool,
+        options: Options,
+        observe: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Settled, Box<RelaxError>> {
+        let relaxed = go(&mut self.free, from, warm, options, self.edges, observe)?;
+        let mut found = self.settled(relaxed, false);
+        let mut moved = if self.turns { f64::INFINITY } else { 0.0 };
+        for _ in 0..TURNS {
+            if moved <= STILL {
+                break;
+            }
+            let relaxed = go(&mut self.free, &found.place.turned(), false, options, self.edges, observe)?;
+            let again = self.settled(relaxed, false);
+            moved = found.rho.iter().zip(&again.rho).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            found = again;
+        }
+        if moved <= STILL { Ok(found) } else { Err(found.unsettled(moved)) }
+    }
+
+    /// The same held near these fold angles of the soft hinges.
+    pub fn near(
+        &mut self,
+        from: &Place,
+        target: &[f64],
+        options: Options,
+        observe: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Settled, Box<RelaxError>> {
+        let mut rests = self.held.rests();
+        for (at, target) in target.iter().enumerate() {
+            rests[at] = (self.rest[at] + self.strength * target) / (1.0 + self.strength);
+        }
+        self.held.set_rests(&rests, &rests, 1.0);
+        let relaxed = go(&mut self.held, from, false, options, self.edges, observe)?;
+        Ok(self.settled(relaxed, true))
+    }
+
+    fn settled(&self, relaxed: Relaxed, held: bool) -> Settled {
+        let model = if held { &self.held } else { &self.free };
+        let mut rho = model.values(&relaxed.x);
+        rho.truncate(self.rest.len());
+        let creases = rho.iter().zip(&self.rest).zip(&self.stiffness).map(|((rho, rest), k)| k * (rho - rest).powi(2));
+        let stiff = relaxed.tension.iter().zip(model.compliance()).map(|(t, c)| c * t * t);
+        let energy = 0.5 * (creases.sum::<f64>() + stiff.sum::<f64>());
+        let (coordinates, tension) = (relaxed.state.coordinates.clone(), relaxed.tension.clone());
+        Settled { place: Place { coordinates, angles: model.angles(), tension }, rho, energy, relaxed }
+    }
+}
+
+fn go(
+    model: &mut Model,
+    from: &Place,
+    warm: bool,
+    options: Options,
+    edges: usize,
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Relaxed, Box<RelaxError>> {
+    model.set_angles(&from.angles);
+    let x = model.start_from(from.coordinates.clone());
+    relax(model, Start { x, tension: warm.then(|| from.tension.clone()) }, options, edges, observe)
+}

@@ -1,0 +1,125 @@
+//! Random starts: the sheet crumpled to random fold angles, with soft bars, and then released.
+//!
+//! Every crease is given a rest angle at random around the drawn one, every coordinate is moved at random (flat sheets
+//! have to leave the flat state), a screw gets an axis at random, and the sheet relaxes with bars of at most a thousand
+//! times the stiffness of its creases, so that no folded state is out of reach. From there it relaxes with its own bars
+//! and rest angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the
+//! seed and its own number alone.
+
+use super::Question;
+use super::settle::{Place, Settled, Settler};
+use crate::model::assemble::{Drawn, Recipe, Surroundings, drawn_angles};
+use crate::numerics::parallel;
+use crate::solver::{Failure, Options};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::PI;
+
+/// Stiffness of bars over that of creases while the sheet is crumpled.
+const SOFT: f64 = 1e3;
+/// Random part of a coordinate, over the mean edge.
+const MOVED: f64 = 0.05;
+/// When a crumpled state is good enough to be released.
+const CRUMPLED: Options = Options { tolerance: 1e-4, iterations: 60 };
+/// How often a start that ends in no well is crumpled anew.
+const TRIES: usize = 4;
+
+/// Where to start, and how often.
+#[derive(Clone, Copy, Debug)]
+pub struct Starts {
+    /// Number of starts.
+    pub count: usize,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Largest distance of a random rest angle from the drawn fold angle, in radians.
+    pub spread: f64,
+    /// When a well is converged.
+    pub options: Options,
+}
+
+/// What came of a start.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// A minimum, by inertia.
+    Well(Box<Settled>),
+    /// An equilibrium that is no minimum, however often it was tried.
+    Saddle,
+    /// A relaxation failed.
+    Failed(Failure),
+    /// The observer asked to stop.
+    Interrupted,
+}
+
+/// Relaxes from all starts, in their order. `go_on` is asked after each and returns false to stop.
+pub fn relax_all(question: &Question<'_>, starts: &Starts, go_on: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
+    parallel::each(
+        starts.count,
+        || true,
+        |going, number| {
+            if !*going {
+                return Outcome::Interrupted;
+            }
+            let found = one(question, starts, number);
+            *going = go_on();
+            found
+        },
+    )
+}
+
+fn one(question: &Question<'_>, starts: &Starts, number: usize) -> Outcome {
+    let mut numbers = ChaCha8Rng::seed_from_u64(starts.seed);
+    numbers.set_stream(number as u64);
+    let mut within = |size: f64| size * (2.0 * numbers.random::<f64>() - 1.0);
+    let turned;
+    let mut question = *question;
+    if question.surroundings == Surroundings::Screw {
+        turned = Drawn::turned(question.sheet, question.tiling, question.surroundings, within(0.5 * PI));
+        question.drawn = &turned;
+    }
+    let mut last = Outcome::Saddle;
+    for _ in 0..TRIES {
+        last = match crumpled(&question, starts.spread, &mut within) {
+            Ok(place) => released(&question, &place, starts.options),
+            Err(failure) => Outcome::Failed(failure),
+        };
+        if matches!(last, Outcome::Well(_)) {
+            break;
+        }
+    }
+    last
+}
+
+/// What the sheet does with its own bars and rest angles.
+fn released(question: &Question<'_>, from: &Place, options: Options) -> Outcome {
+    match Settler::new(question, question.recipe, 1.0).free(from, false, options, &mut |_| true) {
+        Err(error) => Outcome::Failed(error.failure),
+        Ok(found) if found.relaxed.negative_eigenvalues > 0 => Outcome::Saddle,
+        Ok(found) => Outcome::Well(Box::new(found)),
+    }
+}
+
+/// A state near random fold angles.
+fn crumpled(question: &Question<'_>, spread: f64, within: &mut dyn FnMut(f64) -> f64) -> Result<Place, Failure> {
+    let mut recipe: Recipe = question.recipe.clone();
+    if let Some(creases) = &mut recipe.creases {
+        let drawn = drawn_angles(question.drawn, question.tiling);
+        creases.rest = drawn.iter().map(|angle| angle + within(spread)).collect();
+        recipe.bars = recipe.bars.map(|bars| bars.min(SOFT * creases.stiffness));
+    }
+    let mut settler = Settler::new(question, &recipe, 1.0);
+    let mut from = settler.drawn();
+    let step = MOVED * mean_edge(question);
+    from.coordinates.iter_mut().for_each(|x| *x += within(step));
+    let found = settler.free(&from, false, CRUMPLED, &mut |_| true);
+    Ok(found.map_err(|error| error.failure)?.place)
+}
+
+fn mean_edge(question: &Question<'_>) -> f64 {
+    let Drawn { domain, coordinates, .. } = question.drawn;
+    let length = |ends| {
+        let [a, b] = domain.points(coordinates, ends);
+        (b - a).norm()
+    };
+    let edges = &question.tiling.edges;
+    edges.iter().map(|edge| length(&edge.ends)).sum::<f64>() / edges.len() as f64
+}

@@ -1,0 +1,98 @@
+//! The string method: a path of lowest energy between two wells, as a row of states.
+//!
+//! W. E, W. Ren and E. Vanden-Eijnden, "Simplified and improved string method for computing the minimum energy paths in
+//! barrier-crossing events", Journal of Chemical Physics 126, 164103 (2007): the states of the row descend and are then
+//! put at equal distances along it, again and again. Distances are those of fold angles, `sqrt(sum k (d rho)^2)`, and
+//! both halves of a sweep are one relaxation for every state: held ([`super::settle`]) near the point of the row where
+//! it belongs.
+
+use super::settle::{Settled, Settler};
+use crate::solver::{Failure, Options, Step};
+
+/// Strength with which states of the row are held: the step of the descent is one over it.
+pub const STRENGTH: f64 = 32.0;
+/// States of the row, its ends included.
+const STATES: usize = 17;
+/// Most sweeps, and the movement in a sweep, over the length of the row, at which it is at rest.
+const SWEEPS: usize = 80;
+const AT_REST: f64 = 1e-3;
+/// When the states of a row are converged.
+const LOOSE: Options = Options { tolerance: 1e-10, iterations: 60 };
+
+/// The row of states between two wells.
+pub fn string(
+    settler: &mut Settler,
+    [from, to]: [&Settled; 2],
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Vec<Settled>, Failure> {
+    let mut row = grown(settler, [from, to], observe)?;
+    for _ in 0..SWEEPS {
+        let moved = sweep(settler, &mut row, observe)?;
+        if moved <= AT_REST * length(settler, &row) {
+            break;
+        }
+    }
+    Ok(row)
+}
+
+/// States on the straight way between the fold angles of two wells, each from the one before it, from both ends.
+fn grown(
+    settler: &mut Settler,
+    [from, to]: [&Settled; 2],
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Vec<Settled>, Failure> {
+    let mut row: Vec<Option<Settled>> = vec![None; STATES];
+    row[0] = Some(from.clone());
+    row[STATES - 1] = Some(to.clone());
+    let inner = (1..STATES - 1).map(|k| if k % 2 == 1 { (k.div_ceil(2), -1) } else { (STATES - 1 - k / 2, 1) });
+    for (at, back) in inner {
+        let part = at as f64 / (STATES - 1) as f64;
+        let beside = row[at.wrapping_add_signed(back)].clone().unwrap_or_else(|| from.clone());
+        let target = between(&from.rho, &to.rho, part);
+        let found = settler.near(&beside.place, &target, LOOSE, observe).map_err(|error| error.failure)?;
+        row[at] = Some(found);
+    }
+    Ok(row.into_iter().flatten().collect())
+}
+
+/// One sweep; the largest movement of a state.
+fn sweep(settler: &mut Settler, row: &mut [Settled], observe: &mut dyn FnMut(&Step) -> bool) -> Result<f64, Failure> {
+    let places = stations(settler, row);
+    let (whole, last) = (places[row.len() - 1], row.len() - 1);
+    let mut moved: f64 = 0.0;
+    let old: Vec<Settled> = row.to_vec();
+    for at in 1..last {
+        let station = whole * at as f64 / last as f64;
+        let behind = (0..last).rfind(|&k| places[k] <= station).unwrap_or(0);
+        let part = (station - places[behind]) / (places[behind + 1] - places[behind]);
+        let target = between(&old[behind].rho, &old[behind + 1].rho, part);
+        let nearest = if part < 0.5 { behind } else { behind + 1 };
+        let found = settler.near(&old[nearest].place, &target, LOOSE, observe).map_err(|error| error.failure)?;
+        moved = moved.max(distance(settler, &found.rho, &old[at].rho));
+        row[at] = found;
+    }
+    Ok(moved)
+}
+
+fn between(a: &[f64], b: &[f64], part: f64) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + part * (b - a)).collect()
+}
+
+/// Distance of fold angles in the metric of the creases.
+pub fn distance(settler: &Settler, a: &[f64], b: &[f64]) -> f64 {
+    let squares = a.iter().zip(b).zip(settler.stiffness()).map(|((a, b), k)| k * (a - b).powi(2));
+    squares.sum::<f64>().sqrt()
+}
+
+/// Distance of every state along the row.
+pub fn stations(settler: &Settler, row: &[Settled]) -> Vec<f64> {
+    let mut along = vec![0.0];
+    for pair in row.windows(2) {
+        along.push(along[along.len() - 1] + distance(settler, &pair[0].rho, &pair[1].rho));
+    }
+    along
+}
+
+fn length(settler: &Settler, row: &[Settled]) -> f64 {
+    row.windows(2).map(|pair| distance(settler, &pair[0].rho, &pair[1].rho)).sum()
+}

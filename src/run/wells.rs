@@ -1,0 +1,294 @@
+//! `kind = "wells"`: stable states from random starts, the barriers between them, and both in fold angles alone.
+
+use super::draw::{self, Shown};
+use super::runner::Runner;
+use super::surface::curvature_of_cell;
+use super::{Progress, RunError};
+use crate::analysis::intersections::{LYING, SelfIntersection};
+use crate::analysis::state::State;
+use crate::analysis::wells::Question;
+use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limit};
+use crate::analysis::wells::merge::{SAME, Translations, Well, wells};
+use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
+use crate::analysis::wells::starts::{Outcome, Starts, relax_all};
+use crate::output::chart::{self, Chart, Point, Series};
+use crate::output::files;
+use crate::output::summary::{
+    BarrierSummary, HeightSummary, RigidPassSummary, RigidSummary, StudyResult, StudySummary, WellSummary, WellsSummary,
+};
+use crate::output::table::{Table, Value};
+use crate::scene::SceneFile;
+use crate::scene::build::Built;
+use crate::scene::spec::{Draw, StudySpec, WellsSpec};
+use crate::solver::Options;
+use std::f64::consts::{PI, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// Starts, and states over a whole turn, where the scene says nothing.
+const STARTS: u32 = 64;
+const RESOLUTION: u32 = 64;
+
+/// Wells are those of bars and creases, with nothing that holds or pulls.
+pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+    let refuse = |message: &str, help: &str| Err(file.error_at(study.kind.span(), message, help).into());
+    let recipe = &built.recipe;
+    if recipe.bars.is_none() || recipe.creases.as_ref().is_none_or(|creases| creases.stiffness.is_infinite()) {
+        let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite";
+        return refuse("wells are those of the energy of bars and creases", help);
+    }
+    if !(recipe.pins.is_empty() && recipe.loads.is_empty()) {
+        return refuse("wells are those of a sheet that nothing holds or pulls", "leave out [[pin]] and [[load]]");
+    }
+    Ok(())
+}
+
+/// What a study found.
+struct Found {
+    wells: Vec<Well>,
+    crossing: Vec<bool>,
+    barriers: Vec<([usize; 2], Result<Barrier, BarrierError>)>,
+    rigid: Option<Result<RigidLandscape, RigidError>>,
+}
+
+/// Runs the study.
+pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Result<StudySummary, RunError> {
+    let built = runner.built;
+    let question = Question {
+        sheet: &built.sheet,
+        tiling: &built.tiling,
+        surroundings: built.surroundings,
+        drawn: &built.drawn,
+        recipe: &built.recipe,
+    };
+    let mut summary = StudySummary::unanswered(&study.name.0, study.kind.name());
+    let clock = Instant::now();
+    let step = AtomicUsize::new(0);
+    let starts = spec.starts.as_ref().map_or(STARTS, |count| count.0) as usize;
+    let watch = |of: Option<usize>| {
+        let step = step.fetch_add(1, Ordering::Relaxed) + 1;
+        runner.watch(&Progress { study: study.name.0.clone(), step, of, residual: f64::NAN, target: None })
+    };
+    let spread = spec.spread.as_ref().map_or(PI, |spread| spread.0);
+    let from = Starts { count: starts, seed: spec.seed, spread, options: Options::default() };
+    let outcomes = relax_all(&question, &from, &|| watch(Some(starts)));
+    let count = |what: fn(&Outcome) -> bool| outcomes.iter().filter(|outcome| what(outcome)).count();
+    let failed = count(|outcome| matches!(outcome, Outcome::Failed(_)));
+    let saddles = count(|outcome| matches!(outcome, Outcome::Saddle));
+    let minima = outcomes.into_iter().filter_map(|outcome| match outcome {
+        Outcome::Well(settled) => Some(*settled),
+        _ => None,
+    });
+    let wells = wells(minima, &Translations::new(&question));
+    let rigid = spec.rigid.then(|| landscape(&question, &sampling(built, spec), &mut || watch(None)));
+    let mut barriers = Vec::new();
+    for &between in spec.barriers.iter().map(|pair| &pair.0) {
+        if between.iter().all(|well| *well < wells.len()) && !runner.interrupted() {
+            barriers.push((between, barrier(&question, &wells, between, &mut || watch(None))));
+        }
+    }
+    let crossing = crossing(built, &wells);
+    let found = Found { wells, crossing, barriers, rigid };
+    summary.seconds = clock.elapsed().as_secs_f64();
+    write(runner, study, &found)?;
+    summary.reason = if runner.interrupted() { Some("interrupted".to_owned()) } else { found.missing(spec, failed) };
+    summary.converged = summary.reason.is_none();
+    let result = found.summarized([starts, failed, saddles]);
+    summary.error = Some(error(&result));
+    summary.result = Some(StudyResult::Wells(result));
+    Ok(summary)
+}
+
+fn sampling(built: &Built, spec: &WellsSpec) -> Sampling {
+    let resolution = spec.resolution.as_ref().map_or(RESOLUTION, |count| count.0);
+    let max_curvature = spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(built), |most| most.0);
+    Sampling { step: TAU / f64::from(resolution), max_curvature }
+}
+
+/// Whether faces of each well pass through each other.
+fn crossing(built: &Built, wells: &[Well]) -> Vec<bool> {
+    let mut finder = SelfIntersection::new(&built.sheet, &built.tiling, built.surroundings, built.shown);
+    wells.iter().map(|well| finder.marks(&built.drawn, &well.settled.relaxed.state, LYING).any).collect()
+}
+
+/// The largest residual.
+fn error(result: &WellsSummary) -> f64 {
+    let wells = result.wells.iter().map(|well| well.residual_force.max(well.residual_length));
+    wells.chain(result.barriers.iter().filter_map(|barrier| barrier.residual)).fold(0.0, f64::max)
+}
+
+impl Found {
+    /// Why the answer is not whole.
+    fn missing(&self, spec: &WellsSpec, failed: usize) -> Option<String> {
+        let count = self.wells.len();
+        if count == 0 {
+            return Some(format!("no well was found; {failed} starts failed"));
+        }
+        if let Some(pair) = spec.barriers.iter().find(|pair| pair.0.iter().any(|well| *well >= count)) {
+            return Some(format!("a barrier is wanted between wells {:?}, but there are {count}", pair.0));
+        }
+        if let Some(Err(error)) = &self.rigid {
+            return Some(error.to_string());
+        }
+        let failed = self.barriers.iter().find_map(|(between, found)| Some((between, found.as_ref().err()?)));
+        failed.map(|(between, error)| format!("barrier {between:?}: {error}"))
+    }
+
+    /// The number of a well among those of the rigid sheet.
+    fn among_rigid(&self, well: &Well) -> Option<usize> {
+        let rigid = self.rigid.as_ref()?.as_ref().ok()?;
+        let angles = &well.settled.relaxed.state.fold_angle;
+        let apart = |other: &[f64]| {
+            let differences = other.iter().zip(angles).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan());
+            differences.fold(0.0, f64::max)
+        };
+        rigid.wells.iter().position(|other| apart(&other.angles) <= SAME)
+    }
+
+    fn summarized(&self, [starts, failed, saddles]: [usize; 3]) -> WellsSummary {
+        let well = |(well, crossing): (&Well, &bool)| WellSummary {
+            energy: well.settled.energy,
+            reached: well.reached,
+            self_intersecting: *crossing,
+            residual_force: well.settled.relaxed.residual_force,
+            residual_length: well.settled.relaxed.residual_length,
+            rigid: self.among_rigid(well),
+        };
+        WellsSummary {
+            starts,
+            failed,
+            saddles,
+            wells: self.wells.iter().zip(&self.crossing).map(well).collect(),
+            barriers: self.barriers.iter().map(|(between, found)| self.barrier(*between, found)).collect(),
+            rigid: self.rigid.as_ref().and_then(|found| found.as_ref().ok()).map(rigid),
+        }
+    }
+
+    fn barrier(&self, between: [usize; 2], found: &Result<Barrier, BarrierError>) -> BarrierSummary {
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => {
+                return BarrierSummary { between, reason: Some(error.to_string()), ..BarrierSummary::default() };
+            }
+        };
+        let limit = rigid_limit(&found.heights);
+        let energy = if found.singular { limit.map(|limit| limit.energy) } else { Some(found.pass.energy) };
+        let above = |energy: f64| found.joins.map(|well| energy - self.wells[well].settled.energy);
+        let height = |height: &crate::analysis::wells::barrier::Height| HeightSummary {
+            bars: height.stiffness.is_finite().then_some(height.stiffness),
+            energy: height.energy,
+        };
+        BarrierSummary {
+            between,
+            confirmed: true,
+            joins: Some(found.joins),
+            energy,
+            height: energy.map(above),
+            singular: found.singular,
+            exponent: limit.map(|limit| limit.exponent),
+            limit: limit.map(|limit| limit.energy),
+            rigid: self.rigid_between(found.joins),
+            residual: Some(found.pass.residual_force.max(found.pass.residual_length)),
+            heights: found.heights.iter().map(height).collect(),
+            reason: None,
+        }
+    }
+
+    /// Energy of the lowest pass of the rigid sheet between two wells.
+    fn rigid_between(&self, wells: [usize; 2]) -> Option<f64> {
+        let [a, b] = wells.map(|well| self.among_rigid(&self.wells[well]));
+        Some(self.rigid.as_ref()?.as_ref().ok()?.between(a?, b?)?.energy)
+    }
+}
+
+fn rigid(found: &RigidLandscape) -> RigidSummary {
+    let pass = |pass: &crate::analysis::wells::rigid::RigidPass| RigidPassSummary {
+        joins: pass.joins,
+        energy: pass.energy,
+        singular: pass.singular,
+    };
+    RigidSummary {
+        dimension: found.dimension,
+        states: found.states,
+        wells: found.wells.iter().map(|well| well.energy).collect(),
+        contacts: found.contacts.clone(),
+        passes: found.passes.iter().map(pass).collect(),
+        lost: found.lost,
+    }
+}
+
+/// The wells and then the passes, as a table and as pictures; the energies of passes against stiffness; energies along
+/// the paths.
+fn write(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), RunError> {
+    let (name, built) = (&study.name.0, runner.built);
+    let passes: Vec<&Barrier> = found.barriers.iter().filter_map(|(_, found)| found.as_ref().ok()).collect();
+    let states: Vec<(State, [f64; 2])> = found
+        .wells
+        .iter()
+        .map(|well| {
+            let relaxed = &well.settled.relaxed;
+            (draw::with_all_angles(built, &relaxed.state), [relaxed.residual_force, relaxed.residual_length])
+        })
+        .chain(passes.iter().map(|barrier| {
+            let pass = &barrier.pass;
+            (draw::with_all_angles(built, &pass.state), [pass.residual_force, pass.residual_length])
+        }))
+        .collect();
+    let mut finder = SelfIntersection::new(&built.sheet, &built.tiling, built.surroundings, built.shown);
+    let shown: Vec<Shown<'_>> = states
+        .iter()
+        .map(|(state, residuals)| Shown {
+            state,
+            residuals: Some(*residuals),
+            marks: Some(finder.marks(&built.drawn, state, LYING)),
+        })
+        .collect();
+    draw::table(runner, study, &shown)?;
+    heights(&passes).write(&runner.path(format!("{name}-barriers.csv")))?;
+    draw::states(runner, study, &shown)?;
+    if study.draw.contains(&Draw::Svg) {
+        let picture =
+            if passes.is_empty() { None } else { Some(chart::linear_svg(&paths(&runner.file.title(), &passes))) };
+        match (picture, shown.first()) {
+            (Some(picture), _) => files::write(&runner.path(format!("{name}.svg")), picture)?,
+            (None, Some(lowest)) => draw::svg(runner, study, &draw::picture(runner, lowest))?,
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// A row for each pass and stiffness on its way; rigid bars have the stiffness `inf`.
+fn heights(passes: &[&Barrier]) -> Table {
+    let names = ["from", "to", "joins_a", "joins_b", "bars", "energy"];
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    for barrier in passes {
+        for height in &barrier.heights {
+            let wells = barrier.between.iter().chain(&barrier.joins).map(|well| Value::Whole(*well as i64));
+            table.push(wells.chain([Value::Number(height.stiffness), Value::Number(height.energy)]).collect());
+        }
+    }
+    table
+}
+
+/// Energies along the paths in soft bars on which the passes were found.
+fn paths(title: &str, passes: &[&Barrier]) -> Chart {
+    let series = |barrier: &&Barrier| {
+        let last = barrier.path.len() - 1;
+        let label = |at: usize| match at {
+            0 => format!("well {}", barrier.between[0]),
+            at if at == last => format!("well {}", barrier.between[1]),
+            _ => String::new(),
+        };
+        let point = |(at, &(x, y)): (usize, &(f64, f64))| Point { x, y, label: label(at) };
+        let [a, b] = barrier.between;
+        let name = format!("{a} to {b}, bars of {:e}", barrier.stiffness);
+        Series { name, points: barrier.path.iter().enumerate().map(point).collect() }
+    };
+    Chart {
+        title: title.to_owned(),
+        x: "distance along the path, sqrt(sum k (d rho)^2)".to_owned(),
+        y: "energy".to_owned(),
+        series: passes.iter().map(series).collect(),
+    }
+}
