@@ -14,6 +14,7 @@ const known = new Set([...specification.matchAll(/^\* `(\w+)`/gm)].map((match) =
 const attributes = new Set([...specification.matchAll(/`"(\w+)"`/g)].map((match) => match[1]));
 // Degrees; both sides compute with doubles, coordinates have 17 digits.
 const TOLERANCE = 1e-9;
+const PLANAR = 1e-9;
 let checks = 0;
 const failures = [];
 
@@ -40,12 +41,19 @@ function keys(file, fold) {
 
 const name = ([u, v]) => `${Math.min(u, v)},${Math.max(u, v)}`;
 
+// null for a polygon that is not planar: it has no normal, and the angle of its edges depends on how it is triangulated
+function normal(points) {
+  const found = FOLD.geom.polygonNormal(points);
+  const off = (point) => Math.abs(FOLD.geom.dot(found, FOLD.geom.sub(point, points[0])));
+  return points.every((point) => off(point) <= PLANAR * FOLD.geom.dist(points[0], points[1])) ? found : null;
+}
+
 function edges(file, fold) {
   const own = FOLD.convert.faces_vertices_to_edges({ faces_vertices: fold.faces_vertices });
   const found = new Map(own.edges_vertices.map((edge, k) => [name(edge), k]));
   check(file, found.size === fold.edges_vertices.length, "the package finds another number of edges");
   const point = (v) => [...fold.vertices_coords[v], 0].slice(0, 3);
-  const normals = fold.faces_vertices.map((face) => FOLD.geom.polygonNormal(face.map(point)));
+  const normals = fold.faces_vertices.map((face) => normal(face.map(point)));
   fold.edges_vertices.forEach((edge, k) => {
     const at = found.get(name(edge));
     check(file, at !== undefined, `the package finds no edge ${edge}`);
@@ -59,6 +67,7 @@ function edges(file, fold) {
     if (border) return;
     // edges_faces[0] lies left of the edge; in a valley the two normals point into each other
     const [left, right] = own.edges_faces[at].map((face) => normals[face]);
+    if (!left || !right) return;
     const [from, to] = own.edges_vertices[at].map(point);
     const along = FOLD.geom.unit(FOLD.geom.sub(to, from));
     const sine = FOLD.geom.dot(FOLD.geom.cross(right, left), along);
