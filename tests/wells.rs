@@ -5,13 +5,15 @@
 mod common;
 
 use common::{Case, Numbers, mesh};
+use foldwell::analysis::relax::relax;
 use foldwell::analysis::wells::Question;
 use foldwell::analysis::wells::barrier::{Barrier, Height, barrier, rigid_limit};
 use foldwell::analysis::wells::merge::{Translations, Well, wells};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
 use foldwell::analysis::wells::settle::Settler;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
-use foldwell::math::Vec3;
+use foldwell::math::{Vec3, rotation};
+use foldwell::model::Gauge;
 use foldwell::model::assemble::{Recipe, Surroundings};
 use foldwell::numerics::parallel;
 use foldwell::output::summary::{StudyResult, StudySummary, WellsSummary};
@@ -291,6 +293,31 @@ fn barrier_of_the_reference_cell() {
     let (strung, pass) = (pass_between(&question, &found, [energies[1], energies[2]]), exact.between(1, 2).unwrap());
     println!("{} by string, {} at the tip", strung.pass.energy, pass.energy);
     assert!(pass.singular && !strung.singular && (strung.pass.energy - pass.energy).abs() <= 1e-9);
+}
+
+/// Claim: where a relaxation ends is an equilibrium however the sheet lies in space: turned, it stays where it is. What is held
+/// against rigid motions is chosen in the drawn, flat state; folded as far as these sheets are, it would hold their shape too if
+/// it were not chosen again. Tolerance: of relaxations.
+#[test]
+fn wells_stay_when_the_sheet_is_turned() {
+    let (case, rest) = near_cross();
+    let recipe = case.recipe(1e4, 1.0, rest);
+    let starts = Starts { count: 48, seed: 2, spread: PI, options: Options::default() };
+    let turn = rotation::exp(&Vec3::new(0.9, -0.5, 0.7));
+    let mut seen = 0;
+    for outcome in relax_all(&question(&case, &recipe), &starts, &|| true) {
+        let Outcome::Well(well) = outcome else { continue };
+        let points = well.place.coordinates.chunks_exact(3).map(|p| turn * Vec3::new(p[0], p[1], p[2]));
+        let turned = points.flat_map(<[f64; 3]>::from).collect();
+        let mut model = case.model(&recipe, Gauge::Held);
+        model.set_angles(&well.place.angles);
+        let start = model.start_from(turned);
+        let again = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap();
+        let moved = common::distance(&again.state.fold_angle, &well.relaxed.state.fold_angle);
+        assert!(moved <= 1e-8, "{moved:e}");
+        seen += 1;
+    }
+    assert!(seen >= 24, "{seen}");
 }
 
 /// Claim: a sheet held near the fold angles of its well stays there, and its energy is told without what holds it.

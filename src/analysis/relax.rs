@@ -20,6 +20,8 @@ const UNBALANCED: f64 = 1e-9;
 /// Unknowns that all cells of a screw share, and the part of all forces on one of them that may be left.
 const SHARED: usize = 5;
 const BALANCED: f64 = 1e-6;
+/// How often what holds a sheet against rigid motions is chosen again.
+const HOLDS: usize = 20;
 /// Tolerance of the states in between.
 const LOOSE: f64 = 1e-6;
 
@@ -87,6 +89,7 @@ pub fn relax(
         }
         found => found,
     };
+    let found = found.and_then(|found| held_firmly(model, found, options, observe, &mut history));
     match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
             Some(angle) if angle > CERTAIN => {
@@ -102,6 +105,27 @@ pub fn relax(
             Err(Box::new(RelaxError { failure: error.failure, state, x: error.x, history }))
         }
     }
+}
+
+/// The equilibrium, once what holds the sheet against rigid motions does nothing else. It was chosen in the drawn state, and may hold
+/// a shape in another one, so that where the sheet then stays is no equilibrium: it is chosen again, and the sheet goes on from
+/// there.
+fn held_firmly(
+    model: &mut Model,
+    mut found: Equilibrium,
+    options: Options,
+    observe: &mut dyn FnMut(&Step) -> bool,
+    history: &mut Vec<Step>,
+) -> Result<Equilibrium, NewtonError> {
+    for _ in 0..HOLDS {
+        if model.held_firmly(&found.x) {
+            break;
+        }
+        history.append(&mut found.history);
+        let x = model.hold_anew(model.coordinates(&found.x));
+        found = minimize(model, Start { x, tension: Some(found.tension) }, options, observe)?;
+    }
+    Ok(found)
 }
 
 /// Failures that smaller steps cannot mend.
@@ -148,6 +172,9 @@ fn follow(
 /// has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a state under
 /// torques has a residual that is no rounding error of theirs.
 fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64> {
+    if !model.held_firmly(&found.x) {
+        return Some(f64::INFINITY);
+    }
     let last = found.history.last()?;
     if last.residual_force <= tolerance && !matches!(model.domain(), Domain::Screw) {
         return None;

@@ -3,6 +3,7 @@
 use super::Closure;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
+use crate::solver::continuation::Curve;
 
 /// `residual(angles) = 0`; the unknowns are the angles of the folding edges, the others stay as they are given.
 pub struct Closing<'a> {
@@ -52,3 +53,6 @@ impl Implicit for Closing<'_> {
         self.closure.linearize_into(&self.angles, residual, jacobian);
     }
 }
+
+/// Where folding has one degree of freedom, a trajectory on which nothing is watched.
+impl Curve for Closing<'_> {}

@@ -68,3 +68,14 @@ fn largest(rows: &[Motion], held: &[bool], wanted: bool) -> Option<(usize, Motio
     let candidates = rows.iter().enumerate().filter(|(k, _)| held[*k] == wanted);
     candidates.max_by(|a, b| a.1.norm().total_cmp(&b.1.norm())).map(|(k, row)| (k, *row))
 }
+
+/// How well holding these coordinates separates the rigid motions: least over largest singular value of their rows, motions that the
+/// domain does not have left out.
+pub fn separation(motions: &[Motion], held: &[usize]) -> f64 {
+    let had: Vec<usize> = (0..6).filter(|&motion| motions.iter().any(|row| row[motion] != 0.0)).collect();
+    let rows = nalgebra::DMatrix::from_fn(held.len().max(had.len()), had.len(), |row, motion| {
+        held.get(row).map_or(0.0, |&k| motions[k][had[motion]])
+    });
+    let values = rows.singular_values();
+    values.min() / values.max()
+}

@@ -13,6 +13,8 @@ const LEAST_ANGLE: f64 = 1e-3;
 
 /// Rigid motions that the held coordinates cannot tell apart, against the largest one.
 const DEPENDENT: f64 = 1e-9;
+/// Separation of the rigid motions below which what is held may hold a shape too; where it is chosen it is 0.1 or more.
+const FIRM: f64 = 1e-3;
 
 /// Bars and hinges of a sheet, with what is held and what pulls.
 pub struct Model {
@@ -29,6 +31,7 @@ pub struct Model {
     compliance: Vec<f64>,
     gap_scale: Vec<f64>,
     mean_edge: f64,
+    gauge: Gauge,
 }
 
 /// What is done about the rigid motions that no pin prevents.
@@ -65,20 +68,59 @@ impl Model {
     /// Puts the parts together.
     pub fn new(parts: Parts) -> Self {
         let Parts { domain, drawn, soft, stiff, pinned, loads, mean_edge, gauge } = parts;
-        let mut held = vec![false; drawn.len()];
-        pinned.iter().for_each(|&k| held[k] = true);
-        if gauge == Gauge::Held {
-            let motions = gauge::rigid_motions(&domain, &drawn, loads.is_empty());
-            gauge::choose(&motions, &held).into_iter().for_each(|k| held[k] = true);
-        }
-        let free: Vec<u32> = (0..drawn.len() as u32).filter(|&k| !held[k as usize]).collect();
-        let mut number = vec![FIXED; drawn.len()];
-        free.iter().enumerate().for_each(|(unknown, &k)| number[k as usize] = unknown as u32);
-        let layout = layout(&domain, &drawn, &free, &number, &soft, &stiff);
         let springs = || stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term.is_angle(), term.spring(k))));
         let compliance = springs().map(|(_, spring)| 1.0 / spring.stiffness).collect();
         let gap_scale = springs().map(|(angle, _)| if angle { 1.0 } else { mean_edge }).collect();
-        Self { domain, base: drawn, pinned, free, soft, stiff, loads, layout, compliance, gap_scale, mean_edge }
+        let (free, layout) = (Vec::new(), Layout::new(Vec::new(), Cliques::new(), Cliques::new()));
+        let mut model = Self {
+            domain,
+            base: drawn,
+            pinned,
+            free,
+            soft,
+            stiff,
+            loads,
+            layout,
+            compliance,
+            gap_scale,
+            mean_edge,
+            gauge,
+        };
+        model.choose_unknowns();
+        model
+    }
+
+    /// Chooses what is held in the state that stands in the place of the drawn one, and numbers the rest.
+    fn choose_unknowns(&mut self) {
+        let mut held = vec![false; self.base.len()];
+        self.pinned.iter().for_each(|&k| held[k] = true);
+        if self.gauge == Gauge::Held {
+            let motions = gauge::rigid_motions(&self.domain, &self.base, self.loads.is_empty());
+            gauge::choose(&motions, &held).into_iter().for_each(|k| held[k] = true);
+        }
+        self.free = (0..held.len() as u32).filter(|&k| !held[k as usize]).collect();
+        let mut number = vec![FIXED; held.len()];
+        self.free.iter().enumerate().for_each(|(unknown, &k)| number[k as usize] = unknown as u32);
+        self.layout = layout(&self.domain, &self.base, &self.free, &number, &self.soft, &self.stiff);
+    }
+
+    /// Whether what is held takes away the rigid motions of this state as well as it did in the state where it was chosen, or
+    /// nearly. Where it does not, it may hold a shape, and what looks like an equilibrium is none.
+    pub fn held_firmly(&self, x: &[f64]) -> bool {
+        let motions = gauge::rigid_motions(&self.domain, &self.coordinates(x), self.loads.is_empty());
+        let held: Vec<usize> =
+            (0..self.base.len()).zip(self.held()).filter(|(_, held)| *held).map(|(k, _)| k).collect();
+        self.gauge == Gauge::Free || gauge::separation(&motions, &held) >= FIRM
+    }
+
+    /// Puts another state in the place of the drawn one, and chooses in it what is held against rigid motions. Returns its unknowns:
+    /// others than before.
+    pub fn hold_anew(&mut self, coordinates: Vec<f64>) -> Vec<f64> {
+        self.base = coordinates;
+        self.choose_unknowns();
+        let mut x = self.start();
+        self.accept(&mut x);
+        x
     }
 
     /// The unknowns of the drawn state.

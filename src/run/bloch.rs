@@ -150,13 +150,9 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
         Err(error) => Err(error),
     };
     let mut summary = StudySummary {
-        name: study.name.0.clone(),
-        kind: study.kind.name().to_owned(),
         converged: found.is_ok(),
         seconds: clock.elapsed().as_secs_f64(),
-        error: None,
-        reason: None,
-        result: None,
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
     };
     match found {
         Ok(Some(found)) => {

@@ -97,13 +97,8 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &LandscapeSpec) -
     let clock = Instant::now();
     let found: Result<Vec<Along>, RunError> = spec.modes.iter().map(|mode| along(runner, study, spec, mode)).collect();
     let mut summary = StudySummary {
-        name: study.name.0.clone(),
-        kind: study.kind.name().to_owned(),
-        converged: false,
         seconds: clock.elapsed().as_secs_f64(),
-        error: None,
-        reason: None,
-        result: None,
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
     };
     let found = found?;
     table(runner.built, &found).write(&runner.path(format!("{}.csv", study.name.0)))?;

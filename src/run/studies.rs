@@ -160,13 +160,8 @@ fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
 /// What there is to say of a study that starts from one without a state.
 pub fn nowhere_to_start(study: &StudySpec) -> StudySummary {
     StudySummary {
-        name: study.name.0.clone(),
-        kind: study.kind.name().to_owned(),
-        converged: false,
-        seconds: 0.0,
-        error: None,
         reason: Some("the study from which it starts did not converge".into()),
-        result: None,
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
     }
 }
 
@@ -189,13 +184,11 @@ fn relaxed_summary(
         history: history(&relaxed.history),
     };
     StudySummary {
-        name: study.name.0.clone(),
-        kind: study.kind.name().to_owned(),
         converged: true,
         seconds,
         error: Some(f64::max(relaxed.residual_force, relaxed.residual_length)),
-        reason: None,
         result: Some(StudyResult::Relax(result)),
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
     }
 }
 
@@ -212,13 +205,10 @@ fn failed_summary(built: &Built, study: &StudySpec, seconds: f64, error: &RelaxE
         ..RelaxSummary::default()
     };
     StudySummary {
-        name: study.name.0.clone(),
-        kind: study.kind.name().to_owned(),
-        converged: false,
         seconds,
-        error: None,
         reason: Some(error.failure.to_string()),
         result: Some(StudyResult::Relax(result)),
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
     }
 }
 
@@ -260,13 +250,9 @@ pub fn modes(runner: &mut Runner<'_>, study: &StudySpec, spec: &ModesSpec) -> Re
     });
     let seconds = clock.elapsed().as_secs_f64();
     let mut summary = StudySummary {
-        name: study.name.0.clone(),
-        kind: study.kind.name().to_owned(),
         converged: found.is_ok(),
         seconds,
-        error: None,
-        reason: None,
-        result: None,
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
     };
     match found {
         Ok(modes) => {

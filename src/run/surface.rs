@@ -74,13 +74,8 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> 
     let clock = Instant::now();
     let found = surface(&question, &mut |step| watch(runner, study, step));
     let mut summary = StudySummary {
-        name: study.name.0.clone(),
-        kind: study.kind.name().to_owned(),
-        converged: false,
         seconds: clock.elapsed().as_secs_f64(),
-        error: None,
-        reason: None,
-        result: None,
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
     };
     match found {
         Ok(surface) => {

@@ -99,15 +99,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
     let clock = Instant::now();
     let found = follow(runner, study, &question);
     let seconds = clock.elapsed().as_secs_f64();
-    let mut summary = StudySummary {
-        name: study.name.0.clone(),
-        kind: study.kind.name().to_owned(),
-        converged: false,
-        seconds,
-        error: None,
-        reason: None,
-        result: None,
-    };
+    let mut summary = StudySummary { seconds, ..StudySummary::unanswered(&study.name.0, study.kind.name()) };
     match found {
         Ok(traced) => {
             let drives = relaxed(runner, study, spec.engine, &traced);

@@ -3,24 +3,12 @@
 //! Held is the proximal step (implicit Euler) of the descent in the metric `sum k (d rho)^2` of the creases: the minimum of
 //! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
 //! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
-//!
-//! Against rigid motions a model holds coordinates that are chosen in the drawn state. Much later on the way these may
-//! not suffice, and then folding is held where nothing should hold it: a patch ends in what is no equilibrium. So a
-//! patch that has relaxed is turned in space, which means nothing to a true equilibrium, and relaxed again until it
-//! stays.
 
 use super::Question;
 use crate::analysis::relax::{RelaxError, Relaxed, relax};
-use crate::math::{Vec3, rotation};
-use crate::model::assemble::{Recipe, Surroundings, assemble};
+use crate::model::assemble::{Recipe, assemble};
 use crate::model::{Gauge, Model};
-use crate::solver::{Failure, Options, Problem, Start, Step};
-
-/// How a patch is turned, as a rotation vector in radians, and how often at most.
-const TURN: [f64; 3] = [0.9, -0.5, 0.7];
-const TURNS: usize = 40;
-/// Largest change of a fold angle of what stays, in radians.
-const STILL: f64 = 1e-7;
+use crate::solver::{Options, Problem, Start, Step};
 
 /// A state from which relaxations begin.
 #[derive(Clone, Debug)]
@@ -31,16 +19,6 @@ pub struct Place {
     pub angles: Vec<f64>,
     /// Tensions of the stiff measures.
     pub tension: Vec<f64>,
-}
-
-impl Place {
-    /// The same state of a patch turned in space.
-    fn turned(&self) -> Self {
-        let turn = rotation::exp(&Vec3::from(TURN));
-        let points =
-            self.coordinates.chunks_exact(3).flat_map(|p| <[f64; 3]>::from(turn * Vec3::new(p[0], p[1], p[2])));
-        Self { coordinates: points.collect(), ..self.clone() }
-    }
 }
 
 /// A settled state.
@@ -56,14 +34,6 @@ pub struct Settled {
     pub relaxed: Relaxed,
 }
 
-impl Settled {
-    /// The failure of a state that moves by so much when it is turned.
-    fn unsettled(self, angle: f64) -> Box<RelaxError> {
-        let Relaxed { state, x, history, .. } = self.relaxed;
-        Box::new(RelaxError { failure: Failure::Uncertain { angle }, state, x, history })
-    }
-}
-
 /// A model that can be held near given fold angles.
 pub struct Settler {
     free: Model,
@@ -73,8 +43,6 @@ pub struct Settler {
     rest: Vec<f64>,
     stiffness: Vec<f64>,
     edges: usize,
-    /// Whether turning the sheet in space changes nothing.
-    turns: bool,
 }
 
 impl Settler {
@@ -86,8 +54,8 @@ impl Settler {
         held.scale_soft(&vec![1.0 + strength; count]);
         let springs = free.soft().iter().flat_map(|term| (0..term.len()).map(move |k| term.spring(k)));
         let (rest, stiffness) = springs.map(|spring| (spring.rest, spring.stiffness)).unzip();
-        let (edges, turns) = (question.tiling.edges.len(), question.surroundings == Surroundings::Patch);
-        Self { free, held, strength, rest, stiffness, edges, turns }
+        let edges = question.tiling.edges.len();
+        Self { free, held, strength, rest, stiffness, edges }
     }
 
     /// The drawn state.
@@ -110,18 +78,7 @@ impl Settler {
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Settled, Box<RelaxError>> {
         let relaxed = go(&mut self.free, from, warm, options, self.edges, observe)?;
-        let mut found = self.settled(relaxed, false);
-        let mut moved = if self.turns { f64::INFINITY } else { 0.0 };
-        for _ in 0..TURNS {
-            if moved <= STILL {
-                break;
-            }
-            let relaxed = go(&mut self.free, &found.place.turned(), false, options, self.edges, observe)?;
-            let again = self.settled(relaxed, false);
-            moved = found.rho.iter().zip(&again.rho).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            found = again;
-        }
-        if moved <= STILL { Ok(found) } else { Err(found.unsettled(moved)) }
+        Ok(self.settled(relaxed, false))
     }
 
     /// The same held near these fold angles of the soft hinges.

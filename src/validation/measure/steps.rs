@@ -6,10 +6,8 @@ use super::super::star;
 use crate::analysis::branches::{BranchesError, Question, branches, locked};
 use crate::kinematics::{Closing, Closure, KinematicsError, drawn_fold_angles};
 use crate::model::assemble::{Recipe, Surroundings};
-use crate::numerics::DenseMatrix;
 use crate::sheet::tile;
-use crate::solver::Implicit;
-use crate::solver::continuation::{Curve, End, Options, follow};
+use crate::solver::continuation::{End, Options, follow};
 use serde_json::json;
 use std::f64::consts::TAU;
 
@@ -82,31 +80,12 @@ impl Short {
 
     /// Its length.
     fn length(&mut self, max_step: f64, points: usize) -> Result<f64, ExperimentError> {
-        let closing = Closing::new(&self.closure, self.angles.clone());
+        let mut closing = Closing::new(&self.closure, self.angles.clone());
         let [start, leaving] = [&self.angles, &self.direction].map(|all| closing.folding(all));
         let options = Options { tolerance: 3e-14, max_step, points, period: Some(TAU), ..Options::default() };
-        match follow(&mut Loop(closing), start, leaving, &options, &mut |_| true).end {
+        match follow(&mut closing, start, leaving, &options, &mut |_| true).end {
             End::Closed(back) => Ok(back.arc_length),
             _ => Err(ExperimentError::Other("the loop did not close".into())),
         }
     }
 }
-
-/// Fold angles that close, with nothing to watch on the way.
-struct Loop<'a>(Closing<'a>);
-
-impl Implicit for Loop<'_> {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
-    }
-
-    fn equations(&self) -> usize {
-        self.0.equations()
-    }
-
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.0.linearize(x, residual, jacobian);
-    }
-}
-
-impl Curve for Loop<'_> {}
