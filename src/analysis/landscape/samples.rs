@@ -1,8 +1,9 @@
 //! Samples of a landscape: patches relaxed with their rest angles held along the modes and free across them.
 //!
-//! The patch relaxes at given rest angles `p = p0 + a phi + C y`; then Newton's method moves `y`, with the gradient
+//! The rest angles are `p = p0 + a phi + C y`. A step of Newton's method moves the patch, its tensions and `y` together; then the
+//! patch relaxes at these rest angles, and where torques are left there is another step. It has the gradient
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
-//! predicts where the patch relaxes to next, so that one or two rounds are enough.
+//! predicts where the patch relaxes to next, so that one round is mostly enough.
 
 use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
@@ -92,30 +93,51 @@ impl<'a> Samples<'a> {
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         let directions = self.held.directions();
         for rounds in 0..ROUNDS {
-            let rest = DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * &y;
+            self.held.set_rest(self.rest(amplitude, &y).as_slice());
+            match self.step((&x, &tension)) {
+                Ok(Some((step, (motion, pull)))) => {
+                    x = sum(&x, &mut motion.into_iter());
+                    tension = sum(&tension, &mut pull.into_iter());
+                    y += step;
+                    iterations += 1;
+                }
+                Ok(None) => {}
+                Err(error) if rounds > 0 => return Err(error.into()),
+                Err(_) => {} // the sheet is not stable where second order says that it is
+            }
+            let rest = self.rest(amplitude, &y);
             self.held.set_rest(rest.as_slice());
             let edges = self.held.model.layout().soft.len() + self.held.model.layout().stiff.len();
             let start = Start { x, tension: Some(tension) };
             let relaxed = relax(&mut self.held.model, start, OPTIONS, edges, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
-            let (unbalanced, left) = torques(self.held, &directions, &relaxed);
-            torque = unbalanced;
+            torque = unbalanced(self.held, &directions, &relaxed);
             if torque <= BALANCED {
                 self.last = Last { amplitude, x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: y };
                 return Ok(Sample { amplitude, relaxed, rest: rest.as_slice().to_vec(), iterations, rounds });
             }
-            let (step, (motion, pull)) = step(self.held, &relaxed, &left)?;
-            x = sum(&relaxed.x, &mut motion.into_iter());
-            tension = sum(&relaxed.tension, &mut pull.into_iter());
-            y += step;
+            (x, tension) = (relaxed.x, relaxed.tension);
         }
         Err(SampleError::Restless { torque })
     }
+
+    /// Uniform rest angles less those drawn.
+    fn rest(&self, amplitude: f64, y: &DVector<f64>) -> DVector<f64> {
+        DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * y
+    }
+
+    /// A joint step of rest angles, unknowns and tensions; `None` where all rest angles are held.
+    fn step(&self, (x, tension): (&[f64], &[f64])) -> Result<Option<(DVector<f64>, Both)>, LandscapeError> {
+        if self.held.free.ncols() == 0 {
+            return Ok(None);
+        }
+        Settling::new(self.held, (x, tension), Curvature::Full, ROUGH)?.joint(x, tension, LONGEST).map(Some)
+    }
 }
 
-/// The largest torque on a direction of rest angles, over its size, and all of them.
-fn torques(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> (f64, DVector<f64>) {
+/// The largest torque on a direction of rest angles, over its size.
+fn unbalanced(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> f64 {
     let model = &held.model;
     let stiffness = model.soft().iter().flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
     let values = model.values(&relaxed.x);
@@ -128,19 +150,7 @@ fn torques(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> (f64, DV
     };
     let torque = sum(&torques, &relaxed.tension, |value| value);
     let size = sum(&least, &relaxed.tension, f64::abs);
-    let unbalanced = torque.iter().zip(size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max);
-    (unbalanced, torque)
-}
-
-/// Newton's step of the rest angles against these torques, and the motion of the unknowns and the tensions that go with it.
-fn step(held: &HeldSheet, relaxed: &Relaxed, torque: &DVector<f64>) -> Result<(DVector<f64>, Both), LandscapeError> {
-    let settling = Settling::new(held, (&relaxed.x, &relaxed.tension), Curvature::Full, ROUGH)?;
-    let singular = crate::numerics::factor::FactorError::Singular { ratio: 0.0 };
-    let factor = nalgebra::Cholesky::new(settling.hessian().clone()).ok_or(singular)?;
-    let step = factor.solve(torque);
-    let step = &step * (LONGEST / step.amax()).min(1.0);
-    let motion = settling.motion(&step);
-    Ok((step, motion))
+    torque.iter().zip(size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max)
 }
 
 /// What a landscape along one mode says.

@@ -122,13 +122,8 @@ impl<'a> Settling<'a> {
         Ok(least_squares(&self.hessian, &right)?.solution.column(0).into_owned())
     }
 
-    /// The Hessian of the energy in the rest angles across the modes.
-    pub fn hessian(&self) -> &DenseMatrix {
-        &self.hessian
-    }
-
     /// Motion of the unknowns and change of the tensions that go with these rest angles across the modes.
-    pub fn motion(&self, rest: &DVector<f64>) -> Both {
+    fn motion(&self, rest: &DVector<f64>) -> Both {
         let layout = self.held.model.layout();
         let (mut x, mut tension) = (vec![0.0; layout.unknowns], vec![0.0; layout.stiff.len()]);
         for (part, free) in rest.iter().zip(&self.free) {
@@ -136,6 +131,32 @@ impl<'a> Settling<'a> {
             tension.iter_mut().zip(&free.tension).for_each(|(sum, d)| *sum += part * d);
         }
         (x, tension)
+    }
+
+    /// Newton's step for unknowns, tensions and rest angles together, from a state of these tensions that is no equilibrium yet; the
+    /// Hessian of the energy in the rest angles is that of equilibria near it. `longest` bounds what rest angles move by.
+    pub fn joint(&mut self, x: &[f64], tension: &[f64], longest: f64) -> Result<(DVector<f64>, Both), LandscapeError> {
+        let model = &self.held.model;
+        let (layout, compliance) = (model.layout(), model.compliance());
+        let open: Vec<f64> =
+            self.at.gaps.iter().zip(tension).zip(compliance).map(|((gap, t), c)| c * t - gap).collect();
+        let force = self.at.force(layout, tension);
+        let found = self.saddle.solve(layout, &self.at, compliance, (&force, &open), self.accuracy);
+        let rows = Rows { cliques: &layout.soft, values: &self.at.soft_gradients };
+        let mut off = vec![0.0; layout.soft.len()];
+        rows.product(&found.dx, &mut off);
+        for ((off, value), rest) in off.iter_mut().zip(model.values(x)).zip(model.rests()) {
+            *off += value - rest;
+        }
+        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a + b).collect::<Vec<f64>>();
+        let tension = sum(tension, &found.dt);
+        let settled = Response { x: found.dx, off, tension, rest: DVector::zeros(0) };
+        let torques = DVector::from_fn(self.directions.len(), |j, _| self.torque(&settled, j));
+        let factor = nalgebra::Cholesky::new(self.hessian.clone()).ok_or(FactorError::Singular { ratio: 0.0 })?;
+        let step = factor.solve(&torques);
+        let step = &step * (longest / step.amax()).min(1.0);
+        let (motion, pull) = self.motion(&step);
+        Ok((step, (sum(&settled.x, &motion), sum(&found.dt, &pull))))
     }
 
     /// Torque of a response on a direction of the rest angles.
