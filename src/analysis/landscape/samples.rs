@@ -1,7 +1,7 @@
 //! Samples of a landscape: patches relaxed with their rest angles held along the modes and free across them.
 //!
-//! The rest angles are `p = p0 + a phi + C y`. A step of Newton's method moves the patch, its tensions and `y` together; then the
-//! patch relaxes at these rest angles, and where torques are left there is another step. It has the gradient
+//! The rest angles are `p = p0 + a phi + C y`. A step of Newton's method moves the patch, its tensions and `y` together; after some
+//! of them the patch relaxes at these rest angles, and where torques are left there are more. A step has the gradient
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
 //! predicts where the patch relaxes to next, so that one round is mostly enough.
 
@@ -22,7 +22,10 @@ const LEAST_ANGLE: f64 = 1e-4;
 pub const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 200 };
 /// Accuracy of the linear solves for a step of the rest angles.
 const ROUGH: f64 = 1e-7;
-/// Longest change of a rest angle in a round, in radians.
+/// Most steps of a round, and the last step over the rest angles after which no other is needed: its square is left.
+const JOINT: usize = 3;
+const CLOSE: f64 = 1e-5;
+/// Longest change of a rest angle in a step, in radians.
 const LONGEST: f64 = 0.3;
 
 /// One sample.
@@ -93,17 +96,20 @@ impl<'a> Samples<'a> {
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         let directions = self.held.directions();
         for rounds in 0..ROUNDS {
-            self.held.set_rest(self.rest(amplitude, &y).as_slice());
-            match self.step((&x, &tension)) {
-                Ok(Some((step, (motion, pull)))) => {
-                    x = sum(&x, &mut motion.into_iter());
-                    tension = sum(&tension, &mut pull.into_iter());
-                    y += step;
-                    iterations += 1;
+            for _ in 0..JOINT {
+                self.held.set_rest(self.rest(amplitude, &y).as_slice());
+                let (step, (motion, pull)) = match self.step((&x, &tension)) {
+                    Ok(Some(step)) => step,
+                    Err(error) if rounds > 0 => return Err(error.into()),
+                    _ => break, // nothing to move, or the sheet is not stable where second order says that it is
+                };
+                x = sum(&x, &mut motion.into_iter());
+                tension = sum(&tension, &mut pull.into_iter());
+                y += &step;
+                iterations += 1;
+                if step.amax() <= CLOSE * y.amax() {
+                    break;
                 }
-                Ok(None) => {}
-                Err(error) if rounds > 0 => return Err(error.into()),
-                Err(_) => {} // the sheet is not stable where second order says that it is
             }
             let rest = self.rest(amplitude, &y);
             self.held.set_rest(rest.as_slice());
