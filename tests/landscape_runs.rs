@@ -1,6 +1,8 @@
 //! Landscapes as users run them: files, resuming, refusals.
 #![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
+mod common;
+
 use foldwell::output::summary::{StudyResult, StudySummary};
 use foldwell::run::{RunOptions, run_scene};
 use std::fs;
@@ -120,11 +122,6 @@ fn refusals() {
         (PATCH, "bars = { stiffness = 1.0 }", "modes = [[1, 0, 0]]\namplitudes = [0.1]", "bars and creases"),
     ];
     for (sheet, energy, study, expected) in cases {
-        let folder = tempfile::tempdir().unwrap();
-        let (scene, out) = (scene(folder.path(), sheet, energy, study), folder.path().join("out"));
-        let options = RunOptions { out: Some(out.clone()), ..RunOptions::default() };
-        let error = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap_err();
-        assert!(error.to_string().contains(expected), "{study}: {error}");
-        assert!(error.exit_status() == 2 && !out.exists());
+        common::assert_refused(|folder| scene(folder, sheet, energy, study), expected);
     }
 }

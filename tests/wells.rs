@@ -237,7 +237,8 @@ fn barriers_of_a_vertex() {
 
 /// Claim: what is no barrier does not look like one. A well of a crease that is folded through itself, far from the
 /// others, has no pass that the string finds: an error, not a number; and every barrier that is confirmed lies above
-/// both wells between which it was sought.
+/// both wells between which it was sought, at the ends of its path. Tolerance of the ends: what the bars take up there, some percent;
+/// another state is off by a third.
 #[test]
 fn no_barrier_lies_below_its_wells() {
     let (case, rest) = near_cross();
@@ -257,6 +258,11 @@ fn no_barrier_lies_below_its_wells() {
     for other in 1..found.len() {
         let Ok(barrier) = barrier(&question, &found, [0, other], &mut || true) else { continue };
         assert!(barrier.pass.energy > found[other].settled.energy && barrier.pass.negative_eigenvalues == 1);
+        let ends = [barrier.path[0], barrier.path[barrier.path.len() - 1]];
+        for (well, (_, soft)) in barrier.between.into_iter().zip(ends) {
+            let energy = found[well].settled.energy;
+            assert!((soft / energy - 1.0).abs() <= 0.05, "the path ends in another state than well {well}: {soft}");
+        }
         confirmed += 1;
     }
     assert!(confirmed >= 2, "{confirmed}");
@@ -474,12 +480,7 @@ fn refusals() {
         (CROSS, RIGID, "images = 10", "unknown"),
     ];
     for (sheet, energy, study, expected) in cases {
-        let folder = tempfile::tempdir().unwrap();
-        let (scene, out) = (scene(folder.path(), sheet, energy, study), folder.path().join("out"));
-        let options = RunOptions { out: Some(out.clone()), ..RunOptions::default() };
-        let error = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap_err();
-        assert!(error.to_string().contains(expected), "{study}: {error}");
-        assert!(error.exit_status() == 2 && !out.exists());
+        common::assert_refused(|folder| scene(folder, sheet, energy, study), expected);
     }
 }
 

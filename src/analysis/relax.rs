@@ -30,7 +30,7 @@ const LOOSE: f64 = 1e-6;
 pub struct Relaxed {
     /// The state.
     pub state: State,
-    /// Unknowns, to start another study from.
+    /// The model's unknowns: where what is held was chosen again, others than those of the start.
     pub x: Vec<f64>,
     /// Tensions of the stiff measures, of least norm where they are not unique.
     pub tension: Vec<f64>,
@@ -190,18 +190,12 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     if saddle.factor(layout, &at, compliance, 0.0).is_err() {
         return unknown();
     }
-    let gaps = at.gaps.iter().zip(&found.tension).zip(compliance);
-    let open: Vec<f64> = gaps.map(|((gap, tension), c)| c * tension - gap).collect();
-    let step = saddle.solve(layout, &at, compliance, (&at.force(layout, &found.tension), &open), ROUGH);
-    let moved = |&member: &u32| if member == FIXED { 0.0 } else { step.dx[member as usize] };
-    let change = |element: usize| {
-        let gradient = &at.soft_gradients[layout.soft.range(element)];
-        layout.soft.members(element).iter().map(moved).zip(gradient).map(|(d, g)| d * g).sum::<f64>().abs()
-    };
+    let missing = at.missing(&found.tension, compliance);
+    let step = saddle.solve(layout, &at, compliance, (&at.force(layout, &found.tension), &missing), ROUGH);
     if !(step.residual <= ROUGH) {
         return unknown();
     }
-    Some((0..layout.soft.len()).map(change).fold(0.0, f64::max))
+    Some(at.largest_turn(layout, &step.dx))
 }
 
 /// Whether curvature or lattice of a screw are pulled: the force on one of these five unknowns is more than a millionth of what the

@@ -8,7 +8,8 @@ use super::domain::Domain;
 use crate::math::Vec3;
 use nalgebra::SVector;
 
-type Motion = SVector<f64, 6>;
+/// Rates of a coordinate under the rigid motions.
+pub type Motion = SVector<f64, 6>;
 
 /// Rates of every coordinate under the rigid motions: translations in columns 0 to 2, rotations about the centroid,
 /// scaled by the size of the sheet, in columns 3 to 5 (zero where not wanted or where the
@@ -71,10 +72,11 @@ fn largest(rows: &[Motion], held: &[bool], wanted: bool) -> Option<(usize, Motio
 
 /// How well holding these coordinates separates the rigid motions: least over largest singular value of their rows, motions that the
 /// domain does not have left out.
-pub fn separation(motions: &[Motion], held: &[usize]) -> f64 {
+pub fn separation(motions: &[Motion], held: &[bool]) -> f64 {
     let had: Vec<usize> = (0..6).filter(|&motion| motions.iter().any(|row| row[motion] != 0.0)).collect();
-    let rows = nalgebra::DMatrix::from_fn(held.len().max(had.len()), had.len(), |row, motion| {
-        held.get(row).map_or(0.0, |&k| motions[k][had[motion]])
+    let kept: Vec<&Motion> = motions.iter().zip(held).filter_map(|(row, held)| held.then_some(row)).collect();
+    let rows = nalgebra::DMatrix::from_fn(kept.len().max(had.len()), had.len(), |row, motion| {
+        kept.get(row).map_or(0.0, |rates| rates[had[motion]])
     });
     let values = rows.singular_values();
     values.min() / values.max()

@@ -13,7 +13,7 @@ const LEAST_ANGLE: f64 = 1e-3;
 
 /// Rigid motions that the held coordinates cannot tell apart, against the largest one.
 const DEPENDENT: f64 = 1e-9;
-/// Separation of the rigid motions below which what is held may hold a shape too; where it is chosen it is 0.1 or more.
+/// Separation of the rigid motions, over that of a new choice, below which what is held may hold a shape too.
 const FIRM: f64 = 1e-3;
 
 /// Bars and hinges of a sheet, with what is held and what pulls.
@@ -92,25 +92,32 @@ impl Model {
 
     /// Chooses what is held in the state that stands in the place of the drawn one, and numbers the rest.
     fn choose_unknowns(&mut self) {
-        let mut held = vec![false; self.base.len()];
-        self.pinned.iter().for_each(|&k| held[k] = true);
-        if self.gauge == Gauge::Held {
-            let motions = gauge::rigid_motions(&self.domain, &self.base, self.loads.is_empty());
-            gauge::choose(&motions, &held).into_iter().for_each(|k| held[k] = true);
-        }
+        let held = self.chosen(&gauge::rigid_motions(&self.domain, &self.base, self.loads.is_empty()));
         self.free = (0..held.len() as u32).filter(|&k| !held[k as usize]).collect();
         let mut number = vec![FIXED; held.len()];
         self.free.iter().enumerate().for_each(|(unknown, &k)| number[k as usize] = unknown as u32);
         self.layout = layout(&self.domain, &self.base, &self.free, &number, &self.soft, &self.stiff);
     }
 
-    /// Whether what is held takes away the rigid motions of this state as well as it did in the state where it was chosen, or
-    /// nearly. Where it does not, it may hold a shape, and what looks like an equilibrium is none.
+    /// Which coordinates are held where these are the rigid motions: those that are pinned, and what the gauge adds.
+    fn chosen(&self, motions: &[gauge::Motion]) -> Vec<bool> {
+        let mut held = vec![false; motions.len()];
+        self.pinned.iter().for_each(|&k| held[k] = true);
+        if self.gauge == Gauge::Held {
+            gauge::choose(motions, &held).into_iter().for_each(|k| held[k] = true);
+        }
+        held
+    }
+
+    /// Whether what is held takes away the rigid motions of this state nearly as well as what would be chosen in it. Where it does
+    /// not, it may hold a shape, and what looks like an equilibrium is none.
     pub fn held_firmly(&self, x: &[f64]) -> bool {
+        if self.gauge == Gauge::Free {
+            return true;
+        }
         let motions = gauge::rigid_motions(&self.domain, &self.coordinates(x), self.loads.is_empty());
-        let held: Vec<usize> =
-            (0..self.base.len()).zip(self.held()).filter(|(_, held)| *held).map(|(k, _)| k).collect();
-        self.gauge == Gauge::Free || gauge::separation(&motions, &held) >= FIRM
+        let separation = |held: &[bool]| gauge::separation(&motions, held);
+        separation(&self.held()) >= FIRM * separation(&self.chosen(&motions))
     }
 
     /// Puts another state in the place of the drawn one, and chooses in it what is held against rigid motions. Returns its unknowns:

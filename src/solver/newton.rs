@@ -6,7 +6,7 @@
 //! cancellation at any stiffness; the iterates stay on the folded surfaces, where the physics is. Far from the
 //! solution soft elements enter with their Gauss-Newton Hessian, once steps contract with the full one.
 
-use super::problem::{Curvature, Linearization, Problem};
+use super::problem::{self, Curvature, Linearization, Problem};
 use super::saddle::{Saddle, Solved};
 use super::tension::{nan_max, residuals, self_stresses};
 use crate::numerics::factor::FactorError;
@@ -314,14 +314,14 @@ impl<P: Problem> Newton<'_, P> {
     /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller; that gap.
     fn approach(&mut self, gap: f64) -> Option<f64> {
         let (compliance, scale) = (self.problem.compliance(), self.problem.gap_scale());
-        let missing = open(&self.at.gaps, &self.tension, compliance);
+        let missing = self.at.missing(&self.tension, compliance);
         let (dx, dt) = self.saddle.apply(self.problem.layout(), &self.at, &vec![0.0; self.x.len()], &missing);
         for fraction in (0..HALVINGS).map(|halving| 0.5f64.powi(halving)) {
             let moved = |from: &[f64], by: &[f64]| -> Vec<f64> {
                 from.iter().zip(by).map(|(from, by)| from + fraction * by).collect()
             };
             let (x, tension) = (moved(&self.x, &dx), moved(&self.tension, &dt));
-            let left = largest(&open(&self.problem.gaps(&x), &tension, compliance), scale);
+            let left = largest(&problem::missing(&self.problem.gaps(&x), &tension, compliance), scale);
             if left <= (1.0 - SLOWEST * fraction) * gap {
                 (self.x, self.tension) = (x, tension);
                 self.problem.accept(&mut self.x);
@@ -431,7 +431,7 @@ impl<P: Problem> Newton<'_, P> {
         let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
         let accuracy = (0.01 * last.residual_force).clamp(FINEST, COARSEST);
         let force = self.at.force(layout, &self.tension);
-        let open = open(&self.at.gaps, &self.tension, compliance);
+        let open = self.at.missing(&self.tension, compliance);
         self.saddle.solve(layout, &self.at, compliance, (&force, &open), accuracy)
     }
 
@@ -449,7 +449,7 @@ impl<P: Problem> Newton<'_, P> {
             return false;
         }
         let length = dx.iter().fold(0.0f64, |m, d| m.max(d.abs()));
-        let open = open(&self.problem.gaps(&moved(PROBE / length.max(PROBE))), &self.tension, compliance);
+        let open = problem::missing(&self.problem.gaps(&moved(PROBE / length.max(PROBE))), &self.tension, compliance);
         self.saddle.unreachable(layout, &self.at, compliance, &open) > UNREACHABLE
             && self_stresses(self.problem, &self.at).is_some_and(|count| count > 0)
     }
@@ -465,7 +465,7 @@ impl<P: Problem> Newton<'_, P> {
     /// How much the merits of the last state and of a trial may differ for no reason: rounding error, and what the gaps
     /// still open at the last state weigh by its tension and by that of the trial.
     fn uncertainty(&self, trial: &Trial, last: &Step) -> f64 {
-        let open = open(&self.at.gaps, &self.tension, self.problem.compliance());
+        let open = self.at.missing(&self.tension, self.problem.compliance());
         let tensions = trial.tension.iter().zip(&self.tension);
         let by_gaps: f64 = open.iter().zip(tensions).map(|(gap, (new, old))| (gap * (new - old)).abs()).sum();
         let size = self.x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -487,7 +487,7 @@ impl<P: Problem> Newton<'_, P> {
         let mut last = f64::INFINITY;
         for left in (0..=most).rev() {
             let gaps = self.problem.gaps(&x);
-            let open = open(&gaps, &tension, self.problem.compliance());
+            let open = problem::missing(&gaps, &tension, self.problem.compliance());
             let size = largest(&open, self.problem.gap_scale());
             let rate = size / last;
             if size <= wanted || (size <= ROUNDING && rate > 0.5) {
@@ -545,9 +545,4 @@ fn merit<P: Problem>(problem: &P, x: &[f64], tension: &[f64], gaps: &[f64]) -> f
 /// Largest scaled gap.
 fn largest(open: &[f64], scale: &[f64]) -> f64 {
     open.iter().zip(scale).fold(0.0, |m, (o, s)| nan_max(m, o.abs() / s))
-}
-
-/// What is missing to `m = c t`.
-fn open(gaps: &[f64], tension: &[f64], compliance: &[f64]) -> Vec<f64> {
-    gaps.iter().zip(tension).zip(compliance).map(|((m, t), c)| c * t - m).collect()
 }

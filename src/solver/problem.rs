@@ -178,6 +178,23 @@ impl Linearization {
         Rows { cliques: &layout.stiff, values: &self.jacobian }
     }
 
+    /// The gradients of the soft elements as a matrix.
+    pub fn soft_rows<'a>(&'a self, layout: &'a Layout) -> Rows<'a> {
+        Rows { cliques: &layout.soft, values: &self.soft_gradients }
+    }
+
+    /// Largest change of a soft element's measure along `dx`, to first order.
+    pub fn largest_turn(&self, layout: &Layout, dx: &[f64]) -> f64 {
+        let mut turns = vec![0.0; layout.soft.len()];
+        self.soft_rows(layout).product(dx, &mut turns);
+        turns.iter().fold(0.0, |most: f64, turn| most.max(turn.abs()))
+    }
+
+    /// What each stiff measure lacks to `m = c t`.
+    pub fn missing(&self, tension: &[f64], compliance: &[f64]) -> Vec<f64> {
+        missing(&self.gaps, tension, compliance)
+    }
+
     /// Unbalanced force `-(gradient + R^T t)` on every unknown.
     pub fn force(&self, layout: &Layout, tension: &[f64]) -> Vec<f64> {
         let mut force = self.gradient.clone();
@@ -185,4 +202,9 @@ impl Linearization {
         force.iter_mut().for_each(|f| *f = -*f);
         force
     }
+}
+
+/// What stiff measures with these gaps lack to `m = c t`.
+pub(super) fn missing(gaps: &[f64], tension: &[f64], compliance: &[f64]) -> Vec<f64> {
+    gaps.iter().zip(tension).zip(compliance).map(|((m, t), c)| c * t - m).collect()
 }

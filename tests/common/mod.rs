@@ -6,11 +6,13 @@ use foldwell::analysis::relax::{RelaxError, Relaxed, relax};
 use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
 use foldwell::model::{Gauge, Model};
 use foldwell::numerics::{DenseMatrix, dense};
+use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{EdgeKind, Sheet, Tiling, fold, tile};
 use foldwell::solver::{Curvature, Linearization, Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::path::PathBuf;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
 
 /// Random numbers that are the same on every machine.
 pub struct Numbers(ChaCha8Rng);
@@ -135,4 +137,14 @@ pub fn eigenvalues(matrix: DenseMatrix) -> Vec<f64> {
 pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan()).fold(0.0, f64::max)
+}
+
+/// A scene in a folder of its own is refused with this message and status 2, and nothing is written.
+pub fn assert_refused(scene: impl Fn(&Path) -> PathBuf, expected: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, out) = (scene(folder.path()), folder.path().join("out"));
+    let options = RunOptions { out: Some(out.clone()), ..RunOptions::default() };
+    let error = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).expect_err("a refusal");
+    assert!(error.to_string().contains(expected), "{expected}: {error}");
+    assert!(error.exit_status() == 2 && !out.exists());
 }

@@ -4,7 +4,6 @@ use super::{HeldSheet, LandscapeError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
 use crate::numerics::factor::FactorError;
-use crate::numerics::sparse::Rows;
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Problem};
 use nalgebra::DVector;
@@ -85,7 +84,7 @@ impl<'a> Settling<'a> {
         let model = &self.held.model;
         let layout = model.layout();
         let forces: Vec<f64> = self.stiffness().iter().zip(off).map(|(stiffness, off)| -stiffness * off).collect();
-        let rows = Rows { cliques: &layout.soft, values: &self.at.soft_gradients };
+        let rows = self.at.soft_rows(layout);
         let mut force = force.map_or_else(|| vec![0.0; layout.unknowns], <[f64]>::to_vec);
         rows.add_transpose_product(&forces, &mut force);
         let missing = negative(stretch);

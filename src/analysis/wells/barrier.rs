@@ -147,7 +147,9 @@ fn from_softness(
         soft.push(settler.free(place, false, OPTIONS, &mut |_| go_on()).map_err(|error| failed(error.failure))?);
     }
     let apart = |soft: &Settled, well: usize| string::distance(&settler, &soft.rho, &wells[well].settled.rho);
-    let stayed = (0..2).all(|k| apart(&soft[k], between[k]) < apart(&soft[k], between[1 - k]));
+    // further from its well than half the way to the other, a state is likely to be a third one
+    let way = string::distance(&settler, &wells[between[0]].settled.rho, &wells[between[1]].settled.rho);
+    let stayed = (0..2).all(|k| apart(&soft[k], between[k]) < 0.5 * way);
     if !stayed || string::distance(&settler, &soft[0].rho, &soft[1].rho) <= APART {
         return Err(BarrierError::OneWell { stiffness });
     }

@@ -47,7 +47,7 @@ pub struct Pass {
 pub fn equilibrium(question: &Question<'_>, stiffness: f64, from: &Place, options: Options) -> Result<Pass, Failure> {
     let mut model = assemble(question.drawn, question.tiling, &question.with_bars(stiffness), Gauge::Held);
     model.set_angles(&from.angles);
-    let mut x = model.start_from(from.coordinates.clone());
+    let mut x = model.hold_anew(from.coordinates.clone());
     let mut t = from.tension.clone();
     let mut at = Linearization::new(model.layout());
     let mut saddle = Saddle::new(model.layout(), &at)?;
@@ -74,12 +74,12 @@ pub fn equilibrium(question: &Question<'_>, stiffness: f64, from: &Place, option
 fn step(model: &Model, saddle: &mut Saddle, at: &Linearization, t: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Failure> {
     let (layout, compliance) = (model.layout(), model.compliance());
     saddle.factor(layout, at, compliance, 0.0)?;
-    let open: Vec<f64> = at.gaps.iter().zip(t).zip(compliance).map(|((gap, t), c)| c * t - gap).collect();
-    let step = saddle.solve(layout, at, compliance, (&at.force(layout, t), &open), ACCURACY);
+    let missing = at.missing(t, compliance);
+    let step = saddle.solve(layout, at, compliance, (&at.force(layout, t), &missing), ACCURACY);
     if !(step.residual <= INACCURATE) {
         return Err(FactorError::Inaccurate { residual: step.residual }.into());
     }
-    let part = (LONGEST / largest_turn(model, at, &step.dx)).min(1.0);
+    let part = (LONGEST / at.largest_turn(layout, &step.dx)).min(1.0);
     let scaled = |list: Vec<f64>| list.into_iter().map(|value| part * value).collect();
     Ok((scaled(step.dx), scaled(step.dt)))
 }
@@ -109,15 +109,6 @@ impl Found {
             iterations,
         }
     }
-}
-
-/// Largest change of a soft hinge's angle along a step, to first order.
-fn largest_turn(model: &impl Problem, at: &Linearization, dx: &[f64]) -> f64 {
-    let layout = model.layout();
-    let rows = crate::numerics::sparse::Rows { cliques: &layout.soft, values: &at.soft_gradients };
-    let mut turns = vec![0.0; layout.soft.len()];
-    rows.product(dx, &mut turns);
-    turns.iter().fold(0.0, |most: f64, turn| most.max(turn.abs()))
 }
 
 /// Where the sheet goes from a pass when pushed along a change of its fold angles, and against it.

@@ -10,7 +10,6 @@ use super::super::star::Star;
 use super::trial::distance;
 use crate::analysis::relax::{Relaxed, relax};
 use crate::model::Model;
-use crate::numerics::sparse::FIXED;
 use crate::output::chart::{Chart, Point, Series};
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Options, Problem, Start};
@@ -111,13 +110,8 @@ fn law(model: &Model, unit: &Model, rigid: &Relaxed) -> Result<Law, ExperimentEr
     saddle.factor(layout, &at, none, 0.0).map_err(failed)?;
     let stretch: Vec<f64> = unit.compliance().iter().zip(&rigid.tension).map(|(c, t)| c * t).collect();
     let step = saddle.solve(layout, &at, none, (&vec![0.0; layout.unknowns], &stretch), 1e-12);
-    let moved = |&member: &u32| if member == FIXED { 0.0 } else { step.dx[member as usize] };
-    let change = |hinge: usize| {
-        let gradient = &at.soft_gradients[layout.soft.range(hinge)];
-        layout.soft.members(hinge).iter().map(moved).zip(gradient).map(|(d, g)| d * g).sum::<f64>().abs()
-    };
     Ok(Law {
-        distance: (0..layout.soft.len()).map(change).fold(0.0, f64::max),
+        distance: at.largest_turn(layout, &step.dx),
         energy: stretch.iter().zip(&rigid.tension).map(|(s, t)| 0.5 * s * t).sum(),
     })
 }
