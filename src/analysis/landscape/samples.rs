@@ -5,6 +5,7 @@
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
 //! predicts where the patch relaxes to next, so that one round is mostly enough.
 
+use super::course::Place;
 use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax};
@@ -24,7 +25,7 @@ pub const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 200 };
 const ROUGH: f64 = 1e-7;
 /// Most steps of a round, and the last step over the rest angles after which no other is needed: its square is left.
 const JOINT: usize = 3;
-const CLOSE: f64 = 1e-5;
+const CLOSE: f64 = 1e-3;
 /// Longest change of a rest angle in a step, in radians.
 const LONGEST: f64 = 0.3;
 
@@ -60,85 +61,70 @@ pub enum SampleError {
     },
 }
 
-/// The last sample.
-struct Last {
-    amplitude: f64,
-    x: Vec<f64>,
-    tension: Vec<f64>,
-    /// Rest angles across the modes.
-    rest: DVector<f64>,
-}
-
 /// Samples along one mode, each from the one before.
 pub struct Samples<'a> {
     held: &'a mut HeldSheet,
     course: Course,
-    last: Last,
+    /// Amplitude and place of the last one.
+    last: (f64, Place),
 }
 
 impl<'a> Samples<'a> {
     /// Along this course, from the drawn state.
     pub fn new(held: &'a mut HeldSheet, course: Course) -> Self {
-        let (x, tension) = (held.drawn(), vec![0.0; held.model.compliance().len()]);
-        let last = Last { amplitude: 0.0, x, tension, rest: DVector::zeros(held.free.ncols()) };
-        Self { held, course, last }
+        let place = Place { x: held.drawn(), ..held.still() };
+        Self { held, course, last: (0.0, place) }
     }
 
     /// The sample at an amplitude, from the last one.
     pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
-        let (last, course) = (&self.last, &self.course);
-        let sum = |values: &[f64], change: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
-            values.iter().zip(change).map(|(value, change)| value + change).collect()
-        };
-        let mut x = sum(&last.x, &mut course.motion(last.amplitude, amplitude));
-        let mut tension = sum(&last.tension, &mut course.pull(last.amplitude, amplitude));
-        let mut y = &last.rest + course.settling(last.amplitude, amplitude);
+        let (from, mut place) = self.last.clone();
+        self.course.advance(&mut place, from, amplitude);
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         let directions = self.held.directions();
         for rounds in 0..ROUNDS {
-            for _ in 0..JOINT {
-                self.held.set_rest(self.rest(amplitude, &y).as_slice());
-                let (step, (motion, pull)) = match self.step((&x, &tension)) {
-                    Ok(Some(step)) => step,
-                    Err(error) if rounds > 0 => return Err(error.into()),
-                    _ => break, // nothing to move, or the sheet is not stable where second order says that it is
-                };
-                x = sum(&x, &mut motion.into_iter());
-                tension = sum(&tension, &mut pull.into_iter());
-                y += &step;
-                iterations += 1;
-                if step.amax() <= CLOSE * y.amax() {
-                    break;
-                }
+            match self.approach(&mut place, amplitude) {
+                Ok(steps) => iterations += steps,
+                Err(_) if rounds == 0 => {} // not stable where the course leads: the relaxation finds its way
+                Err(error) => return Err(error.into()),
             }
-            let rest = self.rest(amplitude, &y);
+            let rest = self.rest(&place, amplitude);
             self.held.set_rest(rest.as_slice());
             let edges = self.held.model.layout().soft.len() + self.held.model.layout().stiff.len();
-            let start = Start { x, tension: Some(tension) };
+            let start = Start { x: place.x, tension: Some(place.tension) };
             let relaxed = relax(&mut self.held.model, start, OPTIONS, edges, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
+            place = Place { x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: place.rest };
             torque = unbalanced(self.held, &directions, &relaxed);
             if torque <= BALANCED {
-                self.last = Last { amplitude, x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: y };
+                self.last = (amplitude, place);
                 return Ok(Sample { amplitude, relaxed, rest: rest.as_slice().to_vec(), iterations, rounds });
             }
-            (x, tension) = (relaxed.x, relaxed.tension);
         }
         Err(SampleError::Restless { torque })
     }
 
     /// Uniform rest angles less those drawn.
-    fn rest(&self, amplitude: f64, y: &DVector<f64>) -> DVector<f64> {
-        DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * y
+    fn rest(&self, place: &Place, amplitude: f64) -> DVector<f64> {
+        DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * &place.rest
     }
 
-    /// A joint step of rest angles, unknowns and tensions; `None` where all rest angles are held.
-    fn step(&self, (x, tension): (&[f64], &[f64])) -> Result<Option<(DVector<f64>, Both)>, LandscapeError> {
+    /// Joint steps of rest angles, unknowns and tensions, and how many; none where all rest angles are held.
+    fn approach(&mut self, place: &mut Place, amplitude: f64) -> Result<usize, LandscapeError> {
         if self.held.free.ncols() == 0 {
-            return Ok(None);
+            return Ok(0);
         }
-        Settling::new(self.held, (x, tension), Curvature::Full, ROUGH)?.joint(x, tension, LONGEST).map(Some)
+        for steps in 1..=JOINT {
+            self.held.set_rest(self.rest(place, amplitude).as_slice());
+            let at = (place.x.as_slice(), place.tension.as_slice());
+            let step = Settling::new(self.held, at, Curvature::Full, ROUGH)?.joint(at, LONGEST)?;
+            place.add(1.0, &step);
+            if step.rest.amax() <= CLOSE * place.rest.amax() {
+                return Ok(steps);
+            }
+        }
+        Ok(JOINT)
     }
 }
 
