@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Patches of 6 x 6 reference cells with rigid bars. One relaxation: from the drawn sheet, its rest angles along a mode and fixed.
-//! A map: directions all over the sphere of curvature tensors, rest angles free across the modes, each sample from where second
+//! A map: directions all over the sphere of curvature tensors, rest angles free across the modes, each sample from where third
 //! order says it is, on one thread and on two. In turns, medians of rounds; what counts are the ratios.
 #![allow(clippy::unwrap_used)]
 
@@ -13,7 +13,7 @@ mod common;
 
 use common::{in_turns, measuring};
 use foldwell::analysis::landscape::sphere::{Direction, Net, samples};
-use foldwell::analysis::landscape::{HeldSheet, Prediction};
+use foldwell::analysis::landscape::{Courses, HeldSheet};
 use foldwell::analysis::relax::relax;
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
@@ -38,7 +38,7 @@ fn main() {
     };
     let make = || HeldSheet::patch(&sheet, &tiling, &recipe(angles.clone()), &angles);
     let held = make().unwrap();
-    let prediction = Prediction::new(&held).unwrap();
+    let courses = Courses::new(&held).unwrap();
     let rates = held.named([0.8, -0.3, 0.4]).unwrap();
     let bent: Vec<f64> = tiling.edges.iter().zip(&angles).map(|(e, angle)| angle + AMPLITUDE * rates[e.edge]).collect();
     let points: Vec<Vec3> = Net::new(rings).directions.iter().map(Direction::point).collect();
@@ -54,7 +54,7 @@ fn main() {
     let map = |threads: usize| {
         parallel::set_threads(threads);
         let clock = Instant::now();
-        let found = samples(&make, &prediction, &points, AMPLITUDE, &|| true);
+        let found = samples(&make, &courses, &points, AMPLITUDE, &|| true);
         assert!(found.iter().all(|sample| sample.as_ref().is_some_and(Result::is_ok)));
         clock.elapsed().as_secs_f64() / points.len() as f64
     };

@@ -8,7 +8,7 @@ use super::runner::Runner;
 use crate::analysis::landscape::cone::{Cone, distance};
 use crate::analysis::landscape::samples::{Sample, SampleError};
 use crate::analysis::landscape::sphere::{self, Direction, Net};
-use crate::analysis::landscape::{HeldSheet, LandscapeError, Prediction, rigid_facets};
+use crate::analysis::landscape::{Courses, HeldSheet, LandscapeError, rigid_facets};
 use crate::math::Vec3;
 use crate::output::sphere_plot::{self, Sphere};
 use crate::output::summary::MapSummary;
@@ -93,8 +93,8 @@ fn sampled(
     amplitude: f64,
 ) -> Result<(Vec<Row>, Option<String>), RunError> {
     let make = || held(runner.built);
-    let prediction = match make().and_then(|held| Prediction::new(&held)) {
-        Ok(prediction) => prediction,
+    let courses = match make().and_then(|held| Courses::new(&held)) {
+        Ok(courses) => courses,
         Err(error) => return Ok((Vec::new(), Some(error.to_string()))),
     };
     let path = path(runner, study);
@@ -108,7 +108,7 @@ fn sampled(
     };
     while rows.len() < points.len() && reason.is_none() {
         let batch = &points[rows.len()..points.len().min(rows.len() + BATCH)];
-        let found = sphere::samples(&make, &prediction, batch, amplitude, &go_on);
+        let found = sphere::samples(&make, &courses, batch, amplitude, &go_on);
         for (point, sample) in batch.iter().zip(found) {
             match sample {
                 Some(sample) if reason.is_none() => rows.push(row(point, sample)),
@@ -145,7 +145,7 @@ fn table(rows: &[Row]) -> Table {
 /// The exact cone, as a closed curve on each nappe, and the largest angle to zeros of the energy.
 fn cone(runner: &Runner<'_>, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f64>), SampleError> {
     let mut held: HeldSheet = held(runner.built)?;
-    let prediction = Prediction::new(&held)?;
+    let courses = Courses::new(&held)?;
     let modes = held.bending.clone().ok_or(LandscapeError::NoCurvatures)?;
     let (sheet, recipe) = (&runner.built.sheet, &runner.built.recipe);
     let exact = Cone::new(sheet, &modes, &rigid_facets(sheet, recipe)).map_err(LandscapeError::from)?;
@@ -155,7 +155,7 @@ fn cone(runner: &Runner<'_>, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f
         let at = |k: usize| exact.point(k as f64 * TAU / CONE as f64, nappe, amplitude);
         let curve: Vec<Vec3> = (0..CONE).filter_map(at).collect();
         for point in curve.iter().step_by(CONE / PROBES) {
-            let off = distance(&mut held, &prediction, point, amplitude)?;
+            let off = distance(&mut held, &courses, point, amplitude)?;
             largest = Some(largest.map_or(off, |most| most.max(off)));
         }
         curves.push(curve);

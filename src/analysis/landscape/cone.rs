@@ -10,7 +10,7 @@
 
 use super::samples::SampleError;
 use super::sphere::{self, Direction, curvature};
-use super::{HeldSheet, Prediction};
+use super::{Courses, HeldSheet};
 use crate::kinematics::{Closing, Closure, FoldingModes, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
@@ -88,7 +88,7 @@ impl<'a> Cone<'a> {
 /// opposite signs on both sides, where it is smooth, and its zero found in ever smaller windows.
 pub fn zero_of_energy(
     held: &mut HeldSheet,
-    prediction: &Prediction,
+    courses: &Courses,
     near: &Vec3,
     amplitude: f64,
 ) -> Result<Vec3, SampleError> {
@@ -97,7 +97,7 @@ pub fn zero_of_energy(
     let (mut middle, mut window) = (0.0, WINDOW);
     for _ in 0..WINDOWS {
         let mut root = |off: f64| -> Result<f64, SampleError> {
-            Ok(sphere::sample(held, prediction, &at(off), amplitude)?.relaxed.state.total().sqrt())
+            Ok(sphere::sample(held, courses, &at(off), amplitude)?.relaxed.state.total().sqrt())
         };
         let (below, above) = (root(middle - window)?, root(middle + window)?);
         if !(below + above > 0.0) {
@@ -110,12 +110,7 @@ pub fn zero_of_energy(
 }
 
 /// The angle between a point of the exact cone and the zero of the energy.
-pub fn distance(
-    held: &mut HeldSheet,
-    prediction: &Prediction,
-    point: &Vec3,
-    amplitude: f64,
-) -> Result<f64, SampleError> {
-    let zero = zero_of_energy(held, prediction, point, amplitude)?;
+pub fn distance(held: &mut HeldSheet, courses: &Courses, point: &Vec3, amplitude: f64) -> Result<f64, SampleError> {
+    let zero = zero_of_energy(held, courses, point, amplitude)?;
     Ok(zero.cross(point).norm().atan2(zero.dot(point)))
 }

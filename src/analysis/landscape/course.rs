@@ -1,39 +1,45 @@
-//! Where a sheet goes along a mode, to second order: the start of a relaxation.
-//!
-//! Tensions are of second order too: to first order a mode stretches nothing.
+//! Where a sheet goes along a mode, to third order: the start of a relaxation.
 
 use nalgebra::DVector;
 
-/// The unknowns move by `a first + a^2 second`, the rest angles by `a rates` along the modes and by `a^2 rest` across them.
+/// Orders that are known.
+pub const ORDERS: usize = 3;
+
+/// A place of a held sheet, or a change of place.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// The unknowns.
+    pub x: Vec<f64>,
+    /// Tensions of the stiff measures.
+    pub tension: Vec<f64>,
+    /// Rest angles, by direction across the modes.
+    pub rest: DVector<f64>,
+}
+
+impl Place {
+    /// Adds another one times a factor.
+    pub fn add(&mut self, factor: f64, other: &Self) {
+        let add = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, v)| *to += factor * v);
+        add(&mut self.x, &other.x);
+        add(&mut self.tension, &other.tension);
+        add(self.rest.as_mut_slice(), other.rest.as_slice());
+    }
+}
+
+/// Rest angles move by `a rates` along the modes; all else by the sum of `a^d orders[d - 1]`.
 #[derive(Clone, Debug)]
 pub struct Course {
     /// Rates of the rest angles along the modes.
     pub rates: Vec<f64>,
-    /// Velocity of the unknowns.
-    pub first: Vec<f64>,
-    /// Half their acceleration.
-    pub second: Vec<f64>,
-    /// Half the second derivative of the tensions of the stiff measures.
-    pub tension: Vec<f64>,
-    /// Half the acceleration of the rest angles, by direction across the modes.
-    pub rest: DVector<f64>,
+    /// What goes with the powers of the amplitude. To first order a mode makes no tensions and needs no rest angles across.
+    pub orders: [Place; ORDERS],
 }
 
 impl Course {
-    /// Change of the unknowns from one amplitude to another.
-    pub fn motion(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
-        let (first, second) = (to - from, to * to - from * from);
-        self.first.iter().zip(&self.second).map(move |(v, w)| first * v + second * w)
-    }
-
-    /// Change of the tensions.
-    pub fn pull(&self, from: f64, to: f64) -> impl Iterator<Item = f64> + '_ {
-        let second = to * to - from * from;
-        self.tension.iter().map(move |t| second * t)
-    }
-
-    /// Change of the rest angles across the modes.
-    pub fn settling(&self, from: f64, to: f64) -> DVector<f64> {
-        &self.rest * (to * to - from * from)
+    /// Adds the change from one amplitude to another.
+    pub fn advance(&self, place: &mut Place, from: f64, to: f64) {
+        for (power, order) in (1..).zip(&self.orders) {
+            place.add(to.powi(power) - from.powi(power), order);
+        }
     }
 }

@@ -10,8 +10,9 @@
 //! A mode that is rigid to second order has `h2 = t2 = 0`: then the sixth power leads, and `E6` tells whether it is rigid
 //! to third order.
 
+use super::course::Place;
 use super::prediction::{curvature_forces, drawn};
-use super::settling::Both;
+use super::settling::{Both, Settling};
 use super::{Course, HeldSheet, LandscapeError};
 use crate::model::Model;
 
@@ -36,26 +37,34 @@ impl Expansion {
 
     /// The same, and where the sheet goes.
     pub fn with_course(held: &HeldSheet, rates: &[f64]) -> Result<(Self, Course), LandscapeError> {
+        Self::at(held, &mut drawn(held)?, rates)
+    }
+
+    /// The same, the sheet being linearized in the drawn state already.
+    pub(super) fn at(
+        held: &HeldSheet,
+        settling: &mut Settling<'_>,
+        rates: &[f64],
+    ) -> Result<(Self, Course), LandscapeError> {
         let model = &held.model;
-        let mut settling = drawn(held)?;
         let (x0, x1) = (model.coordinates(&model.start()), held.motion(rates));
         let still = vec![0.0; x0.len()];
         let [second, _, _] = powers(model, &[&x0, &x1, &still]);
         let at_second = settling.settle((&second.0, &second.1), None)?;
         let torques: Vec<f64> = settling.stiffness().iter().zip(&at_second.off).map(|(k, off)| k * off).collect();
-        let work = |(soft, stiff): &Both| dot(&torques, soft) + dot(&at_second.tension, stiff);
+        let work = |(soft, stiff): &Both| dot(&torques, soft) + dot(&at_second.place.tension, stiff);
 
-        let [_, third, fourth] = powers(model, &[&x0, &x1, &model.velocity(&at_second.x)]);
-        let bent = model.unknowns(&curvature_forces(model, &x1, (&torques, &at_second.tension)));
+        let [_, third, fourth] = powers(model, &[&x0, &x1, &model.velocity(&at_second.place.x)]);
+        let bent = model.unknowns(&curvature_forces(model, &x1, (&torques, &at_second.place.tension)));
         let against: Vec<f64> = bent.iter().map(|force| -force).collect();
         let at_third = settling.settle((&third.0, &third.1), Some(&against))?;
         let expansion = Self {
             fourth: 0.5 * settling.product(&at_second, &at_second),
             fifth: work(&third),
-            sixth: work(&fourth) + 0.5 * settling.product(&at_third, &at_third) + dot(&bent, &at_third.x),
+            sixth: work(&fourth) + 0.5 * settling.product(&at_third, &at_third) + dot(&bent, &at_third.place.x),
         };
-        let (rates, first) = (rates.to_vec(), model.unknowns(&x1));
-        Ok((expansion, Course { rates, first, second: at_second.x, tension: at_second.tension, rest: at_second.rest }))
+        let first = Place { x: model.unknowns(&x1), ..held.still() };
+        Ok((expansion, Course { rates: rates.to_vec(), orders: [first, at_second.place, at_third.place] }))
     }
 }
 

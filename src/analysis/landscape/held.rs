@@ -1,6 +1,6 @@
 //! A sheet whose rest angles are held along its modes and free otherwise.
 
-use super::LandscapeError;
+use super::{LandscapeError, Place};
 use crate::kinematics::FoldingModes;
 use crate::model::Model;
 use crate::numerics::DenseMatrix;
@@ -115,6 +115,16 @@ impl HeldSheet {
     pub fn drawn(&mut self) -> Vec<f64> {
         self.model.set_angles(&self.angles);
         self.model.start()
+    }
+
+    /// No change of place.
+    pub fn still(&self) -> Place {
+        let layout = self.model.layout();
+        Place {
+            x: vec![0.0; layout.unknowns],
+            tension: vec![0.0; layout.stiff.len()],
+            rest: DVector::zeros(self.free.ncols()),
+        }
     }
 
     /// An amount per edge of the repeating piece for every soft element and every stiff measure; zero where rest values do

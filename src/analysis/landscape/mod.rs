@@ -9,6 +9,7 @@
 pub mod cone;
 pub mod continuum;
 mod course;
+mod courses;
 pub mod expansion;
 pub mod fit;
 mod held;
@@ -20,7 +21,8 @@ pub mod sphere;
 mod torus;
 pub mod tuning;
 
-pub use course::Course;
+pub use course::{Course, Place};
+pub use courses::Courses;
 pub use expansion::Expansion;
 pub use held::HeldSheet;
 pub use patch::rigid_facets;

@@ -10,8 +10,8 @@
 //! the mode, so the coefficient is a quartic form: one linear solve for each pair of modes and one for each direction of
 //! `p2` give it for all modes at once.
 
-use super::settling::{self, Both, Response, Settling};
-use super::{Course, HeldSheet, LandscapeError};
+use super::settling::{self, Both, Settling};
+use super::{HeldSheet, LandscapeError};
 use crate::model::{Elements, Model};
 use crate::numerics::DenseMatrix;
 use crate::solver::{Curvature, Problem};
@@ -24,8 +24,6 @@ pub struct Prediction {
     form: DenseMatrix,
     /// The modes' basis.
     basis: DenseMatrix,
-    /// What goes with each of the products.
-    settled: Vec<Response>,
 }
 
 impl Prediction {
@@ -42,21 +40,7 @@ impl Prediction {
         }
         let product = |i: usize, j: usize| 0.5 * settling.product(&responses[i], &responses[j]);
         let form = DenseMatrix::from_fn(responses.len(), responses.len(), product);
-        Ok(Self { form, basis: held.basis.clone(), settled: responses })
-    }
-
-    /// Where the sheet goes along a mode.
-    pub fn course(&self, held: &HeldSheet, rates: &[f64]) -> Course {
-        let first = held.model.unknowns(&held.motion(rates));
-        let (mut second, mut tension) = (vec![0.0; first.len()], vec![0.0; held.model.compliance().len()]);
-        let mut rest = DVector::zeros(held.free.ncols());
-        for (product, response) in self.products(rates).iter().zip(&self.settled) {
-            let add = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, v)| *to += product * v);
-            add(&mut second, &response.x);
-            add(&mut tension, &response.tension);
-            rest += &response.rest * *product;
-        }
-        Course { rates: rates.to_vec(), first, second, tension, rest }
+        Ok(Self { form, basis: held.basis.clone() })
     }
 
     /// The coefficient of `amplitude^4` of the mode with these fold rates.

@@ -1,9 +1,11 @@
 //! Samples of a landscape: patches relaxed with their rest angles held along the modes and free across them.
 //!
-//! The patch relaxes at given rest angles `p = p0 + a phi + C y`; then Newton's method moves `y`, with the gradient
+//! The rest angles are `p = p0 + a phi + C y`. A step of Newton's method moves the patch, its tensions and `y` together; after some
+//! of them the patch relaxes at these rest angles, and where torques are left there are more. A step has the gradient
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
-//! predicts where the patch relaxes to next, so that one or two rounds are enough.
+//! predicts where the patch relaxes to next, so that one round is mostly enough.
 
+use super::course::Place;
 use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax};
@@ -21,7 +23,10 @@ const LEAST_ANGLE: f64 = 1e-4;
 pub const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 200 };
 /// Accuracy of the linear solves for a step of the rest angles.
 const ROUGH: f64 = 1e-7;
-/// Longest change of a rest angle in a round, in radians.
+/// Most steps of a round, and the last step over the rest angles after which no other is needed: its square is left.
+const JOINT: usize = 3;
+const CLOSE: f64 = 1e-3;
+/// Longest change of a rest angle in a step, in radians.
 const LONGEST: f64 = 0.3;
 
 /// One sample.
@@ -56,66 +61,75 @@ pub enum SampleError {
     },
 }
 
-/// The last sample.
-struct Last {
-    amplitude: f64,
-    x: Vec<f64>,
-    tension: Vec<f64>,
-    /// Rest angles across the modes.
-    rest: DVector<f64>,
-}
-
 /// Samples along one mode, each from the one before.
 pub struct Samples<'a> {
     held: &'a mut HeldSheet,
     course: Course,
-    last: Last,
+    /// Amplitude and place of the last one.
+    last: (f64, Place),
 }
 
 impl<'a> Samples<'a> {
     /// Along this course, from the drawn state.
     pub fn new(held: &'a mut HeldSheet, course: Course) -> Self {
-        let (x, tension) = (held.drawn(), vec![0.0; held.model.compliance().len()]);
-        let last = Last { amplitude: 0.0, x, tension, rest: DVector::zeros(held.free.ncols()) };
-        Self { held, course, last }
+        let place = Place { x: held.drawn(), ..held.still() };
+        Self { held, course, last: (0.0, place) }
     }
 
     /// The sample at an amplitude, from the last one.
     pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
-        let (last, course) = (&self.last, &self.course);
-        let sum = |values: &[f64], change: &mut dyn Iterator<Item = f64>| -> Vec<f64> {
-            values.iter().zip(change).map(|(value, change)| value + change).collect()
-        };
-        let mut x = sum(&last.x, &mut course.motion(last.amplitude, amplitude));
-        let mut tension = sum(&last.tension, &mut course.pull(last.amplitude, amplitude));
-        let mut y = &last.rest + course.settling(last.amplitude, amplitude);
+        let (from, mut place) = self.last.clone();
+        self.course.advance(&mut place, from, amplitude);
         let (mut iterations, mut torque) = (0, f64::INFINITY);
         let directions = self.held.directions();
         for rounds in 0..ROUNDS {
-            let rest = DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * &y;
+            match self.approach(&mut place, amplitude) {
+                Ok(steps) => iterations += steps,
+                Err(_) if rounds == 0 => {} // not stable where the course leads: the relaxation finds its way
+                Err(error) => return Err(error.into()),
+            }
+            let rest = self.rest(&place, amplitude);
             self.held.set_rest(rest.as_slice());
             let edges = self.held.model.layout().soft.len() + self.held.model.layout().stiff.len();
-            let start = Start { x, tension: Some(tension) };
+            let start = Start { x: place.x, tension: Some(place.tension) };
             let relaxed = relax(&mut self.held.model, start, OPTIONS, edges, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
-            let (unbalanced, left) = torques(self.held, &directions, &relaxed);
-            torque = unbalanced;
+            place = Place { x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: place.rest };
+            torque = unbalanced(self.held, &directions, &relaxed);
             if torque <= BALANCED {
-                self.last = Last { amplitude, x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: y };
+                self.last = (amplitude, place);
                 return Ok(Sample { amplitude, relaxed, rest: rest.as_slice().to_vec(), iterations, rounds });
             }
-            let (step, (motion, pull)) = step(self.held, &relaxed, &left)?;
-            x = sum(&relaxed.x, &mut motion.into_iter());
-            tension = sum(&relaxed.tension, &mut pull.into_iter());
-            y += step;
         }
         Err(SampleError::Restless { torque })
     }
+
+    /// Uniform rest angles less those drawn.
+    fn rest(&self, place: &Place, amplitude: f64) -> DVector<f64> {
+        DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * &place.rest
+    }
+
+    /// Joint steps of rest angles, unknowns and tensions, and how many; none where all rest angles are held.
+    fn approach(&mut self, place: &mut Place, amplitude: f64) -> Result<usize, LandscapeError> {
+        if self.held.free.ncols() == 0 {
+            return Ok(0);
+        }
+        for steps in 1..=JOINT {
+            self.held.set_rest(self.rest(place, amplitude).as_slice());
+            let at = (place.x.as_slice(), place.tension.as_slice());
+            let step = Settling::new(self.held, at, Curvature::Full, ROUGH)?.joint(at, LONGEST)?;
+            place.add(1.0, &step);
+            if step.rest.amax() <= CLOSE * place.rest.amax() {
+                return Ok(steps);
+            }
+        }
+        Ok(JOINT)
+    }
 }
 
-/// The largest torque on a direction of rest angles, over its size, and all of them.
-fn torques(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> (f64, DVector<f64>) {
+/// The largest torque on a direction of rest angles, over its size.
+fn unbalanced(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> f64 {
     let model = &held.model;
     let stiffness = model.soft().iter().flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
     let values = model.values(&relaxed.x);
@@ -128,19 +142,7 @@ fn torques(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> (f64, DV
     };
     let torque = sum(&torques, &relaxed.tension, |value| value);
     let size = sum(&least, &relaxed.tension, f64::abs);
-    let unbalanced = torque.iter().zip(size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max);
-    (unbalanced, torque)
-}
-
-/// Newton's step of the rest angles against these torques, and the motion of the unknowns and the tensions that go with it.
-fn step(held: &HeldSheet, relaxed: &Relaxed, torque: &DVector<f64>) -> Result<(DVector<f64>, Both), LandscapeError> {
-    let settling = Settling::new(held, (&relaxed.x, &relaxed.tension), Curvature::Full, ROUGH)?;
-    let singular = crate::numerics::factor::FactorError::Singular { ratio: 0.0 };
-    let factor = nalgebra::Cholesky::new(settling.hessian().clone()).ok_or(singular)?;
-    let step = factor.solve(torque);
-    let step = &step * (LONGEST / step.amax()).min(1.0);
-    let motion = settling.motion(&step);
-    Ok((step, motion))
+    torque.iter().zip(size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max)
 }
 
 /// What a landscape along one mode says.

@@ -1,5 +1,6 @@
 //! How a held sheet settles, to first order, when its hinges and bars are off: the sheet and the rest angles across its modes.
 
+use super::course::Place;
 use super::{HeldSheet, LandscapeError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
@@ -19,14 +20,17 @@ pub type Both = (Vec<f64>, Vec<f64>);
 /// How a sheet settles.
 #[derive(Clone, Debug)]
 pub struct Response {
-    /// Motion of the unknowns.
-    pub x: Vec<f64>,
+    /// What unknowns, tensions and rest angles across the modes move by.
+    pub place: Place,
     /// How far every soft hinge is off rest.
     pub off: Vec<f64>,
-    /// Tensions of the stiff measures.
-    pub tension: Vec<f64>,
-    /// Rest angles across the modes.
-    pub rest: DVector<f64>,
+}
+
+impl Response {
+    /// How far hinges are off, and tensions.
+    fn parts(&self) -> (&[f64], &[f64]) {
+        (&self.off, &self.place.tension)
+    }
 }
 
 /// A held sheet linearized at a state, factored once.
@@ -73,7 +77,7 @@ impl<'a> Settling<'a> {
             })
             .collect::<Result<_, _>>()?;
         let count = settling.free.len();
-        let hessian = DenseMatrix::from_fn(count, count, |i, j| -settling.torque(&settling.free[j], i));
+        let hessian = DenseMatrix::from_fn(count, count, |i, j| -settling.torque(settling.free[j].parts(), i));
         settling.hessian = 0.5 * (&hessian + hessian.transpose());
         Ok(settling)
     }
@@ -95,20 +99,19 @@ impl<'a> Settling<'a> {
         let mut turned = vec![0.0; off.len()];
         rows.product(&found.dx, &mut turned);
         let off = off.iter().zip(turned).map(|(off, turned)| off + turned).collect();
-        Ok(Response { x: found.dx, off, tension: found.dt, rest: DVector::zeros(self.directions.len()) })
+        Ok(Response { place: Place { x: found.dx, tension: found.dt, ..self.held.still() }, off })
     }
 
     /// The same with the rest angles across the modes settling too.
     pub fn settle(&mut self, off: (&[f64], &[f64]), force: Option<&[f64]>) -> Result<Response, LandscapeError> {
         let mut response = self.respond(off, force)?;
-        let torques = DVector::from_fn(self.free.len(), |j, _| self.torque(&response, j));
-        response.rest = self.absorb(&torques)?;
-        for (part, free) in response.rest.iter().zip(&self.free) {
-            let add = |to: &mut Vec<f64>, from: &[f64]| to.iter_mut().zip(from).for_each(|(to, v)| *to += part * v);
-            add(&mut response.x, &free.x);
-            add(&mut response.off, &free.off);
-            add(&mut response.tension, &free.tension);
+        let torques = DVector::from_fn(self.free.len(), |j, _| self.torque(response.parts(), j));
+        let rest = self.absorb(&torques)?;
+        for (part, free) in rest.iter().zip(&self.free) {
+            response.place.add(*part, &free.place);
+            response.off.iter_mut().zip(&free.off).for_each(|(off, by)| *off += part * by);
         }
+        response.place.rest = rest;
         Ok(response)
     }
 
@@ -121,33 +124,43 @@ impl<'a> Settling<'a> {
         Ok(least_squares(&self.hessian, &right)?.solution.column(0).into_owned())
     }
 
-    /// The Hessian of the energy in the rest angles across the modes.
-    pub fn hessian(&self) -> &DenseMatrix {
-        &self.hessian
-    }
-
-    /// Motion of the unknowns and change of the tensions that go with these rest angles across the modes.
-    pub fn motion(&self, rest: &DVector<f64>) -> Both {
-        let layout = self.held.model.layout();
-        let (mut x, mut tension) = (vec![0.0; layout.unknowns], vec![0.0; layout.stiff.len()]);
-        for (part, free) in rest.iter().zip(&self.free) {
-            x.iter_mut().zip(&free.x).for_each(|(sum, d)| *sum += part * d);
-            tension.iter_mut().zip(&free.tension).for_each(|(sum, d)| *sum += part * d);
+    /// Newton's step for unknowns, tensions and rest angles together, at `(x, tension)`, which need not be an equilibrium; the
+    /// Hessian of the energy in the rest angles is that of equilibria near it. `longest` bounds what rest angles move by.
+    ///
+    /// Fails where the energy is not convex in the rest angles.
+    pub fn joint(&mut self, (x, tension): (&[f64], &[f64]), longest: f64) -> Result<Place, LandscapeError> {
+        let model = &self.held.model;
+        let (layout, compliance) = (model.layout(), model.compliance());
+        let open = self.at.missing(tension, compliance);
+        let force = self.at.force(layout, tension);
+        let found = self.saddle.solve(layout, &self.at, compliance, (&force, &open), self.accuracy);
+        let mut off = vec![0.0; layout.soft.len()];
+        self.at.soft_rows(layout).product(&found.dx, &mut off);
+        for ((off, value), rest) in off.iter_mut().zip(model.values(x)).zip(model.rests()) {
+            *off += value - rest;
         }
-        (x, tension)
+        let pull: Vec<f64> = tension.iter().zip(&found.dt).map(|(t, dt)| t + dt).collect();
+        let torques = DVector::from_fn(self.free.len(), |j, _| self.torque((&off, &pull), j));
+        let factor = nalgebra::Cholesky::new(self.hessian.clone()).ok_or(FactorError::Singular { ratio: 0.0 })?;
+        let rest = factor.solve(&torques);
+        let rest = &rest * (longest / rest.amax()).min(1.0);
+        let mut step = Place { x: found.dx, tension: found.dt, ..self.held.still() };
+        rest.iter().zip(&self.free).for_each(|(part, free)| step.add(*part, &free.place));
+        Ok(Place { rest, ..step })
     }
 
-    /// Torque of a response on a direction of the rest angles.
-    fn torque(&self, response: &Response, direction: usize) -> f64 {
+    /// Torque of hinges that are off and of tensions on a direction of the rest angles.
+    fn torque(&self, (off, tension): (&[f64], &[f64]), direction: usize) -> f64 {
         let (soft, stiff) = &self.directions[direction];
-        let hinges = soft.iter().zip(&response.off).zip(self.stiffness()).map(|((c, off), k)| k * c * off);
-        hinges.sum::<f64>() + stiff.iter().zip(&response.tension).map(|(c, t)| c * t).sum::<f64>()
+        let hinges = soft.iter().zip(off).zip(self.stiffness()).map(|((c, off), k)| k * c * off);
+        hinges.sum::<f64>() + stiff.iter().zip(tension).map(|(c, t)| c * t).sum::<f64>()
     }
 
     /// Twice the energy of a pair of responses.
     pub fn product(&self, a: &Response, b: &Response) -> f64 {
         let hinges = a.off.iter().zip(&b.off).zip(self.stiffness()).map(|((a, b), k)| k * a * b);
-        let bars = a.tension.iter().zip(&b.tension).zip(self.held.model.compliance()).map(|((a, b), c)| c * a * b);
+        let bars =
+            a.place.tension.iter().zip(&b.place.tension).zip(self.held.model.compliance()).map(|((a, b), c)| c * a * b);
         hinges.sum::<f64>() + bars.sum::<f64>()
     }
 

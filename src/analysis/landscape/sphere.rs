@@ -6,7 +6,7 @@
 //! at 45 degrees and the equator has opposite curvatures.
 
 use super::samples::{Sample, SampleError, Samples};
-use super::{HeldSheet, LandscapeError, Prediction};
+use super::{Courses, HeldSheet, LandscapeError};
 use crate::math::Vec3;
 use crate::numerics::parallel;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
@@ -85,15 +85,15 @@ impl Net {
     }
 }
 
-/// The sample in a direction, relaxed from where second order says it is: nothing of other samples enters.
+/// The sample in a direction, relaxed from where third order says it is: nothing of other samples enters.
 pub fn sample(
     held: &mut HeldSheet,
-    prediction: &Prediction,
+    courses: &Courses,
     direction: &Vec3,
     amplitude: f64,
 ) -> Result<Sample, SampleError> {
     let rates = held.named(curvature(direction))?;
-    let course = prediction.course(held, &rates);
+    let course = courses.along(held, &rates);
     Samples::new(held, course).at(amplitude, &mut |_| true)
 }
 
@@ -101,17 +101,17 @@ pub fn sample(
 /// before each; those that come after it said no are `None`.
 pub fn samples(
     make: &(dyn Fn() -> Result<HeldSheet, LandscapeError> + Sync),
-    prediction: &Prediction,
+    courses: &Courses,
     points: &[Vec3],
     amplitude: f64,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Option<Result<Sample, SampleError>>> {
     parallel::each(points.len(), make, |held, k| {
         go_on().then(|| match held {
-            Ok(held) => sample(held, prediction, &points[k], amplitude),
-            Err(_) => make()
-                .map_err(SampleError::from)
-                .and_then(|mut held| sample(&mut held, prediction, &points[k], amplitude)),
+            Ok(held) => sample(held, courses, &points[k], amplitude),
+            Err(_) => {
+                make().map_err(SampleError::from).and_then(|mut held| sample(&mut held, courses, &points[k], amplitude))
+            }
         })
     })
 }
