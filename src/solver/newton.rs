@@ -4,7 +4,8 @@
 //! `(x, t)`; pull the state back onto `m = c t` by a few chord corrections with the same factorization (in `x` *and*
 //! `t`); accept when the merit `E + sum c t^2 / 2` fell. On retracted states the merit is the true energy, without
 //! cancellation at any stiffness; the iterates stay on the folded surfaces, where the physics is. Far from the
-//! solution soft elements enter with their Gauss-Newton Hessian, once steps contract with the full one.
+//! solution soft elements enter with their Gauss-Newton Hessian, once steps contract with the full one. Near it a factorization
+//! serves the next steps too, which it solves by corrections on the residual of their own system.
 
 use super::problem::{self, Curvature, Linearization, Problem};
 use super::saddle::{Saddle, Solved};
@@ -26,11 +27,12 @@ const ROUNDING: f64 = 1e-12;
 const HALVINGS: i32 = 5;
 const SHIFTS: usize = 12;
 /// Bounds of the relative residual of a Newton step's linear system; between them a hundredth of the scaled force.
-const FINEST: f64 = 1e-8;
+const FINEST: f64 = 1e-6;
 const COARSEST: f64 = 1e-3;
 /// Relative residual of a step's linear system above which the factorization is not used.
 const INACCURATE: f64 = 0.1;
-/// Largest scaled gap of a trial.
+/// Largest scaled gap of a trial over the scaled force (1e-3 to 1e-2 take alike), and at all.
+const CLOSE: f64 = 3e-3;
 const LOOSEST: f64 = 1e-4;
 /// First shift after none, factor from a shift to the next, and the shift below which the next lower one is none.
 const FIRST_SHIFT: f64 = 0.25;
@@ -185,14 +187,16 @@ struct Newton<'a, P: Problem> {
     saddle: Saddle,
     x: Vec<f64>,
     tension: Vec<f64>,
+    /// Merit of the state.
+    merit: f64,
     /// Shift of the last factorization, in units of the metric.
     shift: f64,
     /// Steps for which the shift is not lowered, and for how many it will be when lowering fails again.
     hold: usize,
     patience: usize,
     curvature: Curvature,
-    /// Whether the last factorization was of the full Hessian, without shift, and that of a minimum.
-    certified: bool,
+    /// Scaled force where the last factorization was made, if it was of the full Hessian, without shift, and that of a minimum.
+    certified: Option<f64>,
     history: Vec<Step>,
 }
 
@@ -224,11 +228,12 @@ pub fn minimize<P: Problem>(
         saddle,
         x,
         tension,
+        merit: f64::NAN,
         shift: 0.0,
         hold: 0,
         patience: 1,
         curvature,
-        certified: false,
+        certified: None,
         history: vec![],
     };
     match newton.run(options, observe) {
@@ -248,9 +253,9 @@ impl<P: Problem> Newton<'_, P> {
     fn run(&mut self, options: Options, observe: &mut dyn FnMut(&Step) -> bool) -> Result<usize, Failure> {
         self.linearize();
         self.start()?;
+        self.merit = merit(self.problem, &self.x, &self.tension, &self.at.gaps);
         let mut fraction = 0.0;
         loop {
-            self.linearize();
             let step = self.step(fraction);
             self.history.push(step);
             if !observe(&step) {
@@ -269,6 +274,7 @@ impl<P: Problem> Newton<'_, P> {
                 }
                 taken => taken?,
             };
+            self.linearize();
         }
     }
 
@@ -294,6 +300,7 @@ impl<P: Problem> Newton<'_, P> {
             if let Ok(trial) = self.retract(self.x.clone(), self.tension.clone(), FEASIBLE, START_CHORDS) {
                 (self.x, self.tension) = (trial.x, trial.tension);
                 self.problem.accept(&mut self.x);
+                self.linearize();
                 return Ok(());
             }
             gap = self.approach(gap).ok_or(Failure::Infeasible { gap })?;
@@ -315,7 +322,7 @@ impl<P: Problem> Newton<'_, P> {
     fn approach(&mut self, gap: f64) -> Option<f64> {
         let (compliance, scale) = (self.problem.compliance(), self.problem.gap_scale());
         let missing = self.at.missing(&self.tension, compliance);
-        let (dx, dt) = self.saddle.apply(self.problem.layout(), &self.at, &vec![0.0; self.x.len()], &missing);
+        let (dx, dt) = self.saddle.apply(self.problem.layout(), &vec![0.0; self.x.len()], &missing);
         for fraction in (0..HALVINGS).map(|halving| 0.5f64.powi(halving)) {
             let moved = |from: &[f64], by: &[f64]| -> Vec<f64> {
                 from.iter().zip(by).map(|(from, by)| from + fraction * by).collect()
@@ -336,7 +343,7 @@ impl<P: Problem> Newton<'_, P> {
         let (residual_force, residual_length) = residuals(self.problem, &self.at, &self.tension);
         let before = |count: fn(&Step) -> usize| self.history.iter().map(count).sum::<usize>();
         Step {
-            energy: merit(self.problem, &self.x, &self.tension, &self.at.gaps),
+            energy: self.merit,
             residual_force,
             residual_length,
             fraction,
@@ -367,7 +374,8 @@ impl<P: Problem> Newton<'_, P> {
             match found {
                 Ok(inertia) if inertia.negative == 0 && (shift > 0.0 || inertia.ratio > SINGULAR) => {
                     self.shift = shift;
-                    self.certified = shift == 0.0 && self.curvature == Curvature::Full;
+                    let force = self.history.last().map_or(f64::INFINITY, |step| step.residual_force);
+                    self.certified = (shift == 0.0 && self.curvature == Curvature::Full).then_some(force);
                     return Ok(());
                 }
                 Err(error @ FactorError::NotFinite) => return Err(error.into()),
@@ -379,6 +387,9 @@ impl<P: Problem> Newton<'_, P> {
 
     /// One accepted step; returns the fraction of the Newton step that was taken.
     fn advance(&mut self, last: &Step) -> Result<f64, Failure> {
+        if let Some(fraction) = self.advance_with_last(last) {
+            return Ok(fraction);
+        }
         self.factor_lower()?;
         let mut residual = 0.0;
         for _ in 0..SHIFTS {
@@ -414,10 +425,21 @@ impl<P: Problem> Newton<'_, P> {
         None
     }
 
-    /// Whether the state before the last one was a whole step away and so near that its inertia is that of the last.
-    fn was_near(&self) -> bool {
-        let before = self.history.len().checked_sub(2).map(|k| self.history[k]);
-        before.is_some_and(|step| step.residual_force < NEAR && self.history[self.history.len() - 1].fraction == 1.0)
+    /// Whether the last factorization was made a few whole steps ago and so near the minimum that its inertia is that of the minimum.
+    fn near(&self) -> bool {
+        self.certified.is_some_and(|force| force < NEAR) && self.history.last().is_some_and(|step| step.fraction == 1.0)
+    }
+
+    /// A whole step with the last factorization, corrected to the Hessian of this state, where that is accurate and accepted.
+    fn advance_with_last(&mut self, last: &Step) -> Option<f64> {
+        if !self.near() {
+            return None;
+        }
+        self.saddle.keep(&self.at);
+        let step = self.direction(last);
+        let trial = (step.residual <= accuracy(last)).then(|| self.attempt((&step.dx, &step.dt), 1.0, last))??;
+        self.take(trial, 1.0, last);
+        Some(1.0)
     }
 
     /// Where the halving of steps begins: at twice the fraction that the last step took.
@@ -429,10 +451,9 @@ impl<P: Problem> Newton<'_, P> {
     /// The Newton step in unknowns and tensions.
     fn direction(&mut self, last: &Step) -> Solved {
         let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
-        let accuracy = (0.01 * last.residual_force).clamp(FINEST, COARSEST);
         let force = self.at.force(layout, &self.tension);
         let open = self.at.missing(&self.tension, compliance);
-        self.saddle.solve(layout, &self.at, compliance, (&force, &open), accuracy)
+        self.saddle.solve(layout, &self.at, compliance, (&force, &open), accuracy(last))
     }
 
     /// Whether the stretch that a step makes beyond its linear part cannot be taken back by any motion: then the rigid
@@ -450,14 +471,14 @@ impl<P: Problem> Newton<'_, P> {
         }
         let length = dx.iter().fold(0.0f64, |m, d| m.max(d.abs()));
         let open = problem::missing(&self.problem.gaps(&moved(PROBE / length.max(PROBE))), &self.tension, compliance);
-        self.saddle.unreachable(layout, &self.at, compliance, &open) > UNREACHABLE
+        self.saddle.unreachable(layout, &self.at, compliance, &open, UNREACHABLE) > UNREACHABLE
             && self_stresses(self.problem, &self.at).is_some_and(|count| count > 0)
     }
 
     fn attempt(&mut self, (dx, dt): (&[f64], &[f64]), fraction: f64, last: &Step) -> Option<Trial> {
         let x = self.x.iter().zip(dx).map(|(x, d)| x + fraction * d).collect();
         let tension = self.tension.iter().zip(dt).map(|(t, d)| t + fraction * d).collect();
-        let wanted = (1e-3 * last.residual_force).clamp(1e-14, LOOSEST);
+        let wanted = (CLOSE * last.residual_force).clamp(1e-14, LOOSEST);
         let trial = self.retract(x, tension, wanted, CHORDS).ok()?;
         (trial.merit <= last.energy + self.uncertainty(&trial, last)).then_some(trial)
     }
@@ -498,7 +519,7 @@ impl<P: Problem> Newton<'_, P> {
                 return Err(size);
             }
             last = size;
-            let (dx, dt) = self.saddle.apply(self.problem.layout(), &self.at, &zero, &open);
+            let (dx, dt) = self.saddle.apply(self.problem.layout(), &zero, &open);
             x.iter_mut().zip(&dx).for_each(|(x, d)| *x += d);
             tension.iter_mut().zip(&dt).for_each(|(t, d)| *t += d);
         }
@@ -510,7 +531,7 @@ impl<P: Problem> Newton<'_, P> {
         if fraction == 1.0 && last.energy - trial.merit < 0.5 * last.energy.abs() {
             self.curvature = Curvature::Full;
         }
-        (self.x, self.tension) = (trial.x, trial.tension);
+        (self.x, self.tension, self.merit) = (trial.x, trial.tension, trial.merit);
         self.problem.accept(&mut self.x);
     }
 
@@ -522,12 +543,12 @@ impl<P: Problem> Newton<'_, P> {
             return true;
         }
         let stretch: Vec<f64> = (1..=compliance.len()).map(|k| (k as f64 * 0.618_033_988_75).fract() - 0.5).collect();
-        self.saddle.unreachable(layout, &self.at, compliance, &stretch) < REACHED
+        self.saddle.unreachable(layout, &self.at, compliance, &stretch, REACHED) <= REACHED
     }
 
     /// Negative eigenvalues of the full Hessian at the converged state.
     fn certify(&mut self) -> Result<usize, Failure> {
-        if self.certified && self.was_near() {
+        if self.near() {
             return Ok(0);
         }
         self.curvature = Curvature::Full;
@@ -540,6 +561,11 @@ impl<P: Problem> Newton<'_, P> {
 fn merit<P: Problem>(problem: &P, x: &[f64], tension: &[f64], gaps: &[f64]) -> f64 {
     let stiff = gaps.iter().zip(tension).zip(problem.compliance()).map(|((gap, t), c)| t * (gap - c * t / 2.0));
     problem.energy(x) + stiff.sum::<f64>()
+}
+
+/// Relative residual that the linear system of a step is solved to.
+fn accuracy(last: &Step) -> f64 {
+    (0.01 * last.residual_force).clamp(FINEST, COARSEST)
 }
 
 /// Largest scaled gap.

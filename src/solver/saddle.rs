@@ -52,6 +52,8 @@ pub struct Saddle {
     shifted: Vec<f64>,
     values: Vec<f64>,
     weights: Vec<f64>,
+    /// Gradients of the stiff measures where it was factored.
+    jacobian: Vec<f64>,
     /// Factorizations made.
     pub factorizations: usize,
     /// Solves with a factorization made.
@@ -65,7 +67,8 @@ impl Saddle {
         let values = vec![0.0; linearization.pattern().entries()];
         let shifted = values.clone();
         let weights = vec![0.0; layout.stiff.len()];
-        Ok(Self { factor, shifted, values, weights, factorizations: 0, solves: 0 })
+        let jacobian = vec![0.0; linearization.jacobian.len()];
+        Ok(Self { factor, shifted, values, weights, jacobian, factorizations: 0, solves: 0 })
     }
 
     /// Factors `S` with `shift` times the metric added to the Hessian.
@@ -123,6 +126,7 @@ impl Saddle {
     /// Adds the weighted stiff measures.
     fn weigh(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64]) {
         let unit = Self::unit(at);
+        self.jacobian.copy_from_slice(&at.jacobian);
         self.values.copy_from_slice(&self.shifted);
         for (row, &c) in compliance.iter().enumerate() {
             let gradient = &at.jacobian[layout.stiff.range(row)];
@@ -138,9 +142,14 @@ impl Saddle {
         if scale > 0.0 { scale } else { 1.0 }
     }
 
-    /// Solves with `-1/w` in the place of `-C`.
-    pub fn apply(&mut self, layout: &Layout, at: &Linearization, a: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let rows = at.rows(layout);
+    /// Takes the Hessian of another linearization for what is solved from now on, corrected from the last factorization.
+    pub fn keep(&mut self, at: &Linearization) {
+        self.shifted.copy_from_slice(&at.hessian);
+    }
+
+    /// Solves the system that was factored, with `-1/w` in the place of `-C`.
+    pub fn apply(&mut self, layout: &Layout, a: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let rows = Rows { cliques: &layout.stiff, values: &self.jacobian };
         let mut dx = a.to_vec();
         let weighted: Vec<f64> = b.iter().zip(&self.weights).map(|(b, w)| b * w).collect();
         rows.add_transpose_product(&weighted, &mut dx);
@@ -161,7 +170,7 @@ impl Saddle {
         (a, b): (&[f64], &[f64]),
         tolerance: f64,
     ) -> Solved {
-        let (mut dx, mut dt) = self.apply(layout, at, a, b);
+        let (mut dx, mut dt) = self.apply(layout, a, b);
         let mut last = f64::INFINITY;
         loop {
             let (ra, rb) = self.residual(layout, at, compliance, (a, b), (&dx, &dt));
@@ -172,7 +181,7 @@ impl Saddle {
                 return Solved { dx, dt, residual: f64::max(over(norm(&ra), unit), of_stretch) };
             }
             last = residual;
-            let (ddx, ddt) = self.apply(layout, at, &ra, &rb);
+            let (ddx, ddt) = self.apply(layout, &ra, &rb);
             dx.iter_mut().zip(&ddx).for_each(|(x, d)| *x += d);
             dt.iter_mut().zip(&ddt).for_each(|(t, d)| *t += d);
         }
@@ -188,12 +197,30 @@ impl Saddle {
         norm(&pull)
     }
 
-    /// The part of `b` that no motion makes, relative to `b`: 1 where `b` is a self stress, 0 where it can be reached.
-    pub fn unreachable(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64], b: &[f64]) -> f64 {
+    /// The part of `b` that no motion makes, relative to `b`: 1 where `b` is a self stress, 0 where it can be reached. Corrections
+    /// end where it is at most `enough`.
+    pub fn unreachable(
+        &mut self,
+        layout: &Layout,
+        at: &Linearization,
+        compliance: &[f64],
+        b: &[f64],
+        enough: f64,
+    ) -> f64 {
         let zero = vec![0.0; layout.unknowns];
-        let Solved { dx, dt, .. } = self.solve(layout, at, compliance, (&zero, b), 0.0);
-        let (_, left) = self.residual(layout, at, compliance, (&zero, b), (&dx, &dt));
-        over(norm(&left), norm(b))
+        let (mut dx, mut dt) = (zero.clone(), vec![0.0; b.len()]);
+        let (mut ra, mut rb, mut last) = (zero.clone(), b.to_vec(), f64::INFINITY);
+        loop {
+            let (ddx, ddt) = self.apply(layout, &ra, &rb);
+            dx.iter_mut().zip(&ddx).for_each(|(x, d)| *x += d);
+            dt.iter_mut().zip(&ddt).for_each(|(t, d)| *t += d);
+            (ra, rb) = self.residual(layout, at, compliance, (&zero, b), (&dx, &dt));
+            let left = over(norm(&rb), norm(b));
+            if left <= enough || !(left < SLOWEST * last) {
+                return left;
+            }
+            last = left;
+        }
     }
 
     fn residual(
