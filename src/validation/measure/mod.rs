@@ -2,10 +2,12 @@
 
 use super::experiment::{Bench, ExperimentError, Findings};
 
+mod cells;
 mod extremes;
 mod files;
 mod invariances;
 mod large;
+mod miura;
 mod rigid_limit;
 mod sizes;
 mod steps;
@@ -19,11 +21,13 @@ pub type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
 
 /// The measurements by name.
 const MEASUREMENTS: &[(&str, Measurement)] = &[
+    ("cells", cells::measure),
     ("files", files::measure),
     ("invariances", invariances::measure),
     ("extremes", extremes::measure),
     ("large", large::measure),
     ("random scenes", extremes::random_scenes),
+    ("ten thousand scenes", extremes::ten_thousand_scenes),
     ("rigid limit", rigid_limit::measure),
     ("sizes", sizes::measure),
     ("steps", steps::measure),
