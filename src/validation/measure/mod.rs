@@ -7,7 +7,6 @@ mod extremes;
 mod files;
 mod invariances;
 mod large;
-mod miura;
 mod rigid_limit;
 mod sizes;
 mod steps;

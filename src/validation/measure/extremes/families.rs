@@ -1,12 +1,11 @@
 //! The families of extreme cases, each with what its result is compared with.
 
-use super::super::miura::{first_zigzag, fold_angles};
 use super::super::trial::{Outcome, Trial, distance, judge, within};
 use crate::math::Vec3;
 use crate::model::assemble::Surroundings;
 use crate::sheet::build::{self, Drawn};
 use crate::sheet::generate::{MiuraPatch, Random};
-use crate::sheet::{Pattern, Sheet, fold, generate};
+use crate::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use crate::validation::experiment::ExperimentError;
 use crate::validation::{library, star};
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
@@ -174,14 +173,23 @@ fn flat() -> Result<Family, ExperimentError> {
 fn folded() -> Result<Family, ExperimentError> {
     let pattern = Pattern::MiuraPatch(MiuraPatch { cells: [2, 2], ..MiuraPatch::default() });
     let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("Miura-ori cannot be generated".into()))?;
-    let lock = first_zigzag(&sheet).ok_or(ExperimentError::Other("Miura-ori has no zigzag".into()))?;
+    let zigzag = |k: usize| {
+        let [a, b] = sheet.edges[k].key.ends().map(|end| sheet.position(end));
+        (a.x - b.x).abs() > 1e-9
+    };
+    let creases: Vec<usize> = (0..sheet.edges.len()).filter(|&k| sheet.edges[k].kind == EdgeKind::Crease).collect();
+    let signs: Vec<f64> =
+        sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).map_or(f64::NAN, f64::signum)).collect();
+    let lock = *creases.iter().find(|&&k| zigzag(k)).ok_or(ExperimentError::Other("Miura-ori has no zigzag".into()))?;
     let angles = [1e-12, 1e-6, 1e-3, 1e-2, 0.05, 0.2].map(|a| (format!("{a:e}"), a));
     let ends = [0.2, 0.05, 1e-2, 1e-3, 1e-6, 1e-12].map(|a| (format!("pi - {a:e}"), PI - a));
     let cases = angles.into_iter().chain(ends).map(|(name, angle)| {
-        let mut expected = fold_angles(&sheet, FRAC_PI_3, angle);
-        let locked = Some((lock, expected[lock]));
-        let trial = Trial { lock: locked, ..Trial::rigid(sheet.clone(), [1, 1], 0.0) };
-        expected[lock] = f64::NAN; // a lock is no hinge
+        let straight = 2.0 * (FRAC_PI_3.cos() * (angle / 2.0).tan()).atan();
+        let mut expected = vec![f64::NAN; sheet.edges.len()];
+        creases.iter().for_each(|&k| expected[k] = signs[k] * if zigzag(k) { angle } else { straight });
+        let lock = Some((lock, expected[lock]));
+        let trial = Trial { lock, ..Trial::rigid(sheet.clone(), [1, 1], 0.0) };
+        expected[lock.map_or(0, |(k, _)| k)] = f64::NAN; // a lock is no hinge
         case(name, move || judge(|found| within(seen(&found.angles, &expected), 1e-6))(&trial))
     });
     Ok(Family {
