@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks scenes against the schema that `foldwell schema` prints: it has to accept each of them, and refuse it with a key
+"""Checks scenes against the published schema: it has to accept each of them, and refuse it with a key
 that does not exist, in every table.
 
     python .ci/check_scenes.py SCHEMA.json SCENE.toml...        needs: jsonschema

@@ -13,8 +13,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use foldwell::output;
 use foldwell::output::summary::{StudyResult, StudySummary, to_json};
 use foldwell::run::{self, RunError, RunOptions, RunReport};
 use foldwell::validation::{self, ValidateOptions, ValidationError};
@@ -93,13 +94,27 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
-    /// Print the JSON schema of a scene
-    Schema,
+    /// Print the JSON schema of a scene, or of the summary that a run writes
+    Schema {
+        /// Of what
+        #[arg(value_enum, default_value_t)]
+        of: Described,
+    },
     /// Print a script that completes commands in a shell
     Completions {
         /// The shell
         shell: Shell,
     },
+}
+
+/// What has a JSON schema.
+#[derive(Clone, Copy, Default, ValueEnum)]
+enum Described {
+    /// A scene file
+    #[default]
+    Scene,
+    /// `summary.json`
+    Summary,
 }
 
 /// Why a command did not give its answer.
@@ -156,7 +171,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             Ok(0)
         }
         Command::Validate { claims, quick, out } => validate(&ValidateOptions { quick, out, only: claims }),
-        Command::Schema => say(&foldwell::scene::schema()),
+        Command::Schema { of: Described::Scene } => say(&foldwell::scene::schema()),
+        Command::Schema { of: Described::Summary } => say(&output::schema::schema()),
         Command::Completions { shell } => say(&completions(shell)),
     }
 }

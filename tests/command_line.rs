@@ -43,6 +43,9 @@ fn schema_and_completions() {
     let schema = foldwell(folder.path(), "schema");
     let json: serde_json::Value = serde_json::from_slice(&schema.stdout).expect("the schema is JSON");
     assert_eq!((schema.status.code(), json["title"].as_str()), (Some(0), Some("foldwell scene")));
+    let schema = foldwell(folder.path(), "schema summary");
+    let json: serde_json::Value = serde_json::from_slice(&schema.stdout).expect("the schema is JSON");
+    assert_eq!((schema.status.code(), json["title"].as_str()), (Some(0), Some("foldwell summary")));
     let script = foldwell(folder.path(), "completions bash");
     assert!(script.status.success() && String::from_utf8_lossy(&script.stdout).contains("_foldwell()"));
 }

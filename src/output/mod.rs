@@ -9,6 +9,7 @@ pub mod files;
 pub mod picture;
 pub mod plot;
 mod projection;
+pub mod schema;
 pub mod sphere_plot;
 pub mod strain_plot;
 pub mod strain_space;

@@ -1,22 +1,26 @@
 //! The summary of a run (`summary.json`) and of a sheet (`foldwell info`).
 //!
-//! Numbers that were not computed, NaN and infinity are `null`.
+//! Numbers that were not computed, NaN and infinity are `null`. The docs of the keys are the descriptions of the JSON schema
+//! ([`schema::schema`]); a key that can be `null` says when.
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::OutputError;
 use super::files;
+use super::schema;
 
-/// `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// What a run of `foldwell` found: `summary.json`. Angles are radians; lengths and energies have the units of the scene.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "foldwell summary")]
 pub struct Summary {
     /// Version of the program.
     pub version: &'static str,
     /// The scene file, as it was named.
     pub scene: String,
-    /// Changes with the scene and every file it names, see [`crate::scene::digest`].
+    /// A fingerprint of the scene and of every file that it names.
     pub digest: String,
     /// The sheet.
     pub sheet: SheetSummary,
@@ -29,7 +33,7 @@ pub struct Summary {
 }
 
 /// Counts of one cell, and of the model.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct SheetSummary {
     /// Vertices of a cell.
     pub vertices: usize,
@@ -48,23 +52,26 @@ pub struct SheetSummary {
 }
 
 /// What came out of a study.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StudySummary {
     /// Its name.
     pub name: String,
-    /// Its kind.
+    /// Its kind; the other keys depend on it.
+    #[schemars(schema_with = "schema::kind")]
     pub kind: String,
     /// Whether it gave its answer.
     pub converged: bool,
-    /// Time, drawing and writing excluded.
+    /// Time in seconds, drawing and writing excluded.
     pub seconds: f64,
-    /// The study's own error estimate.
+    /// The study's own error estimate; null where it gave no answer.
     pub error: Option<f64>,
-    /// Why it did not converge.
+    /// Why it did not converge; absent where it did.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "String")]
     pub reason: Option<String>,
-    /// The keys of its kind; `None` where it did not get so far.
+    /// The keys of its kind; null where it did not get so far.
     #[serde(flatten)]
+    #[schemars(schema_with = "schema::answers")]
     pub result: Option<StudyResult>,
 }
 
@@ -90,8 +97,8 @@ pub enum StudyResult {
     Trace(TraceSummary),
 }
 
-/// Energy by terms; `None`: the term is not there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// Energy by terms; null where the term is not there, or not finite after a relaxation that failed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct EnergySummary {
     /// Stretching.
     pub bars: Option<f64>,
@@ -100,11 +107,12 @@ pub struct EnergySummary {
     /// Bending of polygons.
     pub facets: Option<f64>,
     /// Their sum: the elastic energy.
+    #[schemars(with = "Option<f64>")]
     pub total: f64,
 }
 
 /// An equilibrium.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RelaxSummary {
     /// Energy of the last state.
     pub energy: EnergySummary,
@@ -114,39 +122,44 @@ pub struct RelaxSummary {
     pub factorizations: usize,
     /// Solves with a factorization that was there already.
     pub chord_solves: usize,
-    /// Largest unbalanced force over the largest force of any term.
+    /// Largest unbalanced force over the largest force of any term; null where a relaxation failed before it was known.
+    #[schemars(with = "Option<f64>")]
     pub residual_force: f64,
-    /// Largest error of a length over the mean edge.
+    /// Largest error of a length over the mean edge; null where a relaxation failed before it was known.
+    #[schemars(with = "Option<f64>")]
     pub residual_length: f64,
-    /// Negative eigenvalues of the energy's Hessian on what the rigid terms leave free.
+    /// Negative eigenvalues of the energy's Hessian on what the rigid terms leave free; null where it did not converge.
     pub negative_eigenvalues: Option<usize>,
-    /// Redundant rigid terms.
+    /// Redundant rigid terms; null where they were not counted.
     pub self_stresses: Option<usize>,
-    /// Largest difference of a fold angle to the exact solver.
+    /// Largest difference of a fold angle to the exact solver; null where that says nothing.
     pub error_to_kinematic: Option<f64>,
     /// A row per iteration.
     pub history: Vec<IterationSummary>,
 }
 
-/// One iteration of a relaxation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// One iteration of a relaxation; null: not finite, before a relaxation failed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IterationSummary {
     /// Number of the iteration; 0 is the start.
     pub iteration: usize,
     /// The merit: the energy, with the stiff terms through their tensions.
+    #[schemars(with = "Option<f64>")]
     pub energy: f64,
     /// Largest unbalanced force over the largest force of any term.
+    #[schemars(with = "Option<f64>")]
     pub residual_force: f64,
     /// Largest error of a length over the mean edge.
+    #[schemars(with = "Option<f64>")]
     pub residual_length: f64,
     /// Fraction of the Newton step that was taken.
     pub step: f64,
-    /// Shift added to the Hessian.
+    /// Shift added to the Hessian, over its largest diagonal entry.
     pub shift: f64,
 }
 
 /// Modes of a state.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ModesSummary {
     /// Null space of the rigidity matrix of the bars.
     pub zero_modes: usize,
@@ -154,91 +167,96 @@ pub struct ModesSummary {
     pub self_stresses: usize,
     /// Zero modes that move the sheet as a whole.
     pub rigid_motions: usize,
-    /// Null space of the closure conditions in fold angles; `None` where these do not say all, or are too many.
+    /// Null space of the closure conditions in fold angles; null where these do not say all, or are too many.
     pub folding_modes: Option<usize>,
     /// Columns minus rows of the rigidity matrix.
     pub maxwell_count: i64,
-    /// Smallest singular value that was kept over the largest that was dropped.
+    /// Smallest singular value that was kept over the largest that was dropped; null: none was dropped, or it was 0.
     pub gap: Option<f64>,
     /// Lowest eigenvalues of the energy's Hessian, ascending.
     pub eigenvalues: Vec<f64>,
 }
 
 /// The trajectories of a study.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TraceSummary {
     /// One for each ray that was followed; where no ray is real, the one entry that says so.
     pub branches: Vec<TrajectorySummary>,
 }
 
 /// A trajectory along one ray.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TrajectorySummary {
-    /// Number of the branch.
+    /// Number of the branch; null where no ray is real.
     pub branch: Option<usize>,
-    /// Which way along it, +1 or -1.
+    /// Which way along it, +1 or -1; null where no ray is real.
+    #[schemars(schema_with = "schema::sign_or_null")]
     pub sign: Option<i8>,
     /// Whether the fold angles come back to the start modulo 2 pi.
     pub closed: bool,
-    /// Length in fold angles.
+    /// Length in fold angles, radians.
     pub arc_length: f64,
     /// Accepted steps.
     pub steps: usize,
     /// Corrections of all steps.
     pub iterations: usize,
-    /// Largest closure residual.
+    /// Largest residual: of closure, or scaled, of the relaxations beside.
     pub max_residual: f64,
-    /// The ray along which it comes back.
+    /// The ray along which it comes back; null where it does not.
     pub ends_at: Option<RayName>,
-    /// closed, stop, failed or no-real-branch.
+    /// How it ended.
+    #[schemars(extend("enum" = ["closed", "stop", "failed", "no-real-branch"]))]
     pub end: String,
-    /// Where faces first pass through each other.
+    /// Where faces first pass through each other; null where they do not, or it was not asked.
     pub first_self_intersection: Option<ArcLength>,
-    /// Largest difference of a fold angle to the energy's.
+    /// Largest difference of a fold angle to the energy's; null where the two were not compared.
     pub error_to_kinematic: Option<f64>,
     /// Where curvature and strains turn.
     pub turning_points: Vec<TurningPoint>,
 }
 
 /// A ray by its branch and sign.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RayName {
     /// Number of the branch.
     pub branch: usize,
     /// +1 or -1.
+    #[schemars(schema_with = "schema::sign")]
     pub sign: i8,
 }
 
 /// A place on a trajectory.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ArcLength {
-    /// Arc length in fold angles.
+    /// Arc length in fold angles, radians.
     pub arc_length: f64,
 }
 
 /// An extremum of a quantity along a trajectory.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TurningPoint {
     /// Which quantity.
+    #[schemars(extend("enum" = ["curvature", "strain11", "strain22", "strain12"]))]
     pub of: String,
-    /// Arc length in fold angles.
+    /// Arc length in fold angles, radians.
     pub arc_length: f64,
     /// Its value there.
     pub value: f64,
 }
 
 /// The landscapes of a study.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LandscapeSummary {
     /// One for each mode.
     pub modes: Vec<ModeLandscape>,
     /// Energies in all directions, where they were asked for.
     #[serde(skip_serializing_if = "Option::is_none", default)]
+    #[schemars(with = "MapSummary")]
     pub map: Option<MapSummary>,
 }
 
 /// Energies over the sphere of curvature tensors.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapSummary {
     /// Norm of the tensors.
     pub amplitude: f64,
@@ -252,21 +270,22 @@ pub struct MapSummary {
     pub largest_energy: f64,
     /// Points on the exact cone of cylinders that the kinematics found.
     pub cone_points: usize,
-    /// Largest angle, in radians, between some of these points and the zeros of the energy beside them.
+    /// Largest angle, in radians, between some of these points and the zeros of the energy beside them; null without any.
     pub cone_distance: Option<f64>,
 }
 
-/// What a mode costs.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// What a mode costs; null: too few samples for a fit, or no prediction.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ModeLandscape {
-    /// The curvature tensor `[k11, k22, k12]` of a mode of a patch.
+    /// The curvature tensor `[k11, k22, k12]` of a mode of a patch; null for waves.
     pub mode: Option<[f64; 3]>,
     /// How often a mode of a torus goes round it, where it was named so.
     #[serde(skip_serializing_if = "Option::is_none", default)]
+    #[schemars(with = "[i32; 2]")]
     pub wave: Option<[i32; 2]>,
     /// By rising amplitude.
     pub samples: Vec<SampleSummary>,
-    /// Slope of log energy on the smallest amplitudes, and its standard error.
+    /// Slope of log energy on the smallest amplitudes.
     pub exponent: Option<f64>,
     /// Standard error of the exponent.
     pub exponent_error: Option<f64>,
@@ -280,23 +299,23 @@ pub struct ModeLandscape {
     pub predicted_fifth: Option<f64>,
     /// Coefficient of the sixth power, without a fit: where the fourth vanishes it leads.
     pub predicted_sixth: Option<f64>,
-    /// Gaussian curvature `k11 k22 - k12^2` of the mode of a patch.
+    /// Gaussian curvature `k11 k22 - k12^2` of the mode of a patch; null for waves.
     pub defect: Option<f64>,
 }
 
 /// A sample of a landscape.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SampleSummary {
     /// Amplitude of the mode.
     pub amplitude: f64,
-    /// Energy of the relaxed patch.
+    /// Energy of the relaxed patch; null where it was not found.
     pub energy: Option<f64>,
     /// Whether it was found.
     pub converged: bool,
 }
 
 /// Spatially varying modes.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BlochSummary {
     /// `[m, n, c]` of the centred determinant `sum c z1^m z2^n`.
     pub determinant: Vec<[f64; 3]>,
@@ -316,7 +335,7 @@ pub struct BlochSummary {
     pub polarization: [f64; 2],
     /// Mean numbers of roots on the unit circle.
     pub on_circle: [f64; 2],
-    /// Part of the zone in which the determinant is positive; `None` where it is not real.
+    /// Part of the zone in which the determinant is positive; null where it is not real.
     pub positive_fraction: Option<f64>,
     /// Number of lines of zeros in the zone.
     pub zero_lines: usize,
@@ -324,19 +343,19 @@ pub struct BlochSummary {
     pub lines: Vec<ZeroLineSummary>,
     /// Parts of the zone of one sign, the largest first.
     pub regions: Vec<RegionSummary>,
-    /// Order to which the determinant vanishes at `q = 0`; `None` where it is not real.
+    /// Order to which the determinant vanishes at `q = 0`; null where it is not real.
     pub order_at_origin: Option<usize>,
     /// Angles in the plane of `(q1, q2)` at which zero lines pass `q = 0`.
     pub directions: Vec<f64>,
     /// Rotation angles from a cell to the next of the state that was asked about: wavenumbers of its rotations about
-    /// directions across the axis. `None` of the drawn state.
+    /// directions across the axis. Null of the drawn state.
     pub theta: Option<[f64; 2]>,
-    /// Distance of these wavenumbers from a zero of the determinant, its value there over its gradient.
+    /// Distance of these wavenumbers from a zero of the determinant, its value there over its gradient; null of the drawn state.
     pub theta_to_zero: Option<f64>,
 }
 
 /// Stable states, and the barriers between them.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WellsSummary {
     /// Random starts.
     pub starts: usize,
@@ -348,12 +367,12 @@ pub struct WellsSummary {
     pub wells: Vec<WellSummary>,
     /// Those that were asked for.
     pub barriers: Vec<BarrierSummary>,
-    /// The same in fold angles alone, where it was asked for.
+    /// The same in fold angles alone; null where it was not asked for.
     pub rigid: Option<RigidSummary>,
 }
 
 /// A stable state.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WellSummary {
     /// Energy.
     pub energy: f64,
@@ -365,12 +384,12 @@ pub struct WellSummary {
     pub residual_force: f64,
     /// Largest error of a length over the mean edge.
     pub residual_length: f64,
-    /// Number of the well of the rigid sheet with these fold angles, if there is one.
+    /// Number of the well of the rigid sheet with these fold angles; null where there is none.
     pub rigid: Option<usize>,
 }
 
-/// A barrier that was asked for.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// A barrier that was asked for; null: not found, or not asked for.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BarrierSummary {
     /// Between which wells.
     pub between: [usize; 2],
@@ -384,7 +403,7 @@ pub struct BarrierSummary {
     pub height: Option<[f64; 2]>,
     /// Whether there is no regular pass at the sheet's own stiffness, which is infinite: branches cross there.
     pub singular: bool,
-    /// Energies tend to their rigid limit as this power of 1/stiffness; `None` where they are too few or too close.
+    /// Energies tend to their rigid limit as this power of 1/stiffness; null where they are too few or too close.
     pub exponent: Option<f64>,
     /// Their limit, extrapolated.
     pub limit: Option<f64>,
@@ -394,22 +413,23 @@ pub struct BarrierSummary {
     pub residual: Option<f64>,
     /// The pass on its way from soft bars.
     pub heights: Vec<HeightSummary>,
-    /// Why there is no pass.
+    /// Why there is no pass; absent where there is.
     #[serde(skip_serializing_if = "Option::is_none", default)]
+    #[schemars(with = "String")]
     pub reason: Option<String>,
 }
 
 /// A pass at one stiffness of the bars.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HeightSummary {
-    /// Stiffness of the bars; `None`: rigid.
+    /// Stiffness of the bars; null: rigid.
     pub bars: Option<f64>,
     /// Energy of the pass.
     pub energy: f64,
 }
 
 /// Wells and passes of a rigid sheet.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RigidSummary {
     /// Dimension of the folded states.
     pub dimension: usize,
@@ -426,7 +446,7 @@ pub struct RigidSummary {
 }
 
 /// A pass of a rigid sheet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RigidPassSummary {
     /// The lowest wells on its sides.
     pub joins: [usize; 2],
@@ -437,7 +457,7 @@ pub struct RigidPassSummary {
 }
 
 /// Roots at one wavenumber.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DecaySummary {
     /// The wavenumber.
     pub q1: f64,
@@ -448,7 +468,7 @@ pub struct DecaySummary {
 }
 
 /// A line of zeros of the determinant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ZeroLineSummary {
     /// How often it goes round the zone along both wavenumbers.
     pub winding: [i32; 2],
@@ -461,22 +481,24 @@ pub struct ZeroLineSummary {
 }
 
 /// A part of the zone in which the determinant has one sign.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RegionSummary {
     /// The sign, +1 or -1.
+    #[schemars(schema_with = "schema::sign")]
     pub sign: i8,
     /// Its part of the zone.
     pub fraction: f64,
 }
 
 /// The surface of folded states.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SurfaceSummary {
     /// States.
     pub points: usize,
     /// Triangles of states.
     pub triangles: usize,
-    /// How the covering ended: complete, open, too-many-points, interrupted or no-real-branch.
+    /// How the covering ended.
+    #[schemars(extend("enum" = ["complete", "open", "too-many-points", "interrupted", "no-real-branch"]))]
     pub coverage: String,
     /// Whether the surface has no border: it closes modulo 2 pi without meeting the largest curvature.
     pub closed: bool,
@@ -495,24 +517,25 @@ pub struct SurfaceSummary {
 }
 
 /// The states that were reached from one nappe.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PieceSummary {
     /// Number of the branch: the same for nappes opposite each other, and for those on one piece of the surface.
     pub branch: usize,
     /// Sign of the curvature with which it leaves the drawn state.
+    #[schemars(schema_with = "schema::sign")]
     pub sign: i8,
     /// States.
     pub points: usize,
 }
 
 /// The branches along which exact folding leaves the drawn state.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BranchesSummary {
     /// Linear folding motions.
     pub modes: usize,
     /// Independent quadrics that these must satisfy to extend.
     pub quadrics: usize,
-    /// Positive, negative and zero eigenvalues of the quadric, where it is just one.
+    /// Positive, negative and zero eigenvalues of the quadric; null where it is not just one.
     pub signature: Option<[usize; 3]>,
     /// Dimension of the set of solutions: 0 points, 1 a curve, and so on.
     pub dimension: usize,
@@ -526,7 +549,8 @@ pub struct BranchesSummary {
     pub on_continua: usize,
     /// Solutions of random combinations that do not satisfy all quadrics.
     pub extraneous: usize,
-    /// Real singular points of the set of solutions, where it is a curve or of one quadric, and they are single points.
+    /// Real singular points of the set of solutions, where it is a curve or of one quadric, and they are single points;
+    /// otherwise null.
     pub singular: Option<usize>,
     /// Number of isolated real rays, two for each real solution.
     pub real_rays: usize,
@@ -535,17 +559,19 @@ pub struct BranchesSummary {
 }
 
 /// A direction in which folding leaves the drawn state.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RaySummary {
     /// Number of the branch, the same for a ray and its opposite.
     pub branch: usize,
     /// 1 for the ray whose first rate beyond 1e-6 is positive, -1 for its opposite.
+    #[schemars(schema_with = "schema::sign")]
     pub sign: i8,
     /// Multiplicity of the solution.
     pub multiplicity: usize,
     /// Rates of the fold angles of all edges, of norm 1.
     pub direction: Vec<f64>,
-    /// Sign of the curvature, positive towards the face normals; `None` for a finite sheet.
+    /// Sign of the curvature, positive towards the face normals, 0 without any; null for a finite sheet.
+    #[schemars(extend("minimum" = -1, "maximum" = 1))]
     pub curvature_sign: Option<i8>,
 }
 

@@ -60,6 +60,12 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "large-residuals"
     "large-time"
     "large-memory"
+    "ten-thousand-nothing-wrong"
+    "ten-thousand-mostly-right"
+    "ten-thousand-seldom-refused"
+    "cells-closed-form"
+    "cells-residuals"
+    "cells-memory"
 );
 
 /// Files of `meshes` that claims need.

@@ -83,7 +83,7 @@ fn table(sizes: &[Size]) -> Grid {
 }
 
 /// Most memory that this process has had, in MB, where the system tells.
-fn memory() -> Option<f64> {
+pub(super) fn memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(line.trim().trim_end_matches("kB").trim().parse::<f64>().ok()? / 1024.0)

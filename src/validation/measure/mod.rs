@@ -2,6 +2,7 @@
 
 use super::experiment::{Bench, ExperimentError, Findings};
 
+mod cells;
 mod extremes;
 mod files;
 mod invariances;
@@ -19,11 +20,13 @@ pub type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
 
 /// The measurements by name.
 const MEASUREMENTS: &[(&str, Measurement)] = &[
+    ("cells", cells::measure),
     ("files", files::measure),
     ("invariances", invariances::measure),
     ("extremes", extremes::measure),
     ("large", large::measure),
     ("random scenes", extremes::random_scenes),
+    ("ten thousand scenes", extremes::ten_thousand_scenes),
     ("rigid limit", rigid_limit::measure),
     ("sizes", sizes::measure),
     ("steps", steps::measure),
