@@ -10,7 +10,7 @@ use foldwell::model::{Gauge, Model};
 use foldwell::sheet::generate::{MiuraPatch, Pattern, Random};
 use foldwell::sheet::{EdgeKind, Sheet, generate};
 use foldwell::solver::Problem;
-use nalgebra::{Complex, Rotation3};
+use nalgebra::Rotation3;
 
 const DOMAINS: [Surroundings; 4] =
     [Surroundings::Patch, Surroundings::FixedTorus, Surroundings::FreeTorus, Surroundings::Screw];

@@ -59,7 +59,7 @@ impl Local {
         let unit = |k: usize| if k < points { 1.0 } else { units[k - points] };
         self.gradient.iter_mut().enumerate().for_each(|(k, g)| *g *= unit(k));
         let places = (0..points + units.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
-        self.hessian.iter_mut().zip(places).for_each(|(h, (row, column))| *h *= unit(row) * unit(column));
+        self.hessian.iter_mut().zip(places).for_each(|(h, (row, column))| *h = *h * unit(row) * unit(column));
     }
 }
 
