@@ -133,18 +133,15 @@ impl Springs {
         None
     }
 
-    /// The closed state nearest to `x`, across the tangents there: closed as well as rounding lets it be.
+    /// The closed state nearest to `x`, across the tangents there.
     fn close(&self, closing: &mut Closing<'_>, x: &mut [f64]) -> Option<()> {
         let mut residual = vec![0.0; closing.equations()];
         let mut jacobian = DenseMatrix::zeros(residual.len(), x.len());
-        let mut last = f64::INFINITY;
         for _ in 0..CORRECTIONS {
             closing.linearize(x, &mut residual, &mut jacobian);
-            let open = residual.iter().fold(0.0, |most: f64, component| most.max(component.abs()));
-            if residual.iter().all(|component| component.abs() <= CLOSED) && !(open < 0.1 * last) {
+            if residual.iter().all(|component| component.abs() <= CLOSED) {
                 return Some(());
             }
-            last = open;
             let svd = full_svd(&jacobian).ok()?;
             let rank = rank_at_largest_gap(&svd.singular_values).ok()?.rank;
             let parts = svd.u.columns(0, rank).tr_mul(&DVector::from_column_slice(&residual));
