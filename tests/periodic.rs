@@ -3,8 +3,15 @@
 
 mod common;
 
-use common::Case;
-use foldwell::model::assemble::Surroundings;
+use common::{Case, Numbers};
+use foldwell::analysis::axis::drawn_for;
+use foldwell::analysis::exact::error_to_kinematic;
+use foldwell::analysis::relax::{RelaxError, relax};
+use foldwell::model::Gauge;
+use foldwell::model::assemble::{Surroundings, assemble};
+use foldwell::sheet::generate::Random;
+use foldwell::sheet::{Pattern, generate};
+use foldwell::solver::Options;
 
 /// Claim: `open-star` with rest angles within 0.1 rad of the drawn ones relaxes on every periodic domain at every
 /// stiffness to 1e-12, to a minimum, in at most 25 iterations. The generic self stresses are 0, 0 and 3.
@@ -53,4 +60,64 @@ fn a_screw_goes_to_its_rigid_limit() {
     let rigid = run(f64::INFINITY);
     let scaled = [1e8, 1e10].map(|k| k * common::distance(&run(k), &rigid));
     assert!((scaled[0] / scaled[1] - 1.0).abs() < 0.01 && scaled[1] > 1e-2, "{scaled:?}");
+}
+
+/// A screw whose creases rest within `off` of the drawn angles, relaxed from the drawn state with rigid bars, its axis laid
+/// where folding starts best: steps, fold angles, and the difference to the exact kinematics where that knows better.
+fn relaxed_screw(case: &Case, off: f64, seed: u64) -> Result<(usize, Vec<f64>, Option<f64>), Box<RelaxError>> {
+    let recipe = case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(off, seed));
+    let drawn = drawn_for(&case.sheet, &case.tiling, Surroundings::Screw, &recipe);
+    let mut model = assemble(&drawn, &case.tiling, &recipe, Gauge::Held);
+    let start = model.start();
+    let found = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true)?;
+    let angles = found.state.fold_angle;
+    let error = error_to_kinematic(&case.sheet, &case.tiling, &model, &angles);
+    Ok((found.iterations, angles, error))
+}
+
+/// Claim: next to the state without curvature, where direction and curvature of the axis are polar coordinates, random cells
+/// relax as quickly and as exactly as elsewhere, however near their rest angles are to the drawn ones. Where the exact
+/// kinematics knows its own angles to 1e-10 it says the same: forces right to 1e-12 of a milliradian's, over the softest
+/// eigenvalue, are far below 1e-9. A third of the cells has to be judged, so that the claim is not empty: a count, set after 43 of
+/// 90 were; of the others, the nearest to zero curvature, convergence and steps are all that is shown.
+#[test]
+fn screws_relax_next_to_zero_curvature() {
+    let (mut failed, mut judged, mut all) = (Vec::new(), 0, 0);
+    for seed in 0..6 {
+        for size in [[2, 2], [2, 3], [3, 3]] {
+            let sheet = generate(&Pattern::Random(Random { size, seed, ..Random::default() })).unwrap();
+            let case = Case::new(sheet, [1, 1], Surroundings::Screw);
+            for off in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
+                all += 1;
+                match relaxed_screw(&case, off, Numbers::new(seed).within(1e6).abs() as u64) {
+                    Ok((steps, _, error)) => {
+                        judged += usize::from(error.is_some());
+                        if steps > 25 || !(error.unwrap_or(0.0) <= 1e-9) {
+                            failed.push(format!("{size:?}, {off:e}, seed {seed}: {steps} steps, off by {error:?}"));
+                        }
+                    }
+                    Err(error) => failed.push(format!("{size:?}, {off:e}, seed {seed}: {error}")),
+                }
+            }
+        }
+    }
+    assert!(failed.is_empty() && 3 * judged >= all, "{} of {all} failed, {judged} judged: {failed:#?}", failed.len());
+}
+
+/// Claim: the unit of length does not matter on a screw: the same fold angles, in as many steps give or take two. Tolerance:
+/// angles known to 1e-15 over the softest eigenvalue, about 0.01.
+#[test]
+fn a_screw_in_any_unit_of_length() {
+    let run = |unit: f64| {
+        let mut sheet = common::mesh("open-star");
+        sheet.vertices.iter_mut().for_each(|p| *p *= unit);
+        sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| l * unit));
+        relaxed_screw(&Case::new(sheet, [1, 1], Surroundings::Screw), 0.1, 1).unwrap()
+    };
+    let (steps, expected, _) = run(1.0);
+    for power in [-60, -30, -12, -3, 3, 12, 30, 60] {
+        let (taken, angles, _) = run(10f64.powi(power));
+        let off = common::distance(&angles, &expected);
+        assert!(off <= 1e-12 && taken.abs_diff(steps) <= 2, "1e{power}: off by {off:e}, {taken} and {steps} steps");
+    }
 }

@@ -10,7 +10,7 @@ use foldwell::model::{Gauge, Model};
 use foldwell::sheet::generate::{MiuraPatch, Pattern, Random};
 use foldwell::sheet::{EdgeKind, Sheet, generate};
 use foldwell::solver::Problem;
-use nalgebra::{Complex, Rotation3};
+use nalgebra::Rotation3;
 
 const DOMAINS: [Surroundings; 4] =
     [Surroundings::Patch, Surroundings::FixedTorus, Surroundings::FreeTorus, Surroundings::Screw];
@@ -85,8 +85,8 @@ fn energy_and_forces_move_with_the_sheet() {
     }
 }
 
-/// Claim: a screw sheet keeps its energy when it is moved along the axis, turned about it, and when the gauge is
-/// changed: all z moved by d and the radius 1/kappa with it, the angles kappa b as before. Tolerance: as above.
+/// Claim: a screw sheet keeps its energy when it is moved along the axis, turned about it, turned in the plane with its axis, and when
+/// the gauge is changed: all z moved by d and the radius 1/kappa with it, the angles kappa b as before. Tolerance: as above.
 #[test]
 fn a_screw_keeps_its_energy() {
     for seed in 0..8 {
@@ -94,20 +94,29 @@ fn a_screw_keeps_its_energy() {
         let model = free_model(random_sheet(seed), [1, 1], Surroundings::Screw);
         let x = strained(&model, Surroundings::Screw, &mut numbers);
         let before = total_energy(&model, &x);
-        let (vertices, kappa) = (x.len() - 5, x[x.len() - 5]);
-        let axis = Complex::new(0.0, 1.0 / kappa);
-        let (along, turn, lift) =
-            (numbers.within(5.0), Complex::from_polar(1.0, numbers.within(3.0)), numbers.within(0.5));
-        let mut turned = x.clone();
-        let mut lifted = x.clone();
-        for k in (0..vertices).step_by(3) {
-            let w = turn * (Complex::new(x[k + 1], x[k + 2]) - axis) + axis;
-            turned[k..k + 3].copy_from_slice(&[x[k] + along, w.re, w.im]);
-            lifted[k + 2] += lift;
-        }
-        lifted[vertices] = 1.0 / (1.0 / kappa + lift);
-        (1..3).for_each(|b| lifted[vertices + b] *= kappa / lifted[vertices]);
-        for y in [turned, lifted] {
+        let (vertices, shared) = x.split_at(x.len() - 6);
+        let (kappa, plane) = (shared[1], Rotation3::new(Vec3::z() * numbers.within(3.0)));
+        let way = Vec3::new(shared[0].cos(), shared[0].sin(), 0.0);
+        let axis = Vec3::z() / kappa;
+        let turn = Rotation3::new(way * numbers.within(3.0));
+        let (along, lift) = (numbers.within(5.0), numbers.within(0.5));
+        let each = |map: &dyn Fn(Vec3) -> Vec3, shared: Vec<f64>| {
+            let points = vertices.chunks(3).flat_map(|p| <[f64; 3]>::from(map(Vec3::from_column_slice(p))));
+            points.chain(shared).collect::<Vec<f64>>()
+        };
+        let turned = each(&|p| turn * (p - axis) + axis + along * way, shared.to_vec());
+        let lifted_kappa = 1.0 / (1.0 / kappa + lift);
+        let lattice = [2, 3].map(|k| {
+            let l = Vec3::new(shared[k + 2], shared[k], 0.0);
+            let across = Vec3::z().cross(&way);
+            l + across * across.dot(&l) * (kappa / lifted_kappa - 1.0)
+        });
+        let [l1, l2] = lattice;
+        let lifted = each(&|p| p + Vec3::z() * lift, vec![shared[0], lifted_kappa, l1.y, l2.y, l1.x, l2.x]);
+        let [l1, l2] = [2, 3].map(|k| plane * Vec3::new(shared[k + 2], shared[k], 0.0));
+        let direction = shared[0] + plane.scaled_axis().z;
+        let in_plane = each(&|p| plane * p, vec![direction, kappa, l1.y, l2.y, l1.x, l2.x]);
+        for y in [turned, lifted, in_plane] {
             let after = total_energy(&model, &y);
             assert!((before - after).abs() < 1e-12 * before, "seed {seed}: {before} {after}");
         }
@@ -130,12 +139,16 @@ fn forces_balance() {
         let vertices = x.len() - model.domain().shared();
         let sum: Vec3 = force[..vertices].chunks(3).map(Vec3::from_column_slice).sum();
         let lattice = if screw { vertices } else { x.len() };
-        let arm =
-            |k: usize| Vec3::from_column_slice(&x[k..k + 3]) - Vec3::z() * if screw { 1.0 / x[vertices] } else { 0.0 };
+        let arm = |k: usize| {
+            Vec3::from_column_slice(&x[k..k + 3]) - Vec3::z() * if screw { 1.0 / x[vertices + 1] } else { 0.0 }
+        };
         let torque: Vec3 =
             (0..lattice).step_by(3).map(|k| arm(k).cross(&Vec3::from_column_slice(&force[k..k + 3]))).sum();
         let zeros: Vec<f64> = match surroundings {
-            Surroundings::Screw => vec![sum.x, torque.x],
+            Surroundings::Screw => {
+                let way = Vec3::new(x[vertices].cos(), x[vertices].sin(), 0.0);
+                vec![sum.dot(&way), torque.dot(&way)]
+            }
             Surroundings::FixedTorus => sum.iter().copied().collect(),
             _ => sum.iter().chain(&torque).copied().collect(),
         };

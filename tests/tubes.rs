@@ -60,28 +60,38 @@ fn tubes_close() {
 }
 
 /// Jacobian of the bars of one screw-periodic cell at an exact state, vertex 0 pinned: `3 Nv` rows, `3 Nv + 2` columns,
-/// with rows for `n1 theta1 + n2 theta2` and `n1 h1 + n2 h2` below, where `theta_a = kappa b_a`.
+/// with rows for `n1 theta1 + n2 theta2` and `n1 h1 + n2 h2` below, where `theta_a = kappa b_a`, `b` across the axis and `h` along it.
 fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -> DenseMatrix {
     let shape = shape(sheet, angles);
     let (positions, rates) = (shape.positions.clone(), vec![]);
     let folded =
         Folded { arc_length: 0.0, angles: angles.to_vec(), rates, shape: Some(shape), positions, residual: 0.0 };
     let case = Case::new(sheet.clone(), [1, 1], Surroundings::Screw);
-    let model = case.model(&Recipe { bars: Some(f64::INFINITY), ..Recipe::default() }, Gauge::Held);
-    let x = model.unknowns(&coordinates(&folded));
+    let mut model = case.model(&Recipe { bars: Some(f64::INFINITY), ..Recipe::default() }, Gauge::Held);
+    let x = model.start_from(coordinates(&folded));
     let at = linearized(&model, &x, &vec![0.0; case.edges()]);
     let stretched = at.gaps.iter().fold(0.0, |most: f64, gap| most.max(gap.abs()));
     assert!(stretched <= 1e-13, "the chart's bars have their drawn lengths: {stretched:e}");
     let (bars, n) = (jacobian(&model, &at), [f64::from(n1), f64::from(n2)]);
     let columns = bars.ncols();
-    let [kappa, b1, b2] = [5, 4, 3].map(|k| x[columns - k]);
-    let turn = [n[0] * b1 + n[1] * b2, n[0] * kappa, n[1] * kappa, 0.0, 0.0];
-    let rise = [0.0, 0.0, 0.0, n[0], n[1]];
-    let wanted: Vec<[f64; 5]> =
-        kept.iter().map(|condition| if *condition == Condition::Turn { turn } else { rise }).collect();
+    let all = model.coordinates(&x);
+    let [direction, kappa, y1, y2, x1, x2] = [6, 5, 4, 3, 2, 1].map(|k| all[all.len() - k]);
+    let ((sin, cos), l) = (f64::sin_cos(direction), [n[0] * x1 + n[1] * x2, n[0] * y1 + n[1] * y2]);
+    let (along, across) = (cos * l[0] + sin * l[1], cos * l[1] - sin * l[0]);
+    let weighed = |parts: [f64; 2]| [n[0] * parts[1], n[1] * parts[1], n[0] * parts[0], n[1] * parts[0]];
+    let turn = [&[-kappa * along, across][..], &weighed([-kappa * sin, kappa * cos])].concat();
+    let rise = [&[across, 0.0][..], &weighed([cos, sin])].concat();
+    let wanted: Vec<&[f64]> =
+        kept.iter().map(|condition| if *condition == Condition::Turn { &turn[..] } else { &rise }).collect();
+    let unit = |column: usize| {
+        let mut rates = vec![0.0; columns];
+        rates[column] = 1.0;
+        model.velocity(&rates).split_off(all.len() - 6)
+    };
+    let rate = |row: &[f64], column: usize| row.iter().zip(unit(column)).map(|(a, b)| a * b).sum::<f64>();
     DenseMatrix::from_fn(bars.nrows() + wanted.len(), columns, |row, column| match row.checked_sub(bars.nrows()) {
         None => bars[(row, column)],
-        Some(extra) => (column + 5).checked_sub(columns).map_or(0.0, |shared| wanted[extra][shared]),
+        Some(extra) => rate(wanted[extra], column),
     })
 }
 

@@ -1,7 +1,7 @@
 //! The coordinates of the model in which an exactly folded state stands.
 //!
 //! Of a screw-periodic state (see [`crate::model::domain`]): x along the axis, z from vertex 0 to the axis where the
-//! curvature is positive and away from it where it is negative, vertex 0 at the origin; then `kappa, b1, b2, h1, h2`.
+//! curvature is positive and away from it where it is negative, vertex 0 at the origin; then the direction 0, the curvature and the lattice across and along the axis.
 
 use super::trace::Folded;
 use crate::kinematics::Shape;
@@ -40,7 +40,7 @@ pub fn screw_coordinates(shape: &Shape) -> Vec<f64> {
         let sinc = if theta == 0.0 { 1.0 } else { theta.sin() / theta };
         if theta.abs() < SMALL_TURN { chords[k].dot(&y) / sinc } else { theta / curvature }
     };
-    coordinates.push(curvature);
+    coordinates.extend([0.0, curvature]);
     coordinates.extend([step(0), step(1), chords[0].dot(&x), chords[1].dot(&x)]);
     coordinates
 }

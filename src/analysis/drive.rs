@@ -117,7 +117,7 @@ impl Track {
         let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
         let edges = question.tiling.edges.len();
         let relaxed = relax(&mut model, ahead, question.options, edges, observe).map_err(|error| error.failure)?;
-        self.keep(model.domain(), state.arc_length, relaxed.state.coordinates.clone());
+        self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());
         self.crease = Some(crease);
         self.angles = self.continued(question, &relaxed.state.coordinates);
         let off = |(a, b): (&f64, &f64)| (a - b).abs();
@@ -132,16 +132,16 @@ impl Track {
         Some(x1.iter().zip(x0).map(|(now, before)| now + part * (now - before)).collect())
     }
 
-    /// Keeps a state, and the one before where it has the same gauge: the height of vertex 0 moves with a screw's axis, and
-    /// rotations jump by whole turns.
-    fn keep(&mut self, domain: &Domain, arc_length: f64, coordinates: Vec<f64>) {
-        let turns = |at: &[f64]| {
-            let [kappa, b1, b2] = [5, 4, 3].map(|back| at[at.len() - back]);
-            [kappa * b1, kappa * b2]
-        };
+    /// Keeps a state, and the one before where it has the same gauge: the height of vertex 0 moves with a screw's axis, what
+    /// keeps it from turning in the plane may change, and rotations jump by whole turns.
+    fn keep(&mut self, domain: &Domain, held: &[bool], arc_length: f64, coordinates: Vec<f64>) {
         let near = |a: [f64; 2], b: [f64; 2]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1.0);
-        let same = |at: &[f64]| {
-            !matches!(domain, Domain::Screw) || (at[..3] == coordinates[..3] && near(turns(at), turns(&coordinates)))
+        let same = |at: &[f64]| match (domain.turns(at), domain.turns(&coordinates)) {
+            (Some(there), Some(here)) => {
+                let fixed = (0..at.len()).filter(|&k| held[k]).all(|k| at[k] == coordinates[k]);
+                fixed && near(there.theta, here.theta)
+            }
+            _ => true,
         };
         self.known.retain(|(_, at)| same(at));
         if self.known.len() == 2 {

@@ -8,7 +8,9 @@
 use crate::kinematics::{Closing, Closure};
 use crate::model::{Domain, Model};
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::{full_svd, least_squares, null_space, rank_at_largest_gap, symmetric_eigenvalues};
+use crate::numerics::dense::{
+    NullSpace, full_svd, least_squares, null_space, rank_at_largest_gap, symmetric_eigenvalues,
+};
 use crate::sheet::{Sheet, Tiling};
 use crate::solver::Implicit;
 use nalgebra::DVector;
@@ -20,6 +22,8 @@ const CORRECTIONS: usize = 10;
 /// Residual of closure, and last change of an angle, of a state that is found.
 const CLOSED: f64 = 1e-13;
 const SETTLED: f64 = 1e-11;
+/// Largest error of the exact state itself, in radians, with which it is worth a comparison.
+const KNOWN: f64 = 1e-10;
 /// Largest change of an angle in a step.
 const LONGEST: f64 = 0.3;
 
@@ -43,6 +47,9 @@ pub struct Stationary {
     pub negative_eigenvalues: usize,
     /// Largest component of the closure residual.
     pub residual: f64,
+    /// How far from closed the angles may be, in radians: the residual over the smallest singular value of closure that is none of
+    /// its zeros. Next to a state with more motions, as that of a screw without curvature, it is the larger the nearer it is.
+    pub error: f64,
 }
 
 /// The energy along the closed states at one of them, to second order in coordinates along its tangents.
@@ -52,16 +59,18 @@ struct Along {
     /// Falls of the energy.
     pull: DenseMatrix,
     hessian: DenseMatrix,
+    /// Smallest singular value of closure that is not zero.
+    least: f64,
 }
 
 /// Largest difference of a fold angle to the exact equilibrium near a relaxed state with these fold angles, of all edges of the
 /// tiling, in radians.
 ///
 /// `None` where there is none to compare with: loads pull, vertices are pinned, the sheet is periodic without screws or has openings, it is too
-/// large, or no exact state is found nearby.
+/// large, no exact state is found nearby, or what is found is not known well enough itself.
 pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
     let springs = Springs::new(sheet, tiling, model, angles)?;
-    let exact = springs.stationary(&springs.start)?.angles;
+    let exact = springs.stationary(&springs.start).filter(|exact| exact.error <= KNOWN)?.angles;
     let known = exact.iter().zip(angles).filter(|(_, angle)| !angle.is_nan());
     Some(known.map(|(exact, angle)| (exact - angle).abs()).fold(0.0, f64::max))
 }
@@ -115,9 +124,10 @@ impl Springs {
             if longest <= SETTLED {
                 self.close(&mut closing, &mut x)?;
                 let angles = closing.angles(&x);
-                let negative = self.along(&closing, &x)?.negative()?;
+                let along = self.along(&closing, &x)?;
                 let (energy, residual) = (self.energy(&angles), self.closure.residual(&angles).amax());
-                return Some(Stationary { angles, energy, negative_eigenvalues: negative, residual });
+                let (negative_eigenvalues, error) = (along.negative()?, residual / along.least);
+                return Some(Stationary { angles, energy, negative_eigenvalues, residual, error });
             }
         }
         None
@@ -147,7 +157,8 @@ impl Springs {
         let folding = self.closure.folding_edges();
         let angles = closing.angles(x);
         let jacobian = self.closure.jacobian(&angles);
-        let tangents = null_space(&jacobian).ok()?.basis;
+        let NullSpace { basis: tangents, singular_values, rank, .. } = null_space(&jacobian).ok()?;
+        let least = rank.checked_sub(1).map_or(f64::INFINITY, |last| singular_values[last]);
         let stiffness = DVector::from_iterator(folding.len(), folding.iter().map(|&edge| self.stiffness[edge]));
         let off = folding.iter().map(|&edge| angles[edge] - self.rest[edge]);
         let force = -stiffness.component_mul(&DVector::from_iterator(folding.len(), off));
@@ -159,7 +170,7 @@ impl Springs {
         let second = self.closure.second_order(&angles, &spread);
         lambda.iter().zip(&second).for_each(|(lambda, part)| hessian += part * (2.0 * lambda));
         let pull = tangents.tr_mul(&right);
-        Some(Along { tangents, pull, hessian })
+        Some(Along { tangents, pull, hessian, least })
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::state::State;
 use crate::model::{Domain, Model};
-use crate::numerics::sparse::FIXED;
 use crate::solver::saddle::Saddle;
 use crate::solver::{
     Curvature, Equilibrium, Failure, Linearization, NewtonError, Options, Problem, Start, Step, minimize, tension,
@@ -17,9 +16,6 @@ const CERTAIN: f64 = 1e-7;
 const ROUGH: f64 = 0.1;
 /// Scaled force above which the state of a sheet under torques is not balanced.
 const UNBALANCED: f64 = 1e-9;
-/// Unknowns that all cells of a screw share, and the part of all forces on one of them that may be left.
-const SHARED: usize = 5;
-const BALANCED: f64 = 1e-6;
 /// How often what holds a sheet against rigid motions is chosen again.
 const HOLDS: usize = 20;
 /// Tolerance of the states in between.
@@ -78,14 +74,14 @@ pub fn relax(
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
     let start = start.into();
-    let origin = model.angles();
+    let (origin, place) = (model.angles(), model.coordinates(&start.x));
     let mut history = Vec::new();
     let found = match minimize(model, start.clone(), options, observe) {
         Err(error) if hopeless(error.failure) => Err(error),
         Err(error) => {
             model.set_angles(&origin);
             history.extend(error.history);
-            follow(model, start.x, options, observe, &mut history)
+            follow(model, place, options, observe, &mut history)
         }
         found => found,
     };
@@ -133,26 +129,28 @@ fn hopeless(failure: Failure) -> bool {
     matches!(failure, Failure::Interrupted | Failure::SingularStart)
 }
 
-/// Continuation in the rest values.
+/// Continuation in the rest values, from a state with these coordinates: those who accept states may change what the unknowns mean.
 fn follow(
     model: &mut Model,
-    start: Vec<f64>,
+    mut place: Vec<f64>,
     options: Options,
     observe: &mut dyn FnMut(&Step) -> bool,
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
+    let start = model.start_from(place.clone());
     let (targets, origin) = (model.rests(), model.values(&start));
-    let (mut x, mut done, mut step) = (start, 0.0, 0.25);
+    let (mut done, mut step) = (0.0, 0.25);
     let loose = Options { tolerance: options.tolerance.max(LOOSE), iterations: options.iterations.min(50) };
     loop {
         let next = f64::min(done + step, 1.0);
         let angles = model.angles();
         model.set_rests(&origin, &targets, next);
-        match minimize(model, x.clone(), if next < 1.0 { loose } else { options }, observe) {
+        let x = model.start_from(place.clone());
+        match minimize(model, x, if next < 1.0 { loose } else { options }, observe) {
             Ok(found) if next == 1.0 => return Ok(found),
             Ok(found) => {
                 history.extend(found.history);
-                (x, done, step) = (found.x, next, 2.0 * step);
+                (place, done, step) = (model.coordinates(&found.x), next, 2.0 * step);
             }
             Err(error) if error.failure == Failure::Interrupted || step <= LEAST_STEP => {
                 model.set_rests(&origin, &targets, 1.0);
@@ -183,9 +181,6 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     let mut at = Linearization::new(layout);
     model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
     let mut saddle = Saddle::new(layout, &at).ok()?;
-    if matches!(model.domain(), Domain::Screw) && strained(model, &found.x) && pulled(model, &at, found) {
-        return Some(f64::INFINITY);
-    }
     let unknown = || (last.residual_force > UNBALANCED && strained(model, &found.x)).then_some(f64::INFINITY);
     if saddle.factor(layout, &at, compliance, 0.0).is_err() {
         return unknown();
@@ -196,33 +191,6 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
         return unknown();
     }
     Some(at.largest_turn(layout, &step.dx))
-}
-
-/// Whether curvature or lattice of a screw are pulled: the force on one of these five unknowns is more than a millionth of what the
-/// elements do to it. They have other units than the coordinates, so the scaled residual may not see them.
-fn pulled(model: &Model, at: &Linearization, found: &Equilibrium) -> bool {
-    let layout = model.layout();
-    let first = layout.unknowns.saturating_sub(SHARED);
-    let mut all = vec![0.0; SHARED];
-    let mut add = |members: &[u32], gradient: &[f64], force: f64| {
-        for (&member, g) in members.iter().zip(gradient).filter(|(member, _)| **member != FIXED) {
-            if let Some(shared) = (member as usize).checked_sub(first) {
-                all[shared] += (force * g).abs();
-            }
-        }
-    };
-    let coordinates = model.coordinates(&found.x);
-    let hinges = model.soft().iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-    for (element, (term, k)) in hinges.enumerate() {
-        let off = term.value(k, model.domain(), &coordinates) - term.spring(k).rest;
-        let gradient = &at.soft_gradients[layout.soft.range(element)];
-        add(layout.soft.members(element), gradient, at.soft_stiffness[element] * off);
-    }
-    for (row, &tension) in found.tension.iter().enumerate() {
-        add(layout.stiff.members(row), &at.jacobian[layout.stiff.range(row)], tension);
-    }
-    let force = at.force(layout, &found.tension);
-    force[first..].iter().zip(&all).any(|(force, all)| force.abs() > BALANCED * all)
 }
 
 /// Whether some soft hinge is off its rest angle by more than rounding errors.

@@ -1,7 +1,7 @@
 //! A state of a model, edge by edge and as a cylinder.
 
 use crate::math::Vec3;
-use crate::model::{Domain, Elements, Model};
+use crate::model::{Domain, Elements, Model, Turns};
 use crate::solver::Problem;
 use std::f64::consts::TAU;
 
@@ -95,17 +95,12 @@ pub struct Cylinder {
 /// The cylinder of a periodic state; `None` on a patch. `drawn` are the coordinates of the drawn state.
 pub fn cylinder(domain: &Domain, drawn: &[f64], x: &[f64]) -> Option<Cylinder> {
     let chords = chords(domain, x)?;
-    let (curvature, theta) = match domain {
-        Domain::Screw => {
-            let shared = &x[x.len() - 5..];
-            let kappa = shared[0];
-            let theta = [shared[1], shared[2]].map(|b| kappa * b - TAU * (kappa * b / TAU).round());
-            let larger = if theta[0].abs() >= theta[1].abs() { theta[0] } else { theta[1] };
-            let sign = if larger < 0.0 { -1.0 } else { 1.0 };
-            (kappa / (1.0 - kappa * x[2]), theta.map(|t| t * sign))
-        }
-        _ => (0.0, [0.0; 2]),
-    };
+    let (curvature, theta) = domain.turns(x).map_or((0.0, [0.0; 2]), |Turns { kappa, theta, .. }| {
+        let theta = theta.map(|theta| theta - TAU * (theta / TAU).round());
+        let larger = if theta[0].abs() >= theta[1].abs() { theta[0] } else { theta[1] };
+        let sign = if larger < 0.0 { -1.0 } else { 1.0 };
+        (kappa / (1.0 - kappa * x[2]), theta.map(|t| t * sign))
+    });
     Some(Cylinder { curvature, theta, strain: strain(self::chords(domain, drawn)?, chords) })
 }
 

@@ -62,7 +62,7 @@ pub struct Drawn {
     pub domain: Domain,
     /// All coordinates.
     pub coordinates: Vec<f64>,
-    /// Coordinates that the domain itself holds: vertex 0 of a screw.
+    /// Coordinates that the domain itself holds: vertex 0 of a screw, and y of its first lattice vector.
     pub held: Vec<usize>,
     /// Rotation from the file's frame to the domain's, about `origin`.
     pub frame: Matrix3<f64>,
@@ -92,19 +92,19 @@ impl Drawn {
         Self { domain, coordinates, held: vec![], frame, origin: Vec3::zeros() }
     }
 
-    /// Vertex 0 at the origin, the axis along x, face normals along +z, no curvature.
+    /// Vertex 0 at the origin, the first lattice vector along x, face normals along +z, no curvature.
     fn screw(sheet: &Sheet, [l1, l2]: [Vec3; 2], axis: f64) -> Self {
         let along = l1.normalize();
         let across = l1.cross(&l2);
         let z = if across.dot(&area_vector(sheet)) < 0.0 { -across.normalize() } else { across.normalize() };
-        let x = axis.cos() * along + axis.sin() * z.cross(&along);
-        let frame = Matrix3::from_rows(&[x.transpose(), z.cross(&x).transpose(), z.transpose()]);
+        let frame = Matrix3::from_rows(&[along.transpose(), z.cross(&along).transpose(), z.transpose()]);
         let origin = sheet.vertices[0];
         let mut coordinates: Vec<f64> =
             sheet.vertices.iter().flat_map(|p| <[f64; 3]>::from(frame * (p - origin))).collect();
         let (l1, l2) = (frame * l1, frame * l2);
-        coordinates.extend([0.0, l1.y, l2.y, l1.x, l2.x]);
-        Self { domain: Domain::Screw, coordinates, held: vec![0, 1, 2], frame, origin }
+        let held = vec![0, 1, 2, coordinates.len() + 2];
+        coordinates.extend([axis, 0.0, l1.y, l2.y, l1.x, l2.x]);
+        Self { domain: Domain::Screw, coordinates, held, frame, origin }
     }
 }
 

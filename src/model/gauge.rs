@@ -13,8 +13,8 @@ pub type Motion = SVector<f64, 6>;
 
 /// Rates of every coordinate under the rigid motions: translations in columns 0 to 2, rotations about the centroid,
 /// scaled by the size of the sheet, in columns 3 to 5 (zero where not wanted or where the
-/// domain cannot turn). A screw's axis is part of its chart: it has no rigid motion
-/// that its coordinates could express with vertex 0 held.
+/// domain cannot turn). A screw can turn in the plane of its axis alone: what stands against that, like vertex 0, is held
+/// by the drawn state itself.
 pub fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
     let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
@@ -30,7 +30,7 @@ pub fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion>
                 rows.extend(rows_of(0.0, turn * Vec3::from_column_slice(l)));
             }
         }
-        Domain::Screw => rows.extend([Motion::zeros(); 5]),
+        Domain::Screw => rows.extend([Motion::zeros(); 6]),
         Domain::Patch | Domain::FixedTorus(_) => {}
     }
     rows

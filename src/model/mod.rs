@@ -15,6 +15,6 @@ pub mod term;
 #[cfg(test)]
 mod tests;
 
-pub use domain::{Domain, Site};
+pub use domain::{Domain, Site, Turns};
 pub use problem::{Gauge, Model};
 pub use term::{Element, Elements, Spring, Term};

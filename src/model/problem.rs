@@ -32,6 +32,8 @@ pub struct Model {
     gap_scale: Vec<f64>,
     mean_edge: f64,
     gauge: Gauge,
+    /// Sizes of the shared unknowns in units of their coordinates; empty: both are the same.
+    units: Vec<f64>,
 }
 
 /// What is done about the rigid motions that no pin prevents.
@@ -85,7 +87,9 @@ impl Model {
             gap_scale,
             mean_edge,
             gauge,
+            units: vec![],
         };
+        model.units = model.units_at(&model.base);
         model.choose_unknowns();
         model
     }
@@ -137,13 +141,24 @@ impl Model {
 
     /// The unknowns among all coordinates, or among rates of all coordinates.
     pub fn unknowns(&self, coordinates: &[f64]) -> Vec<f64> {
-        self.free.iter().map(|&k| coordinates[k as usize]).collect()
+        self.free.iter().map(|&k| coordinates[k as usize] / self.unit(k as usize)).collect()
+    }
+
+    /// Sizes of the shared unknowns of a state. Spectra and ranks are those of the coordinates themselves.
+    fn units_at(&self, coordinates: &[f64]) -> Vec<f64> {
+        if self.gauge == Gauge::Free { vec![] } else { self.domain.units(coordinates, self.mean_edge) }
+    }
+
+    /// Size of an unknown in units of its coordinate.
+    fn unit(&self, coordinate: usize) -> f64 {
+        let first = self.base.len() - self.units.len();
+        coordinate.checked_sub(first).map_or(1.0, |shared| self.units[shared])
     }
 
     /// Rates of all coordinates when the unknowns have these rates: zero where a coordinate is held.
     pub fn velocity(&self, rates: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.base.len()];
-        self.free.iter().zip(rates).for_each(|(&k, rate)| all[k as usize] = *rate);
+        self.free.iter().zip(rates).for_each(|(&k, rate)| all[k as usize] = *rate * self.unit(k as usize));
         all
     }
 
@@ -182,7 +197,7 @@ impl Model {
     /// All coordinates of a state.
     pub fn coordinates(&self, x: &[f64]) -> Vec<f64> {
         let mut all = self.base.clone();
-        self.free.iter().zip(x).for_each(|(&k, value)| all[k as usize] = *value);
+        self.free.iter().zip(x).for_each(|(&k, value)| all[k as usize] = *value * self.unit(k as usize));
         all
     }
 
@@ -360,8 +375,13 @@ impl Problem for Model {
         for term in self.soft.iter_mut().chain(&mut self.stiff) {
             term.accept(&self.domain, &all);
         }
-        if self.domain.recentre(&mut all, self.mean_edge) {
+        let moved = self.domain.recentre(&mut all, self.mean_edge);
+        let units = self.units_at(&all);
+        if moved || units != self.units {
+            self.units = units;
             x.copy_from_slice(&self.unknowns(&all));
+        }
+        if moved {
             self.base = all;
         }
     }
@@ -384,6 +404,7 @@ impl Model {
         let compute = |k: usize, local: &mut Local| {
             let (term, element) = at(k);
             self.soft[term].local(element, &self.domain, all, full, local);
+            local.measure_in(&self.units);
         };
         parallel::ordered(count(&self.soft), compute, |k, local| {
             let (term, element) = at(k);
@@ -402,6 +423,7 @@ impl Model {
         let compute = |k: usize, local: &mut Local| {
             let (term, element) = at(k);
             self.stiff[term].local(element, &self.domain, all, true, local);
+            local.measure_in(&self.units);
         };
         parallel::ordered(count(&self.stiff), compute, |k, local| {
             let (term, element) = at(k);

@@ -49,6 +49,20 @@ pub struct Local {
     pub hessian: Vec<f64>,
 }
 
+impl Local {
+    /// Derivatives by shared unknowns of these sizes instead of by the shared coordinates; none: as they are.
+    pub fn measure_in(&mut self, units: &[f64]) {
+        if units.is_empty() {
+            return;
+        }
+        let points = self.gradient.len() - units.len();
+        let unit = |k: usize| if k < points { 1.0 } else { units[k - points] };
+        self.gradient.iter_mut().enumerate().for_each(|(k, g)| *g *= unit(k));
+        let places = (0..points + units.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
+        self.hessian.iter_mut().zip(places).for_each(|(h, (row, column))| *h = *h * unit(row) * unit(column));
+    }
+}
+
 /// What the model asks of a term, whatever its measure.
 pub trait Elements: Send + Sync {
     /// Name, as in the scene.

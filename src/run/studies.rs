@@ -148,12 +148,15 @@ fn start_file(
     })
 }
 
-/// The drawn state with every unknown moved by a random amount up to the amplitude.
+/// The drawn state with every unknown moved by a random amount up to the amplitude; the axis of a screw keeps its direction.
 fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
     let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(random.seed);
     let amplitude = random.random.0;
     let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * (2.0 * numbers.random::<f64>() - 1.0)).collect();
-    let coordinates = model.coordinates(&x);
+    let mut coordinates = model.coordinates(&x);
+    if let Some(drawn) = model.domain().turns(&model.coordinates(&model.start())) {
+        model.domain().point_axis(&mut coordinates, drawn.direction);
+    }
     model.start_from(coordinates)
 }
 

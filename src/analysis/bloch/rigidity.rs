@@ -211,13 +211,10 @@ fn lock(points: &[Vec3; 4]) -> [Vec3; 4] {
 
 /// How cell `(n1, n2)` of a state is turned against cell `(0, 0)`, from all coordinates of the state.
 pub fn cell_rotation(domain: &Domain, x: &[f64], [n1, n2]: [i32; 2]) -> Matrix3<f64> {
-    match (domain, x) {
-        (Domain::Screw, [.., kappa, b1, b2, _, _]) => {
-            let angle = kappa * (f64::from(n1) * b1 + f64::from(n2) * b2);
-            Rotation3::from_axis_angle(&Vec3::x_axis(), angle).into_inner()
-        }
-        _ => Matrix3::identity(),
-    }
+    domain.turns(x).map_or(Matrix3::identity(), |turns| {
+        let angle = f64::from(n1) * turns.theta[0] + f64::from(n2) * turns.theta[1];
+        Rotation3::new(turns.axis() * angle).into_inner()
+    })
 }
 
 /// `z1^n1 z2^n2`.

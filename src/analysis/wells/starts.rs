@@ -108,10 +108,24 @@ fn crumpled(question: &Question<'_>, spread: f64, within: &mut dyn FnMut(f64) ->
     }
     let mut settler = Settler::new(question, &recipe, 1.0);
     let mut from = settler.drawn();
-    let step = MOVED * mean_edge(question);
-    from.coordinates.iter_mut().for_each(|x| *x += within(step));
+    shake(question, &mut from.coordinates, within);
     let found = settler.free(&from, false, CRUMPLED, &mut |_| true);
     Ok(found.map_err(|error| error.failure)?.place)
+}
+
+/// Moves every coordinate at random; those that are no lengths by what moves points as far. The axis of a screw has its direction by chance
+/// already.
+fn shake(question: &Question<'_>, coordinates: &mut [f64], within: &mut dyn FnMut(f64) -> f64) {
+    let (domain, edge) = (&question.drawn.domain, mean_edge(question));
+    let units = domain.units(coordinates, edge);
+    let points = coordinates.len() - units.len();
+    let direction = domain.turns(coordinates).map(|turns| turns.direction);
+    for (k, x) in coordinates.iter_mut().enumerate() {
+        *x += within(MOVED * edge) * k.checked_sub(points).map_or(1.0, |shared| units[shared]);
+    }
+    if let Some(direction) = direction {
+        domain.point_axis(coordinates, direction);
+    }
 }
 
 fn mean_edge(question: &Question<'_>) -> f64 {

@@ -14,7 +14,7 @@ fn state(numbers: &mut Numbers, domain: &Domain, kappa: f64) -> Vec<f64> {
     match domain {
         Domain::Patch | Domain::FixedTorus(_) => {}
         Domain::FreeTorus => x.extend([2.0, 0.1, 0.05, 0.3, 1.9, -0.1]),
-        Domain::Screw => x.extend([kappa, 0.2, 1.9, 2.0, 0.3]),
+        Domain::Screw => x.extend([numbers.within(3.0), kappa, 0.2, 1.9, 2.0, 0.3]),
     }
     x
 }
@@ -95,8 +95,8 @@ fn screws_of_any_curvature() {
     }
 }
 
-/// Claim: the chart is that of theory: for `kappa != 0` every map is the turn by `kappa b` about the line along x
-/// through `(0, 1/kappa)` with the shift `h`, and at `kappa = 0` the translation by `(h, b, 0)`. Tolerance: rounding of
+/// Claim: the chart is that of theory: for `kappa != 0` every map is the turn by `kappa b` about the line along the axis
+/// at the height `1/kappa` with the shift `h`, and at `kappa = 0` the translation by the lattice. Tolerance: rounding of
 /// the radius.
 #[test]
 fn screws_turn_about_their_axis() {
@@ -106,13 +106,15 @@ fn screws_turn_about_their_axis() {
         let s = &x[12..];
         for n in [[1, 0], [0, 1], [-2, 3]] {
             let [n1, n2] = n.map(f64::from);
-            let (b, h) = (n1 * s[1] + n2 * s[2], n1 * s[3] + n2 * s[4]);
+            let lattice = Vec3::new(n1 * s[4] + n2 * s[5], n1 * s[2] + n2 * s[3], 0.0);
+            let along = Vec3::new(s[0].cos(), s[0].sin(), 0.0);
+            let (b, h) = (Vec3::z().cross(&along).dot(&lattice), along.dot(&lattice));
             let home = Vec3::from_column_slice(&x[3..6]);
             let expected = if kappa == 0.0 {
-                home + Vec3::new(h, b, 0.0)
+                home + lattice
             } else {
                 let axis = Vec3::new(0.0, 0.0, 1.0 / kappa);
-                nalgebra::Rotation3::from_axis_angle(&Vec3::x_axis(), kappa * b) * (home - axis) + axis + Vec3::x() * h
+                nalgebra::Rotation3::new(along * (kappa * b)) * (home - axis) + axis + along * h
             };
             let found = Domain::Screw.point(&x, site(1, n));
             assert!(

@@ -13,8 +13,8 @@ use serde_json::json;
 /// Largest offset of a rest angle, and the stiffness of the bars.
 const OFF: f64 = 0.05;
 const BARS: f64 = 1e6;
-/// Of a factor of 1000 see the limits found: screws notice it.
-const UNIT: f64 = 10.0;
+/// Factor from a unit of length to the other one.
+const UNIT: f64 = 1000.0;
 
 /// A way to draw the same sheet.
 struct Change {
@@ -37,7 +37,7 @@ const CHANGES: [Change; 8] = [
     Change { name: "moved by 100", draw: |drawn| mapped(drawn, |p| p + Vec3::new(60.0, -80.0, 0.0), false), ..SAME },
     Change { name: "mirrored", draw: |drawn| mapped(drawn, |p| Vec3::new(p.x, p.y, -p.z), true), sign: -1.0, ..SAME },
     // EA and torque per length as before: energies of both grow as the unit
-    Change { name: "unit 10 times smaller", draw: |drawn| mapped(drawn, |p| p * UNIT, true), energy: UNIT, ..SAME },
+    Change { name: "unit 1000 times smaller", draw: |drawn| mapped(drawn, |p| p * UNIT, true), energy: UNIT, ..SAME },
     // the first copy of a vertex in the file says in which cell it is: patches have other rims
     Change { name: "vertices numbered backwards", draw: renumbered, keeps_patches: false, ..SAME },
     Change { name: "faces listed backwards", draw: relisted, ..SAME },
