@@ -183,7 +183,7 @@ impl Step {
 
     fn solve(&mut self) -> f64 {
         let layout = self.model.layout();
-        seconds(|| self.saddle.apply(layout, &self.at, &self.right.0, &self.right.1))
+        seconds(|| self.saddle.apply(layout, &self.right.0, &self.right.1))
     }
 
     /// One iteration without anything around it.
