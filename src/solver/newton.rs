@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-12;
 const HALVINGS: i32 = 5;
 const SHIFTS: usize = 12;
 /// Bounds of the relative residual of a Newton step's linear system; between them a hundredth of the scaled force.
-const FINEST: f64 = 1e-6;
+const FINEST: f64 = 1e-8;
 const COARSEST: f64 = 1e-3;
 /// Relative residual of a step's linear system above which the factorization is not used.
 const INACCURATE: f64 = 0.1;
