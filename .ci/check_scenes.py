@@ -5,20 +5,15 @@ that does not exist, in every table.
     python .ci/check_scenes.py SCHEMA.json SCENE.toml...        needs: jsonschema
 """
 import copy
-import json
 import sys
 import tomllib
 
-import jsonschema
+import published
 
 
 def main():
     schema_path, *scenes = sys.argv[1:]
-    with open(schema_path) as file:
-        schema = json.load(file)
-    validator = jsonschema.validators.validator_for(schema)
-    validator.check_schema(schema)
-    check = validator(schema)
+    _, check = published.schema(schema_path)
     failed = 0
     for path in scenes:
         with open(path, "rb") as file:

@@ -9,7 +9,7 @@ import json
 import os
 import sys
 
-import jsonschema
+import published
 
 # keys that are there only where there is something to say
 MAY_BE_ABSENT = {"reason", "map", "wave"}
@@ -64,11 +64,7 @@ def unanswered(summary):
 
 def main():
     schema_path, *runs = sys.argv[1:]
-    with open(schema_path) as file:
-        schema = json.load(file)
-    validator = jsonschema.validators.validator_for(schema)
-    validator.check_schema(schema)
-    check = validator(schema)
+    schema, check = published.schema(schema_path)
     found, tried, kinds = [], 0, set()
     for run in runs:
         with open(os.path.join(run, "summary.json")) as file:

@@ -109,9 +109,7 @@ fn screws_relax_next_to_zero_curvature() {
 #[test]
 fn a_screw_in_any_unit_of_length() {
     let run = |unit: f64| {
-        let mut sheet = common::mesh("open-star");
-        sheet.vertices.iter_mut().for_each(|p| *p *= unit);
-        sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| l * unit));
+        let sheet = common::scaled(common::mesh("open-star"), unit);
         relaxed_screw(&Case::new(sheet, [1, 1], Surroundings::Screw), 0.1, 1).unwrap()
     };
     let (steps, expected, _) = run(1.0);

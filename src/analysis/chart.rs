@@ -1,7 +1,8 @@
 //! The coordinates of the model in which an exactly folded state stands.
 //!
 //! Of a screw-periodic state (see [`crate::model::domain`]): x along the axis, z from vertex 0 to the axis where the
-//! curvature is positive and away from it where it is negative, vertex 0 at the origin; then the direction 0, the curvature and the lattice across and along the axis.
+//! curvature is positive and away from it where it is negative, vertex 0 at the origin; then the direction 0, the
+//! curvature, and the lattice across and along the axis.
 
 use super::trace::Folded;
 use crate::kinematics::Shape;

@@ -2,7 +2,8 @@
 //!
 //! The coordinates of a state are three for each vertex, and after them the *shared* coordinates of the domain:
 //! none on a patch or on a torus with fixed lattice, the six components of the lattice vectors on a free torus, and
-//! `direction, kappa, y1, y2, x1, x2` on a screw, `l1 = (x1, y1)` and `l2 = (x2, y2)`. A point of an element is a vertex of some cell, a [`Site`].
+//! `direction, kappa, y1, y2, x1, x2` on a screw, `l1 = (x1, y1)` and `l2 = (x2, y2)`. A point of an element is a
+//! vertex of some cell, a [`Site`].
 //!
 //! Screw (commuting screw motions about an axis in the plane of x and y, written so that the axis may go to infinity):
 //! with `e` the direction of the axis, at the angle `direction` from x, `m` across it, `l = n1 l1 + n2 l2` the part of
@@ -92,12 +93,18 @@ impl Domain {
         }
     }
 
+    /// The shared ones of all coordinates.
+    #[inline]
+    fn shared_of<'a>(&self, x: &'a [f64]) -> &'a [f64] {
+        &x[x.len() - self.shared()..]
+    }
+
     /// Where a site is. `x` holds all coordinates, the shared ones last.
     #[inline]
     pub fn point(&self, x: &[f64], site: Site) -> Vec3 {
         let v = vertex(x, site);
         let [n1, n2] = site.shift.map(f64::from);
-        let shared = &x[x.len() - self.shared()..];
+        let shared = self.shared_of(x);
         match self {
             Self::Patch => v,
             Self::FixedTorus([l1, l2]) => v + n1 * l1 + n2 * l2,
@@ -119,7 +126,7 @@ impl Domain {
                 }
             }
             Self::Screw => {
-                let screw = Screw::new(&x[x.len() - 6..], site);
+                let screw = Screw::new(self.shared_of(x), site);
                 let at = screw.at(&vertex(x, site));
                 vertex_part = at.vertex_derivative();
                 shared_part = at.shared_derivative();
@@ -190,7 +197,7 @@ impl Domain {
         if matches!(self, Self::Screw) {
             for (k, &site) in sites.iter().enumerate() {
                 let force = g.fixed_rows::<3>(3 * k).into_owned();
-                Screw::new(&x[x.len() - 6..], site).at(&vertex(x, site)).add_curvature(&force, 3 * k, D, &mut pulled);
+                Screw::new(self.shared_of(x), site).at(&vertex(x, site)).add_curvature(&force, 3 * k, D, &mut pulled);
             }
         }
         append_lower(D + self.shared(), |row, column| pulled[(row, column)], out);
@@ -198,13 +205,13 @@ impl Domain {
 
     /// The screw motions of a state; `None` where there are none.
     pub fn turns(&self, x: &[f64]) -> Option<Turns> {
-        matches!(self, Self::Screw).then(|| Turns::new(&x[x.len() - 6..]))
+        matches!(self, Self::Screw).then(|| Turns::new(self.shared_of(x)))
     }
 
     /// Gives the axis of a screw this direction; nothing else changes.
     pub fn point_axis(&self, x: &mut [f64], direction: f64) {
         if matches!(self, Self::Screw) {
-            let first = x.len() - 6;
+            let first = x.len() - self.shared();
             x[first] = direction;
         }
     }
@@ -226,8 +233,9 @@ impl Domain {
     /// At the axis `kappa` is infinite: moving all z by `d` and `1/kappa` with them changes nothing (`theta = kappa b`
     /// stays). Done when the axis comes nearer to z = 0 than `length`; then it is put at twice that. A rotation
     /// that has wound once round would need an infinite `b` where the sheet stretches out again: `theta` is
-    /// taken back by `2 pi` where it is clearly larger than `pi`; so is the direction of the axis. And the first lattice vector, whose y is held while the sheet
-    /// moves, must not come to lie across x, where that would not keep the sheet from turning in the plane: then all is turned.
+    /// taken back by `2 pi` where it is clearly larger than `pi`; so is the direction of the axis. And the first lattice
+    /// vector, whose y is held while the sheet moves, must not come to lie across x, where that would not keep the sheet
+    /// from turning in the plane: then all is turned.
     pub fn recentre(&self, x: &mut [f64], length: f64) -> bool {
         if !matches!(self, Self::Screw) {
             return false;

@@ -37,6 +37,13 @@ pub fn mesh(name: &str) -> Sheet {
     fold::read(&path).expect("the repository's meshes can be read")
 }
 
+/// The same sheet in another unit of length.
+pub fn scaled(mut sheet: Sheet, by: f64) -> Sheet {
+    sheet.vertices.iter_mut().for_each(|p| *p *= by);
+    sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| l * by));
+    sheet
+}
+
 /// A sheet on a domain.
 pub struct Case {
     pub sheet: Sheet,
