@@ -26,8 +26,11 @@ const GAMMA: f64 = 1e7;
 /// that motions that cost nothing are held. Without any metric it is the identity itself.
 const LEAST_METRIC: f64 = 1e-7;
 
-/// Corrections go on while each makes the residual at least this much smaller.
-const SLOWEST: f64 = 0.7;
+/// Corrections go on while each makes the residual at least this much smaller, and are at most so many.
+const SLOWEST: f64 = 0.95;
+const CORRECTIONS: usize = 30;
+/// What a motion cannot reach has been found when a correction leaves more than this of it.
+const REACHING: f64 = 0.7;
 /// Stretches are measured against this many lengths of the step, besides their right-hand side, which may be nothing but
 /// rounding error.
 const STRETCH: f64 = 1e2;
@@ -162,6 +165,10 @@ impl Saddle {
     }
 
     /// Solves the true system to a relative residual of `tolerance`, or until corrections no longer help.
+    ///
+    /// Corrections are generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20, 345, 1983): what
+    /// each changes of the residual is orthogonal to what those before changed. So the few motions of a large sheet that are
+    /// softer than the rounding errors of the factorization cost a few corrections and do not hold up the rest.
     pub fn solve(
         &mut self,
         layout: &Layout,
@@ -170,20 +177,31 @@ impl Saddle {
         (a, b): (&[f64], &[f64]),
         tolerance: f64,
     ) -> Solved {
-        let (mut dx, mut dt) = self.apply(layout, a, b);
-        let mut last = f64::INFINITY;
+        let (dx, dt) = self.apply(layout, a, b);
+        let units = [f64::max(norm(a), BALANCED * Self::pull(layout, at, &dt)), norm(b) + STRETCH * norm(&dx)];
+        let mut found = Pair(dx, dt);
+        let mut left = self.residual(layout, at, compliance, (a, b), &found).over(units);
+        let (mut corrections, mut last): (Vec<[Pair; 2]>, f64) = (vec![], f64::INFINITY);
         loop {
-            let (ra, rb) = self.residual(layout, at, compliance, (a, b), (&dx, &dt));
-            let of_stretch = over(norm(&rb), norm(b) + STRETCH * norm(&dx));
-            let residual = f64::max(over(norm(&ra), norm(a)), of_stretch);
-            if residual <= tolerance || !(residual < SLOWEST * last) {
-                let unit = f64::max(norm(a), BALANCED * Self::pull(layout, at, &dt));
-                return Solved { dx, dt, residual: f64::max(over(norm(&ra), unit), of_stretch) };
+            let residual = f64::max(norm(&left.0), norm(&left.1));
+            if residual <= tolerance || !(residual < SLOWEST * last) || corrections.len() == CORRECTIONS {
+                return Solved { dx: found.0, dt: found.1, residual };
             }
             last = residual;
-            let (ddx, ddt) = self.apply(layout, &ra, &rb);
-            dx.iter_mut().zip(&ddx).for_each(|(x, d)| *x += d);
-            dt.iter_mut().zip(&ddt).for_each(|(t, d)| *t += d);
+            let (ddx, ddt) = self.apply(layout, &scaled(&left.0, units[0]), &scaled(&left.1, units[1]));
+            let mut motion = Pair(ddx, ddt);
+            let mut change = self.product(layout, at, compliance, &motion).over(units);
+            for [before, its_change] in &corrections {
+                let part = change.dot(its_change);
+                change.add(-part, its_change);
+                motion.add(-part, before);
+            }
+            let size = change.dot(&change).sqrt();
+            (motion, change) = (motion.over([size; 2]), change.over([size; 2]));
+            let part = left.dot(&change);
+            left.add(-part, &change);
+            found.add(part, &motion);
+            corrections.push([motion, change]);
         }
     }
 
@@ -208,15 +226,14 @@ impl Saddle {
         enough: f64,
     ) -> f64 {
         let zero = vec![0.0; layout.unknowns];
-        let (mut dx, mut dt) = (zero.clone(), vec![0.0; b.len()]);
-        let (mut ra, mut rb, mut last) = (zero.clone(), b.to_vec(), f64::INFINITY);
+        let mut found = Pair(zero.clone(), vec![0.0; b.len()]);
+        let (mut open, mut last) = (Pair(zero.clone(), b.to_vec()), f64::INFINITY);
         loop {
-            let (ddx, ddt) = self.apply(layout, &ra, &rb);
-            dx.iter_mut().zip(&ddx).for_each(|(x, d)| *x += d);
-            dt.iter_mut().zip(&ddt).for_each(|(t, d)| *t += d);
-            (ra, rb) = self.residual(layout, at, compliance, (&zero, b), (&dx, &dt));
-            let left = over(norm(&rb), norm(b));
-            if left <= enough || !(left < SLOWEST * last) {
+            let (ddx, ddt) = self.apply(layout, &open.0, &open.1);
+            found.add(1.0, &Pair(ddx, ddt));
+            open = self.residual(layout, at, compliance, (&zero, b), &found);
+            let left = over(norm(&open.1), norm(b));
+            if left <= enough || !(left < REACHING * last) {
                 return left;
             }
             last = left;
@@ -229,26 +246,59 @@ impl Saddle {
         at: &Linearization,
         compliance: &[f64],
         (a, b): (&[f64], &[f64]),
-        (dx, dt): (&[f64], &[f64]),
-    ) -> (Vec<f64>, Vec<f64>) {
+        found: &Pair,
+    ) -> Pair {
+        let mut left = Pair(a.to_vec(), b.to_vec());
+        left.add(-1.0, &self.product(layout, at, compliance, found));
+        left
+    }
+
+    /// The true matrix times a vector.
+    fn product(&self, layout: &Layout, at: &Linearization, compliance: &[f64], Pair(dx, dt): &Pair) -> Pair {
         let rows = at.rows(layout);
-        let (mut ra, mut rb) = (vec![0.0; a.len()], vec![0.0; b.len()]);
-        symmetric_product(at.pattern(), &self.shifted, dx, &mut ra);
-        rows.add_transpose_product(dt, &mut ra);
-        ra.iter_mut().zip(a).for_each(|(r, a)| *r = a - *r);
-        rows.product(dx, &mut rb);
-        for (k, r) in rb.iter_mut().enumerate() {
-            *r = b[k] - *r + compliance[k] * dt[k];
-        }
-        (ra, rb)
+        let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
+        symmetric_product(at.pattern(), &self.shifted, dx, &mut a);
+        rows.add_transpose_product(dt, &mut a);
+        rows.product(dx, &mut b);
+        b.iter_mut().zip(compliance).zip(dt).for_each(|((b, c), t)| *b -= c * t);
+        Pair(a, b)
+    }
+}
+
+/// A vector of the system: unknowns and tensions, or forces and stretches.
+struct Pair(Vec<f64>, Vec<f64>);
+
+impl Pair {
+    fn add(&mut self, part: f64, other: &Self) {
+        self.0.iter_mut().zip(&other.0).for_each(|(v, w)| *v += part * w);
+        self.1.iter_mut().zip(&other.1).for_each(|(v, w)| *v += part * w);
+    }
+
+    /// In these units; zero stays zero in any.
+    fn over(mut self, units: [f64; 2]) -> Self {
+        self.0.iter_mut().for_each(|v| *v = over(*v, units[0]));
+        self.1.iter_mut().for_each(|v| *v = over(*v, units[1]));
+        self
+    }
+
+    fn dot(&self, other: &Self) -> f64 {
+        dot(&self.0, &other.0) + dot(&self.1, &other.1)
     }
 }
 
 /// A residual over its right-hand side; zero where there is no residual.
 fn over(residual: f64, right: f64) -> f64 {
-    if residual > 0.0 { residual / right.max(f64::MIN_POSITIVE) } else { 0.0 }
+    if residual == 0.0 { 0.0 } else { residual / right.max(f64::MIN_POSITIVE) }
 }
 
 fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|a| a * a).sum::<f64>().sqrt()
+    dot(v, v).sqrt()
+}
+
+fn dot(v: &[f64], w: &[f64]) -> f64 {
+    v.iter().zip(w).map(|(v, w)| v * w).sum()
+}
+
+fn scaled(v: &[f64], by: f64) -> Vec<f64> {
+    v.iter().map(|v| v * by).collect()
 }

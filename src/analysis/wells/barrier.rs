@@ -21,6 +21,9 @@ const SOFTEST: f64 = 1e2;
 const STIFFER: f64 = 10.0;
 /// Stiffness over that of creases after which the next is the rigid limit.
 const ALMOST_RIGID: f64 = 1e12;
+/// Farthest fold angle, in radians, from the last pass before the rigid limit to that in the limit. A regular one is approached as
+/// one over the stiffness, one where branches cross as its cube root; to that, Newton's steps get no nearer than tolerances ask.
+const REGULAR: f64 = 1e-7;
 /// Tries from ever stiffer bars.
 const TRIES: usize = 6;
 /// Tolerance of a pass.
@@ -207,7 +210,7 @@ fn followed(question: &Question<'_>, first: Pass, stiffness: f64) -> Result<Foll
     while at < goal {
         let next = if at >= ALMOST_RIGID * creases { goal } else { (at * factor).min(goal) };
         match equilibrium(question, next, &pass.place, OPTIONS) {
-            Ok(found) if found.negative_eigenvalues == 1 => {
+            Ok(found) if found.negative_eigenvalues == 1 && (next.is_finite() || off(&found, &pass) <= REGULAR) => {
                 heights.push(Height { stiffness: next, energy: found.energy });
                 (pass, at, factor) = (found, next, (factor * factor).min(STIFFER));
             }
@@ -220,6 +223,11 @@ fn followed(question: &Question<'_>, first: Pass, stiffness: f64) -> Result<Foll
         }
     }
     Ok(Followed { pass, heights, singular: false })
+}
+
+/// Farthest fold angle from a state to another.
+fn off(one: &Pass, other: &Pass) -> f64 {
+    one.rho.iter().zip(&other.rho).fold(0.0, |most, (a, b)| (a - b).abs().max(most))
 }
 
 /// How the energies of a pass tend to their rigid limit: `limit - constant * stiffness^-exponent`.
