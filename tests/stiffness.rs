@@ -5,10 +5,10 @@ mod common;
 
 use common::{Case, Numbers, distance, jacobian, linearized};
 use foldwell::analysis::relax::{Relaxed, relax};
-use foldwell::model::Gauge;
 use foldwell::model::assemble::Surroundings;
-use foldwell::solver::saddle::Saddle;
-use foldwell::solver::{Options, Problem};
+use foldwell::model::{Gauge, Model};
+use foldwell::solver::saddle::{Saddle, Solved};
+use foldwell::solver::{Linearization, Options, Problem};
 use nalgebra::DVector;
 
 const STIFFNESSES: [f64; 9] = [1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16, f64::INFINITY];
@@ -159,10 +159,20 @@ fn scale_does_not_matter() {
     assert!((big.state.total() / small.state.total() / 1024.0 - 1.0).abs() < 1e-10);
 }
 
+/// The residuals of both rows of the system of a step, by dense matrices and as the solver measures them: of forces over `a`, of
+/// stretches over `b` and a hundred lengths of the step.
+fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: Solved) -> [f64; 2] {
+    let [a, b] = [a, b].map(DVector::from_column_slice);
+    let [dx, dt] = [found.dx, found.dt].map(DVector::from_vec);
+    let (hessian, rows) = (at.pattern().to_dense(&at.hessian), jacobian(model, at));
+    let force = (hessian * &dx + rows.transpose() * &dt - &a).norm() / a.norm();
+    let soft = DVector::from_column_slice(model.compliance()).component_mul(&dt);
+    [force, (&rows * &dx - soft - &b).norm() / (b.norm() + 100.0 * dx.norm())]
+}
+
 /// Claim: the linear system of a step, `[H, R^T; R, -1/k] [dx; dt] = [a; b]`, is solved to the accuracy asked for at every
 /// stiffness, by the residual of dense matrices, in at most 10 solves, and in one where `k` is so soft that the factored
-/// matrix is that of the system. Tolerance: 1e-9 was asked for; the residual of the second row is relative to `b` and to
-/// a hundred lengths of the step, as the solver measures it.
+/// matrix is that of the system. Tolerance: 1e-9 was asked for.
 #[test]
 fn steps_are_solved_at_every_stiffness() {
     let case = Case::patch("open-star", [4, 4]);
@@ -175,13 +185,36 @@ fn steps_are_solved_at_every_stiffness() {
         let mut numbers = Numbers::new(3);
         let [a, b] = [layout.unknowns, layout.stiff.len()].map(|count| numbers.many(count, 1.0));
         let found = saddle.solve(layout, &at, compliance, (&a, &b), 1e-9);
-        let [a, b, dx, dt] = [a, b, found.dx, found.dt].map(DVector::from_vec);
-        let (hessian, rows) = (at.pattern().to_dense(&at.hessian), jacobian(&model, &at));
-        let force = (hessian * &dx + rows.transpose() * &dt - &a).norm() / a.norm();
-        let soft = DVector::from_column_slice(compliance).component_mul(&dt);
-        let stretch = (&rows * &dx - soft - &b).norm() / (b.norm() + 100.0 * dx.norm());
-        println!("k = {k:e}: {} solves, residuals {force:.1e} {stretch:.1e}", saddle.solves);
-        assert!(force <= 2e-9 && stretch <= 2e-9, "k = {k:e}: {force:e} {stretch:e}");
+        let left = unsolved(&model, &at, (&a, &b), found);
+        println!("k = {k:e}: {} solves, residuals {left:?}", saddle.solves);
+        assert!(left.iter().all(|left| *left <= 2e-9), "k = {k:e}: {left:?}");
         assert!(saddle.solves <= if k <= 1e4 { 1 } else { 10 }, "k = {k:e}: {} solves", saddle.solves);
     }
+}
+
+/// Claim: the system is solved just as well with a factorization that is wrong for a few motions, as rounding
+/// errors make it for the softest ones of a large sheet: here four unknowns are ten times as stiff as where it was
+/// factored. Every such motion costs one or two corrections, where repeating the same correction would go ever further off.
+/// Tolerance: 1e-9 was asked for.
+#[test]
+fn steps_are_solved_where_the_factorization_is_wrong_for_a_few_motions() {
+    let case = Case::patch("open-star", [4, 4]);
+    let model = case.model(&case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
+    let (layout, compliance) = (model.layout(), model.compliance());
+    let mut at = linearized(&model, &model.start(), &vec![0.0; layout.stiff.len()]);
+    let mut saddle = Saddle::new(layout, &at).unwrap();
+    saddle.factor(layout, &at, compliance, 0.0).unwrap();
+    let wrong = 4;
+    for unknown in (1..=wrong).map(|k| k * layout.unknowns / (wrong + 1)) {
+        let diagonal: usize = (0..unknown).map(|column| at.pattern().column(column).len()).sum();
+        at.hessian[diagonal] *= 10.0;
+    }
+    saddle.keep(&at);
+    let mut numbers = Numbers::new(3);
+    let [a, b] = [layout.unknowns, layout.stiff.len()].map(|count| numbers.many(count, 1.0));
+    let found = saddle.solve(layout, &at, compliance, (&a, &b), 1e-9);
+    let left = unsolved(&model, &at, (&a, &b), found);
+    println!("{} solves, residuals {left:?}", saddle.solves);
+    assert!(left.iter().all(|left| *left <= 2e-9), "{left:?}");
+    assert!(saddle.solves <= 5 + 2 * wrong, "{} solves", saddle.solves);
 }

@@ -12,9 +12,11 @@
 //! lower block regularised. Measured at the drawn state of rigid patches (`cargo bench --bench forms -- system`, solved
 //! to 1e-10) it takes 1.45, 1.26 and 1.05 times as long at 12, 24 and 48 cells a side, with as many numbers in the factor
 //! and the same inertia. The augmented form is kept because it is never slower there, has half the unknowns, and needs
-//! no regularisation where `k` is moderate. `gamma` (`-- weight`): 1e4 does not converge at 24 cells a side, 1e6 needs 6
-//! to 9 corrections at 48, 1e7 and 1e8 need 4 to 6, 1e9 fails there; 1e7 keeps a decade to the cliff. The plain penalty
-//! `H + k R^T R` is as good up to `k` = 1e8; at 1e12 it loses the drawn states of 24 and 48 cells a side.
+//! no regularisation where `k` is moderate. `gamma` (`-- weight`; plain corrections): 1e4 does not converge at 24 cells a
+//! side, 1e6 needs 5 to 10 corrections at 48, 1e7 and 1e8 need 3 to 8, 1e9 fails there; 1e7 keeps a decade to the cliff.
+//! Larger sheets have motions that this weight loses to rounding; the corrections of [`Saddle::solve`] find them again
+//! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
+//! 1e12 it loses the drawn states of 24 and 48 cells a side.
 
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{Factor, FactorError, Inertia};

@@ -21,7 +21,7 @@ const CELLS: [[usize; 2]; 4] = [[10, 10], [32, 32], [100, 100], [316, 317]];
 /// Slopes of the rows in radians, as drawn and where the creases rest.
 const DRAWN: f64 = 0.5;
 const RESTING: f64 = 0.55;
-/// Of the force of a milliradian; in coordinates of 700 lengths of an edge a last place makes 1e-10.
+/// Of the force of a milliradian. In coordinates of up to 632 a last place, 1e-13, makes 1e-10 of it.
 const TOLERANCE: f64 = 1e-9;
 
 /// A patch with rigid bars whose creases rest as those of a steeper one.
