@@ -5,7 +5,7 @@
 use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::report::figure;
 use super::super::star::size;
-use super::large::memory;
+use super::large::{forget_memory, memory};
 use super::trial::distance;
 use crate::analysis::relax::{Relaxed, relax};
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
@@ -39,7 +39,7 @@ struct Size {
     /// Largest difference of a fold angle to the closed form, in radians.
     error: f64,
     seconds: f64,
-    /// Most memory of the process so far, in MB; NaN where the system does not tell.
+    /// Most memory so far, in MB; NaN where the system does not tell.
     memory: f64,
 }
 
@@ -47,6 +47,7 @@ struct Size {
 /// to end there, without any energy.
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut sizes = Vec::new();
+    forget_memory();
     for (step, cells) in CELLS.into_iter().enumerate() {
         bench.step(step, CELLS.len())?;
         sizes.push(relaxed(cells)?);

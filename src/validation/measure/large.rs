@@ -21,7 +21,7 @@ struct Size {
     factorizations: usize,
     residual: f64,
     seconds: f64,
-    /// Most memory of the process so far, in MB; NaN where the system does not tell.
+    /// Most memory so far, in MB; NaN where the system does not tell.
     memory: f64,
 }
 
@@ -29,6 +29,7 @@ struct Size {
 /// memory so far is that of the last one.
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut sizes = Vec::new();
+    forget_memory();
     for (step, cells) in CELLS.into_iter().enumerate() {
         bench.step(step, CELLS.len())?;
         let star = Star::new([cells, cells], OFF)?;
@@ -82,7 +83,13 @@ fn table(sizes: &[Size]) -> Grid {
     }
 }
 
-/// Most memory that this process has had, in MB, where the system tells.
+/// Forgets what memory this process has had, so that measurements do not see those before, where the system can.
+pub(super) fn forget_memory() {
+    // without it the most memory so far is that of the whole process, which is what is said then
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+}
+
+/// Most memory that this process has had since the last was forgotten, in MB, where the system tells.
 pub(super) fn memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
