@@ -210,7 +210,7 @@ fn followed(question: &Question<'_>, first: Pass, stiffness: f64) -> Result<Foll
     while at < goal {
         let next = if at >= ALMOST_RIGID * creases { goal } else { (at * factor).min(goal) };
         match equilibrium(question, next, &pass.place, OPTIONS) {
-            Ok(found) if found.negative_eigenvalues == 1 && (next.is_finite() || off(&found, &pass) <= REGULAR) => {
+            Ok(found) if found.negative_eigenvalues == 1 && (next.is_finite() || near(&found, &pass)) => {
                 heights.push(Height { stiffness: next, energy: found.energy });
                 (pass, at, factor) = (found, next, (factor * factor).min(STIFFER));
             }
@@ -225,9 +225,9 @@ fn followed(question: &Question<'_>, first: Pass, stiffness: f64) -> Result<Foll
     Ok(Followed { pass, heights, singular: false })
 }
 
-/// Farthest fold angle from a state to another.
-fn off(one: &Pass, other: &Pass) -> f64 {
-    one.rho.iter().zip(&other.rho).fold(0.0, |most, (a, b)| (a - b).abs().max(most))
+/// Whether a pass in rigid bars is regular: no fold angle is farther from the last pass before than that.
+fn near(found: &Pass, before: &Pass) -> bool {
+    found.rho.iter().zip(&before.rho).all(|(a, b)| (a - b).abs() <= REGULAR)
 }
 
 /// How the energies of a pass tend to their rigid limit: `limit - constant * stiffness^-exponent`.

@@ -5,7 +5,7 @@
 use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::report::figure;
 use super::super::star::size;
-use super::large::{forget_memory, memory};
+use super::memory;
 use super::trial::distance;
 use crate::analysis::relax::{Relaxed, relax};
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
@@ -47,7 +47,7 @@ struct Size {
 /// to end there, without any energy.
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut sizes = Vec::new();
-    forget_memory();
+    memory::forget();
     for (step, cells) in CELLS.into_iter().enumerate() {
         bench.step(step, CELLS.len())?;
         sizes.push(relaxed(cells)?);
@@ -70,7 +70,14 @@ fn relaxed(cells: [usize; 2]) -> Result<Size, ExperimentError> {
     let found = relax(&mut pleats.model, start, options, pleats.rest.len(), &mut |_| true)?;
     let seconds = clock.elapsed().as_secs_f64();
     let error = distance(&found.state.fold_angle, &pleats.rest);
-    Ok(Size { cells, unknowns: size(&pleats.model).0, found, error, seconds, memory: memory().unwrap_or(f64::NAN) })
+    Ok(Size {
+        cells,
+        unknowns: size(&pleats.model).0,
+        found,
+        error,
+        seconds,
+        memory: memory::most().unwrap_or(f64::NAN),
+    })
 }
 
 fn residual(size: &Size) -> f64 {

@@ -3,6 +3,7 @@
 use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::report::figure;
 use super::super::star::{Star, size};
+use super::memory;
 use super::sizes::exponent;
 use crate::output::chart::{Chart, Point, Series};
 use crate::solver::Options;
@@ -29,7 +30,7 @@ struct Size {
 /// memory so far is that of the last one.
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut sizes = Vec::new();
-    forget_memory();
+    memory::forget();
     for (step, cells) in CELLS.into_iter().enumerate() {
         bench.step(step, CELLS.len())?;
         let star = Star::new([cells, cells], OFF)?;
@@ -43,7 +44,7 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
             factorizations: found.factorizations,
             residual: found.residual_force.max(found.residual_length),
             seconds: clock.elapsed().as_secs_f64(),
-            memory: memory().unwrap_or(f64::NAN),
+            memory: memory::most().unwrap_or(f64::NAN),
         });
     }
     let growth =
@@ -81,17 +82,4 @@ fn table(sizes: &[Size]) -> Grid {
         header: names.map(str::to_owned).to_vec(),
         rows: sizes.iter().map(row).collect(),
     }
-}
-
-/// Forgets what memory this process has had, so that measurements do not see those before, where the system can.
-pub(super) fn forget_memory() {
-    // without it the most memory so far is that of the whole process, which is what is said then
-    let _ = std::fs::write("/proc/self/clear_refs", "5");
-}
-
-/// Most memory that this process has had since the last was forgotten, in MB, where the system tells.
-pub(super) fn memory() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.trim().trim_end_matches("kB").trim().parse::<f64>().ok()? / 1024.0)
 }

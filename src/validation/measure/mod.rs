@@ -7,6 +7,7 @@ mod extremes;
 mod files;
 mod invariances;
 mod large;
+mod memory;
 mod rigid_limit;
 mod sizes;
 mod steps;
