@@ -26,8 +26,9 @@ const ROUNDING: f64 = 1e-12;
 /// Shortest fraction of a step is `0.5^(HALVINGS - 1)`; then the shift is raised, at most `SHIFTS` times.
 const HALVINGS: i32 = 5;
 const SHIFTS: usize = 12;
-/// Bounds of the relative residual of a Newton step's linear system; between them a hundredth of the scaled force.
-const FINEST: f64 = 1e-8;
+/// Bounds of the relative residual of a Newton step's linear system. Between them it is the scaled force, with which steps still
+/// converge quadratically (Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 400, 1982).
+const FINEST: f64 = 1e-6;
 const COARSEST: f64 = 1e-3;
 /// Relative residual of a step's linear system above which the factorization is not used.
 const INACCURATE: f64 = 0.1;
@@ -38,6 +39,8 @@ const LOOSEST: f64 = 1e-4;
 const FIRST_SHIFT: f64 = 0.25;
 const RAISE: f64 = 4.0;
 const LEAST_SHIFT: f64 = 2e-2;
+/// Scaled force below which the next lower shift is none at once: by then the shift is what slows the soft motions of large sheets.
+const SETTLED: f64 = 1e-5;
 /// Most steps in a row for which a shift is not lowered.
 const MOST_PATIENCE: usize = 8;
 /// Scaled force below which the inertia of a state is that of the minimum next to it.
@@ -354,12 +357,13 @@ impl<P: Problem> Newton<'_, P> {
     }
 
     /// Factors for a new step: tries a lower shift than the last one, less often the more often that was in vain.
-    fn factor_lower(&mut self) -> Result<(), Failure> {
+    fn factor_lower(&mut self, last: &Step) -> Result<(), Failure> {
         if self.hold > 0 {
             self.hold -= 1;
             return self.factor(self.shift);
         }
-        let lower = if self.shift > LEAST_SHIFT { self.shift / RAISE } else { 0.0 };
+        let lowered = self.shift > LEAST_SHIFT && last.residual_force > SETTLED;
+        let lower = if lowered { self.shift / RAISE } else { 0.0 };
         self.factor(lower)?;
         let in_vain = self.shift > lower;
         self.patience = if in_vain { (2 * self.patience).min(MOST_PATIENCE) } else { 1 };
@@ -390,7 +394,7 @@ impl<P: Problem> Newton<'_, P> {
         if let Some(fraction) = self.advance_with_last(last) {
             return Ok(fraction);
         }
-        self.factor_lower()?;
+        self.factor_lower(last)?;
         let mut residual = 0.0;
         for _ in 0..SHIFTS {
             let step = self.direction(last);
@@ -565,7 +569,7 @@ fn merit<P: Problem>(problem: &P, x: &[f64], tension: &[f64], gaps: &[f64]) -> f
 
 /// Relative residual that the linear system of a step is solved to.
 fn accuracy(last: &Step) -> f64 {
-    (0.01 * last.residual_force).clamp(FINEST, COARSEST)
+    last.residual_force.clamp(FINEST, COARSEST)
 }
 
 /// Largest scaled gap.
