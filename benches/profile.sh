@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 folder=${1:-$(mktemp -d)}
 rounds=${ROUNDS:-7}
 cells=${CELLS:-24}
-profiles=${PROFILES:-thin-1 off-16 off-1 thin-16 fat-1 opt2-thin-1 native-thin-1}
+profiles=${PROFILES:-off-1 off-16 thin-1 thin-16 fat-1 opt2-off-1 native-off-1}
 mkdir -p "$folder"
 
 cat > "$folder/scene.toml" <<SCENE
