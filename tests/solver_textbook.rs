@@ -4,7 +4,7 @@
 mod textbook;
 
 use foldwell::solver::tension::settle;
-use foldwell::solver::{Failure, Options, minimize};
+use foldwell::solver::{Failure, Options, Start, minimize};
 use textbook::{Textbook, length, linear, steps};
 
 fn rosenbrock() -> Textbook {
@@ -136,6 +136,22 @@ fn a_saddle_is_reported_or_left() {
         assert!((found.x[0] - f64::signum(start[0])).abs() < 1e-11, "from {start:?} to {:?}", found.x);
         assert_eq!(found.negative_eigenvalues, 0);
     }
+}
+
+/// Claim: near a minimum a shift is given up at once, where it still is a large one. A stiff spring that carries a load of 1 and,
+/// started where it is unstable, a well a millionth as stiff: its force is small beside the load.
+#[test]
+fn shifts_end_near_a_minimum() {
+    let wall = |x: &[f64]| (x[0] * x[0] - 1.0, vec![2.0 * x[0]], vec![2.0]);
+    let spring = Textbook::new(2).soft(&[0], 1.0, linear(&[1.0], 0.0)).load(&[1.0, 0.0]);
+    let start = Start { x: vec![1.0, 0.5], tension: Some(vec![]) };
+    let found =
+        minimize(&mut spring.soft(&[1], 1e-6, Box::new(wall)), start, Options::default(), &mut |_| true).unwrap();
+    assert!((found.x[1] - 1.0).abs() < 1e-6, "{:?}", found.x);
+    let shifts: Vec<f64> = found.history.iter().map(|step| step.shift).collect();
+    assert!(found.history[0].residual_force < 1e-5, "{}", found.history[0].residual_force);
+    let end = shifts.iter().rposition(|shift| *shift > 0.0).expect("the start is unstable");
+    assert!(end + 1 < shifts.len() && shifts[1..=end].iter().all(|shift| *shift >= 0.25), "{shifts:?}");
 }
 
 /// Claim: cost as counts. A quadratic takes one factorization for its step (that of the certificate is not in the

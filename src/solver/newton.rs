@@ -356,14 +356,14 @@ impl<P: Problem> Newton<'_, P> {
         }
     }
 
-    /// Factors for a new step: tries a lower shift than the last one, less often the more often that was in vain.
+    /// Factors for a new step: tries a lower shift than the last one, none near a minimum, less often the more often that was in vain.
     fn factor_lower(&mut self, last: &Step) -> Result<(), Failure> {
         if self.hold > 0 {
             self.hold -= 1;
             return self.factor(self.shift);
         }
-        let lowered = self.shift > LEAST_SHIFT && last.residual_force > SETTLED;
-        let lower = if lowered { self.shift / RAISE } else { 0.0 };
+        let settled = last.residual_force <= SETTLED;
+        let lower = if settled || self.shift <= LEAST_SHIFT { 0.0 } else { self.shift / RAISE };
         self.factor(lower)?;
         let in_vain = self.shift > lower;
         self.patience = if in_vain { (2 * self.patience).min(MOST_PATIENCE) } else { 1 };
