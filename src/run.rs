@@ -101,12 +101,12 @@ pub enum RunError {
         names: String,
     },
     /// A file of a kind that is not known.
-    #[error("{}: files ending in `{ending}` are not known here", path.display())]
+    #[error("{}: {}", path.display(), unknown(ending))]
     #[diagnostic(help("expected one of {expected}"))]
     Ending {
         /// The file.
         path: PathBuf,
-        /// Its ending.
+        /// Its ending; empty where it has none.
         ending: String,
         /// The endings that are known.
         expected: &'static str,
@@ -129,6 +129,14 @@ impl RunError {
             Self::Output(OutputError::Write { .. }) => 3,
             _ => 2,
         }
+    }
+}
+
+fn unknown(ending: &str) -> String {
+    if ending.is_empty() {
+        "a file without an ending".to_owned()
+    } else {
+        format!("files ending in `{ending}` are not known here")
     }
 }
 

@@ -36,6 +36,27 @@ fn wrong_words_are_wrong_input() {
     }
 }
 
+/// A mesh in the place of a scene, and a file that is neither: the message says what would be right.
+#[test]
+fn files_of_the_wrong_kind() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(foldwell(folder.path(), "new miura -o m.fold").status.success());
+    for (words, parts) in [
+        ("run m.fold", ["m.fold: this is a mesh, not a scene", "under [sheet], mesh = \"m.fold\""]),
+        ("info m", ["m: a file without an ending", "expected one of .fold, .obj, .vtu or .toml"]),
+        (
+            "convert m.fold m.stl",
+            ["m.stl: files ending in `stl` are not known here", "expected one of .fold, .obj or .vtu"],
+        ),
+    ] {
+        let output = foldwell(folder.path(), words);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{words}");
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
 /// The schema is JSON and the completions are a script, both on standard output.
 #[test]
 fn schema_and_completions() {
