@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
-use foldwell::output::summary::{StudyResult, StudySummary, to_json};
+use foldwell::output::summary::{RelaxSummary, StudyResult, StudySummary, to_json};
 use foldwell::run::{self, RunError, RunOptions, RunReport};
 use foldwell::validation::{self, ValidateOptions, ValidationError};
 use miette::{Diagnostic, GraphicalReportHandler};
@@ -262,12 +262,30 @@ fn describe_run(report: &RunReport) -> String {
     text
 }
 
+/// Energy and residuals, and what is easily overlooked: that the state is not stable, that faces pass through each other.
+fn describe_relaxation(relax: &RelaxSummary) -> String {
+    let unstable = match relax.negative_eigenvalues {
+        None | Some(0) => String::new(),
+        Some(count) => format!(", not stable ({})", counted(count, "negative eigenvalue")),
+    };
+    let crossing = if relax.self_intersecting == Some(true) { ", faces pass through each other" } else { "" };
+    format!(
+        "energy {:.9e}, {}, residuals {:.1e} (force) {:.1e} (length){unstable}{crossing}",
+        relax.energy.total,
+        counted(relax.iterations, "iteration"),
+        relax.residual_force,
+        relax.residual_length
+    )
+}
+
+/// `1 well`, `2 wells`.
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 fn describe_study(study: &StudySummary) -> String {
     let what = match &study.result {
-        Some(StudyResult::Relax(relax)) => format!(
-            "energy {:.9e}, {} iterations, residuals {:.1e} (force) {:.1e} (length)",
-            relax.energy.total, relax.iterations, relax.residual_force, relax.residual_length
-        ),
+        Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
         Some(StudyResult::Modes(modes)) => format!(
             "{} zero modes ({} rigid, {} folding), {} self stresses",
             modes.zero_modes,
@@ -301,8 +319,9 @@ fn describe_study(study: &StudySummary) -> String {
         Some(StudyResult::Bloch(bloch)) => {
             let [p1, p2] = bloch.polarization;
             format!(
-                "{} zero lines, pairing error {:.1e}, polarization ({p1}, {p2})",
-                bloch.zero_lines, bloch.pairing_error
+                "{}, pairing error {:.1e}, polarization ({p1}, {p2})",
+                counted(bloch.zero_lines, "zero line"),
+                bloch.pairing_error
             )
         }
         Some(StudyResult::Wells(found)) => {
@@ -311,7 +330,8 @@ fn describe_study(study: &StudySummary) -> String {
                 let energy = barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e}"));
                 format!("; pass {:?} {energy}", barrier.between)
             });
-            format!("{} wells ({energies}){}", found.wells.len(), barriers.collect::<String>())
+            let count = counted(found.wells.len(), "well");
+            format!("{count} ({energies}){}", barriers.collect::<String>())
         }
         None => String::from("no result"),
     };

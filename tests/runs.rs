@@ -168,6 +168,9 @@ fn a_tube_that_goes_through_itself() {
         assert!((row["theta2"] - 0.758).abs() < 1e-3, "{}", row["theta2"]);
         let expected = if check.is_empty() { f64::NAN } else { f64::from(u8::from(crossing)) };
         assert_eq!(row["self_intersecting"].to_bits(), expected.to_bits(), "{cells} {check}");
+        let summary = json(&out.path().join("t/summary.json"))["studies"][0]["self_intersecting"].clone();
+        assert_eq!(summary, if check.is_empty() { Value::Null } else { crossing.into() }, "{cells} {check}");
+        assert_eq!(text(&said.stdout).contains("faces pass through each other"), crossing, "{cells} {check}");
         let [start, end] = [0, 1].map(|k| crossing_faces(&out.path().join(format!("t/rolled/rolled_000{k}.vtu"))));
         assert!(start.iter().all(|face| *face == 0), "the start is not rolled up");
         assert_eq!(end.contains(&1), crossing, "{cells} {check}");
@@ -192,6 +195,29 @@ fn what_a_run_says_and_writes() {
     let mut names: Vec<String> = files(&out.path().join("b")).into_keys().collect();
     names.sort();
     assert_eq!(names, ["one.csv", "summary.json"]);
+}
+
+/// Claim: that an equilibrium is not stable is said on standard output too. A flat sheet that is pressed together in its
+/// plane stays flat, since nothing pushes it out: unstable under a force a hundred times the stiffness of the creases, which are of
+/// length 1 and more, and stable under one as large as that.
+#[test]
+fn a_state_that_is_not_stable_is_called_so() {
+    let out = tempfile::tempdir().unwrap();
+    for (name, force, unstable) in [("strongly", -1.0, true), ("weakly", -0.01, false)] {
+        let scene = format!(
+            "[sheet]\nmesh = {:?}\ncells = [2, 2]\n[energy]\nbars = {{ stiffness = 1e4 }}\n\
+             creases = {{ stiffness = 1e-2 }}\n[[pin]]\nvertex = 0\ncell = [0, 0]\naxes = \"xyz\"\n\
+             [[pin]]\nvertex = 0\ncell = [1, 0]\naxes = \"yz\"\n[[pin]]\nvertex = 0\ncell = [0, 1]\naxes = \"z\"\n\
+             [[load]]\nvertex = 0\ncell = [1, 0]\nforce = [{force:?}, 0.0, 0.0]\n{}",
+            meshes().join("open-flat.fold"),
+            relax("flat", "")
+        );
+        fs::write(out.path().join(format!("{name}.toml")), scene).unwrap();
+        let said = text(&foldwell(out.path(), &["run", &format!("{name}.toml")]).stdout);
+        let summary = json(&out.path().join(name).join("summary.json"));
+        let count = summary["studies"][0]["negative_eigenvalues"].as_u64().unwrap();
+        assert_eq!((said.contains(", not stable ("), count > 0), (unstable, unstable), "{count}: {said}");
+    }
 }
 
 /// Claim: a study that does not converge gives status 1; the others are computed, and what there is of it is on disk, with

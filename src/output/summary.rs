@@ -132,6 +132,8 @@ pub struct RelaxSummary {
     pub negative_eigenvalues: Option<usize>,
     /// Redundant rigid terms; null where they were not counted.
     pub self_stresses: Option<usize>,
+    /// Whether faces of the last state pass through each other; null where that was not asked.
+    pub self_intersecting: Option<bool>,
     /// Largest difference of a fold angle to the exact solver; null where that says nothing.
     pub error_to_kinematic: Option<f64>,
     /// A row per iteration.

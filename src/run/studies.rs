@@ -63,17 +63,19 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
     match found {
         Ok(relaxed) => {
             let residuals = Some([relaxed.residual_force, relaxed.residual_length]);
-            write_states(runner, study, [&first, &relaxed.state], residuals)?;
+            let self_intersecting = write_states(runner, study, [&first, &relaxed.state], residuals)?;
             let coordinates = relaxed.state.coordinates.clone();
             runner.keep_state(study, Kept { coordinates, angles: model.angles() })?;
             let angles = draw::with_all_angles(built, &relaxed.state).fold_angle;
             let error_to_kinematic = error_to_kinematic(&built.sheet, &built.tiling, &model, &angles);
-            Ok(relaxed_summary(built, study, seconds, (&relaxed, error_to_kinematic)))
+            let result = RelaxSummary { self_intersecting, error_to_kinematic, ..result_of(built, &relaxed) };
+            Ok(relaxed_summary(study, seconds, result))
         }
         Err(error) => {
             let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
-            write_states(runner, study, [&first, &error.state], residuals)?;
-            Ok(failed_summary(built, study, seconds, &error))
+            let self_intersecting = write_states(runner, study, [&first, &error.state], residuals)?;
+            let result = RelaxSummary { self_intersecting, ..last_of(built, &error) };
+            Ok(failed_summary(study, seconds, (result, error.failure.to_string())))
         }
     }
 }
@@ -90,13 +92,14 @@ pub fn watcher(runner: &Runner<'_>, study: &StudySpec, tolerance: f64) -> impl F
     }
 }
 
-/// Table and pictures of the start and the end of a relaxation, with the residuals at its end.
+/// Table and pictures of the start and the end of a relaxation, with the residuals at its end; whether that passes through itself,
+/// where it is asked.
 fn write_states(
     runner: &Runner<'_>,
     study: &StudySpec,
     states: [&State; 2],
     residuals: Option<[f64; 2]>,
-) -> Result<(), RunError> {
+) -> Result<Option<bool>, RunError> {
     let states = states.map(|state| draw::with_all_angles(runner.built, state));
     let mut check = draw::self_intersection(runner, study);
     let [first, last] = states.each_ref().map(|state| {
@@ -105,7 +108,8 @@ fn write_states(
     });
     let shown = [first, Shown { residuals, ..last }];
     draw::table(runner, study, &shown)?;
-    draw::series(runner, study, &shown)
+    draw::series(runner, study, &shown)?;
+    Ok(shown[1].marks.as_ref().map(|marks| marks.any))
 }
 
 /// The unknowns from which a relaxation starts; `None` where the study to start from ended in no state.
@@ -168,13 +172,28 @@ pub fn nowhere_to_start(study: &StudySpec) -> StudySummary {
     }
 }
 
-fn relaxed_summary(
-    built: &Built,
-    study: &StudySpec,
-    seconds: f64,
-    (relaxed, error_to_kinematic): (&Relaxed, Option<f64>),
-) -> StudySummary {
-    let result = RelaxSummary {
+fn relaxed_summary(study: &StudySpec, seconds: f64, result: RelaxSummary) -> StudySummary {
+    StudySummary {
+        converged: true,
+        seconds,
+        error: Some(f64::max(result.residual_force, result.residual_length)),
+        result: Some(StudyResult::Relax(result)),
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
+    }
+}
+
+fn failed_summary(study: &StudySpec, seconds: f64, (result, failure): (RelaxSummary, String)) -> StudySummary {
+    StudySummary {
+        seconds,
+        reason: Some(failure),
+        result: Some(StudyResult::Relax(result)),
+        ..StudySummary::unanswered(&study.name.0, study.kind.name())
+    }
+}
+
+/// What a relaxation found, but for what else was asked.
+fn result_of(built: &Built, relaxed: &Relaxed) -> RelaxSummary {
+    RelaxSummary {
         energy: energy(built, &relaxed.state),
         iterations: relaxed.iterations,
         factorizations: relaxed.factorizations,
@@ -183,21 +202,15 @@ fn relaxed_summary(
         residual_length: relaxed.residual_length,
         negative_eigenvalues: Some(relaxed.negative_eigenvalues),
         self_stresses: relaxed.self_stresses,
-        error_to_kinematic,
         history: history(&relaxed.history),
-    };
-    StudySummary {
-        converged: true,
-        seconds,
-        error: Some(f64::max(relaxed.residual_force, relaxed.residual_length)),
-        result: Some(StudyResult::Relax(result)),
-        ..StudySummary::unanswered(&study.name.0, study.kind.name())
+        ..RelaxSummary::default()
     }
 }
 
-fn failed_summary(built: &Built, study: &StudySpec, seconds: f64, error: &RelaxError) -> StudySummary {
+/// Where a relaxation that failed ended.
+fn last_of(built: &Built, error: &RelaxError) -> RelaxSummary {
     let last = error.history.last();
-    let result = RelaxSummary {
+    RelaxSummary {
         energy: energy(built, &error.state),
         iterations: error.history.iter().filter(|step| step.fraction > 0.0).count(),
         factorizations: error.history.iter().map(|step| step.factorizations).sum(),
@@ -206,12 +219,6 @@ fn failed_summary(built: &Built, study: &StudySpec, seconds: f64, error: &RelaxE
         residual_length: last.map_or(f64::NAN, |step| step.residual_length),
         history: history(&error.history),
         ..RelaxSummary::default()
-    };
-    StudySummary {
-        seconds,
-        reason: Some(error.failure.to_string()),
-        result: Some(StudyResult::Relax(result)),
-        ..StudySummary::unanswered(&study.name.0, study.kind.name())
     }
 }
 
