@@ -80,6 +80,13 @@ pub enum RunError {
     /// A file could not be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// A mesh stands where a scene should.
+    #[error("{}: this is a mesh, not a scene", path.display())]
+    #[diagnostic(help("name it in a scene, a .toml file: under [sheet], mesh = \"{}\"", path.display()))]
+    NoScene {
+        /// The mesh.
+        path: PathBuf,
+    },
     /// A mesh is wrong.
     #[error(transparent)]
     Mesh(#[from] SheetError),
@@ -101,7 +108,7 @@ pub enum RunError {
         names: String,
     },
     /// A file of a kind that is not known.
-    #[error("{}: {}", path.display(), unknown(ending))]
+    #[error("{}: {}", path.display(), unknown_ending(ending))]
     #[diagnostic(help("expected one of {expected}"))]
     Ending {
         /// The file.
@@ -132,7 +139,8 @@ impl RunError {
     }
 }
 
-fn unknown(ending: &str) -> String {
+/// What is wrong with an ending that is not known.
+fn unknown_ending(ending: &str) -> String {
     if ending.is_empty() {
         "a file without an ending".to_owned()
     } else {
@@ -151,6 +159,9 @@ fn wrong_input(error: &std::io::Error) -> bool {
 /// # Errors
 /// [`RunError`] where nothing could be computed; a study that fails is part of the report instead.
 pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Result<RunReport, RunError> {
+    if MeshKind::of(scene).is_some() {
+        return Err(RunError::NoScene { path: scene.into() });
+    }
     let file = crate::scene::read(scene)?;
     let built = crate::scene::build::build(&file)?;
     let mut runner = Runner::new(&file, &built, options, observer)?;
@@ -195,33 +206,51 @@ pub fn info(mesh_or_scene: &Path) -> Result<Info, RunError> {
 /// [`RunError`] where a file cannot be read, is wrong, has an unknown ending or cannot be written.
 pub fn convert(from: &Path, to: &Path) -> Result<(), RunError> {
     let sheet = read_mesh(from, MESHES)?;
-    match ending(to).as_str() {
-        "fold" => files::write(to, fold::write(&sheet))?,
-        "obj" => files::write(to, obj::write(&sheet))?,
-        "vtu" => vtk::write_vtu(to, &Picture::drawn(&sheet))?,
-        other => return Err(RunError::Ending { path: to.into(), ending: other.into(), expected: MESHES }),
+    match MeshKind::of(to) {
+        Some(MeshKind::Fold) => files::write(to, fold::write(&sheet))?,
+        Some(MeshKind::Obj) => files::write(to, obj::write(&sheet))?,
+        Some(MeshKind::Vtu) => vtk::write_vtu(to, &Picture::drawn(&sheet))?,
+        None => return Err(RunError::Ending { path: to.into(), ending: ending(to), expected: MESHES }),
     }
     Ok(())
 }
 
 const MESHES: &str = ".fold, .obj or .vtu";
 
+/// Kinds of files that hold a mesh, told by the endings of their names.
+enum MeshKind {
+    Fold,
+    Obj,
+    Vtu,
+}
+
+impl MeshKind {
+    fn of(path: &Path) -> Option<Self> {
+        match ending(path).as_str() {
+            "fold" => Some(Self::Fold),
+            "obj" => Some(Self::Obj),
+            "vtu" => Some(Self::Vtu),
+            _ => None,
+        }
+    }
+}
+
 fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
 fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
-    match ending(path).as_str() {
-        "fold" => Ok(fold::read(path)?),
-        "obj" => Ok(obj::read(path)?),
-        "vtu" => {
+    match MeshKind::of(path) {
+        Some(MeshKind::Fold) => Ok(fold::read(path)?),
+        Some(MeshKind::Obj) => Ok(obj::read(path)?),
+        Some(MeshKind::Vtu) => {
             let mesh = vtk::read_vtu(path)?;
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let faces = mesh.triangles.iter().map(|t| t.to_vec()).collect();
             let drawn = Drawn { title, coords: mesh.points, faces, ..Drawn::default() };
             build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
         }
-        other => Err(RunError::Ending { path: path.into(), ending: other.into(), expected }),
+        None => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),
     }
 }
 

@@ -142,14 +142,15 @@ fn a_saddle_is_reported_or_left() {
 /// started where it is unstable, a well a millionth as stiff: its force is small beside the load.
 #[test]
 fn shifts_end_near_a_minimum() {
-    let wall = |x: &[f64]| (x[0] * x[0] - 1.0, vec![2.0 * x[0]], vec![2.0]);
+    let well = |x: &[f64]| (x[0] * x[0] - 1.0, vec![2.0 * x[0]], vec![2.0]);
     let spring = Textbook::new(2).soft(&[0], 1.0, linear(&[1.0], 0.0)).load(&[1.0, 0.0]);
     let start = Start { x: vec![1.0, 0.5], tension: Some(vec![]) };
     let found =
-        minimize(&mut spring.soft(&[1], 1e-6, Box::new(wall)), start, Options::default(), &mut |_| true).unwrap();
+        minimize(&mut spring.soft(&[1], 1e-6, Box::new(well)), start, Options::default(), &mut |_| true).unwrap();
     assert!((found.x[1] - 1.0).abs() < 1e-6, "{:?}", found.x);
     let shifts: Vec<f64> = found.history.iter().map(|step| step.shift).collect();
     assert!(found.history[0].residual_force < 1e-5, "{}", found.history[0].residual_force);
+    // the start has none yet; then come large ones, and none after them
     let end = shifts.iter().rposition(|shift| *shift > 0.0).expect("the start is unstable");
     assert!(end + 1 < shifts.len() && shifts[1..=end].iter().all(|shift| *shift >= 0.25), "{shifts:?}");
 }

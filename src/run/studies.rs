@@ -69,13 +69,13 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
             let angles = draw::with_all_angles(built, &relaxed.state).fold_angle;
             let error_to_kinematic = error_to_kinematic(&built.sheet, &built.tiling, &model, &angles);
             let result = RelaxSummary { self_intersecting, error_to_kinematic, ..result_of(built, &relaxed) };
-            Ok(relaxed_summary(study, seconds, result))
+            Ok(relaxation_summary(study, seconds, result, None))
         }
         Err(error) => {
             let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
             let self_intersecting = write_states(runner, study, [&first, &error.state], residuals)?;
             let result = RelaxSummary { self_intersecting, ..last_of(built, &error) };
-            Ok(failed_summary(study, seconds, (result, error.failure.to_string())))
+            Ok(relaxation_summary(study, seconds, result, Some(error.failure.to_string())))
         }
     }
 }
@@ -172,26 +172,20 @@ pub fn nowhere_to_start(study: &StudySpec) -> StudySummary {
     }
 }
 
-fn relaxed_summary(study: &StudySpec, seconds: f64, result: RelaxSummary) -> StudySummary {
+/// The summary of a relaxation, with its reason where it failed.
+fn relaxation_summary(study: &StudySpec, seconds: f64, result: RelaxSummary, failure: Option<String>) -> StudySummary {
+    let converged = failure.is_none();
     StudySummary {
-        converged: true,
+        converged,
         seconds,
-        error: Some(f64::max(result.residual_force, result.residual_length)),
+        error: converged.then_some(f64::max(result.residual_force, result.residual_length)),
+        reason: failure,
         result: Some(StudyResult::Relax(result)),
         ..StudySummary::unanswered(&study.name.0, study.kind.name())
     }
 }
 
-fn failed_summary(study: &StudySpec, seconds: f64, (result, failure): (RelaxSummary, String)) -> StudySummary {
-    StudySummary {
-        seconds,
-        reason: Some(failure),
-        result: Some(StudyResult::Relax(result)),
-        ..StudySummary::unanswered(&study.name.0, study.kind.name())
-    }
-}
-
-/// What a relaxation found, but for what else was asked.
+/// What a relaxation found; what is asked of the state besides is left open.
 fn result_of(built: &Built, relaxed: &Relaxed) -> RelaxSummary {
     RelaxSummary {
         energy: energy(built, &relaxed.state),
@@ -207,7 +201,7 @@ fn result_of(built: &Built, relaxed: &Relaxed) -> RelaxSummary {
     }
 }
 
-/// Where a relaxation that failed ended.
+/// Where a relaxation that failed ended, likewise.
 fn last_of(built: &Built, error: &RelaxError) -> RelaxSummary {
     let last = error.history.last();
     RelaxSummary {

@@ -18,13 +18,6 @@ pub enum SceneError {
         /// Why.
         source: io::Error,
     },
-    /// A mesh stands where a scene should.
-    #[error("{}: this is a mesh, not a scene", path.display())]
-    #[diagnostic(help("name it in a scene, a .toml file: under [sheet], mesh = \"{}\"", path.display()))]
-    NoScene {
-        /// The mesh.
-        path: PathBuf,
-    },
     /// A place in the scene is wrong.
     #[error("{file}:{line}:{column}: {message}")]
     At {

@@ -25,15 +25,8 @@ pub struct SceneFile {
 /// Reads and checks a scene file.
 ///
 /// # Errors
-/// [`SceneError::NoScene`] for a mesh, [`SceneError::Read`] when the file cannot be read, [`SceneError::At`] for everything that
-/// is wrong in it.
+/// [`SceneError::Read`] when the file cannot be read, [`SceneError::At`] for everything that is wrong in it.
 pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
-    if path
-        .extension()
-        .is_some_and(|ending| ["fold", "obj", "vtu"].iter().any(|mesh| ending.eq_ignore_ascii_case(mesh)))
-    {
-        return Err(SceneError::NoScene { path: path.into() });
-    }
     let text = std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     parse(&text, path)
 }

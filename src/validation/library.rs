@@ -110,6 +110,13 @@ mod tests {
     use super::super::measure;
     use super::*;
 
+    /// Claim: what tells the memory of large patches comes before all that would leave memory to the process.
+    #[test]
+    fn large_patches_come_first() {
+        let large = CLAIMS.iter().filter(|(name, _)| name.starts_with("large-")).count();
+        assert!(large > 0 && CLAIMS[..large].iter().all(|(name, _)| name.starts_with("large-")));
+    }
+
     /// Claim: every file of the folder is a claim of the program, each claim can be read, and what it names is there.
     #[test]
     fn every_file_is_a_claim() {
