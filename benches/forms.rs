@@ -23,6 +23,7 @@ use foldwell::model::Model;
 use foldwell::numerics::factor::{Factor, Inertia};
 use foldwell::numerics::parallel;
 use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, symmetric_product};
+use foldwell::numerics::tearing::TornFactor;
 use foldwell::solver::{Curvature, Layout, Linearization, Options, Problem, minimize};
 use foldwell::validation::forms;
 
@@ -123,7 +124,7 @@ fn solve(form: &mut dyn Form, system: &System, tolerance: f64) -> (usize, f64) {
 /// `H + R^T w R`, `w = min(k, gamma)`; a penalty where `gamma` is infinite.
 struct Weighted {
     gamma: f64,
-    factor: Factor,
+    factor: TornFactor,
     values: Vec<f64>,
     weights: Vec<f64>,
 }
@@ -131,7 +132,7 @@ struct Weighted {
 impl Weighted {
     fn new(system: &System, gamma: f64) -> Self {
         let layout = system.layout();
-        let factor = Factor::of(layout.symbolic().unwrap()).unwrap();
+        let factor = TornFactor::of(layout.tearing().unwrap()).unwrap();
         Self { gamma, factor, values: Vec::new(), weights: vec![0.0; layout.stiff.len()] }
     }
 }
@@ -146,7 +147,8 @@ impl Form for Weighted {
             self.weights[row] = f64::min(most / (largest * largest), 1.0 / c);
             system.at.add_outer(system.layout(), row, self.weights[row], &mut self.values);
         }
-        self.factor.factor(system.at.pattern(), &self.values).ok()
+        let outer = system.at.outer(system.layout(), 1.0, &self.weights);
+        self.factor.factor(system.at.pattern(), &self.values, outer).ok()
     }
 
     fn apply(&mut self, system: &System, a: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>) {

@@ -24,7 +24,7 @@ use common::kernels::{Sparse, dense_factor_and_solve};
 use common::{Star, exponent, in_turns, measuring, seconds, size, vector, wanted};
 use foldwell::model::Model;
 use foldwell::numerics::factor::DENSE_LIMIT;
-use foldwell::numerics::{factor::Factor, parallel};
+use foldwell::numerics::{parallel, tearing::TornFactor};
 use foldwell::solver::saddle::Saddle;
 use foldwell::solver::{
     Curvature, Equilibrium, Layout, Linearization, NewtonError, Options, Problem, minimize, tension,
@@ -202,7 +202,8 @@ impl Step {
 
 /// A factorization of a matrix of the same size and pattern, with nothing around it.
 struct Bare {
-    factor: Factor,
+    factor: TornFactor,
+    weights: Vec<f64>,
     values: Vec<f64>,
     right: Vec<f64>,
 }
@@ -217,15 +218,17 @@ impl Bare {
     fn new(step: &Step) -> Self {
         let layout = step.model.layout();
         let mut values = step.at.hessian.clone();
-        for row in 0..layout.stiff.len() {
-            step.at.add_outer(layout, row, 1e6, &mut values);
+        let weights = vec![1e6; layout.stiff.len()];
+        for (row, weight) in weights.iter().enumerate() {
+            step.at.add_outer(layout, row, *weight, &mut values);
         }
-        let factor = Factor::of(layout.symbolic().unwrap()).unwrap();
-        Self { factor, values, right: step.right.0.clone() }
+        let factor = TornFactor::of(layout.tearing().unwrap()).unwrap();
+        Self { factor, weights, values, right: step.right.0.clone() }
     }
 
     fn factor(&mut self, step: &Step) -> f64 {
-        seconds(|| self.factor.factor(step.at.pattern(), &self.values).unwrap())
+        let outer = step.at.outer(step.model.layout(), 1.0, &self.weights);
+        seconds(|| self.factor.factor(step.at.pattern(), &self.values, outer).unwrap())
     }
 
     fn solve(&mut self) -> f64 {

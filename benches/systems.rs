@@ -7,7 +7,8 @@
 //!
 //! `S = H + R^T w R` at the relaxed state of rigid 12 x 12, 24 x 24 and 48 x 48 cells, with the full Hessian: positive
 //! definite. The pattern is analysed once and is not timed; numbers are factored, and one right-hand side is
-//! solved. One thread. The residual is relative to the largest entry of the matrix and of the solution.
+//! solved, torn (`numerics::tearing`, as the program does it) and whole, in turns. One thread. The residual is relative to the
+//! largest entry of the matrix and of the solution.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -15,10 +16,11 @@ mod common;
 use common::{Star, in_turns, measuring, seconds, size, vector};
 use foldwell::numerics::factor::Factor;
 use foldwell::numerics::parallel;
-use foldwell::numerics::sparse::symmetric_product;
+use foldwell::numerics::sparse::{Pattern, symmetric_product};
+use foldwell::numerics::tearing::TornFactor;
 use foldwell::solver::saddle::Saddle;
 use foldwell::solver::{Curvature, Linearization, Options, Problem, minimize};
-use std::fmt::Write;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 const ROUNDS: usize = 7;
@@ -27,7 +29,11 @@ fn main() {
     parallel::set_threads(1);
     let folder = folder();
     let sizes: &[usize] = if measuring() || folder.is_some() { &[12, 24, 48] } else { &[3] };
-    println!("{:>3} {:>9} {:>10} {:>10} {:>9}", "n", "unknowns", "factor ms", "solve ms", "residual");
+    println!("{:>13} {:>6} {:>27} {:>27}", "", "hinges", "torn: factor, solve, stored", "whole");
+    println!(
+        "{:>3} {:>9} {:>6} {:>9} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9}",
+        "n", "unknowns", "open", "ms", "ms", "millions", "ms", "ms", "millions", "residual"
+    );
     for &n in sizes {
         one(n, folder.as_deref());
     }
@@ -52,30 +58,60 @@ fn one(n: usize, folder: Option<&Path>) {
     let right = vector(2, unknowns, 1.0);
     let mut solution = Vec::new();
     let (layout, pattern, entries) = (model.layout(), at.pattern(), saddle.entries());
-    let mut factor = Factor::of(layout.symbolic().unwrap()).unwrap();
-    let factoring = in_turns(ROUNDS, &mut [&mut || seconds(|| factor.factor(pattern, entries))]);
+    let tearing = layout.tearing().unwrap();
+    let mut torn = TornFactor::of(tearing).unwrap();
+    let mut whole = Factor::new(pattern, &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
+    let outer = at.outer(layout, 1.0, saddle.weights());
+    let factoring = in_turns(
+        ROUNDS,
+        &mut [&mut || seconds(|| torn.factor(pattern, entries, &outer)), &mut || {
+            seconds(|| whole.factor(pattern, entries))
+        }],
+    );
+    let mut other = right.clone();
     let solving = in_turns(
         ROUNDS,
-        &mut [&mut || {
-            solution.clone_from(&right);
-            seconds(|| factor.solve(&mut solution))
-        }],
+        &mut [
+            &mut || {
+                solution.clone_from(&right);
+                seconds(|| torn.solve(&mut solution))
+            },
+            &mut || {
+                other.clone_from(&right);
+                seconds(|| whole.solve(&mut other))
+            },
+        ],
     );
     let mut product = vec![0.0; unknowns];
     symmetric_product(pattern, entries, &solution, &mut product);
     let size = pattern.largest_diagonal(entries) * solution.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let residual = common::difference(&product, &right) / size;
-    println!("{n:3} {unknowns:9} {:10.2} {:10.2} {residual:9.0e}", 1e3 * factoring[0], 1e3 * solving[0]);
+    println!(
+        "{n:3} {unknowns:9} {:6} {:9.2} {:8.2} {:8.2} {:9.2} {:8.2} {:8.2} {residual:9.0e}",
+        tearing.open(),
+        1e3 * factoring[0],
+        1e3 * solving[0],
+        1e-6 * torn.stored() as f64,
+        1e3 * factoring[1],
+        1e3 * solving[1],
+        1e-6 * whole.stored() as f64
+    );
     if let Some(folder) = folder {
-        let mut text =
-            format!("%%MatrixMarket matrix coordinate real symmetric\n{unknowns} {unknowns} {}\n", entries.len());
-        let places = (0..unknowns).flat_map(|column| pattern.column(column).iter().map(move |row| (row, column)));
-        for ((row, column), entry) in places.zip(entries) {
-            writeln!(text, "{} {} {entry:e}", row + 1, column + 1).unwrap();
-        }
-        std::fs::create_dir_all(folder).unwrap();
-        std::fs::write(folder.join(format!("{n}.mtx")), text).unwrap();
-        let times = format!("{{ \"factor\": {:e}, \"solve\": {:e} }}\n", factoring[0], solving[0]);
-        std::fs::write(folder.join(format!("{n}.json")), times).unwrap();
+        write(folder, n, pattern, entries, [factoring[0], solving[0]]);
     }
+}
+
+/// The matrix, and seconds for one torn factorization and one solve.
+fn write(folder: &Path, n: usize, pattern: &Pattern, entries: &[f64], [factor, solve]: [f64; 2]) {
+    let unknowns = pattern.size();
+    let mut text =
+        format!("%%MatrixMarket matrix coordinate real symmetric\n{unknowns} {unknowns} {}\n", entries.len());
+    let places = (0..unknowns).flat_map(|column| pattern.column(column).iter().map(move |row| (row, column)));
+    for ((row, column), entry) in places.zip(entries) {
+        writeln!(text, "{} {} {entry:e}", row + 1, column + 1).unwrap();
+    }
+    std::fs::create_dir_all(folder).unwrap();
+    std::fs::write(folder.join(format!("{n}.mtx")), text).unwrap();
+    let times = format!("{{ \"factor\": {factor:e}, \"solve\": {solve:e} }}\n");
+    std::fs::write(folder.join(format!("{n}.json")), times).unwrap();
 }

@@ -8,6 +8,8 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 pub trait Measure<const N: usize, const D: usize> {
     /// Whether values are angles, known modulo 2 pi, that must continue from the last accepted state.
     const ANGLE: bool;
+    /// Whether its points are `[i, j, left, right]` of a hinge and its Hessian does not couple `left` with `right`.
+    const HINGE: bool;
     /// The scalar.
     fn value(points: &[Vec3; N]) -> f64;
     /// The scalar and its gradient.
@@ -24,6 +26,7 @@ pub struct Length;
 
 impl Measure<2, 6> for Length {
     const ANGLE: bool = false;
+    const HINGE: bool = false;
 
     fn value([a, b]: &[Vec3; 2]) -> f64 {
         (b - a).norm()
@@ -62,6 +65,7 @@ pub struct FoldAngle;
 
 impl Measure<4, 12> for FoldAngle {
     const ANGLE: bool = true;
+    const HINGE: bool = true;
 
     fn value(points: &[Vec3; 4]) -> f64 {
         fold_angle::fold_angle(*points)

@@ -293,7 +293,10 @@ fn layout(
     let collect = |terms: &[Box<dyn Elements>]| {
         let mut cliques = Cliques::new();
         for term in terms {
-            (0..term.len()).for_each(|k| cliques.push(members(term.as_ref(), k, domain, number)));
+            for k in 0..term.len() {
+                let members = members(term.as_ref(), k, domain, number);
+                if term.is_hinge() { cliques.push_hinge(members) } else { cliques.push(members) }
+            }
         }
         cliques
     };

@@ -75,6 +75,8 @@ pub trait Elements: Send + Sync {
     }
     /// Whether values are angles.
     fn is_angle(&self) -> bool;
+    /// Whether its elements are hinges, see [`Measure::HINGE`].
+    fn is_hinge(&self) -> bool;
     /// Points of element `k`.
     fn sites(&self, k: usize) -> &[Site];
     /// Law of element `k`.
@@ -126,6 +128,10 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
 
     fn is_angle(&self) -> bool {
         M::ANGLE
+    }
+
+    fn is_hinge(&self) -> bool {
+        M::HINGE
     }
 
     fn sites(&self, k: usize) -> &[Site] {

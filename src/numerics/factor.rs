@@ -148,11 +148,20 @@ impl Symbolic {
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
     pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
-        let size = pattern.size();
-        if size <= DENSE_LIMIT {
-            return Ok(Self { size, sparse: None });
+        if pattern.size() <= DENSE_LIMIT {
+            return Ok(Self::dense(pattern.size()));
         }
-        let order = super::order::nested_dissection(node, cliques);
+        Self::ordered(pattern, &super::order::nested_dissection(node, cliques))
+    }
+
+    /// No analysis: matrices of this size are factored dense.
+    pub(super) fn dense(size: usize) -> Self {
+        Self { size, sparse: None }
+    }
+
+    /// Analyses a pattern whose order of elimination is known, `order[new] = old`.
+    pub(super) fn ordered(pattern: &Pattern, order: &[u32]) -> Result<Self, FactorError> {
+        let size = pattern.size();
         let mut inverse = vec![0u32; size];
         for (new, &old) in order.iter().enumerate() {
             inverse[old as usize] = new as u32;
@@ -161,7 +170,7 @@ impl Symbolic {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..default()
         };
-        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, size));
+        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, size));
         let sparse = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, ordering, params)
             .map_err(|_| FactorError::TooLarge { size })?;
         Ok(Self { size, sparse: Some(Arc::new(sparse)) })

@@ -12,6 +12,7 @@ pub mod parallel;
 pub mod polynomial;
 pub mod rank;
 pub mod sparse;
+pub mod tearing;
 
 #[cfg(test)]
 mod tests;

@@ -10,25 +10,40 @@ use super::sparse::{Cliques, FIXED};
 ///
 /// `node[k]` is the block to which unknown `k` belongs; blocks are numbered from 0 without gaps.
 pub fn nested_dissection(node: &[u32], cliques: &[&Cliques]) -> Vec<u32> {
-    let nodes = node.iter().max().map_or(0, |&last| last as usize + 1);
-    let neighbours = neighbours(node, nodes, cliques);
-    let limit = 40 + 10 * (nodes as f64).sqrt() as usize;
-    let (light, heavy): (Vec<u32>, Vec<u32>) = (0..nodes as u32).partition(|&k| neighbours[k as usize].len() < limit);
-    let mut order = dissect(&light, &neighbours);
-    order.extend(heavy);
-    expand(&order, node, nodes)
+    let neighbours = neighbours(node, cliques, |_| None);
+    let unknowns = unknowns(node);
+    nodes(&neighbours).iter().flat_map(|&block| unknowns[block as usize].iter().copied()).collect()
 }
 
-fn neighbours(node: &[u32], nodes: usize, cliques: &[&Cliques]) -> Vec<Vec<u32>> {
-    let mut lists = vec![Vec::new(); nodes];
+/// Order of elimination of the nodes of this graph.
+pub(super) fn nodes(neighbours: &[Vec<u32>]) -> Vec<u32> {
+    let limit = 40 + 10 * (neighbours.len() as f64).sqrt() as usize;
+    let (light, heavy): (Vec<u32>, Vec<u32>) =
+        (0..neighbours.len() as u32).partition(|&k| neighbours[k as usize].len() < limit);
+    let mut order = dissect(&light, neighbours);
+    order.extend(heavy);
+    order
+}
+
+/// The nodes next to each node, in ascending order: those that a clique couples with it. `apart((list, clique))` are two nodes that this
+/// clique does not join.
+pub(super) fn neighbours(
+    node: &[u32],
+    cliques: &[&Cliques],
+    apart: impl Fn((usize, usize)) -> Option<[u32; 2]>,
+) -> Vec<Vec<u32>> {
+    let mut lists = vec![Vec::new(); count(node)];
     let mut distinct = Vec::new();
-    for members in cliques.iter().flat_map(|list| list.iter()) {
+    for (list, clique) in places(cliques) {
+        let members = cliques[list].members(clique).iter().filter(|m| **m != FIXED);
         distinct.clear();
-        distinct.extend(members.iter().filter(|m| **m != FIXED).map(|&m| node[m as usize]));
+        distinct.extend(members.map(|&m| node[m as usize]));
         distinct.sort_unstable();
         distinct.dedup();
+        let apart = apart((list, clique));
         for &a in &distinct {
-            lists[a as usize].extend(distinct.iter().filter(|b| **b != a));
+            let other = apart.filter(|pair| pair.contains(&a)).map_or(a, |[b, c]| if a == b { c } else { b });
+            lists[a as usize].extend(distinct.iter().filter(|b| **b != a && **b != other));
         }
     }
     for list in &mut lists {
@@ -36,6 +51,23 @@ fn neighbours(node: &[u32], nodes: usize, cliques: &[&Cliques]) -> Vec<Vec<u32>>
         list.dedup();
     }
     lists
+}
+
+/// List and number of every clique.
+pub(super) fn places<'a>(cliques: &'a [&Cliques]) -> impl Iterator<Item = (usize, usize)> + 'a {
+    cliques.iter().enumerate().flat_map(|(list, cliques)| (0..cliques.len()).map(move |clique| (list, clique)))
+}
+
+/// Number of nodes.
+pub(super) fn count(node: &[u32]) -> usize {
+    node.iter().max().map_or(0, |&last| last as usize + 1)
+}
+
+/// The unknowns of each node.
+pub(super) fn unknowns(node: &[u32]) -> Vec<Vec<u32>> {
+    let mut unknowns = vec![Vec::new(); count(node)];
+    (0..).zip(node).for_each(|(unknown, &block)| unknowns[block as usize].push(unknown));
+    unknowns
 }
 
 /// Nested dissection of the subgraph of the nodes in `chosen`; their natural order where that fails.
@@ -61,13 +93,5 @@ fn dissect(chosen: &[u32], neighbours: &[Vec<u32>]) -> Vec<u32> {
 /// As much effort as pays for sheets: smaller pieces are ordered by minimum degree and fewer first bisections are tried
 /// than by default, which takes 0.6 of the time for as many numbers in the factor (patches of 2,000 to 40,000 unknowns).
 fn options() -> feral_metis::MetisOptions {
-    feral_metis::MetisOptions { nd_to_amd_switch: 400, niparts: 2, ..Default::default() }
-}
-
-fn expand(order: &[u32], node: &[u32], nodes: usize) -> Vec<u32> {
-    let mut unknowns = vec![Vec::new(); nodes];
-    for (unknown, &block) in node.iter().enumerate() {
-        unknowns[block as usize].push(unknown as u32);
-    }
-    order.iter().flat_map(|&block| unknowns[block as usize].iter().copied()).collect()
+    feral_metis::MetisOptions { nd_to_amd_switch: 200, niparts: 2, ..Default::default() }
 }

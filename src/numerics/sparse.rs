@@ -5,28 +5,49 @@
 //! that blocks are added in place. [`Rows`] keeps one row a clique: the Jacobian of scalar measures.
 
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use std::ops::Range;
 
 /// Marks a member that is held fixed: its rows and columns do not exist.
 pub const FIXED: u32 = u32::MAX;
 const TWICE: u32 = 1 << 31;
+/// Places of the coordinates of a hinge's wings among the members of its clique.
+pub const LEFT: Range<usize> = 6..9;
+/// See [`LEFT`].
+pub const RIGHT: Range<usize> = 9..12;
 
 /// Lists of unknowns that are coupled with each other, one list an element.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Cliques {
     starts: Vec<usize>,
     members: Vec<u32>,
+    hinges: Vec<bool>,
 }
 
 impl Cliques {
     /// No cliques yet.
     pub fn new() -> Self {
-        Self { starts: vec![0], members: Vec::new() }
+        Self { starts: vec![0], members: Vec::new(), hinges: Vec::new() }
     }
 
     /// Appends a clique. Members are numbers of unknowns, or [`FIXED`]; an unknown may occur several times.
     pub fn push(&mut self, members: impl IntoIterator<Item = u32>) {
         self.members.extend(members);
         self.starts.push(self.members.len());
+        self.hinges.push(false);
+    }
+
+    /// Appends the clique of a hinge: the coordinates of its ends, of its left wing ([`LEFT`]) and of its right wing ([`RIGHT`]), then
+    /// any others. Of its block only the outer product of the gradient may couple one wing with the other.
+    pub fn push_hinge(&mut self, members: impl IntoIterator<Item = u32>) {
+        self.push(members);
+        if let Some(last) = self.hinges.last_mut() {
+            *last = true;
+        }
+    }
+
+    /// Whether clique `k` was appended as that of a hinge.
+    pub fn is_hinge(&self, k: usize) -> bool {
+        self.hinges[k]
     }
 
     /// Number of cliques.
@@ -45,7 +66,7 @@ impl Cliques {
     }
 
     /// Where the members of clique `k` stand in an array that has one number for each member of each clique.
-    pub fn range(&self, k: usize) -> std::ops::Range<usize> {
+    pub fn range(&self, k: usize) -> Range<usize> {
         self.starts[k]..self.starts[k + 1]
     }
 
@@ -71,35 +92,52 @@ pub struct Pattern {
 impl Pattern {
     /// Pattern of the sum of all cliques' blocks; every diagonal entry is there.
     pub fn new(n: usize, cliques: &[&Cliques]) -> Self {
-        let mut counts = vec![1usize; n];
-        for_pairs(cliques, |_, column| counts[column as usize] += 1);
-        let mut fill: Vec<usize> = Vec::with_capacity(n + 1);
-        fill.push(0);
-        for count in &counts {
-            fill.push(fill[fill.len() - 1] + count);
-        }
-        let starts = fill.clone();
-        let mut entries = vec![0u32; starts[n]];
-        let mut put = |row: u32, column: u32| {
-            entries[fill[column as usize]] = row;
-            fill[column as usize] += 1;
-        };
-        (0..n as u32).for_each(|k| put(k, k));
-        for_pairs(cliques, &mut put);
+        let lists: Vec<(&Cliques, Incidence)> = cliques.iter().map(|&list| (list, Incidence::new(n, list))).collect();
         let (mut columns, mut rows) = (vec![0u32], Vec::new());
-        for column in 0..n {
-            let list = &mut entries[starts[column]..starts[column + 1]];
-            list.sort_unstable();
-            let mut last = None;
-            for &row in list.iter() {
-                if last != Some(row) {
-                    rows.push(row);
-                    last = Some(row);
+        let mut reached = vec![FIXED; n];
+        for column in 0..n as u32 {
+            let start = rows.len();
+            rows.push(column);
+            let mut reach = |member: u32| {
+                if member != FIXED && member > column && reached[member as usize] != column {
+                    reached[member as usize] = column;
+                    rows.push(member);
+                }
+            };
+            for (list, incidence) in &lists {
+                let met = incidence.of(column).iter().map(|&(clique, _)| list.members(clique as usize));
+                met.for_each(|members| members.iter().for_each(|&member| reach(member)));
+            }
+            rows[start..].sort_unstable();
+            columns.push(rows.len() as u32);
+        }
+        Self { n, columns, rows }
+    }
+
+    /// This pattern with one more unknown for each list of unknowns in `more`, with which it is coupled; the new ones are numbered
+    /// before all others. Pairs of unknowns that are `apart` are taken out. Also the slot that each entry of this pattern has there,
+    /// or [`FIXED`].
+    pub(super) fn extended(&self, more: &[Vec<u32>], apart: impl Fn(u32, u32) -> bool) -> (Self, Vec<u32>) {
+        let shift = more.len() as u32;
+        let (mut columns, mut rows, mut slots) = (vec![0], Vec::new(), Vec::with_capacity(self.entries()));
+        for (column, coupled) in (0..).zip(more) {
+            let start = rows.len();
+            rows.push(column);
+            rows.extend(coupled.iter().map(|row| row + shift));
+            rows[start..].sort_unstable();
+            columns.push(rows.len() as u32);
+        }
+        for column in 0..self.n as u32 {
+            for &row in self.column(column as usize) {
+                let slot = if apart(row, column) { FIXED } else { rows.len() as u32 };
+                slots.push(slot);
+                if slot != FIXED {
+                    rows.push(row + shift);
                 }
             }
             columns.push(rows.len() as u32);
         }
-        Self { n, columns, rows }
+        (Self { n: self.n + more.len(), columns, rows }, slots)
     }
 
     /// Number of rows.
@@ -145,31 +183,6 @@ impl Pattern {
         matrix
     }
 
-    /// Slots of the lower triangles of all cliques' blocks, row by row.
-    fn slots(&self, cliques: &Cliques) -> Vec<u32> {
-        let total = cliques.iter().map(|c| c.len() * (c.len() + 1) / 2).sum();
-        let mut slots = Vec::with_capacity(total);
-        for members in cliques.iter() {
-            for (p, &row) in members.iter().enumerate() {
-                for (q, &column) in members[..=p].iter().enumerate() {
-                    slots.push(self.slot(row, column, p != q));
-                }
-            }
-        }
-        slots
-    }
-
-    fn slot(&self, row: u32, column: u32, off_diagonal: bool) -> u32 {
-        if row == FIXED || column == FIXED {
-            return FIXED;
-        }
-        let (row, column) = (row.max(column), row.min(column));
-        let start = self.columns[column as usize];
-        let found = self.column(column as usize).binary_search(&row);
-        let slot = start + found.expect("the pattern holds every pair of every clique") as u32;
-        if off_diagonal && row == column { slot | TWICE } else { slot }
-    }
-
     pub(super) fn symbolic(&self) -> SymbolicSparseColMatRef<'_, u32> {
         SymbolicSparseColMatRef::new_checked(self.n, self.n, &self.columns, None, &self.rows)
     }
@@ -179,16 +192,29 @@ impl Pattern {
     }
 }
 
-/// Calls `visit(row, column)` with `row > column` for every pair of different unknowns of every clique.
-fn for_pairs(cliques: &[&Cliques], mut visit: impl FnMut(u32, u32)) {
-    for members in cliques.iter().flat_map(|list| list.iter()) {
-        for (p, &a) in members.iter().enumerate() {
-            for &b in &members[..p] {
-                if a != b && a != FIXED && b != FIXED {
-                    visit(a.max(b), a.min(b));
-                }
+/// Where every unknown stands: cliques in ascending order, and its place in each.
+struct Incidence {
+    starts: Vec<usize>,
+    places: Vec<(u32, u32)>,
+}
+
+impl Incidence {
+    fn new(n: usize, cliques: &Cliques) -> Self {
+        let mut starts = vec![0usize; n + 1];
+        cliques.members.iter().filter(|m| **m != FIXED).for_each(|&m| starts[m as usize + 1] += 1);
+        (0..n).for_each(|unknown| starts[unknown + 1] += starts[unknown]);
+        let (mut next, mut places) = (starts.clone(), vec![(0, 0); starts[n]]);
+        for (clique, members) in (0..).zip(cliques.iter()) {
+            for (place, &member) in (0..).zip(members).filter(|(_, member)| **member != FIXED) {
+                places[next[member as usize]] = (clique, place);
+                next[member as usize] += 1;
             }
         }
+        Self { starts, places }
+    }
+
+    fn of(&self, unknown: u32) -> &[(u32, u32)] {
+        &self.places[self.starts[unknown as usize]..self.starts[unknown as usize + 1]]
     }
 }
 
@@ -200,13 +226,27 @@ pub struct Slots {
 }
 
 impl Slots {
-    /// Slots of `cliques` in `pattern`, which must hold all their pairs.
+    /// Slots of `cliques` in `pattern`. What they couple that the pattern does not hold is left out.
     pub fn new(pattern: &Pattern, cliques: &Cliques) -> Self {
         let mut starts = vec![0];
         for members in cliques.iter() {
             starts.push(starts[starts.len() - 1] + members.len() * (members.len() + 1) / 2);
         }
-        Self { starts, slots: pattern.slots(cliques) }
+        let mut slots = vec![FIXED; starts[cliques.len()]];
+        let incidence = Incidence::new(pattern.n, cliques);
+        let mut slot_of_row = vec![FIXED; pattern.n];
+        for column in 0..pattern.n as u32 {
+            let rows = pattern.column(column as usize);
+            let first = pattern.columns[column as usize];
+            rows.iter().zip(first..).for_each(|(&row, slot)| slot_of_row[row as usize] = slot);
+            for &(clique, place) in incidence.of(column) {
+                let clique = clique as usize;
+                let block = &mut slots[starts[clique]..starts[clique + 1]];
+                fill_column(block, cliques.members(clique), place as usize, &slot_of_row);
+            }
+            rows.iter().for_each(|&row| slot_of_row[row as usize] = FIXED);
+        }
+        Self { starts, slots }
     }
 
     /// Adds `scale` times the lower triangle of a block, given row by row, to the values.
@@ -246,6 +286,15 @@ impl Slots {
                 add(values, slot, scaled * entry);
             }
         }
+    }
+}
+
+/// Puts the slots of a clique's block in place that stand in the column of the matrix to which the member at `place` belongs.
+fn fill_column(block: &mut [u32], members: &[u32], place: usize, slot_of_row: &[u32]) {
+    for (other, &row) in members.iter().enumerate().filter(|(_, row)| **row != FIXED && **row >= members[place]) {
+        let (high, low) = (place.max(other), place.min(other));
+        let twice = if place != other && row == members[place] { TWICE } else { 0 };
+        block[high * (high + 1) / 2 + low] = slot_of_row[row as usize] | twice;
     }
 }
 

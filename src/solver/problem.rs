@@ -4,8 +4,9 @@
 //! its rest value) and compliances `c_r = 1/k_r >= 0`. A compliance of zero is the constraint `m_r(x) = 0`. The
 //! tension `t_r` of a measure is an unknown of its own, `m_r = c_r t_r`, so nothing is ever multiplied by `k_r`.
 
-use crate::numerics::factor::{FactorError, Symbolic};
+use crate::numerics::factor::FactorError;
 use crate::numerics::sparse::{Cliques, FIXED, Pattern, Rows, Slots};
+use crate::numerics::tearing::Tearing;
 use std::sync::{Arc, OnceLock};
 
 /// Which unknowns there are and which are coupled.
@@ -30,7 +31,7 @@ struct Plan {
     pattern: Pattern,
     soft: Slots,
     stiff: Slots,
-    symbolic: OnceLock<Result<Symbolic, FactorError>>,
+    tearing: OnceLock<Result<Arc<Tearing>, FactorError>>,
 }
 
 impl Layout {
@@ -43,18 +44,18 @@ impl Layout {
         self.plan.get_or_init(|| {
             let pattern = Pattern::new(self.unknowns, &[&self.soft, &self.stiff]);
             let (soft, stiff) = (Slots::new(&pattern, &self.soft), Slots::new(&pattern, &self.stiff));
-            Arc::new(Plan { pattern, soft, stiff, symbolic: OnceLock::new() })
+            Arc::new(Plan { pattern, soft, stiff, tearing: OnceLock::new() })
         })
     }
 
     /// How matrices of the Hessian's pattern are factored; analysed once.
     ///
     /// # Errors
-    /// As [`Symbolic::new`].
-    pub fn symbolic(&self) -> Result<&Symbolic, FactorError> {
+    /// As [`Tearing::new`].
+    pub fn tearing(&self) -> Result<&Arc<Tearing>, FactorError> {
         let plan = self.plan();
-        let found = plan.symbolic.get_or_init(|| Symbolic::new(&plan.pattern, &self.node, &[&self.soft, &self.stiff]));
-        found.as_ref().map_err(|error| *error)
+        let analyse = || Tearing::new(&plan.pattern, &self.node, &[&self.soft, &self.stiff]).map(Arc::new);
+        plan.tearing.get_or_init(analyse).as_ref().map_err(|error| *error)
     }
 }
 
@@ -161,6 +162,20 @@ impl Linearization {
     pub fn add_outer(&self, layout: &Layout, measure: usize, weight: f64, values: &mut [f64]) {
         let gradient = &self.jacobian[layout.stiff.range(measure)];
         self.plan.stiff.add_outer(measure, weight, gradient, values);
+    }
+
+    /// Weight and gradient of the outer product that an element, soft (list 0) or stiff (list 1), has in a matrix with `part` of the soft
+    /// elements' Gauss-Newton Hessian and these weights of the stiff measures.
+    pub fn outer<'a>(
+        &'a self,
+        layout: &Layout,
+        part: f64,
+        weights: &[f64],
+    ) -> impl Fn(usize, usize) -> (f64, &'a [f64]) {
+        move |list, element| match list {
+            0 => (part * self.soft_stiffness[element], &self.soft_gradients[layout.soft.range(element)]),
+            _ => (weights[element], &self.jacobian[layout.stiff.range(element)]),
+        }
     }
 
     /// Adds `amount` times the identity to the Hessian.

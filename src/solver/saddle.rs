@@ -19,8 +19,9 @@
 //! 1e12 it loses the drawn states of 24 and 48 cells a side.
 
 use super::problem::{Layout, Linearization};
-use crate::numerics::factor::{Factor, FactorError, Inertia};
+use crate::numerics::factor::{FactorError, Inertia};
 use crate::numerics::sparse::{Rows, symmetric_product};
+use crate::numerics::tearing::TornFactor;
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
 const GAMMA: f64 = 1e7;
@@ -53,7 +54,7 @@ pub struct Solved {
 
 /// A factorization of `S` and what is needed to solve with it.
 pub struct Saddle {
-    factor: Factor,
+    factor: TornFactor,
     shifted: Vec<f64>,
     values: Vec<f64>,
     weights: Vec<f64>,
@@ -68,7 +69,7 @@ pub struct Saddle {
 impl Saddle {
     /// Room for a problem of this layout.
     pub fn new(layout: &Layout, linearization: &Linearization) -> Result<Self, FactorError> {
-        let factor = Factor::of(layout.symbolic()?)?;
+        let factor = TornFactor::of(layout.tearing()?)?;
         let values = vec![0.0; linearization.pattern().entries()];
         let shifted = values.clone();
         let weights = vec![0.0; layout.stiff.len()];
@@ -85,13 +86,17 @@ impl Saddle {
         shift: f64,
     ) -> Result<Inertia, FactorError> {
         self.fill(layout, at, compliance, shift);
-        self.factorizations += 1;
-        self.factor.factor(at.pattern(), &self.values)
+        self.factor_filled(layout, at, 1.0 + shift)
     }
 
     /// Entries of the matrix that was factored last, in the pattern of the linearization: its lower triangle, by columns.
     pub fn entries(&self) -> &[f64] {
         &self.values
+    }
+
+    /// Weights of the stiff measures in the matrix that was factored last.
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
     }
 
     /// Factors `S` with the identity in the place of the Hessian: solves then give the shortest motion.
@@ -104,8 +109,7 @@ impl Saddle {
         self.shifted.fill(0.0);
         at.pattern().add_to_diagonal(&mut self.shifted, Self::unit(at));
         self.weigh(layout, at, compliance);
-        self.factorizations += 1;
-        self.factor.factor(at.pattern(), &self.values)
+        self.factor_filled(layout, at, 0.0)
     }
 
     /// Inertia of `S`, with eigenvalues that are zero to rounding error counted as positive.
@@ -113,8 +117,13 @@ impl Saddle {
         self.fill(layout, at, compliance, 0.0);
         let neutral = NEUTRAL * at.pattern().largest_diagonal(&self.values);
         at.pattern().add_to_diagonal(&mut self.values, neutral);
+        self.factor_filled(layout, at, 1.0)
+    }
+
+    /// Factors the values, which have `part` of the soft elements' Gauss-Newton Hessian in them.
+    fn factor_filled(&mut self, layout: &Layout, at: &Linearization, part: f64) -> Result<Inertia, FactorError> {
         self.factorizations += 1;
-        self.factor.factor(at.pattern(), &self.values)
+        self.factor.factor(at.pattern(), &self.values, at.outer(layout, part, &self.weights))
     }
 
     fn fill(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64], shift: f64) {

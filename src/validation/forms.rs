@@ -7,7 +7,8 @@
 //! Res. 1, 97, 1976). The program's own way, tensions as unknowns beside `x`, is [`crate::solver::minimize`].
 
 use crate::model::Model;
-use crate::numerics::factor::{Factor, FactorError};
+use crate::numerics::factor::FactorError;
+use crate::numerics::tearing::TornFactor;
 use crate::solver::{Curvature, Linearization, Problem, tension};
 
 /// Most Newton steps in all, and most updates of the tensions.
@@ -54,7 +55,7 @@ struct Weighted<'a> {
     softness: f64,
     before: Vec<f64>,
     at: Linearization,
-    factor: Factor,
+    factor: TornFactor,
     x: Vec<f64>,
     iterations: usize,
 }
@@ -66,7 +67,7 @@ struct Weighted<'a> {
 pub fn minimize(model: &mut Model, form: Form) -> Result<Outcome, FactorError> {
     let at = Linearization::new(model.layout());
     let layout = model.layout();
-    let factor = Factor::of(layout.symbolic()?)?;
+    let factor = TornFactor::of(layout.tearing()?)?;
     let (x, before) = (model.start(), vec![0.0; layout.stiff.len()]);
     let (softness, updates) = match form {
         Form::Penalty => (0.0, 1),
@@ -132,12 +133,14 @@ impl Weighted<'_> {
 
     /// The state after one step, and what a whole one is expected to gain; `None` where no fraction lowers the energy.
     fn step(&mut self, force: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let mut matrix = self.at.hessian.clone();
-        for (row, c) in self.model.compliance().iter().enumerate() {
-            self.at.add_outer(self.model.layout(), row, self.weight(*c), &mut matrix);
+        let (layout, mut matrix) = (self.model.layout(), self.at.hessian.clone());
+        let weights: Vec<f64> = self.model.compliance().iter().map(|c| self.weight(*c)).collect();
+        for (row, weight) in weights.iter().enumerate() {
+            self.at.add_outer(layout, row, *weight, &mut matrix);
         }
+        let outer = self.at.outer(layout, 1.0, &weights);
         let mut shift = 0.0;
-        while !self.factor.factor(self.at.pattern(), &matrix).is_ok_and(|inertia| inertia.negative == 0) {
+        while !self.factor.factor(self.at.pattern(), &matrix, &outer).is_ok_and(|inertia| inertia.negative == 0) {
             let more = if shift == 0.0 { FIRST_SHIFT } else { (RAISE - 1.0) * shift };
             self.at.pattern().add_to_diagonal(&mut matrix, more);
             shift += more;

@@ -1,0 +1,245 @@
+//! Torn factorization: hinges are opened where they would widen the separators of nested dissection.
+//!
+//! The block of a hinge couples its two wings, so a line of edges does not separate the vertices on both sides of it; without these couplings it
+//! does. They come from an outer product alone: `k g g^T`, with the gradient `g = (g_e, g_l, g_r)` at the ends and the two wings. With
+//! `d = (g_e, g_l, -g_r)` the sum `k (g g^T + d d^T)` does not couple the wings. So a hinge gets an unknown `y` of its own, which costs
+//! `k (d.x - y)^2 / 2`: nothing at its best value, `y = d.x`. The matrix with these unknowns has the first one, `S`, as its Schur
+//! complement, the same solutions, and as many negative eigenvalues:
+//!
+//! `[ S + sum k d d^T   -sum k d ]`
+//! `[ -sum k d^T         diag(k) ]`.
+//!
+//! That one adds an unknown to take a coupling out is tearing (G. Kron, Diakoptics, 1963). An open hinge stands in a separator with one unknown, a
+//! second line of vertices would with three. Only hinges between two parts of the elimination tree are opened; with large sheets
+//! that is one in five, and the factorization needs half the operations (`cargo bench --bench systems`).
+
+use super::factor::{DENSE_LIMIT, Factor, FactorError, Inertia, Symbolic};
+use super::order;
+use super::sparse::{Cliques, FIXED, LEFT, Pattern, RIGHT, Slots};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Parts with at most so many nodes are too small for an open hinge to save anything.
+const SMALL: usize = 20;
+/// No node: the root of a tree, or one that was not found.
+const NONE: usize = usize::MAX;
+
+/// The analysis of a sum of cliques' blocks: which hinges are open, where the entries go, and the order of elimination.
+#[derive(Debug)]
+pub struct Tearing {
+    /// List and number of every torn clique.
+    torn: Vec<(usize, usize)>,
+    /// Of the torn matrix; the unknowns of the open hinges come first.
+    pattern: Pattern,
+    /// Where the entries of the whole matrix stand in the torn one.
+    places: Vec<u32>,
+    /// Where the members of every torn clique, and then its own unknown, stand in the torn matrix.
+    slots: Slots,
+    symbolic: Symbolic,
+}
+
+/// A torn factorization, refilled with numbers as often as wanted.
+pub struct TornFactor {
+    tearing: Arc<Tearing>,
+    factor: Factor,
+    values: Vec<f64>,
+    solution: Vec<f64>,
+}
+
+impl Tearing {
+    /// Analyses the pattern of the sum of these cliques' blocks. `node` groups unknowns into blocks, see [`super::order`].
+    ///
+    /// # Errors
+    /// [`FactorError::TooLarge`] where memory or indices run out.
+    pub fn new(whole: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
+        let mut torn = Vec::new();
+        if whole.size() <= DENSE_LIMIT {
+            let (pattern, places) = torn_pattern(whole, node, &torn, cliques);
+            let slots = Slots::new(&pattern, &Cliques::new());
+            return Ok(Self { torn, pattern, places, slots, symbolic: Symbolic::dense(whole.size()) });
+        }
+        let pair = |(list, clique): (usize, usize)| wings(cliques[list], clique, node);
+        let graph = order::neighbours(node, cliques, pair);
+        let tree = Tree::new(order::nodes(&graph), &graph);
+        torn.extend(order::places(cliques).filter(|&place| pair(place).is_some_and(|wings| tree.separates(wings))));
+        let (pattern, places) = torn_pattern(whole, node, &torn, cliques);
+        let count = torn.len() as u32;
+        let members = |&(list, clique): &(usize, usize)| cliques[list].members(clique);
+        let mut extended = Cliques::new();
+        for (y, place) in (0..).zip(&torn) {
+            let shifted = members(place).iter().map(|&m| if m == FIXED { FIXED } else { m + count });
+            extended.push(shifted.chain([y]));
+        }
+        let slots = Slots::new(&pattern, &extended);
+        let symbolic = Symbolic::ordered(&pattern, &tree.unknowns(node, torn.iter().map(members)))?;
+        Ok(Self { torn, pattern, places, slots, symbolic })
+    }
+
+    /// Number of open hinges.
+    pub fn open(&self) -> usize {
+        self.torn.len()
+    }
+}
+
+impl TornFactor {
+    /// Room for a factorization.
+    ///
+    /// # Errors
+    /// [`FactorError::TooLarge`] where there is not enough memory.
+    pub fn of(tearing: &Arc<Tearing>) -> Result<Self, FactorError> {
+        let (values, solution) = (vec![0.0; tearing.pattern.entries()], vec![0.0; tearing.pattern.size()]);
+        Ok(Self { factor: Factor::of(&tearing.symbolic)?, tearing: tearing.clone(), values, solution })
+    }
+
+    /// Factors the matrix with these values. `outer(list, clique)` is what a torn clique has in it besides a block that leaves its
+    /// wings uncoupled: the weight `k >= 0` of an outer product and the gradient `g`. The inertia is that of the matrix itself.
+    ///
+    /// # Errors
+    /// As [`Factor::factor`].
+    pub fn factor<'a>(
+        &mut self,
+        whole: &Pattern,
+        values: &[f64],
+        outer: impl Fn(usize, usize) -> (f64, &'a [f64]),
+    ) -> Result<Inertia, FactorError> {
+        let Tearing { torn, pattern, places, slots, .. } = &*self.tearing;
+        self.values.fill(0.0);
+        for (&value, &place) in values.iter().zip(places).filter(|(_, place)| **place != FIXED) {
+            self.values[place as usize] = value;
+        }
+        // any size of the new unknowns will do; this one leaves the range of the pivots alone
+        let size = whole.largest_diagonal(values).sqrt();
+        let mut scaled = Vec::new();
+        for (y, &(list, clique)) in torn.iter().enumerate() {
+            let (weight, gradient) = outer(list, clique);
+            scaled.clear();
+            scaled.extend(gradient.iter().map(|g| weight.sqrt() * g));
+            scaled[RIGHT].iter_mut().for_each(|g| *g = -*g);
+            scaled.push(-size);
+            slots.add_outer(y, 1.0, &scaled, &mut self.values);
+        }
+        self.factor.factor(pattern, &self.values)
+    }
+
+    /// Solves with the last factorization, in place.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let (first, rest) = self.solution.split_at_mut(self.tearing.torn.len());
+        first.fill(0.0);
+        rest.copy_from_slice(x);
+        self.factor.solve(&mut self.solution);
+        x.copy_from_slice(&self.solution[self.tearing.torn.len()..]);
+    }
+
+    /// Numbers stored in the factor.
+    pub fn stored(&self) -> usize {
+        self.factor.stored()
+    }
+}
+
+/// The nodes of a hinge's two wings, where they can be taken apart: each is one node and no other member is in it.
+fn wings(cliques: &Cliques, clique: usize, node: &[u32]) -> Option<[u32; 2]> {
+    if !cliques.is_hinge(clique) {
+        return None;
+    }
+    let members = cliques.members(clique);
+    let wing = |places: Range<usize>| nodes(&members[places], node);
+    let (left, right) = (wing(LEFT).next()?, wing(RIGHT).next()?);
+    let whole = wing(LEFT).all(|k| k == left) && wing(RIGHT).all(|k| k == right);
+    let joined = others(members, node).next().is_some();
+    let apart = left != right && others(members, node).all(|k| k != left && k != right);
+    (whole && joined && apart).then_some([left, right])
+}
+
+/// The nodes of all members of a hinge but its wings.
+fn others<'a>(members: &'a [u32], node: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+    nodes(&members[..LEFT.start], node).chain(nodes(&members[RIGHT.end..], node))
+}
+
+fn nodes<'a>(members: &'a [u32], node: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+    members.iter().filter(|member| **member != FIXED).map(|&member| node[member as usize])
+}
+
+/// The pattern of the torn matrix and where the entries of the whole one stand in it.
+fn torn_pattern(whole: &Pattern, node: &[u32], torn: &[(usize, usize)], cliques: &[&Cliques]) -> (Pattern, Vec<u32>) {
+    let mut apart = vec![Vec::new(); order::count(node)];
+    let mut more = Vec::new();
+    for &(list, clique) in torn {
+        if let Some([left, right]) = wings(cliques[list], clique, node) {
+            apart[left as usize].push(right);
+            apart[right as usize].push(left);
+        }
+        let mut coupled: Vec<u32> = cliques[list].members(clique).iter().copied().filter(|m| *m != FIXED).collect();
+        coupled.sort_unstable();
+        coupled.dedup();
+        more.push(coupled);
+    }
+    whole.extended(&more, |row, column| apart[node[column as usize] as usize].contains(&node[row as usize]))
+}
+
+/// The elimination tree of the nodes of a graph.
+struct Tree {
+    /// Node at each place of the order, and place of each node.
+    order: Vec<u32>,
+    place: Vec<usize>,
+    /// Place of the parent of each place, or `NONE`.
+    parent: Vec<usize>,
+    /// Number of places below and at each place.
+    size: Vec<usize>,
+}
+
+impl Tree {
+    fn new(order: Vec<u32>, neighbours: &[Vec<u32>]) -> Self {
+        let count = order.len();
+        let mut place = vec![NONE; count];
+        order.iter().enumerate().for_each(|(k, &node)| place[node as usize] = k);
+        // (J. Liu, ACM Trans. Math. Softw. 12, 127 (1986)), with compressed paths
+        let (mut parent, mut root) = (vec![NONE; count], vec![NONE; count]);
+        for (k, &node) in order.iter().enumerate() {
+            for &neighbour in &neighbours[node as usize] {
+                let mut below = place[neighbour as usize];
+                while below < k {
+                    let next = std::mem::replace(&mut root[below], k);
+                    if next == NONE {
+                        parent[below] = k;
+                    }
+                    below = next;
+                }
+            }
+        }
+        let mut size = vec![1; count];
+        (0..count).filter(|k| parent[*k] != NONE).for_each(|k| size[parent[k]] += size[k]);
+        Self { order, place, parent, size }
+    }
+
+    /// Whether these two nodes, which have a common neighbour, are in different branches of a part that is not small.
+    fn separates(&self, nodes: [u32; 2]) -> bool {
+        let [mut a, mut b] = nodes.map(|node| self.place[node as usize]);
+        let later = a.max(b);
+        while a != b {
+            if a < b {
+                a = self.parent[a];
+            } else {
+                b = self.parent[b];
+            }
+        }
+        a != later && self.size[a] > SMALL
+    }
+
+    /// Order of elimination of all unknowns of the torn matrix: those of the open hinges with these members come first in the separators.
+    fn unknowns<'a>(&self, node: &[u32], torn: impl Iterator<Item = &'a [u32]>) -> Vec<u32> {
+        let mut before = vec![Vec::new(); self.order.len()];
+        let mut count = 0;
+        for members in torn {
+            let first = others(members, node).map(|other| self.place[other as usize]).min();
+            before[first.unwrap_or(0)].push(count);
+            count += 1;
+        }
+        let unknowns = order::unknowns(node);
+        let mut order = Vec::with_capacity(node.len() + count as usize);
+        for (open, &node) in before.iter().zip(&self.order) {
+            order.extend(open);
+            order.extend(unknowns[node as usize].iter().map(|unknown| unknown + count));
+        }
+        order
+    }
+}
