@@ -9,6 +9,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::solvers::Solve;
 use faer::perm::PermRef;
 use faer::prelude::{ReborrowMut, default};
+use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
@@ -149,31 +150,41 @@ impl Symbolic {
     /// [`FactorError::TooLarge`] where memory or indices run out.
     pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         if pattern.size() <= DENSE_LIMIT {
-            return Ok(Self::dense(pattern.size()));
+            return Ok(Self { size: pattern.size(), sparse: None });
         }
-        Self::ordered(pattern, &super::order::nested_dissection(node, cliques))
-    }
-
-    /// No analysis: matrices of this size are factored dense.
-    pub(super) fn dense(size: usize) -> Self {
-        Self { size, sparse: None }
-    }
-
-    /// Analyses a pattern whose order of elimination is known, `order[new] = old`.
-    pub(super) fn ordered(pattern: &Pattern, order: &[u32]) -> Result<Self, FactorError> {
-        let size = pattern.size();
+        let (size, order) = (pattern.size(), super::order::nested_dissection(node, cliques));
         let mut inverse = vec![0u32; size];
         for (new, &old) in order.iter().enumerate() {
             inverse[old as usize] = new as u32;
         }
+        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, size));
+        Self::sparse(pattern.symbolic(), Side::Lower, ordering)
+    }
+
+    /// Analyses a pattern whose unknowns are numbered in the order of elimination: then nothing is put in order at every factorization.
+    pub(super) fn in_order(pattern: &Pattern) -> Result<Self, FactorError> {
+        let size = pattern.size();
+        if size <= DENSE_LIMIT {
+            return Ok(Self { size, sparse: None });
+        }
+        // a matrix that is not put in order is analysed by its upper triangle, and factored from its lower one
+        let (columns, rows) = pattern.upper();
+        let upper = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
+        Self::sparse(upper, Side::Upper, SymmetricOrdering::Identity)
+    }
+
+    fn sparse(
+        triangle: SymbolicSparseColMatRef<'_, u32>,
+        side: Side,
+        ordering: SymmetricOrdering<'_, u32>,
+    ) -> Result<Self, FactorError> {
+        let size = triangle.nrows();
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..default()
         };
-        let ordering = SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, size));
-        let sparse = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, ordering, params)
-            .map_err(|_| FactorError::TooLarge { size })?;
-        Ok(Self { size, sparse: Some(Arc::new(sparse)) })
+        let found = factorize_symbolic_cholesky(triangle, side, ordering, params);
+        Ok(Self { size, sparse: Some(Arc::new(found.map_err(|_| FactorError::TooLarge { size })?)) })
     }
 }
 

@@ -76,7 +76,7 @@ impl Cliques {
     }
 
     /// Iterates over the cliques.
-    pub fn iter(&self) -> impl Iterator<Item = &[u32]> {
+    pub fn iter(&self) -> impl Iterator<Item = &[u32]> + Clone {
         (0..self.len()).map(|k| self.members(k))
     }
 }
@@ -114,30 +114,41 @@ impl Pattern {
         Self { n, columns, rows }
     }
 
-    /// This pattern with one more unknown for each list of unknowns in `more`, with which it is coupled; the new ones are numbered
-    /// before all others. Pairs of unknowns that are `apart` are taken out. Also the slot that each entry of this pattern has there,
-    /// or [`FIXED`].
-    pub(super) fn extended(&self, more: &[Vec<u32>], apart: impl Fn(u32, u32) -> bool) -> (Self, Vec<u32>) {
-        let shift = more.len() as u32;
-        let (mut columns, mut rows, mut slots) = (vec![0], Vec::new(), Vec::with_capacity(self.entries()));
-        for (column, coupled) in (0..).zip(more) {
-            let start = rows.len();
-            rows.push(column);
-            rows.extend(coupled.iter().map(|row| row + shift));
-            rows[start..].sort_unstable();
-            columns.push(rows.len() as u32);
-        }
+    /// This pattern with unknown `k` numbered `number[k]`, without the pairs of unknowns that are `apart`, and with `more` unknowns: the
+    /// number of each and the unknowns, as they are numbered here, with which it is coupled. Also the slot that each entry of this pattern
+    /// has there, or [`FIXED`].
+    pub(super) fn renumbered(
+        &self,
+        number: &[u32],
+        more: &[(u32, Vec<u32>)],
+        apart: impl Fn(u32, u32) -> bool,
+    ) -> (Self, Vec<u32>) {
+        let n = self.n + more.len();
+        let lower = |a: u32, b: u32| (a.max(b), a.min(b));
+        let mut entries = Vec::with_capacity(self.entries());
         for column in 0..self.n as u32 {
-            for &row in self.column(column as usize) {
-                let slot = if apart(row, column) { FIXED } else { rows.len() as u32 };
-                slots.push(slot);
-                if slot != FIXED {
-                    rows.push(row + shift);
-                }
-            }
-            columns.push(rows.len() as u32);
+            entries.extend(self.column(column as usize).iter().map(|&row| {
+                let taken_out = apart(row, column);
+                if taken_out { (FIXED, FIXED) } else { lower(number[row as usize], number[column as usize]) }
+            }));
         }
-        (Self { n: self.n + more.len(), columns, rows }, slots)
+        for (new, coupled) in more {
+            entries.push((*new, *new));
+            entries.extend(coupled.iter().map(|&k| lower(*new, number[k as usize])));
+        }
+        // by columns, and by rows in each
+        let (_, by_row) = group(n, (0..).zip(&entries).map(|(entry, &(row, _))| (row, entry)));
+        let (columns, order) = group(n, by_row.iter().map(|&entry| (entries[entry as usize].1, entry)));
+        let mut slots = vec![FIXED; entries.len()];
+        (0..).zip(&order).for_each(|(slot, &entry)| slots[entry as usize] = slot);
+        slots.truncate(self.entries());
+        (Self { n, columns, rows: order.iter().map(|&entry| entries[entry as usize].0).collect() }, slots)
+    }
+
+    /// The upper triangle by columns: starts of the columns, and rows.
+    pub(super) fn upper(&self) -> (Vec<u32>, Vec<u32>) {
+        let columns = (0..self.n).flat_map(|column| self.column(column).iter().map(move |&row| (row, column as u32)));
+        group(self.n, columns)
     }
 
     /// Number of rows.
@@ -192,29 +203,37 @@ impl Pattern {
     }
 }
 
+/// The items with each key from 0 to `n - 1`, one key after the other, in the order in which they come; and where those of each key
+/// begin. Items with the key [`FIXED`] are left out.
+fn group<T: Copy + Default>(n: usize, items: impl Iterator<Item = (u32, T)> + Clone) -> (Vec<u32>, Vec<T>) {
+    let items = items.filter(|(key, _)| *key != FIXED);
+    let mut starts = vec![0u32; n + 1];
+    items.clone().for_each(|(key, _)| starts[key as usize + 1] += 1);
+    (0..n).for_each(|key| starts[key + 1] += starts[key]);
+    let (mut next, mut grouped) = (starts.clone(), vec![T::default(); starts[n] as usize]);
+    for (key, item) in items {
+        grouped[next[key as usize] as usize] = item;
+        next[key as usize] += 1;
+    }
+    (starts, grouped)
+}
+
 /// Where every unknown stands: cliques in ascending order, and its place in each.
 struct Incidence {
-    starts: Vec<usize>,
+    starts: Vec<u32>,
     places: Vec<(u32, u32)>,
 }
 
 impl Incidence {
     fn new(n: usize, cliques: &Cliques) -> Self {
-        let mut starts = vec![0usize; n + 1];
-        cliques.members.iter().filter(|m| **m != FIXED).for_each(|&m| starts[m as usize + 1] += 1);
-        (0..n).for_each(|unknown| starts[unknown + 1] += starts[unknown]);
-        let (mut next, mut places) = (starts.clone(), vec![(0, 0); starts[n]]);
-        for (clique, members) in (0..).zip(cliques.iter()) {
-            for (place, &member) in (0..).zip(members).filter(|(_, member)| **member != FIXED) {
-                places[next[member as usize]] = (clique, place);
-                next[member as usize] += 1;
-            }
-        }
+        let members = (0..).zip(cliques.iter());
+        let places = members.flat_map(|(clique, list)| (0..).zip(list).map(move |(place, &m)| (m, (clique, place))));
+        let (starts, places) = group(n, places);
         Self { starts, places }
     }
 
     fn of(&self, unknown: u32) -> &[(u32, u32)] {
-        &self.places[self.starts[unknown as usize]..self.starts[unknown as usize + 1]]
+        &self.places[self.starts[unknown as usize] as usize..self.starts[unknown as usize + 1] as usize]
     }
 }
 

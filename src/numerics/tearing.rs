@@ -29,7 +29,9 @@ const NONE: usize = usize::MAX;
 pub struct Tearing {
     /// List and number of every torn clique.
     torn: Vec<(usize, usize)>,
-    /// Of the torn matrix; the unknowns of the open hinges come first.
+    /// Number of every unknown of the whole matrix in the torn one, which is in the order of elimination.
+    numbers: Vec<u32>,
+    /// Of the torn matrix.
     pattern: Pattern,
     /// Where the entries of the whole matrix stand in the torn one.
     places: Vec<u32>,
@@ -52,27 +54,50 @@ impl Tearing {
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
     pub fn new(whole: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
-        let mut torn = Vec::new();
         if whole.size() <= DENSE_LIMIT {
-            let (pattern, places) = torn_pattern(whole, node, &torn, cliques);
-            let slots = Slots::new(&pattern, &Cliques::new());
-            return Ok(Self { torn, pattern, places, slots, symbolic: Symbolic::dense(whole.size()) });
+            return Self::torn(
+                whole,
+                node,
+                cliques,
+                vec![],
+                Numbers { open: vec![], whole: (0..).take(whole.size()).collect() },
+            );
         }
         let pair = |(list, clique): (usize, usize)| wings(cliques[list], clique, node);
         let graph = order::neighbours(node, cliques, pair);
         let tree = Tree::new(order::nodes(&graph), &graph);
-        torn.extend(order::places(cliques).filter(|&place| pair(place).is_some_and(|wings| tree.separates(wings))));
-        let (pattern, places) = torn_pattern(whole, node, &torn, cliques);
-        let count = torn.len() as u32;
-        let members = |&(list, clique): &(usize, usize)| cliques[list].members(clique);
-        let mut extended = Cliques::new();
-        for (y, place) in (0..).zip(&torn) {
-            let shifted = members(place).iter().map(|&m| if m == FIXED { FIXED } else { m + count });
-            extended.push(shifted.chain([y]));
+        let separated = |place: &(usize, usize)| pair(*place).is_some_and(|wings| tree.separates(wings));
+        let torn: Vec<_> = order::places(cliques).filter(separated).collect();
+        let numbers = tree.numbers(node, torn.iter().map(|&(list, clique)| cliques[list].members(clique)));
+        Self::torn(whole, node, cliques, torn, numbers)
+    }
+
+    /// With these hinges open and the unknowns in this order.
+    fn torn(
+        whole: &Pattern,
+        node: &[u32],
+        cliques: &[&Cliques],
+        torn: Vec<(usize, usize)>,
+        numbers: Numbers,
+    ) -> Result<Self, FactorError> {
+        let (mut apart, mut more, mut extended) = (vec![Vec::new(); order::count(node)], Vec::new(), Cliques::new());
+        for (&(list, clique), &y) in torn.iter().zip(&numbers.open) {
+            if let Some([left, right]) = wings(cliques[list], clique, node) {
+                apart[left as usize].push(right);
+                apart[right as usize].push(left);
+            }
+            let members = cliques[list].members(clique);
+            let number = |&m: &u32| if m == FIXED { FIXED } else { numbers.whole[m as usize] };
+            extended.push(members.iter().map(number).chain([y]));
+            let mut coupled: Vec<u32> = members.iter().copied().filter(|m| *m != FIXED).collect();
+            coupled.sort_unstable();
+            coupled.dedup();
+            more.push((y, coupled));
         }
-        let slots = Slots::new(&pattern, &extended);
-        let symbolic = Symbolic::ordered(&pattern, &tree.unknowns(node, torn.iter().map(members)))?;
-        Ok(Self { torn, pattern, places, slots, symbolic })
+        let are_apart = |row: u32, column: u32| apart[node[column as usize] as usize].contains(&node[row as usize]);
+        let (pattern, places) = whole.renumbered(&numbers.whole, &more, are_apart);
+        let (slots, symbolic) = (Slots::new(&pattern, &extended), Symbolic::in_order(&pattern)?);
+        Ok(Self { torn, numbers: numbers.whole, pattern, places, slots, symbolic })
     }
 
     /// Number of open hinges.
@@ -123,11 +148,11 @@ impl TornFactor {
 
     /// Solves with the last factorization, in place.
     pub fn solve(&mut self, x: &mut [f64]) {
-        let (first, rest) = self.solution.split_at_mut(self.tearing.torn.len());
-        first.fill(0.0);
-        rest.copy_from_slice(x);
+        let numbers = &self.tearing.numbers;
+        self.solution.fill(0.0);
+        x.iter().zip(numbers).for_each(|(&x, &number)| self.solution[number as usize] = x);
         self.factor.solve(&mut self.solution);
-        x.copy_from_slice(&self.solution[self.tearing.torn.len()..]);
+        x.iter_mut().zip(numbers).for_each(|(x, &number)| *x = self.solution[number as usize]);
     }
 
     /// Numbers stored in the factor.
@@ -159,21 +184,10 @@ fn nodes<'a>(members: &'a [u32], node: &'a [u32]) -> impl Iterator<Item = u32> +
     members.iter().filter(|member| **member != FIXED).map(|&member| node[member as usize])
 }
 
-/// The pattern of the torn matrix and where the entries of the whole one stand in it.
-fn torn_pattern(whole: &Pattern, node: &[u32], torn: &[(usize, usize)], cliques: &[&Cliques]) -> (Pattern, Vec<u32>) {
-    let mut apart = vec![Vec::new(); order::count(node)];
-    let mut more = Vec::new();
-    for &(list, clique) in torn {
-        if let Some([left, right]) = wings(cliques[list], clique, node) {
-            apart[left as usize].push(right);
-            apart[right as usize].push(left);
-        }
-        let mut coupled: Vec<u32> = cliques[list].members(clique).iter().copied().filter(|m| *m != FIXED).collect();
-        coupled.sort_unstable();
-        coupled.dedup();
-        more.push(coupled);
-    }
-    whole.extended(&more, |row, column| apart[node[column as usize] as usize].contains(&node[row as usize]))
+/// The order of elimination: numbers of the unknowns of the open hinges, and of those of the whole matrix.
+struct Numbers {
+    open: Vec<u32>,
+    whole: Vec<u32>,
 }
 
 /// The elimination tree of the nodes of a graph.
@@ -225,21 +239,20 @@ impl Tree {
         a != later && self.size[a] > SMALL
     }
 
-    /// Order of elimination of all unknowns of the torn matrix: those of the open hinges with these members come first in the separators.
-    fn unknowns<'a>(&self, node: &[u32], torn: impl Iterator<Item = &'a [u32]>) -> Vec<u32> {
+    /// The order of elimination of all unknowns: those of the open hinges with these members come first in the separators.
+    fn numbers<'a>(&self, node: &[u32], torn: impl Iterator<Item = &'a [u32]>) -> Numbers {
         let mut before = vec![Vec::new(); self.order.len()];
-        let mut count = 0;
+        let mut open = Vec::new();
         for members in torn {
             let first = others(members, node).map(|other| self.place[other as usize]).min();
-            before[first.unwrap_or(0)].push(count);
-            count += 1;
+            before[first.unwrap_or(0)].push(open.len());
+            open.push(0);
         }
-        let unknowns = order::unknowns(node);
-        let mut order = Vec::with_capacity(node.len() + count as usize);
-        for (open, &node) in before.iter().zip(&self.order) {
-            order.extend(open);
-            order.extend(unknowns[node as usize].iter().map(|unknown| unknown + count));
+        let (unknowns, mut whole, mut next) = (order::unknowns(node), vec![0; node.len()], 0..);
+        for (hinges, &node) in before.iter().zip(&self.order) {
+            hinges.iter().zip(&mut next).for_each(|(&hinge, number)| open[hinge] = number);
+            unknowns[node as usize].iter().zip(&mut next).for_each(|(&k, number)| whole[k as usize] = number);
         }
-        order
+        Numbers { open, whole }
     }
 }
