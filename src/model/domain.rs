@@ -181,7 +181,8 @@ impl Domain {
         out: &mut Vec<f64>,
     ) {
         if self.shared() == 0 {
-            return append_lower(D, |row, column| h[(row, column)], out);
+            // by columns: the upper triangle, which is the lower one by rows
+            return (0..D).for_each(|k| out.extend_from_slice(&h.as_slice()[D * k..=(D + 1) * k]));
         }
         let placed = sites.map(|site| self.place(x, site));
         let mut pulled = Pulled::zeros();
