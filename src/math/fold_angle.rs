@@ -41,7 +41,7 @@ pub fn fold_angle_gradient(points: &[Vec3; 4]) -> (f64, HingeGradient) {
 }
 
 /// Fold angle, its gradient and its Hessian.
-#[inline]
+#[inline(always)]
 pub fn fold_angle_hessian(points: &[Vec3; 4]) -> (f64, HingeGradient, HingeHessian) {
     let hinge = Hinge::new(points);
     (hinge.angle(), hinge.gradient(), hinge.hessian())
@@ -109,7 +109,7 @@ impl Hinge {
         gradient
     }
 
-    #[inline]
+    #[inline(always)]
     fn hessian(&self) -> HingeHessian {
         let (e, unit) = (&self.e, self.e / self.length);
         let cross_e = self.length * e.cross_matrix();
@@ -125,7 +125,7 @@ impl Hinge {
 }
 
 /// From blocks in `(e, a, b)` to the twelve coordinates: `e = j - i`, `a = left - i`, `b = right - i`.
-#[inline]
+#[inline(always)]
 fn spread(
     aa: &Matrix3<f64>,
     bb: &Matrix3<f64>,

@@ -75,6 +75,7 @@ impl Measure<4, 12> for FoldAngle {
         fold_angle::fold_angle_gradient(points)
     }
 
+    #[inline(always)]
     fn hessian(points: &[Vec3; 4]) -> (f64, SVector<f64, 12>, SMatrix<f64, 12, 12>) {
         fold_angle::fold_angle_hessian(points)
     }

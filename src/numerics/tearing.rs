@@ -55,13 +55,8 @@ impl Tearing {
     /// [`FactorError::TooLarge`] where memory or indices run out.
     pub fn new(whole: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         if whole.size() <= DENSE_LIMIT {
-            return Self::torn(
-                whole,
-                node,
-                cliques,
-                vec![],
-                Numbers { open: vec![], whole: (0..).take(whole.size()).collect() },
-            );
+            let as_they_are = Numbers { open: vec![], whole: (0..whole.size() as u32).collect() };
+            return Self::torn(whole, node, cliques, vec![], as_they_are);
         }
         let pair = |(list, clique): (usize, usize)| wings(cliques[list], clique, node);
         let graph = order::neighbours(node, cliques, pair);
@@ -94,6 +89,7 @@ impl Tearing {
             coupled.dedup();
             more.push((y, coupled));
         }
+        // nothing else couples these nodes: they would be in one branch of the tree
         let are_apart = |row: u32, column: u32| apart[node[column as usize] as usize].contains(&node[row as usize]);
         let (pattern, places) = whole.renumbered(&numbers.whole, &more, are_apart);
         let (slots, symbolic) = (Slots::new(&pattern, &extended), Symbolic::in_order(&pattern)?);
