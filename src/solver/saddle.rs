@@ -13,10 +13,8 @@
 //! to 1e-10) it takes 1.45, 1.26 and 1.05 times as long at 12, 24 and 48 cells a side, with as many numbers in the factor
 //! and the same inertia. The augmented form is kept because it is never slower there, has half the unknowns, and needs
 //! no regularisation where `k` is moderate. `gamma` (`-- weight`; plain corrections): 1e4 does not converge at 24 cells a
-//! side, 1e6 needs 5 to 10 corrections at 48, 1e7 and 1e8 need 3 to 8, 1e9 fails there. With the corrections of [`Saddle::solve`]
-//! relaxations of 12, 24 and 48 cells take as many solves from 3e5 to 3e7, a tenth more at 1e5; near a solution, where rounding in `S`
-//! is what is corrected, 40 cells and more take one solve less with 1e6 than with 1e7, two less than with 1e8.
-//! Larger sheets have motions that this weight loses to rounding; those corrections find them again
+//! side, 1e6 needs 5 to 10 corrections at 48, 1e7 and 1e8 need 3 to 8, 1e9 fails there; 1e7 keeps a decade to the cliff.
+//! Larger sheets have motions that this weight loses to rounding; the corrections of [`Saddle::solve`] find them again
 //! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the drawn states of 24 and 48 cells a side.
 
@@ -26,7 +24,7 @@ use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::tearing::TornFactor;
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
-const GAMMA: f64 = 1e6;
+const GAMMA: f64 = 1e7;
 /// What of the identity belongs to the metric, over the largest entry of the Hessian: above the rounding error of `S`, so
 /// that motions that cost nothing are held. Without any metric it is the identity itself.
 const LEAST_METRIC: f64 = 1e-7;
