@@ -40,7 +40,7 @@ pub fn fold_angle_gradient(points: &[Vec3; 4]) -> (f64, HingeGradient) {
     (hinge.angle(), hinge.gradient())
 }
 
-/// Fold angle, its gradient and its Hessian.
+/// Fold angle, its gradient and its Hessian. Inlined into the loop over hinges: a kilobyte is not copied on the way.
 #[inline(always)]
 pub fn fold_angle_hessian(points: &[Vec3; 4]) -> (f64, HingeGradient, HingeHessian) {
     let hinge = Hinge::new(points);

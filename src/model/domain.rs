@@ -201,7 +201,9 @@ impl Domain {
                 Screw::new(self.shared_of(x), site).at(&vertex(x, site)).add_curvature(&force, 3 * k, D, &mut pulled);
             }
         }
-        append_lower(D + self.shared(), |row, column| pulled[(row, column)], out);
+        for row in 0..D + self.shared() {
+            out.extend((0..=row).map(|column| pulled[(row, column)]));
+        }
     }
 
     /// The screw motions of a state; `None` where there are none.
@@ -258,12 +260,6 @@ impl Domain {
 fn add<const R: usize, const C: usize>(to: &mut Pulled, (row, column): (usize, usize), block: SMatrix<f64, R, C>) {
     let mut place = to.fixed_view_mut::<R, C>(row, column);
     place += block;
-}
-
-fn append_lower(size: usize, entry: impl Fn(usize, usize) -> f64, out: &mut Vec<f64>) {
-    for row in 0..size {
-        out.extend((0..=row).map(|column| entry(row, column)));
-    }
 }
 
 #[inline]

@@ -161,7 +161,7 @@ impl Symbolic {
         Self::sparse(pattern.symbolic(), Side::Lower, ordering)
     }
 
-    /// Analyses a pattern whose unknowns are numbered in the order of elimination: then nothing is put in order at every factorization.
+    /// Analyses a pattern whose unknowns are numbered in the order of elimination: nothing is put in order at a factorization.
     pub(super) fn in_order(pattern: &Pattern) -> Result<Self, FactorError> {
         let size = pattern.size();
         if size <= DENSE_LIMIT {

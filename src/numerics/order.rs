@@ -25,8 +25,8 @@ pub(super) fn nodes(neighbours: &[Vec<u32>]) -> Vec<u32> {
     order
 }
 
-/// The nodes next to each node, in ascending order: those that a clique couples with it. `apart((list, clique))` are two nodes that this
-/// clique does not join.
+/// The nodes next to each node, in ascending order: those that a clique couples with it. `apart((list, clique))` are two nodes that
+/// this clique does not join.
 pub(super) fn neighbours(
     node: &[u32],
     cliques: &[&Cliques],
@@ -90,8 +90,8 @@ fn dissect(chosen: &[u32], neighbours: &[Vec<u32>]) -> Vec<u32> {
     }
 }
 
-/// As much effort as pays for sheets: fewer first bisections are tried than by default, which makes the factor no larger (patches of
-/// 2,000 to 40,000 unknowns).
+/// As much effort as pays for sheets: fewer first bisections are tried than by default, which makes the factor no larger (patches
+/// of 2,000 to 40,000 unknowns).
 fn options() -> feral_metis::MetisOptions {
     feral_metis::MetisOptions { niparts: 2, ..Default::default() }
 }

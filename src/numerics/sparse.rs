@@ -36,8 +36,8 @@ impl Cliques {
         self.hinges.push(false);
     }
 
-    /// Appends the clique of a hinge: the coordinates of its ends, of its left wing ([`LEFT`]) and of its right wing ([`RIGHT`]), then
-    /// any others. Of its block only the outer product of the gradient may couple one wing with the other.
+    /// Appends the clique of a hinge: the coordinates of its ends, of its left wing ([`LEFT`]) and of its right wing ([`RIGHT`]),
+    /// then any others. Of its block only the outer product of the gradient may couple one wing with the other.
     pub fn push_hinge(&mut self, members: impl IntoIterator<Item = u32>) {
         self.push(members);
         if let Some(last) = self.hinges.last_mut() {
@@ -114,9 +114,9 @@ impl Pattern {
         Self { n, columns, rows }
     }
 
-    /// This pattern with unknown `k` numbered `number[k]`, without the pairs of unknowns that are `apart`, and with `more` unknowns: the
-    /// number of each and the unknowns, as they are numbered here, with which it is coupled. Also the slot that each entry of this pattern
-    /// has there, or [`FIXED`].
+    /// This pattern with unknown `k` numbered `number[k]`, without the pairs of unknowns that are `apart`, and with `more` unknowns:
+    /// the number of each and the unknowns, as they are numbered here, with which it is coupled. Also the slot that each entry of
+    /// this pattern has there, or [`FIXED`].
     pub(super) fn renumbered(
         &self,
         number: &[u32],

@@ -86,8 +86,8 @@ fn inertia_and_solution() {
     }
 }
 
-/// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the wings of a hinge
-/// uncoupled and random outer products besides, some of weight zero.
+/// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the wings of a
+/// hinge uncoupled and random outer products besides, some of weight zero.
 struct Hinges {
     pattern: Pattern,
     node: Vec<u32>,
@@ -171,8 +171,8 @@ fn torn_inertia_and_solution() {
     }
 }
 
-/// Claim: tearing makes the factor smaller, and leaves alone what is too small for it. The bound is what a sheet of 6,400 vertices is
-/// seen to need, rounded up.
+/// Claim: tearing makes the factor smaller, and leaves alone what is too small for it. The bound is what a sheet of 6,400 vertices
+/// is seen to need, rounded up.
 #[test]
 fn tearing_saves() {
     let Hinges { pattern, node, cliques, .. } = hinges(80, 80, false, 1, 0.0);

@@ -164,8 +164,8 @@ impl Linearization {
         self.plan.stiff.add_outer(measure, weight, gradient, values);
     }
 
-    /// Weight and gradient of the outer product that an element, soft (list 0) or stiff (list 1), has in a matrix with `part` of the soft
-    /// elements' Gauss-Newton Hessian and these weights of the stiff measures.
+    /// Weight and gradient of the outer product that an element, soft (list 0) or stiff (list 1), has in a matrix with `part` of the
+    /// soft elements' Gauss-Newton Hessian and these weights of the stiff measures.
     pub fn outer<'a>(
         &'a self,
         layout: &Layout,

@@ -5,6 +5,7 @@ use crate::math::Vec3;
 use crate::model::measure::{FoldAngle, Length, Measure};
 use crate::model::{Domain, Site};
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
+use crate::numerics::sparse::{LEFT, RIGHT};
 use std::f64::consts::TAU;
 
 /// Vertices of a cell and, after them, shared coordinates.
@@ -25,8 +26,8 @@ fn local<const N: usize>(domain: &Domain, x: &[f64], sites: &[Site; N]) -> Vec<f
     points.chain(x[x.len() - domain.shared()..].to_vec()).collect()
 }
 
-/// Checks gradient and Hessian of a measure through a domain. Every point of the element is given a vertex of its own,
-/// since the chain rule speaks of element coordinates, one triple for each point.
+/// Checks gradient and Hessian of a measure through a domain, and that the Hessian of a hinge does not couple its wings. Every
+/// point of the element is given a vertex of its own, since the chain rule speaks of element coordinates, one triple for each point.
 fn check<M: Measure<N, D>, const N: usize, const D: usize>(domain: &Domain, x: &[f64], sites: [Site; N], what: &str) {
     let local = local(domain, x, &sites);
     let mut own = sites;
@@ -46,6 +47,13 @@ fn check<M: Measure<N, D>, const N: usize, const D: usize>(domain: &Domain, x: &
     domain.pull_hessian(&local, &own, &g, &h, &mut lower);
     domain.pull_gradient(x, &sites, &g, &mut in_place);
     let hessian = symmetric(local.len(), &lower);
+    if M::HINGE {
+        let wings = hessian.view((RIGHT.start, LEFT.start), (RIGHT.len(), LEFT.len()));
+        assert!(
+            wings.iter().all(|entry| *entry == 0.0),
+            "{what}: torn factorizations leave out what couples the wings"
+        );
+    }
     assert_eq!(gradient(&local), in_place, "{what}: vertices of its own change nothing");
     check_gradient(value, &local, &gradient(&local), TOLERANCE).unwrap_or_else(|error| panic!("{what}: {error}"));
     check_jacobian(gradient, &local, &hessian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Hessian: {e}"));
