@@ -6,8 +6,12 @@
 //!
 //! In the variables `(e, a, b)` the derivatives are short. With `N = n/|n|^2` and `s = a.e/|e|^2` (where the foot of
 //! `left` divides the hinge), and likewise `M`, `r` for the right side,
-//! `d rho/da = |e| N`, `d rho/db = |e| M`, `d rho/de = -s |e| N - r |e| M`;
-//! the Hessian follows with `dN = (I - 2 n n^T/|n|^2) dn / |n|^2`. The lengths and angles in these formulas are those
+//! `d rho/da = |e| N`, `d rho/db = |e| M`, `d rho/de = -s |e| N - r |e| M`.
+//! The Hessian follows with `dN = (I - 2 n n^T/|n|^2) dn / |n|^2`. With `[p, q] = p q^T + q p^T` and
+//! `v = e/|e| + 2 |e| N x a`, and symmetric where it must be, it is on the left side
+//! `aa = [N, |e| e x N]`, `ae = N v^T - |e| |N|^2 [a]_x`, `ee = -[N, |e| ds/de + s v]/2`,
+//! on the right one the same with `M`, `b`, `r` and `-|e|` before cross products, and `ab = 0`. The lengths and angles in these
+//! formulas are those
 //! of R. Tamstorf and E. Grinspun, "Discrete bending forces and their Jacobians", Graphical Models 75 (2013) 362-370.
 
 use super::Vec3;
@@ -75,16 +79,13 @@ impl Side {
     fn new(wing: Vec3, normal: Vec3, e: &Vec3) -> Self {
         Self { wing, normal, inverse: normal / normal.norm_squared(), foot: wing.dot(e) / e.norm_squared() }
     }
+}
 
-    /// `(I - 2 n n^T/|n|^2) / |n|^2`, the derivative of `n/|n|^2`.
-    fn inverse_derivative(&self) -> Matrix3<f64> {
-        Matrix3::identity() / self.normal.norm_squared() - 2.0 * self.inverse * self.inverse.transpose()
-    }
-
-    /// Derivative of `foot` with respect to `e`.
-    fn foot_derivative(&self, e: &Vec3) -> Vec3 {
-        (self.wing - 2.0 * self.foot * e) / e.norm_squared()
-    }
+/// Second derivatives of the fold angle by the wing of one side and by `e`, and this side's part of `ee`.
+struct Curvature {
+    ww: Matrix3<f64>,
+    we: Matrix3<f64>,
+    ee: Matrix3<f64>,
 }
 
 impl Hinge {
@@ -111,17 +112,30 @@ impl Hinge {
 
     #[inline(always)]
     fn hessian(&self) -> HingeHessian {
-        let (e, unit) = (&self.e, self.e / self.length);
-        let cross_e = self.length * e.cross_matrix();
-        let (dn, dm) = (self.left.inverse_derivative(), self.right.inverse_derivative());
-        let aa = dn * cross_e;
-        let bb = -dm * cross_e;
-        let ae = self.left.inverse * unit.transpose() - self.length * dn * self.left.wing.cross_matrix();
-        let be = self.right.inverse * unit.transpose() + self.length * dm * self.right.wing.cross_matrix();
-        let slope = |side: &Side| self.length * side.inverse * side.foot_derivative(e).transpose();
-        let ee = -slope(&self.left) - self.left.foot * ae - slope(&self.right) - self.right.foot * be;
-        spread(&aa, &bb, &ae, &be, &ee)
+        let (left, right) = (self.curvature(&self.left, 1.0), self.curvature(&self.right, -1.0));
+        spread(&left.ww, &right.ww, &left.we, &right.we, &(left.ee + right.ee))
     }
+
+    /// On the left, `turn = 1`, or on the right, `turn = -1`.
+    #[inline(always)]
+    fn curvature(&self, side: &Side, turn: f64) -> Curvature {
+        let Side { wing, inverse, foot, .. } = side;
+        let (e, turned) = (&self.e, turn * self.length);
+        let along = e / self.length + 2.0 * turned * inverse.cross(wing);
+        let sliding = (wing - 2.0 * *foot * e) / self.length;
+        Curvature {
+            ww: symmetric(inverse, &(turned * e.cross(inverse))),
+            we: inverse * along.transpose() - turned * inverse.norm_squared() * wing.cross_matrix(),
+            ee: -0.5 * symmetric(inverse, &(sliding + *foot * along)),
+        }
+    }
+}
+
+/// `p q^T + q p^T`.
+#[inline(always)]
+fn symmetric(p: &Vec3, q: &Vec3) -> Matrix3<f64> {
+    let product = p * q.transpose();
+    product + product.transpose()
 }
 
 /// From blocks in `(e, a, b)` to the twelve coordinates: `e = j - i`, `a = left - i`, `b = right - i`.

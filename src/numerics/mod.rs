@@ -10,6 +10,7 @@ pub mod homotopy;
 pub mod order;
 pub mod parallel;
 pub mod polynomial;
+pub mod random;
 pub mod rank;
 pub mod sparse;
 pub mod tearing;

@@ -37,10 +37,15 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
     Ok(size - inertia.negative)
 }
 
+/// What makes `R^T R` regular, over its largest entry: little, so that motions that hardly stretch anything count.
+const REGULAR: f64 = 1e-13;
+/// Passes go on while each makes what is left this much smaller.
+const SLOWEST: f64 = 0.9;
+
 /// The part of `t` that is not a self stress: the shortest vector with the same `R^T t`.
 ///
-/// `R^T R y = R^T t` is solved by corrections with a factorization of `R^T R` regularised by 1e-10 of its size, so
-/// that zero modes of `R` do no harm; then `R y` is the answer.
+/// `R^T R y = R^T t` is solved with a factorization of `R^T R` made regular, so that zero modes of `R` do no harm, and corrected
+/// as long as that helps; then `R y` is the answer.
 pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) -> Result<Vec<f64>, FactorError> {
     let pattern = Pattern::new(columns, &[rows.cliques]);
     let slots = Slots::new(&pattern, rows.cliques);
@@ -49,18 +54,22 @@ pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) ->
         slots.add_outer(row, 1.0, &rows.values[rows.cliques.range(row)], &mut values);
     }
     let scale = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    pattern.add_to_diagonal(&mut values, 1e-10 * scale);
+    pattern.add_to_diagonal(&mut values, REGULAR * scale);
     let mut factor = Factor::new(&pattern, node, &[rows.cliques])?;
     factor.factor(&pattern, &values)?;
-    let (mut out, mut open) = (vec![0.0; t.len()], t.to_vec());
-    for _ in 0..8 {
+    let (mut out, mut open, mut last) = (vec![0.0; t.len()], t.to_vec(), f64::INFINITY);
+    loop {
         let mut y = vec![0.0; columns];
         rows.add_transpose_product(&open, &mut y);
+        let pull = y.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        if !(pull < SLOWEST * last) {
+            return Ok(out);
+        }
+        last = pull;
         factor.solve(&mut y);
         let mut part = vec![0.0; t.len()];
         rows.product(&y, &mut part);
         out.iter_mut().zip(&part).for_each(|(o, p)| *o += p);
         open.iter_mut().zip(&part).for_each(|(o, p)| *o -= p);
     }
-    Ok(out)
 }

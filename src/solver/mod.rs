@@ -2,6 +2,7 @@
 
 pub mod atlas;
 pub mod continuation;
+pub mod corrections;
 pub mod implicit;
 pub mod newton;
 pub mod problem;

@@ -11,6 +11,9 @@ use super::problem::{self, Curvature, Linearization, Problem};
 use super::saddle::{Saddle, Solved};
 use super::tension::{nan_max, residuals, self_stresses};
 use crate::numerics::factor::FactorError;
+use crate::numerics::random::symmetric;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 use thiserror::Error;
 
 /// Largest scaled gap of a start.
@@ -48,7 +51,7 @@ const NEAR: f64 = 1e-4;
 /// Largest component of the step with which a start is probed, and the part of its stretch that tells a singular start.
 const PROBE: f64 = 1e-3;
 const UNREACHABLE: f64 = 0.05;
-/// What may be left of a random stretch that a motion was asked to make.
+/// What may be left of a random stretch that a motion was asked to make, over what a self stress keeps of it.
 const REACHED: f64 = 1e-2;
 /// Smallest pivot over the largest below which a factorization without shift is not used.
 const SINGULAR: f64 = 1e-15;
@@ -539,15 +542,18 @@ impl<P: Problem> Newton<'_, P> {
         self.problem.accept(&mut self.x);
     }
 
-    /// Whether rigid measures are independent: then a random stretch can be made by a motion. Soft ones always are. The random numbers are the
-    /// fractional parts of multiples of the golden ratio.
+    /// Whether rigid measures are independent: then a random stretch can be made by a motion. Soft ones always are. Of `m` rigid
+    /// measures' random stretch a self stress keeps about the part `1/sqrt(m)`.
     fn independent(&mut self) -> bool {
         let (layout, compliance) = (self.problem.layout(), self.problem.compliance());
-        if !compliance.contains(&0.0) {
+        let rigid = compliance.iter().filter(|c| **c == 0.0).count();
+        if rigid == 0 {
             return true;
         }
-        let stretch: Vec<f64> = (1..=compliance.len()).map(|k| (k as f64 * 0.618_033_988_75).fract() - 0.5).collect();
-        self.saddle.unreachable(layout, &self.at, compliance, &stretch, REACHED) <= REACHED
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let stretch: Vec<f64> = compliance.iter().map(|_| symmetric(&mut random)).collect();
+        let reached = REACHED / (rigid as f64).sqrt();
+        self.saddle.unreachable(layout, &self.at, compliance, &stretch, reached) <= reached
     }
 
     /// Negative eigenvalues of the full Hessian at the converged state.

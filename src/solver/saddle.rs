@@ -18,6 +18,7 @@
 //! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the drawn states of 24 and 48 cells a side.
 
+use super::corrections::{self, NearlySolved, Pair, norm};
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{FactorError, Inertia};
 use crate::numerics::sparse::{Rows, symmetric_product};
@@ -29,11 +30,6 @@ const GAMMA: f64 = 1e7;
 /// that motions that cost nothing are held. Without any metric it is the identity itself.
 const LEAST_METRIC: f64 = 1e-7;
 
-/// Corrections go on while each makes the residual at least this much smaller, and are at most so many.
-const SLOWEST: f64 = 0.95;
-const CORRECTIONS: usize = 30;
-/// What a motion cannot reach has been found when a correction leaves more than this of it.
-const REACHING: f64 = 0.7;
 /// Stretches are measured against this many lengths of the step, besides their right-hand side, which may be nothing but
 /// rounding error.
 const STRETCH: f64 = 1e2;
@@ -55,6 +51,7 @@ pub struct Solved {
 /// A factorization of `S` and what is needed to solve with it.
 pub struct Saddle {
     factor: TornFactor,
+    gamma: f64,
     shifted: Vec<f64>,
     values: Vec<f64>,
     weights: Vec<f64>,
@@ -69,12 +66,17 @@ pub struct Saddle {
 impl Saddle {
     /// Room for a problem of this layout.
     pub fn new(layout: &Layout, linearization: &Linearization) -> Result<Self, FactorError> {
+        Self::weighing(layout, linearization, GAMMA)
+    }
+
+    /// The same with another weight of rigid measures over the largest entry of the soft Hessian.
+    pub fn weighing(layout: &Layout, linearization: &Linearization, gamma: f64) -> Result<Self, FactorError> {
         let factor = TornFactor::of(layout.tearing()?)?;
         let values = vec![0.0; linearization.pattern().entries()];
         let shifted = values.clone();
         let weights = vec![0.0; layout.stiff.len()];
         let jacobian = vec![0.0; linearization.jacobian.len()];
-        Ok(Self { factor, shifted, values, weights, jacobian, factorizations: 0, solves: 0 })
+        Ok(Self { factor, gamma, shifted, values, weights, jacobian, factorizations: 0, solves: 0 })
     }
 
     /// Factors `S` with `shift` times the metric added to the Hessian.
@@ -97,6 +99,11 @@ impl Saddle {
     /// Weights of the stiff measures in the matrix that was factored last.
     pub fn weights(&self) -> &[f64] {
         &self.weights
+    }
+
+    /// Numbers in the factor.
+    pub fn stored(&self) -> usize {
+        self.factor.stored()
     }
 
     /// Factors `S` with the identity in the place of the Hessian: solves then give the shortest motion.
@@ -145,7 +152,7 @@ impl Saddle {
         for (row, &c) in compliance.iter().enumerate() {
             let gradient = &at.jacobian[layout.stiff.range(row)];
             let largest = gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-            self.weights[row] = f64::min(GAMMA * unit / (largest * largest), 1.0 / c);
+            self.weights[row] = f64::min(self.gamma * unit / (largest * largest), 1.0 / c);
             at.add_outer(layout, row, self.weights[row], &mut self.values);
         }
     }
@@ -175,11 +182,7 @@ impl Saddle {
         (dx, dt)
     }
 
-    /// Solves the true system to a relative residual of `tolerance`, or until corrections no longer help.
-    ///
-    /// Corrections are generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20, 345, 1983): what
-    /// each changes of the residual is orthogonal to what those before changed. So the few motions of a large sheet that are
-    /// softer than the rounding errors of the factorization cost a few corrections and do not hold up the rest.
+    /// Solves the true system to a relative residual of `tolerance`, or until [corrections] no longer help.
     pub fn solve(
         &mut self,
         layout: &Layout,
@@ -190,30 +193,11 @@ impl Saddle {
     ) -> Solved {
         let (dx, dt) = self.apply(layout, a, b);
         let units = [f64::max(norm(a), BALANCED * Self::pull(layout, at, &dt)), norm(b) + STRETCH * norm(&dx)];
-        let mut found = Pair(dx, dt);
-        let mut left = self.residual(layout, at, compliance, (a, b), &found).over(units);
-        let (mut corrections, mut last): (Vec<[Pair; 2]>, f64) = (vec![], f64::INFINITY);
-        loop {
-            let residual = f64::max(norm(&left.0), norm(&left.1));
-            if residual <= tolerance || !(residual < SLOWEST * last) || corrections.len() == CORRECTIONS {
-                return Solved { dx: found.0, dt: found.1, residual };
-            }
-            last = residual;
-            let (ddx, ddt) = self.apply(layout, &scaled(&left.0, units[0]), &scaled(&left.1, units[1]));
-            let mut motion = Pair(ddx, ddt);
-            let mut change = self.product(layout, at, compliance, &motion).over(units);
-            for [before, its_change] in &corrections {
-                let part = change.dot(its_change);
-                change.add(-part, its_change);
-                motion.add(-part, before);
-            }
-            let size = change.dot(&change).sqrt();
-            (motion, change) = (motion.over([size; 2]), change.over([size; 2]));
-            let part = left.dot(&change);
-            left.add(-part, &change);
-            found.add(part, &motion);
-            corrections.push([motion, change]);
-        }
+        let mut equations = Equations { saddle: self, layout, at, compliance };
+        let right = Pair(a.to_vec(), b.to_vec());
+        let corrected = corrections::correct(&mut equations, &right, Pair(dx, dt), units, tolerance);
+        let (Pair(dx, dt), residual) = (corrected.found, corrected.residual);
+        Solved { dx, dt, residual }
     }
 
     /// What tensions pull with, before they balance.
@@ -236,80 +220,35 @@ impl Saddle {
         b: &[f64],
         enough: f64,
     ) -> f64 {
-        let zero = vec![0.0; layout.unknowns];
-        let mut found = Pair(zero.clone(), vec![0.0; b.len()]);
-        let (mut open, mut last) = (Pair(zero.clone(), b.to_vec()), f64::INFINITY);
-        loop {
-            let (ddx, ddt) = self.apply(layout, &open.0, &open.1);
-            found.add(1.0, &Pair(ddx, ddt));
-            open = self.residual(layout, at, compliance, (&zero, b), &found);
-            let left = over(norm(&open.1), norm(b));
-            if left <= enough || !(left < REACHING * last) {
-                return left;
-            }
-            last = left;
-        }
+        let right = Pair(vec![0.0; layout.unknowns], b.to_vec());
+        let (dx, dt) = self.apply(layout, &right.0, b);
+        let units = [Self::pull(layout, at, &dt), norm(b)];
+        let mut equations = Equations { saddle: self, layout, at, compliance };
+        corrections::correct(&mut equations, &right, Pair(dx, dt), units, enough).residual
     }
+}
 
-    fn residual(
-        &self,
-        layout: &Layout,
-        at: &Linearization,
-        compliance: &[f64],
-        (a, b): (&[f64], &[f64]),
-        found: &Pair,
-    ) -> Pair {
-        let mut left = Pair(a.to_vec(), b.to_vec());
-        left.add(-1.0, &self.product(layout, at, compliance, found));
-        left
-    }
+/// The true system and its augmented form.
+struct Equations<'a> {
+    saddle: &'a mut Saddle,
+    layout: &'a Layout,
+    at: &'a Linearization,
+    compliance: &'a [f64],
+}
 
-    /// The true matrix times a vector.
-    fn product(&self, layout: &Layout, at: &Linearization, compliance: &[f64], Pair(dx, dt): &Pair) -> Pair {
-        let rows = at.rows(layout);
+impl NearlySolved for Equations<'_> {
+    fn product(&self, Pair(dx, dt): &Pair) -> Pair {
+        let rows = self.at.rows(self.layout);
         let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
-        symmetric_product(at.pattern(), &self.shifted, dx, &mut a);
+        symmetric_product(self.at.pattern(), &self.saddle.shifted, dx, &mut a);
         rows.add_transpose_product(dt, &mut a);
         rows.product(dx, &mut b);
-        b.iter_mut().zip(compliance).zip(dt).for_each(|((b, c), t)| *b -= c * t);
+        b.iter_mut().zip(self.compliance).zip(dt).for_each(|((b, c), t)| *b -= c * t);
         Pair(a, b)
     }
-}
 
-/// A vector of the system: unknowns and tensions, or forces and stretches.
-struct Pair(Vec<f64>, Vec<f64>);
-
-impl Pair {
-    fn add(&mut self, part: f64, other: &Self) {
-        self.0.iter_mut().zip(&other.0).for_each(|(v, w)| *v += part * w);
-        self.1.iter_mut().zip(&other.1).for_each(|(v, w)| *v += part * w);
+    fn solve(&mut self, Pair(a, b): &Pair) -> Pair {
+        let (dx, dt) = self.saddle.apply(self.layout, a, b);
+        Pair(dx, dt)
     }
-
-    /// In these units; zero stays zero in any.
-    fn over(mut self, units: [f64; 2]) -> Self {
-        self.0.iter_mut().for_each(|v| *v = over(*v, units[0]));
-        self.1.iter_mut().for_each(|v| *v = over(*v, units[1]));
-        self
-    }
-
-    fn dot(&self, other: &Self) -> f64 {
-        dot(&self.0, &other.0) + dot(&self.1, &other.1)
-    }
-}
-
-/// A residual over its right-hand side; zero where there is no residual.
-fn over(residual: f64, right: f64) -> f64 {
-    if residual == 0.0 { 0.0 } else { residual / right.max(f64::MIN_POSITIVE) }
-}
-
-fn norm(v: &[f64]) -> f64 {
-    dot(v, v).sqrt()
-}
-
-fn dot(v: &[f64], w: &[f64]) -> f64 {
-    v.iter().zip(w).map(|(v, w)| v * w).sum()
-}
-
-fn scaled(v: &[f64], by: f64) -> Vec<f64> {
-    v.iter().map(|v| v * by).collect()
 }

@@ -19,11 +19,15 @@ pub struct Place {
 impl Place {
     /// Adds another one times a factor.
     pub fn add(&mut self, factor: f64, other: &Self) {
-        let add = |to: &mut [f64], from: &[f64]| to.iter_mut().zip(from).for_each(|(to, v)| *to += factor * v);
-        add(&mut self.x, &other.x);
-        add(&mut self.tension, &other.tension);
-        add(self.rest.as_mut_slice(), other.rest.as_slice());
+        add(&mut self.x, factor, &other.x);
+        add(&mut self.tension, factor, &other.tension);
+        add(self.rest.as_mut_slice(), factor, other.rest.as_slice());
     }
+}
+
+/// Adds a list times a factor.
+pub(super) fn add(to: &mut [f64], factor: f64, other: &[f64]) {
+    to.iter_mut().zip(other).for_each(|(to, v)| *to += factor * v);
 }
 
 /// Rest angles move by `a rates` along the modes; all else by the sum of `a^d orders[d - 1]`.

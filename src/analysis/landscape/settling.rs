@@ -1,6 +1,6 @@
 //! How a held sheet settles, to first order, when its hinges and bars are off: the sheet and the rest angles across its modes.
 
-use super::course::Place;
+use super::course::{self, Place};
 use super::{HeldSheet, LandscapeError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
@@ -24,12 +24,20 @@ pub struct Response {
     pub place: Place,
     /// How far every soft hinge is off rest.
     pub off: Vec<f64>,
+    /// What stiff measures are longer than their tensions make them: what linear solves have left.
+    open: Vec<f64>,
 }
 
 impl Response {
     /// How far hinges are off, and tensions.
     fn parts(&self) -> (&[f64], &[f64]) {
         (&self.off, &self.place.tension)
+    }
+
+    fn add(&mut self, factor: f64, other: &Self) {
+        self.place.add(factor, &other.place);
+        course::add(&mut self.off, factor, &other.off);
+        course::add(&mut self.open, factor, &other.open);
     }
 }
 
@@ -99,7 +107,12 @@ impl<'a> Settling<'a> {
         let mut turned = vec![0.0; off.len()];
         rows.product(&found.dx, &mut turned);
         let off = off.iter().zip(turned).map(|(off, turned)| off + turned).collect();
-        Ok(Response { place: Place { x: found.dx, tension: found.dt, ..self.held.still() }, off })
+        let mut open = vec![0.0; stretch.len()];
+        self.at.rows(layout).product(&found.dx, &mut open);
+        for (((open, stretch), t), c) in open.iter_mut().zip(stretch).zip(&found.dt).zip(model.compliance()) {
+            *open += stretch - c * t;
+        }
+        Ok(Response { place: Place { x: found.dx, tension: found.dt, ..self.held.still() }, off, open })
     }
 
     /// The same with the rest angles across the modes settling too.
@@ -108,8 +121,7 @@ impl<'a> Settling<'a> {
         let torques = DVector::from_fn(self.free.len(), |j, _| self.torque(response.parts(), j));
         let rest = self.absorb(&torques)?;
         for (part, free) in rest.iter().zip(&self.free) {
-            response.place.add(*part, &free.place);
-            response.off.iter_mut().zip(&free.off).for_each(|(off, by)| *off += part * by);
+            response.add(*part, free);
         }
         response.place.rest = rest;
         Ok(response)
@@ -156,12 +168,15 @@ impl<'a> Settling<'a> {
         hinges.sum::<f64>() + stiff.iter().zip(tension).map(|(c, t)| c * t).sum::<f64>()
     }
 
-    /// Twice the energy of a pair of responses.
+    /// Twice the energy of a pair of responses. With the work of tensions on what is left open it is stationary where they are
+    /// exact: the error is of second order in what linear solves have left.
     pub fn product(&self, a: &Response, b: &Response) -> f64 {
         let hinges = a.off.iter().zip(&b.off).zip(self.stiffness()).map(|((a, b), k)| k * a * b);
         let bars =
             a.place.tension.iter().zip(&b.place.tension).zip(self.held.model.compliance()).map(|((a, b), c)| c * a * b);
-        hinges.sum::<f64>() + bars.sum::<f64>()
+        let work =
+            |a: &Response, b: &Response| -> f64 { a.place.tension.iter().zip(&b.open).map(|(t, open)| t * open).sum() };
+        hinges.sum::<f64>() + bars.sum::<f64>() + work(a, b) + work(b, a)
     }
 
     /// Stiffness of every soft hinge.

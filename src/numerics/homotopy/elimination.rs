@@ -96,7 +96,7 @@ mod tests {
 
     fn scrambled(count: usize, seed: u64) -> Vec<C> {
         let mut random = rand_chacha::rand_core::SeedableRng::seed_from_u64(seed);
-        let mut number = || super::super::system::symmetric(&mut random);
+        let mut number = || crate::numerics::random::symmetric(&mut random);
         (0..count).map(|_| C::new(number(), number())).collect()
     }
 

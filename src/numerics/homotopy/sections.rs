@@ -6,9 +6,10 @@
 //! are kept that satisfy all quadrics.
 
 use super::multiplicity::{Multiplicity, multiplicity};
-use super::system::{C, Quadrics, symmetric};
+use super::system::{C, Quadrics};
 use super::{Group, HomotopyError, Solutions, grouped, multiple, solve_square, turned};
 use crate::numerics::DenseMatrix;
+use crate::numerics::random::symmetric;
 use nalgebra::DVector;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

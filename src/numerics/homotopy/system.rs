@@ -2,9 +2,9 @@
 
 use super::HomotopyError;
 use crate::numerics::DenseMatrix;
+use crate::numerics::random::symmetric;
 use nalgebra::Complex;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
 
 pub(super) type C = Complex<f64>;
 
@@ -125,11 +125,6 @@ impl Homotopy for TotalDegree<'_> {
             row[0] -= 2.0 * t * g * b * x[0];
         }
     }
-}
-
-/// A number between -1 and 1.
-pub(super) fn symmetric(random: &mut ChaCha8Rng) -> f64 {
-    (random.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0
 }
 
 /// A complex number of modulus 1.

@@ -1,7 +1,8 @@
 //! Systems whose solutions are known beforehand.
 
-use super::system::{C, Quadrics, symmetric};
+use super::system::{C, Quadrics};
 use super::*;
+use crate::numerics::random::symmetric;
 use nalgebra::DVector;
 
 fn random(seed: u64) -> ChaCha8Rng {

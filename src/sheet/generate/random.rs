@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::grid::Grid;
 use super::{GenerateError, Parts, between, count, from};
 use crate::math::Vec3;
+use crate::numerics::random::symmetric;
 use crate::sheet::cell::{Corner, Sheet};
 
 const SOURCE: &str = "Random triangulated cell as in J. McInerney, B. G. Chen, L. Theran, C. D. Santangelo, \
@@ -91,11 +92,6 @@ impl Random {
         Parts { title, source: SOURCE, vertices, lattice, polygons }
             .sheet(format!("size = {size:?}, height = {height}, jitter = {jitter}, skew = {skew}, seed = {seed}."))
     }
-}
-
-/// Uniform in `[-1, 1)`, from the upper 53 bits of one number of the stream.
-fn symmetric(random: &mut ChaCha8Rng) -> f64 {
-    (random.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0
 }
 
 fn split([a, b, c, d]: [Corner; 4], rising: bool) -> [Vec<Corner>; 2] {

@@ -1,0 +1,107 @@
+//! Corrections of the solution of a linear system, with a solver that nearly solves it.
+//!
+//! They are generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20, 345, 1983): what each
+//! changes of the residual is orthogonal to what those before changed. So the few motions of a large sheet that are softer
+//! than the rounding errors of a factorization cost a few corrections and do not hold up the rest.
+
+/// Corrections go on while each makes the residual at least this much smaller, and are at most so many.
+const SLOWEST: f64 = 0.95;
+const MOST: usize = 30;
+
+/// A vector of a system with two block rows: unknowns and tensions, or forces and stretches.
+#[derive(Clone, Debug)]
+pub struct Pair(pub Vec<f64>, pub Vec<f64>);
+
+/// A linear system with two block rows, and a solver that nearly solves it.
+pub trait NearlySolved {
+    /// The system's matrix times a vector.
+    fn product(&self, found: &Pair) -> Pair;
+    /// Very nearly the solution for this right-hand side.
+    fn solve(&mut self, right: &Pair) -> Pair;
+}
+
+/// What corrections reach.
+pub struct Corrected {
+    /// The solution.
+    pub found: Pair,
+    /// Its residual, the larger one of the two block rows in their units.
+    pub residual: f64,
+    /// Corrections made.
+    pub corrections: usize,
+}
+
+/// Corrects `found` until the residual of each block row is at most `tolerance` of its unit, or until that no longer helps.
+pub fn correct(
+    system: &mut dyn NearlySolved,
+    right: &Pair,
+    mut found: Pair,
+    units: [f64; 2],
+    tolerance: f64,
+) -> Corrected {
+    let mut left = right.less(&system.product(&found)).over(units);
+    let (mut before, mut last): (Vec<[Pair; 2]>, f64) = (vec![], f64::INFINITY);
+    loop {
+        let residual = f64::max(norm(&left.0), norm(&left.1));
+        if residual <= tolerance || !(residual < SLOWEST * last) || before.len() == MOST {
+            return Corrected { found, residual, corrections: before.len() };
+        }
+        last = residual;
+        let mut motion = system.solve(&left.times(units));
+        let mut change = system.product(&motion).over(units);
+        for [its_motion, its_change] in &before {
+            let part = change.dot(its_change);
+            change.add(-part, its_change);
+            motion.add(-part, its_motion);
+        }
+        let size = change.dot(&change).sqrt();
+        (motion, change) = (motion.over([size; 2]), change.over([size; 2]));
+        let part = left.dot(&change);
+        left.add(-part, &change);
+        found.add(part, &motion);
+        before.push([motion, change]);
+    }
+}
+
+impl Pair {
+    /// Adds a multiple of another one.
+    pub fn add(&mut self, part: f64, other: &Self) {
+        self.0.iter_mut().zip(&other.0).for_each(|(v, w)| *v += part * w);
+        self.1.iter_mut().zip(&other.1).for_each(|(v, w)| *v += part * w);
+    }
+
+    /// This one less another one.
+    pub fn less(&self, other: &Self) -> Self {
+        let less = |v: &[f64], w: &[f64]| v.iter().zip(w).map(|(v, w)| v - w).collect();
+        Self(less(&self.0, &other.0), less(&self.1, &other.1))
+    }
+
+    fn times(&self, units: [f64; 2]) -> Self {
+        let times = |v: &[f64], unit: f64| v.iter().map(|v| v * unit).collect();
+        Self(times(&self.0, units[0]), times(&self.1, units[1]))
+    }
+
+    /// In these units; zero stays zero in any.
+    fn over(mut self, units: [f64; 2]) -> Self {
+        self.0.iter_mut().for_each(|v| *v = over(*v, units[0]));
+        self.1.iter_mut().for_each(|v| *v = over(*v, units[1]));
+        self
+    }
+
+    fn dot(&self, other: &Self) -> f64 {
+        dot(&self.0, &other.0) + dot(&self.1, &other.1)
+    }
+}
+
+/// A residual over its right-hand side; zero where there is no residual.
+fn over(residual: f64, right: f64) -> f64 {
+    if residual == 0.0 { 0.0 } else { residual / right.max(f64::MIN_POSITIVE) }
+}
+
+/// Euclidean norm.
+pub fn norm(v: &[f64]) -> f64 {
+    dot(v, v).sqrt()
+}
+
+fn dot(v: &[f64], w: &[f64]) -> f64 {
+    v.iter().zip(w).map(|(v, w)| v * w).sum()
+}
