@@ -120,7 +120,8 @@ fn solve(form: &mut dyn Form, system: &System, tolerance: f64) -> (usize, f64) {
     let units = [norm(&system.a), norm(&system.b)];
     let first = form.apply(system, &right);
     let corrected = correct(&mut Solver(form, system), &right, first, units, tolerance);
-    (corrected.corrections, corrected.residual)
+    let left = right.less(&system.product(&corrected.found));
+    (corrected.corrections, f64::max(norm(&left.0) / units[0], norm(&left.1) / units[1]))
 }
 
 /// `H + R^T w R`, `w = min(k, gamma)`; a penalty where `gamma` is infinite.

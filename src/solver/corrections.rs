@@ -24,7 +24,8 @@ pub trait NearlySolved {
 pub struct Corrected {
     /// The solution.
     pub found: Pair,
-    /// Its residual, the larger one of the two block rows in their units.
+    /// Its residual as corrections follow it, the larger one of the two block rows in their units. Rounding errors of the
+    /// solution are not in it.
     pub residual: f64,
     /// Corrections made.
     pub corrections: usize,

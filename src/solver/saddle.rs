@@ -9,11 +9,13 @@
 //! up the difference.
 //!
 //! The alternative is the *block form*: factor the whole quasi-definite matrix, tensions among the unknowns, with its
-//! lower block regularised. Measured at the drawn state of rigid patches (`cargo bench --bench forms -- system`, solved
-//! to 1e-10) it takes 1.45, 1.26 and 1.05 times as long at 12, 24 and 48 cells a side, with as many numbers in the factor
-//! and the same inertia. The augmented form is kept because it is never slower there, has half the unknowns, and needs
-//! no regularisation where `k` is moderate. `gamma` (`-- weight`; plain corrections): 1e4 does not converge at 24 cells a
-//! side, 1e6 needs 5 to 10 corrections at 48, 1e7 and 1e8 need 3 to 8, 1e9 fails there; 1e7 keeps a decade to the cliff.
+//! lower block regularised. Measured for rigid patches of 12, 24 and 48 cells a side (`cargo bench --bench forms -- system`,
+//! solved to 1e-10) it takes 1.2 to 2 times as long, with 1.2 times as many numbers in the factor and the same inertia. The augmented
+//! form is kept because it is never slower there, has half the unknowns, and needs no regularisation where `k` is moderate.
+//!
+//! `gamma` (`-- weight`, rigid patches of the same sizes, drawn, to 1e-8): 1e4 needs 6, 16 and over 30 corrections, 1e6 needs 2, 3
+//! and 4, 1e7 needs 1, 2 and 3, 1e8 needs 2, 3 and 5, 1e9 fails at 48. With self stresses less is not safe (at 1e6
+//! `tests/redundant.rs` and `tests/miura.rs` fail).
 //! Larger sheets have motions that this weight loses to rounding; the corrections of [`Saddle::solve`] find them again
 //! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the drawn states of 24 and 48 cells a side.
