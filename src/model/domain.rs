@@ -25,11 +25,9 @@ pub use crate::sheet::tiling::Site;
 
 /// Most shared coordinates that a domain has.
 pub const MOST_SHARED: usize = 6;
-/// Most coordinates that the points of an element have.
-const MOST_POINTS: usize = 12;
 type SharedMatrix = SMatrix<f64, 3, MOST_SHARED>;
 /// Room for the Hessian of an element of up to four points; only its lower triangle and leading part mean something.
-type Pulled = SMatrix<f64, { MOST_POINTS + MOST_SHARED }, { MOST_POINTS + MOST_SHARED }>;
+type Pulled = SMatrix<f64, { 12 + MOST_SHARED }, { 12 + MOST_SHARED }>;
 
 /// Rotation angles above this are taken back by a turn; above pi, so that an angle that stays near pi is left alone.
 const WOUND: f64 = 4.0;
@@ -174,7 +172,6 @@ impl Domain {
 
     /// Appends to `out` the lower triangle, row by row, of the Hessian in the element's coordinates of a function with
     /// gradient `g` and Hessian `h` in its points: `J^T h J` plus the curvature of the map itself, weighted by `g`.
-    #[inline]
     pub fn pull_hessian<const N: usize, const D: usize>(
         &self,
         x: &[f64],
@@ -183,26 +180,10 @@ impl Domain {
         h: &SMatrix<f64, D, D>,
         out: &mut Vec<f64>,
     ) {
-        if self.shared() > 0 {
-            return self.pull_through(x, sites, g, h, out);
+        if self.shared() == 0 {
+            // by columns: the upper triangle, which is the lower one by rows
+            return (0..D).for_each(|k| out.extend_from_slice(&h.as_slice()[D * k..=(D + 1) * k]));
         }
-        // the upper triangle by columns is the lower one by rows; put together in registers and on the stack, it is copied once
-        let (mut lower, mut end) = ([0.0; MOST_POINTS * (MOST_POINTS + 1) / 2], 0);
-        for k in 0..D {
-            lower[end..=end + k].copy_from_slice(&h.as_slice()[D * k..=(D + 1) * k]);
-            end += k + 1;
-        }
-        out.extend_from_slice(&lower[..end]);
-    }
-
-    fn pull_through<const N: usize, const D: usize>(
-        &self,
-        x: &[f64],
-        sites: &[Site; N],
-        g: &SVector<f64, D>,
-        h: &SMatrix<f64, D, D>,
-        out: &mut Vec<f64>,
-    ) {
         let placed = sites.map(|site| self.place(x, site));
         let mut pulled = Pulled::zeros();
         for (k, left) in placed.iter().enumerate() {
