@@ -80,18 +80,25 @@ fn spread(patch: &HeldSheet, modes: usize, seed: u64) -> f64 {
 }
 
 /// Claim: the energy knows a mode only through its Gaussian curvature: coefficient over its square is the same to 1e-6 for
-/// 100 random modes of the reference cell and for 20 of each of 20 random cells, at rigid and at soft bars.
+/// 100 random modes of the reference cell and for 20 of each of 20 random cells, at rigid and at soft bars. In the middle one of
+/// these cells it is the same to 3e-11: were coefficients not stationary in what linear solves leave open, a relative 1e-13, it
+/// would be 3e-10 at rigid bars.
 #[test]
 fn only_gaussian_curvature_counts() {
     for bars in [f64::INFINITY, 1e3] {
         let found = spread(&open_star(6, bars), 100, 1);
         println!("open-star, bars {bars:e}: {found:.1e}");
         assert!(found <= 1e-6, "{found:e}");
+        let mut spreads = Vec::new();
         for seed in 0..20 {
             let sheet = generate(&Pattern::Random(Random { size: [2, 2], seed, ..Random::default() })).unwrap();
             let found = spread(&patch_of(&Case::new(sheet, [4, 4], Surroundings::Patch), bars), 20, seed);
             assert!(found <= 1e-6, "seed {seed}: {found:e}");
+            spreads.push(found);
         }
+        spreads.sort_by(f64::total_cmp);
+        println!("random cells, bars {bars:e}: {:.1e} in the middle", spreads[10]);
+        assert!(spreads[10] <= 3e-11, "bars {bars:e}: {:e} in the middle", spreads[10]);
     }
 }
 
