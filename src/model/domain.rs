@@ -252,7 +252,10 @@ impl Domain {
     /// All points of one element.
     #[inline]
     pub fn points<const N: usize>(&self, x: &[f64], sites: &[Site; N]) -> [Vec3; N] {
-        sites.map(|site| self.point(x, site))
+        match self {
+            Self::Patch => sites.map(|site| vertex(x, site)),
+            _ => sites.map(|site| self.point(x, site)),
+        }
     }
 }
 

@@ -308,22 +308,13 @@ fn layout(
     Layout::new(blocks, collect(soft), collect(stiff))
 }
 
-/// Term and element of the `k`-th element of all terms together.
-fn locate(terms: &[Box<dyn Elements>]) -> impl Fn(usize) -> (usize, usize) + use<> {
-    let mut ends = Vec::new();
+/// Terms with the number of their first element among all of them.
+fn numbered(terms: &[Box<dyn Elements>]) -> impl Iterator<Item = (usize, &dyn Elements)> {
     let mut end = 0;
-    for term in terms {
+    terms.iter().map(move |term| {
         end += term.len();
-        ends.push(end);
-    }
-    move |k| {
-        let term = ends.partition_point(|&e| e <= k);
-        (term, if term == 0 { k } else { k - ends[term - 1] })
-    }
-}
-
-fn count(terms: &[Box<dyn Elements>]) -> usize {
-    terms.iter().map(|term| term.len()).sum()
+        (end - term.len(), term.as_ref())
+    })
 }
 
 impl Problem for Model {
@@ -341,27 +332,25 @@ impl Problem for Model {
 
     fn energy(&self, x: &[f64]) -> f64 {
         let all = self.coordinates(x);
-        let at = locate(&self.soft);
-        let cost = |k: usize, energy: &mut f64| {
-            let (term, element) = at(k);
-            let spring = self.soft[term].spring(element);
-            let off = self.soft[term].value(element, &self.domain, &all) - spring.rest;
-            *energy = 0.5 * spring.stiffness * off * off;
-        };
         let mut energy = -self.loads.iter().zip(&all).map(|(f, x)| f * x).sum::<f64>();
-        parallel::ordered(count(&self.soft), cost, |_, value| energy += value);
+        for term in &self.soft {
+            let cost = |k: usize, energy: &mut f64| {
+                let spring = term.spring(k);
+                let off = term.value(k, &self.domain, &all) - spring.rest;
+                *energy = 0.5 * spring.stiffness * off * off;
+            };
+            parallel::ordered(term.len(), cost, |_, value| energy += value);
+        }
         energy
     }
 
     fn gaps(&self, x: &[f64]) -> Vec<f64> {
         let all = self.coordinates(x);
-        let at = locate(&self.stiff);
-        let gap = |k: usize, gap: &mut f64| {
-            let (term, element) = at(k);
-            *gap = self.stiff[term].value(element, &self.domain, &all) - self.stiff[term].spring(element).rest;
-        };
-        let mut gaps = vec![0.0; self.compliance.len()];
-        parallel::ordered(gaps.len(), gap, |k, value| gaps[k] = *value);
+        let mut gaps = Vec::with_capacity(self.compliance.len());
+        for term in &self.stiff {
+            let gap = |k: usize, gap: &mut f64| *gap = term.value(k, &self.domain, &all) - term.spring(k).rest;
+            parallel::ordered(term.len(), gap, |_, gap| gaps.push(*gap));
+        }
         gaps
     }
 
@@ -402,39 +391,45 @@ impl Model {
     }
 
     fn linearize_soft(&self, all: &[f64], curvature: Curvature, out: &mut Linearization) {
-        let at = locate(&self.soft);
         let full = curvature == Curvature::Full;
-        let compute = |k: usize, local: &mut Local| {
-            let (term, element) = at(k);
-            self.soft[term].local(element, &self.domain, all, full, local);
-            local.measure_in(&self.units);
-        };
-        parallel::ordered(count(&self.soft), compute, |k, local| {
-            let (term, element) = at(k);
-            let spring = self.soft[term].spring(element);
-            let off = local.value - spring.rest;
-            let force = spring.stiffness * off;
-            out.energy += 0.5 * force * off;
-            let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-            out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
-            out.add_soft(&self.layout, k, (spring.stiffness, &local.gradient), (force, &local.hessian));
-        });
+        for (first, term) in numbered(&self.soft) {
+            let add = |k: usize, local: &Local| {
+                let spring = term.spring(k);
+                let off = local.value - spring.rest;
+                let force = spring.stiffness * off;
+                out.energy += 0.5 * force * off;
+                let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+                out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
+                out.add_soft(&self.layout, first + k, (spring.stiffness, &local.gradient), (force, &local.hessian));
+            };
+            parallel::ordered(term.len(), self.locals(term, all, full), add);
+        }
     }
 
     fn linearize_stiff(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
-        let at = locate(&self.stiff);
-        let compute = |k: usize, local: &mut Local| {
-            let (term, element) = at(k);
-            self.stiff[term].local(element, &self.domain, all, true, local);
+        for (first, term) in numbered(&self.stiff) {
+            let add = |k: usize, local: &Local| {
+                let measure = first + k;
+                out.gaps[measure] = local.value - term.spring(k).rest;
+                let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+                out.largest_force = out.largest_force.max(largest * tension[measure].abs());
+                out.jacobian[self.layout.stiff.range(measure)].copy_from_slice(&local.gradient);
+                out.add_stiff(measure, tension[measure], &local.hessian);
+            };
+            parallel::ordered(term.len(), self.locals(term, all, true), add);
+        }
+    }
+
+    /// Puts the measure of an element of this term at these coordinates, by the unknowns, in its place.
+    fn locals<'a>(
+        &'a self,
+        term: &'a dyn Elements,
+        all: &'a [f64],
+        want_hessian: bool,
+    ) -> impl Fn(usize, &mut Local) + Sync + Send + 'a {
+        move |k, local| {
+            term.local(k, &self.domain, all, want_hessian, local);
             local.measure_in(&self.units);
-        };
-        parallel::ordered(count(&self.stiff), compute, |k, local| {
-            let (term, element) = at(k);
-            out.gaps[k] = local.value - self.stiff[term].spring(element).rest;
-            let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-            out.largest_force = out.largest_force.max(largest * tension[k].abs());
-            out.jacobian[self.layout.stiff.range(k)].copy_from_slice(&local.gradient);
-            out.add_stiff(k, tension[k], &local.hessian);
-        });
+        }
     }
 }
