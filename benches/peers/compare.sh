@@ -5,8 +5,8 @@
 #     PYTHON=peers/bin/python benches/peers/compare.sh [PROGRAM]       (default: target/release/foldwell)
 #
 # Both relax 24 x 24 cells of the reference sheet with rigid bars and random rest angles, in turns; the medians of
-# `seconds / iterations` are compared. Environment: PYTHON, CELLS (default 24), ROUNDS (default 5), ORDERING (of splu;
-# default COLAMD, the fastest here).
+# `seconds / iterations` are compared; more than a twentieth is an error. Environment: PYTHON, CELLS (default 24), ROUNDS
+# (default 5), ORDERING (of splu; default COLAMD, the fastest here).
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 program=${1:-$here/../../target/release/foldwell}
@@ -38,4 +38,6 @@ for name, runs in (("foldwell", ours), ("NumPy + SciPy", theirs)):
           f"{last['energy']:.10f}, residuals {last['residual_force']:.1e} {last['residual_length']:.1e}, "
           f"converged: {last['converged']}")
 print(f"ratio {per['foldwell'] / per['NumPy + SciPy']:.4f} = 1 / {per['NumPy + SciPy'] / per['foldwell']:.1f}")
+if per["foldwell"] > per["NumPy + SciPy"] / 20:
+    sys.exit("more than a twentieth")
 PYTHON

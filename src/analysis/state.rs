@@ -42,24 +42,25 @@ impl State {
         };
         for term in model.soft() {
             for k in 0..term.len() {
-                let spring = term.spring(k);
-                let off = term.value(k, model.domain(), &state.coordinates) - spring.rest;
-                state.add(model, term.as_ref(), k, 0.5 * spring.stiffness * off * off);
+                let (spring, value) = (term.spring(k), term.value(k, model.domain(), &state.coordinates));
+                let off = value - spring.rest;
+                state.add(term.as_ref(), k, value, 0.5 * spring.stiffness * off * off);
             }
         }
         let mut row = 0;
         for term in model.stiff() {
             for k in 0..term.len() {
-                state.add(model, term.as_ref(), k, 0.5 * model.compliance()[row] * tension[row] * tension[row]);
+                let value = term.value(k, model.domain(), &state.coordinates);
+                state.add(term.as_ref(), k, value, 0.5 * model.compliance()[row] * tension[row] * tension[row]);
                 row += 1;
             }
         }
         state
     }
 
-    fn add(&mut self, model: &Model, term: &dyn Elements, k: usize, energy: f64) {
+    /// Adds element `k` of a term, whose measure has this value and which has this energy.
+    fn add(&mut self, term: &dyn Elements, k: usize, value: f64, energy: f64) {
         let (edge, spring) = (term.edge(k), term.spring(k));
-        let value = term.value(k, model.domain(), &self.coordinates);
         if term.is_angle() {
             (self.fold_angle[edge], self.rest_angle[edge]) = (value, spring.rest);
         } else {
