@@ -56,7 +56,6 @@ fn one(n: usize, folder: Option<&Path>) {
     let inertia = saddle.factor(model.layout(), &at, &rigid, 0.0).unwrap();
     assert_eq!(inertia.negative, 0, "a minimum");
     let right = vector(2, unknowns, 1.0);
-    let mut solution = Vec::new();
     let (layout, pattern, entries) = (model.layout(), at.pattern(), saddle.entries());
     let tearing = layout.tearing().unwrap();
     let mut torn = TornFactor::of(tearing).unwrap();
@@ -68,20 +67,16 @@ fn one(n: usize, folder: Option<&Path>) {
             seconds(|| whole.factor(pattern, entries))
         }],
     );
-    let mut other = right.clone();
-    let solving = in_turns(
-        ROUNDS,
-        &mut [
-            &mut || {
-                solution.clone_from(&right);
-                seconds(|| torn.solve(&mut solution))
-            },
-            &mut || {
-                other.clone_from(&right);
-                seconds(|| whole.solve(&mut other))
-            },
-        ],
-    );
+    // the second of two: a step solves several times, and the peers are timed one solve after the other
+    let twice = |solve: &mut dyn FnMut(&mut [f64])| {
+        solve(&mut right.clone());
+        let mut solution = right.clone();
+        seconds(|| solve(&mut solution))
+    };
+    let solving =
+        in_turns(ROUNDS, &mut [&mut || twice(&mut |x| torn.solve(x)), &mut || twice(&mut |x| whole.solve(x))]);
+    let mut solution = right.clone();
+    torn.solve(&mut solution);
     let mut product = vec![0.0; unknowns];
     symmetric_product(pattern, entries, &solution, &mut product);
     let size = pattern.largest_diagonal(entries) * solution.iter().fold(0.0, |most: f64, x| most.max(x.abs()));

@@ -6,7 +6,7 @@
 #
 # Both relax 24 x 24 cells of the reference sheet with rigid bars and random rest angles, in turns; the medians of
 # `seconds / iterations` are compared; more than a twentieth is an error. Environment: PYTHON, CELLS (default 24), ROUNDS
-# (default 5), ORDERING (of splu; default COLAMD, the fastest here).
+# (default 15), ORDERING (of splu; default COLAMD, the fastest here).
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 program=${1:-$here/../../target/release/foldwell}
@@ -17,7 +17,7 @@ export OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
 "$python" "$here/newton_scipy.py" prepare "$folder" --cells "${CELLS:-24}"
 round=0
-while [ $round -lt "${ROUNDS:-5}" ]; do
+while [ $round -lt "${ROUNDS:-15}" ]; do
     "$program" run "$folder/scene.toml" --out "$folder/out" --threads 1 --quiet --json > "$folder/ours.$round"
     "$python" "$here/newton_scipy.py" solve "$folder" --ordering "${ORDERING:-COLAMD}" > "$folder/theirs.$round"
     round=$((round + 1))

@@ -11,7 +11,7 @@
 //!
 //! To add an unknown that takes a coupling out is tearing (G. Kron, Diakoptics, 1963). An open hinge stands in a separator with one
 //! unknown, a second line of vertices would with three. Only hinges between two branches of the elimination tree are opened,
-//! one in seven or eight, and a factorization takes 0.89, 0.78 and 0.68 of the time at 12, 24 and 48 cells a side
+//! one in ten, and a factorization takes 0.84, 0.74 and 0.66 of the time at 12, 24 and 48 cells a side
 //! (`cargo bench --bench systems`).
 
 use super::factor::{DENSE_LIMIT, Factor, FactorError, Inertia, Symbolic};
