@@ -15,6 +15,8 @@ const GRID: &str = "#dcd9cf";
 const INK: &str = "#2e3238";
 /// Colours that stay apart also for those who see fewer of them, by brightness as well as hue.
 const COLOURS: [&str; 6] = ["#1d62b0", "#c8372d", "#3f265d", "#d98a1f", "#2c8a6b", "#7d7a72"];
+/// Width of a letter beside a point, at most.
+const LETTER: f64 = 7.0;
 /// Most numbers along an axis.
 const TICKS: i32 = 9;
 
@@ -76,12 +78,14 @@ fn drawn(chart: &Chart, scale: Scale) -> String {
     let drawable = |point: &&Point| [point.x, point.y].iter().all(|v| scale.place(*v).is_finite());
     let points = || chart.series.iter().flat_map(|series| &series.points).filter(drawable);
     let axes = [Axis::around(scale, points().map(|p| p.x)), Axis::around(scale, points().map(|p| p.y))];
-    let title = escaped(&chart.title);
+    let (title, letters) = (escaped(&chart.title), chart.title.chars().count() as f64);
+    // a long one in smaller letters: they are at most 0.6 as wide as high
+    let size = f64::min(16.0, (WIDTH - 1.2 * FRAME[0]) / (0.6 * letters.max(1.0)));
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" width=\"{WIDTH}\" \
          height=\"{HEIGHT}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"{INK}\">\n\
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" rx=\"8\" fill=\"{PAPER}\"/>\n\
-         <text x=\"{}\" y=\"30\" font-size=\"16\" font-weight=\"bold\">{title}</text>\n",
+         <text x=\"{}\" y=\"30\" font-size=\"{size:.1}\" font-weight=\"bold\">{title}</text>\n",
         FRAME[0]
     );
     grid(&mut text, &axes, chart);
@@ -203,11 +207,17 @@ fn paint(text: &mut String, places: &[([f64; 2], &Point)], number: usize) {
         mark(text, *place, number);
         text.push_str("</g>\n");
         if at == 0 || at + 1 == places.len() {
-            let [x, y] = place;
-            put!(text, "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"11\" ", x + 7.0, y - 7.0);
-            put!(text, "fill=\"{colour}\">{}</text>\n", escaped(&point.label));
+            label(text, *place, &point.label, colour);
         }
     }
+}
+
+/// Beside a point: on its right where there is room for it within the frame, else on its left.
+fn label(text: &mut String, [x, y]: [f64; 2], words: &str, colour: &str) {
+    let fits = x + 7.0 + LETTER * words.chars().count() as f64 <= FRAME[1];
+    let (x, anchor) = if fits { (x + 7.0, "start") } else { (x - 7.0, "end") };
+    put!(text, "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"{anchor}\" ", y - 7.0);
+    put!(text, "fill=\"{colour}\">{}</text>\n", escaped(words));
 }
 
 /// A disc, a square, a triangle, in turns: series differ in more than colour.
@@ -270,6 +280,16 @@ mod tests {
         assert!(places.len() == 3 && (places[2] - 2.0 * places[1] + places[0]).abs() <= 0.21, "{places:?}");
         assert!(text.contains(">\u{2212}1.0<") && text.contains(">0.4<"), "{text}");
         assert_eq!([0.9, 6.0, 31.0].map(round_step), [0.2, 1.0, 10.0]);
+    }
+
+    /// Claim: what stands beside a point stays within the frame, where the legend is not.
+    #[test]
+    fn labels_stay_within_the_frame() {
+        let text = linear_svg(&chart(&[(0.0, 0.0), (1.0, 1.0)]));
+        let labels: Vec<&str> = text.lines().filter(|line| line.contains("font-size=\"11\"")).collect();
+        let x = |line: &str| -> f64 { line.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap() };
+        assert!(labels[0].contains("\"start\"") && x(labels[0]) > FRAME[0], "{}", labels[0]);
+        assert!(labels[1].contains("\"end\"") && x(labels[1]) < FRAME[1], "{}", labels[1]);
     }
 
     /// Claim: what has no logarithm is left out, and spoils nothing; so does a chart without points.
