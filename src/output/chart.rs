@@ -207,16 +207,18 @@ fn paint(text: &mut String, places: &[([f64; 2], &Point)], number: usize) {
         mark(text, *place, number);
         text.push_str("</g>\n");
         if at == 0 || at + 1 == places.len() {
-            label(text, *place, &point.label, colour);
+            let next = places.get(if at == 0 { 1 } else { at - 1 });
+            label(text, *place, next.is_some_and(|(next, _)| next[1] < place[1]), &point.label, colour);
         }
     }
 }
 
-/// Beside a point: on its right where there is room for it within the frame, else on its left.
-fn label(text: &mut String, [x, y]: [f64; 2], words: &str, colour: &str) {
+/// Beside a point, above or below it: on its right where there is room for it within the frame, else on its left.
+fn label(text: &mut String, [x, y]: [f64; 2], below: bool, words: &str, colour: &str) {
     let fits = x + 7.0 + LETTER * words.chars().count() as f64 <= FRAME[1];
     let (x, anchor) = if fits { (x + 7.0, "start") } else { (x - 7.0, "end") };
-    put!(text, "<text x=\"{x:.1}\" y=\"{:.1}\" font-size=\"11\" text-anchor=\"{anchor}\" ", y - 7.0);
+    let y = if below { y + 15.0 } else { y - 7.0 };
+    put!(text, "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"11\" text-anchor=\"{anchor}\" ");
     put!(text, "fill=\"{colour}\">{}</text>\n", escaped(words));
 }
 
