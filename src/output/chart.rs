@@ -284,14 +284,29 @@ mod tests {
         assert_eq!([0.9, 6.0, 31.0].map(round_step), [0.2, 1.0, 10.0]);
     }
 
-    /// Claim: what stands beside a point stays within the frame, where the legend is not.
+    /// Claim: what stands beside a point stays within the frame, where the legend is not, and on the side where its series is not:
+    /// of a rising one below the first point and above the last.
     #[test]
-    fn labels_stay_within_the_frame() {
+    fn labels_stand_clear() {
         let text = linear_svg(&chart(&[(0.0, 0.0), (1.0, 1.0)]));
         let labels: Vec<&str> = text.lines().filter(|line| line.contains("font-size=\"11\"")).collect();
-        let x = |line: &str| -> f64 { line.split("x=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap() };
-        assert!(labels[0].contains("\"start\"") && x(labels[0]) > FRAME[0], "{}", labels[0]);
-        assert!(labels[1].contains("\"end\"") && x(labels[1]) < FRAME[1], "{}", labels[1]);
+        let number = |line: &str, key: &str| -> f64 {
+            line.split(key).nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
+        };
+        let (x, y) = (|line| number(line, " x=\""), |line| number(line, " y=\""));
+        assert!(labels[0].contains("\"start\"") && x(labels[0]) > FRAME[0] && y(labels[0]) > FRAME[3], "{}", labels[0]);
+        assert!(labels[1].contains("\"end\"") && x(labels[1]) < FRAME[1] && y(labels[1]) < FRAME[2], "{}", labels[1]);
+    }
+
+    /// Claim: a title of any length ends on the paper; letters are taken to be 0.6 as wide as high, a short one stays as it is.
+    #[test]
+    fn long_titles_end_on_the_paper() {
+        for letters in [0, 10, 200] {
+            let text = svg(&Chart { title: "x".repeat(letters), ..Chart::default() });
+            let line = text.lines().find(|line| line.contains("bold")).unwrap();
+            let size: f64 = line.split("font-size=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+            assert!(FRAME[0] + 0.6 * size * letters as f64 <= WIDTH && (letters > 10 || size == 16.0), "{line}");
+        }
     }
 
     /// Claim: what has no logarithm is left out, and spoils nothing; so does a chart without points.
