@@ -16,12 +16,12 @@
 
 use super::Vec3;
 use super::taylor::{Path, Taylor, cross, difference, dot};
-use nalgebra::{Matrix3, SMatrix, SVector};
+use nalgebra::{Matrix3, SVector};
 
 /// Gradient over the twelve coordinates of `[i, j, left, right]`.
 pub type HingeGradient = SVector<f64, 12>;
-/// Hessian over the twelve coordinates of `[i, j, left, right]`.
-pub type HingeHessian = SMatrix<f64, 12, 12>;
+/// Entries of the lower triangle of the Hessian over these coordinates.
+const TRIANGLE: usize = 78;
 
 /// Fold angle of the hinge `[i, j, left, right]`, in radians, in `(-pi, pi]`.
 ///
@@ -44,11 +44,15 @@ pub fn fold_angle_gradient(points: &[Vec3; 4]) -> (f64, HingeGradient) {
     (hinge.angle(), hinge.gradient())
 }
 
-/// Fold angle, its gradient and its Hessian. Inlined into the loop over hinges: a kilobyte is not copied on the way.
+/// Fold angle and its gradient; puts the lower triangle of its Hessian, row by row, in the place of what is in `lower`.
+///
+/// Inlined into the loop over hinges and written where it is wanted: no matrix is copied on the way.
 #[inline(always)]
-pub fn fold_angle_hessian(points: &[Vec3; 4]) -> (f64, HingeGradient, HingeHessian) {
+pub fn fold_angle_hessian(points: &[Vec3; 4], lower: &mut Vec<f64>) -> (f64, HingeGradient) {
     let hinge = Hinge::new(points);
-    (hinge.angle(), hinge.gradient(), hinge.hessian())
+    lower.resize(TRIANGLE, 0.0);
+    hinge.hessian(&mut lower[..TRIANGLE]);
+    (hinge.angle(), hinge.gradient())
 }
 
 /// The fold angle while its points move, to the fourth power of what they move with.
@@ -111,9 +115,9 @@ impl Hinge {
     }
 
     #[inline(always)]
-    fn hessian(&self) -> HingeHessian {
+    fn hessian(&self, lower: &mut [f64]) {
         let (left, right) = (self.curvature(&self.left, 1.0), self.curvature(&self.right, -1.0));
-        spread(&left.ww, &right.ww, &left.we, &right.we, &(left.ee + right.ee))
+        spread(&left.ww, &right.ww, &left.we, &right.we, &(left.ee + right.ee), lower);
     }
 
     /// On the left, `turn = 1`, or on the right, `turn = -1`.
@@ -146,22 +150,29 @@ fn spread(
     ae: &Matrix3<f64>,
     be: &Matrix3<f64>,
     ee: &Matrix3<f64>,
-) -> HingeHessian {
+    lower: &mut [f64],
+) {
     let (ei, ai, bi) = (-(ee + ae.transpose() + be.transpose()), -(ae + aa), -(be + bb));
     let ii = -(ei + ai + bi);
-    let mut hessian = HingeHessian::zeros();
-    let mut put = |row: usize, column: usize, block: &Matrix3<f64>| {
-        hessian.fixed_view_mut::<3, 3>(3 * row, 3 * column).copy_from(block);
-        hessian.fixed_view_mut::<3, 3>(3 * column, 3 * row).copy_from(&block.transpose());
-    };
-    put(0, 0, &ii);
-    put(1, 1, ee);
-    put(2, 2, aa);
-    put(3, 3, bb);
-    put(1, 0, &ei);
-    put(2, 0, &ai);
-    put(3, 0, &bi);
-    put(2, 1, ae);
-    put(3, 1, be);
-    hessian
+    put::<0, 0>(&ii, lower);
+    put::<1, 0>(&ei, lower);
+    put::<1, 1>(ee, lower);
+    put::<2, 0>(&ai, lower);
+    put::<2, 1>(ae, lower);
+    put::<2, 2>(aa, lower);
+    put::<3, 0>(&bi, lower);
+    put::<3, 1>(be, lower);
+    put::<3, 2>(&Matrix3::zeros(), lower);
+    put::<3, 3>(bb, lower);
+}
+
+/// Puts the block of points `K` and `L <= K` in its place in a lower triangle.
+#[inline(always)]
+fn put<const K: usize, const L: usize>(block: &Matrix3<f64>, lower: &mut [f64]) {
+    for r in 0..3 {
+        let (row, columns) = (3 * K + r, if K == L { r + 1 } else { 3 });
+        for c in 0..columns {
+            lower[row * (row + 1) / 2 + 3 * L + c] = block[(r, c)];
+        }
+    }
 }

@@ -170,20 +170,20 @@ impl Domain {
         out.extend_from_slice(&shared.as_slice()[..self.shared()]);
     }
 
-    /// Appends to `out` the lower triangle, row by row, of the Hessian in the element's coordinates of a function with
-    /// gradient `g` and Hessian `h` in its points: `J^T h J` plus the curvature of the map itself, weighted by `g`.
+    /// Turns `lower`, the lower triangle, row by row, of the Hessian of a function in its points, where its gradient is `g`, into the
+    /// one in the element's coordinates: `J^T H J` plus the curvature of the map itself, weighted by `g`.
     pub fn pull_hessian<const N: usize, const D: usize>(
         &self,
         x: &[f64],
         sites: &[Site; N],
         g: &SVector<f64, D>,
-        h: &SMatrix<f64, D, D>,
-        out: &mut Vec<f64>,
+        lower: &mut Vec<f64>,
     ) {
         if self.shared() == 0 {
-            // by columns: the upper triangle, which is the lower one by rows
-            return (0..D).for_each(|k| out.extend_from_slice(&h.as_slice()[D * k..=(D + 1) * k]));
+            return;
         }
+        let entry = |row: usize, column: usize| lower[row * (row + 1) / 2 + column];
+        let h = SMatrix::<f64, D, D>::from_fn(|k, l| entry(k.max(l), k.min(l)));
         let placed = sites.map(|site| self.place(x, site));
         let mut pulled = Pulled::zeros();
         for (k, left) in placed.iter().enumerate() {
@@ -201,8 +201,9 @@ impl Domain {
                 Screw::new(self.shared_of(x), site).at(&vertex(x, site)).add_curvature(&force, 3 * k, D, &mut pulled);
             }
         }
+        lower.clear();
         for row in 0..D + self.shared() {
-            out.extend((0..=row).map(|column| pulled[(row, column)]));
+            lower.extend((0..=row).map(|column| pulled[(row, column)]));
         }
     }
 

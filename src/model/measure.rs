@@ -2,7 +2,7 @@
 
 use crate::math::taylor::{Path, Taylor, difference, dot};
 use crate::math::{Vec3, fold_angle};
-use nalgebra::{Matrix3, SMatrix, SVector};
+use nalgebra::SVector;
 
 /// A scalar of `N` points. `D = 3 N` is the number of their coordinates.
 pub trait Measure<const N: usize, const D: usize> {
@@ -14,8 +14,8 @@ pub trait Measure<const N: usize, const D: usize> {
     fn value(points: &[Vec3; N]) -> f64;
     /// The scalar and its gradient.
     fn gradient(points: &[Vec3; N]) -> (f64, SVector<f64, D>);
-    /// The scalar, its gradient and its Hessian.
-    fn hessian(points: &[Vec3; N]) -> (f64, SVector<f64, D>, SMatrix<f64, D, D>);
+    /// The scalar and its gradient; puts the lower triangle of its Hessian, row by row, in the place of what is in `lower`.
+    fn hessian(points: &[Vec3; N], lower: &mut Vec<f64>) -> (f64, SVector<f64, D>);
     /// The scalar while its points move.
     fn along(points: &[Path; N]) -> Taylor;
 }
@@ -34,7 +34,7 @@ impl Measure<2, 6> for Length {
 
     fn gradient(points: &[Vec3; 2]) -> (f64, SVector<f64, 6>) {
         let length = Self::value(points);
-        let unit = (points[1] - points[0]) / length;
+        let unit = (1.0 / length) * (points[1] - points[0]);
         let mut gradient = SVector::<f64, 6>::zeros();
         gradient.fixed_rows_mut::<3>(0).copy_from(&-unit);
         gradient.fixed_rows_mut::<3>(3).copy_from(&unit);
@@ -42,15 +42,24 @@ impl Measure<2, 6> for Length {
     }
 
     /// The Hessian is `(I - u u^T)/L` between the ends, `u` the direction of the bar.
-    fn hessian(points: &[Vec3; 2]) -> (f64, SVector<f64, 6>, SMatrix<f64, 6, 6>) {
+    #[inline(always)]
+    fn hessian(points: &[Vec3; 2], lower: &mut Vec<f64>) -> (f64, SVector<f64, 6>) {
         let (length, gradient) = Self::gradient(points);
-        let unit = gradient.fixed_rows::<3>(3);
-        let block = (Matrix3::identity() - unit * unit.transpose()) / length;
-        let mut hessian = SMatrix::<f64, 6, 6>::zeros();
-        for (row, column, sign) in [(0, 0, 1.0), (3, 3, 1.0), (0, 3, -1.0), (3, 0, -1.0)] {
-            hessian.fixed_view_mut::<3, 3>(row, column).copy_from(&(sign * block));
-        }
-        (length, gradient, hessian)
+        let [x, y, z] = [gradient[3], gradient[4], gradient[5]];
+        let per_length = 1.0 / length;
+        let [xx, yy, zz] = [x, y, z].map(|u| per_length * (1.0 - u * u));
+        let [xy, xz, yz] = [x * y, x * z, y * z].map(|uv| -per_length * uv);
+        lower.clear();
+        #[rustfmt::skip]
+        lower.extend_from_slice(&[
+             xx,
+             xy,  yy,
+             xz,  yz,  zz,
+            -xx, -xy, -xz, xx,
+            -xy, -yy, -yz, xy, yy,
+            -xz, -yz, -zz, xz, yz, zz,
+        ]);
+        (length, gradient)
     }
 
     fn along([a, b]: &[Path; 2]) -> Taylor {
@@ -76,8 +85,8 @@ impl Measure<4, 12> for FoldAngle {
     }
 
     #[inline(always)]
-    fn hessian(points: &[Vec3; 4]) -> (f64, SVector<f64, 12>, SMatrix<f64, 12, 12>) {
-        fold_angle::fold_angle_hessian(points)
+    fn hessian(points: &[Vec3; 4], lower: &mut Vec<f64>) -> (f64, SVector<f64, 12>) {
+        fold_angle::fold_angle_hessian(points, lower)
     }
 
     fn along(points: &[Path; 4]) -> Taylor {

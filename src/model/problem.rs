@@ -3,8 +3,8 @@
 use super::domain::Domain;
 use super::gauge;
 use super::term::{Elements, Local, Spring};
-use crate::numerics::parallel;
 use crate::numerics::sparse::{Cliques, FIXED};
+use crate::numerics::{largest, parallel};
 use crate::solver::{Curvature, Layout, Linearization, Problem};
 
 /// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is
@@ -398,7 +398,7 @@ impl Model {
                 let off = local.value - spring.rest;
                 let force = spring.stiffness * off;
                 out.energy += 0.5 * force * off;
-                let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+                let largest = largest(&local.gradient);
                 out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
                 out.add_soft(&self.layout, first + k, (spring.stiffness, &local.gradient), (force, &local.hessian));
             };
@@ -411,7 +411,7 @@ impl Model {
             let add = |k: usize, local: &Local| {
                 let measure = first + k;
                 out.gaps[measure] = local.value - term.spring(k).rest;
-                let largest = local.gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+                let largest = largest(&local.gradient);
                 out.largest_force = out.largest_force.max(largest * tension[measure].abs());
                 out.jacobian[self.layout.stiff.range(measure)].copy_from_slice(&local.gradient);
                 out.add_stiff(measure, tension[measure], &local.hessian);

@@ -157,12 +157,12 @@ impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements fo
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local) {
         let sites = &self.elements[k].sites;
         let points = domain.points(x, sites);
-        out.hessian.clear();
         let (value, gradient) = if want_hessian {
-            let (value, gradient, hessian) = M::hessian(&points);
-            domain.pull_hessian(x, sites, &gradient, &hessian, &mut out.hessian);
+            let (value, gradient) = M::hessian(&points, &mut out.hessian);
+            domain.pull_hessian(x, sites, &gradient, &mut out.hessian);
             (value, gradient)
         } else {
+            out.hessian.clear();
             M::gradient(&points)
         };
         out.value = self.continued(k, value);

@@ -20,3 +20,8 @@ mod tests;
 
 /// The dense matrix that modules hand to each other.
 pub type DenseMatrix = nalgebra::DMatrix<f64>;
+
+/// Largest magnitude of these numbers, 0 of none; a NaN is passed over.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| f64::max(most, value.abs()))
+}

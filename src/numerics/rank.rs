@@ -5,6 +5,7 @@
 //! and an `L D L^T` factorization counts them.
 
 use super::factor::{Factor, FactorError};
+use super::largest;
 use super::sparse::{Cliques, Pattern, Rows, Slots};
 
 /// Number of singular values of `rows` (a matrix of `columns` columns) above `tau`, a fraction of the largest entry.
@@ -19,7 +20,7 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
     let node: Vec<u32> = node.iter().copied().chain((0..count as u32).map(|row| blocks + row)).collect();
     let pattern = Pattern::new(size, &[&cliques]);
     let slots = Slots::new(&pattern, &cliques);
-    let scale = rows.values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let scale = largest(rows.values);
     if scale == 0.0 {
         return Ok(0);
     }
@@ -53,7 +54,7 @@ pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) ->
     for row in 0..rows.cliques.len() {
         slots.add_outer(row, 1.0, &rows.values[rows.cliques.range(row)], &mut values);
     }
-    let scale = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let scale = largest(&values);
     pattern.add_to_diagonal(&mut values, REGULAR * scale);
     let mut factor = Factor::new(&pattern, node, &[rows.cliques])?;
     factor.factor(&pattern, &values)?;
@@ -61,7 +62,7 @@ pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) ->
     loop {
         let mut y = vec![0.0; columns];
         rows.add_transpose_product(&open, &mut y);
-        let pull = y.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let pull = largest(&y);
         if !(pull < SLOWEST * last) {
             return Ok(out);
         }

@@ -332,12 +332,21 @@ pub fn symmetric_product(pattern: &Pattern, values: &[f64], x: &[f64], y: &mut [
         let start = pattern.columns[column] as usize;
         let rows = pattern.column(column);
         let values = &values[start..start + rows.len()];
-        let mut sum = values[0] * x[column];
-        for (&row, &value) in rows[1..].iter().zip(&values[1..]) {
+        // two sums, so that an addition need not wait for the last one
+        let mut sums = [values[0] * x[column], 0.0];
+        let mut entry = |row: u32, value: f64, sum: &mut f64| {
             y[row as usize] += value * x[column];
-            sum += value * x[row as usize];
+            *sum += value * x[row as usize];
+        };
+        let (row_pairs, value_pairs) = (rows[1..].chunks_exact(2), values[1..].chunks_exact(2));
+        if let ([row], [value]) = (row_pairs.remainder(), value_pairs.remainder()) {
+            entry(*row, *value, &mut sums[0]);
         }
-        y[column] += sum;
+        for (rows, values) in row_pairs.zip(value_pairs) {
+            entry(rows[0], values[0], &mut sums[0]);
+            entry(rows[1], values[1], &mut sums[1]);
+        }
+        y[column] += sums[0] + sums[1];
     }
 }
 
@@ -354,24 +363,18 @@ impl Rows<'_> {
     /// `y = R x`.
     pub fn product(&self, x: &[f64], y: &mut [f64]) {
         for (row, out) in y.iter_mut().enumerate() {
-            let range = self.cliques.range(row);
-            let members = self.cliques.members(row);
-            *out = members
-                .iter()
-                .zip(&self.values[range])
-                .filter(|(m, _)| **m != FIXED)
-                .map(|(&m, v)| v * x[m as usize])
-                .sum();
+            let entries = self.cliques.members(row).iter().zip(&self.values[self.cliques.range(row)]);
+            // what is fixed is beyond the last unknown
+            *out = entries.filter_map(|(&m, v)| x.get(m as usize).map(|x| v * x)).sum();
         }
     }
 
     /// `y += R^T t`.
     pub fn add_transpose_product(&self, t: &[f64], y: &mut [f64]) {
         for (row, &tension) in t.iter().enumerate() {
-            let range = self.cliques.range(row);
-            for (&member, value) in self.cliques.members(row).iter().zip(&self.values[range]) {
-                if member != FIXED {
-                    y[member as usize] += value * tension;
+            for (&member, value) in self.cliques.members(row).iter().zip(&self.values[self.cliques.range(row)]) {
+                if let Some(y) = y.get_mut(member as usize) {
+                    *y += value * tension;
                 }
             }
         }

@@ -4,6 +4,8 @@
 //! changes of the residual is orthogonal to what those before changed. So the few motions of a large sheet that are softer
 //! than the rounding errors of a factorization cost a few corrections and do not hold up the rest.
 
+use nalgebra::DVectorView;
+
 /// Corrections go on while each makes the residual at least this much smaller, and are at most so many.
 const SLOWEST: f64 = 0.95;
 const MOST: usize = 30;
@@ -39,27 +41,41 @@ pub fn correct(
     units: [f64; 2],
     tolerance: f64,
 ) -> Corrected {
-    let mut left = right.less(&system.product(&found)).over(units);
-    let (mut before, mut last): (Vec<[Pair; 2]>, f64) = (vec![], f64::INFINITY);
+    let per_unit = units.map(per);
+    let mut left = right.less(&system.product(&found)).times(per_unit);
+    let (mut before, mut last): (Vec<Correction>, f64) = (vec![], f64::INFINITY);
     loop {
         let residual = f64::max(norm(&left.0), norm(&left.1));
         if residual <= tolerance || !(residual < SLOWEST * last) || before.len() == MOST {
             return Corrected { found, residual, corrections: before.len() };
         }
         last = residual;
-        let mut motion = system.solve(&left.times(units));
-        let mut change = system.product(&motion).over(units);
-        for [its_motion, its_change] in &before {
-            let part = change.dot(its_change);
-            change.add(-part, its_change);
-            motion.add(-part, its_motion);
+        let mut motion = system.solve(&left.clone().times(units));
+        let mut change = system.product(&motion).times(per_unit);
+        for earlier in &before {
+            let part = earlier.part_of(&change);
+            change.add(-part, &earlier.change);
+            motion.add(-part, &earlier.motion);
         }
-        let size = change.dot(&change).sqrt();
-        (motion, change) = (motion.over([size; 2]), change.over([size; 2]));
-        let part = left.dot(&change);
-        left.add(-part, &change);
-        found.add(part, &motion);
-        before.push([motion, change]);
+        let correction = Correction { per_square: per(change.dot(&change)), motion, change };
+        let part = correction.part_of(&left);
+        left.add(-part, &correction.change);
+        found.add(part, &correction.motion);
+        before.push(correction);
+    }
+}
+
+/// A motion, what it changes of the residual, and one over the square of that.
+struct Correction {
+    motion: Pair,
+    change: Pair,
+    per_square: f64,
+}
+
+impl Correction {
+    /// How often its change is in another one.
+    fn part_of(&self, residual: &Pair) -> f64 {
+        residual.dot(&self.change) * self.per_square
     }
 }
 
@@ -76,15 +92,10 @@ impl Pair {
         Self(less(&self.0, &other.0), less(&self.1, &other.1))
     }
 
-    fn times(&self, units: [f64; 2]) -> Self {
-        let times = |v: &[f64], unit: f64| v.iter().map(|v| v * unit).collect();
-        Self(times(&self.0, units[0]), times(&self.1, units[1]))
-    }
-
-    /// In these units; zero stays zero in any.
-    fn over(mut self, units: [f64; 2]) -> Self {
-        self.0.iter_mut().for_each(|v| *v = over(*v, units[0]));
-        self.1.iter_mut().for_each(|v| *v = over(*v, units[1]));
+    /// With its block rows times these factors.
+    fn times(mut self, factors: [f64; 2]) -> Self {
+        self.0.iter_mut().for_each(|v| *v *= factors[0]);
+        self.1.iter_mut().for_each(|v| *v *= factors[1]);
         self
     }
 
@@ -93,9 +104,9 @@ impl Pair {
     }
 }
 
-/// A residual over its right-hand side; zero where there is no residual.
-fn over(residual: f64, right: f64) -> f64 {
-    if residual == 0.0 { 0.0 } else { residual / right.max(f64::MIN_POSITIVE) }
+/// One over a size; of what is zero, no unit makes anything else.
+fn per(size: f64) -> f64 {
+    size.max(f64::MIN_POSITIVE).recip()
 }
 
 /// Euclidean norm.
@@ -104,5 +115,5 @@ pub fn norm(v: &[f64]) -> f64 {
 }
 
 fn dot(v: &[f64], w: &[f64]) -> f64 {
-    v.iter().zip(w).map(|(v, w)| v * w).sum()
+    DVectorView::from_slice(v, v.len()).dot(&DVectorView::from_slice(w, w.len()))
 }

@@ -11,6 +11,7 @@ use super::problem::{self, Curvature, Linearization, Problem};
 use super::saddle::{Saddle, Solved};
 use super::tension::{nan_max, residuals, self_stresses};
 use crate::numerics::factor::FactorError;
+use crate::numerics::largest;
 use crate::numerics::random::symmetric;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -334,7 +335,7 @@ impl<P: Problem> Newton<'_, P> {
                 from.iter().zip(by).map(|(from, by)| from + fraction * by).collect()
             };
             let (x, tension) = (moved(&self.x, &dx), moved(&self.tension, &dt));
-            let left = largest(&problem::missing(&self.problem.gaps(&x), &tension, compliance), scale);
+            let left = largest_gap(&problem::missing(&self.problem.gaps(&x), &tension, compliance), scale);
             if left <= (1.0 - SLOWEST * fraction) * gap {
                 (self.x, self.tension) = (x, tension);
                 self.problem.accept(&mut self.x);
@@ -442,7 +443,6 @@ impl<P: Problem> Newton<'_, P> {
         if !self.near() {
             return None;
         }
-        self.saddle.keep(&self.at);
         let step = self.direction(last);
         let trial = (step.residual <= accuracy(last)).then(|| self.attempt((&step.dx, &step.dt), 1.0, last))??;
         self.take(trial, 1.0, last);
@@ -473,10 +473,11 @@ impl<P: Problem> Newton<'_, P> {
         let whole = self.problem.gaps(&moved(1.0));
         let second: Vec<f64> = (0..whole.len()).map(|k| whole[k] - self.at.gaps[k] - linear[k]).collect();
         let scale = self.problem.gap_scale();
-        if !compliance.contains(&0.0) || largest(&second, scale) < 10.0 * largest(&linear, scale).max(FEASIBLE) {
+        if !compliance.contains(&0.0) || largest_gap(&second, scale) < 10.0 * largest_gap(&linear, scale).max(FEASIBLE)
+        {
             return false;
         }
-        let length = dx.iter().fold(0.0f64, |m, d| m.max(d.abs()));
+        let length = largest(dx);
         let open = problem::missing(&self.problem.gaps(&moved(PROBE / length.max(PROBE))), &self.tension, compliance);
         self.saddle.unreachable(layout, &self.at, compliance, &open, UNREACHABLE) > UNREACHABLE
             && self_stresses(self.problem, &self.at).is_some_and(|count| count > 0)
@@ -496,7 +497,7 @@ impl<P: Problem> Newton<'_, P> {
         let open = self.at.missing(&self.tension, self.problem.compliance());
         let tensions = trial.tension.iter().zip(&self.tension);
         let by_gaps: f64 = open.iter().zip(tensions).map(|(gap, (new, old))| (gap * (new - old)).abs()).sum();
-        let size = self.x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let size = largest(&self.x);
         let by_forces = f64::EPSILON * self.at.largest_force * size * (self.x.len() as f64).sqrt();
         NOISE * last.energy.abs() + by_gaps + 4.0 * by_forces
     }
@@ -504,7 +505,7 @@ impl<P: Problem> Newton<'_, P> {
     /// The scaled force that rounding of the unknowns alone makes: a last place of the largest unknown times the largest
     /// stiffness. It is above the tolerance only where all forces are tiny.
     fn rounding(&self) -> f64 {
-        let size = self.x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let size = largest(&self.x);
         f64::EPSILON * size * self.at.pattern().largest_diagonal(&self.at.hessian) / self.at.largest_force
     }
 
@@ -516,7 +517,7 @@ impl<P: Problem> Newton<'_, P> {
         for left in (0..=most).rev() {
             let gaps = self.problem.gaps(&x);
             let open = problem::missing(&gaps, &tension, self.problem.compliance());
-            let size = largest(&open, self.problem.gap_scale());
+            let size = largest_gap(&open, self.problem.gap_scale());
             let rate = size / last;
             if size <= wanted || (size <= ROUNDING && rate > 0.5) {
                 let merit = merit(self.problem, &x, &tension, &gaps);
@@ -579,6 +580,6 @@ fn accuracy(last: &Step) -> f64 {
 }
 
 /// Largest scaled gap.
-fn largest(open: &[f64], scale: &[f64]) -> f64 {
+fn largest_gap(open: &[f64], scale: &[f64]) -> f64 {
     open.iter().zip(scale).fold(0.0, |m, (o, s)| nan_max(m, o.abs() / s))
 }

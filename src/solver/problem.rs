@@ -5,6 +5,7 @@
 //! tension `t_r` of a measure is an unknown of its own, `m_r = c_r t_r`, so nothing is ever multiplied by `k_r`.
 
 use crate::numerics::factor::FactorError;
+use crate::numerics::largest;
 use crate::numerics::sparse::{Cliques, FIXED, Pattern, Rows, Slots};
 use crate::numerics::tearing::Tearing;
 use std::sync::{Arc, OnceLock};
@@ -202,7 +203,7 @@ impl Linearization {
     pub fn largest_turn(&self, layout: &Layout, dx: &[f64]) -> f64 {
         let mut turns = vec![0.0; layout.soft.len()];
         self.soft_rows(layout).product(dx, &mut turns);
-        turns.iter().fold(0.0, |most: f64, turn| most.max(turn.abs()))
+        largest(&turns)
     }
 
     /// What each stiff measure lacks to `m = c t`.

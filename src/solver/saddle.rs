@@ -10,12 +10,14 @@
 //!
 //! The alternative is the *block form*: factor the whole quasi-definite matrix, tensions among the unknowns, with its
 //! lower block regularised. Measured for rigid patches of 12, 24 and 48 cells a side (`cargo bench --bench forms -- system`,
-//! solved to 1e-10) it takes 1.2 to 2 times as long, with 1.2 times as many numbers in the factor and the same inertia. The augmented
-//! form is kept because it is never slower there, has half the unknowns, and needs no regularisation where `k` is moderate.
+//! solved to 1e-10) it takes 1.5 to 1.9 times as long, with 1.2 to 1.3 times as many numbers in the factor and the same inertia.
+//! The augmented form is kept because it is faster there, has half the unknowns, and needs no regularisation where `k` is moderate.
 //!
 //! `gamma` (`-- weight`, rigid patches of the same sizes, drawn, to 1e-8): 1e4 needs 6, 16 and over 30 corrections, 1e6 needs 2, 3
-//! and 4, 1e7 needs 1, 2 and 3, 1e8 needs 2, 3 and 5, 1e9 fails at 48. With self stresses less is not safe (at 1e6
-//! `tests/redundant.rs` and `tests/miura.rs` fail).
+//! and 4, 3e6 needs 2, 2 and 3, 1e7 needs 1, 2 and 3, 1e8 needs 2, 2 and 5, 1e9 fails at 48. Steps near a solution have next to
+//! no gaps to close; then rounding decides, which grows with `gamma`, and from 40 cells a side on 3e6 needs one correction less to
+//! 1e-6 than 1e7 does (`cargo bench --bench iteration -- split`). With self stresses less is not safe (at 1e6 `tests/redundant.rs`
+//! and `tests/miura.rs` fail).
 //! Larger sheets have motions that this weight loses to rounding; the corrections of [`Saddle::solve`] find them again
 //! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the drawn states of 24 and 48 cells a side.
@@ -23,11 +25,12 @@
 use super::corrections::{self, NearlySolved, Pair, norm};
 use super::problem::{Layout, Linearization};
 use crate::numerics::factor::{FactorError, Inertia};
+use crate::numerics::largest;
 use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::tearing::TornFactor;
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
-const GAMMA: f64 = 1e7;
+const GAMMA: f64 = 3e6;
 /// What of the identity belongs to the metric, over the largest entry of the Hessian: above the rounding error of `S`, so
 /// that motions that cost nothing are held. Without any metric it is the identity itself.
 const LEAST_METRIC: f64 = 1e-7;
@@ -54,6 +57,7 @@ pub struct Solved {
 pub struct Saddle {
     factor: TornFactor,
     gamma: f64,
+    /// The Hessian with its shift; empty where it has none.
     shifted: Vec<f64>,
     values: Vec<f64>,
     weights: Vec<f64>,
@@ -74,8 +78,7 @@ impl Saddle {
     /// The same with another weight of rigid measures over the largest entry of the soft Hessian.
     pub fn weighing(layout: &Layout, linearization: &Linearization, gamma: f64) -> Result<Self, FactorError> {
         let factor = TornFactor::of(layout.tearing()?)?;
-        let values = vec![0.0; linearization.pattern().entries()];
-        let shifted = values.clone();
+        let (shifted, values) = (vec![], vec![0.0; linearization.pattern().entries()]);
         let weights = vec![0.0; layout.stiff.len()];
         let jacobian = vec![0.0; linearization.jacobian.len()];
         Ok(Self { factor, gamma, shifted, values, weights, jacobian, factorizations: 0, solves: 0 })
@@ -115,8 +118,9 @@ impl Saddle {
         at: &Linearization,
         compliance: &[f64],
     ) -> Result<Inertia, FactorError> {
-        self.shifted.fill(0.0);
-        at.pattern().add_to_diagonal(&mut self.shifted, Self::unit(at));
+        self.values.fill(0.0);
+        at.pattern().add_to_diagonal(&mut self.values, Self::unit(at));
+        self.shifted.clone_from(&self.values);
         self.weigh(layout, at, compliance);
         self.factor_filled(layout, at, 0.0)
     }
@@ -136,12 +140,14 @@ impl Saddle {
     }
 
     fn fill(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64], shift: f64) {
-        self.shifted.copy_from_slice(&at.hessian);
+        self.values.copy_from_slice(&at.hessian);
+        self.shifted.clear();
         if shift > 0.0 {
-            at.add_metric(layout, shift, &mut self.shifted);
+            at.add_metric(layout, shift, &mut self.values);
             let some_metric = at.soft_stiffness.iter().any(|k| *k > 0.0);
             let least = if some_metric { LEAST_METRIC } else { 1.0 };
-            at.pattern().add_to_diagonal(&mut self.shifted, shift * least * Self::unit(at));
+            at.pattern().add_to_diagonal(&mut self.values, shift * least * Self::unit(at));
+            self.shifted.clone_from(&self.values);
         }
         self.weigh(layout, at, compliance);
     }
@@ -150,10 +156,9 @@ impl Saddle {
     fn weigh(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64]) {
         let unit = Self::unit(at);
         self.jacobian.copy_from_slice(&at.jacobian);
-        self.values.copy_from_slice(&self.shifted);
         for (row, &c) in compliance.iter().enumerate() {
             let gradient = &at.jacobian[layout.stiff.range(row)];
-            let largest = gradient.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+            let largest = largest(gradient);
             self.weights[row] = f64::min(self.gamma * unit / (largest * largest), 1.0 / c);
             at.add_outer(layout, row, self.weights[row], &mut self.values);
         }
@@ -163,11 +168,6 @@ impl Saddle {
     fn unit(at: &Linearization) -> f64 {
         let scale = at.pattern().largest_diagonal(&at.hessian);
         if scale > 0.0 { scale } else { 1.0 }
-    }
-
-    /// Takes the Hessian of another linearization for what is solved from now on, corrected from the last factorization.
-    pub fn keep(&mut self, at: &Linearization) {
-        self.shifted.copy_from_slice(&at.hessian);
     }
 
     /// Solves the system that was factored, with `-1/w` in the place of `-C`.
@@ -184,7 +184,8 @@ impl Saddle {
         (dx, dt)
     }
 
-    /// Solves the true system to a relative residual of `tolerance`, or until [corrections] no longer help.
+    /// Solves the true system of a linearization, with its own Hessian where that was factored without shift, to a relative residual of
+    /// `tolerance`, or until [corrections] no longer help.
     pub fn solve(
         &mut self,
         layout: &Layout,
@@ -204,12 +205,8 @@ impl Saddle {
 
     /// What tensions pull with, before they balance.
     fn pull(layout: &Layout, at: &Linearization, tension: &[f64]) -> f64 {
-        let sizes: Vec<f64> = tension.iter().map(|t| t.abs()).collect();
-        let mut pull = vec![0.0; layout.unknowns];
-        let rows = at.rows(layout);
-        let absolute: Vec<f64> = rows.values.iter().map(|value| value.abs()).collect();
-        Rows { cliques: rows.cliques, values: &absolute }.add_transpose_product(&sizes, &mut pull);
-        norm(&pull)
+        let pulls = (0..).zip(tension).map(|(row, t)| t * norm(&at.jacobian[layout.stiff.range(row)]));
+        pulls.map(|pull| pull * pull).sum::<f64>().sqrt()
     }
 
     /// The part of `b` that no motion makes, relative to `b`: 1 where `b` is a self stress, 0 where it can be reached. Corrections
@@ -242,7 +239,9 @@ impl NearlySolved for Equations<'_> {
     fn product(&self, Pair(dx, dt): &Pair) -> Pair {
         let rows = self.at.rows(self.layout);
         let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
-        symmetric_product(self.at.pattern(), &self.saddle.shifted, dx, &mut a);
+        let shifted = &self.saddle.shifted;
+        let hessian = if shifted.is_empty() { &self.at.hessian } else { shifted };
+        symmetric_product(self.at.pattern(), hessian, dx, &mut a);
         rows.add_transpose_product(dt, &mut a);
         rows.product(dx, &mut b);
         b.iter_mut().zip(self.compliance).zip(dt).for_each(|((b, c), t)| *b -= c * t);

@@ -8,6 +8,7 @@
 
 use crate::model::Model;
 use crate::numerics::factor::FactorError;
+use crate::numerics::largest;
 use crate::numerics::tearing::TornFactor;
 use crate::solver::{Curvature, Linearization, Problem, tension};
 
@@ -119,7 +120,7 @@ impl Weighted<'_> {
             if force.iter().all(|f| f.abs() <= TOLERANCE * self.at.largest_force) {
                 return;
             }
-            let size = force.iter().fold(0.0f64, |most, f| most.max(f.abs()));
+            let size = largest(&force);
             let Some((next, gain)) = self.step(&force) else { return };
             if gain <= NOISE * self.energy(&self.x) && size > 0.5 * last {
                 return;

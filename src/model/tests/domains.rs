@@ -42,9 +42,9 @@ fn check<M: Measure<N, D>, const N: usize, const D: usize>(domain: &Domain, x: &
         domain.pull_gradient(x, &own, &M::gradient(&domain.points(x, &own)).1, &mut pulled);
         pulled
     };
-    let (_, g, h) = M::hessian(&domain.points(&local, &own));
     let (mut lower, mut in_place) = (Vec::new(), Vec::new());
-    domain.pull_hessian(&local, &own, &g, &h, &mut lower);
+    let (_, g) = M::hessian(&domain.points(&local, &own), &mut lower);
+    domain.pull_hessian(&local, &own, &g, &mut lower);
     domain.pull_gradient(x, &sites, &g, &mut in_place);
     let hessian = symmetric(local.len(), &lower);
     if M::HINGE {

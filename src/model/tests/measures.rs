@@ -1,6 +1,6 @@
 //! Length and fold angle: every entry of gradient and Hessian, also where elements are nearly degenerate.
 
-use super::Numbers;
+use super::{Numbers, symmetric};
 use crate::math::Vec3;
 use crate::math::taylor::Taylor;
 use crate::model::measure::{FoldAngle, Length, Measure};
@@ -14,6 +14,16 @@ fn points<const N: usize>(x: &[f64]) -> [Vec3; N] {
     std::array::from_fn(|k| Vec3::from_column_slice(&x[3 * k..3 * k + 3]))
 }
 
+/// A measure, its gradient and its whole Hessian; what was in the place of its triangle before makes no difference.
+fn hessian<M: Measure<N, D>, const N: usize, const D: usize>(
+    points: &[Vec3; N],
+) -> (f64, SVector<f64, D>, SMatrix<f64, D, D>) {
+    let mut lower = vec![f64::NAN; 100];
+    let (value, gradient) = M::hessian(points, &mut lower);
+    assert_eq!(lower.len(), D * (D + 1) / 2);
+    (value, gradient, SMatrix::from_column_slice(symmetric(D, &lower).as_slice()))
+}
+
 /// Checks gradient and Hessian of a measure at `x`; angles are continued from their value at `x`.
 fn check<M: Measure<N, D>, const N: usize, const D: usize>(x: &[f64], what: &str) {
     let home = M::value(&points(x));
@@ -22,7 +32,7 @@ fn check<M: Measure<N, D>, const N: usize, const D: usize>(x: &[f64], what: &str
         if M::ANGLE { value + TAU * ((home - value) / TAU).round() } else { value }
     };
     let (by_gradient, gradient) = M::gradient(&points(x));
-    let (by_hessian, again, hessian) = M::hessian(&points(x));
+    let (by_hessian, again, hessian) = hessian::<M, N, D>(&points(x));
     assert_eq!([home; 2], [by_gradient, by_hessian], "{what}: three functions, one value");
     assert_eq!(gradient, again, "{what}: two functions, one gradient");
     check_along::<M, N, D>(x, (gradient.as_slice(), &hessian), what);
@@ -59,7 +69,7 @@ fn check_along<M: Measure<N, D>, const N: usize, const D: usize>(
     let acceleration = |h: f64| -> f64 {
         let moved: Vec<f64> = (0..D).map(|k| x[k] + h * v[k] + h * h * w[k]).collect();
         let speed = v + 2.0 * h * w;
-        let (_, gradient, hessian) = M::hessian(&self::points(&moved));
+        let (_, gradient, hessian) = self::hessian::<M, N, D>(&self::points(&moved));
         2.0 * gradient.dot(&w) + (speed.transpose() * hessian * speed)[0]
     };
     let h = 1e-3;
@@ -163,7 +173,7 @@ fn fold_angles_by_dual_numbers() {
             let seed = nalgebra::SVector::<f64, 12>::from_column_slice(&x);
             let (value, gradient, hessian) =
                 num_dual::hessian(|v: nalgebra::SVector<Dual2SVec64<12>, 12>| by_wings(v.as_slice()), &seed);
-            let (found, g, h) = FoldAngle::hessian(&points(&x));
+            let (found, g, h) = self::hessian::<FoldAngle, 4, 12>(&points(&x));
             assert!((found - value).abs() < 1e-14);
             assert!(
                 (g - gradient).amax() < 1e-13 * gradient.amax(),
