@@ -37,6 +37,8 @@ const RIGID: f64 = f64::INFINITY;
 const MOST: f64 = 1.5;
 /// Relative residual that the linear system of a plain iteration is solved to.
 const SOLVED: f64 = 1e-6;
+/// How often the parts of an iteration are timed beside every run.
+const TIMES: usize = 9;
 /// Steps of a run whose parts are timed: what one costs is asked, not how many it takes.
 const SOME_STEPS: usize = 8;
 /// A part of the benchmark, at these numbers of cells a side.
@@ -287,7 +289,7 @@ fn split(sizes: &[usize]) {
         for _ in 0..rounds {
             runs.push(minimise(&star, SOME_STEPS).0);
             times[4].push(set_up(step.model.layout()));
-            for _ in 0..3 {
+            for _ in 0..if measuring() { TIMES } else { 1 } {
                 times[0].push(bare.factor(&step));
                 times[1].push(bare.solve());
                 times[2].push(step.factor());

@@ -318,8 +318,9 @@ fn fill_column(block: &mut [u32], members: &[u32], place: usize, slot_of_row: &[
 }
 
 fn add(values: &mut [f64], slot: u32, entry: f64) {
-    if slot & TWICE == 0 {
-        values[slot as usize] += entry;
+    // one question for all slots but the few that are counted twice or missing, which are beyond the last
+    if let Some(value) = values.get_mut(slot as usize) {
+        *value += entry;
     } else if slot != FIXED {
         values[(slot & !TWICE) as usize] += 2.0 * entry;
     }
@@ -360,21 +361,25 @@ pub struct Rows<'a> {
 }
 
 impl Rows<'_> {
+    /// The entries of each row: unknowns and numbers.
+    fn entries(&self) -> impl Iterator<Item = impl Iterator<Item = (u32, f64)>> {
+        let ranges = self.cliques.starts.windows(2).map(|ends| ends[0]..ends[1]);
+        ranges.map(|range| self.cliques.members[range.clone()].iter().copied().zip(self.values[range].iter().copied()))
+    }
+
     /// `y = R x`.
     pub fn product(&self, x: &[f64], y: &mut [f64]) {
-        for (row, out) in y.iter_mut().enumerate() {
-            let entries = self.cliques.members(row).iter().zip(&self.values[self.cliques.range(row)]);
-            // what is fixed is beyond the last unknown
-            *out = entries.filter_map(|(&m, v)| x.get(m as usize).map(|x| v * x)).sum();
+        for (row, out) in self.entries().zip(y) {
+            *out = row.map(|(member, value)| if member == FIXED { 0.0 } else { value * x[member as usize] }).sum();
         }
     }
 
     /// `y += R^T t`.
     pub fn add_transpose_product(&self, t: &[f64], y: &mut [f64]) {
-        for (row, &tension) in t.iter().enumerate() {
-            for (&member, value) in self.cliques.members(row).iter().zip(&self.values[self.cliques.range(row)]) {
-                if let Some(y) = y.get_mut(member as usize) {
-                    *y += value * tension;
+        for (row, tension) in self.entries().zip(t) {
+            for (member, value) in row {
+                if member != FIXED {
+                    y[member as usize] += value * tension;
                 }
             }
         }
