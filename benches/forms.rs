@@ -11,7 +11,8 @@
 //!   on the true residual do the rest (this is `solver::saddle`). *Block*: the whole matrix is factored, regularised to
 //!   `[H + e  R^T; R  -C - d]` so that it has pivots without pivoting, with the same corrections; tensions are nodes of
 //!   the graph that is ordered. *Penalty*: `H + k R^T R`, with the same corrections.
-//! - `weight`: corrections needed and accuracy reached against `gamma`, and against `d` of the block form.
+//! - `weight`: corrections needed and accuracy reached against `gamma`, and against `d` of the block form; and, as in the steps near
+//!   a solution, where no gaps are open.
 //! - `relaxation`: whole relaxations by Newton's method with backtracking on the penalty energy against the program's,
 //!   for every stiffness: the error that is left, iterations, time.
 #![allow(clippy::unwrap_used)]
@@ -309,6 +310,24 @@ fn weight() {
                 }
             }
         }
+    }
+    without_gaps(sizes);
+}
+
+/// Corrections to 1e-6 at the relaxed state, no gaps open, weight by weight: what the minimiser's solver makes of it.
+fn without_gaps(sizes: &[usize]) {
+    let weights = [1e5, 1e6, 3e6, 1e7, 1e8];
+    println!("corrections to 1e-6 where no gaps are open, relaxed, k = inf, gamma = 1e5, 1e6, 3e6, 1e7, 1e8");
+    for &n in sizes {
+        let system = System::new(&Star::new(n), true);
+        let closed = vec![0.0; system.b.len()];
+        let corrections = weights.map(|gamma| {
+            let Weighted(mut saddle) = Weighted::new(&system, gamma);
+            saddle.factor(system.layout(), &system.at, &system.compliance, 0.0).unwrap();
+            let solved = saddle.solve(system.layout(), &system.at, &system.compliance, (&system.a, &closed), 1e-6);
+            if solved.residual <= 1e-6 { (saddle.solves - 1).to_string() } else { "-".to_string() }
+        });
+        println!("{n:3} {}", corrections.join(" "));
     }
 }
 

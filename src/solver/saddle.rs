@@ -15,9 +15,10 @@
 //!
 //! `gamma` (`-- weight`, rigid patches of the same sizes, drawn, to 1e-8): 1e4 needs 6, 16 and over 30 corrections, 1e6 needs 2, 3
 //! and 4, 3e6 needs 2, 2 and 3, 1e7 needs 1, 2 and 3, 1e8 needs 2, 2 and 5, 1e9 fails at 48. Steps near a solution have next to
-//! no gaps to close; then rounding decides, which grows with `gamma`, and from 40 cells a side on 3e6 needs one correction less to
-//! 1e-6 than 1e7 does (`cargo bench --bench iteration -- split`). With self stresses less is not safe (at 1e6 `tests/redundant.rs`
-//! and `tests/miura.rs` fail).
+//! no gaps to close; then rounding decides, which grows with `gamma`, and at 48 cells a side 3e6 needs one correction to 1e-6, 1e7
+//! two. It is not taken: at 600,000 unknowns its first factorization has a negative pivot from rounding, and the shift that this asks
+//! for leaves the end less exact (`foldwell validate cells-closed-form`: 4e-7 instead of 5e-8 rad). With self stresses less is not
+//! safe at all (at 1e6 `tests/redundant.rs` and `tests/miura.rs` fail).
 //! Larger sheets have motions that this weight loses to rounding; the corrections of [`Saddle::solve`] find them again
 //! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the drawn states of 24 and 48 cells a side.
@@ -30,7 +31,7 @@ use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::tearing::TornFactor;
 
 /// Weight of rigid measures over the largest entry of the soft Hessian.
-const GAMMA: f64 = 3e6;
+const GAMMA: f64 = 1e7;
 /// What of the identity belongs to the metric, over the largest entry of the Hessian: above the rounding error of `S`, so
 /// that motions that cost nothing are held. Without any metric it is the identity itself.
 const LEAST_METRIC: f64 = 1e-7;
