@@ -10,7 +10,7 @@
 //!
 //! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution (assembly, filling
 //!   and factoring the matrix, solving with corrections to 1e-6 for random forces, residuals, energy and gaps of the new state); the same
-//!   with one solve and the relative residual that this leaves; and one iteration as it comes out of the run (the minimiser's time, less
+//!   with one solve and the relative residual that this leaves (`solves`: what 1e-6 takes); and one iteration as it comes out of the run (the minimiser's time, less
 //!   the set-up, over its accepted steps: refused shifts, retraction and shorter steps included), and what that is made of. Comes last
 //!   and ends with an error where the first one is more than 1.5.
 //! - `study`: what a whole relaxation adds to its iterations: analysis of the pattern, self stresses.
@@ -251,7 +251,7 @@ impl Bare {
 fn split(sizes: &[usize]) {
     println!(
         "plain, once, run: one iteration over factorization + solve alone. In parts of factorization + solve, per iteration of \
-         the run; set-up (once per run) is apart.\n{:>3} {:>7} {:>5} {:>8} {:>7} {:>6} {:>6} {:>7} {:>6} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} | \
+         the run; set-up (once per run) is apart.\n{:>3} {:>7} {:>5} {:>8} {:>7} {:>6} {:>6} {:>6} {:>7} {:>6} | {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} | \
          {:>5} {:>5} {:>5} | {:>6}",
         "n",
         "unknown",
@@ -259,6 +259,7 @@ fn split(sizes: &[usize]) {
         "f ms",
         "s ms",
         "plain",
+        "solves",
         "once",
         "left",
         "run",
@@ -284,7 +285,7 @@ fn split(sizes: &[usize]) {
         let mut bare = Bare::new(&step);
         bare.factor(&step);
         let rounds = if n > 40 { 1 } else { rounds() };
-        let (mut runs, mut left) = (Vec::new(), f64::NAN);
+        let (mut runs, mut left, mut solves) = (Vec::new(), f64::NAN, 0);
         let mut times = [const { Vec::new() }; 7];
         for _ in 0..rounds {
             runs.push(minimise(&star, SOME_STEPS).0);
@@ -294,20 +295,22 @@ fn split(sizes: &[usize]) {
                 times[1].push(bare.solve());
                 times[2].push(step.factor());
                 times[3].push(step.solve());
+                let before = step.saddle.solves;
                 times[5].push(step.plain(&found.x, &found.tension, SOLVED).0);
+                solves = step.saddle.solves - before;
                 let once = step.plain(&found.x, &found.tension, f64::INFINITY);
                 times[6].push(once.0);
                 left = once.1;
             }
         }
         let medians = times.map(|mut t| common::median(&mut t));
-        most = most.max(print_split(n, size(&step.model).0, &mut runs, medians, left));
+        most = most.max(print_split(n, size(&step.model).0, &mut runs, medians, (solves, left)));
     }
     assert!(most <= MOST || !measuring(), "a plain iteration takes {most:.2} of a factorization and a solve");
 }
 
 /// Prints a line of the table; returns what part of a factorization and a solve a plain iteration takes.
-fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], medians: [f64; 7], left: f64) -> f64 {
+fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], medians: [f64; 7], (solves, left): (usize, f64)) -> f64 {
     let [f, s, factor, solve, setup, plain, once] = medians;
     runs.sort_by(|a, b| a.whole.total_cmp(&b.whole));
     let run = runs[runs.len() / 2];
@@ -325,7 +328,7 @@ fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], medians: [f64; 7],
     let rest = iterations - parts.iter().sum::<f64>();
     let ratios = [plain, once, iterations / run.iterations].map(|time| time / (f + s));
     print!("{n:3} {unknowns:7} {:5} {:8.2} {:7.2}", run.iterations, 1e3 * f, 1e3 * s);
-    print!(" {:6.2} {:6.2} {left:7.0e} {:6.2} |", ratios[0], ratios[1], ratios[2]);
+    print!(" {:6.2} {solves:6} {:6.2} {left:7.0e} {:6.2} |", ratios[0], ratios[1], ratios[2]);
     parts.iter().chain([&rest]).for_each(|part| print!(" {:6.2}", part / unit));
     let per = |count: f64| count / run.iterations;
     let counts = [run.factorizations, run.solves, run.gap_counts].map(per);
