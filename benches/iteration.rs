@@ -9,10 +9,10 @@
 //! runs taken in turns; compare along a line, not between machines.
 //!
 //! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution (assembly, filling
-//!   and factoring the matrix, solving with corrections to 1e-6 for random forces, residuals, energy and gaps of the new state); the same
-//!   with one solve and the relative residual that this leaves (`solves`: what 1e-6 takes); and one iteration as it comes out of the run (the minimiser's time, less
-//!   the set-up, over its accepted steps: refused shifts, retraction and shorter steps included), and what that is made of. Comes last
-//!   and ends with an error where the first one is more than 1.5.
+//!   and factoring the matrix, solving with corrections to 1e-6 for random forces, which takes so many `solves`, residuals, energy and
+//!   gaps of the new state); the same with one solve and the relative residual that this leaves; and one iteration as it comes out of
+//!   the run (the minimiser's time, less the set-up, over its accepted steps: refused shifts, retraction and shorter steps included),
+//!   and what that is made of. Comes last and ends with an error where the first one is more than 1.5.
 //! - `study`: what a whole relaxation adds to its iterations: analysis of the pattern, self stresses.
 //! - `assembly`: its cost against the number of unknowns; the exponent must be 1.
 //! - `threads`: assembly with one and two threads (this program starts itself again, since threads are set once).

@@ -356,7 +356,7 @@ impl Problem for Model {
 
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
         let all = self.coordinates(x);
-        out.clear();
+        out.clear(curvature);
         self.linearize_loads(&all, out);
         self.linearize_soft(&all, curvature, out);
         self.linearize_stiff(&all, tension, out);

@@ -105,6 +105,8 @@ pub struct Linearization {
     pub soft_stiffness: Vec<f64>,
     /// Largest force of a single element on a single unknown.
     pub largest_force: f64,
+    /// How much of the soft Hessian is in it.
+    pub curvature: Curvature,
     plan: Arc<Plan>,
 }
 
@@ -121,12 +123,14 @@ impl Linearization {
             soft_gradients: vec![0.0; layout.soft.total()],
             soft_stiffness: vec![0.0; layout.soft.len()],
             largest_force: 0.0,
+            curvature: Curvature::Full,
             plan,
         }
     }
 
-    /// Sets all numbers that are summed to zero.
-    pub fn clear(&mut self) {
+    /// Sets all numbers that are summed to zero; so much of the soft Hessian will be added.
+    pub fn clear(&mut self, curvature: Curvature) {
+        self.curvature = curvature;
         self.energy = 0.0;
         self.largest_force = 0.0;
         self.gradient.fill(0.0);

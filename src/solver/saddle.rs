@@ -10,28 +10,25 @@
 //!
 //! The alternative is the *block form*: factor the whole quasi-definite matrix, tensions among the unknowns, with its
 //! lower block regularised. Measured for rigid patches of 12, 24 and 48 cells a side (`cargo bench --bench forms -- system`,
-//! solved to 1e-10) it takes 1.5 to 1.9 times as long, with 1.2 to 1.3 times as many numbers in the factor and the same inertia.
+//! solved to 1e-10) it takes 1.5 to 1.9 times as long, with 1.1 to 1.3 times as many numbers in the factor and the same inertia.
 //! The augmented form is kept because it is faster there, has half the unknowns, and needs no regularisation where `k` is moderate.
 //!
-//! `gamma` (`-- weight`, rigid patches of the same sizes, drawn, to 1e-8): 1e4 needs 6, 16 and over 30 corrections, 1e6 needs 2, 3
-//! and 4, 3e6 needs 2, 2 and 3, 1e7 needs 1, 2 and 3, 1e8 needs 2, 2 and 5, 1e9 fails at 48. Steps near a solution have next to
-//! no gaps to close; then rounding decides, which grows with `gamma`, and at 48 cells a side 3e6 needs one correction to 1e-6, 1e7
-//! two. It is not taken: at 600,000 unknowns its first factorization has a negative pivot from rounding, and the shift that this asks
-//! for leaves the end less exact (`foldwell validate cells-closed-form`: 4e-7 instead of 5e-8 rad). With self stresses less is not
-//! safe at all (at 1e6 `tests/redundant.rs` and `tests/miura.rs` fail).
+//! `gamma` (`-- weight`, the same patches, drawn, to 1e-8): 1e4 needs 6, 16 and over 30 corrections, 1e6 needs 2, 3 and 4, 3e6 needs
+//! 2, 2 and 3, 1e7 needs 1, 2 and 3, 1e8 needs 2, 2 and 5, 1e9 fails at 48. With the Gauss-Newton Hessian it is 1e7: steps are long
+//! then and open gaps, which plain solves close the better the larger it is (at 1e6 starts with self stresses fail, `tests/redundant.rs`
+//! and `tests/miura.rs`). With the full Hessian it is 3e6: near a solution there are next to no gaps to close and rounding decides, which
+//! grows with it: to 1e-6, 3e6 needs one correction up to 57 cells a side and two at 82, 1e7 a second one from 40 or 57 on.
 //! Larger sheets have motions that this weight loses to rounding; the corrections of [`Saddle::solve`] find them again
 //! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the drawn states of 24 and 48 cells a side.
 
 use super::corrections::{self, NearlySolved, Pair, norm};
-use super::problem::{Layout, Linearization};
+use super::problem::{Curvature, Layout, Linearization};
 use crate::numerics::factor::{FactorError, Inertia};
 use crate::numerics::largest;
 use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::tearing::TornFactor;
 
-/// Weight of rigid measures over the largest entry of the soft Hessian.
-const GAMMA: f64 = 1e7;
 /// What of the identity belongs to the metric, over the largest entry of the Hessian: above the rounding error of `S`, so
 /// that motions that cost nothing are held. Without any metric it is the identity itself.
 const LEAST_METRIC: f64 = 1e-7;
@@ -57,7 +54,8 @@ pub struct Solved {
 /// A factorization of `S` and what is needed to solve with it.
 pub struct Saddle {
     factor: TornFactor,
-    gamma: f64,
+    /// Weight of rigid measures over the largest entry of the soft Hessian, where it is not the usual one.
+    gamma: Option<f64>,
     /// The Hessian with its shift; empty where it has none.
     shifted: Vec<f64>,
     values: Vec<f64>,
@@ -73,11 +71,15 @@ pub struct Saddle {
 impl Saddle {
     /// Room for a problem of this layout.
     pub fn new(layout: &Layout, linearization: &Linearization) -> Result<Self, FactorError> {
-        Self::weighing(layout, linearization, GAMMA)
+        Self::with_weight(layout, linearization, None)
     }
 
     /// The same with another weight of rigid measures over the largest entry of the soft Hessian.
     pub fn weighing(layout: &Layout, linearization: &Linearization, gamma: f64) -> Result<Self, FactorError> {
+        Self::with_weight(layout, linearization, Some(gamma))
+    }
+
+    fn with_weight(layout: &Layout, linearization: &Linearization, gamma: Option<f64>) -> Result<Self, FactorError> {
         let factor = TornFactor::of(layout.tearing()?)?;
         let (shifted, values) = (vec![], vec![0.0; linearization.pattern().entries()]);
         let weights = vec![0.0; layout.stiff.len()];
@@ -156,11 +158,12 @@ impl Saddle {
     /// Adds the weighted stiff measures.
     fn weigh(&mut self, layout: &Layout, at: &Linearization, compliance: &[f64]) {
         let unit = Self::unit(at);
+        let gamma = self.gamma.unwrap_or_else(|| usual_weight(at.curvature));
         self.jacobian.copy_from_slice(&at.jacobian);
         for (row, &c) in compliance.iter().enumerate() {
             let gradient = &at.jacobian[layout.stiff.range(row)];
             let largest = largest(gradient);
-            self.weights[row] = f64::min(self.gamma * unit / (largest * largest), 1.0 / c);
+            self.weights[row] = f64::min(gamma * unit / (largest * largest), 1.0 / c);
             at.add_outer(layout, row, self.weights[row], &mut self.values);
         }
     }
@@ -225,6 +228,14 @@ impl Saddle {
         let units = [Self::pull(layout, at, &dt), norm(b)];
         let mut equations = Equations { saddle: self, layout, at, compliance };
         corrections::correct(&mut equations, &right, Pair(dx, dt), units, enough).residual
+    }
+}
+
+/// Weight of rigid measures over the largest entry of this Hessian.
+const fn usual_weight(curvature: Curvature) -> f64 {
+    match curvature {
+        Curvature::GaussNewton => 1e7,
+        Curvature::Full => 3e6,
     }
 }
 

@@ -77,7 +77,7 @@ impl Problem for Textbook {
     }
 
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
-        out.clear();
+        out.clear(curvature);
         out.energy = self.energy(x);
         out.largest_force = self.load.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
         out.gradient.iter_mut().zip(&self.load).for_each(|(g, f)| *g = -f);
