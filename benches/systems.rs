@@ -15,6 +15,7 @@ mod common;
 
 use common::{Star, in_turns, measuring, seconds, size, vector};
 use foldwell::numerics::factor::Factor;
+use foldwell::numerics::largest;
 use foldwell::numerics::parallel;
 use foldwell::numerics::sparse::{Pattern, symmetric_product};
 use foldwell::numerics::tearing::TornFactor;
@@ -79,7 +80,7 @@ fn one(n: usize, folder: Option<&Path>) {
     torn.solve(&mut solution);
     let mut product = vec![0.0; unknowns];
     symmetric_product(pattern, entries, &solution, &mut product);
-    let size = pattern.largest_diagonal(entries) * solution.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let size = pattern.largest_diagonal(entries) * largest(&solution);
     let residual = common::difference(&product, &right) / size;
     println!(
         "{n:3} {unknowns:9} {:6} {:9.2} {:8.2} {:8.2} {:9.2} {:8.2} {:8.2} {residual:9.0e}",

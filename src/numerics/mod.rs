@@ -23,5 +23,5 @@ pub type DenseMatrix = nalgebra::DMatrix<f64>;
 
 /// Largest magnitude of these numbers, 0 of none; a NaN is passed over.
 pub fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| f64::max(most, value.abs()))
+    values.iter().map(|value| value.abs()).fold(0.0, |most, size| if size > most { size } else { most })
 }
