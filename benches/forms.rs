@@ -323,10 +323,11 @@ fn without_gaps(sizes: &[usize]) {
         let system = System::new(&Star::new(n), true);
         let closed = vec![0.0; system.b.len()];
         let corrections = weights.map(|gamma| {
-            let Weighted(mut saddle) = Weighted::new(&system, gamma);
+            let mut saddle = Saddle::weighing(system.layout(), &system.at, gamma).unwrap();
             saddle.factor(system.layout(), &system.at, &system.compliance, 0.0).unwrap();
             let solved = saddle.solve(system.layout(), &system.at, &system.compliance, (&system.a, &closed), 1e-6);
-            if solved.residual <= 1e-6 { format!("{:>5}", saddle.solves - 1) } else { format!("{:>5}", "-") }
+            let shown = if solved.residual <= 1e-6 { (saddle.solves - 1).to_string() } else { "-".to_string() };
+            format!("{shown:>5}")
         });
         println!("{n:3} {}", corrections.join(" "));
     }

@@ -29,6 +29,15 @@ use crate::numerics::largest;
 use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::tearing::TornFactor;
 
+/// Weight of rigid measures over the largest entry of the soft Hessian, by how much of it there is: where steps open gaps, and near a
+/// solution.
+const fn usual_weight(curvature: Curvature) -> f64 {
+    match curvature {
+        Curvature::GaussNewton => 1e7,
+        Curvature::Full => 3e6,
+    }
+}
+
 /// What of the identity belongs to the metric, over the largest entry of the Hessian: above the rounding error of `S`, so
 /// that motions that cost nothing are held. Without any metric it is the identity itself.
 const LEAST_METRIC: f64 = 1e-7;
@@ -71,20 +80,16 @@ pub struct Saddle {
 impl Saddle {
     /// Room for a problem of this layout.
     pub fn new(layout: &Layout, linearization: &Linearization) -> Result<Self, FactorError> {
-        Self::with_weight(layout, linearization, None)
-    }
-
-    /// The same with another weight of rigid measures over the largest entry of the soft Hessian.
-    pub fn weighing(layout: &Layout, linearization: &Linearization, gamma: f64) -> Result<Self, FactorError> {
-        Self::with_weight(layout, linearization, Some(gamma))
-    }
-
-    fn with_weight(layout: &Layout, linearization: &Linearization, gamma: Option<f64>) -> Result<Self, FactorError> {
         let factor = TornFactor::of(layout.tearing()?)?;
         let (shifted, values) = (vec![], vec![0.0; linearization.pattern().entries()]);
         let weights = vec![0.0; layout.stiff.len()];
         let jacobian = vec![0.0; linearization.jacobian.len()];
-        Ok(Self { factor, gamma, shifted, values, weights, jacobian, factorizations: 0, solves: 0 })
+        Ok(Self { factor, gamma: None, shifted, values, weights, jacobian, factorizations: 0, solves: 0 })
+    }
+
+    /// The same with another weight of rigid measures over the largest entry of the soft Hessian, whatever its curvature.
+    pub fn weighing(layout: &Layout, linearization: &Linearization, gamma: f64) -> Result<Self, FactorError> {
+        Ok(Self { gamma: Some(gamma), ..Self::new(layout, linearization)? })
     }
 
     /// Factors `S` with `shift` times the metric added to the Hessian.
@@ -228,14 +233,6 @@ impl Saddle {
         let units = [Self::pull(layout, at, &dt), norm(b)];
         let mut equations = Equations { saddle: self, layout, at, compliance };
         corrections::correct(&mut equations, &right, Pair(dx, dt), units, enough).residual
-    }
-}
-
-/// Weight of rigid measures over the largest entry of this Hessian.
-const fn usual_weight(curvature: Curvature) -> f64 {
-    match curvature {
-        Curvature::GaussNewton => 1e7,
-        Curvature::Full => 3e6,
     }
 }
 
