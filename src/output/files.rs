@@ -2,9 +2,10 @@
 //!
 //! A file is written beside its place under a name of its own and then renamed, which is one step for whoever looks at
 //! the folder. What is on its way when a write fails is removed. (Nothing is forced to the disk: this guards against
-//! programs that stop, not against a loss of power.)
+//! programs that stop, not against a loss of power.) Who writes a file holds a lock on it, which ends with the program,
+//! so that what a stopped program left can be told from what another one writes just now.
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -31,19 +32,36 @@ fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> 
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
     }
-    let draft = Draft(draft_name(path)?);
-    let mut file = BufWriter::new(File::create_new(&draft.0)?);
+    let draft = Draft::create(path)?;
+    let mut file = BufWriter::new(&draft.file);
     fill(&mut file)?;
     file.into_inner().map_err(io::IntoInnerError::into_error)?;
-    fs::rename(&draft.0, path)
+    fs::rename(&draft.path, path)
 }
 
-/// A file on its way; removed when dropped before it was renamed.
-struct Draft(PathBuf);
+/// A file on its way, locked; removed when dropped before it was renamed.
+struct Draft {
+    path: PathBuf,
+    file: File,
+}
+
+impl Draft {
+    /// One for the place `path`. Between its creation and its lock [`remove_drafts`] may take it: then there is another.
+    fn create(place: &Path) -> io::Result<Self> {
+        loop {
+            let path = draft_name(place)?;
+            let draft = Self { file: File::create_new(&path)?, path };
+            let taken = matches!(draft.file.try_lock(), Err(TryLockError::WouldBlock));
+            if !taken && draft.path.exists() {
+                return Ok(draft);
+            }
+        }
+    }
+}
 
 impl Drop for Draft {
     fn drop(&mut self) {
-        let _ = fs::remove_file(&self.0);
+        let _ = fs::remove_file(&self.path);
     }
 }
 
@@ -55,13 +73,20 @@ fn draft_name(path: &Path) -> io::Result<PathBuf> {
     Ok(path.with_file_name(format!(".{}.{}-{count}.part", name.to_string_lossy(), std::process::id())))
 }
 
-/// Removes what programs that were stopped have left in a folder on its way; nothing else, and no folder is no fault.
+/// Removes what programs that were stopped have left in a folder on its way; nothing else, and no folder is no fault. Where
+/// files cannot be locked, it stays.
 pub fn remove_drafts(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         if is_draft(&entry.file_name().to_string_lossy()) {
-            let _ = fs::remove_file(entry.path());
+            let _ = remove_unlocked(&entry.path());
         }
     }
+}
+
+fn remove_unlocked(path: &Path) -> io::Result<()> {
+    let file = File::open(path)?;
+    file.try_lock()?;
+    fs::remove_file(path)
 }
 
 /// Whether a name is one of [`draft_name`].
@@ -75,6 +100,7 @@ fn is_draft(name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::AtomicBool;
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
@@ -121,6 +147,31 @@ mod tests {
         remove_drafts(&folder.path().join("none"));
         assert!(!draft.exists());
         assert_eq!(names(folder.path()).len(), others.len());
+    }
+
+    /// What is written just now is not removed, at whatever moment somebody clears the folder.
+    #[test]
+    fn drafts_of_others_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("b.txt");
+        write_with(&path, |file| {
+            remove_drafts(folder.path());
+            file.write_all(b"whole")
+        })
+        .unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "whole");
+        let done = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while !done.load(Ordering::Relaxed) {
+                    remove_drafts(folder.path());
+                }
+            });
+            let faults = (0..2000).filter(|round: &u32| write(&path, round.to_string()).is_err()).count();
+            done.store(true, Ordering::Relaxed);
+            assert_eq!(faults, 0);
+        });
+        assert_eq!(names(folder.path()), ["b.txt"]);
     }
 
     /// A folder in the place of the file, and a file in the place of a folder, are errors that name the file.

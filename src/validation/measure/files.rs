@@ -160,16 +160,17 @@ fn failed(message: &str) -> ExperimentError {
 fn start(folder: &Path, out: &str, resume: bool) -> Result<Child, ExperimentError> {
     let mut command = Command::new(program()?);
     command.current_dir(folder).args(["run", "scene.toml", "--quiet", "--out", out]);
-    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command.stdout(Stdio::null()).stderr(Stdio::piped());
     if resume {
         command.arg("--resume");
     }
     command.spawn().map_err(|error| failed(&error.to_string()))
 }
 
-fn finish(mut child: Child) -> Result<(), ExperimentError> {
-    let status = child.wait().map_err(|error| failed(&error.to_string()))?;
-    if status.success() { Ok(()) } else { Err(failed(&status.to_string())) }
+fn finish(child: Child) -> Result<(), ExperimentError> {
+    let ended = child.wait_with_output().map_err(|error| failed(&error.to_string()))?;
+    let said = || format!("{}: {}", ended.status, String::from_utf8_lossy(&ended.stderr).trim());
+    if ended.status.success() { Ok(()) } else { Err(failed(&said())) }
 }
 
 /// All files below a folder, those on their way left out; none where there is no folder yet.
