@@ -6,6 +6,7 @@ use super::super::precision::shortest;
 use super::super::report::figure;
 use super::super::star::{Star, size};
 use super::trial::distance;
+use crate::analysis::relax::{RelaxError, Relaxed};
 use crate::analysis::state::State;
 use crate::output::chart::{Chart, Point, Series};
 use crate::solver::Options;
@@ -16,6 +17,8 @@ const CELLS: [usize; 6] = [3, 6, 9, 12, 18, 24];
 const MORE: [usize; 2] = [36, 48];
 /// The first of these that growth is fitted to.
 const SMALL: usize = 2;
+/// How often all sizes are timed, in turns.
+const ROUNDS: usize = 5;
 /// Up to this size the plain penalty is tried.
 const MOST_FOR_PENALTY: usize = 12;
 const STIFFNESS: f64 = 1e6;
@@ -35,14 +38,18 @@ struct Size {
 
 /// Patches whose creases rest at the angles of an exact cylinder, the reference cell followed over 0.1 rad by the
 /// kinematics: relaxed from the drawn state they have to end there. The error is the largest difference of a fold angle. Rigid bars by
-/// the program's form; bars of 1e6 by a plain penalty, for which this state, free of tension, is as exact.
+/// the program's form, all sizes in turns; bars of 1e6 by a plain penalty, for which this state, free of tension, is as exact.
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let exact = Star::cylinder(FOLDED)?;
     let cells: Vec<usize> = CELLS.into_iter().chain(MORE.into_iter().filter(|_| !bench.quick)).collect();
+    let stars = cells.iter().map(|&n| Star::resting([n, n], &exact)).collect::<Result<Vec<_>, _>>()?;
+    let mut all: Vec<Box<dyn FnMut()>> = Vec::new();
+    all.extend(stars.iter().map(|star| -> Box<dyn FnMut()> { Box::new(|| _ = rigid(star)) }));
+    let times = shortest(ROUNDS, &mut all);
     let mut sizes = Vec::new();
-    for (step, &n) in cells.iter().enumerate() {
+    for (step, ((star, &n), &seconds)) in stars.iter().zip(&cells).zip(&times).enumerate() {
         bench.step(step, cells.len())?;
-        sizes.push(relaxed(&Star::resting([n, n], &exact)?, n)?);
+        sizes.push(relaxed(star, n, seconds)?);
     }
     let growth: Vec<(f64, f64)> =
         sizes[SMALL..].iter().map(|s| (s.unknowns as f64, s.seconds / s.iterations as f64)).collect();
@@ -54,11 +61,12 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     Ok(Findings { values, charts: vec![chart(&sizes)], tables: vec![table(&sizes)], ..Findings::default() })
 }
 
-fn relaxed(star: &Star, n: usize) -> Result<Size, ExperimentError> {
-    let rigid = || star.relax(&mut star.model(f64::INFINITY), Options::default());
-    let found = rigid()?;
-    let rounds = if n <= MOST_FOR_PENALTY { 3 } else { 1 };
-    let seconds = shortest(rounds, &mut [Box::new(|| _ = rigid())])[0];
+fn rigid(star: &Star) -> Result<Relaxed, Box<RelaxError>> {
+    star.relax(&mut star.model(f64::INFINITY), Options::default())
+}
+
+fn relaxed(star: &Star, n: usize, seconds: f64) -> Result<Size, ExperimentError> {
+    let found = rigid(star)?;
     let penalty = (n <= MOST_FOR_PENALTY).then(|| {
         let mut angles = Vec::new();
         let seconds = shortest(1, &mut [Box::new(|| angles = by_penalty(star))])[0];
