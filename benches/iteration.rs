@@ -37,8 +37,6 @@ const RIGID: f64 = f64::INFINITY;
 const MOST: f64 = 1.5;
 /// Relative residual that the linear system of a plain iteration is solved to.
 const SOLVED: f64 = 1e-6;
-/// How often the parts of an iteration are timed beside every run.
-const TIMES: usize = 9;
 /// Steps of a run whose parts are timed: what one costs is asked, not how many it takes.
 const SOME_STEPS: usize = 8;
 /// A part of the benchmark, at these numbers of cells a side.
@@ -248,6 +246,15 @@ impl Bare {
     }
 }
 
+/// How often a sheet of this many cells a side is made and run, and how often the parts of an iteration are timed each time.
+fn repeats(n: usize) -> (usize, usize) {
+    match n {
+        _ if !measuring() => (1, 1),
+        41.. => (3, 3),
+        _ => (rounds(), 9),
+    }
+}
+
 fn split(sizes: &[usize]) {
     println!(
         "plain, once, run: one iteration over factorization + solve alone. In parts of factorization + solve, per iteration of \
@@ -281,18 +288,18 @@ fn split(sizes: &[usize]) {
         let star = Star::new(n);
         let (_, found) = minimise(&star, 60);
         let unknowns = found.x.len();
-        let rounds = if n > 40 { 1 } else { rounds() };
+        let (rounds, times_each) = repeats(n);
         let (mut runs, mut left, mut solves) = (Vec::new(), f64::NAN, 0);
         let mut times = [const { Vec::new() }; 7];
         for _ in 0..rounds {
-            // made anew: where they lie in memory makes a few per cent, most of all with the smallest sheet
+            // made anew: where they lie in memory makes a few per cent, most of all with the smallest and the largest sheet
             let mut step = Step::new(star.model(RIGID), &found.x, &found.tension);
             step.factor();
             let mut bare = Bare::new(&step);
             bare.factor(&step);
             runs.push(minimise(&star, SOME_STEPS).0);
             times[4].push(set_up(step.model.layout()));
-            for _ in 0..if measuring() { TIMES } else { 1 } {
+            for _ in 0..times_each {
                 times[0].push(bare.factor(&step));
                 times[1].push(bare.solve());
                 times[2].push(step.factor());
