@@ -83,6 +83,7 @@ pub fn remove_drafts(folder: &Path) {
     }
 }
 
+/// Removes a file that no program holds a lock on.
 fn remove_unlocked(path: &Path) -> io::Result<()> {
     let file = File::open(path)?;
     file.try_lock()?;
@@ -167,7 +168,7 @@ mod tests {
                     remove_drafts(folder.path());
                 }
             });
-            let faults = (0..2000).filter(|round: &u32| write(&path, round.to_string()).is_err()).count();
+            let faults = (0..10_000).filter(|round: &u32| write(&path, round.to_string()).is_err()).count();
             done.store(true, Ordering::Relaxed);
             assert_eq!(faults, 0);
         });

@@ -29,8 +29,8 @@ use crate::numerics::largest;
 use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::tearing::TornFactor;
 
-/// Weight of rigid measures over the largest entry of the soft Hessian, by how much of it there is: where steps open gaps, and near a
-/// solution.
+/// Weight of rigid measures over the largest entry of the soft Hessian: of the Gauss-Newton one, with which steps open gaps, and of the
+/// full one, taken near a solution.
 const fn usual_weight(curvature: Curvature) -> f64 {
     match curvature {
         Curvature::GaussNewton => 1e7,

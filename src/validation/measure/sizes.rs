@@ -43,14 +43,15 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let exact = Star::cylinder(FOLDED)?;
     let cells: Vec<usize> = CELLS.into_iter().chain(MORE.into_iter().filter(|_| !bench.quick)).collect();
     let stars = cells.iter().map(|&n| Star::resting([n, n], &exact)).collect::<Result<Vec<_>, _>>()?;
-    let mut all: Vec<Box<dyn FnMut()>> = Vec::new();
-    all.extend(stars.iter().map(|star| -> Box<dyn FnMut()> { Box::new(|| _ = rigid(star)) }));
-    let times = shortest(ROUNDS, &mut all);
-    let mut sizes = Vec::new();
-    for (step, ((star, &n), &seconds)) in stars.iter().zip(&cells).zip(&times).enumerate() {
-        bench.step(step, cells.len())?;
-        sizes.push(relaxed(star, n, seconds)?);
+    let mut times = vec![f64::INFINITY; cells.len()];
+    for round in 0..ROUNDS {
+        bench.step(round, ROUNDS)?;
+        for (star, time) in stars.iter().zip(&mut times) {
+            *time = time.min(shortest(1, &mut [Box::new(|| _ = rigid(star))])[0]);
+        }
     }
+    let measured = stars.iter().zip(&cells).zip(&times).map(|((star, &n), &seconds)| relaxed(star, n, seconds));
+    let sizes = measured.collect::<Result<Vec<_>, _>>()?;
     let growth: Vec<(f64, f64)> =
         sizes[SMALL..].iter().map(|s| (s.unknowns as f64, s.seconds / s.iterations as f64)).collect();
     let values = json!({
