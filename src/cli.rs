@@ -16,7 +16,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
-use foldwell::output::summary::{RelaxSummary, StudyResult, StudySummary, to_json};
+use foldwell::output::summary::{BranchesSummary, RelaxSummary, StudyResult, StudySummary, to_json};
 use foldwell::run::{self, RunError, RunOptions, RunReport};
 use foldwell::validation::{self, ValidateOptions, ValidationError};
 use miette::{Diagnostic, GraphicalReportHandler};
@@ -283,6 +283,21 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
+/// Number of rays, and whether these are all directions in which the sheet folds.
+fn describe_branches(branches: &BranchesSummary) -> String {
+    let rays = match branches.directions.as_str() {
+        "continuum" => {
+            format!(
+                "{}, and infinitely many directions that fill a curve or more",
+                counted(branches.real_rays, "single real ray")
+            )
+        }
+        "not-established" => format!("{} found, others not excluded", counted(branches.real_rays, "real ray")),
+        _ => counted(branches.real_rays, "real ray"),
+    };
+    format!("{rays}, {} complex solutions of {}", branches.complex_solutions, branches.expected)
+}
+
 fn describe_study(study: &StudySummary) -> String {
     let what = match &study.result {
         Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
@@ -293,10 +308,7 @@ fn describe_study(study: &StudySummary) -> String {
             modes.folding_modes.map_or("?".into(), |count| count.to_string()),
             modes.self_stresses
         ),
-        Some(StudyResult::Branches(branches)) => format!(
-            "{} real rays, {} complex solutions of {}",
-            branches.real_rays, branches.complex_solutions, branches.expected
-        ),
+        Some(StudyResult::Branches(branches)) => describe_branches(branches),
         Some(StudyResult::Trace(traced)) => {
             let ends = traced.branches.iter().map(|one| format!("{} at {:.6}", one.end, one.arc_length));
             ends.collect::<Vec<_>>().join(", ")

@@ -4,11 +4,14 @@
 mod common;
 
 use common::{Numbers, mesh};
-use foldwell::kinematics::{Closure, Ray, Rays, SecondOrder, drawn_fold_angles};
+use foldwell::analysis::branches::Question;
+use foldwell::analysis::trace;
+use foldwell::kinematics::{Closure, Ray, Rays, RealDirections, SecondOrder, drawn_fold_angles};
+use foldwell::model::assemble::{Recipe, Surroundings};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::dense::{least_squares, null_space};
 use foldwell::sheet::generate::RandomDevelopable;
-use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate};
+use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate, tile};
 use nalgebra::DVector;
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -280,4 +283,45 @@ fn the_study() {
     assert_eq!(table.lines().count(), 1);
     assert_eq!(run("torus", "open-flat.fold", "crease = [0, 1, 0, 0]").0, Some(2));
     assert_eq!(run("screw", "open-flat.fold", "crease = [0, 1, 0, 0]\nangle = 0.1").0, Some(2));
+}
+
+/// Claim: a list without a ray says that there is none only where that is established. The folded cell of `open-star.fold`, nothing locked,
+/// folds along a cone of directions (its quadric has signature (2, 1)), the flat one of `open-flat.fold` along a curve of them: neither has a
+/// ray that stands alone, and `trace` refuses both instead of calling them unfoldable. With a lock all solutions are points, each counted.
+/// Source: theory, second order; the cone of the star is real because cylinders exist.
+#[test]
+fn no_ray_is_not_no_direction() {
+    for name in ["open-star", "open-flat"] {
+        let sheet = mesh(name);
+        let angles = drawn_fold_angles(&sheet);
+        let closure = Closure::of_cell(&sheet).unwrap();
+        let free = Rays::new(&SecondOrder::new(&closure, &angles).unwrap()).unwrap();
+        assert_eq!((free.rays.len(), free.directions), (0, RealDirections::Continuum), "{name}");
+        let one = Rays::new(&SecondOrder::new(&closure.with_locked(&[0]), &angles).unwrap()).unwrap();
+        assert_eq!(one.directions, RealDirections::Listed, "{name}");
+
+        let tiling = tile(&sheet, [1, 1], true);
+        let recipe = Recipe::default();
+        let start = Question {
+            sheet: &sheet,
+            tiling: &tiling,
+            surroundings: Surroundings::Screw,
+            angles: &angles,
+            recipe: &recipe,
+        };
+        let question =
+            trace::Question { start, max_step: 0.1, tolerance: 1e-13, branch: None, stop: trace::Stop::default() };
+        let refused = trace::trace(&question, None, &mut |_, _| true);
+        assert!(matches!(refused, Err(trace::TraceError::Continuum)), "{name}: {refused:?}");
+    }
+}
+
+/// Claim: the only direction of the triangulated Miura-ori without locks, planar folding, is listed as the only one: two of the three
+/// eigenvalues of its quadric have one sign and the third is zero (-0.125, -0.117, 0 in theory).
+#[test]
+fn a_single_direction_is_established() {
+    let sheet = generate(&Pattern::Miura(foldwell::sheet::generate::Miura::default())).unwrap();
+    let closure = Closure::of_cell(&sheet).unwrap();
+    let rays = Rays::new(&SecondOrder::new(&closure, &drawn_fold_angles(&sheet)).unwrap()).unwrap();
+    assert_eq!((rays.rays.len(), rays.directions), (2, RealDirections::Listed));
 }

@@ -5,7 +5,7 @@
 //! and of the three strains are the zeros of their rates.
 
 use super::branches::{self, BranchesError};
-use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, Shape};
+use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, RealDirections, Shape};
 use crate::math::Vec3;
 use crate::model::assemble::Surroundings;
 use crate::numerics::DenseMatrix;
@@ -106,6 +106,14 @@ pub enum TraceError {
         /// Found.
         count: usize,
     },
+    /// Folding leaves along infinitely many directions, none of which stands alone: there is no single trajectory to follow.
+    #[error(
+        "folding leaves the drawn state along infinitely many directions: lock a crease to choose among them, or ask for a surface"
+    )]
+    Continuum,
+    /// No ray was found, and none was excluded.
+    #[error("no direction of folding was found, but none was excluded either: lock a crease")]
+    NotEstablished,
 }
 
 /// The closure of a sheet as a curve, with what is watched along it.
@@ -160,7 +168,7 @@ impl Curve for Folding<'_, '_> {
     }
 }
 
-/// Follows every ray that the question asks for; none where no ray is real. `observe` sees branch, sign and every state's
+/// Follows every ray that the question asks for; none where it is established that no direction is real. `observe` sees branch, sign and every state's
 /// arc length, and returns false to stop.
 pub fn trace(
     question: &Question<'_>,
@@ -170,6 +178,11 @@ pub fn trace(
     let start = &question.start;
     let found = branches::branches(start)?;
     let rays = &found.rays.rays;
+    match found.rays.directions {
+        RealDirections::Continuum if rays.is_empty() => return Err(TraceError::Continuum),
+        RealDirections::NotEstablished if rays.is_empty() => return Err(TraceError::NotEstablished),
+        _ => {}
+    }
     let count = rays.iter().map(|ray| ray.branch + 1).max().unwrap_or(0);
     if let Some(branch) = question.branch.filter(|&branch| branch >= count && count > 0) {
         return Err(TraceError::NoSuchBranch { branch, count });

@@ -27,7 +27,7 @@ pub use embedding::{Compatibility, Embedding, Placement};
 pub use error::KinematicsError;
 pub use folding_modes::{FoldingModes, folding_modes, folding_modes_with_locked};
 pub use motion::{Motion, Moving, Rigid, Twist};
-pub use rays::{Ray, Rays};
+pub use rays::{Ray, Rays, RealDirections};
 pub use screw::{Screw, ScrewRate};
 pub use second_order::{SecondOrder, signature};
 pub use shape::{Shape, ShapeRate};

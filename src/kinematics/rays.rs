@@ -9,11 +9,14 @@
 use super::{KinematicsError, SecondOrder, signature};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::symmetric_eigen;
-use crate::numerics::homotopy::{Section, SingularPoint, Solution, real_singular_points, solve_any};
+use crate::numerics::homotopy::{Section, SingularPoint, Solution, meets_real_points, real_singular_points, solve_any};
 use nalgebra::DVector;
 
 /// Singular points of curves of more quadrics are not looked for: `k 2^k` paths take minutes.
 const MOST_QUADRICS: usize = 7;
+
+/// Number of random linear spaces on which real points of curves of several quadrics are looked for.
+const SLICES: usize = 8;
 
 /// Entries of directions are compared in units of this.
 const GRAIN: f64 = 1e-6;
@@ -31,6 +34,17 @@ pub struct Ray {
     pub direction: Vec<f64>,
     /// Estimated error of the direction.
     pub error: f64,
+}
+
+/// What is established about the real directions in which folding leaves a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RealDirections {
+    /// Every one of them is a listed ray. A list without a ray then means that there is none.
+    Listed,
+    /// They are infinitely many: they fill curves, surfaces or more. Listed are only those that stand alone.
+    Continuum,
+    /// Others than the listed rays were neither found nor excluded.
+    NotEstablished,
 }
 
 /// The complex solutions, counted, and the real rays.
@@ -51,6 +65,8 @@ pub struct Rays {
     /// Number of real singular points of the set of solutions: of a curve of at most 7 quadrics, and of one quadric; `None`
     /// elsewhere, and where they are not single points.
     pub singular: Option<usize>,
+    /// What is established about all real directions, beside the rays that stand alone.
+    pub directions: RealDirections,
     /// The isolated real rays, by branch, sign 1 first. Branches are numbered from 0 by the directions of sign 1, rounded
     /// to 1e-6: the one with the larger first entry comes first, of equal ones that with the larger second, and so on.
     pub rays: Vec<Ray>,
@@ -60,7 +76,9 @@ impl Rays {
     /// Solves the quadrics of a state. Fails as the homotopy.
     pub fn new(second_order: &SecondOrder) -> Result<Self, KinematicsError> {
         let SecondOrder { modes, quadrics, .. } = second_order;
-        let Section { dimension, expected, solutions, extraneous } = solve_any(quadrics, second_order.count())?;
+        let section = solve_any(quadrics, second_order.count())?;
+        let directions = established(quadrics, second_order.count(), &section)?;
+        let Section { dimension, expected, solutions, extraneous } = section;
         let real: Vec<Line> = solutions.isolated.iter().filter(|solution| solution.real).map(Line::from).collect();
         let (real, singular) = match dimension {
             0 => (real, None),
@@ -74,8 +92,36 @@ impl Rays {
             on_continua: solutions.on_continua.len(),
             extraneous,
             singular,
+            directions,
             rays: numbered(modes, &real),
         })
+    }
+}
+
+/// What the solutions establish about the real ones.
+///
+/// Points are all counted. One quadric says by its signature whether it has real points, and whether these are one line. A curve, or more, of
+/// several quadrics has infinitely many real points where a random real linear space meets it in one; where none does, nothing follows.
+fn established(
+    quadrics: &[DenseMatrix],
+    unknowns: usize,
+    section: &Section,
+) -> Result<RealDirections, KinematicsError> {
+    if section.dimension == 0 {
+        let all = section.solutions.on_continua.is_empty();
+        return Ok(if all { RealDirections::Listed } else { RealDirections::NotEstablished });
+    }
+    match quadrics {
+        [] => Ok(RealDirections::Continuum),
+        [quadric] => {
+            let [positive, negative, zero] = signature(quadric)?;
+            let definite = positive == 0 || negative == 0;
+            Ok(if definite && zero <= 1 { RealDirections::Listed } else { RealDirections::Continuum })
+        }
+        _ => {
+            let real = meets_real_points(quadrics, unknowns, SLICES)?;
+            Ok(if real { RealDirections::Continuum } else { RealDirections::NotEstablished })
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::runner::Runner;
 use super::{Progress, RunError};
 use crate::analysis::branches::{Branches, Question, branches as find_branches};
+use crate::kinematics::RealDirections;
 use crate::model::assemble::{Surroundings, drawn_angles};
 use crate::output::summary::{BranchesSummary, RaySummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
@@ -52,7 +53,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary,
     match found {
         Ok(branches) => {
             table(built, &branches).write(&runner.path(format!("{}.csv", study.name.0)))?;
-            summary.error = Some(branches.rays.rays.iter().map(|ray| ray.error).fold(0.0, f64::max));
+            summary.error = branches.rays.rays.iter().map(|ray| ray.error).max_by(f64::total_cmp);
             summary.result = Some(StudyResult::Branches(summarized(&branches)));
         }
         Err(error) => summary.reason = Some(error.to_string()),
@@ -99,6 +100,12 @@ fn summarized(branches: &Branches) -> BranchesSummary {
         on_continua: rays.on_continua,
         extraneous: rays.extraneous,
         singular: rays.singular,
+        directions: match rays.directions {
+            RealDirections::Listed => "listed",
+            RealDirections::Continuum => "continuum",
+            RealDirections::NotEstablished => "not-established",
+        }
+        .to_owned(),
         real_rays: rays.rays.len(),
         rays: listed.collect(),
     }

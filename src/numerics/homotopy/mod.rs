@@ -29,7 +29,7 @@ use nalgebra::Complex;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
-pub use sections::{Section, solve_any};
+pub use sections::{Section, meets_real_points, solve_any};
 pub use singular::{SingularPoint, real_singular_points};
 use system::{C, Quadrics, TotalDegree, distance, normalize};
 use track::{Care, Tracker};

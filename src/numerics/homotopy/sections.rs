@@ -53,6 +53,23 @@ pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, H
     Ok(Section { dimension, expected, solutions, extraneous: expected.saturating_sub(found) })
 }
 
+/// Whether one of some random real linear spaces meets the solutions of fewer quadrics than determine points in a real point. The solutions
+/// then have infinitely many real points; where none of the spaces does, nothing is said about them.
+///
+/// # Errors
+/// Those of [`solve`](super::solve).
+pub fn meets_real_points(quadrics: &[DenseMatrix], unknowns: usize, spaces: usize) -> Result<bool, HomotopyError> {
+    let all = Quadrics::new(quadrics, unknowns)?;
+    let mut random = ChaCha8Rng::seed_from_u64(u64::MAX);
+    for _ in 0..spaces {
+        let solutions = on_linear_space(&all, &random_frame(unknowns, quadrics.len() + 1, &mut random))?;
+        if solutions.isolated.iter().any(|solution| solution.real && solution.multiplicity == 1) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 /// Orthonormal columns in random directions.
 pub(super) fn random_frame(rows: usize, columns: usize, random: &mut ChaCha8Rng) -> DenseMatrix {
     DenseMatrix::from_fn(rows, columns, |_, _| symmetric(random)).qr().q()
