@@ -167,7 +167,10 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             Ok(0)
         }
         Command::Convert { from, to } => {
-            run::convert(&from, &to)?;
+            for note in run::convert(&from, &to)? {
+                // there is nobody left to tell where standard error is closed
+                let _ = writeln!(io::stderr(), "{}: {note}", to.display());
+            }
             Ok(0)
         }
         Command::Validate { claims, quick, out } => validate(&ValidateOptions { quick, out, only: claims }),

@@ -16,6 +16,7 @@ use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
 
 mod bloch;
 mod branches;
+mod convert;
 mod draw;
 mod landscape;
 mod landscape_map;
@@ -200,11 +201,11 @@ pub fn info(mesh_or_scene: &Path) -> Result<Info, RunError> {
     Ok(Info::new(&sheet))
 }
 
-/// Converts a mesh between FOLD, OBJ and VTU, by the endings of the names.
+/// Converts a mesh between FOLD, OBJ and VTU, by the endings of the names; says what the new file does not keep.
 ///
 /// # Errors
 /// [`RunError`] where a file cannot be read, is wrong, has an unknown ending or cannot be written.
-pub fn convert(from: &Path, to: &Path) -> Result<(), RunError> {
+pub fn convert(from: &Path, to: &Path) -> Result<Vec<String>, RunError> {
     let sheet = read_mesh(from, MESHES)?;
     match MeshKind::of(to) {
         Some(MeshKind::Fold) => files::write(to, fold::write(&sheet))?,
@@ -212,12 +213,13 @@ pub fn convert(from: &Path, to: &Path) -> Result<(), RunError> {
         Some(MeshKind::Vtu) => vtk::write_vtu(to, &Picture::drawn(&sheet))?,
         None => return Err(RunError::Ending { path: to.into(), ending: ending(to), expected: MESHES }),
     }
-    Ok(())
+    Ok(convert::not_kept(&sheet, MeshKind::of(from), MeshKind::of(to)))
 }
 
 const MESHES: &str = ".fold, .obj or .vtu";
 
 /// Kinds of files that hold a mesh, told by the endings of their names.
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum MeshKind {
     Fold,
     Obj,

@@ -93,7 +93,7 @@ pub fn sheet(title: &str, vertices: Vec<Vec3>, lattice: Option<[Vec3; 2]>, faces
     }
     let polygons = faces.iter().map(|face| face.to_vec()).collect();
     let (title, description) = (title.to_string(), String::new());
-    Sheet { title, description, vertices, lattice, polygons, triangles, edges, holes: Vec::new() }
+    Sheet { title, description, vertices, lattice, polygons, triangles, edges, ..Sheet::default() }
 }
 
 fn from_fold(text: &str) -> Sheet {

@@ -1,5 +1,9 @@
 //! The cell: vertices, lattice, polygons, their triangles, and the edges between them.
 
+use std::collections::BTreeMap;
+
+use super::assignment::Assignment;
+use super::record::FileRecord;
 use crate::math::{Vec3, fold_angle::fold_angle};
 
 /// A vertex of the cell together with the lattice translate in which it stands.
@@ -81,7 +85,7 @@ pub struct TriangleSide {
 ///
 /// Vertices are numbered by first appearance in the file; edges by first appearance along the polygons (`(a, b)`,
 /// `(b, c)`, `(c, a)` of each), the diagonals of polygons after them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sheet {
     /// Name of the sheet.
     pub title: String,
@@ -99,6 +103,12 @@ pub struct Sheet {
     pub edges: Vec<Edge>,
     /// Declared openings of a periodic sheet (`foldwell:holes`), each the round of its vertices.
     pub holes: Vec<Vec<Corner>>,
+    /// For each of the last vertices, which a cut has made, the vertex that it was part of.
+    pub cut_from: Vec<usize>,
+    /// Assignments of the file where they are others than the drawing shows; see [`Sheet::assignment`].
+    pub assignments: BTreeMap<EdgeKey, Assignment>,
+    /// What the file says beside the shape.
+    pub record: FileRecord,
 }
 
 impl Corner {
@@ -145,6 +155,13 @@ impl Triangle {
 }
 
 impl Sheet {
+    /// The corner as it was before the sheet was cut.
+    pub fn uncut(&self, corner: Corner) -> Corner {
+        let drawn = self.vertices.len() - self.cut_from.len();
+        let vertex = corner.vertex.checked_sub(drawn).map_or(corner.vertex, |made| self.cut_from[made]);
+        Corner { vertex, ..corner }
+    }
+
     /// Fold angle of an edge in the drawn state, in radians, valley positive; `None` on a boundary.
     pub fn drawn_angle(&self, edge: &Edge) -> Option<f64> {
         let [left, right] = [edge.wings[0]?, edge.wings[1]?];

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use super::assignment::AssignmentFault;
+
 /// Why a file gave no sheet.
 #[derive(Debug, thiserror::Error)]
 pub enum SheetError {
@@ -358,6 +360,9 @@ pub enum Problem {
         /// How many.
         pieces: usize,
     },
+    /// An assignment that contradicts the mesh.
+    #[error(transparent)]
+    Assignment(#[from] AssignmentFault),
     /// A fold angle that contradicts the coordinates.
     #[error(
         "edge {edge} of the list, {ends}, has the fold angle {given} degrees, but the vertices draw {drawn} degrees \

@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::assignment::Assignment;
 use super::cell::{Corner, EdgeKind, Sheet};
 use crate::math::Vec3;
 
@@ -27,6 +28,8 @@ pub struct Info {
     pub facets: usize,
     /// Edges of one face.
     pub boundary: usize,
+    /// Edges of one face that a cut has made, two for every cut.
+    pub cut: usize,
     /// Triangles.
     pub faces: usize,
     /// Polygons.
@@ -49,6 +52,8 @@ pub struct Info {
     pub longest_edge: f64,
     /// Least `4 sqrt(3) area / (sum of squared sides)` of a triangle: 1 equilateral, 0 without area.
     pub worst_triangle_quality: f64,
+    /// Frames of the file beyond the first one, which alone is read.
+    pub further_frames: usize,
 }
 
 impl Info {
@@ -67,6 +72,7 @@ impl Info {
             creases: count(EdgeKind::Crease),
             facets: count(EdgeKind::Facet),
             boundary: count(EdgeKind::Boundary),
+            cut: sheet.edges.iter().filter(|edge| sheet.assignment(edge) == Assignment::Cut).count(),
             faces: sheet.triangles.len(),
             polygons: sheet.polygons.len(),
             euler_characteristic: (sheet.vertices.len() + sheet.triangles.len()) as i64 - sheet.edges.len() as i64,
@@ -78,6 +84,7 @@ impl Info {
             shortest_edge: lengths().fold(f64::INFINITY, f64::min),
             longest_edge: lengths().fold(0.0, f64::max),
             worst_triangle_quality: points(sheet).map(quality).fold(1.0, f64::min),
+            further_frames: sheet.record.further_frames,
         }
     }
 }
@@ -120,7 +127,12 @@ impl fmt::Display for Info {
         )?;
         writeln!(f, "vertices               {}", self.vertices)?;
         let (creases, facets, boundary) = (self.creases, self.facets, self.boundary);
-        writeln!(f, "edges                  {} ({creases} creases, {facets} facets, {boundary} boundary)", self.edges)?;
+        let cut = if self.cut == 0 { String::new() } else { format!(", {} of them along cuts", self.cut) };
+        writeln!(
+            f,
+            "edges                  {} ({creases} creases, {facets} facets, {boundary} boundary{cut})",
+            self.edges
+        )?;
         writeln!(f, "triangles              {} (of {} polygons)", self.faces, self.polygons)?;
         writeln!(f, "Euler characteristic   {}", self.euler_characteristic)?;
         write!(f, "Maxwell count          {}", self.maxwell_count)?;
@@ -135,7 +147,11 @@ impl fmt::Display for Info {
             self.largest_angle_defect
         )?;
         writeln!(f, "edge lengths           {:.6} to {:.6}", self.shortest_edge, self.longest_edge)?;
-        write!(f, "worst triangle         quality {:.4} (1: equilateral)", self.worst_triangle_quality)
+        write!(f, "worst triangle         quality {:.4} (1: equilateral)", self.worst_triangle_quality)?;
+        match self.further_frames {
+            0 => Ok(()),
+            frames => write!(f, "\nframes                 the first; {frames} more in the file are not read"),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! One cell of a sheet on the torus (or a finite sheet), with its files and its generators.
 
+pub mod assignment;
 pub mod build;
 pub mod cell;
 pub mod error;
@@ -7,10 +8,13 @@ pub mod fold;
 pub mod generate;
 pub mod info;
 pub mod obj;
+pub mod record;
 pub mod tiling;
 
+pub use assignment::Assignment;
 pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
 pub use error::{Problem, SheetError};
 pub use generate::{GenerateError, Pattern, generate};
 pub use info::Info;
+pub use record::FileRecord;
 pub use tiling::{Site, TiledEdge, TiledTriangle, Tiling, tile};

@@ -6,12 +6,14 @@
 //! ```text
 //! # foldwell:lattice x y z            (twice, for the two lattice vectors)
 //! # foldwell:hole a b c ...           (once for every opening of a periodic sheet)
+//! # foldwell:assignment a b C        (of an edge, where the drawing does not show it; the letters are those of FOLD)
 //! # foldwell:description "text"
 //! ```
 
 use std::fmt::Write;
 use std::path::Path;
 
+use super::assignment::Assignment;
 use super::build::{Drawn, build, draw};
 use super::cell::Sheet;
 use super::error::{Defect, Place, Problem, SheetError};
@@ -55,6 +57,7 @@ struct Reader {
     vertex_lines: Vec<usize>,
     face_lines: Vec<usize>,
     hole_lines: Vec<usize>,
+    edge_lines: Vec<usize>,
     lattice_line: usize,
 }
 
@@ -87,6 +90,15 @@ impl Reader {
             "foldwell:hole" => {
                 self.drawn.holes.push(self.corners(rest, "opening", self.drawn.holes.len())?);
                 self.hole_lines.push(self.line);
+            }
+            "foldwell:assignment" => {
+                let (ends, letter) = rest.trim().rsplit_once(char::is_whitespace).unwrap_or(("", rest));
+                let ends = self.corners(ends, "edge", self.drawn.assignments.len())?;
+                let (&[a, b], Some(assignment)) = (&ends[..], Assignment::from_letter(letter)) else {
+                    return Err(wrong(rest, "assignment", "two vertex numbers and a letter of FOLD, `1 2 C`"));
+                };
+                self.drawn.assignments.push(([a, b], assignment));
+                self.edge_lines.push(self.line);
             }
             "foldwell:description" => {
                 self.drawn.description = serde_json::from_str(rest)
@@ -132,7 +144,8 @@ impl Reader {
             Place::Face(f) => self.face_lines.get(f),
             Place::Hole(h) => self.hole_lines.get(h),
             Place::Lattice => Some(&self.lattice_line),
-            Place::Mesh | Place::Edge(_) => None,
+            Place::Edge(e) => self.edge_lines.get(e),
+            Place::Mesh => None,
         };
         bad(name, line.copied().unwrap_or(self.line), *defect.problem)
     }
@@ -171,6 +184,9 @@ pub fn write(sheet: &Sheet) -> String {
             let numbers: Vec<_> = list.iter().map(|v| (v + 1).to_string()).collect();
             let _ = writeln!(text, "{word} {}", numbers.join(" "));
         }
+    }
+    for ([a, b], assignment) in &drawn.assignments {
+        let _ = writeln!(text, "# foldwell:assignment {} {} {assignment}", a + 1, b + 1);
     }
     text
 }

@@ -151,7 +151,7 @@ impl Grid {
         });
         let kind = match (kind, wings) {
             (EdgeKind::Facet, [Some(_), Some(_)]) => EdgeKind::Facet,
-            (EdgeKind::Facet, _) => return None,
+            (EdgeKind::Facet, [None, None]) => return None,
             (EdgeKind::Crease, [Some(_), Some(_)]) => EdgeKind::Crease,
             _ => EdgeKind::Boundary,
         };

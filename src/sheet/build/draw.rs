@@ -1,18 +1,21 @@
 //! From a sheet back to a mesh that draws its cell in full.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Drawn;
-use crate::sheet::cell::{Corner, Sheet};
+use crate::sheet::assignment::Assignment;
+use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
 
 /// The mesh that draws `sheet`: its vertices in their order, then the copies that faces and openings need, by first
 /// appearance. [`build`](super::build) makes the same sheet of it.
 pub fn draw(sheet: &Sheet) -> Drawn {
-    let mut numbers: BTreeMap<Corner, usize> = (0..sheet.vertices.len()).map(|v| (Corner::home(v), v)).collect();
-    let mut coords = sheet.vertices.clone();
+    let drawn_count = sheet.vertices.len() - sheet.cut_from.len();
+    let mut numbers: BTreeMap<Corner, usize> = (0..drawn_count).map(|v| (Corner::home(v), v)).collect();
+    let mut coords = sheet.vertices[..drawn_count].to_vec();
     let mut number = |corner: &Corner| {
-        *numbers.entry(*corner).or_insert_with(|| {
-            coords.push(sheet.position(*corner));
+        let corner = sheet.uncut(*corner);
+        *numbers.entry(corner).or_insert_with(|| {
+            coords.push(sheet.position(corner));
             coords.len() - 1
         })
     };
@@ -20,6 +23,7 @@ pub fn draw(sheet: &Sheet) -> Drawn {
         of.iter().map(|corners| corners.iter().map(&mut number).collect()).collect()
     };
     let (faces, holes) = (lists(&sheet.polygons), lists(&sheet.holes));
+    let assignments = assignments(sheet, &faces);
     Drawn {
         title: sheet.title.clone(),
         description: sheet.description.clone(),
@@ -28,6 +32,29 @@ pub fn draw(sheet: &Sheet) -> Drawn {
         faces,
         lattice: sheet.lattice,
         holes,
+        assignments,
         first: 0,
     }
+}
+
+/// Sides of faces whose assignment the drawing does not show by itself.
+fn assignments(sheet: &Sheet, faces: &[Vec<usize>]) -> Vec<([usize; 2], Assignment)> {
+    let joined = |edge: &&Edge| edge.kind == EdgeKind::Facet || sheet.assignments.contains_key(&edge.key);
+    let told: BTreeMap<EdgeKey, Assignment> =
+        sheet.edges.iter().filter(joined).map(|edge| (edge.key, sheet.assignment(edge))).collect();
+    let mut seen = BTreeSet::new();
+    let mut assignments = Vec::new();
+    for (polygon, face) in sheet.polygons.iter().zip(faces) {
+        for k in 0..polygon.len() {
+            let next = (k + 1) % polygon.len();
+            let key = EdgeKey::new(polygon[k], polygon[next]).0;
+            let [i, j] = key.ends().map(|end| sheet.uncut(end));
+            if let Some(&assignment) = told.get(&key)
+                && seen.insert(EdgeKey::new(i, j).0)
+            {
+                assignments.push(([face[k], face[next]], assignment));
+            }
+        }
+    }
+    assignments
 }

@@ -1,8 +1,10 @@
 //! From a drawn mesh to a sheet: one builder and one set of checks for every file format and every generator.
 //!
-//! Vertices are identified by lattice vectors (`identify`), faces become polygons of the cell (`faces`), polygons are
-//! split (`split`), and edges with their wings follow (`edges`).
+//! Vertices are identified by lattice vectors (`identify`), faces become polygons of the cell (`faces`), which are
+//! parted along cuts (`cuts`) and split (`split`); edges with their wings (`edges`) and assignments (`assign`) follow.
 
+mod assign;
+mod cuts;
 mod draw;
 mod edges;
 mod faces;
@@ -10,9 +12,11 @@ mod identify;
 pub(crate) mod planar;
 mod split;
 
+use super::assignment::Assignment;
 use super::cell::Sheet;
 use super::error::{Defect, DrawnEdge, Place, Problem};
 use crate::math::Vec3;
+pub(crate) use assign::edges_by_drawn_name;
 pub use draw::draw;
 pub(crate) use faces::sides as drawn_sides;
 pub(crate) use identify::Identified;
@@ -34,6 +38,8 @@ pub struct Drawn {
     pub lattice: Option<[Vec3; 2]>,
     /// Openings by numbers into `coords`.
     pub holes: Vec<Vec<usize>>,
+    /// Assignments of drawn edges, by numbers into `coords`.
+    pub assignments: Vec<([usize; 2], Assignment)>,
     /// Number that the file gives to its first vertex and face: 0 in FOLD, 1 in OBJ. Only messages use it.
     pub first: usize,
 }
@@ -59,19 +65,20 @@ pub fn build(drawn: &Drawn) -> Result<Sheet, Defect> {
 /// As [`build`], together with the corner of the cell in which every drawn vertex stands.
 pub(crate) fn build_identified(drawn: &Drawn) -> Result<(Sheet, Identified), Defect> {
     check_numbers(drawn)?;
-    let identified = identify::identify(drawn)?;
+    let mut identified = identify::identify(drawn)?;
     faces::check(drawn, &identified)?;
     if drawn.planar {
         planar::check_crossings(drawn, &faces::sides(drawn))?;
     }
-    let polygons: Vec<_> = drawn.faces.iter().map(|face| identified.corners(face)).collect();
+    let mut polygons: Vec<_> = drawn.faces.iter().map(|face| identified.corners(face)).collect();
     let holes: Vec<_> = drawn.holes.iter().map(|hole| identified.corners(hole)).collect();
+    let cut_from = cuts::cut(drawn, &mut identified, &mut polygons)?;
     let sides = edges::sides(drawn, &polygons)?;
     edges::check_rims(drawn, &sides, &holes)?;
     let parts = split::triangles(drawn, &identified, &polygons)?;
     let edges = edges::with_wings(drawn, sides, &parts)?;
     let triangles = parts.into_iter().map(|part| part.triangle).collect();
-    let sheet = Sheet {
+    let mut sheet = Sheet {
         title: drawn.title.clone(),
         description: drawn.description.clone(),
         vertices: identified.homes.iter().map(|&v| drawn.coords[v]).collect(),
@@ -80,7 +87,10 @@ pub(crate) fn build_identified(drawn: &Drawn) -> Result<(Sheet, Identified), Def
         triangles,
         edges,
         holes,
+        cut_from,
+        ..Sheet::default()
     };
+    assign::assign(drawn, &identified, &mut sheet)?;
     faces::check_fans(drawn, &identified, &sheet)?;
     Ok((sheet, identified))
 }

@@ -1,13 +1,14 @@
 //! The list of edges of a FOLD file, and what it says about them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::value::RawValue;
 
 use super::locate::Source;
 use super::read::Keys;
-use crate::sheet::build::Identified;
-use crate::sheet::cell::{EdgeKey, EdgeKind, Sheet};
+use crate::sheet::assignment::Assignment;
+use crate::sheet::build::{Identified, edges_by_drawn_name};
+use crate::sheet::cell::{Corner, EdgeKey, Sheet};
 use crate::sheet::error::{DrawnEdge, Problem, SheetError};
 
 /// Largest difference, in degrees, between a fold angle given and the one drawn.
@@ -22,6 +23,8 @@ pub(super) struct Edges<'a> {
     pub ends: Vec<[usize; 2]>,
     /// Fold angles in degrees, and where they stand.
     angles: Vec<(&'a RawValue, Option<f64>)>,
+    /// What the edges are meant to be.
+    pub assignments: Vec<Assignment>,
 }
 
 /// Reads the list of edges, for a mesh of `count` drawn vertices.
@@ -40,7 +43,7 @@ pub(super) fn read<'a>(source: &Source<'a>, keys: &Keys<'a>, count: usize) -> Re
         edges.ends.push([a, b]);
     }
     edges.angles = angles(source, keys, edges.rows.len())?;
-    check_letters(source, keys, edges.rows.len())?;
+    edges.assignments = assignments(source, keys, edges.rows.len())?;
     Ok(edges)
 }
 
@@ -68,19 +71,17 @@ fn angles<'a>(
     rows.iter().enumerate().map(read).collect()
 }
 
-fn check_letters(source: &Source, keys: &Keys, count: usize) -> Result<(), SheetError> {
-    let Some(value) = keys.edges_assignment else { return Ok(()) };
+fn assignments(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Assignment>, SheetError> {
+    let Some(value) = keys.edges_assignment else { return Ok(Vec::new()) };
     let rows = source.list(value, || "`edges_assignment`".into(), "a list of letters")?;
     check_length(source, value, "edges_assignment", rows.len(), count)?;
-    for (e, row) in rows.iter().enumerate() {
+    let read = |(e, row): (usize, &&RawValue)| {
         let right = "one of \"B\", \"M\", \"V\", \"F\", \"U\", \"C\", \"J\"";
         let what = || format!("the assignment of edge {e} of the list");
-        let letter: String = source.typed(row, what, right)?;
-        if !["B", "M", "V", "F", "U", "C", "J"].contains(&letter.as_str()) {
-            return Err(source.mistyped(row, what(), right));
-        }
-    }
-    Ok(())
+        let letter: Option<String> = serde_json::from_str(row.get()).ok();
+        letter.and_then(|letter| Assignment::from_letter(&letter)).ok_or_else(|| source.mistyped(row, what(), right))
+    };
+    rows.iter().enumerate().map(read).collect()
 }
 
 fn check_length(
@@ -95,12 +96,13 @@ fn check_length(
 
 /// Every listed edge is a side of a face, and every fold angle given is the one drawn.
 pub(super) fn check(source: &Source, edges: &Edges, sheet: &Sheet, identified: &Identified) -> Result<(), SheetError> {
-    let known: BTreeMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(n, edge)| (edge.key, n)).collect();
+    let known = edges_by_drawn_name(sheet);
+    let sides = sides(sheet);
     for (e, (row, ends)) in edges.rows.iter().zip(&edges.ends).enumerate() {
         let [a, b] = ends.map(|v| identified.corner[v]);
-        let found = known.get(&EdgeKey::new(a, b).0).map(|&n| &sheet.edges[n]);
+        let found = known.get(&EdgeKey::new(a, b).0).and_then(|numbers| numbers.first()).map(|&n| &sheet.edges[n]);
         let ends = DrawnEdge(ends[0], ends[1]);
-        let Some(edge) = found.filter(|edge| edge.kind != EdgeKind::Facet) else {
+        let Some(edge) = found.filter(|edge| sides.contains(&edge.key)) else {
             return Err(source.at(row, Problem::LooseEdge { edge: e, ends }));
         };
         let Some(&(row, Some(given))) = edges.angles.get(e) else { continue };
@@ -111,4 +113,12 @@ pub(super) fn check(source: &Source, edges: &Edges, sheet: &Sheet, identified: &
         }
     }
     Ok(())
+}
+
+/// Edges that polygons have as sides, and not as diagonals.
+fn sides(sheet: &Sheet) -> BTreeSet<EdgeKey> {
+    let sides = |polygon: &Vec<Corner>| {
+        (0..polygon.len()).map(|k| EdgeKey::new(polygon[k], polygon[(k + 1) % polygon.len()]).0).collect::<Vec<_>>()
+    };
+    sheet.polygons.iter().flat_map(sides).collect()
 }

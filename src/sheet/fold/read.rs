@@ -1,5 +1,6 @@
 //! Reading FOLD.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::Deserialize;
@@ -7,7 +8,9 @@ use serde_json::value::RawValue;
 
 use super::edges::{self, Edges};
 use super::locate::Source;
+use super::record;
 use crate::math::Vec3;
+use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawn, build_identified, planar};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, Place, Problem, SheetError};
@@ -58,21 +61,25 @@ pub fn read(path: &Path) -> Result<Sheet, SheetError> {
 /// # Errors
 /// [`SheetError::Bad`] with line, column, and the vertex, face or edge that is wrong.
 pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source { name, text };
     let keys: Keys = serde_json::from_str(text).map_err(|e| source.syntax(&e))?;
     let mut rows = Rows::default();
     let mut drawn = head(&source, &keys)?;
     read_vertices(&source, &keys, &mut drawn, &mut rows)?;
     let edges = edges::read(&source, &keys, drawn.coords.len())?;
+    drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
     read_faces(&source, &keys, &mut drawn, &mut rows, &edges)?;
     read_holes(&source, &keys, &mut drawn, &mut rows)?;
     let locate = |defect| located(&source, &keys, &rows, &edges, defect);
     if keys.faces_vertices.is_none() {
         drawn.faces = planar::faces_of(&drawn, &edges.ends).map_err(locate)?;
         drop_openings(&mut drawn);
+        drop_holes(&mut drawn);
     }
-    let (sheet, identified) = build_identified(&drawn).map_err(locate)?;
+    let (mut sheet, identified) = build_identified(&drawn).map_err(locate)?;
     edges::check(&source, &edges, &sheet, &identified)?;
+    sheet.record = record::read(&source)?;
     Ok(sheet)
 }
 
@@ -169,6 +176,20 @@ fn drop_openings(drawn: &mut Drawn) {
     };
     let holes: Vec<_> = drawn.holes.iter().map(sorted).collect();
     drawn.faces.retain(|face| !holes.contains(&sorted(face)));
+}
+
+/// Takes away rebuilt faces that the file shows to be holes: all their sides are boundaries, and every one has a face
+/// on its other side.
+fn drop_holes(drawn: &mut Drawn) {
+    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+    let boundary = drawn.assignments.iter().filter(|(_, assignment)| *assignment == Assignment::Boundary);
+    let boundary: BTreeSet<[usize; 2]> = boundary.map(|(ends, _)| sorted(*ends)).collect();
+    let sides = |face: &Vec<usize>| -> Vec<[usize; 2]> {
+        (0..face.len()).map(|k| sorted([face[k], face[(k + 1) % face.len()]])).collect()
+    };
+    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    drawn.faces.iter().flat_map(sides).for_each(|side| *faces.entry(side).or_default() += 1);
+    drawn.faces.retain(|face| !sides(face).iter().all(|side| boundary.contains(side) && faces[side] == 2));
 }
 
 /// A defect of the mesh with the line of the text that draws it.

@@ -1,13 +1,11 @@
 //! Writing FOLD.
 
-use std::collections::BTreeMap;
 use std::fmt::{Display, Write};
 
-use crate::sheet::build::{Drawn, draw, drawn_sides};
+use super::record::{ATTRIBUTES, CLASSES};
+use crate::sheet::assignment::{Assignment, FLAT};
+use crate::sheet::build::{Drawn, draw, drawn_sides, edges_by_drawn_name};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
-
-/// Fold angles below this many degrees are written as flat.
-const FLAT: f64 = 1e-9;
 
 /// `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with assignment and
 /// drawn fold angle, lattice and openings. Always in three dimensions, since a sheet folded flat has edges that cross.
@@ -21,8 +19,15 @@ pub fn write(sheet: &Sheet) -> String {
     if !drawn.description.is_empty() {
         field(&mut text, "file_description", &quoted(&drawn.description));
     }
-    field(&mut text, "file_classes", "[\"singleModel\"]");
-    field(&mut text, "frame_attributes", "[\"3D\"]");
+    let kept =
+        |key: &str| sheet.record.metadata.iter().find(|(known, _)| known == key).map(|(_, value)| value.as_str());
+    field(&mut text, "file_classes", kept("file_classes").unwrap_or(CLASSES));
+    field(&mut text, "frame_attributes", kept("frame_attributes").unwrap_or(ATTRIBUTES));
+    for (key, value) in &sheet.record.metadata {
+        if !["file_classes", "frame_attributes"].contains(&key.as_str()) {
+            field(&mut text, key, value);
+        }
+    }
     if let Some(lattice) = drawn.lattice {
         field(&mut text, "foldwell:lattice", &rows(lattice.iter().map(|l| numbers(l.iter()))));
     }
@@ -36,21 +41,21 @@ pub fn write(sheet: &Sheet) -> String {
 }
 
 fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawn) {
-    let known: BTreeMap<EdgeKey, &Edge> = sheet.edges.iter().map(|edge| (edge.key, edge)).collect();
+    let known = edges_by_drawn_name(sheet);
     let corners = corners(sheet, drawn);
     let sides = drawn_sides(drawn);
-    let edge = |ends: [usize; 2]| known.get(&EdgeKey::new(corners[ends[0]], corners[ends[1]]).0).copied();
-    let angles: Vec<_> = sides.iter().map(|&(ends, _)| edge(ends).and_then(|e| degrees(sheet, e))).collect();
+    let edge = |ends: [usize; 2]| {
+        let numbers = known.get(&EdgeKey::new(corners[ends[0]], corners[ends[1]]).0);
+        numbers.and_then(|numbers| numbers.first()).map(|&number| &sheet.edges[number])
+    };
+    let edges: Vec<Option<&Edge>> = sides.iter().map(|&(ends, _)| edge(ends)).collect();
+    let letters = edges.iter().map(|edge| edge.map_or(Assignment::Unassigned, |edge| sheet.assignment(edge)));
+    let letters: Vec<_> = letters.map(|assignment| format!("\"{assignment}\"")).collect();
+    let angles = edges.iter().map(|edge| edge.and_then(|edge| degrees(sheet, edge)));
+    let angles: Vec<_> = angles.map(|angle| angle.map_or("null".to_owned(), |a| format!("{a:?}"))).collect();
     field(text, "edges_vertices", &rows(sides.iter().map(|(ends, _)| numbers(ends))));
-    let letters = angles.iter().map(|angle| match angle {
-        None => "\"B\"",
-        Some(a) if *a > 0.0 => "\"V\"",
-        Some(a) if *a < 0.0 => "\"M\"",
-        Some(_) => "\"F\"",
-    });
-    field(text, "edges_assignment", &format!("[{}]", letters.collect::<Vec<_>>().join(", ")));
-    let angles = angles.iter().map(|angle| angle.map_or("null".to_owned(), |a| format!("{a:?}")));
-    field(text, "edges_foldAngle", &format!("[{}]", angles.collect::<Vec<_>>().join(", ")));
+    field(text, "edges_assignment", &format!("[{}]", letters.join(", ")));
+    field(text, "edges_foldAngle", &format!("[{}]", angles.join(", ")));
 }
 
 /// The corner in which every drawn vertex stands.
@@ -58,7 +63,7 @@ fn corners(sheet: &Sheet, drawn: &Drawn) -> Vec<Corner> {
     let mut corners: Vec<_> = (0..drawn.coords.len()).map(Corner::home).collect();
     let lists = drawn.faces.iter().chain(&drawn.holes).zip(sheet.polygons.iter().chain(&sheet.holes));
     for (numbers, there) in lists {
-        numbers.iter().zip(there).for_each(|(&v, &corner)| corners[v] = corner);
+        numbers.iter().zip(there).for_each(|(&v, &corner)| corners[v] = sheet.uncut(corner));
     }
     corners
 }

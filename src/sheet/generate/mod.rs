@@ -172,9 +172,7 @@ impl Parts {
             vertices,
             lattice,
             polygons,
-            triangles: Vec::new(),
-            edges: Vec::new(),
-            holes: Vec::new(),
+            ..Sheet::default()
         };
         let drawn: Drawn = draw(&bare);
         Ok(build(&drawn)?)

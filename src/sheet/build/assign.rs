@@ -1,0 +1,94 @@
+//! Assignments of edges, held against the mesh and kept with the sheet.
+
+use std::collections::BTreeMap;
+
+use super::{Defect, Drawn, Identified, Place, Problem};
+use crate::sheet::assignment::{Assignment, AssignmentFault};
+use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet};
+
+/// Fold angles this many degrees from 0 and from 180 have a side.
+const SIDE_TOLERANCE: f64 = 1e-3;
+
+/// Gives every edge of `sheet` what the file assigns to it: joined parts of a polygon become facets, what contradicts
+/// the mesh is refused, and letters that the drawing alone would not give are kept.
+pub(super) fn assign(drawn: &Drawn, identified: &Identified, sheet: &mut Sheet) -> Result<(), Defect> {
+    if drawn.assignments.is_empty() {
+        return Ok(());
+    }
+    let known = edges_by_drawn_name(sheet);
+    let rim = drawn_rim(drawn);
+    for (e, &(ends, assignment)) in drawn.assignments.iter().enumerate() {
+        let [a, b] = ends.map(|v| identified.corner[v]);
+        let numbers = known.get(&EdgeKey::new(a, b).0).map(Vec::as_slice).unwrap_or_default();
+        let diagonal = numbers.iter().any(|&number| sheet.edges[number].kind == EdgeKind::Facet);
+        if numbers.is_empty() || (diagonal && assignment != Assignment::Join) {
+            return Err(Defect::new(Place::Edge(e), Problem::LooseEdge { edge: e, ends: drawn.edge_name(ends) }));
+        }
+        for &number in numbers {
+            if assignment == Assignment::Join && sheet.edges[number].kind == EdgeKind::Crease {
+                sheet.edges[number].kind = EdgeKind::Facet;
+            }
+            let edge = &sheet.edges[number];
+            // the outline of a drawn cell is no boundary of a periodic sheet
+            if assignment == Assignment::Boundary && rim.get(&sorted(ends)) == Some(&1) && drawn.lattice.is_some() {
+                continue;
+            }
+            if let Some(problem) = fault(sheet, edge, (e, drawn.edge_name(ends)), assignment) {
+                return Err(Defect::new(Place::Edge(e), Problem::Assignment(problem)));
+            }
+            let (key, shown) = (edge.key, sheet.drawn_assignment(edge));
+            if assignment != shown {
+                sheet.assignments.insert(key, assignment);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn fault(
+    sheet: &Sheet,
+    found: &Edge,
+    (edge, ends): (usize, crate::sheet::error::DrawnEdge),
+    assignment: Assignment,
+) -> Option<AssignmentFault> {
+    let drawn = sheet.drawn_angle(found).unwrap_or(0.0).to_degrees();
+    let folded = drawn.abs() > SIDE_TOLERANCE && drawn.abs() < 180.0 - SIDE_TOLERANCE;
+    match (assignment, found.kind) {
+        (Assignment::Boundary, EdgeKind::Crease | EdgeKind::Facet) => {
+            Some(AssignmentFault::BoundaryInside { edge, ends })
+        }
+        (Assignment::Join, EdgeKind::Boundary) => Some(AssignmentFault::JoinAtRim { edge, ends }),
+        (Assignment::Mountain, EdgeKind::Crease) if folded && drawn > 0.0 => {
+            Some(AssignmentFault::OtherSide { edge, ends, letter: assignment, drawn })
+        }
+        (Assignment::Valley, EdgeKind::Crease) if folded && drawn < 0.0 => {
+            Some(AssignmentFault::OtherSide { edge, ends, letter: assignment, drawn })
+        }
+        _ => None,
+    }
+}
+
+/// Numbers of the edges that a drawn edge has become, by the names that they had before the sheet was cut.
+pub(crate) fn edges_by_drawn_name(sheet: &Sheet) -> BTreeMap<EdgeKey, Vec<usize>> {
+    let mut known: BTreeMap<EdgeKey, Vec<usize>> = BTreeMap::new();
+    for (number, edge) in sheet.edges.iter().enumerate() {
+        let [i, j] = edge.key.ends().map(|end| sheet.uncut(end));
+        known.entry(EdgeKey::new(i, j).0).or_default().push(number);
+    }
+    known
+}
+
+fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// How many drawn faces every drawn edge has.
+fn drawn_rim(drawn: &Drawn) -> BTreeMap<[usize; 2], usize> {
+    let mut faces = BTreeMap::new();
+    for face in &drawn.faces {
+        for (k, &a) in face.iter().enumerate() {
+            *faces.entry(sorted([a, face[(k + 1) % face.len()]])).or_default() += 1;
+        }
+    }
+    faces
+}

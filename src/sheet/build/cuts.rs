@@ -1,0 +1,145 @@
+//! Cuts: where the faces on the two sides of an edge are not joined.
+//!
+//! A vertex where cuts, or a cut and the rim, part the faces round it into several fans is made one vertex for each
+//! fan. The fan of the face that is listed first keeps the vertex; the others get new ones, numbered after all drawn
+//! ones by vertex and then by face. An end of a cut inside the sheet stays one vertex.
+
+use std::collections::BTreeMap;
+
+use super::{Defect, Drawn, Identified, Place, Problem};
+use crate::sheet::assignment::{Assignment, AssignmentFault};
+use crate::sheet::cell::{Corner, EdgeKey};
+
+/// Cut edges by name, with their entry of the list.
+type Cuts = BTreeMap<EdgeKey, usize>;
+
+/// A corner of a face: the face, and the place of the corner in it.
+type Wedge = (usize, usize);
+
+/// Parts the polygons along the cuts of `drawn`; for every new vertex, the one that it was before.
+pub(super) fn cut(
+    drawn: &Drawn,
+    identified: &mut Identified,
+    polygons: &mut [Vec<Corner>],
+) -> Result<Vec<usize>, Defect> {
+    let cuts = inner_cuts(drawn, identified, polygons)?;
+    let mut origins = Vec::new();
+    let mut moved = Vec::new();
+    for (vertex, wedges) in wedges_at_cuts(&cuts, polygons) {
+        if fans(polygons, &wedges, &Cuts::new()).len() > 1 {
+            continue; // separate fans that no cut has made, which are refused later
+        }
+        for fan in fans(polygons, &wedges, &cuts).into_iter().skip(1) {
+            moved.extend(fan.into_iter().map(|wedge| (wedge, identified.homes.len())));
+            identified.homes.push(identified.homes[vertex]);
+            origins.push(vertex);
+        }
+    }
+    for ((face, corner), vertex) in moved {
+        polygons[face][corner].vertex = vertex;
+    }
+    check_open(drawn, identified, polygons, &cuts, &origins)?;
+    Ok(origins)
+}
+
+/// The cuts between two faces; a cut along the rim is a rim.
+fn inner_cuts(drawn: &Drawn, identified: &Identified, polygons: &[Vec<Corner>]) -> Result<Cuts, Defect> {
+    let mut cuts = Cuts::new();
+    for (e, (ends, assignment)) in drawn.assignments.iter().enumerate() {
+        if *assignment == Assignment::Cut {
+            let [a, b] = ends.map(|v| identified.corner[v]);
+            cuts.insert(EdgeKey::new(a, b).0, e);
+        }
+    }
+    if cuts.is_empty() {
+        return Ok(cuts);
+    }
+    let mut uses: BTreeMap<EdgeKey, usize> = BTreeMap::new();
+    for key in polygons.iter().flat_map(|polygon| sides(polygon)) {
+        *uses.entry(key).or_default() += 1;
+    }
+    cuts.retain(|key, _| uses.get(key) == Some(&2));
+    match cuts.values().min() {
+        Some(&edge) if drawn.lattice.is_some() => {
+            let ends = drawn.edge_name(drawn.assignments[edge].0);
+            Err(fault(AssignmentFault::PeriodicCut { edge, ends }, edge))
+        }
+        _ => Ok(cuts),
+    }
+}
+
+fn fault(fault: AssignmentFault, edge: usize) -> Defect {
+    Defect::new(Place::Edge(edge), Problem::Assignment(fault))
+}
+
+fn sides(polygon: &[Corner]) -> impl Iterator<Item = EdgeKey> + '_ {
+    (0..polygon.len()).map(|k| EdgeKey::new(polygon[k], polygon[(k + 1) % polygon.len()]).0)
+}
+
+/// The corners of faces at every vertex where a cut ends.
+fn wedges_at_cuts(cuts: &Cuts, polygons: &[Vec<Corner>]) -> BTreeMap<usize, Vec<Wedge>> {
+    let mut at: BTreeMap<usize, Vec<Wedge>> = cuts.keys().flat_map(|key| [(key.i, vec![]), (key.j, vec![])]).collect();
+    if at.is_empty() {
+        return at;
+    }
+    for (f, polygon) in polygons.iter().enumerate() {
+        for (k, corner) in polygon.iter().enumerate() {
+            if let Some(wedges) = at.get_mut(&corner.vertex) {
+                wedges.push((f, k));
+            }
+        }
+    }
+    at
+}
+
+/// Corners of faces at a vertex, in groups that hang together by edges that are not cut; groups and their members in
+/// the order of faces.
+fn fans(polygons: &[Vec<Corner>], wedges: &[Wedge], cuts: &Cuts) -> Vec<Vec<Wedge>> {
+    let mut fans: Vec<(Vec<Wedge>, Vec<EdgeKey>)> = Vec::new();
+    for &(f, k) in wedges {
+        let polygon = &polygons[f];
+        let [last, next] = [(k + polygon.len() - 1) % polygon.len(), (k + 1) % polygon.len()];
+        let edges = [last, next].map(|other| EdgeKey::new(polygon[k], polygon[other]).0);
+        let whole: Vec<EdgeKey> = edges.into_iter().filter(|key| !cuts.contains_key(key)).collect();
+        let (touching, apart): (Vec<_>, Vec<_>) =
+            fans.into_iter().partition(|(_, borders)| borders.iter().any(|key| whole.contains(key)));
+        let mut fan = (vec![(f, k)], whole);
+        for (members, borders) in touching {
+            fan.0.extend(members);
+            fan.1.extend(borders);
+        }
+        fan.0.sort_unstable();
+        fans = apart;
+        fans.push(fan);
+    }
+    let mut fans: Vec<Vec<Wedge>> = fans.into_iter().map(|(members, _)| members).collect();
+    fans.sort_unstable();
+    fans
+}
+
+/// The two sides of every cut have become two edges.
+fn check_open(
+    drawn: &Drawn,
+    identified: &Identified,
+    polygons: &[Vec<Corner>],
+    cuts: &Cuts,
+    origins: &[usize],
+) -> Result<(), Defect> {
+    if cuts.is_empty() {
+        return Ok(());
+    }
+    let drawn_count = identified.homes.len() - origins.len();
+    let origin = |v: usize| v.checked_sub(drawn_count).map_or(v, |k| origins[k]);
+    let mut seen: BTreeMap<EdgeKey, usize> = BTreeMap::new();
+    for key in polygons.iter().flat_map(|polygon| sides(polygon)) {
+        *seen.entry(key).or_default() += 1;
+    }
+    for (key, _) in seen.into_iter().filter(|(_, count)| *count > 1) {
+        let [i, j] = key.ends().map(|end| Corner { vertex: origin(end.vertex), ..end });
+        if let Some(&edge) = cuts.get(&EdgeKey::new(i, j).0) {
+            let ends = drawn.edge_name(drawn.assignments[edge].0);
+            return Err(fault(AssignmentFault::ClosedCut { edge, ends }, edge));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,93 @@
+//! Keys of a FOLD file that do not make its sheet.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+use super::locate::Source;
+use crate::sheet::error::SheetError;
+use crate::sheet::record::FileRecord;
+
+/// Keys about the file and its frame, which are kept as they are.
+const KEPT: [&str; 8] = [
+    "file_author",
+    "file_classes",
+    "frame_author",
+    "frame_title",
+    "frame_description",
+    "frame_classes",
+    "frame_attributes",
+    "frame_unit",
+];
+
+/// Keys that the sheet is made of, or that a program writes anew.
+const USED: [&str; 11] = [
+    "file_spec",
+    "file_creator",
+    "file_title",
+    "file_description",
+    "vertices_coords",
+    "faces_vertices",
+    "edges_vertices",
+    "edges_assignment",
+    "edges_foldAngle",
+    "foldwell:lattice",
+    "foldwell:holes",
+];
+
+/// Keys that follow from the others.
+const DERIVED: [&str; 9] = [
+    "vertices_vertices",
+    "vertices_edges",
+    "vertices_faces",
+    "edges_faces",
+    "edges_length",
+    "faces_edges",
+    "faces_faces",
+    "frame_inherit",
+    "frame_parent",
+];
+
+/// What stands in [`KEPT`] keys of every file that this program writes, and so says nothing.
+pub(super) const CLASSES: &str = "[\"singleModel\"]";
+pub(super) const ATTRIBUTES: &str = "[\"3D\"]";
+
+/// What the text says beside the shape of its sheet.
+pub(super) fn read(source: &Source) -> Result<FileRecord, SheetError> {
+    let keys: BTreeMap<String, &RawValue> = serde_json::from_str(source.text).map_err(|e| source.syntax(&e))?;
+    let mut record = FileRecord::default();
+    for (key, value) in keys {
+        let name = key.as_str();
+        if name == "file_frames" {
+            record.further_frames = serde_json::from_str(value.get()).map_or(0, |frames: Vec<&RawValue>| frames.len());
+        } else if KEPT.contains(&name) {
+            let text = kept(name, value.get());
+            if !text.is_empty() {
+                record.metadata.push((key, text));
+            }
+        } else if !USED.contains(&name) && !DERIVED.contains(&name) {
+            record.left_out.push(key);
+        }
+    }
+    Ok(record)
+}
+
+/// The value as it is written again; empty where a file of this program has it anyway. Coordinates are always written
+/// in space, whatever they were.
+fn kept(key: &str, text: &str) -> String {
+    let Ok(mut value) = serde_json::from_str::<Value>(text) else { return String::new() };
+    if key == "frame_attributes"
+        && let Value::Array(list) = &mut value
+    {
+        list.retain(|word| *word != "2D" && *word != "3D");
+        list.insert(0, "3D".into());
+    }
+    let usual = match key {
+        "file_classes" => CLASSES,
+        "frame_attributes" => ATTRIBUTES,
+        _ => "",
+    };
+    let text = value.to_string();
+    if text == usual { String::new() } else { text }
+}
