@@ -61,7 +61,7 @@ enum Command {
     },
     /// Counts and measures of the sheet of a mesh or a scene
     Info {
-        /// A mesh (.fold) or a scene (.toml)
+        /// A mesh (.fold, .obj, .vtu) or a scene (.toml), of which the mesh is counted, not its cells
         mesh_or_scene: PathBuf,
         /// Print JSON
         #[arg(long)]
@@ -185,6 +185,10 @@ fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Res
     let report = run::run_scene(scene, options, &|progress| watch.step(progress));
     watch.finish();
     let report = report?;
+    for note in report.notes.iter().filter(|_| !quiet) {
+        // there is nobody left to tell where standard error is closed
+        let _ = writeln!(io::stderr(), "note: {note}");
+    }
     if json {
         say(&report.summary.to_json())?;
     } else if !quiet {

@@ -14,6 +14,12 @@ pub enum ParameterError {
     /// A key at the end.
     #[error("parameter `--{0}` has no value; write --{0} value")]
     NoValue(String),
+    /// `-o` at the end.
+    #[error("`-o` has no file; write -o FILE.fold")]
+    NoFile,
+    /// A whole number beyond 64 bits with a sign.
+    #[error("`{0}` is too large; whole numbers go up to 9223372036854775807")]
+    TooLarge(String),
     /// A key that was given before.
     #[error("parameter `--{0}` is given twice")]
     Twice(String),
@@ -35,8 +41,12 @@ pub fn parse(pattern: &str, words: &[String]) -> Result<(Table, PathBuf), Parame
         let (key, inline) = split(word)?;
         let value = match inline {
             Some(value) => value,
+            None if key == "o" => words.next().ok_or(ParameterError::NoFile)?,
             None => words.next().ok_or_else(|| ParameterError::NoValue(key.clone()))?,
         };
+        if value.parse::<i64>().is_err() && !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit()) {
+            return Err(ParameterError::TooLarge(value.into()));
+        }
         let before = match key.as_str() {
             "o" => output.replace(PathBuf::from(value)).is_some(),
             _ => table.insert(key.replace('-', "_"), parse_value(value)).is_some(),
@@ -97,5 +107,7 @@ mod tests {
         assert_eq!(fault("-o a.fold --seed 1 --seed 2"), ParameterError::Twice("seed".into()));
         assert_eq!(fault("-o a.fold --pattern x"), ParameterError::Twice("pattern".into()));
         assert_eq!(fault("--seed 1"), ParameterError::NoOutput);
+        assert_eq!(fault("--seed 1 -o"), ParameterError::NoFile);
+        assert_eq!(fault("--seed 18446744073709551615"), ParameterError::TooLarge("18446744073709551615".into()));
     }
 }

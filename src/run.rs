@@ -69,6 +69,8 @@ pub struct RunReport {
     pub kept: Vec<String>,
     /// Whether the observer stopped it.
     pub interrupted: bool,
+    /// What is to be said about the scene.
+    pub notes: Vec<String>,
 }
 
 /// Why there is no answer.
@@ -164,6 +166,11 @@ pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Resu
         return Err(RunError::NoScene { path: scene.into() });
     }
     let file = crate::scene::read(scene)?;
+    if file.scene.studies.is_empty() {
+        let help =
+            "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
+        return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
+    }
     let built = crate::scene::build::build(&file)?;
     let mut runner = Runner::new(&file, &built, options, observer)?;
     for study in &file.scene.studies {

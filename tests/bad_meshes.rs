@@ -373,3 +373,35 @@ proptest! {
         }
     }
 }
+
+/// Claim: what other programs write into OBJ files is read: byte order marks, comments at the end of a line, lines that go
+/// on after a backslash, comments in Latin-1. A byte order mark in FOLD is no fault either.
+#[test]
+fn texts_of_other_programs() {
+    let plain = obj::parse(OBJ, "a.obj").unwrap();
+    let marked = format!("\u{feff}{}", OBJ.replace("v 0 0 0", "v 0 0 0 # corner"));
+    let other = marked.replace("f 1 2 3\n", "f 1 2 \\\n 3 # first\n");
+    assert_eq!(obj::parse(&other, "a.obj").unwrap(), plain);
+    fold::parse(&format!("\u{feff}{}", square(&[])), "a.fold").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let latin = folder.path().join("a.obj");
+    std::fs::write(&latin, [b"# caf\xe9\n", OBJ.as_bytes()].concat()).unwrap();
+    assert_eq!(obj::read(&latin).unwrap(), plain);
+    let before = obj::parse("f 1 2 3\nv 0 0 0\n", "a.obj").unwrap_err().to_string();
+    assert!(before.contains("face 1 names vertex 1; no vertices stand before it"), "{before}");
+}
+
+/// Claim: a text that is not UTF-8 is refused with its line, and a device is not read at all.
+#[test]
+fn files_that_are_no_texts() {
+    let folder = tempfile::tempdir().unwrap();
+    let latin = folder.path().join("a.fold");
+    std::fs::write(&latin, b"{\n\"file_title\": \"caf\xe9\"}").unwrap();
+    let message = fold::read(&latin).unwrap_err().to_string();
+    assert!(message.contains("line 2 is not UTF-8"), "{message}");
+    let zero = std::path::Path::new("/dev/zero");
+    if zero.exists() {
+        let message = fold::read(zero).unwrap_err().to_string();
+        assert!(message.contains("a device or a pipe"), "{message}");
+    }
+}

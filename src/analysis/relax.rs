@@ -90,8 +90,10 @@ pub fn relax(
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
             Some(angle) if angle > CERTAIN => {
                 let state = State::new(model, &found.x, &found.tension, edges);
+                let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
+                let failure = Failure::Uncertain { angle, force, tolerance: options.tolerance };
                 history.extend(found.history);
-                Err(Box::new(RelaxError { failure: Failure::Uncertain { angle }, state, x: found.x, history }))
+                Err(Box::new(RelaxError { failure, state, x: found.x, history }))
             }
             _ => Ok(finish(model, found, history, edges)),
         },

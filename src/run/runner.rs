@@ -142,7 +142,13 @@ impl<'a> Runner<'a> {
     /// Ends the run.
     pub fn finish(self) -> Result<RunReport, RunError> {
         let interrupted = self.interrupted();
-        Ok(RunReport { summary: self.summary, out: self.out, kept: self.kept, interrupted })
+        Ok(RunReport {
+            summary: self.summary,
+            out: self.out,
+            kept: self.kept,
+            interrupted,
+            notes: self.built.notes.clone(),
+        })
     }
 }
 

@@ -40,7 +40,7 @@ pub fn read_rates(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
 }
 
 fn read(path: &Path, value: &'static str) -> Result<Vec<AngleRow>, SceneError> {
-    let text = std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
+    let text = crate::sheet::text::read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     parse(&text, value).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })
 }
 
@@ -84,6 +84,11 @@ fn row(text: &str, columns: &[&'static str], line: usize) -> Result<AngleRow, Ta
     let whole: Vec<i64> =
         names.iter().zip(numbers).map(|(column, field)| integer(field, column)).collect::<Result<_, _>>()?;
     let value = finite(number, last)?;
+    if *last == "angle"
+        && let Some([message, help]) = super::turns::fault(value)
+    {
+        return Err(TableFault::Turns { message, help });
+    }
     let (cell, name) = match whole[..] {
         [c1, c2, i, j, n1, n2] => (Some([c1, c2]), [i, j, n1, n2]),
         [i, j, n1, n2] => (None, [i, j, n1, n2]),

@@ -15,9 +15,6 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
 
-/// Unknowns beyond this would overflow the indices of the sparse matrices.
-const MOST_VERTICES: usize = 30_000_000;
-
 /// A scene made ready.
 pub struct Built {
     /// The sheet.
@@ -32,6 +29,8 @@ pub struct Built {
     pub recipe: Recipe,
     /// How many cells pictures of a screw show.
     pub shown: [usize; 2],
+    /// What is to be said about the scene before its studies.
+    pub notes: Vec<String>,
 }
 
 /// Reads the mesh of a scene and builds what its studies need.
@@ -41,13 +40,14 @@ pub fn build(file: &SceneFile) -> Result<Built, SceneError> {
     let surroundings = surroundings(file, &sheet)?;
     let screw = surroundings == Surroundings::Screw;
     let cells = if screw || sheet.lattice.is_none() { [1, 1] } else { spec.cells() };
-    size(file, &sheet, cells)?;
+    super::memory::check(file, &sheet)?;
     let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
     let drawn = Drawn::new(&sheet, &tiling, surroundings);
     let builder = Builder::new(file, &sheet, &tiling, drawn_angles(&drawn, &tiling));
     let recipe = builder.recipe()?;
     let drawn = drawn_for(&sheet, &tiling, surroundings, &recipe);
-    Ok(Built { surroundings, drawn, recipe, shown: spec.cells(), tiling, sheet })
+    let notes = super::turns::notes(file, &recipe);
+    Ok(Built { surroundings, drawn, recipe, shown: spec.cells(), notes, tiling, sheet })
 }
 
 /// Rates of a mode from its table, for every edge of the tiling; NaN where the table has none.
@@ -85,16 +85,6 @@ fn surroundings(file: &SceneFile, sheet: &Sheet) -> Result<Surroundings, SceneEr
     let span = spec.domain.as_ref().map_or(0..0, Located::span);
     let help = "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh";
     Err(file.error_at(span, "the mesh has no lattice", help))
-}
-
-fn size(file: &SceneFile, sheet: &Sheet, cells: [usize; 2]) -> Result<(), SceneError> {
-    let vertices = sheet.vertices.len().saturating_mul(cells[0]).saturating_mul(cells[1]);
-    if vertices <= MOST_VERTICES {
-        return Ok(());
-    }
-    let span = file.scene.sheet.cells.as_ref().map_or(0..0, Located::span);
-    let message = format!("the model has {vertices} vertices");
-    Err(file.error_at(span, message, format!("at most {MOST_VERTICES} can be indexed")))
 }
 
 fn names(sheet: &Sheet) -> HashMap<EdgeKey, usize> {

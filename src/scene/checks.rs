@@ -15,6 +15,7 @@ type Checked = Result<(), SceneError>;
 pub(super) fn check(file: &SceneFile) -> Checked {
     sheet(file)?;
     locks(file)?;
+    super::turns::check(file)?;
     places(file)?;
     studies(file)
 }

@@ -89,6 +89,14 @@ pub enum TableFault {
         /// The column.
         column: &'static str,
     },
+    /// An angle of more than a turn.
+    #[error("{message}; {help}")]
+    Turns {
+        /// What is wrong.
+        message: String,
+        /// What would be right.
+        help: String,
+    },
     /// The numbers name no edge.
     #[error("{0}")]
     Edge(String),

@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::SceneError;
 use super::schema::{common_study_keys, kinds, kinds_with_key};
 use super::spec::Scene;
+use crate::sheet::text::read_text;
 
 /// A scene with the text from which it was read.
 #[derive(Clone, Debug)]
@@ -27,7 +28,7 @@ pub struct SceneFile {
 /// # Errors
 /// [`SceneError::Read`] when the file cannot be read, [`SceneError::At`] for everything that is wrong in it.
 pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
-    let text = std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
+    let text = read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     parse(&text, path)
 }
 
@@ -78,7 +79,52 @@ impl SceneFile {
 
 fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String, help: Option<String>) -> SceneError {
     let (line, column) = line_and_column(text.inner(), span.start);
-    SceneError::At { file: text.name().into(), line, column, message, help, text: text.clone(), span: span.into() }
+    let (text, span) = excerpt(text, span);
+    let (message, help) = (cut(&message), help.as_deref().map(cut));
+    SceneError::At { file: text.name().into(), line, column, message, help, text, span: span.into() }
+}
+
+/// Characters of a line, and of a message, that are printed whole.
+const LONGEST: usize = 400;
+
+/// A message that quotes no more than can be read.
+fn cut(message: &str) -> String {
+    match message.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &message[..end]),
+        None => message.to_owned(),
+    }
+}
+
+/// The text to show for a place: the text itself, or, where the line of the place or a neighbour is very long, the text with
+/// long lines cut around the place.
+fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSource<String>>, Range<usize>) {
+    if text.inner().lines().all(|line| line.len() <= LONGEST) {
+        return (text.clone(), span);
+    }
+    let (mut short, mut offset, mut moved) = (String::new(), 0, 0..0);
+    for line in text.inner().split_inclusive('\n') {
+        let here = offset..offset + line.len();
+        let inside = here.contains(&span.start) || (span.start == here.end && here.end == text.inner().len());
+        let place = if inside { span.start - here.start } else { 0 };
+        let from = if line.len() > LONGEST { floor(line, place.saturating_sub(LONGEST / 4)) } else { 0 };
+        let to = if line.len() > LONGEST { floor(line, from + LONGEST) } else { line.len() };
+        if inside {
+            let start = short.len() + place - from;
+            let room = (short.len() + to - from).saturating_sub(start);
+            moved = start..start + room.min(span.len());
+        }
+        short.push_str(&line[from..to]);
+        if to < line.len() && line.ends_with('\n') {
+            short.push('\n');
+        }
+        offset = here.end;
+    }
+    (Arc::new(NamedSource::new(text.name(), short).with_language("TOML")), moved)
+}
+
+/// The last start of a character at or before a byte.
+fn floor(line: &str, at: usize) -> usize {
+    (0..=at.min(line.len())).rev().find(|&k| line.is_char_boundary(k)).unwrap_or(0)
 }
 
 /// Line and column of a byte offset, both counted from 1, the column in characters.
@@ -138,6 +184,10 @@ fn from_toml(text: &Arc<NamedSource<String>>, fault: &toml::de::Error) -> SceneE
     }
     if let Some(key) = quoted_after(wrong, "missing field ") {
         return error_at(text, span, format!("missing key `{key}`"), Some(format!("`{key}` has to be given here")));
+    }
+    if wrong.starts_with("invalid float") || wrong.starts_with("invalid integer") {
+        let help = "expected a number such as 0.5, -3 or 1e-3; there are no formulas here";
+        return error_at(text, span, "this is no number".into(), Some(help.into()));
     }
     let message = wrong.replace("unknown variant", "unknown word");
     error_at(text, span, message, right.map(|right| format!("expected {right}")))

@@ -11,8 +11,10 @@ pub mod error;
 mod file;
 pub mod forms;
 mod located;
+mod memory;
 mod schema;
 pub mod spec;
+mod turns;
 pub mod values;
 
 pub use digest::digest;

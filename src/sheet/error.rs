@@ -122,7 +122,7 @@ pub enum Problem {
         right: &'static str,
     },
     /// A number of a vertex that does not exist.
-    #[error("{what} names vertex {found}; vertices are numbered {first} to {last}")]
+    #[error("{what} names vertex {found}; {}", numbering(*first, *last))]
     Index {
         /// Which face, edge or opening.
         what: String,
@@ -162,7 +162,8 @@ pub enum Problem {
     /// A lattice that spans no cell.
     #[error(
         "the lattice vectors span an area of {area:e} with lengths {lengths:?}; they should be finite, between 1e-50 \
-         and 1e50 long, and not parallel"
+         and 1e50 long, and neither parallel nor so skew \
+         that the area is under 1e-6 of the product of the lengths"
     )]
     Lattice {
         /// Area of the parallelogram.
@@ -378,6 +379,14 @@ pub enum Problem {
         /// The angle of the geometry.
         drawn: f64,
     },
+}
+
+fn numbering(first: usize, last: usize) -> String {
+    if last < first {
+        "no vertices stand before it".to_owned()
+    } else {
+        format!("vertices are numbered {first} to {last}")
+    }
 }
 
 fn translated(cell: [i32; 2]) -> String {

@@ -9,6 +9,7 @@ pub mod generate;
 pub mod info;
 pub mod obj;
 pub mod record;
+pub mod text;
 pub mod tiling;
 
 pub use assignment::Assignment;

@@ -10,6 +10,7 @@
 //! # foldwell:description "text"
 //! ```
 
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -17,6 +18,7 @@ use super::assignment::Assignment;
 use super::build::{Drawn, build, draw};
 use super::cell::Sheet;
 use super::error::{Defect, Place, Problem, SheetError};
+use super::text;
 use crate::math::Vec3;
 
 /// The sheet in the file at `path`.
@@ -24,8 +26,9 @@ use crate::math::Vec3;
 /// # Errors
 /// [`SheetError::Read`] when there is no such file or it cannot be read, else as [`parse`].
 pub fn read(path: &Path) -> Result<Sheet, SheetError> {
-    let text = std::fs::read_to_string(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
-    parse(&text, &path.display().to_string())
+    let bytes = text::read_bytes(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
+    // names and comments may be in any encoding
+    parse(&String::from_utf8_lossy(&bytes), &path.display().to_string())
 }
 
 /// The sheet in an OBJ text; `name` is that of its file, for messages, and for the title where the file has no `o`
@@ -36,12 +39,31 @@ pub fn read(path: &Path) -> Result<Sheet, SheetError> {
 pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     let stem = Path::new(name).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut reader = Reader { drawn: Drawn { title: stem, first: 1, ..Drawn::default() }, ..Reader::default() };
-    for (number, line) in text.lines().enumerate() {
-        reader.line = number + 1;
-        reader.read(line).map_err(|problem| bad(name, reader.line, problem))?;
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    for (number, line) in joined_lines(text) {
+        reader.line = number;
+        reader.read(&line).map_err(|problem| bad(name, reader.line, problem))?;
     }
     reader.drawn.lattice = reader.lattice().map_err(|problem| bad(name, reader.line, problem))?;
     build(&reader.drawn).map_err(|defect| reader.located(name, defect))
+}
+
+/// Lines with their numbers; one that ends in a backslash goes on in the next.
+fn joined_lines(text: &str) -> Vec<(usize, Cow<'_, str>)> {
+    let mut lines: Vec<(usize, Cow<str>)> = Vec::new();
+    let mut goes_on = false;
+    for (number, line) in text.lines().enumerate() {
+        let (here, continued) = line.trim_end().strip_suffix('\\').map_or((line, false), |here| (here, true));
+        match lines.last_mut() {
+            Some((_, whole)) if goes_on => {
+                whole.to_mut().push(' ');
+                whole.to_mut().push_str(here);
+            }
+            _ => lines.push((number + 1, here.into())),
+        }
+        goes_on = continued;
+    }
+    lines
 }
 
 fn bad(name: &str, line: usize, problem: Problem) -> SheetError {
@@ -64,13 +86,14 @@ struct Reader {
 impl Reader {
     fn read(&mut self, line: &str) -> Result<(), Problem> {
         let (word, rest) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
+        let uncommented = rest.split('#').next().unwrap_or_default();
         match word {
             "v" => {
-                self.drawn.coords.push(point(rest)?);
+                self.drawn.coords.push(point(uncommented)?);
                 self.vertex_lines.push(self.line);
             }
             "f" => {
-                self.drawn.faces.push(self.corners(rest, "face", self.drawn.faces.len() + 1)?);
+                self.drawn.faces.push(self.corners(uncommented, "face", self.drawn.faces.len() + 1)?);
                 self.face_lines.push(self.line);
             }
             "o" => self.drawn.title = rest.trim().to_owned(),

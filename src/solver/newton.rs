@@ -133,7 +133,9 @@ pub enum Failure {
         length: f64,
     },
     /// The allowed number of steps was taken.
-    #[error("not converged after {iterations} steps: residual force {force:.2e}, residual length {length:.2e}")]
+    #[error(
+        "no convergence within {iterations} steps in a row: residual force {force:.2e}, residual length {length:.2e}"
+    )]
     TooManySteps {
         /// Steps taken.
         iterations: usize,
@@ -143,12 +145,14 @@ pub enum Failure {
         length: f64,
     },
     /// The forces balance, but rounding errors or a direction that costs next to nothing leave the state open.
-    #[error(
-        "the forces balance, but the angles are known to {angle:.1e} rad only: rounding, or a direction without cost"
-    )]
+    #[error("{}", uncertain(*angle, *force, *tolerance))]
     Uncertain {
         /// Largest change of an angle that one more Newton step would make, in radians.
         angle: f64,
+        /// Scaled residual force.
+        force: f64,
+        /// The tolerance of that.
+        tolerance: f64,
     },
     /// The linear algebra failed.
     #[error(transparent)]
@@ -156,6 +160,21 @@ pub enum Failure {
     /// The observer asked to stop.
     #[error("stopped on request")]
     Interrupted,
+}
+
+/// Why a state is not known: in balance, or not in balance and beyond improvement.
+fn uncertain(angle: f64, force: f64, tolerance: f64) -> String {
+    if force <= tolerance {
+        return format!(
+            "the forces balance, but the angles are known to {angle:.1e} rad only: rounding, or a direction without cost"
+        );
+    }
+    let stays = format!("the residual force {force:.2e} stays above the tolerance {tolerance:.1e}");
+    if angle.is_finite() {
+        format!("{stays}: rounding errors leave the angles open by {angle:.1e} rad")
+    } else {
+        format!("{stays}, and no step lowers it; very thin triangles do this: `foldwell info` tells the worst one")
+    }
 }
 
 /// A failure with the last accepted state.

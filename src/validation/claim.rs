@@ -3,7 +3,7 @@
 //! ```toml
 //! claim  = "what is claimed, in a sentence"
 //! source = "where the expected value comes from"
-//! quick  = true                                # also checked by `foldwell validate --quick`
+//! quick  = true                                # also checked by `foldwell validate --quick`; left out: false
 //! scene  = "star-trace.toml"                   # a scene of meshes/; or  measurement = "tolerance"
 //! value  = "studies.loops.branches.*.arc_length" # path in what it gives; of a scene that is summary.json
 //! expected  = [50.2037156, 9.9314250]          # or  at_most = 1e-10,  or  at_least = 5.9
@@ -113,6 +113,7 @@ pub enum ClaimError {
 struct Keys {
     claim: String,
     source: String,
+    #[serde(default)]
     quick: bool,
     scene: Option<String>,
     measurement: Option<String>,

@@ -14,6 +14,7 @@ use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawn, build_identified, planar};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, Place, Problem, SheetError};
+use crate::sheet::text;
 
 /// The keys that are read, not yet looked into.
 #[derive(Deserialize)]
@@ -52,7 +53,7 @@ struct Rows<'a> {
 /// # Errors
 /// [`SheetError::Read`] when there is no such file or it cannot be read, else as [`parse`].
 pub fn read(path: &Path) -> Result<Sheet, SheetError> {
-    let text = std::fs::read_to_string(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
+    let text = text::read_text(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
     parse(&text, &path.display().to_string())
 }
 

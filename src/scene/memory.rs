@@ -1,0 +1,122 @@
+//! How much memory a scene needs at least, from its numbers alone and before anything is built.
+
+use std::ops::Range;
+
+use super::spec::{Domain, MapSpec, StudyKind, StudySpec};
+use super::{Located, SceneError, SceneFile};
+use crate::sheet::Sheet;
+
+/// Vertices beyond this would overflow the indices of the sparse matrices.
+const MOST_VERTICES: u64 = 30_000_000;
+
+/// Bytes that are assumed to be free where the operating system does not say.
+const USUAL_MEMORY: u64 = 16 << 30;
+
+/// Bytes that the numbers of a study may ask for on any machine.
+const MOST_OF_STUDY: u64 = 24 << 30;
+
+/// Bytes for each vertex of the model: its edges and triangles, once for the studies and once for pictures.
+const TILED_VERTEX: u64 = 1_500;
+/// Bytes for each vertex of a model whose energy is relaxed: derivatives and their factors.
+const RELAXED_VERTEX: u64 = 8_000;
+/// Bytes for each wavenumber of a grid.
+const WAVENUMBER: u64 = 16;
+/// Bytes for each random start.
+const START: u64 = 32;
+/// Bytes for each sample of a map: its direction, its triangles and its row.
+const SAMPLE: u64 = 160;
+
+/// Something that needs memory.
+struct Need {
+    /// What there is so many of.
+    what: String,
+    /// Bytes.
+    bytes: u64,
+    /// The key that would have to be smaller, and where it stands.
+    key: &'static str,
+    span: Range<usize>,
+}
+
+/// Refuses a scene with more than the indices or the memory of this machine hold.
+pub(super) fn check(file: &SceneFile, sheet: &Sheet) -> Result<(), SceneError> {
+    let spec = &file.scene.sheet;
+    let span = || spec.cells.as_ref().map_or(0..0, Located::span);
+    let cells = if sheet.lattice.is_none() { [1, 1] } else { spec.cells() };
+    let vertices = cells.iter().fold(sheet.vertices.len() as u64, |product, &n| product.saturating_mul(n as u64));
+    let whose = if spec.domain() == Domain::Screw { "the pictures have" } else { "the model has" };
+    if vertices > MOST_VERTICES {
+        let message = format!("{whose} {vertices} vertices");
+        return Err(file.error_at(span(), message, format!("at most {MOST_VERTICES} can be indexed")));
+    }
+    let relaxed = spec.domain() != Domain::Screw && file.scene.studies.iter().any(|study| relaxes(&study.kind));
+    let each = TILED_VERTEX + if relaxed { RELAXED_VERTEX } else { 0 };
+    let model =
+        Need { what: format!("{whose} {vertices} vertices"), bytes: vertices * each, key: "cells", span: span() };
+    let free = free_memory();
+    fits(file, model, free)?;
+    file.scene.studies.iter().filter_map(of_study).try_for_each(|need| fits(file, need, free.min(MOST_OF_STUDY)))
+}
+
+fn fits(file: &SceneFile, need: Need, room: u64) -> Result<(), SceneError> {
+    if need.bytes <= room {
+        return Ok(());
+    }
+    let [needed, room] = [need.bytes, room].map(|bytes| bytes as f64 / 1e9);
+    let message = format!("{}, which need at least {needed:.0} GB; there is room for {room:.0} GB", need.what);
+    Err(file.error_at(need.span, message, format!("make `{}` smaller", need.key)))
+}
+
+/// Whether a study relaxes the whole model.
+fn relaxes(kind: &StudyKind) -> bool {
+    matches!(kind, StudyKind::Relax(_) | StudyKind::Wells(_))
+}
+
+/// The size that a study is given by a number of its own.
+fn of_study(study: &StudySpec) -> Option<Need> {
+    let name = &study.name.0;
+    match &*study.kind {
+        StudyKind::Bloch(bloch) => bloch.grid.as_ref().map(|grid| {
+            let count = grid.0.iter().fold(1u64, |product, &n| product.saturating_mul(n as u64));
+            let what = format!("the grid of `{name}` has {count} wavenumbers");
+            Need { what, bytes: count.saturating_mul(WAVENUMBER), key: "grid", span: grid.span() }
+        }),
+        StudyKind::Wells(wells) => wells.starts.as_ref().map(|starts| {
+            let count = u64::from(starts.0);
+            let what = format!("`{name}` has {count} starts");
+            Need { what, bytes: count.saturating_mul(START), key: "starts", span: starts.span() }
+        }),
+        StudyKind::Landscape(landscape) => landscape.map.as_ref().and_then(|map| of_map(name, map)),
+        _ => None,
+    }
+}
+
+fn of_map(name: &str, map: &MapSpec) -> Option<Need> {
+    let rings = map.rings.as_ref()?;
+    let samples = u64::from(rings.0).saturating_mul(u64::from(rings.0)).saturating_mul(8);
+    let what = format!("the map of `{name}` has {samples} samples");
+    Some(Need { what, bytes: samples.saturating_mul(SAMPLE), key: "rings", span: rings.span() })
+}
+
+/// Bytes of memory that programs can still have.
+fn free_memory() -> u64 {
+    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    available(&text).unwrap_or(USUAL_MEMORY)
+}
+
+/// The line `MemAvailable: N kB` of `/proc/meminfo`.
+fn available(text: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    Some(line.split_whitespace().next()?.parse::<u64>().ok()?.saturating_mul(1024))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: the kernel's line is read in kB, and nothing is read from other texts.
+    #[test]
+    fn what_the_kernel_says() {
+        assert_eq!(available("MemTotal: 9 kB\nMemAvailable:    2048 kB\n"), Some(2 << 20));
+        assert_eq!(available("MemTotal: 9 kB\n"), None);
+    }
+}

@@ -1,0 +1,61 @@
+//! Angles that are more than a turn, which are degrees, and angles beyond pi, at which faces have passed through each other.
+
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+
+use super::forms::Rest;
+use super::spec::{StudyKind, StudySpec};
+use super::{Located, SceneError, SceneFile};
+use crate::model::assemble::Recipe;
+
+/// What is wrong with an angle of more than a turn, and what would be right.
+pub(super) fn fault(angle: f64) -> Option<[String; 2]> {
+    (angle.abs() > TAU).then(|| {
+        let radians = angle.to_radians();
+        [
+            format!("the angle {angle} is more than a whole turn"),
+            format!("angles are radians: {angle} degrees are {radians:.6} rad"),
+        ]
+    })
+}
+
+/// Refuses angles of a scene that are more than a turn.
+pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
+    let scene = &file.scene;
+    let at = |angle: f64, span: Range<usize>| match fault(angle) {
+        Some([message, help]) => Err(file.error_at(span, message, help)),
+        None => Ok(()),
+    };
+    if let Some(rest) = scene.energy.creases.as_ref().and_then(|creases| creases.rest.as_ref())
+        && let Rest::Angle(angle) = **rest
+    {
+        at(angle, rest.span())?;
+    }
+    for angle in scene.locks.iter().filter_map(|lock| lock.angle.as_ref()) {
+        at(angle.0, angle.span())?;
+    }
+    scene.studies.iter().filter_map(stop_angle).try_for_each(|angle| at(angle.0, angle.span()))
+}
+
+fn stop_angle(study: &StudySpec) -> Option<&Located<super::values::Finite>> {
+    let StudyKind::Trace(trace) = &*study.kind else { return None };
+    Some(&trace.stop.as_ref()?.crease_angle.as_ref()?.angle)
+}
+
+/// What is to be said about rest angles and locks beyond pi, which are allowed.
+pub(super) fn notes(file: &SceneFile, recipe: &Recipe) -> Vec<String> {
+    let beyond = |angle: &f64| angle.abs() > PI;
+    let through = "beyond pi (angles are radians), where the faces of a crease have passed through each other";
+    let mut notes = Vec::new();
+    let drawn = file.scene.energy.creases.as_ref().is_none_or(|creases| creases.rest.is_none());
+    let rest = recipe.creases.iter().flat_map(|creases| &creases.rest).filter(|angle| beyond(angle)).count();
+    if rest > 0 && !drawn {
+        notes.push(format!("{rest} rest angles are {through}"));
+    }
+    let locks =
+        file.scene.locks.iter().filter(|lock| lock.angle.as_ref().is_some_and(|angle| beyond(&angle.0))).count();
+    if locks > 0 {
+        notes.push(format!("{locks} of the angles of locks are {through}"));
+    }
+    notes
+}

@@ -1,0 +1,49 @@
+//! Reading whole files without waiting for ever and without filling the memory.
+
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+/// Bytes of the longest file that is read.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// The bytes of a file, which is a regular one or standard input (`/dev/stdin`).
+///
+/// # Errors
+/// What the operating system says; [`ErrorKind::InvalidData`] for devices and pipes, which may never end, and for more
+/// than 1 GiB.
+pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let standard_input = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
+    let named = path.to_string_lossy();
+    let known = standard_input.iter().any(|start| named.starts_with(start));
+    let about = std::fs::metadata(path)?;
+    if about.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    if !known && !about.is_file() {
+        return Err(wrong("this is a device or a pipe, and a regular file is expected"));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        Err(wrong("it is longer than 1 GiB, which is the most that is read"))
+    } else {
+        Ok(bytes)
+    }
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// As [`read_bytes`]; [`ErrorKind::InvalidData`] with the line where it is not UTF-8.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    String::from_utf8(read_bytes(path)?).map_err(|error| {
+        let good = error.utf8_error().valid_up_to();
+        let line = error.as_bytes()[..good].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        wrong(&format!("line {line} is not UTF-8, the encoding that is expected"))
+    })
+}
+
+fn wrong(message: &str) -> io::Error {
+    io::Error::new(ErrorKind::InvalidData, message)
+}
