@@ -276,13 +276,12 @@ fn describe_relaxation(relax: &RelaxSummary) -> String {
         Some(count) => format!(", not stable ({})", counted(count, "negative eigenvalue")),
     };
     let crossing = if relax.self_intersecting == Some(true) { ", faces pass through each other" } else { "" };
-    format!(
-        "energy {:.9e}, {}, residuals {:.1e} (force) {:.1e} (length){unstable}{crossing}",
-        relax.energy.total,
-        counted(relax.iterations, "iteration"),
-        relax.residual_force,
-        relax.residual_length
-    )
+    let residuals = match [relax.residual_force, relax.residual_length] {
+        [force, length] if force.is_nan() && length.is_nan() => "no residuals".to_owned(),
+        [force, length] => format!("residuals {force:.1e} (force) {length:.1e} (length)"),
+    };
+    let iterations = counted(relax.iterations, "iteration");
+    format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}", relax.energy.total)
 }
 
 /// `1 well`, `2 wells`.

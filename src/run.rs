@@ -20,6 +20,7 @@ mod convert;
 mod draw;
 mod landscape;
 mod landscape_map;
+mod reason;
 mod resume;
 mod runner;
 mod studies;

@@ -1,6 +1,7 @@
 //! The kinds of study: ask the analysis, write its files, summarise.
 
 use super::draw::{self, Shown};
+use super::reason::reason;
 use super::resume::Kept;
 use super::runner::Runner;
 use super::{Progress, RunError, bloch, branches, landscape, surface, trace, wells};
@@ -75,7 +76,7 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
             let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
             let self_intersecting = write_states(runner, study, [&first, &error.state], residuals)?;
             let result = RelaxSummary { self_intersecting, ..last_of(built, &error) };
-            Ok(relaxation_summary(study, seconds, result, Some(error.failure.to_string())))
+            Ok(relaxation_summary(study, seconds, result, Some(reason(built, error.failure, &error.state))))
         }
     }
 }

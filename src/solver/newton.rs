@@ -171,9 +171,9 @@ fn uncertain(angle: f64, force: f64, tolerance: f64) -> String {
     }
     let stays = format!("the residual force {force:.2e} stays above the tolerance {tolerance:.1e}");
     if angle.is_finite() {
-        format!("{stays}: rounding errors leave the angles open by {angle:.1e} rad")
+        format!("{stays}: no step lowers it, and one more would turn angles by {angle:.1e} rad")
     } else {
-        format!("{stays}, and no step lowers it; very thin triangles do this: `foldwell info` tells the worst one")
+        format!("{stays}, and no step lowers it")
     }
 }
 
