@@ -336,11 +336,11 @@ fn describe_study(study: &StudySummary) -> String {
         }
         Some(StudyResult::Bloch(bloch)) => {
             let [p1, p2] = bloch.polarization;
-            format!(
-                "{}, pairing error {:.1e}, polarization ({p1}, {p2})",
-                counted(bloch.zero_lines, "zero line"),
-                bloch.pairing_error
-            )
+            let lines = counted(bloch.zero_lines, "zero line");
+            let pairing = bloch.pairing_error.map_or("no root known well enough to be paired".to_owned(), |error| {
+                format!("pairing error {error:.1e}")
+            });
+            format!("{lines}, {pairing}, polarization ({p1}, {p2})")
         }
         Some(StudyResult::Wells(found)) => {
             let energies = found.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");

@@ -92,8 +92,9 @@ fn random_cells_are_symmetric_and_not_polarized() {
             first_left_out += first.pairing().left_out;
             let pairs_here = first.clone().refined(&rigidity);
             let here = pairs_here.pairing();
-            assert!(here.error <= 1e-9, "{}: {here:?}", sheet.description);
-            pairing = pairing.max(here.error);
+            let error = here.error.unwrap_or_default(); // all of a wavenumber's roots may be left out, and are counted
+            assert!(error <= 1e-9, "{}: {here:?}", sheet.description);
+            pairing = pairing.max(error);
             left_out += here.left_out;
             pairs += pairs_here.roots.len();
         }
@@ -651,7 +652,7 @@ fn cylinders() {
         let lines = ZeroLines::new(&zone).unwrap();
         assert_eq!(lines.through_origin(), zone.directions().unwrap().len());
         let pairing = Decay::new(&found, 0, 0.9).unwrap().pairing();
-        assert!(pairing.error <= 1e-9, "{pairing:?}");
+        assert!(pairing.error.unwrap() <= 1e-9, "{pairing:?}");
     }
 }
 

@@ -327,10 +327,10 @@ pub struct BlochSummary {
     pub imaginary_part: f64,
     /// At every given `q1`.
     pub decay: Vec<DecaySummary>,
-    /// Largest `|kappa2 + kappa2'|` of a pair.
-    pub pairing_error: f64,
-    /// Largest condition number of the roots of these pairs.
-    pub pairing_condition: f64,
+    /// Largest `|kappa2 + kappa2'|` of a pair; null where no pair is known well enough to be compared.
+    pub pairing_error: Option<f64>,
+    /// Largest condition number of the roots of these pairs; null where there are none.
+    pub pairing_condition: Option<f64>,
     /// Roots left out of the pairing, whose condition is larger.
     pub ill_conditioned: usize,
     /// Half the difference of the numbers of roots `z1`, `z2` inside and outside the unit circle, averaged.
@@ -467,6 +467,8 @@ pub struct DecaySummary {
     pub kappa2: Vec<f64>,
     /// Condition number of every root.
     pub condition: Vec<f64>,
+    /// How many roots coincide with every root, itself among them, as far as the rigidity matrix tells.
+    pub multiplicity: Vec<usize>,
 }
 
 /// A line of zeros of the determinant.

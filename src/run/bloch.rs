@@ -234,14 +234,14 @@ fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
 
 /// A row for every root at every wavenumber.
 fn table(decays: &[Decay]) -> Table {
-    let names = ["q1", "root", "kappa2", "q2", "condition", "on_circle"];
+    let names = ["q1", "root", "kappa2", "q2", "condition", "on_circle", "multiplicity"];
     let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
     for decay in decays {
         for (k, root) in decay.roots.iter().enumerate() {
             let numbers = [root.kappa(), root.wavenumber(), root.condition].map(Value::Number);
-            let (first, last) =
-                ([Value::Number(decay.q), Value::Whole(k as i64)], Value::Whole(root.on_circle().into()));
-            table.push(first.into_iter().chain(numbers).chain([last]).collect());
+            let first = [Value::Number(decay.q), Value::Whole(k as i64)];
+            let last = [root.on_circle().into(), root.multiplicity as i64].map(Value::Whole);
+            table.push(first.into_iter().chain(numbers).chain(last).collect());
         }
     }
     table
@@ -331,6 +331,7 @@ fn summarized(built: &Built, found: &Found) -> BlochSummary {
         q1: decay.q,
         kappa2: decay.roots.iter().map(|root| root.kappa()).collect(),
         condition: decay.roots.iter().map(|root| root.condition.min(f64::MAX)).collect(),
+        multiplicity: decay.roots.iter().map(|root| root.multiplicity).collect(),
     };
     let positive = map[0].iter().filter(|value| **value > 0.0).count() as f64 / map[0].len() as f64;
     let lines = real.as_ref().map_or(&[][..], |(_, lines)| &lines.lines);
@@ -349,8 +350,8 @@ fn summarized(built: &Built, found: &Found) -> BlochSummary {
         symmetry_error: determinant.symmetry_error,
         imaginary_part: determinant.imaginary_part,
         decay: decays.iter().map(decay).collect(),
-        pairing_error: pairings.iter().map(|pairing| pairing.error).fold(0.0, f64::max),
-        pairing_condition: pairings.iter().map(|pairing| pairing.condition).fold(0.0, f64::max),
+        pairing_error: pairings.iter().filter_map(|pairing| pairing.error).reduce(f64::max),
+        pairing_condition: pairings.iter().filter_map(|pairing| pairing.condition).reduce(f64::max),
         ill_conditioned: pairings.iter().map(|pairing| pairing.left_out).sum(),
         polarization: polarization.polarization,
         on_circle: polarization.on_circle,

@@ -5,7 +5,7 @@
 //! sign.
 
 use super::singular::Search;
-use super::{BlochError, Determinant, Rigidity};
+use super::{BlochError, Determinant, Rigidity, cluster};
 use crate::numerics::polynomial::{Roots, roots, value_and_slope};
 use nalgebra::Complex;
 
@@ -25,6 +25,8 @@ pub struct Root {
     /// Change of `log z` per change of the determinant's coefficients by so much of the largest; of a root corrected on
     /// the matrix, per relative change of its entries.
     pub condition: f64,
+    /// How many roots the matrix shows here: more than one where it has as many null vectors; each is listed.
+    pub multiplicity: usize,
 }
 
 impl Root {
@@ -39,7 +41,7 @@ impl Root {
     }
 
     /// How well `log z` is known.
-    fn rounding(&self) -> f64 {
+    pub(super) fn rounding(&self) -> f64 {
         ROUNDINGS * f64::EPSILON * self.condition
     }
 
@@ -67,10 +69,10 @@ pub struct Decay {
 /// How well decay rates of opposite sign pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pairing {
-    /// Largest `|kappa + kappa'|` of the k-th smallest and the k-th largest.
-    pub error: f64,
+    /// Largest `|kappa + kappa'|` of the k-th smallest and the k-th largest; `None` where all were left out.
+    pub error: Option<f64>,
     /// The largest condition number of a root that was compared.
-    pub condition: f64,
+    pub condition: Option<f64>,
     /// Roots left out because their condition is too large.
     pub left_out: usize,
 }
@@ -94,22 +96,23 @@ impl Decay {
                 .sum();
             size / (z * value_and_slope(&coefficients, z)[1]).norm()
         };
-        let mut roots: Vec<Root> = finite.into_iter().map(|z| Root { z, condition: condition(z) }).collect();
+        let mut roots: Vec<Root> =
+            finite.into_iter().map(|z| Root { z, condition: condition(z), multiplicity: 1 }).collect();
         roots.sort_by(|a, b| a.kappa().total_cmp(&b.kappa()));
         Ok(Self { q, along: a, roots, at_zero, at_infinity })
     }
 
     /// The roots corrected on the matrix of which they are, those that the polynomial knows to less than twelve digits:
-    /// the condition is then that of the matrix. A root to which the matrix leads from two others stays as it is, and so
-    /// does one from which it leads nowhere.
+    /// the condition is then that of the matrix. Roots that coincide are corrected together. A root to which the matrix
+    /// leads from two others stays as it is, and so does one from which it leads nowhere.
     pub fn refined(mut self, rigidity: &Rigidity) -> Self {
-        let (mut search, b) = (Search::new(rigidity), 1 - self.along);
-        let corrected = |root: &Root| {
-            let mut z = [Complex::from_polar(1.0, self.q); 2];
-            z[b] = root.z;
-            if root.condition > WELL_KNOWN { search.root(z, b) } else { None }
+        let together = self.refine_clusters(rigidity);
+        let mut search = Search::new(rigidity);
+        let corrected = |(k, root): (usize, &Root)| {
+            let wanted = root.condition > WELL_KNOWN && !together.contains(&k);
+            if wanted { search.root(self.at(root.z), 1 - self.along) } else { None }
         };
-        let found: Vec<Option<Root>> = self.roots.iter().map(corrected).collect();
+        let found: Vec<Option<Root>> = self.roots.iter().enumerate().map(corrected).collect();
         let now: Vec<Root> = found.iter().zip(&self.roots).map(|(new, old)| new.unwrap_or(*old)).collect();
         for (k, new) in found.iter().enumerate() {
             let same = |j: usize| j != k && new.is_some_and(|new| (now[j].z / new.z - 1.0).norm() <= new.rounding());
@@ -121,14 +124,39 @@ impl Decay {
         self
     }
 
+    /// Both Bloch factors at a root.
+    fn at(&self, root: Complex<f64>) -> [Complex<f64>; 2] {
+        let mut z = [Complex::from_polar(1.0, self.q); 2];
+        z[1 - self.along] = root;
+        z
+    }
+
+    /// Corrects roots that coincide, and says which were corrected.
+    fn refine_clusters(&mut self, rigidity: &Rigidity) -> Vec<usize> {
+        let mut done = Vec::new();
+        for cluster in cluster::clusters(&self.roots) {
+            // the sum of the roots of a cluster is known to all digits where each by itself is not
+            let first = self.roots[cluster[0]].z;
+            let ways = cluster.iter().map(|&k| (self.roots[k].z / first).ln());
+            let middle = first * (ways.sum::<Complex<f64>>() / cluster.len() as f64).exp();
+            let found = cluster::on_matrix(rigidity, self.at(middle), 1 - self.along, cluster.len());
+            for (k, root) in cluster.into_iter().zip(found.into_iter().flatten()) {
+                self.roots[k] = root;
+                done.push(k);
+            }
+        }
+        done
+    }
+
     /// How well the rates of the finite roots pair.
     pub fn pairing(&self) -> Pairing {
         let mut found = Pairing::default();
         for (low, high) in self.roots.iter().zip(self.roots.iter().rev()) {
             let condition = low.condition.max(high.condition);
             if condition <= WELL_CONDITIONED {
-                found.error = found.error.max((low.kappa() + high.kappa()).abs());
-                found.condition = found.condition.max(condition);
+                let error = (low.kappa() + high.kappa()).abs();
+                found.error = Some(found.error.map_or(error, |before| before.max(error)));
+                found.condition = Some(found.condition.map_or(condition, |before| before.max(condition)));
             } else {
                 found.left_out += 1;
             }

@@ -6,6 +6,7 @@
 //! section and appendix J; C. L. Kane, T. C. Lubensky, Nature Physics 10, 39 (2014)).
 
 pub mod bands;
+pub mod cluster;
 pub mod decay;
 pub mod determinant;
 pub mod duality;

@@ -62,7 +62,7 @@ impl<'a> Search<'a> {
             }
             let condition = at.size / at.slopes[a].norm();
             if (z[a] / before - 1.0).norm() <= SETTLED.max(f64::EPSILON * condition) {
-                return Some(Root { z: z[a], condition });
+                return Some(Root { z: z[a], condition, multiplicity: 1 });
             }
         }
         None

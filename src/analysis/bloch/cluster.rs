@@ -1,0 +1,111 @@
+//! Roots that coincide, as those of symmetric sheets do: found as singular points of the rigidity matrix, which knows them
+//! to all digits where the determinant's coefficients know them to half.
+//!
+//! With the left and right singular vectors `W`, `V` of the `m` smallest singular values at `z`, the matrix
+//! `G = W^H R V` is their diagonal there and has the derivative `G' = W^H dR V` by `log z`: what couples these vectors to the
+//! others vanishes at `z` on both sides, so that it enters with the square of a step. The eigenvalues of `-G'^-1 G` are
+//! therefore Newton steps to the `m` roots near by. Where `R` has `m` null vectors at a root of multiplicity `m`, `G'` is
+//! invertible there and all of them end at one point.
+
+use super::Rigidity;
+use super::decay::Root;
+use crate::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
+use nalgebra::Complex;
+
+/// Newton steps at most.
+const STEPS: usize = 8;
+/// Longest way of `log z` from the mean of a cluster to the roots on the matrix.
+const FARTHEST: f64 = 0.01;
+/// Roots nearer to the mean of a cluster than so many roundings are one root.
+const ROUNDINGS: f64 = 16.0;
+
+/// The roots of a cluster by their numbers in a list: each within the rounding errors of another of them. Roots that are
+/// alone are left out.
+pub fn clusters(roots: &[Root]) -> Vec<Vec<usize>> {
+    let mut left: Vec<usize> = (0..roots.len()).collect();
+    let mut found = Vec::new();
+    while let Some(first) = left.pop() {
+        let (mut cluster, mut next) = (vec![first], 0);
+        while let Some(&at) = cluster.get(next) {
+            let (near, far) = left.iter().partition(|&&other| meet(&roots[at], &roots[other]));
+            cluster.extend::<Vec<usize>>(near);
+            left = far;
+            next += 1;
+        }
+        if cluster.len() > 1 {
+            cluster.sort_unstable();
+            found.push(cluster);
+        }
+    }
+    found
+}
+
+/// Whether two roots are apart by no more than the rounding of the determinant's coefficients may put between them.
+fn meet(a: &Root, b: &Root) -> bool {
+    let apart = (a.z / b.z).ln().norm();
+    apart <= a.rounding().max(b.rounding()).min(FARTHEST)
+}
+
+/// The roots `z_a` of a cluster on the matrix, as many as there were: the other factor and the place where to begin are
+/// those of `z`. `None` where the matrix has fewer null vectors than the cluster has roots, so that it knows them no
+/// better, or Newton's method does not settle.
+pub fn on_matrix(rigidity: &Rigidity, mut z: [Complex<f64>; 2], a: usize, count: usize) -> Option<Vec<Root>> {
+    let start = z[a];
+    for _ in 0..STEPS {
+        let step = Steps::at(rigidity, z, a, count)?;
+        z[a] *= step.mean().exp();
+        if !((z[a] / start).ln().norm() <= FARTHEST) {
+            return None;
+        }
+        if step.mean().norm() <= step.rounding() {
+            return Some(Steps::at(rigidity, z, a, count)?.roots(z[a]));
+        }
+    }
+    None
+}
+
+/// Newton steps from one place to all roots of a cluster.
+struct Steps {
+    /// Changes of `log z`.
+    all: Vec<Complex<f64>>,
+    /// Change of `log z` per relative change of the entries of the matrix.
+    condition: f64,
+}
+
+impl Steps {
+    fn at(rigidity: &Rigidity, z: [Complex<f64>; 2], a: usize, count: usize) -> Option<Self> {
+        let (mut matrix, mut slope) = (rigidity.at(z), rigidity.derivative(z, a) * z[a]);
+        for k in 0..matrix.nrows() {
+            let scale = matrix.row(k).norm().recip();
+            matrix.row_mut(k).scale_mut(scale);
+            slope.row_mut(k).scale_mut(scale);
+        }
+        let ComplexSvd { u, singular_values, v } = complex_svd(&matrix).ok()?;
+        let first = singular_values.len().checked_sub(count)?;
+        let slope = u.columns(first, count).adjoint() * slope * v.columns(first, count);
+        let value = |k: usize| Complex::new(singular_values[first + k], 0.0);
+        let diagonal = ComplexMatrix::from_fn(count, count, |i, j| if i == j { value(i) } else { Complex::ZERO });
+        let least = *complex_svd(&slope).ok()?.singular_values.last()?;
+        let all = eigenvalues(&(-slope.try_inverse()? * diagonal)).ok()?;
+        let condition = singular_values[0] / least;
+        (condition.is_finite() && all.iter().all(|step| step.norm() <= FARTHEST)).then_some(Self { all, condition })
+    }
+
+    fn mean(&self) -> Complex<f64> {
+        self.all.iter().sum::<Complex<f64>>() / self.all.len() as f64
+    }
+
+    /// How well `log z` is known.
+    fn rounding(&self) -> f64 {
+        ROUNDINGS * f64::EPSILON * self.condition.max(1.0)
+    }
+
+    /// The roots: one of this multiplicity where they agree as far as the matrix tells, else each by itself.
+    fn roots(&self, z: Complex<f64>) -> Vec<Root> {
+        let condition = self.condition;
+        if self.all.iter().all(|step| step.norm() <= self.rounding()) {
+            return vec![Root { z, condition, multiplicity: self.all.len() }; self.all.len()];
+        }
+        self.all.iter().map(|step| Root { z: z * step.exp(), condition, multiplicity: 1 }).collect()
+    }
+}
