@@ -330,7 +330,12 @@ fn describe_study(study: &StudySummary) -> String {
                 };
                 let exponent = one.exponent.map_or("?".into(), |exponent| format!("{exponent:.3}"));
                 let [c4, c6] = [one.predicted_coefficient, one.predicted_sixth].map(|c| c.unwrap_or(f64::NAN));
-                format!("{mode}: exponent {exponent}, predicted {c4:.6e} a^4, {c6:.6e} a^6")
+                let below = match one.below_rounding {
+                    0 => String::new(),
+                    count => format!(" ({} below rounding left out)", counted(count, "sample")),
+                };
+                let agrees = if one.fit_agrees == Some(false) { "; THE FIT DISAGREES" } else { "" };
+                format!("{mode}: exponent {exponent}{below}, predicted {c4:.6e} a^4, {c6:.6e} a^6{agrees}")
             });
             modes.collect::<Vec<_>>().join("; ")
         }

@@ -3,8 +3,12 @@
 
 mod common;
 
+use approx::assert_abs_diff_eq;
+use foldwell::kinematics::folding_modes_with_locked;
 use foldwell::output::summary::{StudyResult, StudySummary};
 use foldwell::run::{RunOptions, run_scene};
+use foldwell::sheet::generate::{Pattern, generate};
+use foldwell::sheet::{Edge, EdgeKind};
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -124,4 +128,71 @@ fn refusals() {
     for (sheet, energy, study, expected) in cases {
         common::assert_refused(|folder| scene(folder, sheet, energy, study), expected);
     }
+}
+
+/// Claim: samples whose energy may be rounding are counted and left out of the fits; where too few are left there is no fit
+/// and the study fails. The energy of these goes as 1105 a^4 (and that of the cylinder as a^6): at 1e-9 it would be 1e-33,
+/// where rounding makes 2e-29. Tolerance of the exponent of what is left: 1e-3, the next order at an amplitude of 1e-3 being 4e-3
+/// of the energy of a cylinder.
+#[test]
+fn rounding_is_not_fitted() {
+    let folder = tempfile::tempdir().unwrap();
+    let along = |mode: &str, amplitudes: &str, out: &str| {
+        let scene = scene(folder.path(), PATCH, RIGID, &format!("modes = [{mode}]\namplitudes = {amplitudes}"));
+        let found = run(&scene, &folder.path().join(out), (1, false), usize::MAX);
+        let Some(StudyResult::Landscape(mut landscape)) = found.result else { panic!("{:?}", found.reason) };
+        (found.converged, found.reason.unwrap_or_default(), landscape.modes.remove(0))
+    };
+    for (amplitudes, out) in [("[1e-9, 1e-8]", "noise"), ("[1e-9, 1e-3]", "half")] {
+        let (converged, reason, mode) = along("[1, 1, 0]", amplitudes, out);
+        assert!(!converged && reason.contains("larger amplitudes"), "{reason}");
+        assert_eq!((mode.exponent, mode.coefficient, mode.fit_agrees), (None, None, None));
+        assert!(mode.samples[0].below_rounding && mode.below_rounding > 0);
+    }
+    let (converged, reason, mode) = along("[1, 0, 0]", "[1e-5, 1e-4, 1e-3]", "cylinder");
+    assert!(converged, "{reason}");
+    assert_eq!((mode.below_rounding, mode.fit_agrees), (1, Some(true)), "{mode:?}");
+    assert_abs_diff_eq!(mode.exponent.unwrap(), 6.0, epsilon = 1e-3);
+}
+
+/// Claim: an eggbox, whose modes no curvature names, has a landscape of a mode that is named by the rates of its creases and of the
+/// facets that fold, and the energies are those predicted; rates of creases alone leave modes open, which is said, and so are
+/// rates that are all zero. Tolerance: `fit_agrees`, and an exponent of 4 or 6 to the next order at these amplitudes.
+#[test]
+fn rates_of_facets_name_modes() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = generate(&Pattern::Eggbox(Default::default())).unwrap();
+    let modes = folding_modes_with_locked(&sheet, &[]).unwrap();
+    assert_eq!(modes.basis.ncols(), 3);
+    let energy = format!("{RIGID}\nfacets = {{ stiffness = 1.0 }}");
+    let patch = "generate = { pattern = \"eggbox\" }\ndomain = \"patch\"\ncells = [4, 4]";
+    let study = "modes = [{ rates = \"rates.csv\" }]\namplitudes = [0.0005, 0.001, 0.002]";
+    let scene = scene(folder.path(), patch, &energy, study);
+    let write = |rates: &dyn Fn(usize) -> f64, facets: bool| {
+        let rows = sheet.edges.iter().enumerate().filter(|(_, edge)| facets || edge.kind == EdgeKind::Crease);
+        let row = |(k, edge): (usize, &Edge)| {
+            let [n1, n2] = edge.key.shift;
+            format!("{},{},{n1},{n2},{:e}\n", edge.key.i, edge.key.j, rates(k))
+        };
+        let text = format!("i,j,n1,n2,rate\n{}", rows.map(row).collect::<String>());
+        fs::write(folder.path().join("rates.csv"), text).unwrap();
+    };
+    for mode in 0..3 {
+        write(&|k| modes.basis[(k, mode)], true);
+        let found = run(&scene, &folder.path().join(format!("mode-{mode}")), (1, false), usize::MAX);
+        let Some(StudyResult::Landscape(landscape)) = found.result else { panic!("{:?}", found.reason) };
+        let along = &landscape.modes[0];
+        println!("mode {mode}: {:?} {along:?}", found.reason);
+        assert!(along.samples.iter().all(|sample| sample.converged), "{:?}", found.reason);
+        assert!(along.predicted_coefficient.is_some() && along.fit_agrees != Some(false), "{along:?}");
+    }
+    let refused = |expected: &str| {
+        let options = RunOptions { out: Some(folder.path().join("none")), threads: Some(1), resume: false };
+        let error = run_scene(&scene, &options, &|_: &_| ControlFlow::Continue(())).unwrap_err();
+        assert!(error.exit_status() == 2 && error.to_string().contains(expected), "{error}");
+    };
+    write(&|k| modes.basis[(k, 0)], false);
+    refused("of 3 modes open");
+    write(&|_| 0.0, true);
+    refused("all zero");
 }

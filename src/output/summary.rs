@@ -301,6 +301,12 @@ pub struct ModeLandscape {
     pub predicted_fifth: Option<f64>,
     /// Coefficient of the sixth power, without a fit: where the fourth vanishes it leads.
     pub predicted_sixth: Option<f64>,
+    /// Samples left out of the fits, because so much of their energy may be rounding.
+    #[serde(default)]
+    pub below_rounding: usize,
+    /// Whether the fitted coefficient is the predicted one within both errors; null where there is no fit.
+    #[serde(default)]
+    pub fit_agrees: Option<bool>,
     /// Gaussian curvature `k11 k22 - k12^2` of the mode of a patch; null for waves.
     pub defect: Option<f64>,
 }
@@ -312,6 +318,9 @@ pub struct SampleSummary {
     pub amplitude: f64,
     /// Energy of the relaxed patch; null where it was not found.
     pub energy: Option<f64>,
+    /// Whether so much of the energy may be rounding that it was left out of the fits.
+    #[serde(default)]
+    pub below_rounding: bool,
     /// Whether it was found.
     pub converged: bool,
 }

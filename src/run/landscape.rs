@@ -47,6 +47,9 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &Landscap
     spec.modes.iter().try_for_each(|mode| rates(file, built, &held, mode).map(|_| ()))
 }
 
+/// Samples above rounding that a fit needs where others are below.
+const FITTED: usize = 2;
+
 /// What to do where there is no map.
 const NO_MAP: &str = "maps are of patches with three modes that curvatures name; leave out `map`";
 
@@ -108,7 +111,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &LandscapeSpec) -
     }
     summary.reason = found.iter().find_map(Along::failure);
     summary.converged = summary.reason.is_none();
-    summary.error = Some(found.iter().map(Along::residual).fold(0.0, f64::max));
+    summary.error = found.iter().filter_map(Along::residual).reduce(f64::max);
     let modes = found.iter().map(|along| along.summarized(&amplitudes(spec))).collect();
     let map = spec.map.as_ref().map(|map| landscape_map::map(runner, study, map)).transpose()?;
     if let Some(why) = map.as_ref().and_then(|map| map.reason.clone()) {
@@ -158,10 +161,10 @@ impl Along {
         self.landscape.as_ref().map_or(&[], |landscape| &landscape.samples)
     }
 
-    /// Why samples are missing.
+    /// Why samples are missing, or say nothing.
     fn failure(&self) -> Option<String> {
         let why = match &self.landscape {
-            Ok(landscape) => landscape.failure.as_ref()?.to_string(),
+            Ok(landscape) => landscape.failure.as_ref().map(ToString::to_string).or_else(|| self.rounded())?,
             Err(error) => error.to_string(),
         };
         Some(format!("mode {}: {why}", self.name()))
@@ -175,9 +178,34 @@ impl Along {
         }
     }
 
-    fn residual(&self) -> f64 {
+    /// That too few samples are above rounding for a fit, where some are not.
+    fn rounded(&self) -> Option<String> {
+        let (below, all) = (self.below_rounding(), self.samples().len());
+        let least = self.samples().iter().map(|sample| sample.rounding).fold(0.0, f64::max);
+        (below > 0 && all - below < FITTED).then(|| {
+            format!(
+                "the energies of {below} of {all} samples may be rounding (which makes {least:.1e} of energy), too few are \
+                 left to fit: give larger amplitudes"
+            )
+        })
+    }
+
+    fn below_rounding(&self) -> usize {
+        self.samples().iter().filter(|sample| sample.below_rounding()).count()
+    }
+
+    /// Amplitudes and energies of the samples that are fitted: those above rounding, if they are enough.
+    fn fitted(&self) -> Vec<(f64, f64)> {
+        if self.rounded().is_some() {
+            return Vec::new();
+        }
+        let above = self.samples().iter().filter(|sample| !sample.below_rounding());
+        above.map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
+    }
+
+    fn residual(&self) -> Option<f64> {
         let of = |sample: &Sample| sample.relaxed.residual_force.max(sample.relaxed.residual_length);
-        self.samples().iter().map(of).fold(0.0, f64::max)
+        self.samples().iter().map(of).reduce(f64::max)
     }
 
     /// Amplitudes and energies.
@@ -190,9 +218,11 @@ impl Along {
         let sample = |(k, amplitude): (usize, &f64)| SampleSummary {
             amplitude: *amplitude,
             energy: energies.get(k).map(|(_, energy)| *energy),
+            below_rounding: self.samples().get(k).is_some_and(Sample::below_rounding),
             converged: k < energies.len(),
         };
-        let (exponent, coefficient) = (fit::exponent(&energies), fit::coefficient(&energies));
+        let fitted = self.fitted();
+        let (exponent, coefficient) = (fit::exponent(&fitted), fit::coefficient(&fitted));
         let predicted = self.landscape.as_ref().ok().map(|landscape| landscape.predicted);
         ModeLandscape {
             mode: self.curvature,
@@ -205,6 +235,8 @@ impl Along {
             predicted_coefficient: predicted.map(|expansion| expansion.fourth),
             predicted_fifth: predicted.map(|expansion| expansion.fifth),
             predicted_sixth: predicted.map(|expansion| expansion.sixth),
+            below_rounding: self.below_rounding(),
+            fit_agrees: coefficient.zip(predicted).map(|(fit, predicted)| fit::agrees(&fitted, fit, predicted)),
             defect: self.curvature.map(|[k11, k22, k12]| k11 * k22 - k12 * k12),
         }
     }

@@ -151,7 +151,7 @@ impl<'a> Builder<'a> {
             Rest::File(name) => {
                 let path = self.file.resolve(&name.file);
                 let rows = read_angles(&path)?;
-                self.table(&path, &rows, EdgeKind::Crease, name.file.span())
+                self.table(&path, &rows, &[EdgeKind::Crease], name.file.span())
             }
         }
     }
@@ -177,15 +177,17 @@ impl<'a> Builder<'a> {
 
     fn rates(&self, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
         let path = self.file.resolve(&name.rates);
-        self.table(&path, &read_rates(&path)?, EdgeKind::Crease, name.rates.span())
+        // soft facets fold as creases do; those without a row are left open
+        self.table(&path, &read_rates(&path)?, &[EdgeKind::Crease, EdgeKind::Facet], name.rates.span())
     }
 
-    /// Values of a table on the edges of the tiling: every hinge of this kind must have one.
+    /// Values of a table on the edges of the tiling: every hinge of the first of these kinds must have one, those of the
+    /// others may.
     fn table(
         &self,
         path: &Path,
         rows: &[AngleRow],
-        kind: EdgeKind,
+        kinds: &[EdgeKind],
         span: Range<usize>,
     ) -> Result<Vec<f64>, SceneError> {
         let mut values = vec![f64::NAN; self.tiling.edges.len()];
@@ -197,7 +199,7 @@ impl<'a> Builder<'a> {
         for row in rows {
             let fault = |fault| SceneError::Table { path: path.into(), line: row.line, fault };
             let edge = self
-                .hinge(row.key, kind)
+                .hinge(row.key, kinds)
                 .ok_or_else(|| fault(TableFault::Edge(format!("the sheet has no crease {}", name(row.key)))))?;
             let Some(found) = copies.get(&(edge, row.cell)) else {
                 let [c1, c2] = row.cell.unwrap_or_default();
@@ -206,7 +208,7 @@ impl<'a> Builder<'a> {
             };
             found.iter().for_each(|&k| values[k] = row.value);
         }
-        let missing = |k: &usize| self.tiling.edges[*k].kind == kind && values[*k].is_nan();
+        let missing = |k: &usize| kinds.first() == Some(&self.tiling.edges[*k].kind) && values[*k].is_nan();
         match (0..values.len()).find(missing) {
             None => Ok(values),
             Some(k) => {
@@ -218,9 +220,9 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Number of an edge of the cell that is a hinge of this kind.
-    fn hinge(&self, key: EdgeKey, kind: EdgeKind) -> Option<usize> {
-        self.names.get(&key).copied().filter(|&k| self.sheet.edges[k].kind == kind)
+    /// Number of an edge of the cell that is a hinge of one of these kinds.
+    fn hinge(&self, key: EdgeKey, kinds: &[EdgeKind]) -> Option<usize> {
+        self.names.get(&key).copied().filter(|&k| kinds.contains(&self.sheet.edges[k].kind))
     }
 
     fn locks(&self) -> Result<Vec<(usize, f64)>, SceneError> {
@@ -238,7 +240,7 @@ impl<'a> Builder<'a> {
 
     fn crease(&self, crease: &Located<EdgeName>) -> Result<usize, SceneError> {
         let key = crease.0;
-        self.hinge(key, EdgeKind::Crease).ok_or_else(|| {
+        self.hinge(key, &[EdgeKind::Crease]).ok_or_else(|| {
             let known: Vec<String> =
                 self.sheet.edges.iter().filter(|e| e.kind == EdgeKind::Crease).take(4).map(|e| name(e.key)).collect();
             let help = format!("the creases are {}, ...; `foldwell info` counts them", known.join(", "));

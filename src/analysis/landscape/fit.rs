@@ -1,5 +1,6 @@
 //! Leading coefficient and exponent of a landscape from its samples.
 
+use super::Expansion;
 use crate::numerics::DenseMatrix;
 
 /// The samples that the exponent is taken from, at most: those of smallest amplitude.
@@ -24,6 +25,14 @@ pub fn coefficient(samples: &[(f64, f64)]) -> Option<Estimate> {
         .map(|(a, energy)| ((0..terms).map(|k| (a / largest).powi(k as i32)).collect(), energy / a.powi(4)))
         .collect();
     first(&rows, terms)
+}
+
+/// Whether a fitted coefficient is the predicted one within three of its standard errors and what the series leaves out at
+/// the largest amplitude: not more than its fifth and sixth orders, and a thousandth for what linear solves lose.
+pub fn agrees(samples: &[(f64, f64)], fitted: Estimate, predicted: Expansion) -> bool {
+    let largest = samples.iter().map(|(a, _)| a.abs()).fold(0.0, f64::max);
+    let next = predicted.fifth.abs() * largest + predicted.sixth.abs() * largest.powi(2);
+    (fitted.value - predicted.fourth).abs() <= 3.0 * fitted.error + 1e-3 * predicted.fourth.abs() + next
 }
 
 /// The slope of log energy against log amplitude, from the three samples of smallest amplitude. `None` with fewer than two, or
@@ -70,6 +79,8 @@ mod tests {
         let powers: Vec<(f64, f64)> = [0.1, 0.2, 0.05, 3.0].iter().map(|&a: &f64| (a, 5.0 * a.powi(6))).collect();
         let slope = exponent(&powers).unwrap();
         assert!((slope.value - 6.0).abs() <= 1e-12 && slope.error <= 1e-12, "{slope:?}");
+        let predicted = |fourth: f64| Expansion { fourth, fifth: -3.0, sixth: 2.0 };
+        assert!(agrees(&samples[2..3], found, predicted(7.0)) && !agrees(&samples[2..3], found, predicted(7.2)));
         assert_eq!(exponent(&[(0.1, 0.0), (0.2, 1.0)]), None);
         assert_eq!(coefficient(&[]), None);
         assert!((coefficient(&[(0.5, 0.25)]).unwrap().value - 4.0).abs() <= 1e-14);

@@ -68,14 +68,21 @@ impl HeldSheet {
 
     /// The mode that has these rates on the edges of the repeating piece; NaN: not known there.
     ///
-    /// Fails where no mode comes near them.
+    /// Fails where no mode comes near them, where several have them, and where all are zero.
     pub fn with_rates(&self, rates: &[f64]) -> Result<Vec<f64>, LandscapeError> {
         let known: Vec<usize> = (0..rates.len()).filter(|&edge| !rates[edge].is_nan()).collect();
         let right = DenseMatrix::from_fn(known.len(), 1, |row, _| rates[known[row]]);
         let fit = least_squares(&self.basis.select_rows(&known), &right)?;
+        if right.amax() == 0.0 {
+            return Err(LandscapeError::NoRates);
+        }
         let off = fit.residual.amax() / right.amax();
-        if fit.rank.rank < self.basis.ncols() || !(off <= OFF) {
+        if !(off <= OFF) {
             return Err(LandscapeError::NoSuchMode { off });
+        }
+        let modes = self.basis.ncols();
+        if fit.rank.rank < modes {
+            return Err(LandscapeError::ManyModes { open: modes - fit.rank.rank, modes });
         }
         Ok((&self.basis * fit.solution).as_slice().to_vec())
     }

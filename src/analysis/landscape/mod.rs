@@ -74,6 +74,20 @@ pub enum LandscapeError {
         /// Largest difference over the largest rate.
         off: f64,
     },
+    /// Rates that are all zero name no mode.
+    #[error("the rates are all zero: they name no mode")]
+    NoRates,
+    /// Rates that several modes have.
+    #[error(
+        "the rates given leave {open} of {modes} modes open: modes that differ have the same rates there; give the rates of \
+         the facets too, in rows as those of creases"
+    )]
+    ManyModes {
+        /// Modes that have no rates where rates are given.
+        open: usize,
+        /// All modes.
+        modes: usize,
+    },
     /// The modes of so large a torus are not computed.
     #[error("a torus of {unknowns} unknowns is too large: at most {most}")]
     TooLarge {

@@ -29,6 +29,12 @@ const CLOSE: f64 = 1e-3;
 /// Longest change of a rest angle in a step, in radians.
 const LONGEST: f64 = 0.3;
 
+/// Rounding errors of an angle or a length in its evaluation.
+const ROUNDINGS: f64 = 4.0;
+/// Energies above so many times what rounding makes are right to a fifth at least: the error of `k (off + e)^2 / 2` with `e`
+/// that of `k e^2 / 2` and `off` ten times as large.
+const ABOVE: f64 = 100.0;
+
 /// One sample.
 #[derive(Clone, Debug)]
 pub struct Sample {
@@ -42,6 +48,15 @@ pub struct Sample {
     pub iterations: usize,
     /// How often rest angles were moved.
     pub rounds: usize,
+    /// Energy that rounding of the hinges' angles and of the bars' lengths alone may make.
+    pub rounding: f64,
+}
+
+impl Sample {
+    /// Whether so much of the energy may be rounding that it says nothing about the mode.
+    pub fn below_rounding(&self) -> bool {
+        !(self.relaxed.state.total() >= ABOVE * self.rounding)
+    }
 }
 
 /// Why a sample is missing.
@@ -99,7 +114,8 @@ impl<'a> Samples<'a> {
             torque = unbalanced(self.held, &directions, &relaxed);
             if torque <= BALANCED {
                 self.last = (amplitude, place);
-                return Ok(Sample { amplitude, relaxed, rest: rest.as_slice().to_vec(), iterations, rounds });
+                let (rest, rounding) = (rest.as_slice().to_vec(), rounding(self.held, &relaxed));
+                return Ok(Sample { amplitude, relaxed, rest, iterations, rounds, rounding });
             }
         }
         Err(SampleError::Restless { torque })
@@ -126,6 +142,14 @@ impl<'a> Samples<'a> {
         }
         Ok(JOINT)
     }
+}
+
+/// The energy of all soft elements if each were off its rest value by the rounding of its value.
+fn rounding(held: &HeldSheet, relaxed: &Relaxed) -> f64 {
+    let terms = held.model.soft().iter();
+    let stiffness = terms.flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
+    let off = |value: &f64| ROUNDINGS * f64::EPSILON * value.abs().max(1.0);
+    stiffness.zip(held.model.values(&relaxed.x)).map(|(k, value)| 0.5 * k * off(&value).powi(2)).sum()
 }
 
 /// The largest torque on a direction of rest angles, over its size.
