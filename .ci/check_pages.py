@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Checks numbers in the validation pages against runs of the scenes they come from, as validation/numbers.toml lists them. A
+page may not say what the program does not find: one number changed by two in its last digit fails, which the script tries
+with each of them.
+
+    python .ci/check_pages.py RUNS                 RUNS/NAME/summary.json is the run of meshes/NAME.toml
+"""
+import json
+import pathlib
+import re
+import sys
+import tomllib
+from decimal import Decimal
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent / "validation"
+NUMBER = r"([+-]?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?)"
+
+
+def pattern(text):
+    """The text with any white space between words, and a number where it has {}."""
+    words = [re.escape(word).replace(re.escape("{}"), NUMBER) for word in text.split()]
+    return re.compile(r"\s+".join(words))
+
+
+def found(value, path):
+    """The values at a path: a part is a key, a place in a list, the name of an entry of a list, or * for all."""
+    for k, part in enumerate(path.split(".")):
+        if part == "*":
+            rest = path.split(".")[k + 1 :]
+            return [one for entry in value for one in found(entry, ".".join(rest))] if rest else list(value)
+        if isinstance(value, list) and not part.isdigit():
+            value = next(entry for entry in value if entry["name"] == part)
+        else:
+            value = value[int(part) if isinstance(value, list) else part]
+    return [value]
+
+
+def summed(summary, path):
+    """The values at a path, or the sum of those at several."""
+    terms = [found(summary, one.strip()) for one in path.split(" + ")]
+    return terms[0] if len(terms) == 1 else [sum(value for term in terms for value in term)]
+
+
+def agrees(shown, value, kind):
+    """Whether a page may show a value so: rounded to the digits shown (its size alone, where that is the kind), or bounded by it
+    within a factor of ten."""
+    if value is None:
+        return False
+    value, number = abs(value) if kind == "size" else value, Decimal(shown.replace(",", ""))
+    if kind == "bound":
+        return 0 <= abs(value) <= float(number) <= 10 * abs(value)
+    unit = Decimal((0, (1,), number.as_tuple().exponent))
+    return abs(Decimal(value) - number) <= Decimal("0.501") * unit
+
+
+def changed(shown):
+    """The same with its last digit off by two units."""
+    number = Decimal(shown.replace(",", ""))
+    unit = Decimal((0, (1,), number.as_tuple().exponent))
+    return str(number + 2 * unit), str(number - 2 * unit)
+
+
+def faults(entry, runs):
+    """What is wrong with one entry of the list."""
+    page = (ROOT / entry["page"]).read_text()
+    places = list(pattern(entry["text"]).finditer(page))
+    if len(places) != 1:
+        return [f"the page has this text {len(places)} times, not once"]
+    summary = json.loads((runs / entry["scene"] / "summary.json").read_text())
+    values = [value for path in entry["values"] for value in summed(summary, path)]
+    shown, kind = places[0].groups(), entry.get("kind", "rounded")
+    if len(shown) != len(values):
+        return [f"{len(shown)} numbers are shown, {len(values)} were found: {values}"]
+    wrong = [f"the page says {s}, the run {v!r}" for s, v in zip(shown, values) if not agrees(s, v, kind)]
+    if kind != "bound":
+        pairs = [(s, v) for s, v in zip(shown, values) if agrees(s, v, kind)]
+        wrong += [f"{other} for {s} is not refused" for s, v in pairs for other in changed(s) if agrees(other, v, kind)]
+    return wrong
+
+
+def main():
+    runs = pathlib.Path(sys.argv[1])
+    entries = tomllib.loads((ROOT / "numbers.toml").read_text())["number"]
+    failed = 0
+    for entry in entries:
+        for fault in faults(entry, runs):
+            failed += 1
+            print(f"FAILED {entry['page']}: \"{entry['text']}\" ({entry['scene']}): {fault}")
+    print(f"{len(entries)} texts of pages, {failed} failures")
+    sys.exit(failed > 0 or not entries)
+
+
+if __name__ == "__main__":
+    main()
