@@ -495,7 +495,7 @@ fn kirigami_is_polarized() {
         found.symmetry_error, found.error
     );
     assert!(!found.symmetric && found.symmetry_error > 0.1 && found.error <= 1e-12);
-    assert!(pairing.error > 0.1, "{pairing:?}");
+    assert!(pairing.error.unwrap() > 0.1, "{pairing:?}");
     assert_eq!((polarization, on_circle), ([0.5, 0.5], [0.0, 0.0]));
     assert!(matches!(Zone::new(&found), Err(BlochError::NotSymmetric { .. })));
 }

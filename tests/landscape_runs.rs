@@ -132,8 +132,8 @@ fn refusals() {
 
 /// Claim: samples whose energy may be rounding are counted and left out of the fits; where too few are left there is no fit
 /// and the study fails. The energy of these goes as 1105 a^4 (and that of the cylinder as a^6): at 1e-9 it would be 1e-33,
-/// where rounding makes 2e-29. Tolerance of the exponent of what is left: 1e-3, the next order at an amplitude of 1e-3 being 4e-3
-/// of the energy of a cylinder.
+/// where rounding makes 2e-29. Tolerance of the exponent of what is
+/// left: the next order, some thousandths of the energy at an amplitude of 1e-3 (5.9985 was found; with rounding fitted, 5.773).
 #[test]
 fn rounding_is_not_fitted() {
     let folder = tempfile::tempdir().unwrap();
@@ -152,7 +152,7 @@ fn rounding_is_not_fitted() {
     let (converged, reason, mode) = along("[1, 0, 0]", "[1e-5, 1e-4, 1e-3]", "cylinder");
     assert!(converged, "{reason}");
     assert_eq!((mode.below_rounding, mode.fit_agrees), (1, Some(true)), "{mode:?}");
-    assert_abs_diff_eq!(mode.exponent.unwrap(), 6.0, epsilon = 1e-3);
+    assert_abs_diff_eq!(mode.exponent.unwrap(), 6.0, epsilon = 5e-3);
 }
 
 /// Claim: an eggbox, whose modes no curvature names, has a landscape of a mode that is named by the rates of its creases and of the
