@@ -7,7 +7,7 @@ mod common;
 use common::{Case, jacobian, linearized, mesh};
 use foldwell::analysis::branches;
 use foldwell::analysis::chart::coordinates;
-use foldwell::analysis::drive::{self, Drive, drive};
+use foldwell::analysis::drive::{self, Drive, cylinder_errors, drive};
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax;
 use foldwell::analysis::trace::{self, Stop, Traced};
@@ -68,7 +68,8 @@ impl Scene {
 
 /// Claim: with rigid bars the relaxation meets the exact kinematics in every fold angle, at every step of both loops of
 /// the reference cell, along all four rays until they close: also where a lattice rotation winds round, where the
-/// axis passes vertex 0 and where angles pass pi. Tolerance: that of the issue, 1e-10; residuals of 1e-12 leave 1e-11.
+/// axis passes vertex 0 and where angles pass pi. Signed curvature, strain and rotation angles agree as well, within
+/// what an error of 1e-10 in the fold angles makes of them. Tolerance: that of the issue, 1e-10; residuals of 1e-12 leave 1e-11.
 #[test]
 fn rigid_bars_meet_the_kinematics_on_both_loops() {
     let scene = Scene::open_star(f64::INFINITY);
@@ -80,6 +81,9 @@ fn rigid_bars_meet_the_kinematics_on_both_loops() {
         assert_eq!(found.states.len(), traced.states.len() - 2, "{:?}", found.failure);
         println!("{:?}: {} steps, largest error {:.1e}", traced.branch, found.states.len(), found.error());
         assert!(found.error() <= 1e-10, "{:?}: {:e}", traced.branch, found.error());
+        let errors = cylinder_errors(&scene.drawn, traced, &found).unwrap();
+        println!("{:?}: {errors:?}", traced.branch);
+        assert!(errors.curvature <= 1e-8 && errors.strain <= 1e-9 && errors.theta <= 1e-9, "{errors:?}");
         let residual = |state: &drive::Driven| state.relaxed.residual_force.max(state.relaxed.residual_length);
         assert!(found.states.iter().all(|state| residual(state) <= 1e-12));
     }

@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::assert_abs_diff_eq;
 use foldwell::analysis::branches;
 use foldwell::analysis::trace::{Question, Stop, Traced, trace};
 use foldwell::kinematics::drawn_fold_angles;
@@ -109,5 +110,54 @@ fn stored_states_are_met() {
                 && close(&shape.strain, &numbers("strain"))
         });
         assert!(met, "{state}");
+    }
+}
+
+/// Claim: a stop is met also where it lies next to the drawn state, where branches cross and no correction converges: a
+/// curvature, an arc length or a crease's change of 1e-12 to 1e-8 ends every trajectory there and not at the end of the
+/// first step, 1e-2. Tolerance 1e-10: ten times that to which places are located.
+#[test]
+fn stops_next_to_the_start_are_met() {
+    let (sheet, held, _) = star();
+    let moving = edge(&sheet, [2, 3, 0, 0]);
+    let drawn = drawn_fold_angles(&sheet)[moving];
+    for size in [1e-12, 1e-9, 2e-9, 1e-8] {
+        let curvature = Stop { curvature: Some(size), ..Stop::default() };
+        let all = run(&sheet, &[held], curvature, None);
+        assert_eq!(all.len(), 4);
+        for one in all {
+            let last = one.states.last().unwrap();
+            assert!(matches!(one.end, End::Stopped { .. }), "{:?}", one.end);
+            assert_abs_diff_eq!(last.shape.as_ref().unwrap().curvature.abs(), size, epsilon = 1e-10);
+        }
+        for one in run(&sheet, &[held], Stop { arc_length: Some(size), ..Stop::default() }, None) {
+            assert_eq!((&one.end, one.states.last().unwrap().arc_length), (&End::Length, size));
+        }
+        let crease = Stop { crease_angle: Some((moving, drawn + size)), arc_length: Some(0.1), ..Stop::default() };
+        let met = run(&sheet, &[held], crease, None).into_iter().filter(|one| matches!(one.end, End::Stopped { .. }));
+        let met: Vec<Traced> = met.collect();
+        assert_eq!(met.len(), 2, "on each branch the angle grows one way");
+        met.iter().for_each(|one| {
+            assert_abs_diff_eq!(one.states.last().unwrap().angles[moving], drawn + size, epsilon = 1e-10);
+        });
+    }
+}
+
+/// Claim: along both loops of the reference cell the signed curvature is continuous: between neighbouring states it
+/// changes its sign nowhere but where it is nearly zero, and never by more than its largest rate allows. The tolerance on
+/// "nearly zero" is a tenth of the largest curvature; a sign that jumped where the long loop turns itself inside out
+/// would change by 3.
+#[test]
+fn curvature_is_continuous() {
+    let (sheet, held, _) = star();
+    for one in run(&sheet, &[held], Stop::default(), None) {
+        let kappa: Vec<f64> = one.states.iter().map(|state| state.shape.as_ref().unwrap().curvature).collect();
+        let largest = kappa.iter().fold(0.0f64, |most, k| most.max(k.abs()));
+        let inner = &kappa[1..kappa.len() - 1];
+        for pair in inner.windows(2) {
+            let jumps = pair[0] * pair[1] < 0.0 && pair[0].abs().min(pair[1].abs()) > 0.1 * largest;
+            assert!(!jumps, "{:?}: {pair:?}", one.branch);
+        }
+        println!("{:?}: {} states, largest curvature {largest}", one.branch, kappa.len());
     }
 }

@@ -11,9 +11,6 @@ use crate::model::Model;
 
 /// Below this rotation angle `b` comes from the chord, above it from the angle; both are exact there.
 const SMALL_TURN: f64 = 1.0;
-/// Below this rotation angle there is no axis: its direction would be off by the rounding error over the angle, which
-/// is more than what leaving out the turn costs.
-const NO_TURN: f64 = 1e-8;
 
 /// Coordinates of all vertices, and of the screw where the state has a lattice.
 pub fn coordinates(state: &Folded) -> Vec<f64> {
@@ -26,7 +23,8 @@ pub fn coordinates(state: &Folded) -> Vec<f64> {
 /// Coordinates of the vertices and of the screw of a screw-periodic state.
 pub fn screw_coordinates(shape: &Shape) -> Vec<f64> {
     let (chords, towards) = (shape.screw.chords, shape.screw.towards_axis());
-    let turns = shape.theta.iter().any(|theta| theta.abs() >= NO_TURN);
+    // below, the direction of the axis is off by more than what leaving out the turn costs
+    let turns = shape.turns();
     let curvature = if turns { shape.curvature } else { 0.0 };
     let (x, z) = match shape.screw.axis.filter(|_| turns && towards.norm() > 0.0) {
         Some(axis) => (axis, (towards * curvature.signum()).normalize()),

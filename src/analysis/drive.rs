@@ -8,6 +8,7 @@
 
 use super::chart::{self, hinge_angles};
 use super::relax::{Relaxed, relax};
+use super::state::cylinder;
 use super::trace::{Folded, Traced};
 use crate::model::assemble::{Drawn, Recipe, assemble, drawn_angles};
 use crate::model::{Domain, Gauge};
@@ -59,6 +60,40 @@ impl Drive {
     pub fn error(&self) -> f64 {
         self.states.iter().map(|state| state.error).fold(0.0, f64::max)
     }
+}
+
+/// Largest differences between the relaxed cylinders and the rigid ones along a trajectory.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CylinderErrors {
+    /// Of the signed curvature.
+    pub curvature: f64,
+    /// Of a component of the strain.
+    pub strain: f64,
+    /// Of a rotation angle, in radians; whole turns and the direction of the axis left aside.
+    pub theta: f64,
+}
+
+/// Compares the cylinders of a drive with those of its trajectory; `None` for a finite sheet.
+pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, drive: &Drive) -> Option<CylinderErrors> {
+    let mut most = CylinderErrors::default();
+    for (rigid, driven) in traced.states.iter().skip(1).zip(&drive.states) {
+        let (shape, found) = (rigid.shape.as_ref()?, &driven.relaxed.state.coordinates);
+        let found = cylinder(&drawn.domain, &drawn.coordinates, found)?;
+        let strain = found.strain.iter().zip(&shape.strain).map(|(a, b)| (a - b).abs());
+        let theta = [1.0, -1.0].map(|way| {
+            let off = found.theta.iter().zip(&shape.theta).map(|(a, b)| a - way * b);
+            off.map(|off| (off - TAU * (off / TAU).round()).abs()).fold(0.0, larger)
+        });
+        most.curvature = larger(most.curvature, (found.curvature - shape.curvature).abs());
+        most.strain = strain.fold(most.strain, larger);
+        most.theta = larger(most.theta, theta[0].min(theta[1]));
+    }
+    Some(most)
+}
+
+/// The larger of two numbers; not a number where one is none.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
 }
 
 /// Relaxes beside every state of a trajectory. `observe` sees every accepted step and returns false to stop.

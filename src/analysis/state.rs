@@ -84,7 +84,8 @@ impl State {
 /// A sheet periodic up to screw motions, as seen from vertex 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
-    /// Signed curvature, 1/(distance of vertex 0 from the axis): positive when the axis lies on the side of the normals.
+    /// Signed curvature, 1/(distance of vertex 0 from the axis), with the sign of the chart's: it changes only where the
+    /// curvature passes zero, as that of a [shape](crate::kinematics::Shape) along a trajectory does.
     pub curvature: f64,
     /// Rotation angles of the two lattice rotations about their common axis, in radians, between -pi and pi. The axis is directed so that
     /// the larger of the two in magnitude is positive.

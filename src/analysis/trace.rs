@@ -16,6 +16,8 @@ use thiserror::Error;
 
 /// Cosine of the angle within which a trajectory arrives along a ray.
 const ALONG: f64 = 0.999;
+/// States between two questions whether to go on.
+const OBSERVED: usize = 256;
 /// Quantities whose turning points are reported, in the order of their indicators.
 pub const TURNING: [&str; 4] = ["curvature", "strain11", "strain22", "strain12"];
 /// The indicators after these.
@@ -121,17 +123,59 @@ struct Folding<'a, 'b> {
     closing: Closing<'a>,
     embedding: &'a Embedding,
     periodic: bool,
+    /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign.
+    known: Vec<Known>,
     stop: Stop,
     intersects: Option<Intersects<'b>>,
 }
 
+/// A state from which the sign of the curvature is carried on.
+struct Known {
+    arc_length: f64,
+    angles: Vec<f64>,
+    shape: Shape,
+}
+
 impl Folding<'_, '_> {
-    fn folded(&self, point: &Point) -> Folded {
+    fn folded(&mut self, point: &Point) -> Folded {
         let (angles, rates) = (self.closing.angles(&point.x), self.closing.rates(&point.tangent));
         let placement = self.embedding.place(&angles);
         let positions = placement.positions.clone();
-        let shape = Shape::of(self.embedding, placement).ok();
+        let mut shape = Shape::of(self.embedding, placement).ok();
+        if let Some(shape) = shape.as_mut().filter(|shape| shape.turns()) {
+            self.carry_sign(point.arc_length, &angles, shape);
+        }
         Folded { arc_length: point.arc_length, angles, rates, shape, positions, residual: point.residual }
+    }
+
+    /// The states at these points; fewer where `go_on` says to stop.
+    fn states(&mut self, points: &[Point], go_on: &mut dyn FnMut() -> bool) -> Vec<Folded> {
+        let mut states = Vec::with_capacity(points.len());
+        for (k, point) in points.iter().enumerate() {
+            if k > 0 && k % OBSERVED == 0 && !go_on() {
+                break;
+            }
+            states.push(self.folded(point));
+        }
+        states
+    }
+
+    /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known.
+    fn carry_sign(&mut self, arc_length: f64, angles: &[f64], shape: &mut Shape) {
+        let after = self.known.partition_point(|known| known.arc_length < arc_length);
+        let beside = [after.checked_sub(1), (after < self.known.len()).then_some(after)];
+        let away = |k: &usize| (self.known[*k].arc_length - arc_length).abs();
+        let nearest = beside.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)));
+        if let Some(k) = nearest {
+            let last = &self.known[k];
+            shape.continue_over(self.embedding, &last.shape, [&last.angles, angles]);
+            if last.arc_length == arc_length {
+                return;
+            }
+        }
+        if shape.curvature.is_finite() {
+            self.known.insert(after, Known { arc_length, angles: angles.to_vec(), shape: shape.clone() });
+        }
     }
 
     /// Rates of curvature and strains; NaN where nothing turns.
@@ -160,6 +204,8 @@ impl Curve for Folding<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         let state = self.folded(point);
         let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());
+        // the drawn state is straight: what it has of curvature there is rounding
+        let curvature = if point.arc_length == 0.0 && curvature.is_finite() { 0.0 } else { curvature };
         out.extend(if self.periodic { self.rates(&state) } else { [f64::NAN; 4] });
         out.push(self.stop.curvature.map_or(f64::NAN, |most| curvature - most));
         out.push(self.stop.crease_angle.map_or(f64::NAN, |(edge, angle)| state.angles[edge] - angle));
@@ -192,7 +238,8 @@ pub fn trace(
     let angles: Vec<f64> = start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
     let periodic = start.surroundings == Surroundings::Screw;
     let closing = Closing::new(&closure, angles);
-    let mut folding = Folding { closing, embedding: &embedding, periodic, stop: question.stop, intersects };
+    let (known, stop) = (Vec::new(), question.stop);
+    let mut folding = Folding { closing, embedding: &embedding, periodic, known, stop, intersects };
     let wanted = rays.iter().filter(|ray| question.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
@@ -228,8 +275,13 @@ fn along(
         stops,
         ..Options::default()
     };
+    folding.known.clear();
     let found = follow(folding, start, leaving, &options, &mut |point| observe(branch, point));
-    let Trajectory { points, events, end } = found;
+    let Trajectory { points, events, mut end } = found;
+    let states = folding.states(&points, &mut || observe(branch, &points[0]));
+    if states.len() < points.len() {
+        end = End::Interrupted;
+    }
     let ends_at = match &end {
         End::Closed(back) => arrival(&back.arrival, &directions).map(|ray| (rays[ray].branch, rays[ray].sign)),
         _ => None,
@@ -239,14 +291,14 @@ fn along(
         (_, _, found) => found,
     };
     let turning = |event: &&Event| event.indicator < TURNING.len();
-    let turned = |event: &Event| (event.indicator, folding.folded(&event.point));
+    let mut turned = |event: &Event| (event.indicator, folding.folded(&event.point));
     Traced {
         branch,
         ends_at,
         corrections: points.iter().map(|point| point.corrections).sum(),
         first_self_intersection,
-        turning_points: events.iter().filter(turning).map(turned).collect(),
-        states: points.iter().map(|point| folding.folded(point)).collect(),
+        turning_points: events.iter().filter(turning).map(&mut turned).collect(),
+        states,
         end,
     }
 }

@@ -42,7 +42,6 @@ pub(super) struct DrawnFace {
     pub(super) corners: [Corner; 3],
     /// Area times unit normal.
     pub(super) area: Vec3,
-    pub(super) centroid: Vec3,
 }
 
 /// A sheet at some fold angles; see the module for the frame.
@@ -192,7 +191,7 @@ impl DrawnFace {
     fn new(sheet: &Sheet, walk: &FaceWalk, face: usize) -> Self {
         let corners = sheet.triangles[face].corners.map(|corner| corner.translated(walk.cells[face]));
         let [a, b, c] = corners.map(|corner| relative(sheet, corner));
-        Self { corners, area: 0.5 * (b - a).cross(&(c - a)), centroid: (a + b + c) / 3.0 }
+        Self { corners, area: 0.5 * (b - a).cross(&(c - a)) }
     }
 }
 

@@ -1,15 +1,14 @@
 //! The shape of a periodic sheet at some fold angles: positions, screw, signed curvature, strain.
 //!
-//! The vector `k` from vertex 0 towards the axis (see [`Screw`]) has the length of the curvature. Its sign is positive
-//! where the axis lies on the side of the face normals, counted over all faces of the cell: it is the sign of
+//! The vector `k` from vertex 0 towards the axis (see [`Screw`]) has the length of the curvature. Along a trajectory or over a
+//! surface the sign of the curvature is continuous: it changes only where `k` passes zero. Seen from the first face at
+//! vertex 0, which the embedding holds still, `k` goes to the other side there, so that a state takes its sign from a near
+//! one by `k . k_last` ([`Shape::continue_from`]).
 //!
-//! `sum over faces of area_f . (k - |k|^2 x_f)`, with area times normal `area_f` and the centroid `x_f` across the axis.
-//!
-//! Over `|k|^2` this is the flow of the field towards the axis through the faces, twice the volume between a cell and the
-//! axis; it does not depend on which copies of the faces make the cell, nor on how often one goes round the axis. Near a
-//! spatially periodic state it is `k` times the whole area of the cell, so that the curvature goes through zero smoothly.
-//! Elsewhere the sign can change only where that volume vanishes, in a sheet that passes through itself on its way to
-//! being inside out; there it jumps.
+//! A state for which no way is known has the sign of `h1 theta2 - h2 theta1`, with the rotation angles and the shifts of
+//! the two lattice vectors along one direction of the axis (either direction gives the same), times -1 where the drawn
+//! lattice vectors turn clockwise seen from the side of the face normals. Where folding leaves a spatially periodic state both
+//! agree, and the curvature is positive where the axis lies on the side of the face normals.
 
 use super::KinematicsError;
 use super::embedding::{Compatibility, Embedding, Placement};
@@ -17,6 +16,12 @@ use super::metric::LatticeFrame;
 use super::motion::{Motion, Moving};
 use super::screw::{Screw, ScrewRate};
 use crate::math::Vec3;
+use std::f64::consts::TAU;
+
+/// Below this rotation angle there is no axis: its direction would be off by the rounding error over the angle.
+const NO_TURN: f64 = 1e-8;
+/// Most times that a way between two states is halved.
+const HALVINGS: usize = 10;
 
 /// A periodic sheet at some fold angles, in the frame of the [embedding](super::embedding).
 #[derive(Clone, Debug)]
@@ -29,8 +34,8 @@ pub struct Shape {
     pub screw: Screw,
     /// Rotation angles from a cell to the next about the common axis, directed so that the larger is positive.
     pub theta: [f64; 2],
-    /// Signed curvature of the cylinder of vertex 0: one over its distance from the axis, positive when the axis lies on
-    /// the side of the face normals. Not a number where vertex 0 is on the axis.
+    /// Signed curvature of the cylinder of vertex 0: one over its distance from the axis, with the sign that the
+    /// [module](self) defines. Not a number where vertex 0 is on the axis.
     pub curvature: f64,
     /// `[strain11, strain22, strain12]` of the chords from vertex 0 against the drawn lattice.
     pub strain: [f64; 3],
@@ -70,12 +75,52 @@ impl Shape {
             return Err(KinematicsError::NoLattice);
         };
         let (screw, frame) = (Screw::new(&motions), LatticeFrame::new(drawn));
-        let curvature = signed_curvature(embedding, &placement, &screw);
+        let curvature = signed_curvature(embedding, &screw);
         let [theta1, theta2] = screw.theta;
         let axis_angle = screw.axis.map(|_| frame.line_angle([-theta2, theta1]));
         let strain = frame.strain(&screw.chords);
         let Placement { positions, compatibility, .. } = placement;
         Ok(Self { positions, motions, screw, theta: screw.theta, curvature, strain, axis_angle, compatibility })
+    }
+
+    /// Whether the lattice turns by so much that curvature and axis are more than rounding errors.
+    pub fn turns(&self) -> bool {
+        self.theta.iter().any(|theta| theta.abs() >= NO_TURN)
+    }
+
+    /// Gives the curvature the sign that it has after a small step from `last`. Nothing changes where one of the two does not turn.
+    ///
+    /// The axis that passes close by vertex 0 goes to its other side as well, but there the curvature is large and keeps
+    /// its sign.
+    pub fn continue_from(&mut self, last: &Self) {
+        let (before, now) = (last.screw.towards_axis(), self.screw.towards_axis());
+        if !(self.turns() && last.turns() && self.curvature.is_finite() && last.curvature.is_finite()) {
+            return;
+        }
+        let cell = self.screw.chords.iter().map(|chord| chord.norm()).fold(0.0, f64::max);
+        let passes_zero = before.dot(&now) < 0.0 && before.norm().min(now.norm()) * cell < 1.0;
+        let sign = if passes_zero { -last.curvature.signum() } else { last.curvature.signum() };
+        self.curvature = self.curvature.abs() * sign;
+    }
+
+    /// The same over a longer way: the fold angles of `last` and of this shape, between which steps are halved until `k` does
+    /// not turn by more than a sixth of a turn in one.
+    pub fn continue_over(&mut self, embedding: &Embedding, last: &Self, angles: [&[f64]; 2]) {
+        self.continue_halving(embedding, last, angles, HALVINGS);
+    }
+
+    fn continue_halving(&mut self, embedding: &Embedding, last: &Self, [from, to]: [&[f64]; 2], left: usize) {
+        let (before, now) = (last.screw.towards_axis(), self.screw.towards_axis());
+        let turned = before.dot(&now) < 0.5 * before.norm() * now.norm();
+        if left > 0 && turned && self.turns() && last.turns() {
+            let nearest = |(a, b): (&f64, &f64)| a + 0.5 * (b - a - TAU * ((b - a) / TAU).round());
+            let between: Vec<f64> = from.iter().zip(to).map(nearest).collect();
+            if let Some(mut middle) = Self::at(embedding, &between).ok().filter(Self::turns) {
+                middle.continue_halving(embedding, last, [from, &between], left - 1);
+                return self.continue_halving(embedding, &middle, [&between, to], left - 1);
+            }
+        }
+        self.continue_from(last);
     }
 
     /// Rates of the shape, from its lattice motions with their rates; `None` where nothing turns.
@@ -88,14 +133,11 @@ impl Shape {
     }
 }
 
-fn signed_curvature(embedding: &Embedding, placement: &Placement, screw: &Screw) -> f64 {
-    let (towards, axis) = (screw.towards_axis(), screw.axis.unwrap_or_else(Vec3::zeros));
-    let squared = towards.norm_squared();
-    let flow = embedding.faces.iter().zip(&placement.walked.faces).map(|(face, motion)| {
-        let (area, centroid) = (motion.rotation * face.area, motion.apply(&face.centroid));
-        area.dot(&(towards - squared * (centroid - axis * axis.dot(&centroid))))
-    });
-    squared.sqrt().copysign(flow.sum())
+/// The curvature of a state for which no way is known.
+fn signed_curvature(embedding: &Embedding, screw: &Screw) -> f64 {
+    let ([h1, h2], [theta1, theta2]) = (screw.rise(), screw.theta);
+    let side = embedding.lattice.map_or(1.0, |[l1, l2]| l1.cross(&l2).dot(&embedding.drawn_area()));
+    screw.towards_axis().norm().copysign((h1 * theta2 - h2 * theta1) * side)
 }
 
 #[cfg(test)]

@@ -187,7 +187,7 @@ fn paint(text: &mut String, space: &Space, surface: &StrainSurface, paths: &[Vec
     }
     for ends in paths.iter().flat_map(|path| path.windows(2)) {
         let [a, b] = [0, 1].map(|k| space.boxed(&ends[k].strain));
-        let mean = 0.5 * (ends[0].curvature + ends[1].curvature);
+        let mean = one_sided_mean(&[ends[0].curvature, ends[1].curvature]);
         let style = if alone {
             format!("stroke=\"{}\" stroke-width=\"4.5\"", hexadecimal(shade(mean / largest)))
         } else {
@@ -226,11 +226,23 @@ fn triangle(text: &mut String, space: &Space, surface: &StrainSurface, places: &
     let light = (space.view.toward * 0.5 + space.view.up * 0.8 - space.view.right * 0.4).normalize();
     let facing = if normal.dot(&space.view.toward) < 0.0 { -normal } else { normal };
     let lit = 0.78 + 0.22 * facing.dot(&light).max(0.0);
-    let mean = corners.iter().map(|&point| surface.curvature[point]).sum::<f64>() / 3.0;
+    let mean = one_sided_mean(&corners.map(|point| surface.curvature[point]));
     let paint = hexadecimal(colour(mean / largest.max(f64::MIN_POSITIVE)).map(|part| part * lit));
     let [a, b, c] = [a, b, c].map(|place| space.on_paper(&place));
     put!(text, "<path d=\"M{:.1} {:.1} {:.1} {:.1} {:.1} {:.1}Z\"", a[0], a[1], b[0], b[1], c[0], c[1]);
     put!(text, " fill=\"{paint}\" stroke=\"{paint}\"/>\n");
+}
+
+/// The mean of neighbouring curvatures; where their sign jumps, that is changes while none of them is small against the
+/// others, of those that have the sign of most.
+fn one_sided_mean(curvatures: &[f64]) -> f64 {
+    let mean = |chosen: &[f64]| chosen.iter().sum::<f64>() / chosen.len() as f64;
+    let (least, most) = curvatures.iter().fold((f64::INFINITY, 0.0f64), |(a, b), k| (a.min(k.abs()), b.max(k.abs())));
+    let (up, down): (Vec<f64>, Vec<f64>) = curvatures.iter().partition(|k| **k >= 0.0);
+    if up.is_empty() || down.is_empty() || least < 0.5 * most {
+        return mean(curvatures);
+    }
+    mean(if up.len() >= down.len() { &up } else { &down })
 }
 
 /// A colour in the words of SVG.

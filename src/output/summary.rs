@@ -207,12 +207,24 @@ pub struct TrajectorySummary {
     /// The ray along which it comes back; null where it does not.
     pub ends_at: Option<RayName>,
     /// How it ended.
-    #[schemars(extend("enum" = ["closed", "stop", "failed", "no-real-branch"]))]
+    #[schemars(extend("enum" = ["closed", "stop", "failed", "interrupted", "no-real-branch"]))]
     pub end: String,
     /// Where faces first pass through each other; null where they do not, or it was not asked.
     pub first_self_intersection: Option<ArcLength>,
     /// Largest difference of a fold angle to the energy's; null where the two were not compared.
     pub error_to_kinematic: Option<f64>,
+    /// Largest difference of a signed curvature to the energy's; left out where the two were not compared.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    #[schemars(with = "f64")]
+    pub error_of_curvature: Option<f64>,
+    /// Largest difference of a strain to the energy's; left out where the two were not compared.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    #[schemars(with = "f64")]
+    pub error_of_strain: Option<f64>,
+    /// Largest difference of a rotation angle to the energy's, in radians; left out where the two were not compared.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    #[schemars(with = "f64")]
+    pub error_of_theta: Option<f64>,
     /// Where curvature and strains turn.
     pub turning_points: Vec<TurningPoint>,
 }

@@ -25,13 +25,15 @@ use crate::scene::build::Built;
 use crate::scene::forms::BranchChoice;
 use crate::scene::spec::{Draw, Engine, StudySpec, TraceSpec};
 use crate::sheet::EdgeKey;
-use crate::solver::continuation::End;
-use crate::solver::{Options, Problem};
+use crate::solver::continuation::{self, End};
+use crate::solver::{Failure, Options, Problem};
 use std::time::Instant;
 
 /// Longest step and bound on the residual where the scene says nothing.
 const MAX_STEP: f64 = 0.25;
 const TOLERANCE: f64 = 3e-14;
+/// States looked at for crossing faces between two questions whether to go on.
+const OBSERVED: usize = 64;
 /// Most pictures of a trajectory.
 const PICTURES: usize = 40;
 
@@ -110,7 +112,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
             summary.reason = paths.iter().find_map(Path::failure);
             summary.converged = summary.reason.is_none();
             summary.error = Some(paths.iter().map(Path::residual).fold(0.0, f64::max));
-            summary.result = Some(StudyResult::Trace(summarized(&paths, spec.engine)));
+            summary.result = Some(StudyResult::Trace(summarized(built, &paths, spec.engine)));
         }
         Err(error) => summary.reason = Some(error.to_string()),
     }
@@ -181,13 +183,25 @@ struct Path<'a> {
 impl Path<'_> {
     /// Why it did not come to its end.
     fn failure(&self) -> Option<String> {
-        let failed = matches!(self.traced.end, End::Failed | End::Steps | End::Interrupted);
         let relaxation = self.drive.and_then(|drive| drive.failure);
         let (branch, sign) = self.traced.branch;
-        match relaxation {
-            Some(failure) => Some(format!("branch {branch}, sign {sign}: a relaxation failed: {failure}")),
-            None => failed.then(|| format!("branch {branch}, sign {sign}: the trajectory did not come to its end")),
-        }
+        let why = match (relaxation, &self.traced.end) {
+            (Some(Failure::Interrupted), _) | (None, End::Interrupted) => "interrupted".to_owned(),
+            (Some(failure), _) => format!("a relaxation failed: {failure}"),
+            (None, End::Failed) => "the trajectory did not come to its end: no step leads on".to_owned(),
+            (None, End::Steps) => {
+                let most = continuation::Options::default().steps;
+                format!("the trajectory has not come to its end after {most} steps: raise max_step, or give a stop")
+            }
+            _ => return None,
+        };
+        Some(format!("branch {branch}, sign {sign}: {why}"))
+    }
+
+    /// Whether the observer asked to stop.
+    fn interrupted(&self) -> bool {
+        let relaxation = self.drive.and_then(|drive| drive.failure);
+        self.traced.end == End::Interrupted || relaxation == Some(Failure::Interrupted)
     }
 
     /// Number of states: up to where a relaxation failed.
@@ -221,6 +235,9 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
         for step in 0..path.len() {
             let folded = &path.traced.states[step];
             let driven = path.driven(step);
+            if rows.len() % OBSERVED == OBSERVED - 1 && finder.is_some() && !watch(runner, study, rows.len()) {
+                finder = None;
+            }
             model.set_angles(&hinge_angles(&model, &folded.angles));
             model.start_from(coordinates(folded));
             let state = driven.map_or_else(|| shown_state(built, &model, folded), relaxed_state);
@@ -241,6 +258,12 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
     draw::series(runner, study, &shown)?;
     draw_paths(runner, study, paths, &rows)?;
     keep(runner, study, &model, paths)
+}
+
+/// Tells the observer of a state that is looked at for crossing faces; false: stop.
+fn watch(runner: &Runner<'_>, study: &StudySpec, step: usize) -> bool {
+    let study = study.name.0.clone();
+    runner.watch(&Progress { study, step, of: None, residual: 0.0, target: None })
 }
 
 /// The trajectories in the space of lattice strains.
@@ -321,23 +344,26 @@ fn row(
     }
 }
 
-fn summarized(paths: &[Path<'_>], engine: Engine) -> TraceSummary {
+fn summarized(built: &Built, paths: &[Path<'_>], engine: Engine) -> TraceSummary {
     if paths.is_empty() {
         let end = "no-real-branch".to_owned();
         return TraceSummary { branches: vec![TrajectorySummary { end, ..TrajectorySummary::default() }] };
     }
-    TraceSummary { branches: paths.iter().map(|path| trajectory(path, engine)).collect() }
+    TraceSummary { branches: paths.iter().map(|path| trajectory(built, path, engine)).collect() }
 }
 
-fn trajectory(path: &Path<'_>, engine: Engine) -> TrajectorySummary {
+fn trajectory(built: &Built, path: &Path<'_>, engine: Engine) -> TrajectorySummary {
     let one = path.traced;
     let end = match one.end {
+        _ if path.interrupted() => "interrupted",
         _ if path.failure().is_some() => "failed",
         End::Closed(_) => "closed",
         End::Stopped { .. } | End::Length => "stop",
         End::Steps | End::Failed | End::Interrupted => "failed",
     };
     let last = path.len().checked_sub(1).map(|last| &one.states[last]);
+    let compared = path.drive.filter(|_| engine == Engine::Both);
+    let errors = compared.and_then(|drive| drive::cylinder_errors(&built.drawn, one, drive));
     let newton = |drive: &Drive| drive.states.iter().map(|driven| driven.relaxed.iterations).sum();
     TrajectorySummary {
         branch: Some(one.branch.0),
@@ -350,7 +376,10 @@ fn trajectory(path: &Path<'_>, engine: Engine) -> TrajectorySummary {
         ends_at: one.ends_at.map(|(branch, sign)| RayName { branch, sign }),
         end: end.to_owned(),
         first_self_intersection: one.first_self_intersection.map(|arc_length| ArcLength { arc_length }),
-        error_to_kinematic: path.drive.filter(|_| engine == Engine::Both).map(Drive::error),
+        error_to_kinematic: compared.map(Drive::error),
+        error_of_curvature: errors.map(|errors| errors.curvature),
+        error_of_strain: errors.map(|errors| errors.strain),
+        error_of_theta: errors.map(|errors| errors.theta),
         turning_points: one.turning_points.iter().map(turning_point).collect(),
     }
 }

@@ -76,6 +76,12 @@ impl Corrector {
         None
     }
 
+    /// The largest component of `F` at `x`.
+    pub fn residual(&mut self, equations: &mut impl Implicit, x: &[f64]) -> f64 {
+        equations.linearize(x, self.residual.as_mut_slice(), &mut self.jacobian);
+        self.residual.amax()
+    }
+
     /// Turns a frame into the tangents at `x`, which is near the solutions but need not be one; `None` where that
     /// fails.
     pub fn turn(&mut self, equations: &mut impl Implicit, x: &[f64], frame: &mut [f64]) -> Option<()> {

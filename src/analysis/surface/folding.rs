@@ -23,6 +23,11 @@ impl<'a> Folding<'a> {
         Self { closure, closing, embedding, max_curvature }
     }
 
+    /// What places the cell.
+    pub fn embedding(&self) -> &Embedding {
+        self.embedding
+    }
+
     /// The drawn angles of the folding edges.
     pub fn drawn(&self) -> Vec<f64> {
         self.folding(self.embedding.drawn_angles())

@@ -10,6 +10,7 @@
 //! there the coverage stays open, and says so.
 
 mod folding;
+mod sign;
 mod starts;
 mod tip;
 
@@ -158,7 +159,9 @@ fn put_together(folding: &Folding<'_>, mut atlas: Atlas, starts: &[starts::Start
             radius: chart.radius,
         })
     };
-    let points = atlas.charts.iter().map(point).collect::<Result<_, KinematicsError>>()?;
+    let mut points = atlas.charts.iter().map(point).collect::<Result<Vec<_>, KinematicsError>>()?;
+    let from: Vec<usize> = atlas.charts.iter().map(|chart| chart.start).collect();
+    sign::carry(folding.embedding(), &mut points, &atlas.triangles, &from);
     let mut branches = branch;
     branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
     branches.dedup();

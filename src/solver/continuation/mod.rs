@@ -179,8 +179,7 @@ impl<C: Curve> Follower<'_, C> {
                 return End::Stopped { indicator };
             }
             if self.points[self.points.len() - 1].arc_length >= options.length {
-                self.cut(options.length);
-                return End::Length;
+                return if self.cut(options.length) { End::Length } else { End::Failed };
             }
             if !observe(&self.points[self.points.len() - 1]) {
                 return End::Interrupted;
@@ -283,7 +282,7 @@ impl<C: Curve> Follower<'_, C> {
             }
             let share = if round % 3 == 2 { 0.5 } else { (low.1 / (low.1 - high.1)).clamp(1e-3, 1.0 - 1e-3) };
             let s = low.0 + share * (high.0 - low.0);
-            let point = self.point_at(s)?;
+            let Some(point) = self.point_at(s) else { break };
             values.clear();
             self.curve.indicators(&point, &mut values);
             let value = values[indicator];
@@ -298,12 +297,12 @@ impl<C: Curve> Follower<'_, C> {
         Some(Event { indicator, point: best })
     }
 
-    /// Makes the trajectory end at this arc length within its last step.
-    fn cut(&mut self, length: f64) {
-        if let Some(point) = self.point_at(length) {
-            let last = self.points.len() - 1;
-            self.points[last] = point;
-        }
+    /// Makes the trajectory end at this arc length within its last step; false where no point is found there.
+    fn cut(&mut self, length: f64) -> bool {
+        let Some(point) = self.point_at(length) else { return false };
+        let last = self.points.len() - 1;
+        self.points[last] = point;
+        true
     }
 
     /// Arc lengths between which the last step lies.
@@ -317,14 +316,25 @@ impl<C: Curve> Follower<'_, C> {
     }
 
     /// A point of the curve near the last step.
+    ///
+    /// Next to a point where branches cross no correction converges, or it goes to another branch: there the interpolant
+    /// itself is taken where it is as good as a corrected point.
     fn point_at(&mut self, arc_length: f64) -> Option<Point> {
         let mut point = self.points[self.points.len() - 1].clone();
         point.arc_length = arc_length;
         self.dense.at(arc_length, &mut point.x, &mut point.tangent);
         normalize(&mut point.tangent);
-        let found = self.corrector.correct(self.curve, &mut point.x, &mut point.tangent, self.tolerance)?;
-        (point.residual, point.corrections) = (found.residual, found.corrections);
-        Some(point)
+        let predicted = point.clone();
+        match self.corrector.correct(self.curve, &mut point.x, &mut point.tangent, self.tolerance) {
+            Some(found) if found.distance <= MOST_ERROR => {
+                (point.residual, point.corrections) = (found.residual, found.corrections);
+                Some(point)
+            }
+            _ => {
+                let residual = self.corrector.residual(self.curve, &predicted.x);
+                (residual <= self.tolerance).then_some(Point { residual, corrections: 0, ..predicted })
+            }
+        }
     }
 }
 

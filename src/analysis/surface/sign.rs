@@ -1,0 +1,49 @@
+//! The sign of the curvature over a surface, carried from neighbour to neighbour.
+//!
+//! Next to the drawn state the sign of a state says on which side the axis lies; from there it spreads over the triangles, to
+//! the nearest states first. Where the surface leads from one side to the other round the axis, without passing a
+//! straight state, the two signs meet along a line, and no choice is continuous across it.
+
+use super::SurfacePoint;
+use crate::kinematics::Embedding;
+use std::collections::VecDeque;
+
+/// Carries signs over the triangles from the first state of every start; pieces that hang together with no start keep
+/// the signs of single states. `starts` is the number of the start from which each state was found.
+pub(super) fn carry(embedding: &Embedding, points: &mut [SurfacePoint], triangles: &[[usize; 3]], starts: &[usize]) {
+    let near = neighbours(points.len(), triangles);
+    let mut reached = vec![false; points.len()];
+    let mut waiting = VecDeque::new();
+    for start in 0..starts.iter().max().map_or(0, |last| last + 1) {
+        let first = (0..points.len()).find(|&k| starts[k] == start && points[k].shape.turns());
+        waiting.extend(first);
+    }
+    waiting.iter().for_each(|&k| reached[k] = true);
+    while let Some(k) = waiting.pop_front() {
+        for &next in &near[k] {
+            if reached[next] || !points[next].shape.turns() {
+                continue;
+            }
+            let mut shape = points[next].shape.clone();
+            shape.continue_over(embedding, &points[k].shape, [&points[k].angles, &points[next].angles]);
+            points[next].shape = shape;
+            reached[next] = true;
+            waiting.push_back(next);
+        }
+    }
+}
+
+fn neighbours(points: usize, triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
+    let mut near = vec![Vec::new(); points];
+    for &[a, b, c] in triangles {
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            near[a].push(b);
+            near[b].push(a);
+        }
+    }
+    near.iter_mut().for_each(|list| {
+        list.sort_unstable();
+        list.dedup();
+    });
+    near
+}
