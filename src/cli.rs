@@ -320,7 +320,8 @@ fn describe_study(study: &StudySummary) -> String {
             ends.collect::<Vec<_>>().join(", ")
         }
         Some(StudyResult::Surface(surface)) => {
-            format!("{} states, {} triangles, {}", surface.points, surface.triangles, surface.coverage)
+            let found = format!("{} states, {} triangles, {}", surface.points, surface.triangles, surface.coverage);
+            surface.established.as_ref().map_or(found.clone(), |established| format!("{found}: {established}"))
         }
         Some(StudyResult::Landscape(landscape)) => {
             let modes = landscape.modes.iter().map(|one| {

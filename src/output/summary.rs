@@ -523,8 +523,11 @@ pub struct SurfaceSummary {
     /// Triangles of states.
     pub triangles: usize,
     /// How the covering ended.
-    #[schemars(extend("enum" = ["complete", "open", "too-many-points", "interrupted", "no-real-branch"]))]
+    #[schemars(extend("enum" = ["complete", "open", "given-up", "too-many-points", "interrupted", "no-real-branch"]))]
     pub coverage: String,
+    /// Where no surface leaves the drawn state: what establishes it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub established: Option<String>,
     /// Whether the surface has no border: it closes modulo 2 pi without meeting the largest curvature.
     pub closed: bool,
     /// Whether neighbouring triangles go the same way round everywhere.

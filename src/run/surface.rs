@@ -18,16 +18,19 @@ use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{PieceSummary, StudyResult, StudySummary, SurfaceSummary};
 use crate::output::table::{StateRow, Table, read_columns};
 use crate::output::{strain_plot, vtk};
-use crate::scene::SceneFile;
 use crate::scene::build::Built;
 use crate::scene::spec::{Draw, StudyKind, StudySpec, SurfaceSpec};
+use crate::scene::values::Count;
+use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKey;
-use crate::solver::atlas::Coverage;
+use crate::solver::atlas::{Coverage, KEPT};
 use std::f64::consts::TAU;
 use std::time::Instant;
 
 /// States along each direction over a whole turn where the scene says nothing.
 const RESOLUTION: u32 = 32;
+/// Finest resolution that is accepted: discs of 6e-5 rad.
+const MOST_RESOLUTION: u32 = 100_000;
 /// Bound on the closure residual.
 const TOLERANCE: f64 = 3e-14;
 /// States beyond which a surface is given up.
@@ -37,11 +40,24 @@ const OBSERVED: usize = 256;
 
 /// Surfaces are drawn in the space of lattice strains: refuses other domains than the screw.
 pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+    if let StudyKind::Surface(SurfaceSpec { resolution: Some(resolution), .. }) = &*study.kind {
+        check_resolution(file, resolution)?;
+    }
     if built.surroundings == Surroundings::Screw {
         return Ok(());
     }
     let message = "a surface of folded states is drawn in the space of lattice strains";
     Err(file.error_at(study.kind.span(), message, "use domain = \"screw\"").into())
+}
+
+/// Refuses a resolution at which states could not be told from each other.
+pub fn check_resolution(file: &SceneFile, resolution: &Located<Count>) -> Result<(), RunError> {
+    if resolution.0 <= MOST_RESOLUTION {
+        return Ok(());
+    }
+    let message = format!("a resolution of {} is finer than closure is solved", resolution.0);
+    let help = format!("choose at most {MOST_RESOLUTION}; 32 states over a whole turn are usual");
+    Err(file.error_at(resolution.span(), &message, &help).into())
 }
 
 /// What this study does not use of the scene.
@@ -78,8 +94,8 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> 
         ..StudySummary::unanswered(&study.name.0, study.kind.name())
     };
     match found {
-        Ok(surface) => {
-            write(runner, study, &recipe, (&surface, question.max_curvature))?;
+        Ok(mut surface) => {
+            write(runner, study, &recipe, (&mut surface, question.max_curvature))?;
             summary.reason = reason(&surface);
             summary.converged = summary.reason.is_none();
             let result = summarized(&surface, &question);
@@ -103,7 +119,15 @@ fn watch(runner: &Runner<'_>, study: &StudySpec, step: usize) -> bool {
 /// Why a surface is not whole; `None` where it is.
 fn reason(surface: &Surface) -> Option<String> {
     match surface.coverage {
+        Coverage::Complete if surface.lost > 0 => Some(format!(
+            "along {} of the ways away from the drawn state no folded state was found: what lies there may be missing",
+            surface.lost
+        )),
         Coverage::Complete => None,
+        Coverage::GivenUp { charts } => Some(format!(
+            "the surface was given up before all of it was covered: it could not be followed beyond {charts} of its states, \
+             as where several branches come close to each other; choose a smaller max_curvature"
+        )),
         Coverage::Open { charts } => Some(format!("the surface could not be followed beyond {charts} of its states")),
         Coverage::TooManyCharts => Some(format!(
             "the surface has more than {MOST_POINTS} states: choose a smaller resolution or max_curvature"
@@ -119,22 +143,29 @@ struct States {
     crossing: Option<Vec<bool>>,
 }
 
-fn states(runner: &Runner<'_>, study: &StudySpec, recipe: &Recipe, points: &[SurfacePoint]) -> States {
+/// The states of a surface. Where the observer asks to stop, the surface is cut down to those it has by then, or to the
+/// first few.
+fn states(runner: &Runner<'_>, study: &StudySpec, recipe: &Recipe, surface: &mut Surface) -> States {
     let built = runner.built;
     let mut model = assemble(&built.drawn, &built.tiling, recipe, Gauge::Held);
     let mut finder = draw::self_intersection(runner, study);
     let (mut states, mut crossing) = (Vec::new(), Vec::new());
-    for (k, point) in points.iter().enumerate() {
+    for (k, point) in surface.points.iter().enumerate() {
+        if k % OBSERVED == 0 && !watch(runner, study, surface.points.len() + k) {
+            surface.coverage = Coverage::Interrupted;
+            finder = None;
+        }
+        if k >= KEPT && surface.coverage == Coverage::Interrupted {
+            break;
+        }
         let coordinates = screw_coordinates(&point.shape);
         model.set_angles(&hinge_angles(&model, &point.angles));
         model.start_from(coordinates.clone());
         let state = state_at(built, &model, coordinates, &point.angles);
-        if k % OBSERVED == 0 && finder.is_some() && !watch(runner, study, points.len() + k) {
-            finder = None;
-        }
         crossing.extend(finder.as_mut().map(|finder| finder.marks(&built.drawn, &state, LYING).any));
         states.push(state);
     }
+    surface.truncate(states.len());
     let crossing = (finder.is_some() && crossing.len() == states.len()).then_some(crossing);
     States { states, crossing }
 }
@@ -143,10 +174,11 @@ fn write(
     runner: &mut Runner<'_>,
     study: &StudySpec,
     recipe: &Recipe,
-    (surface, max_curvature): (&Surface, f64),
+    (surface, max_curvature): (&mut Surface, f64),
 ) -> Result<(), RunError> {
     let built = runner.built;
-    let found = states(runner, study, recipe, &surface.points);
+    let found = states(runner, study, recipe, surface);
+    let surface = &*surface;
     let row = |k: usize| row(recipe, k, &surface.points[k], &found);
     let rows: Vec<StateRow> = (0..surface.points.len()).map(row).collect();
     let keys: Vec<EdgeKey> = built.sheet.edges.iter().map(|edge| edge.key).collect();
@@ -245,9 +277,10 @@ fn paths(runner: &Runner<'_>, study: &StudySpec, max_curvature: f64) -> Result<V
 
 fn summarized(surface: &Surface, question: &Question<'_>) -> SurfaceSummary {
     let coverage = match surface.coverage {
-        _ if surface.points.is_empty() => "no-real-branch",
+        _ if surface.negative.is_some() => "no-real-branch",
         Coverage::Complete => "complete",
         Coverage::Open { .. } => "open",
+        Coverage::GivenUp { .. } => "given-up",
         Coverage::TooManyCharts => "too-many-points",
         Coverage::Interrupted => "interrupted",
     };
@@ -259,11 +292,12 @@ fn summarized(surface: &Surface, question: &Question<'_>) -> SurfaceSummary {
         points: surface.points.len(),
         triangles: surface.triangles.len(),
         coverage: coverage.to_owned(),
+        established: surface.negative.map(|negative| negative.to_string()),
         closed: surface.closed && !surface.points.is_empty(),
         oriented: surface.oriented,
         tips: surface.points.iter().filter(|point| point.radius == 0.0).count(),
         max_curvature: question.max_curvature,
-        radius: question.radius,
+        radius: surface.radius,
         max_residual: surface.points.iter().map(|point| point.residual).fold(0.0, f64::max),
         branches: surface.branches.iter().map(piece).collect(),
     }

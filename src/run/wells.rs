@@ -2,7 +2,7 @@
 
 use super::draw::{self, Shown};
 use super::runner::Runner;
-use super::surface::curvature_of_cell;
+use super::surface::{check_resolution, curvature_of_cell};
 use super::{Progress, RunError};
 use crate::analysis::intersections::{LYING, SelfIntersection};
 use crate::analysis::state::State;
@@ -19,7 +19,7 @@ use crate::output::summary::{
 use crate::output::table::{Table, Value};
 use crate::scene::SceneFile;
 use crate::scene::build::Built;
-use crate::scene::spec::{Draw, StudySpec, WellsSpec};
+use crate::scene::spec::{Draw, StudyKind, StudySpec, WellsSpec};
 use crate::solver::Options;
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -32,6 +32,9 @@ const RESOLUTION: u32 = 64;
 /// Wells are those of bars and creases, with nothing that holds or pulls.
 pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
     let refuse = |message: &str, help: &str| Err(file.error_at(study.kind.span(), message, help).into());
+    if let StudyKind::Wells(WellsSpec { resolution: Some(resolution), .. }) = &*study.kind {
+        check_resolution(file, resolution)?;
+    }
     let recipe = &built.recipe;
     if recipe.bars.is_none() || recipe.creases.as_ref().is_none_or(|creases| creases.stiffness.is_infinite()) {
         let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite";

@@ -24,6 +24,11 @@ use thiserror::Error;
 /// Largest angle between the tangent planes of neighbouring charts, in radians.
 const MAX_TURN: f64 = 0.4;
 
+/// The observer is asked after so many states.
+const OBSERVED: usize = 256;
+/// Charts are no larger than this part of the way at which half of the largest curvature is met.
+const REACH: f64 = 2.0;
+
 /// What to cover.
 pub struct Question<'a> {
     /// The drawn state; what is locked stays so.
@@ -71,6 +76,38 @@ pub struct Surface {
     /// Branch and sign of the nappes from which it was begun. One number is shared by nappes that lie opposite each
     /// other at the drawn state, and by those that hang together elsewhere.
     pub branches: Vec<(usize, i8)>,
+    /// Largest radius of a chart: that of the question, or less where the largest curvature is met close to the drawn state.
+    pub radius: f64,
+    /// Ways away from the drawn state along which no state was found: what lies there may be missing.
+    pub lost: usize,
+    /// Whether two surfaces cross at the drawn state, along a curve of spatially periodic states.
+    pub crossing: bool,
+    /// What second order establishes where there is no surface; then there are no states.
+    pub negative: Option<Negative>,
+}
+
+/// What is established of a drawn state that no surface of cylinders leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Negative {
+    /// The quadric is definite: no direction is real, and the drawn state cannot fold.
+    NoDirection,
+    /// The quadric is definite but for one direction, which alone is real: at most a curve of folded states.
+    OneDirection,
+}
+
+impl std::fmt::Display for Negative {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::NoDirection => {
+                "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
+                 definite, so that none of them extends"
+            }
+            Self::OneDirection => {
+                "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
+                 definite across its null direction, so that this one direction is the only real one and leaves at most a curve"
+            }
+        })
+    }
 }
 
 /// Why there is no surface.
@@ -98,6 +135,37 @@ pub enum SurfaceError {
     /// The sheet cannot be put together.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+    /// Second order does not say what leaves the drawn state.
+    #[error(
+        "second order does not tell the folded states here: the quadratic condition on the linear motions has the signature \
+         {signature:?} (positive, negative, zero), whose zeros are multiple"
+    )]
+    Degenerate {
+        /// Eigenvalues that are positive, negative and zero.
+        signature: [usize; 3],
+    },
+    /// No direction was met, which does not say that there is none.
+    #[error(
+        "no simple real direction was met on {sections} random hyperplanes, and {multiple} multiple ones: this does not \
+         establish that no surface leaves the drawn state"
+    )]
+    NoneMet {
+        /// Hyperplanes.
+        sections: usize,
+        /// Real solutions of higher multiplicity, for which second order says no more.
+        multiple: usize,
+    },
+    /// The curvature is met before the surface can be told from the drawn state.
+    #[error(
+        "nothing could be found within max_curvature = {max_curvature:e}: half of it is met at {reach:e} from the drawn state or nearer in \
+         fold angles, where the surface cannot be told from its singular point; choose a larger max_curvature"
+    )]
+    NothingWithin {
+        /// The largest curvature.
+        max_curvature: f64,
+        /// Distance from the drawn state, in fold angles, at which half of it is met.
+        reach: f64,
+    },
     /// No ray could be followed away from the drawn state.
     #[error("{rays} real directions leave the drawn state, but along none of them a folded state was found")]
     NoStart {
@@ -129,41 +197,98 @@ pub fn surface(question: &Question<'_>, observe: &mut dyn FnMut(usize) -> bool) 
         return Err(SurfaceError::NotTwoDimensional { modes, quadrics, left });
     }
     let mut folding = Folding::new(&closure, &embedding, question.max_curvature);
-    let starts = starts::starts(&mut folding, &second_order, question)?;
-    let states: Vec<Vec<f64>> = starts.iter().map(|start| start.x.clone()).collect();
+    let starts = match starts::starts(&mut folding, &second_order, question)? {
+        Ok(starts) => starts,
+        Err(negative) => return Ok(Surface::nothing(negative, question.radius)),
+    };
+    let states: Vec<Vec<f64>> = starts.list.iter().map(|start| start.x.clone()).collect();
     let options = atlas::Options {
         tolerance: question.tolerance,
-        radius: question.radius,
+        radius: question.radius.min(REACH * starts.reach),
         max_turn: MAX_TURN,
         max_charts: question.max_points,
     };
     let atlas = atlas::cover(&mut folding, &states, options, observe)?;
-    Ok(put_together(&folding, atlas, &starts)?)
+    let radius = options.radius;
+    let found = Surface { radius, ..put_together(&folding, atlas, &starts, observe)? };
+    if found.points.is_empty() && found.coverage != Coverage::Interrupted {
+        return Err(SurfaceError::NothingWithin { max_curvature: question.max_curvature, reach: starts.reach });
+    }
+    Ok(found)
+}
+
+impl Surface {
+    /// Keeps the first states and the triangles among them.
+    pub fn truncate(&mut self, kept: usize) {
+        self.points.truncate(kept);
+        self.triangles.retain(|triangle| triangle.iter().all(|&corner| corner < kept));
+    }
+
+    /// No states, for an established reason.
+    fn nothing(negative: Negative, radius: f64) -> Self {
+        let (points, triangles, branches) = (Vec::new(), Vec::new(), Vec::new());
+        let (coverage, negative) = (Coverage::Complete, Some(negative));
+        Self {
+            points,
+            triangles,
+            coverage,
+            oriented: true,
+            closed: false,
+            branches,
+            radius,
+            lost: 0,
+            crossing: false,
+            negative,
+        }
+    }
 }
 
 /// The states of an atlas, the hole around the drawn state closed where it is a tip.
-fn put_together(folding: &Folding<'_>, mut atlas: Atlas, starts: &[starts::Start]) -> Result<Surface, KinematicsError> {
-    let branch = starts::branches(&atlas, starts);
+fn put_together(
+    folding: &Folding<'_>,
+    mut atlas: Atlas,
+    starts: &starts::Starts,
+    observe: &mut dyn FnMut(usize) -> bool,
+) -> Result<Surface, KinematicsError> {
+    let branch = starts::branches(&atlas, &starts.list);
     let tip::Left { rims, open } = tip::close(folding, &mut atlas);
     let coverage = match atlas.coverage {
         Coverage::Open { .. } if open == 0 => Coverage::Complete,
         Coverage::Open { .. } => Coverage::Open { charts: open },
         other => other,
     };
-    let point = |chart: &atlas::Chart| {
-        Ok(SurfacePoint {
+    let points = Vec::with_capacity(atlas.charts.len());
+    let (triangles, closed, negative) = (atlas.triangles, rims == 0, None);
+    let Atlas { oriented, .. } = atlas;
+    let mut branches = branch.clone();
+    branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
+    branches.dedup();
+    let (lost, crossing, radius) = (starts.lost, starts.crossing, 0.0);
+    let mut surface =
+        Surface { points, triangles, coverage, oriented, closed, branches, radius, lost, crossing, negative };
+    for (k, chart) in atlas.charts.iter().enumerate() {
+        let stopped = surface.coverage == Coverage::Interrupted;
+        if !stopped && k % OBSERVED == 0 && !observe(atlas.charts.len()) {
+            surface.coverage = Coverage::Interrupted;
+        }
+        if k >= atlas::KEPT && surface.coverage == Coverage::Interrupted {
+            break;
+        }
+        surface.points.push(SurfacePoint {
             branch: branch[chart.start],
             angles: folding.all(&chart.x),
             shape: folding.shape(&chart.x)?,
             residual: chart.residual,
             radius: chart.radius,
-        })
-    };
-    let mut points = atlas.charts.iter().map(point).collect::<Result<Vec<_>, KinematicsError>>()?;
-    let from: Vec<usize> = atlas.charts.iter().map(|chart| chart.start).collect();
-    sign::carry(folding.embedding(), &mut points, &atlas.triangles, &from);
-    let mut branches = branch;
-    branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
-    branches.dedup();
-    Ok(Surface { points, triangles: atlas.triangles, coverage, oriented: atlas.oriented, closed: rims == 0, branches })
+        });
+    }
+    surface.truncate(surface.points.len());
+    let from: Vec<usize> = atlas.charts.iter().take(surface.points.len()).map(|chart| chart.start).collect();
+    sign::carry(folding.embedding(), &mut surface.points, &surface.triangles, &from);
+    if starts.crossing {
+        // charts go over the curve along which surfaces cross, to the other sign
+        let sides = surface.points.iter_mut().filter(|point| point.shape.turns());
+        sides.for_each(|point| point.branch.1 = if point.shape.curvature < 0.0 { -1 } else { 1 });
+    }
+    Ok(surface)
 }

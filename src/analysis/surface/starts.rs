@@ -2,17 +2,19 @@
 //!
 //! The drawn state is the tip of a cone, the zeros of the obstruction quadrics. Of one quadric with eigenvalues of both
 //! signs the cone has two nappes, `v` and `-v`, with `v` in the plane of the eigenvector whose sign is alone and
-//! another. Of several it is met by hyperplanes in general position, on each of which the real rays are known with
+//! another. With one eigenvalue of either sign and one zero the cone is two planes, and the folded states are two surfaces
+//! that cross along a curve of spatially periodic states: planar folding, as of the eggbox. Each is smooth across it, so that
+//! charts go over the curve. Of several quadrics the cone is met by hyperplanes in general position, on each of which the real rays are known with
 //! multiplicity ([`crate::kinematics::Rays`]); as many hyperplanes are taken as make it unlikely that a piece meets
 //! none. On such a hyperplane the surface is a curve, followed from the drawn state along its ray.
 
 use super::folding::{Folding, Section};
-use super::{Question, SurfaceError};
+use super::{Negative, Question, SurfaceError};
 use crate::kinematics::{KinematicsError, Rays, SecondOrder};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{null_space, symmetric_eigen};
-use crate::solver::atlas::Atlas;
-use crate::solver::continuation::{Options, follow};
+use crate::solver::atlas::{Atlas, Surface as _};
+use crate::solver::continuation::{Options, Point, follow};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 
@@ -20,6 +22,10 @@ use rand::{RngExt, SeedableRng};
 const SECTIONS: u64 = 6;
 /// Eigenvalues below this part of the largest are zero.
 const ZERO: f64 = 1e-9;
+
+/// Least distance from the drawn state, in fold angles, at which the surface can be told from its singular point: closure to
+/// 3e-14 fixes a state to that over the distance, and charts are a hundredth of the distance wide.
+const NEAREST: f64 = 2e-5;
 
 /// A state on the surface.
 pub(super) struct Start {
@@ -31,90 +37,127 @@ pub(super) struct Start {
     pub line: usize,
 }
 
+/// States from which the surface is begun.
+pub(super) struct Starts {
+    pub list: Vec<Start>,
+    /// Distance from the drawn state, in fold angles, of the nearest one; infinite where the drawn state is itself the start.
+    pub reach: f64,
+    /// Ways along which no state was found.
+    pub lost: usize,
+    /// Whether they lie on surfaces that cross along a curve through the drawn state.
+    pub crossing: bool,
+}
+
 /// A real direction, and the normal of a hyperplane on which it is a simple solution; both in the basis of the modes.
 struct Direction {
     along: DVector<f64>,
     normal: DVector<f64>,
 }
 
-/// States near the drawn one along every direction found, both ways.
+/// States near the drawn one along every direction found, both ways; or what is established instead.
 pub(super) fn starts(
     folding: &mut Folding<'_>,
     second_order: &SecondOrder,
     question: &Question<'_>,
-) -> Result<Vec<Start>, SurfaceError> {
-    let drawn = folding.drawn();
+) -> Result<Result<Starts, Negative>, SurfaceError> {
     let directions = match &second_order.quadrics[..] {
-        [] => return Ok(vec![Start { x: drawn, sign: 1, line: 0 }]),
-        [quadric] => nappes(quadric)?,
+        [] => {
+            let list = vec![Start { x: folding.drawn(), sign: 1, line: 0 }];
+            return Ok(Ok(Starts { list, reach: f64::INFINITY, lost: 0, crossing: false }));
+        }
+        [quadric] => match of_one_quadric(quadric)? {
+            Ok(directions) => directions,
+            Err(negative) => return Ok(Err(negative)),
+        },
         _ => on_sections(second_order)?,
     };
-    let mut starts = Vec::new();
+    let crossing = second_order.quadrics.len() == 1 && directions.len() == 2;
+    let mut found = Starts { list: Vec::new(), reach: f64::INFINITY, lost: 0, crossing };
     for (line, Direction { along, normal }) in directions.iter().enumerate() {
         let [along, normal] = [along, normal].map(|v| folding.folding((&second_order.modes * v).as_slice()));
         for sign in [1.0, -1.0] {
             let tangent = along.iter().map(|entry| sign * entry).collect();
-            if let Some(x) = follow_out(folding, question, tangent, &normal) {
-                let sign = if folding.shape(&x)?.curvature < 0.0 { -1 } else { 1 };
-                starts.push(Start { x, sign, line });
+            match follow_out(folding, question, tangent, &normal) {
+                Some(Point { x, arc_length, .. }) => {
+                    let sign = if folding.shape(&x)?.curvature < 0.0 { -1 } else { 1 };
+                    // beyond the limit: half of it is met so near that it could not be located
+                    let reach = if folding.limit(&x) > 0.0 { 0.0 } else { arc_length };
+                    found.reach = found.reach.min(reach);
+                    found.list.push(Start { x, sign, line });
+                }
+                None => found.lost += 1,
             }
         }
     }
-    if starts.is_empty() && !directions.is_empty() {
-        return Err(SurfaceError::NoStart { rays: 2 * directions.len() });
+    match found.reach {
+        _ if found.list.is_empty() => Err(SurfaceError::NoStart { rays: 2 * directions.len() }),
+        reach if reach < NEAREST => Err(SurfaceError::NothingWithin { max_curvature: question.max_curvature, reach }),
+        _ => Ok(Ok(found)),
     }
-    Ok(starts)
 }
 
 /// The state a chart's radius away on the hyperplane, or where half of the largest curvature is met.
-fn follow_out(
-    folding: &mut Folding<'_>,
-    question: &Question<'_>,
-    tangent: Vec<f64>,
-    normal: &[f64],
-) -> Option<Vec<f64>> {
+fn follow_out(folding: &mut Folding<'_>, question: &Question<'_>, tangent: Vec<f64>, normal: &[f64]) -> Option<Point> {
     let options =
         Options { tolerance: question.tolerance, length: question.radius, stops: vec![0], ..Options::default() };
     let drawn = folding.drawn();
     let mut section = Section::new(folding, drawn.clone(), normal.to_vec());
     let found = follow(&mut section, drawn, tangent, &options, &mut |_| true);
-    let last = found.points.into_iter().next_back()?;
-    (last.arc_length > 0.0).then_some(last.x)
+    found.points.into_iter().next_back().filter(|last| last.arc_length > 0.0)
 }
 
-/// One line on the cone of a quadric whose eigenvalues have both signs; none otherwise.
-fn nappes(quadric: &DenseMatrix) -> Result<Vec<Direction>, KinematicsError> {
-    let found = symmetric_eigen(quadric)?;
+/// Simple directions on the zeros of one quadric of three motions: one line on a cone, one on each of two planes that meet
+/// in the null direction, on the plane across it. What is established where no plane of directions is real.
+fn of_one_quadric(quadric: &DenseMatrix) -> Result<Result<Vec<Direction>, Negative>, SurfaceError> {
+    let found = symmetric_eigen(quadric).map_err(KinematicsError::from)?;
     let zero = ZERO * found.values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
     let [positive, negative] =
         [1.0, -1.0].map(|sign| (0..found.values.len()).filter(|&k| sign * found.values[k] > zero).collect::<Vec<_>>());
-    let (alone, other, normal) = match (&positive[..], &negative[..]) {
-        (&[alone], &[other, normal]) | (&[other, normal], &[alone]) => (alone, other, normal),
-        _ => return Ok(Vec::new()),
-    };
-    let [alone_size, other_size] = [alone, other].map(|k| found.values[k].abs().sqrt());
     let vector = |k: usize| found.vectors.column(k).into_owned();
-    let along = (vector(alone) * other_size + vector(other) * alone_size).normalize();
-    Ok(vec![Direction { along, normal: vector(normal) }])
+    let directions = |[one, other, across]: [usize; 3], ways: &[f64]| {
+        let [one_size, other_size] = [one, other].map(|k| found.values[k].abs().sqrt());
+        let along = |way: &f64| (vector(one) * other_size + vector(other) * (way * one_size)).normalize();
+        ways.iter().map(|way| Direction { along: along(way), normal: vector(across) }).collect()
+    };
+    let none = (0..found.values.len()).find(|k| !positive.contains(k) && !negative.contains(k));
+    match (&positive[..], &negative[..], none) {
+        (&[alone], &[other, normal], _) | (&[other, normal], &[alone], _) => {
+            Ok(Ok(directions([alone, other, normal], &[1.0])))
+        }
+        (&[one], &[other], Some(shared)) => Ok(Ok(directions([one, other, shared], &[1.0, -1.0]))),
+        ([_, _, _], [], _) | ([], [_, _, _], _) => Ok(Err(Negative::NoDirection)),
+        ([_, _], [], _) | ([], [_, _], _) => Ok(Err(Negative::OneDirection)),
+        _ => {
+            let signature = [positive.len(), negative.len(), found.values.len() - positive.len() - negative.len()];
+            Err(SurfaceError::Degenerate { signature })
+        }
+    }
 }
 
 /// The simple real rays on hyperplanes in general position.
-fn on_sections(second_order: &SecondOrder) -> Result<Vec<Direction>, KinematicsError> {
+///
+/// That every hyperplane has none does not say that there are none: a small curve of directions is missed by most.
+fn on_sections(second_order: &SecondOrder) -> Result<Vec<Direction>, SurfaceError> {
     let count = second_order.count();
-    let mut found = Vec::new();
+    let (mut found, mut multiple) = (Vec::new(), 0);
     for seed in 0..SECTIONS {
         let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
         let normal = DVector::from_fn(count, |_, _| numbers.random_range(-1.0..1.0)).normalize();
-        let inside = null_space(&DenseMatrix::from_row_slice(1, count, normal.as_slice()))?.basis;
+        let inside =
+            null_space(&DenseMatrix::from_row_slice(1, count, normal.as_slice())).map_err(KinematicsError::from)?.basis;
         let section = SecondOrder {
             modes: inside.clone(),
             forms: Vec::new(),
             quadrics: second_order.quadrics.iter().map(|quadric| inside.tr_mul(&(quadric * &inside))).collect(),
             gaps: second_order.gaps,
         };
-        let rays = Rays::new(&section)?.rays.into_iter();
-        let simple = rays.filter(|ray| ray.sign == 1 && ray.multiplicity == 1);
+        let rays = Rays::new(&section)?.rays;
+        multiple += rays.iter().filter(|ray| ray.multiplicity > 1).count();
+        let simple = rays.into_iter().filter(|ray| ray.sign == 1 && ray.multiplicity == 1);
         found.extend(simple.map(|ray| Direction { along: ray.direction.into(), normal: normal.clone() }));
+    }
+    if found.is_empty() {
+        return Err(SurfaceError::NoneMet { sections: SECTIONS as usize, multiple });
     }
     Ok(found)
 }

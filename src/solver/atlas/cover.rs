@@ -2,7 +2,7 @@
 
 use super::grid::Grid;
 use super::polygon::Polygon;
-use super::{AtlasError, Chart, Coverage, Options, Surface, add, dot, norm};
+use super::{AtlasError, Chart, Coverage, KEPT, Options, Surface, add, dot, norm};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
 use crate::solver::implicit::{Corrected, Corrector};
@@ -26,7 +26,10 @@ const OVERLAP: f64 = 0.5;
 /// Charts beyond the limit that are followed further: those next to the inner ones.
 const BEYOND: usize = 1;
 /// The observer is asked every so many charts.
-const OBSERVED: usize = 256;
+pub(super) const OBSERVED: usize = 256;
+/// Charts at which the surface cannot be followed, beyond which it is given up: smallest charts would be placed for long
+/// along singular curves, and the covering stays open all the same.
+const MOST_OPEN: usize = 512;
 
 pub(super) struct Cover<'a, S: Surface> {
     surface: &'a mut S,
@@ -102,10 +105,11 @@ impl<'a, S: Surface> Cover<'a, S> {
 
     /// Places charts until none is open.
     pub fn run(&mut self, observe: &mut dyn FnMut(usize) -> bool) -> Coverage {
-        let (mut open, mut seen) = (HashSet::new(), 0);
+        let (mut open, mut seen, mut taken) = (HashSet::new(), 0, 0);
         while let Some(number) = self.waiting.pop_front() {
             self.queued[number] = false;
-            if self.charts.len() >= seen + OBSERVED {
+            taken += 1;
+            if taken % OBSERVED == 0 || self.charts.len() >= seen + OBSERVED {
                 seen = self.charts.len();
                 if !observe(seen) {
                     return Coverage::Interrupted;
@@ -116,6 +120,9 @@ impl<'a, S: Surface> Cover<'a, S> {
             }
             if self.beyond[number] <= BEYOND && !open.contains(&number) && !self.surround(number) {
                 open.insert(number);
+                if open.len() >= MOST_OPEN {
+                    return Coverage::GivenUp { charts: open.len() };
+                }
             }
         }
         if open.is_empty() { Coverage::Complete } else { Coverage::Open { charts: open.len() } }
@@ -262,6 +269,32 @@ impl<'a, S: Surface> Cover<'a, S> {
     pub fn ring(&mut self, number: usize) -> Vec<Option<usize>> {
         self.shape(number);
         self.polygon.ring()
+    }
+
+    /// The rings of all charts, or of the first ones of an interrupted covering.
+    pub fn rings(
+        &mut self,
+        coverage: &mut Coverage,
+        observe: &mut dyn FnMut(usize) -> bool,
+    ) -> Vec<Vec<Option<usize>>> {
+        let mut rings = Vec::new();
+        for number in 0..self.charts.len() {
+            let stopped = *coverage == Coverage::Interrupted;
+            if stopped && number >= KEPT {
+                break;
+            }
+            if !stopped && number % OBSERVED == 0 && !observe(self.charts.len()) {
+                *coverage = Coverage::Interrupted;
+            }
+            rings.push(self.ring(number));
+        }
+        if *coverage == Coverage::Interrupted {
+            rings.truncate(KEPT);
+            let kept = rings.len();
+            let beyond = |neighbour: &Option<usize>| neighbour.is_some_and(|number| number >= kept);
+            rings.iter_mut().flatten().filter(|neighbour| beyond(neighbour)).for_each(|neighbour| *neighbour = None);
+        }
+        rings
     }
 
     /// Distance of two charts, modulo periods.

@@ -1,7 +1,7 @@
 //! The border of a surface at its limit: triangles cut where the limit is zero.
 
-use super::cover::Cover;
-use super::{Chart, Surface};
+use super::cover::{Cover, OBSERVED};
+use super::{Chart, Coverage, Surface};
 use std::collections::HashMap;
 
 /// A chart nearer to the border than this part of an edge is moved onto it, so that no thin triangle is left.
@@ -11,9 +11,17 @@ const EVALUATIONS: usize = 40;
 const ACCURACY: f64 = 1e-13;
 
 /// Charts within the limit and on it, and their triangles.
-pub(super) fn at_limit<S: Surface>(cover: &mut Cover<S>, triangles: Vec<[usize; 3]>) -> (Vec<Chart>, Vec<[usize; 3]>) {
+pub(super) fn at_limit<S: Surface>(
+    cover: &mut Cover<S>,
+    triangles: Vec<[usize; 3]>,
+    coverage: &mut Coverage,
+    observe: &mut dyn FnMut(usize) -> bool,
+) -> (Vec<Chart>, Vec<[usize; 3]>) {
     let mut border = Border { points: HashMap::new(), snapped: HashMap::new() };
-    border.find(cover, &triangles);
+    let charts = cover.charts.len();
+    if !border.find(cover, &triangles, &mut || *coverage == Coverage::Interrupted || observe(charts)) {
+        *coverage = Coverage::Interrupted;
+    }
     let mut pieces = Vec::new();
     for triangle in triangles {
         border.cut(cover, triangle, &mut pieces);
@@ -35,10 +43,23 @@ struct Border {
 }
 
 impl Border {
-    /// Finds the border on every edge that crosses it, and moves charts close to it.
-    fn find<S: Surface>(&mut self, cover: &mut Cover<S>, triangles: &[[usize; 3]]) {
+    /// Finds the border on every edge that crosses it, and moves charts close to it; false where that was stopped.
+    fn find<S: Surface>(
+        &mut self,
+        cover: &mut Cover<S>,
+        triangles: &[[usize; 3]],
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> bool {
         let mut nearest: HashMap<usize, (f64, (usize, usize))> = HashMap::new();
+        let (mut whole, mut asked) = (true, 0);
         for [a, b, c] in triangles {
+            if self.points.len() >= asked + OBSERVED / 8 {
+                asked = self.points.len();
+                if !go_on() {
+                    whole = false;
+                    break;
+                }
+            }
             for (from, to) in [(*a, *b), (*b, *c), (*c, *a), (*b, *a), (*c, *b), (*a, *c)] {
                 let crosses = inside(cover, from) && !inside(cover, to);
                 if !crosses || self.points.contains_key(&(from, to)) {
@@ -60,6 +81,7 @@ impl Border {
                 self.snapped.extend(self.points.get(&edge).map(|point| (chart, point.clone())));
             }
         }
+        whole
     }
 
     /// What of a triangle is inside, counter-clockwise, as triangles.

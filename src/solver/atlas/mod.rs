@@ -23,6 +23,9 @@ use super::implicit::Implicit;
 use crate::numerics::dense::DenseError;
 use thiserror::Error;
 
+/// Charts that are kept of an interrupted covering.
+pub const KEPT: usize = 4096;
+
 /// A surface given by equations, with its limit.
 pub trait Surface: Implicit {
     /// The period of an unknown (`2 pi` for an angle) where there is one.
@@ -81,6 +84,11 @@ pub enum Coverage {
         /// Their number.
         charts: usize,
     },
+    /// The surface could not be followed at so many charts that it was given up before all of it was covered.
+    GivenUp {
+        /// Their number.
+        charts: usize,
+    },
     /// [`Options::max_charts`] were placed.
     TooManyCharts,
     /// The observer asked to stop.
@@ -126,7 +134,8 @@ pub enum AtlasError {
 /// Covers the parts of a surface that hold the `starts`: points on it, or within a thousandth of the radius of it, at
 /// which it is not singular. A start that lies in a chart already is passed over.
 ///
-/// `observe` is told the number of charts from time to time and returns false to stop.
+/// `observe` is told the number of charts from time to time and returns false to stop. What is kept then are the first
+/// [`KEPT`] charts and their triangles, so that stopping is quick however many there are.
 pub fn cover<S: Surface>(
     surface: &mut S,
     starts: &[Vec<f64>],
@@ -137,11 +146,11 @@ pub fn cover<S: Surface>(
     for (number, start) in starts.iter().enumerate() {
         cover.start(number, start)?;
     }
-    let coverage = cover.run(observe);
-    let rings: Vec<_> = (0..cover.charts.len()).map(|number| cover.ring(number)).collect();
+    let mut coverage = cover.run(observe);
+    let rings = cover.rings(&mut coverage, observe);
     let triangles = mesh::triangles(&rings, &|a, b| cover.distance(a, b));
     let oriented = cover.oriented;
-    let (charts, triangles) = cut::at_limit(&mut cover, triangles);
+    let (charts, triangles) = cut::at_limit(&mut cover, triangles, &mut coverage, observe);
     Ok(Atlas { charts, triangles, coverage, oriented })
 }
 

@@ -16,7 +16,7 @@ mod surface;
 use super::Question;
 use crate::analysis::branches::{self, BranchesError};
 use crate::analysis::exact::{Springs, Stationary};
-use crate::analysis::surface::SurfaceError;
+use crate::analysis::surface::{Negative, SurfaceError};
 use crate::kinematics::KinematicsError;
 use crate::model::Gauge;
 use crate::model::assemble::{Surroundings, assemble, drawn_angles};
@@ -104,6 +104,24 @@ pub enum RigidError {
     /// The surface is not known.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
+    /// The rigid states are not a surface, and what they are is not sampled.
+    #[error("{0}; wells are counted on surfaces only where the sheet is one periodic cell on a screw")]
+    NoSurface(Negative),
+    /// Only a part of the surface was covered.
+    #[error("only {states} states of the rigid surface were covered: wells and passes may lie on the rest of it")]
+    Partial {
+        /// States covered.
+        states: usize,
+    },
+    /// Two surfaces cross along a curve.
+    #[error(
+        "the rigid states ({states} of them sampled) are two surfaces that cross along a curve of spatially periodic states, \
+         where wells and passes are not made exact"
+    )]
+    Crossing {
+        /// States sampled.
+        states: usize,
+    },
     /// The observer asked to stop.
     #[error("interrupted")]
     Interrupted,

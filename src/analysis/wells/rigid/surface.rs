@@ -28,9 +28,17 @@ pub(super) fn net(
         max_curvature: sampling.max_curvature,
         max_points: MOST_POINTS,
     };
-    let Surface { points, triangles, coverage, .. } = surface(&question, &mut |_| go_on())?;
-    if coverage == Coverage::Interrupted {
-        return Err(RigidError::Interrupted);
+    let Surface { points, triangles, coverage, negative, crossing, .. } = surface(&question, &mut |_| go_on())?;
+    if let Some(negative) = negative {
+        return Err(RigidError::NoSurface(negative));
+    }
+    match coverage {
+        Coverage::Interrupted => return Err(RigidError::Interrupted),
+        Coverage::TooManyCharts | Coverage::GivenUp { .. } => return Err(RigidError::Partial { states: points.len() }),
+        Coverage::Complete | Coverage::Open { .. } => {}
+    }
+    if crossing {
+        return Err(RigidError::Crossing { states: points.len() });
     }
     let inside: Vec<bool> = points.iter().map(|point| point.angles.iter().all(|angle| angle.abs() <= PI)).collect();
     let mut count: std::collections::BTreeMap<[usize; 2], usize> = Default::default();
