@@ -16,7 +16,7 @@ pub(super) fn not_kept(sheet: &Sheet, from: Option<MeshKind>, to: Option<MeshKin
     if !sheet.record.left_out.is_empty() {
         notes.push(format!("not kept: {}", quoted(sheet.record.left_out.iter())));
     }
-    if to != Some(MeshKind::Fold) && !sheet.record.metadata.is_empty() {
+    if to == Some(MeshKind::Vtu) && !sheet.record.metadata.is_empty() {
         notes.push(format!("not kept: {}", quoted(sheet.record.metadata.iter().map(|(key, _)| key))));
     }
     if to == Some(MeshKind::Vtu) && !sheet.assignments.is_empty() {

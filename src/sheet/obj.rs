@@ -7,6 +7,7 @@
 //! # foldwell:lattice x y z            (twice, for the two lattice vectors)
 //! # foldwell:hole a b c ...           (once for every opening of a periodic sheet)
 //! # foldwell:assignment a b C        (of an edge, where the drawing does not show it; the letters are those of FOLD)
+//! # foldwell:metadata key value       (of FOLD, about the file and its frame; the value is JSON)
 //! # foldwell:description "text"
 //! ```
 
@@ -45,7 +46,9 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
         reader.read(&line).map_err(|problem| bad(name, reader.line, problem))?;
     }
     reader.drawn.lattice = reader.lattice().map_err(|problem| bad(name, reader.line, problem))?;
-    build(&reader.drawn).map_err(|defect| reader.located(name, defect))
+    let mut sheet = build(&reader.drawn).map_err(|defect| reader.located(name, defect))?;
+    sheet.record.metadata = reader.metadata;
+    Ok(sheet)
 }
 
 /// Lines with their numbers; one that ends in a backslash goes on in the next.
@@ -80,6 +83,7 @@ struct Reader {
     face_lines: Vec<usize>,
     hole_lines: Vec<usize>,
     edge_lines: Vec<usize>,
+    metadata: Vec<(String, String)>,
     lattice_line: usize,
 }
 
@@ -122,6 +126,12 @@ impl Reader {
                 };
                 self.drawn.assignments.push(([a, b], assignment));
                 self.edge_lines.push(self.line);
+            }
+            "foldwell:metadata" => {
+                let (key, value) = rest.trim().split_once(char::is_whitespace).unwrap_or((rest, ""));
+                let value: serde_json::Value = serde_json::from_str(value)
+                    .map_err(|_| wrong(rest, "metadata", "a key and a JSON value, `file_author \"A. B.\"`"))?;
+                self.metadata.push((key.to_owned(), value.to_string()));
             }
             "foldwell:description" => {
                 self.drawn.description = serde_json::from_str(rest)
@@ -195,6 +205,9 @@ pub fn write(sheet: &Sheet) -> String {
     if !drawn.description.is_empty() {
         let quoted = serde_json::Value::String(drawn.description);
         let _ = writeln!(text, "# foldwell:description {quoted}");
+    }
+    for (key, value) in &sheet.record.metadata {
+        let _ = writeln!(text, "# foldwell:metadata {key} {value}");
     }
     for l in drawn.lattice.iter().flatten() {
         let _ = writeln!(text, "# foldwell:lattice {:?} {:?} {:?}", l.x, l.y, l.z);
