@@ -12,12 +12,14 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
-use foldwell::output::summary::{BranchesSummary, RelaxSummary, StudyResult, StudySummary, to_json};
-use foldwell::run::{self, RunError, RunOptions, RunReport};
+use foldwell::output::summary::{BranchesSummary, RelaxSummary, StudyResult, StudySummary, WellsSummary, to_json};
+use foldwell::run::{self, Ledger, RunError, RunOptions, RunReport};
+use foldwell::validation::report::Case;
 use foldwell::validation::{self, ValidateOptions, ValidationError};
 use miette::{Diagnostic, GraphicalReportHandler};
 
@@ -123,6 +125,7 @@ enum Failure {
     Validation(ValidationError),
     Parameters(ParameterError),
     StandardOutput(io::Error),
+    Thread(io::Error),
 }
 
 impl From<RunError> for Failure {
@@ -137,7 +140,7 @@ impl Failure {
             Self::Run(error) => error.exit_status(),
             Self::Validation(error) => error.exit_status(),
             Self::Parameters(_) => WRONG_INPUT,
-            Self::StandardOutput(_) => BROKEN_PLACE,
+            Self::StandardOutput(_) | Self::Thread(_) => BROKEN_PLACE,
         }
     }
 }
@@ -181,10 +184,18 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
 }
 
 fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Result<u8, Failure> {
-    let watch = Watch::new(quiet);
-    let report = run::run_scene(scene, options, &|progress| watch.step(progress));
+    let watch = Arc::new(Watch::new(quiet));
+    let ledger = Ledger::default();
+    let (scene, options, books) = (scene.to_owned(), options.clone(), ledger.clone());
+    let found = watch.over(move |watch| run::run_with_ledger(&scene, &options, &|step| watch.step(step), &books));
     watch.finish();
-    let report = report?;
+    let report = match found.map_err(Failure::Thread)? {
+        Some(report) => report?,
+        None => match ledger.close()? {
+            Some(report) => report,
+            None => return Ok(INTERRUPTED),
+        },
+    };
     for note in report.notes.iter().filter(|_| !quiet) {
         // there is nobody left to tell where standard error is closed
         let _ = writeln!(io::stderr(), "note: {note}");
@@ -203,13 +214,11 @@ fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Res
 
 /// Checks the claims; each is a line on standard error once it is decided.
 fn validate(options: &ValidateOptions) -> Result<u8, Failure> {
-    let watch = Watch::new(false);
-    let report = validation::validate(options, &|progress| watch.step(progress), &mut |case| {
-        let mark = if case.passed { "holds" } else { "FAILS" };
-        eprintln!("{mark}  {}: {} ({:.2} s)", case.name, case.distance(), case.seconds);
-        case.failure.iter().for_each(|failure| eprintln!("       {failure}"));
-    });
+    let watch = Arc::new(Watch::new(false));
+    let options = options.clone();
+    let found = watch.over(move |watch| validation::validate(&options, &|step| watch.step(step), &mut announce));
     watch.finish();
+    let Some(report) = found.map_err(Failure::Thread)? else { return Ok(INTERRUPTED) };
     let report = report.map_err(Failure::Validation)?;
     say(&format!("{}\n", report.verdict()))?;
     Ok(match (report.interrupted, report.all_passed()) {
@@ -217,6 +226,12 @@ fn validate(options: &ValidateOptions) -> Result<u8, Failure> {
         (false, true) => 0,
         (false, false) => FAILED,
     })
+}
+
+fn announce(case: &Case) {
+    let mark = if case.passed { "holds" } else { "FAILS" };
+    eprintln!("{mark}  {}: {} ({:.2} s)", case.name, case.distance(), case.seconds);
+    case.failure.iter().for_each(|failure| eprintln!("       {failure}"));
 }
 
 /// Prints on standard output; a reader that has gone away is no failure.
@@ -241,6 +256,7 @@ fn report(failure: &Failure) {
         Failure::Validation(error) => fancy(error),
         Failure::Parameters(error) => format!("Error: {error}\n"),
         Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),
+        Failure::Thread(error) => format!("Error: no thread can be had for the work: {error}\n"),
     };
     // there is nobody left to tell where standard error is closed
     let _ = io::stderr().write_all(text.as_bytes());
@@ -304,6 +320,15 @@ fn describe_branches(branches: &BranchesSummary) -> String {
     format!("{rays}, {} complex solutions of {}", branches.complex_solutions, branches.expected)
 }
 
+/// How many random starts failed and why, where some did.
+fn describe_failures(found: &WellsSummary) -> String {
+    if found.failed == 0 {
+        return String::new();
+    }
+    let reasons: Vec<String> = found.failures.iter().map(|one| format!("{}: {}", one.starts, one.reason)).collect();
+    format!("; {} of {} failed ({})", found.failed, counted(found.starts, "start"), reasons.join("; "))
+}
+
 fn describe_study(study: &StudySummary) -> String {
     let what = match &study.result {
         Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
@@ -351,11 +376,13 @@ fn describe_study(study: &StudySummary) -> String {
         Some(StudyResult::Wells(found)) => {
             let energies = found.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");
             let barriers = found.barriers.iter().map(|barrier| {
-                let energy = barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e}"));
+                let bars = barrier.bars.map_or("rigid bars".to_owned(), |bars| format!("bars of {bars:e}"));
+                let energy =
+                    barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e} with {bars}"));
                 format!("; pass {:?} {energy}", barrier.between)
             });
             let count = counted(found.wells.len(), "well");
-            format!("{count} ({energies}){}", barriers.collect::<String>())
+            format!("{count} ({energies}){}{}", barriers.collect::<String>(), describe_failures(found))
         }
         None => String::from("no result"),
     };

@@ -3,16 +3,27 @@
 //! Nothing is shown where standard error is no terminal, and nothing during the first second of a study. The time left
 //! is always an estimate: from the number of steps where it is known, otherwise from the decrease of the residual; where
 //! nothing can be said there is a question mark.
+//!
+//! Work is done on a thread of its own ([`Watch::over`]): it stops between two steps where it is asked to, and where a step
+//! takes long the program ends without it.
 
+use std::io;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use foldwell::run::Progress;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 const PATIENCE: Duration = Duration::from_secs(1);
+/// How long work may go on after Ctrl-C until its step ends, and how often it is looked at meanwhile.
+const GRACE: Duration = Duration::from_millis(600);
+const GLANCE: Duration = Duration::from_millis(20);
+/// Memory for the calls of the work, in bytes: what the first thread of a program usually has.
+const STACK: usize = 8 << 20;
 /// Steps from which the time left is estimated.
 const RECENT: usize = 4;
 /// An estimate of more steps than this is none.
@@ -50,6 +61,37 @@ impl Watch {
     /// Whether Ctrl-C was pressed.
     pub fn interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
+    }
+
+    /// Does some work on a thread of its own and gives what comes of it; `None` where Ctrl-C was pressed and the work does
+    /// not end soon after it. A panic of the work is one here.
+    pub fn over<T: Send + 'static>(
+        self: &Arc<Self>,
+        work: impl FnOnce(&Self) -> T + Send + 'static,
+    ) -> io::Result<Option<T>> {
+        let (sender, receiver) = channel();
+        let watch = self.clone();
+        let work = move || {
+            // nobody waits for it any more where this fails
+            let _ = sender.send(work(&watch));
+        };
+        let worker = thread::Builder::new().name("run".into()).stack_size(STACK).spawn(work)?;
+        let mut stopped: Option<Instant> = None;
+        loop {
+            match receiver.recv_timeout(GLANCE) {
+                Ok(found) => return Ok(Some(found)),
+                Err(RecvTimeoutError::Disconnected) => match worker.join() {
+                    Err(panic) => std::panic::resume_unwind(panic),
+                    Ok(()) => return Ok(None),
+                },
+                Err(RecvTimeoutError::Timeout) if self.interrupted() => {
+                    if stopped.get_or_insert_with(Instant::now).elapsed() > GRACE {
+                        return Ok(None);
+                    }
+                }
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+        }
     }
 
     /// Takes note of a step; breaks after Ctrl-C.
@@ -162,6 +204,24 @@ mod tests {
         assert!(watch.shown.as_ref().unwrap().lock().unwrap().bar.is_hidden());
         watch.interrupted.store(true, Ordering::Relaxed);
         assert_eq!(watch.step(&progress), ControlFlow::Break(()));
+    }
+
+    /// Claim: what the work gives comes back; a panic of the work is not lost; work that goes on after Ctrl-C is left alone,
+    /// and what it sees of it is that it should stop. Without leaving it alone the second one here would never end.
+    #[test]
+    fn work_is_waited_for_unless_interrupted() {
+        let watch = Arc::new(Watch { interrupted: Arc::default(), shown: None });
+        assert_eq!(watch.over(|_| 7).unwrap(), Some(7));
+        let lost = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| watch.over(|_| -> u8 { panic!("lost") })));
+        assert_eq!(lost.unwrap_err().downcast_ref::<&str>(), Some(&"lost"));
+        let (hold, held) = channel::<()>();
+        let stuck = move |watch: &Watch| {
+            watch.interrupted.store(true, Ordering::Relaxed);
+            held.recv().is_ok()
+        };
+        assert_eq!(watch.over(stuck).unwrap(), None);
+        drop(hold);
+        assert_eq!(watch.over(|watch| watch.interrupted()).unwrap(), Some(true), "it ends soon");
     }
 
     /// A step every two seconds with these residuals.

@@ -20,6 +20,7 @@ mod convert;
 mod draw;
 mod landscape;
 mod landscape_map;
+mod ledger;
 mod reason;
 mod resume;
 mod runner;
@@ -28,6 +29,7 @@ mod surface;
 mod trace;
 mod wells;
 
+pub use ledger::Ledger;
 use runner::Runner;
 
 /// How far a study is.
@@ -163,6 +165,19 @@ fn wrong_input(error: &std::io::Error) -> bool {
 /// # Errors
 /// [`RunError`] where nothing could be computed; a study that fails is part of the report instead.
 pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Result<RunReport, RunError> {
+    run_with_ledger(scene, options, observer, &Ledger::default())
+}
+
+/// Does what [`run_scene`] does and keeps the ledger, so that another thread can end the run without waiting for it.
+///
+/// # Errors
+/// [`RunError`], as [`run_scene`].
+pub fn run_with_ledger(
+    scene: &Path,
+    options: &RunOptions,
+    observer: Observer,
+    ledger: &Ledger,
+) -> Result<RunReport, RunError> {
     if MeshKind::of(scene).is_some() {
         return Err(RunError::NoScene { path: scene.into() });
     }
@@ -173,7 +188,7 @@ pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Resu
         return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
     }
     let built = crate::scene::build::build(&file)?;
-    let mut runner = Runner::new(&file, &built, options, observer)?;
+    let mut runner = Runner::new(&file, &built, options, observer, ledger)?;
     for study in &file.scene.studies {
         runner.study(study)?;
         if runner.interrupted() {

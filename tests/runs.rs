@@ -376,7 +376,7 @@ fn modes_are_interrupted() {
     let ends: Vec<_> = studies.iter().map(|study| (&study["name"], &study["converged"], &study["reason"])).collect();
     assert_eq!(ends.len(), 2, "{ends:?}");
     assert_eq!((ends[0].0, ends[0].1), (&"first".into(), &true.into()));
-    assert_eq!(ends[1], (&"modes".into(), &false.into(), &"stopped on request".into()));
+    assert_eq!(ends[1], (&"modes".into(), &false.into(), &"interrupted".into()));
     assert!(out.join("first.csv").exists() && !out.join("modes.csv").exists());
 }
 

@@ -76,5 +76,6 @@ fn pool() -> Option<&'static rayon::ThreadPool> {
     if threads == 1 {
         return None;
     }
-    POOL.get_or_init(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok()).as_ref()
+    let name = |number| format!("pool {number}");
+    POOL.get_or_init(|| rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(name).build().ok()).as_ref()
 }

@@ -83,6 +83,17 @@ pub fn remove_drafts(folder: &Path) {
     }
 }
 
+/// Removes what this program itself has on its way in a folder, before it ends without waiting for its other threads.
+pub fn remove_own_drafts(folder: &Path) {
+    let own = format!(".{}-", std::process::id());
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if is_draft(&name) && name.contains(&own) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
 /// Removes a file that no program holds a lock on.
 fn remove_unlocked(path: &Path) -> io::Result<()> {
     let file = File::open(path)?;

@@ -384,6 +384,9 @@ pub struct WellsSummary {
     pub starts: usize,
     /// Those in which a relaxation failed, however often it was tried.
     pub failed: usize,
+    /// Why they failed, the most frequent reason first.
+    #[serde(default)]
+    pub failures: Vec<FailedStartsSummary>,
     /// Those that ended in an equilibrium which is no minimum.
     pub saddles: usize,
     /// By rising energy.
@@ -392,6 +395,15 @@ pub struct WellsSummary {
     pub barriers: Vec<BarrierSummary>,
     /// The same in fold angles alone; null where it was not asked for.
     pub rigid: Option<RigidSummary>,
+}
+
+/// Random starts that failed for one reason.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct FailedStartsSummary {
+    /// The reason.
+    pub reason: String,
+    /// How many failed for it.
+    pub starts: usize,
 }
 
 /// A stable state.
@@ -422,6 +434,12 @@ pub struct BarrierSummary {
     pub joins: Option<[usize; 2]>,
     /// Energy of the pass at the sheet's own stiffness; where it is singular in the rigid limit, what the energies at finite stiffness tend to.
     pub energy: Option<f64>,
+    /// Stiffness of the bars for which energy and height hold; null: rigid bars, or no pass was found.
+    #[serde(default)]
+    pub bars: Option<f64>,
+    /// Stiffness of the bars in which the path was found that led to the pass.
+    #[serde(default)]
+    pub path_bars: Option<f64>,
     /// Energy of the pass above that of either of the wells that it joins.
     pub height: Option<[f64; 2]>,
     /// Whether there is no regular pass at the sheet's own stiffness, which is infinite: branches cross there.

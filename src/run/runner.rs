@@ -1,5 +1,6 @@
 //! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
 
+use super::ledger::{INTERRUPTED, Ledger};
 use super::resume::{Earlier, Kept, write_state};
 use super::{
     Observer, Progress, RunError, RunOptions, RunReport, bloch, branches, landscape, studies, surface, trace, wells,
@@ -32,6 +33,7 @@ pub struct Runner<'a> {
     summary: Summary,
     observer: Observer<'a>,
     interrupted: AtomicBool,
+    ledger: Ledger,
 }
 
 impl<'a> Runner<'a> {
@@ -44,6 +46,7 @@ impl<'a> Runner<'a> {
         built: &'a Built,
         options: &RunOptions,
         observer: Observer<'a>,
+        ledger: &Ledger,
     ) -> Result<Self, RunError> {
         parallel::set_threads(options.threads.unwrap_or(0));
         let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
@@ -57,7 +60,8 @@ impl<'a> Runner<'a> {
         let resumed = earlier.is_of_this_scene();
         let summary = summary(file, built, digest);
         let (states, kept, interrupted) = (HashMap::new(), Vec::new(), AtomicBool::new(false));
-        let mut runner = Self { file, built, view, out, resumed, states, kept, summary, observer, interrupted };
+        let ledger = ledger.clone();
+        let mut runner = Self { file, built, view, out, resumed, states, kept, summary, observer, interrupted, ledger };
         runner.keep(&earlier)?;
         Ok(runner)
     }
@@ -81,7 +85,8 @@ impl<'a> Runner<'a> {
         if self.kept.contains(&study.name.0) {
             return Ok(());
         }
-        let found = match &*study.kind {
+        self.ledger.begin(study, self.place(&study.name.0));
+        let mut found = match &*study.kind {
             StudyKind::Relax(spec) => studies::relax(self, study, spec)?,
             StudyKind::Modes(spec) => studies::modes(self, study, spec)?,
             StudyKind::Branches(_) => branches::study(self, study)?,
@@ -91,7 +96,16 @@ impl<'a> Runner<'a> {
             StudyKind::Bloch(spec) => bloch::study(self, study, spec)?,
             StudyKind::Wells(spec) => wells::study(self, study, spec)?,
         };
+        if self.interrupted() && !found.converged {
+            found.reason = Some(INTERRUPTED.to_owned()); // each method has its own words for being stopped
+        }
         self.push(found)
+    }
+
+    /// How many of the finished studies stand before this one in the scene.
+    fn place(&self, name: &str) -> usize {
+        let before = self.file.scene.studies.iter().take_while(|study| study.name.0 != name);
+        before.filter(|study| self.summary.studies.iter().any(|done| done.name == study.name.0)).count()
     }
 
     fn push(&mut self, study: StudySummary) -> Result<(), RunError> {
@@ -102,7 +116,18 @@ impl<'a> Runner<'a> {
     }
 
     fn write_summary(&self) -> Result<(), RunError> {
-        Ok(self.summary.write(&self.out.join("summary.json"))?)
+        self.ledger.write(self.report())
+    }
+
+    /// What the run has done so far.
+    fn report(&self) -> RunReport {
+        RunReport {
+            summary: self.summary.clone(),
+            out: self.out.clone(),
+            kept: self.kept.clone(),
+            interrupted: self.interrupted(),
+            notes: self.built.notes.clone(),
+        }
     }
 
     /// Keeps the state in which a study ended for those that start from it.
@@ -141,14 +166,7 @@ impl<'a> Runner<'a> {
 
     /// Ends the run.
     pub fn finish(self) -> Result<RunReport, RunError> {
-        let interrupted = self.interrupted();
-        Ok(RunReport {
-            summary: self.summary,
-            out: self.out,
-            kept: self.kept,
-            interrupted,
-            notes: self.built.notes.clone(),
-        })
+        Ok(self.report())
     }
 }
 

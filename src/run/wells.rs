@@ -10,11 +10,12 @@ use crate::analysis::wells::Question;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limit};
 use crate::analysis::wells::merge::{SAME, Translations, Well, wells};
 use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
-use crate::analysis::wells::starts::{Outcome, Starts, relax_all};
+use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_all};
 use crate::output::chart::{self, Chart, Point, Series};
 use crate::output::files;
 use crate::output::summary::{
-    BarrierSummary, HeightSummary, RigidPassSummary, RigidSummary, StudyResult, StudySummary, WellSummary, WellsSummary,
+    BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, StudyResult, StudySummary,
+    WellSummary, WellsSummary,
 };
 use crate::output::table::{Table, Value};
 use crate::scene::SceneFile;
@@ -46,8 +47,37 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), R
     Ok(())
 }
 
+/// What came of the random starts.
+struct Tally {
+    starts: usize,
+    failed: usize,
+    saddles: usize,
+    failures: Vec<(&'static str, usize)>,
+}
+
+impl Tally {
+    fn of(outcomes: &[Outcome]) -> Self {
+        let failures = failures(outcomes);
+        Self {
+            starts: outcomes.len(),
+            failed: failures.iter().map(|(_, count)| count).sum(),
+            saddles: outcomes.iter().filter(|outcome| matches!(outcome, Outcome::Saddle)).count(),
+            failures,
+        }
+    }
+
+    /// How many of the starts failed and why.
+    fn failed(&self) -> String {
+        let reasons: Vec<String> = self.failures.iter().map(|(reason, count)| format!("{count}: {reason}")).collect();
+        format!("{} of {} starts failed ({})", self.failed, self.starts, reasons.join("; "))
+    }
+}
+
 /// What a study found.
 struct Found {
+    tally: Tally,
+    /// Stiffness of the sheet's own bars.
+    stiffness: f64,
     wells: Vec<Well>,
     crossing: Vec<bool>,
     barriers: Vec<([usize; 2], Result<Barrier, BarrierError>)>,
@@ -75,9 +105,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Re
     let spread = spec.spread.as_ref().map_or(PI, |spread| spread.0);
     let from = Starts { count: starts, seed: spec.seed, spread, options: Options::default() };
     let outcomes = relax_all(&question, &from, &|| watch(Some(starts)));
-    let count = |what: fn(&Outcome) -> bool| outcomes.iter().filter(|outcome| what(outcome)).count();
-    let failed = count(|outcome| matches!(outcome, Outcome::Failed(_)));
-    let saddles = count(|outcome| matches!(outcome, Outcome::Saddle));
+    let tally = Tally::of(&outcomes);
     let minima = outcomes.into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
@@ -91,12 +119,12 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Re
         }
     }
     let crossing = crossing(built, &wells);
-    let found = Found { wells, crossing, barriers, rigid };
+    let found = Found { tally, stiffness: question.stiffness(), wells, crossing, barriers, rigid };
     summary.seconds = clock.elapsed().as_secs_f64();
     write(runner, study, &found)?;
-    summary.reason = if runner.interrupted() { Some("interrupted".to_owned()) } else { found.missing(spec, failed) };
+    summary.reason = if runner.interrupted() { Some("interrupted".to_owned()) } else { found.missing(spec) };
     summary.converged = summary.reason.is_none();
-    let result = found.summarized([starts, failed, saddles]);
+    let result = found.summarized();
     summary.error = Some(error(&result));
     summary.result = Some(StudyResult::Wells(result));
     Ok(summary)
@@ -122,10 +150,14 @@ fn error(result: &WellsSummary) -> f64 {
 
 impl Found {
     /// Why the answer is not whole.
-    fn missing(&self, spec: &WellsSpec, failed: usize) -> Option<String> {
+    fn missing(&self, spec: &WellsSpec) -> Option<String> {
         let count = self.wells.len();
         if count == 0 {
-            return Some(format!("no well was found; {failed} starts failed"));
+            let Tally { saddles, .. } = self.tally;
+            return Some(format!("no well was found: {}, {saddles} ended in no minimum", self.tally.failed()));
+        }
+        if 2 * self.tally.failed > self.tally.starts {
+            return Some(format!("{}: there may be other wells", self.tally.failed()));
         }
         if let Some(pair) = spec.barriers.iter().find(|pair| pair.0.iter().any(|well| *well >= count)) {
             return Some(format!("a barrier is wanted between wells {:?}, but there are {count}", pair.0));
@@ -148,7 +180,9 @@ impl Found {
         rigid.wells.iter().position(|other| apart(&other.angles) <= SAME)
     }
 
-    fn summarized(&self, [starts, failed, saddles]: [usize; 3]) -> WellsSummary {
+    fn summarized(&self) -> WellsSummary {
+        let Tally { starts, failed, saddles, ref failures } = self.tally;
+        let failures = failures.iter().map(|&(reason, starts)| FailedStartsSummary { reason: reason.into(), starts });
         let well = |(well, crossing): (&Well, &bool)| WellSummary {
             energy: well.settled.energy,
             reached: well.reached,
@@ -160,6 +194,7 @@ impl Found {
         WellsSummary {
             starts,
             failed,
+            failures: failures.collect(),
             saddles,
             wells: self.wells.iter().zip(&self.crossing).map(well).collect(),
             barriers: self.barriers.iter().map(|(between, found)| self.barrier(*between, found)).collect(),
@@ -186,6 +221,8 @@ impl Found {
             confirmed: true,
             joins: Some(found.joins),
             energy,
+            bars: if found.singular { None } else { Some(self.stiffness).filter(|bars| bars.is_finite()) },
+            path_bars: Some(found.stiffness),
             height: energy.map(above),
             singular: found.singular,
             exponent: limit.map(|limit| limit.exponent),

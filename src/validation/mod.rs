@@ -110,11 +110,13 @@ fn check(
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("validation-report"));
     let mut laboratory = Laboratory::new(out.clone(), options.quick, observer);
     let mut report = Report::new(options.quick, claims.len());
+    let mut interrupted = false;
+    report.interrupted = true; // that is what a report says which is left here
     report.write(&out)?;
     for claim in &claims {
         let outcome = laboratory.perform(&claim.experiment);
         if matches!(outcome.found, Err(ExperimentError::Interrupted)) {
-            report.interrupted = true;
+            interrupted = true;
             break;
         }
         let case = Case::of(claim, outcome);
@@ -122,6 +124,7 @@ fn check(
         report.push(case, outcome.first.then_some(outcome));
         report.write(&out)?;
     }
+    report.interrupted = interrupted;
     report.write(&out)?;
     Ok(report)
 }

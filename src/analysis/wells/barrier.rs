@@ -3,7 +3,8 @@
 //! With bars a hundred times as stiff as the creases states hang together also across folded states that do not, so the
 //! string method ([`super::string`]) finds a path there. The highest state of its row is close to a pass; Newton's
 //! method ([`super::pass`]) makes it one, and goes on from it in bars ten times as stiff, and so on, up to those of the
-//! sheet; infinity is the last step. Where that ends early the path is sought again in stiffer bars. At the end the
+//! sheet; infinity is the last step. Where that ends early the path is sought again in stiffer bars, and at last in those
+//! of the sheet itself: some wells exist only because bars are as stiff as they are. At the end the
 //! pass counts only where its Hessian has exactly one negative eigenvalue, it lies above the wells between which it was
 //! sought, and the sheet descends from it into two different wells: those, or others on the way, which are reported
 //! then.
@@ -24,13 +25,13 @@ const ALMOST_RIGID: f64 = 1e12;
 /// Farthest fold angle, in radians, from the last pass before the rigid limit to that in the limit. A regular one is approached as
 /// one over the stiffness, one where branches cross as its cube root; to that, Newton's steps get no nearer than tolerances ask.
 const REGULAR: f64 = 1e-7;
-/// Tries from ever stiffer bars.
+/// Tries from ever stiffer bars, before those of the sheet.
 const TRIES: usize = 6;
 /// Tolerance of a pass.
 const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 /// Differences of energies, relative, from which their law is read.
 const CLEAR: f64 = 1e-8;
-/// Least distance of two wells, in `sqrt(sum k (d rho)^2)`.
+/// Least distance of two wells in soft bars, over that of the wells of the sheet.
 const APART: f64 = 1e-3;
 /// Shortest factor between two stiffnesses.
 const SHORTEST: f64 = 1.05;
@@ -120,13 +121,12 @@ pub fn barrier(
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
     let creases = question.recipe.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
+    let own = question.stiffness();
+    let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
+    let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
     let mut last = Err(BarrierError::LeadsElsewhere);
-    for attempt in 0..TRIES {
-        let stiffness = SOFTEST * creases * STIFFER.powi(attempt as i32);
-        if attempt > 0 && stiffness >= question.stiffness() {
-            break;
-        }
-        last = from_softness(question, wells, between, stiffness.min(question.stiffness()), go_on);
+    for stiffness in tried {
+        last = from_softness(question, wells, between, stiffness, go_on);
         if last.is_ok() || !go_on() {
             break;
         }
@@ -153,7 +153,7 @@ fn from_softness(
     // further from its well than half the way to the other, a state is likely to be a third one
     let way = string::distance(&settler, &wells[between[0]].settled.rho, &wells[between[1]].settled.rho);
     let stayed = (0..2).all(|k| apart(&soft[k], between[k]) < 0.5 * way);
-    if !stayed || string::distance(&settler, &soft[0].rho, &soft[1].rho) <= APART {
+    if !stayed || string::distance(&settler, &soft[0].rho, &soft[1].rho) <= APART * way {
         return Err(BarrierError::OneWell { stiffness });
     }
     let row = string(&mut settler, [&soft[0], &soft[1]], &mut |_| go_on()).map_err(failed)?;

@@ -66,6 +66,33 @@ pub fn relax_all(question: &Question<'_>, starts: &Starts, go_on: &(dyn Fn() -> 
     )
 }
 
+/// Why starts failed, and how many for each reason, the most frequent first.
+pub fn failures(outcomes: &[Outcome]) -> Vec<(&'static str, usize)> {
+    let mut counts: Vec<(&'static str, usize)> = Vec::new();
+    for outcome in outcomes {
+        let Outcome::Failed(failure) = outcome else { continue };
+        match counts.iter_mut().find(|(reason, _)| *reason == reason_of(failure)) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((reason_of(failure), 1)),
+        }
+    }
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    counts
+}
+
+/// A failure without its numbers.
+fn reason_of(failure: &Failure) -> &'static str {
+    match failure {
+        Failure::Infeasible { .. } => "the rigid measures cannot be met",
+        Failure::SingularStart => "singular start",
+        Failure::Stuck { .. } => "no step lowers the energy",
+        Failure::TooManySteps { .. } => "too many steps",
+        Failure::Uncertain { .. } => "a direction without cost, or rounding, leaves angles open",
+        Failure::Factor(_) => "the linear algebra failed",
+        Failure::Interrupted => "interrupted",
+    }
+}
+
 fn one(question: &Question<'_>, starts: &Starts, number: usize) -> Outcome {
     let mut numbers = ChaCha8Rng::seed_from_u64(starts.seed);
     numbers.set_stream(number as u64);

@@ -22,13 +22,12 @@ mod track;
 #[cfg(test)]
 mod tests;
 
-use super::DenseMatrix;
+use super::{DenseMatrix, parallel};
 use endgame::{End, Simple};
 use multiplicity::{Multiplicity, multiplicity};
 use nalgebra::Complex;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use rayon::prelude::*;
 pub use sections::{Section, meets_real_points, solve_any};
 pub use singular::{SingularPoint, real_singular_points};
 use system::{C, Quadrics, TotalDegree, distance, normalize};
@@ -161,7 +160,8 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
         let x = tracker.track(&homotopy.start(number), start, end, 0.05)?;
         endgame::finish(&mut tracker, quadrics, x)
     };
-    let ends: Vec<End> = (0..paths).into_par_iter().map(path).filter_map(Result::ok).collect();
+    let ends: Vec<End> =
+        parallel::each(paths, || (), |(), number| path(number)).into_iter().filter_map(Result::ok).collect();
     if ends.len() < paths {
         return Err(HomotopyError::Lost { paths: paths - ends.len() });
     }
@@ -183,7 +183,8 @@ fn add_simple(ends: &[End], solutions: &mut Solutions) -> Result<(), HomotopyErr
     let simple: Vec<Simple> = ends.iter().filter_map(simple).collect();
     let same = |a: &Simple, b: &Simple| distance(&a.point, &b.point) <= a.separation.max(b.separation);
     let twice = |(k, one): (usize, &Simple)| simple[..k].iter().any(|other| same(one, other));
-    let paths = simple.par_iter().enumerate().filter(|(k, one)| twice((*k, one))).count();
+    let paths =
+        parallel::each(simple.len(), || (), |(), k| twice((k, &simple[k]))).into_iter().filter(|twice| *twice).count();
     if paths > 0 {
         return Err(HomotopyError::Collision { paths });
     }
@@ -252,12 +253,13 @@ fn conjugate(point: &[C]) -> Vec<C> {
 
 /// Solutions of real quadrics that are not real come in conjugate pairs, of equal multiplicity.
 fn check_pairs(solutions: &[Solution]) -> Result<(), HomotopyError> {
-    let alone = |solution: &&Solution| {
+    let alone = |solution: &Solution| {
         let partner = conjugate(&solution.point);
         let same = |other: &Solution| other.multiplicity == solution.multiplicity;
         !solution.real && !solutions.iter().any(|other| same(other) && distance(&other.point, &partner) <= SAME)
     };
-    match solutions.par_iter().filter(alone).count() {
+    let lonely = parallel::each(solutions.len(), || (), |(), k| alone(&solutions[k]));
+    match lonely.into_iter().filter(|alone| *alone).count() {
         0 => Ok(()),
         paths => Err(HomotopyError::Unpaired { paths }),
     }

@@ -16,12 +16,11 @@ use super::sections::random_frame;
 use super::system::{C, Homotopy, Local, Quadrics, unit};
 use super::track::Tracker;
 use super::{HomotopyError, SAME, careful, conjugate, grouped, turned};
-use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{full_svd, symmetric_eigenvalues};
+use crate::numerics::{DenseMatrix, parallel};
 use nalgebra::{Complex, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use rayon::prelude::*;
 
 /// Singular values of the Jacobian below this are zero.
 const ZERO: f64 = 1e-6;
@@ -90,7 +89,8 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
         let x = tracker.track(start, begin, end, 0.05)?;
         endgame::finish(&mut tracker, &polar, x)
     };
-    let ends: Vec<End> = starts.par_iter().map(path).filter_map(Result::ok).collect();
+    let ends: Vec<End> =
+        parallel::each(starts.len(), || (), |(), k| path(&starts[k])).into_iter().filter_map(Result::ok).collect();
     if ends.len() < starts.len() {
         return Err(HomotopyError::Lost { paths: starts.len() - ends.len() });
     }
