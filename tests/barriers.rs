@@ -58,6 +58,34 @@ fn barriers_at_the_own_stiffness() {
     assert!(table.lines().count() == 2 && table.lines().nth(1).unwrap().contains("10000"), "{table}");
 }
 
+/// Claim: a pass so steep that a descent from it steps across is found too: creases of 1e-8 of the bars of the drum. Its energy
+/// differs from that with creases of 1e-6, 8.219153e-5, by the energy of the creases in it, which lies between those in the
+/// two wells: 0 and 5.369354 times their stiffness, see the wells of the drum.
+#[test]
+fn steep_passes() {
+    let energy = "bars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-8 }";
+    let (study, found, _) = wells("drum", "", energy, "starts = 40\nseed = 11\nbarriers = [[0, 1]]");
+    assert!(study.converged, "{:?}", study.reason);
+    let barrier = &found.barriers[0];
+    assert!(barrier.confirmed && barrier.joins.is_some_and(|[a, b]| a != b), "{barrier:?}");
+    // by how much energy rises with the stiffness of creases is their energy over it, to second order in 1e-6
+    let slope = (8.219153e-5 - barrier.energy.unwrap()) / (1e-6 - 1e-8);
+    assert!((0.0..5.369354).contains(&slope), "{slope}");
+}
+
+/// Claim: where the straight path between two wells is symmetric and leads over a state with two negative eigenvalues, a bent
+/// one finds the pass beside it: the square twist with bars of 1.5e4.
+#[test]
+fn paths_leave_ridges() {
+    let energy = "bars = { stiffness = 1.5e4 }\ncreases = { stiffness = 1.0, rest = { file = \"CASES/twist-rest.csv\" } }\n\
+        facets = { stiffness = 10.0 }";
+    let (study, found, _) = wells("twist", "", energy, "starts = 200\nbarriers = [[0, 1]]");
+    assert!(study.converged, "{:?}", study.reason);
+    let barrier = &found.barriers[0];
+    assert!(barrier.confirmed && barrier.bars == Some(1.5e4), "{barrier:?}");
+    assert!(barrier.height.unwrap().iter().all(|height| *height > 0.0), "{barrier:?}");
+}
+
 /// Claim: where most starts fail the wells that were found are no answer, and it is counted why: bars and creases of a folded
 /// eggbox on a screw leave a direction without cost in most of its equilibria.
 #[test]

@@ -27,6 +27,8 @@ const ALMOST_RIGID: f64 = 1e12;
 const REGULAR: f64 = 1e-7;
 /// Tries from ever stiffer bars, before those of the sheet.
 const TRIES: usize = 6;
+/// Bent paths that are tried where a straight one leads over a state that is no pass.
+const BENDS: u64 = 3;
 /// Tolerance of a pass.
 const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 /// Differences of energies, relative, from which their law is read.
@@ -126,20 +128,25 @@ pub fn barrier(
     let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
     let mut last = Err(BarrierError::LeadsElsewhere);
     for stiffness in tried {
-        last = from_softness(question, wells, between, stiffness, go_on);
-        if last.is_ok() || !go_on() {
-            break;
+        for bend in 0..=BENDS {
+            last = from_softness(question, wells, between, (stiffness, bend), go_on);
+            if last.is_ok() || !go_on() {
+                return last;
+            }
+            if !matches!(last, Err(BarrierError::Index { .. })) {
+                break; // a bend is of no use
+            }
         }
     }
     last
 }
 
-/// The barrier by way of bars of this stiffness.
+/// The barrier by way of bars of this stiffness, on a path that begins with this bend.
 fn from_softness(
     question: &Question<'_>,
     wells: &[Well],
     between: [usize; 2],
-    stiffness: f64,
+    (stiffness, bend): (f64, u64),
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
     let failed = |failure| BarrierError::Path { stiffness, failure };
@@ -156,7 +163,7 @@ fn from_softness(
     if !stayed || string::distance(&settler, &soft[0].rho, &soft[1].rho) <= APART * way {
         return Err(BarrierError::OneWell { stiffness });
     }
-    let row = string(&mut settler, [&soft[0], &soft[1]], &mut |_| go_on()).map_err(failed)?;
+    let row = string(&mut settler, [&soft[0], &soft[1]], bend, &mut |_| go_on()).map_err(failed)?;
     let path: Vec<(f64, f64)> =
         string::stations(&settler, &row).into_iter().zip(&row).map(|(at, settled)| (at, settled.energy)).collect();
     let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
@@ -164,8 +171,7 @@ fn from_softness(
     let first = index_one(question, stiffness, [top, top - 1, top + 1].map(|at| &row[at]))?;
     let Followed { pass, heights, singular } = followed(question, first, stiffness)?;
     let own = if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { question.stiffness() };
-    let mut own = Settler::new(question, &question.with_bars(own), string::STRENGTH);
-    let ends = sides(&mut own, &pass, &along, OPTIONS).map_err(failed)?;
+    let ends = sides(question, &question.with_bars(own), &pass, &along, OPTIONS).map_err(failed)?;
     let translations = Translations::new(question);
     let number = |end: &Settled| which(wells, &end.relaxed.state.fold_angle, &translations);
     let higher = between.iter().map(|well| wells[*well].settled.energy).fold(f64::NEG_INFINITY, f64::max);

@@ -5,9 +5,12 @@
 //! descending from it on both sides.
 
 use super::Question;
+use super::merge::SAME;
 use super::settle::{Place, Settled, Settler};
+use super::string::STRENGTH;
 use crate::analysis::state::State;
-use crate::model::{Gauge, Model, assemble::assemble};
+use crate::model::assemble::{Recipe, assemble};
+use crate::model::{Gauge, Model};
 use crate::numerics::factor::FactorError;
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Failure, Linearization, Options, Problem, tension};
@@ -21,6 +24,10 @@ const INACCURATE: f64 = 0.1;
 /// Steps of the descent from a pass before the sheet is set free, and their tolerance.
 const DESCENT: usize = 12;
 const LOOSE: Options = Options { tolerance: 1e-10, iterations: 60 };
+
+/// How often a descent is held a hundred times as strongly, and the part of its strength that it loses in a step.
+const STRONGER: i32 = 4;
+const WEAKER: f64 = 4.0;
 
 /// An equilibrium that Newton's method found.
 #[derive(Clone, Debug)]
@@ -112,15 +119,64 @@ impl Found {
 }
 
 /// Where the sheet goes from a pass when pushed along a change of its fold angles, and against it.
-pub fn sides(settler: &mut Settler, pass: &Pass, along: &[f64], options: Options) -> Result<[Settled; 2], Failure> {
-    let mut side = |sign: f64| -> Result<Settled, Failure> {
-        let mut target: Vec<f64> = pass.rho.iter().zip(along).map(|(rho, d)| rho + sign * d).collect();
-        let mut place = pass.place.clone();
-        for _ in 0..DESCENT {
-            let found = settler.near(&place, &target, LOOSE, &mut |_| true).map_err(|error| error.failure)?;
-            (place, target) = (found.place, found.rho);
+///
+/// A descent that is held too weakly steps across a steep pass: where one side leads over to the other, or both end in
+/// one state, both are held more strongly.
+pub fn sides(
+    question: &Question<'_>,
+    recipe: &Recipe,
+    pass: &Pass,
+    along: &[f64],
+    options: Options,
+) -> Result<[Settled; 2], Failure> {
+    let mut last = Err(Failure::SingularStart);
+    for stronger in 0..STRONGER {
+        let strength = STRENGTH * 100f64.powi(stronger);
+        let side = |sign: f64| -> Result<(Settled, bool), Failure> {
+            let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
+            descent(question, recipe, pass, &push, strength, options)
+        };
+        let ends = side(1.0).and_then(|one| Ok((one, side(-1.0)?)));
+        let sound = matches!(&ends, Ok(((a, true), (b, true))) if !same(a, b));
+        last = ends.map(|(one, other)| [one.0, other.0]);
+        if sound {
+            break;
         }
-        settler.free(&place, false, options, &mut |_| true).map_err(|error| error.failure)
-    };
-    Ok([side(1.0)?, side(-1.0)?])
+    }
+    last
+}
+
+/// Whether two ends have the same fold angles.
+fn same(a: &Settled, b: &Settled) -> bool {
+    a.rho.iter().zip(&b.rho).all(|(a, b)| (a - b).abs() <= SAME)
+}
+
+/// Descends from a pass to the side of a push, first held with this strength and then ever less; whether the first step
+/// went to that side.
+fn descent(
+    question: &Question<'_>,
+    recipe: &Recipe,
+    pass: &Pass,
+    push: &[f64],
+    strength: f64,
+    options: Options,
+) -> Result<(Settled, bool), Failure> {
+    let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + turn).collect();
+    let (mut place, mut strength, mut to_its_side) = (pass.place.clone(), strength, None);
+    let mut settler = Settler::new(question, recipe, strength);
+    let mut weak = 0;
+    while weak < DESCENT {
+        let found = settler.near(&place, &target, LOOSE, &mut |_| true).map_err(|error| error.failure)?;
+        let moved = |((rho, from), turn): ((&f64, &f64), &f64)| (rho - from) * turn;
+        to_its_side.get_or_insert_with(|| found.rho.iter().zip(&pass.rho).zip(push).map(moved).sum::<f64>() > 0.0);
+        (place, target) = (found.place, found.rho);
+        if strength > STRENGTH {
+            strength = (strength / WEAKER).max(STRENGTH);
+            settler = Settler::new(question, recipe, strength);
+        } else {
+            weak += 1;
+        }
+    }
+    let end = settler.free(&place, false, options, &mut |_| true).map_err(|error| error.failure)?;
+    Ok((end, to_its_side == Some(true)))
 }

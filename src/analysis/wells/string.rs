@@ -8,6 +8,9 @@
 
 use super::settle::{Settled, Settler};
 use crate::solver::{Failure, Options, Step};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::PI;
 
 /// Strength with which states of the row are held: the step of the descent is one over it.
 pub const STRENGTH: f64 = 32.0;
@@ -16,16 +19,21 @@ const STATES: usize = 17;
 /// Most sweeps, and the movement in a sweep, over the length of the row, at which it is at rest.
 const SWEEPS: usize = 80;
 const AT_REST: f64 = 1e-3;
+/// How far a bent row is from the straight one in its middle, over its length.
+const BENT: f64 = 0.1;
 /// When the states of a row are converged.
 const LOOSE: Options = Options { tolerance: 1e-10, iterations: 60 };
 
-/// The row of states between two wells.
+/// The row of states between two wells. It begins straight in fold angles, or bent sideways at random, for each number but
+/// zero in another way: a straight one between symmetric states is symmetric and may rest on a ridge.
 pub fn string(
     settler: &mut Settler,
     [from, to]: [&Settled; 2],
+    bend: u64,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Vec<Settled>, Failure> {
-    let mut row = grown(settler, [from, to], observe)?;
+    let sideways = sideways(settler, [from, to], bend);
+    let mut row = grown(settler, [from, to], &sideways, observe)?;
     for _ in 0..SWEEPS {
         let moved = sweep(settler, &mut row, observe)?;
         if moved <= AT_REST * length(settler, &row) {
@@ -35,10 +43,23 @@ pub fn string(
     Ok(row)
 }
 
-/// States on the straight way between the fold angles of two wells, each from the one before it, from both ends.
+/// The largest change of fold angles in a bend.
+fn sideways(settler: &Settler, [from, to]: [&Settled; 2], bend: u64) -> Vec<f64> {
+    let nothing = vec![0.0; from.rho.len()];
+    if bend == 0 {
+        return nothing;
+    }
+    let mut numbers = ChaCha8Rng::seed_from_u64(bend);
+    let random: Vec<f64> = nothing.iter().map(|_| 2.0 * numbers.random::<f64>() - 1.0).collect();
+    let size = BENT * distance(settler, &from.rho, &to.rho) / distance(settler, &random, &nothing);
+    random.into_iter().map(|turn| size * turn).collect()
+}
+
+/// States on the way between the fold angles of two wells, each from the one before it, from both ends.
 fn grown(
     settler: &mut Settler,
     [from, to]: [&Settled; 2],
+    sideways: &[f64],
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Vec<Settled>, Failure> {
     let mut row: Vec<Option<Settled>> = vec![None; STATES];
@@ -48,7 +69,8 @@ fn grown(
     for (at, back) in inner {
         let part = at as f64 / (STATES - 1) as f64;
         let beside = row[at.wrapping_add_signed(back)].clone().unwrap_or_else(|| from.clone());
-        let target = between(&from.rho, &to.rho, part);
+        let mut target = between(&from.rho, &to.rho, part);
+        target.iter_mut().zip(sideways).for_each(|(rho, turn)| *rho += turn * (PI * part).sin());
         let found = settler.near(&beside.place, &target, LOOSE, observe).map_err(|error| error.failure)?;
         row[at] = Some(found);
     }
