@@ -359,7 +359,7 @@ fn trajectory(built: &Built, path: &Path<'_>, engine: Engine) -> TrajectorySumma
         _ if path.failure().is_some() => "failed",
         End::Closed(_) => "closed",
         End::Stopped { .. } | End::Length => "stop",
-        End::Steps | End::Failed => "failed",
+        End::Steps | End::Failed | End::Interrupted => "failed",
     };
     let last = path.len().checked_sub(1).map(|last| &one.states[last]);
     let compared = path.drive.filter(|_| engine == Engine::Both);
