@@ -106,6 +106,11 @@ fn surface_of_open_star() {
             assert_eq!(point.shape.curvature.signum() as i8, point.branch.1, "point {k}");
         }
     }
+    for corners in &surface.triangles {
+        let signs = corners.iter().filter(|&&k| surface.points[k].radius > 0.0);
+        let sum: f64 = signs.clone().map(|&k| surface.points[k].shape.curvature.signum()).sum();
+        assert_eq!(sum.abs() as usize, signs.count(), "the sign changes between neighbours {corners:?}");
+    }
     assert_eq!(tips, 3, "the drawn state on both nappes, and another spatially periodic state");
 }
 

@@ -6,7 +6,7 @@ mod common;
 use approx::assert_abs_diff_eq;
 use foldwell::analysis::branches;
 use foldwell::analysis::trace::{Question, Stop, Traced, trace};
-use foldwell::kinematics::drawn_fold_angles;
+use foldwell::kinematics::{Embedding, Shape, drawn_fold_angles};
 use foldwell::model::assemble::{Recipe, Surroundings};
 use foldwell::sheet::{EdgeKey, Sheet, tile};
 use foldwell::solver::continuation::End;
@@ -89,7 +89,8 @@ fn loops_of_open_star() {
 }
 
 /// Claim: states that an independent program stored on these trajectories are met: where the crease that it names has the
-/// angle that it names, all fold angles, curvature, rotation angles and strain agree to 1e-9.
+/// angle that it names, all fold angles, curvature, rotation angles and strain agree to 1e-9; and curvatures have the same sign for
+/// the single state, without the way to it.
 #[test]
 fn stored_states_are_met() {
     let (sheet, held, reference) = star();
@@ -110,6 +111,8 @@ fn stored_states_are_met() {
                 && close(&shape.strain, &numbers("strain"))
         });
         assert!(met, "{state}");
+        let single = Shape::at(&Embedding::new(&sheet).unwrap(), &angles).unwrap();
+        assert_abs_diff_eq!(single.curvature, state["kappa"].as_f64().unwrap(), epsilon = 1e-9);
     }
 }
 

@@ -1,7 +1,9 @@
 //! The energy as an engine of trajectories: relaxations with a crease driven along a rigid trajectory.
 //!
 //! At every state of the trajectory the crease that moves fastest there is locked at its angle, and the sheet relaxes at its own
-//! stiffness from where the last relaxation ended, moved on by the same amount again. Only the first step starts from
+//! stiffness from where the last relaxation ended, moved on by the same amount again. Steps that suit the fold angles may be too
+//! long for that: a relaxation that fails, or ends at angles to which the rigid step does not lead, is made anew in two
+//! steps of half the length, and these likewise. Only the first step starts from
 //! the rigid state, since all rays leave from the same place; and where a trajectory comes back, that place itself, the drawn
 //! state, is not relaxed again: there a locked crease does not say about which axis the sheet folds. Rigid bars must meet every rigid state to rounding; softer ones
 //! stay off it by what the creases pull them.
@@ -19,6 +21,13 @@ use std::f64::consts::TAU;
 
 /// A driven crease is kept while it moves at least this part as fast as the fastest.
 const FAST_ENOUGH: f64 = 0.5;
+
+/// Most times that a step is halved.
+const HALVINGS: usize = 6;
+/// A fold angle whose step differs from the rigid one's by more than this part of the arc length has gone elsewhere.
+const ELSEWHERE: f64 = 0.5;
+/// Steps count as no shorter than this there.
+const SHORT: f64 = 0.01;
 
 /// What relaxes.
 pub struct Question<'a> {
@@ -103,9 +112,9 @@ pub fn drive(question: &Question<'_>, traced: &Traced, observe: &mut dyn FnMut(&
     let closed = usize::from(matches!(traced.end, End::Closed(_)));
     let Some((drawn, rest)) = traced.states[..traced.states.len() - closed].split_first() else { return drive };
     track.angles.clone_from(&drawn.angles);
-    for state in rest {
-        let crease = fastest(&state.rates, track.crease);
-        match track.step(question, state, crease, observe) {
+    for (state, before) in rest.iter().zip(&traced.states) {
+        let halvings = if track.known.is_empty() { 0 } else { HALVINGS };
+        match track.reach(question, (before, state), halvings, observe) {
             Ok(driven) => drive.states.push(driven),
             Err(failure) => {
                 drive.failure = Some(failure);
@@ -123,7 +132,30 @@ fn fastest(rates: &[f64], last: Option<usize>) -> usize {
     last.filter(|edge| speed(edge) >= FAST_ENOUGH * speed(&first)).unwrap_or(first)
 }
 
+/// Whether relaxed angles made another step than the rigid ones.
+fn goes_elsewhere(before: &[f64], now: &[f64], (from, to): (&Folded, &Folded)) -> bool {
+    let most = ELSEWHERE * f64::max(to.arc_length - from.arc_length, SHORT);
+    let steps = now.iter().zip(before).zip(to.angles.iter().zip(&from.angles));
+    let mut off = steps.map(|((now, before), (to, from))| (now - before - (to - from)).abs());
+    off.any(|off| !(off <= most))
+}
+
+/// A rigid state between two, as far as a relaxation is driven by it: its angles, by cubic interpolation, and their rates.
+fn between(from: &Folded, to: &Folded) -> Folded {
+    let length = to.arc_length - from.arc_length;
+    let ends = || from.angles.iter().zip(&to.angles).zip(from.rates.iter().zip(&to.rates));
+    Folded {
+        arc_length: from.arc_length + 0.5 * length,
+        angles: ends().map(|((a, b), (u, v))| 0.5 * (a + b) + 0.125 * length * (u - v)).collect(),
+        rates: ends().map(|((a, b), (u, v))| 1.5 * (b - a) / length - 0.25 * (u + v)).collect(),
+        shape: None,
+        positions: Vec::new(),
+        residual: f64::NAN,
+    }
+}
+
 /// The last relaxed states.
+#[derive(Clone)]
 struct Track {
     angles: Vec<f64>,
     crease: Option<usize>,
@@ -134,6 +166,29 @@ struct Track {
 impl Track {
     fn new() -> Self {
         Self { angles: Vec::new(), crease: None, known: Vec::new() }
+    }
+
+    /// Relaxes beside `to`, by shorter steps from `from` where one does not lead there.
+    fn reach(
+        &mut self,
+        question: &Question<'_>,
+        (from, to): (&Folded, &Folded),
+        halvings: usize,
+        observe: &mut dyn FnMut(&Step) -> bool,
+    ) -> Result<Driven, Failure> {
+        let before = self.clone();
+        let found = self.step(question, to, fastest(&to.rates, self.crease), observe);
+        let wrong = match &found {
+            Ok(driven) => goes_elsewhere(&before.angles, &driven.angles, (from, to)),
+            Err(failure) => *failure != Failure::Interrupted,
+        };
+        if !wrong || halvings == 0 {
+            return found;
+        }
+        *self = before;
+        let middle = between(from, to);
+        self.reach(question, (from, &middle), halvings - 1, observe)?;
+        self.reach(question, (&middle, to), halvings - 1, observe)
     }
 
     fn step(
