@@ -109,7 +109,9 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
             let paths: Vec<Path<'_>> =
                 traced.iter().enumerate().map(|(k, traced)| Path { traced, drive: drives.get(k) }).collect();
             write(runner, study, spec.engine, &paths)?;
-            summary.reason = paths.iter().find_map(Path::failure);
+            // stopped while crossings were looked for, the table lacks them
+            let stopped = runner.interrupted().then(|| "interrupted".to_owned());
+            summary.reason = paths.iter().find_map(Path::failure).or(stopped);
             summary.converged = summary.reason.is_none();
             summary.error = Some(paths.iter().map(Path::residual).fold(0.0, f64::max));
             summary.result = Some(StudyResult::Trace(summarized(built, &paths, spec.engine)));
