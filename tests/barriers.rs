@@ -86,16 +86,28 @@ fn paths_leave_ridges() {
     assert!(barrier.height.unwrap().iter().all(|height| *height > 0.0), "{barrier:?}");
 }
 
-/// Claim: where most starts fail the wells that were found are no answer, and it is counted why: bars and creases of a folded
-/// eggbox on a screw leave a direction without cost in most of its equilibria.
+/// Claim: random starts fail where the sheet does, not where the random state cannot be found to many digits: every start of
+/// a folded eggbox of rigid bars on a screw ends in a well. Seven of these ten failed when crumpled states had to be as certain
+/// as equilibria.
+#[test]
+fn crumpled_states_need_no_digits() {
+    let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1.0), "starts = 10");
+    assert!(study.converged && found.failed == 0 && found.failures.is_empty(), "{found:?}");
+    assert_eq!(found.wells.iter().map(|well| well.reached).sum::<usize>() + found.saddles, 10);
+}
+
+/// Claim: where most starts fail the wells that were found are no answer, and it is counted why: facets of 1e-9 of the
+/// creases leave directions that cost next to nothing.
 #[test]
 fn failed_starts_are_counted() {
-    let energy = "bars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = 1.0 }\nfacets = { stiffness = 1.0 }";
-    let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", energy, "starts = 10");
+    let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1e-9), "starts = 10");
     let counted: usize = found.failures.iter().map(|one| one.starts).sum();
-    assert_eq!(counted, found.failed);
-    let most = 2 * found.failed > found.starts;
-    assert!(most && !study.converged, "{found:?}");
+    assert!(2 * found.failed > found.starts && counted == found.failed && !study.converged, "{found:?}");
     let said = format!("{} of 10 starts failed", found.failed);
     assert!(study.reason.unwrap().contains(&said) && found.failures.iter().all(|one| !one.reason.is_empty()));
+}
+
+fn eggbox(facets: f64) -> String {
+    let hinges = format!("creases = {{ stiffness = 1.0, rest = 1.0 }}\nfacets = {{ stiffness = {facets:e} }}");
+    format!("bars = {{ stiffness = inf }}\n{hinges}")
 }

@@ -6,6 +6,7 @@
 
 use super::Question;
 use crate::analysis::relax::{RelaxError, Relaxed, relax};
+use crate::analysis::state::State;
 use crate::model::assemble::{Recipe, assemble};
 use crate::model::{Gauge, Model};
 use crate::solver::{Options, Problem, Start, Step};
@@ -96,6 +97,12 @@ impl Settler {
         self.held.set_rests(&rests, &rests, 1.0);
         let relaxed = go(&mut self.held, from, false, options, self.edges, observe)?;
         Ok(self.settled(relaxed, true))
+    }
+
+    /// The place where the last free relaxation ended that did not converge; with no tensions.
+    pub fn ended(&self, state: &State) -> Place {
+        let tension = vec![0.0; self.free.compliance().len()];
+        Place { coordinates: state.coordinates.clone(), angles: self.free.angles(), tension }
     }
 
     fn settled(&self, relaxed: Relaxed, held: bool) -> Settled {

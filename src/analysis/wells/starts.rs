@@ -125,7 +125,7 @@ fn released(question: &Question<'_>, from: &Place, options: Options) -> Outcome 
     }
 }
 
-/// A state near random fold angles.
+/// A state near random fold angles. One in which the relaxation did not converge is as good a start as any, where it is a state.
 fn crumpled(question: &Question<'_>, spread: f64, within: &mut dyn FnMut(f64) -> f64) -> Result<Place, Failure> {
     let mut recipe: Recipe = question.recipe.clone();
     if let Some(creases) = &mut recipe.creases {
@@ -136,8 +136,17 @@ fn crumpled(question: &Question<'_>, spread: f64, within: &mut dyn FnMut(f64) ->
     let mut settler = Settler::new(question, &recipe, 1.0);
     let mut from = settler.drawn();
     shake(question, &mut from.coordinates, within);
-    let found = settler.free(&from, false, CRUMPLED, &mut |_| true);
-    Ok(found.map_err(|error| error.failure)?.place)
+    match settler.free(&from, false, CRUMPLED, &mut |_| true) {
+        Ok(found) => Ok(found.place),
+        Err(error) => match error.failure {
+            Failure::Uncertain { .. } | Failure::Stuck { .. } | Failure::TooManySteps { .. }
+                if error.state.coordinates.iter().all(|x| x.is_finite()) =>
+            {
+                Ok(settler.ended(&error.state))
+            }
+            failure => Err(failure),
+        },
+    }
 }
 
 /// Moves every coordinate at random; those that are no lengths by what moves points as far. The axis of a screw has its direction by chance
