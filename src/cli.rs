@@ -297,7 +297,10 @@ fn describe_relaxation(relax: &RelaxSummary) -> String {
         [force, length] => format!("residuals {force:.1e} (force) {length:.1e} (length)"),
     };
     let iterations = counted(relax.iterations, "iteration");
-    format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}", relax.energy.total)
+    let branching = relax.branch_point_start.map_or_else(String::new, |rays| {
+        format!(", the start is a branch point with {rays} rays: other branches may have other equilibria")
+    });
+    format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}{branching}", relax.energy.total)
 }
 
 /// `1 well`, `2 wells`.

@@ -69,6 +69,7 @@ impl View {
     /// or their number is another one.
     pub fn coordinates(&self, drawn: &Drawn, points: &[Vec3]) -> Option<Vec<f64>> {
         let known = matches!(drawn.domain, Domain::Patch | Domain::FixedTorus(_));
-        (known && points.len() == self.sites.len()).then(|| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect())
+        let place = |p: &Vec3| <[f64; 3]>::from(p - drawn.origin);
+        (known && points.len() == self.sites.len()).then(|| points.iter().flat_map(place).collect())
     }
 }

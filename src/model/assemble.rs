@@ -14,6 +14,8 @@ use nalgebra::Matrix3;
 
 /// Hinges stiffer than this times the softest term carry tensions.
 const STIFF_RATIO: f64 = 1e4;
+/// A sheet this many times its size away from the file's origin is moved to the model's.
+const FAR: f64 = 4.0;
 
 type Terms = Vec<Box<dyn Elements>>;
 
@@ -66,7 +68,8 @@ pub struct Drawn {
     pub held: Vec<usize>,
     /// Rotation from the file's frame to the domain's, about `origin`.
     pub frame: Matrix3<f64>,
-    /// What stands at the origin of the domain's frame.
+    /// What stands at the origin of the domain's frame: vertex 0 of a screw; elsewhere the file's origin, or the sheet's first vertex
+    /// where the sheet is far from that.
     pub origin: Vec3,
 }
 
@@ -81,15 +84,16 @@ impl Drawn {
         let flat = |points: &[Vec3]| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
         let lattice = sheet.lattice.map(|[l1, l2]| [l1 * tiling.cells[0] as f64, l2 * tiling.cells[1] as f64]);
         let frame = Matrix3::identity();
+        let (positions, origin) = near_origin(sheet, tiling);
         let (domain, coordinates) = match (surroundings, lattice) {
-            (Surroundings::FixedTorus, Some(lattice)) => (Domain::FixedTorus(lattice), flat(&tiling.positions)),
+            (Surroundings::FixedTorus, Some(lattice)) => (Domain::FixedTorus(lattice), flat(&positions)),
             (Surroundings::FreeTorus, Some(lattice)) => {
-                (Domain::FreeTorus, [flat(&tiling.positions), flat(&lattice)].concat())
+                (Domain::FreeTorus, [flat(&positions), flat(&lattice)].concat())
             }
             (Surroundings::Screw, Some(lattice)) => return Self::screw(sheet, lattice, axis),
-            _ => (Domain::Patch, flat(&tiling.positions)),
+            _ => (Domain::Patch, flat(&positions)),
         };
-        Self { domain, coordinates, held: vec![], frame, origin: Vec3::zeros() }
+        Self { domain, coordinates, held: vec![], frame, origin }
     }
 
     /// Vertex 0 at the origin, the first lattice vector along x, face normals along +z, no curvature.
@@ -106,6 +110,23 @@ impl Drawn {
         coordinates.extend([axis, 0.0, l1.y, l2.y, l1.x, l2.x]);
         Self { domain: Domain::Screw, coordinates, held, frame, origin }
     }
+}
+
+/// Positions of a tiling's vertices and what is at their origin. Where the first vertex is far off, as measured by the sheet, it is made
+/// the origin: then rounding errors are those of the sheet's size and of the file's own numbers.
+fn near_origin(sheet: &Sheet, tiling: &Tiling) -> (Vec<Vec3>, Vec3) {
+    let Some(&first) = sheet.vertices.first() else { return (tiling.positions.clone(), Vec3::zeros()) };
+    let size = tiling.positions.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
+    if first.norm() <= FAR * size {
+        return (tiling.positions.clone(), Vec3::zeros());
+    }
+    let [l1, l2] = sheet.lattice.unwrap_or_default();
+    let place = |k: usize| {
+        let (vertex, cell) = (k % sheet.vertices.len(), k / sheet.vertices.len());
+        let [c1, c2] = [cell % tiling.cells[0], cell / tiling.cells[0]].map(|c| c as f64);
+        (sheet.vertices[vertex] - first) + c1 * l1 + c2 * l2
+    };
+    ((0..tiling.positions.len()).map(place).collect(), first)
 }
 
 /// Sum of the area vectors of the triangles: points to the side of the face normals.
@@ -149,21 +170,26 @@ pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -
         stiff.push(Box::new(hinge_term("locks", drawn, tiling, |edge| locked[edge], &rigid)));
     }
     let pins = recipe.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
-    let mut loads = Vec::new();
-    if !recipe.loads.is_empty() {
-        loads = vec![0.0; drawn.coordinates.len()];
-        recipe.loads.iter().for_each(|(v, f)| (0..3).for_each(|axis| loads[3 * v + axis] += f[axis]));
-    }
+    let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
+    let loads = net_loads(recipe, drawn.coordinates.len(), &pinned);
     Model::new(Parts {
         domain: drawn.domain.clone(),
         drawn: drawn.coordinates.clone(),
         soft,
         stiff,
-        pinned: drawn.held.iter().copied().chain(pins).collect(),
+        pinned,
         loads,
         mean_edge,
         gauge,
     })
+}
+
+/// The force on every coordinate, without what pins take up; nothing where no force is left: a load that does nothing changes nothing.
+fn net_loads(recipe: &Recipe, coordinates: usize, pinned: &[usize]) -> Vec<f64> {
+    let mut loads = vec![0.0; coordinates];
+    recipe.loads.iter().for_each(|(v, f)| (0..3).for_each(|axis| loads[3 * v + axis] += f[axis]));
+    pinned.iter().for_each(|&k| loads[k] = 0.0);
+    if loads.iter().all(|force| *force == 0.0) { vec![] } else { loads }
 }
 
 fn mean_edge(drawn: &Drawn, tiling: &Tiling) -> f64 {

@@ -6,7 +6,13 @@
 
 use super::domain::Domain;
 use crate::math::Vec3;
-use nalgebra::SVector;
+use nalgebra::{Matrix3, Rotation3, SVector};
+
+/// Most turns towards the orientation in which loads do the most work.
+const TURNS: usize = 30;
+/// Torques below this part of what forces and arms could make are rounding errors, and so are stiffnesses.
+const BALANCED: f64 = 1e-15;
+const NEUTRAL: f64 = 1e-9;
 
 /// Rates of a coordinate under the rigid motions.
 pub type Motion = SVector<f64, 6>;
@@ -80,4 +86,35 @@ pub fn separation(motions: &[Motion], held: &[bool]) -> f64 {
     });
     let values = rows.singular_values();
     values.min() / values.max()
+}
+
+/// Turn about the origin of the arms after which these forces do the most work on them, by Newton's method: the nearest one. Turns that
+/// change nothing are not made. `None` where the forces have no torque.
+pub fn turn_along(mut arms: Vec<(Vec3, Vec3)>) -> Option<Rotation3<f64>> {
+    let most: f64 = arms.iter().map(|(arm, force)| arm.norm() * force.norm()).sum();
+    let mut turn = None;
+    for _ in 0..TURNS {
+        let torque: Vec3 = arms.iter().map(|(arm, force)| arm.cross(force)).sum();
+        if !(torque.norm() > BALANCED * most) {
+            break;
+        }
+        let stiffness: Matrix3<f64> = arms.iter().map(|(arm, force)| stiffness_of(arm, force)).sum();
+        let eigen = stiffness.symmetric_eigen();
+        let stiff = (0..3).filter(|&k| eigen.eigenvalues[k].abs() > NEUTRAL * most);
+        let about = |k: usize| {
+            let axis = eigen.eigenvectors.column(k).into_owned();
+            axis * (axis.dot(&torque) / eigen.eigenvalues[k].abs())
+        };
+        let step: Vec3 = stiff.map(about).sum();
+        let by = Rotation3::new(step * f64::min(1.0, 1.0 / step.norm().max(f64::MIN_POSITIVE)));
+        arms.iter_mut().for_each(|(arm, _)| *arm = by * *arm);
+        turn = Some(turn.map_or(by, |turn| by * turn));
+    }
+    turn
+}
+
+/// Second derivative by a turn of what a force costs on an arm.
+fn stiffness_of(arm: &Vec3, force: &Vec3) -> Matrix3<f64> {
+    let product = arm * force.transpose();
+    Matrix3::identity() * arm.dot(force) - 0.5 * (product + product.transpose())
 }

@@ -7,6 +7,8 @@ use crate::numerics::sparse::{Cliques, FIXED};
 use crate::numerics::{largest, parallel};
 use crate::solver::{Curvature, Layout, Linearization, Problem};
 
+mod turning;
+
 /// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is
 /// closer to rest than that, residuals are relative to the force of a milliradian instead of to round-off.
 const LEAST_ANGLE: f64 = 1e-3;
@@ -27,6 +29,8 @@ pub struct Model {
     soft: Vec<Box<dyn Elements>>,
     stiff: Vec<Box<dyn Elements>>,
     loads: Vec<f64>,
+    /// Unknowns that would have to be held to keep the sheet from turning where loads pull.
+    turning: Vec<u32>,
     layout: Layout,
     compliance: Vec<f64>,
     gap_scale: Vec<f64>,
@@ -82,6 +86,7 @@ impl Model {
             soft,
             stiff,
             loads,
+            turning: vec![],
             layout,
             compliance,
             gap_scale,
@@ -100,6 +105,7 @@ impl Model {
         self.free = (0..held.len() as u32).filter(|&k| !held[k as usize]).collect();
         let mut number = vec![FIXED; held.len()];
         self.free.iter().enumerate().for_each(|(unknown, &k)| number[k as usize] = unknown as u32);
+        self.turning = self.turning_unknowns(&number);
         self.layout = layout(&self.domain, &self.base, &self.free, &number, &self.soft, &self.stiff);
     }
 
@@ -330,6 +336,10 @@ impl Problem for Model {
         &self.gap_scale
     }
 
+    fn unit_of_length(&self) -> f64 {
+        self.mean_edge
+    }
+
     fn energy(&self, x: &[f64]) -> f64 {
         let all = self.coordinates(x);
         let mut energy = -self.loads.iter().zip(&all).map(|(f, x)| f * x).sum::<f64>();
@@ -360,6 +370,7 @@ impl Problem for Model {
         self.linearize_loads(&all, out);
         self.linearize_soft(&all, curvature, out);
         self.linearize_stiff(&all, tension, out);
+        self.hold_rotations(tension, out);
     }
 
     fn accept(&mut self, x: &mut [f64]) {
@@ -376,6 +387,10 @@ impl Problem for Model {
         if moved {
             self.base = all;
         }
+    }
+
+    fn relieve(&mut self, x: &mut [f64]) -> f64 {
+        self.turn_along_loads(x)
     }
 }
 
@@ -407,6 +422,8 @@ impl Model {
     }
 
     fn linearize_stiff(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
+        let sizes = self.gap_scale.iter().map(|scale| scale / self.mean_edge);
+        out.sizes.iter_mut().zip(sizes).for_each(|(out, size)| *out = size);
         for (first, term) in numbered(&self.stiff) {
             let add = |k: usize, local: &Local| {
                 let measure = first + k;

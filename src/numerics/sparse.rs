@@ -171,6 +171,11 @@ impl Pattern {
         self.diagonal().for_each(|slot| values[slot] += amount);
     }
 
+    /// Adds a number to one diagonal entry.
+    pub fn add_to_one(&self, values: &mut [f64], k: usize, amount: f64) {
+        values[self.columns[k] as usize] += amount;
+    }
+
     /// Largest magnitude on the diagonal.
     pub fn largest_diagonal(&self, values: &[f64]) -> f64 {
         self.diagonal().map(|slot| values[slot].abs()).fold(0.0, f64::max)

@@ -136,6 +136,9 @@ pub struct RelaxSummary {
     pub self_intersecting: Option<bool>,
     /// Largest difference of a fold angle to the exact solver; null where that says nothing.
     pub error_to_kinematic: Option<f64>,
+    /// Number of rays of rigid folding that leave the drawn state from which a rigid cell with locks was relaxed, where that is a branch
+    /// point: other branches may end in other equilibria. Null elsewhere.
+    pub branch_point_start: Option<usize>,
     /// A row per iteration.
     pub history: Vec<IterationSummary>,
 }

@@ -2,7 +2,7 @@
 
 use super::runner::Runner;
 use super::{Progress, RunError};
-use crate::analysis::branches::{Branches, Question, branches as find_branches};
+use crate::analysis::branches::{Branches, BranchesError, Question, branches as find_branches};
 use crate::kinematics::RealDirections;
 use crate::model::assemble::{Surroundings, drawn_angles};
 use crate::output::summary::{BranchesSummary, RaySummary, StudyResult, StudySummary};
@@ -33,18 +33,32 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), R
     }
 }
 
-/// Runs the study.
-pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary, RunError> {
-    let built = runner.built;
-    runner.watch(&Progress { study: study.name.0.clone(), step: 0, of: None, residual: f64::NAN, target: None });
-    let clock = Instant::now();
-    let found = find_branches(&Question {
+fn leaving(built: &Built) -> Result<Branches, BranchesError> {
+    find_branches(&Question {
         sheet: &built.sheet,
         tiling: &built.tiling,
         surroundings: built.surroundings,
         angles: &drawn_angles(&built.drawn, &built.tiling),
         recipe: &built.recipe,
-    });
+    })
+}
+
+/// Number of rays that leave the drawn state of a rigid cell with locks, where more than one motion passes through it: what is relaxed
+/// from there may end in other equilibria.
+pub fn branch_point(built: &Built) -> Option<usize> {
+    let rigid = built.recipe.bars.is_some_and(f64::is_infinite);
+    if !rigid || built.surroundings != Surroundings::Screw || built.recipe.locks.is_empty() {
+        return None;
+    }
+    leaving(built).ok().map(|branches| branches.rays.rays.len()).filter(|rays| *rays > 2)
+}
+
+/// Runs the study.
+pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary, RunError> {
+    let built = runner.built;
+    runner.watch(&Progress { study: study.name.0.clone(), step: 0, of: None, residual: f64::NAN, target: None });
+    let clock = Instant::now();
+    let found = leaving(built);
     let mut summary = StudySummary {
         converged: found.is_ok(),
         seconds: clock.elapsed().as_secs_f64(),

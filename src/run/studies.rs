@@ -69,7 +69,14 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
             runner.keep_state(study, Kept { coordinates, angles: model.angles() })?;
             let angles = draw::with_all_angles(built, &relaxed.state).fold_angle;
             let error_to_kinematic = error_to_kinematic(&built.sheet, &built.tiling, &model, &angles);
-            let result = RelaxSummary { self_intersecting, error_to_kinematic, ..result_of(built, &relaxed) };
+            let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, Start::Drawn));
+            let branch_point_start = if drawn { branches::branch_point(built) } else { None };
+            let result = RelaxSummary {
+                self_intersecting,
+                error_to_kinematic,
+                branch_point_start,
+                ..result_of(built, &relaxed)
+            };
             Ok(relaxation_summary(study, seconds, result, None))
         }
         Err(error) => {

@@ -286,7 +286,9 @@ impl<'a> Builder<'a> {
             if !pinned && total[axis].abs() > 1e-12 * largest {
                 let span = self.file.scene.loads[0].force.span();
                 let message = format!("the loads push the whole sheet along {letter} with a force of {}", total[axis]);
-                return Err(self.file.error_at(span, message, "balance the loads, or pin a vertex along that axis"));
+                let help = "balance the loads, or pin a vertex along that axis; a sheet with fewer than three pinned vertices \
+                            still turns as a whole, until its loads pull straight";
+                return Err(self.file.error_at(span, message, help));
             }
         }
         Ok(())

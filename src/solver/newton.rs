@@ -49,7 +49,7 @@ const SETTLED: f64 = 1e-5;
 const MOST_PATIENCE: usize = 8;
 /// Scaled force below which the inertia of a state is that of the minimum next to it.
 const NEAR: f64 = 1e-4;
-/// Largest component of the step with which a start is probed, and the part of its stretch that tells a singular start.
+/// Largest component of the step with which a start is probed, over the unit of length, and the part of its stretch that tells a singular start.
 const PROBE: f64 = 1e-3;
 const UNREACHABLE: f64 = 0.05;
 /// What may be left of a random stretch that a motion was asked to make, over what a self stress keeps of it.
@@ -277,6 +277,7 @@ pub fn minimize<P: Problem>(
 
 impl<P: Problem> Newton<'_, P> {
     fn run(&mut self, options: Options, observe: &mut dyn FnMut(&Step) -> bool) -> Result<usize, Failure> {
+        self.problem.relieve(&mut self.x);
         self.linearize();
         self.start()?;
         self.merit = merit(self.problem, &self.x, &self.tension, &self.at.gaps);
@@ -497,7 +498,8 @@ impl<P: Problem> Newton<'_, P> {
             return false;
         }
         let length = largest(dx);
-        let open = problem::missing(&self.problem.gaps(&moved(PROBE / length.max(PROBE))), &self.tension, compliance);
+        let probe = PROBE * self.problem.unit_of_length();
+        let open = problem::missing(&self.problem.gaps(&moved(probe / length.max(probe))), &self.tension, compliance);
         self.saddle.unreachable(layout, &self.at, compliance, &open, UNREACHABLE) > UNREACHABLE
             && self_stresses(self.problem, &self.at).is_some_and(|count| count > 0)
     }
@@ -560,6 +562,7 @@ impl<P: Problem> Newton<'_, P> {
         }
         (self.x, self.tension, self.merit) = (trial.x, trial.tension, trial.merit);
         self.problem.accept(&mut self.x);
+        self.merit -= self.problem.relieve(&mut self.x);
     }
 
     /// Whether rigid measures are independent: then a random stretch can be made by a motion. Soft ones always are. Of `m` rigid
@@ -571,7 +574,7 @@ impl<P: Problem> Newton<'_, P> {
             return true;
         }
         let mut random = ChaCha8Rng::seed_from_u64(1);
-        let stretch: Vec<f64> = compliance.iter().map(|_| symmetric(&mut random)).collect();
+        let stretch: Vec<f64> = self.at.sizes.iter().map(|size| symmetric(&mut random) * size).collect();
         let reached = REACHED / (rigid as f64).sqrt();
         self.saddle.unreachable(layout, &self.at, compliance, &stretch, reached) <= reached
     }

@@ -77,6 +77,10 @@ pub trait Problem {
     fn compliance(&self) -> &[f64];
     /// Natural size of each stiff measure's gap: a length for lengths, 1 for angles.
     fn gap_scale(&self) -> &[f64];
+    /// Natural size of the unknowns, which are lengths.
+    fn unit_of_length(&self) -> f64 {
+        1.0
+    }
     /// Soft energy at `x`.
     fn energy(&self, x: &[f64]) -> f64;
     /// Gaps of the stiff measures at `x`.
@@ -85,6 +89,10 @@ pub trait Problem {
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization);
     /// Called with every accepted state; may write the same state in other coordinates.
     fn accept(&mut self, x: &mut [f64]);
+    /// Called with every accepted state: may move it as a whole where that lowers the soft energy and changes no gap. Returns by how much.
+    fn relieve(&mut self, _x: &mut [f64]) -> f64 {
+        0.0
+    }
 }
 
 /// A problem's numbers at one state.
@@ -103,6 +111,9 @@ pub struct Linearization {
     pub soft_gradients: Vec<f64>,
     /// Stiffnesses of the soft elements.
     pub soft_stiffness: Vec<f64>,
+    /// Natural size of each stiff measure's gradient: 1 for lengths, one over the unit of length for angles. Rows are compared in
+    /// these units, so that nothing depends on the unit of length.
+    pub sizes: Vec<f64>,
     /// Largest force of a single element on a single unknown.
     pub largest_force: f64,
     /// How much of the soft Hessian is in it.
@@ -120,6 +131,7 @@ impl Linearization {
             gaps: vec![0.0; layout.stiff.len()],
             jacobian: vec![0.0; layout.stiff.total()],
             hessian: vec![0.0; plan.pattern.entries()],
+            sizes: vec![1.0; layout.stiff.len()],
             soft_gradients: vec![0.0; layout.soft.total()],
             soft_stiffness: vec![0.0; layout.soft.len()],
             largest_force: 0.0,
@@ -188,6 +200,11 @@ impl Linearization {
         self.plan.pattern.add_to_diagonal(&mut self.hessian, amount);
     }
 
+    /// Adds an amount to the diagonal entry of an unknown in the Hessian.
+    pub fn add_to_diagonal(&mut self, unknown: usize, amount: f64) {
+        self.plan.pattern.add_to_one(&mut self.hessian, unknown, amount);
+    }
+
     /// Pattern of the Hessian; it has room for the outer products of the stiff gradients.
     pub fn pattern(&self) -> &Pattern {
         &self.plan.pattern
@@ -196,6 +213,15 @@ impl Linearization {
     /// The Jacobian of the stiff measures.
     pub fn rows<'a>(&'a self, layout: &'a Layout) -> Rows<'a> {
         Rows { cliques: &layout.stiff, values: &self.jacobian }
+    }
+
+    /// The Jacobian of the stiff measures with every row over its natural size.
+    pub fn even_jacobian(&self, layout: &Layout) -> Vec<f64> {
+        let mut values = self.jacobian.clone();
+        for (row, size) in self.sizes.iter().enumerate() {
+            values[layout.stiff.range(row)].iter_mut().for_each(|v| *v /= size);
+        }
+        values
     }
 
     /// The gradients of the soft elements as a matrix.

@@ -204,12 +204,13 @@ impl Saddle {
         tolerance: f64,
     ) -> Solved {
         let (dx, dt) = self.apply(layout, a, b);
-        let units = [f64::max(norm(a), BALANCED * Self::pull(layout, at, &dt)), norm(b) + STRETCH * norm(&dx)];
+        let right = Pair(a.to_vec(), over(b, &at.sizes));
+        let units = [f64::max(norm(a), BALANCED * Self::pull(layout, at, &dt)), norm(&right.1) + STRETCH * norm(&dx)];
         let mut equations = Equations { saddle: self, layout, at, compliance };
-        let right = Pair(a.to_vec(), b.to_vec());
-        let corrected = corrections::correct(&mut equations, &right, Pair(dx, dt), units, tolerance);
+        let start = Pair(dx, times(&dt, &at.sizes));
+        let corrected = corrections::correct(&mut equations, &right, start, units, tolerance);
         let (Pair(dx, dt), residual) = (corrected.found, corrected.residual);
-        Solved { dx, dt, residual }
+        Solved { dx, dt: over(&dt, &at.sizes), residual }
     }
 
     /// What tensions pull with, before they balance.
@@ -228,15 +229,27 @@ impl Saddle {
         b: &[f64],
         enough: f64,
     ) -> f64 {
-        let right = Pair(vec![0.0; layout.unknowns], b.to_vec());
+        let right = Pair(vec![0.0; layout.unknowns], over(b, &at.sizes));
         let (dx, dt) = self.apply(layout, &right.0, b);
-        let units = [Self::pull(layout, at, &dt), norm(b)];
+        let units = [Self::pull(layout, at, &dt), norm(&right.1)];
+        let start = Pair(dx, times(&dt, &at.sizes));
         let mut equations = Equations { saddle: self, layout, at, compliance };
-        corrections::correct(&mut equations, &right, Pair(dx, dt), units, enough).residual
+        corrections::correct(&mut equations, &right, start, units, enough).residual
     }
 }
 
-/// The true system and its augmented form.
+/// Entry by entry over these sizes.
+fn over(v: &[f64], sizes: &[f64]) -> Vec<f64> {
+    v.iter().zip(sizes).map(|(v, size)| v / size).collect()
+}
+
+/// Entry by entry times these sizes.
+fn times(v: &[f64], sizes: &[f64]) -> Vec<f64> {
+    v.iter().zip(sizes).map(|(v, size)| v * size).collect()
+}
+
+/// The true system and its augmented form, stretches over the natural sizes of the measures' gradients and tensions times these: then
+/// all stretches are lengths, and all tensions forces.
 struct Equations<'a> {
     saddle: &'a mut Saddle,
     layout: &'a Layout,
@@ -246,6 +259,7 @@ struct Equations<'a> {
 
 impl NearlySolved for Equations<'_> {
     fn product(&self, Pair(dx, dt): &Pair) -> Pair {
+        let dt = &over(dt, &self.at.sizes);
         let rows = self.at.rows(self.layout);
         let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
         let shifted = &self.saddle.shifted;
@@ -254,11 +268,11 @@ impl NearlySolved for Equations<'_> {
         rows.add_transpose_product(dt, &mut a);
         rows.product(dx, &mut b);
         b.iter_mut().zip(self.compliance).zip(dt).for_each(|((b, c), t)| *b -= c * t);
-        Pair(a, b)
+        Pair(a, over(&b, &self.at.sizes))
     }
 
     fn solve(&mut self, Pair(a, b): &Pair) -> Pair {
-        let (dx, dt) = self.saddle.apply(self.layout, a, b);
-        Pair(dx, dt)
+        let (dx, dt) = self.saddle.apply(self.layout, a, &times(b, &self.at.sizes));
+        Pair(dx, times(&dt, &self.at.sizes))
     }
 }

@@ -3,6 +3,7 @@
 use super::newton::Equilibrium;
 use super::problem::{Curvature, Linearization, Problem};
 use crate::numerics::rank;
+use crate::numerics::sparse::Rows;
 
 /// Singular values of the stiff Jacobian below this, relative to its largest entry, count as zero.
 const NULL: f64 = 1e-6;
@@ -34,11 +35,15 @@ pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> Settled {
     let mut at = Linearization::new(layout);
     problem.linearize(&found.x, &found.tension, Curvature::GaussNewton, &mut at);
     let self_stresses = self_stresses(problem, &at);
-    let rows = at.rows(layout);
+    let even = at.even_jacobian(layout);
+    let rows = Rows { cliques: &layout.stiff, values: &even };
     let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
     let mut settled = found.tension.clone();
     if all_rigid && self_stresses.is_some_and(|count| count > 0) {
-        settled = rank::without_null(&rows, layout.unknowns, &layout.node, &found.tension).unwrap_or(settled);
+        let forces: Vec<f64> = settled.iter().zip(&at.sizes).map(|(t, size)| t * size).collect();
+        if let Ok(least) = rank::without_null(&rows, layout.unknowns, &layout.node, &forces) {
+            settled = least.iter().zip(&at.sizes).map(|(t, size)| t / size).collect();
+        }
     }
     let (residual_force, residual_length) = residuals(problem, &at, &settled);
     Settled { tension: settled, self_stresses, residual_force, residual_length }
@@ -50,7 +55,9 @@ pub fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Option<usiz
     if !problem.compliance().contains(&0.0) {
         return None;
     }
-    let rank = rank::count_above(&at.rows(layout), layout.unknowns, &layout.node, NULL).ok()?;
+    let even = at.even_jacobian(layout);
+    let rows = Rows { cliques: &layout.stiff, values: &even };
+    let rank = rank::count_above(&rows, layout.unknowns, &layout.node, NULL).ok()?;
     Some(layout.stiff.len() - rank)
 }
 
