@@ -14,6 +14,7 @@ use super::state::cylinder;
 use super::trace::{Folded, Traced};
 use crate::model::assemble::{Drawn, Recipe, assemble, drawn_angles};
 use crate::model::{Domain, Gauge};
+use crate::numerics::{larger, worst};
 use crate::sheet::Tiling;
 use crate::solver::continuation::End;
 use crate::solver::{Failure, Options, Step};
@@ -65,9 +66,9 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Largest difference of a fold angle to the rigid trajectory.
-    pub fn error(&self) -> f64 {
-        self.states.iter().map(|state| state.error).fold(0.0, f64::max)
+    /// Largest difference of a fold angle to the rigid trajectory; `None` where no state was compared.
+    pub fn error(&self) -> Option<f64> {
+        worst(self.states.iter().map(|state| state.error))
     }
 }
 
@@ -82,7 +83,7 @@ pub struct CylinderErrors {
     pub theta: f64,
 }
 
-/// Compares the cylinders of a drive with those of its trajectory; `None` for a finite sheet.
+/// Compares the cylinders of a drive with those of its trajectory; `None` for a finite sheet, and where there is no state to compare.
 pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, drive: &Drive) -> Option<CylinderErrors> {
     let mut most = CylinderErrors::default();
     for (rigid, driven) in traced.states.iter().skip(1).zip(&drive.states) {
@@ -97,12 +98,7 @@ pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, drive: &Drive) -> Option<
         most.strain = strain.fold(most.strain, larger);
         most.theta = larger(most.theta, theta[0].min(theta[1]));
     }
-    Some(most)
-}
-
-/// The larger of two numbers; not a number where one is none.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b <= a { a } else { b }
+    (!drive.states.is_empty()).then_some(most)
 }
 
 /// Relaxes beside every state of a trajectory. `observe` sees every accepted step and returns false to stop.
@@ -211,7 +207,7 @@ impl Track {
         self.crease = Some(crease);
         self.angles = self.continued(question, &relaxed.state.coordinates);
         let off = |(a, b): (&f64, &f64)| (a - b).abs();
-        let error = self.angles.iter().zip(&state.angles).map(off).fold(0.0, f64::max);
+        let error = self.angles.iter().zip(&state.angles).map(off).fold(0.0, larger);
         Ok(Driven { relaxed, angles: self.angles.clone(), crease, error })
     }
 

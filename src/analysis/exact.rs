@@ -7,10 +7,10 @@
 
 use crate::kinematics::{Closing, Closure};
 use crate::model::{Domain, Model};
-use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{
     NullSpace, full_svd, least_squares, null_space, rank_at_largest_gap, symmetric_eigenvalues,
 };
+use crate::numerics::{DenseMatrix, worst};
 use crate::sheet::{Sheet, Tiling};
 use crate::solver::Implicit;
 use nalgebra::DVector;
@@ -72,7 +72,7 @@ pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles:
     let springs = Springs::new(sheet, tiling, model, angles)?;
     let exact = springs.stationary(&springs.start).filter(|exact| exact.error <= KNOWN)?.angles;
     let known = exact.iter().zip(angles).filter(|(_, angle)| !angle.is_nan());
-    Some(known.map(|(exact, angle)| (exact - angle).abs()).fold(0.0, f64::max))
+    worst(known.map(|(exact, angle)| (exact - angle).abs()))
 }
 
 impl Springs {

@@ -6,10 +6,11 @@
 //! angular velocity of a face, and the difference of those on both sides of an edge, along the edge, is the rate of its
 //! fold angle. For rates in the null space of closure this way round changes nothing.
 
-use super::embedding::{Embedding, larger};
+use super::embedding::Embedding;
 use super::motion::{Moving, Rigid};
 use super::walk::{Crossing, Walked};
 use crate::math::Vec3;
+use crate::numerics::larger;
 use crate::sheet::Corner;
 
 /// Velocities of a sheet whose fold angles change at some rates, per unit of these, in the frame of the

@@ -10,6 +10,7 @@ use super::motion::{Motion, Rigid};
 use super::walk::{FaceWalk, Walked, relative};
 use super::{KinematicsError, drawn_fold_angles};
 use crate::math::Vec3;
+use crate::numerics::larger;
 use crate::sheet::{Corner, EdgeKey, Sheet};
 
 /// What is needed of a sheet to place it at any fold angles; made once.
@@ -208,11 +209,6 @@ fn seats(sheet: &Sheet, faces: &[DrawnFace]) -> Option<Vec<Seat>> {
         }
     }
     seats.into_iter().collect()
-}
-
-/// The larger of two numbers, or not a number where one of them is none.
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if a >= b { a } else { b + 0.0 * a }
 }
 
 #[cfg(test)]

@@ -20,8 +20,8 @@ mod cut;
 use super::motion::Moving;
 use super::{Closure, Displacement, Embedding, KinematicsError, folding_modes};
 use crate::math::{Vec3, rotation};
-use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{least_squares, null_space};
+use crate::numerics::{DenseMatrix, larger};
 use crate::sheet::Sheet;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, End, Options, Point, Trajectory, follow};
@@ -172,7 +172,7 @@ impl<'a> Tube<'a> {
         for _ in 0..STEPS {
             let defects: Vec<f64> =
                 self.closure.residual(&angles).iter().copied().chain(self.defects(&angles)).collect();
-            residual = defects.iter().fold(0.0, |most, defect| super::embedding::larger(most, defect.abs()));
+            residual = defects.iter().fold(0.0, |most, defect| larger(most, defect.abs()));
             if residual <= CLOSED {
                 return Ok(angles);
             }

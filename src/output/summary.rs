@@ -205,8 +205,8 @@ pub struct TrajectorySummary {
     pub steps: usize,
     /// Corrections of all steps.
     pub iterations: usize,
-    /// Largest residual: of closure, or scaled, of the relaxations beside.
-    pub max_residual: f64,
+    /// Largest residual: of closure, or scaled, of the relaxations beside; null where there is no state.
+    pub max_residual: Option<f64>,
     /// The ray along which it comes back; null where it does not.
     pub ends_at: Option<RayName>,
     /// How it ended.
@@ -283,8 +283,8 @@ pub struct MapSummary {
     pub failed: usize,
     /// Newton steps of all samples.
     pub iterations: usize,
-    /// Largest energy.
-    pub largest_energy: f64,
+    /// Largest energy; null where no sample converged.
+    pub largest_energy: Option<f64>,
     /// Points on the exact cone of cylinders that the kinematics found.
     pub cone_points: usize,
     /// Largest angle, in radians, between some of these points and the zeros of the energy beside them; null without any.
@@ -559,8 +559,8 @@ pub struct SurfaceSummary {
     pub max_curvature: f64,
     /// Largest radius of a chart in fold angles.
     pub radius: f64,
-    /// Largest closure residual.
-    pub max_residual: f64,
+    /// Largest closure residual; null where there is no state.
+    pub max_residual: Option<f64>,
     /// The nappes from which the surface was begun, with the states that were reached from each.
     pub branches: Vec<PieceSummary>,
 }

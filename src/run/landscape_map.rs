@@ -10,6 +10,7 @@ use crate::analysis::landscape::samples::{Sample, SampleError};
 use crate::analysis::landscape::sphere::{self, Direction, Net};
 use crate::analysis::landscape::{Courses, HeldSheet, LandscapeError, rigid_facets};
 use crate::math::Vec3;
+use crate::numerics::worst;
 use crate::output::sphere_plot::{self, Sphere};
 use crate::output::summary::MapSummary;
 use crate::output::table::{Table, Value, read_columns};
@@ -74,7 +75,7 @@ pub fn map(runner: &Runner<'_>, study: &StudySpec, spec: &MapSpec) -> Result<Map
         samples: rows.len(),
         failed: energies.iter().filter(|energy| energy.is_nan()).count(),
         iterations: rows.iter().map(|row| row[ITERATIONS] as usize).sum(),
-        largest_energy: energies.iter().fold(0.0, |most: f64, energy| most.max(*energy)),
+        largest_energy: worst(energies.iter().copied().filter(|energy| !energy.is_nan())),
         cone_points: cone.iter().map(Vec::len).sum(),
         cone_distance,
     };

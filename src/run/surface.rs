@@ -13,6 +13,7 @@ use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::Gauge;
 use crate::model::assemble::{Recipe, Surroundings, assemble, drawn_angles};
+use crate::numerics::worst;
 use crate::output::strain_plot::PathPoint;
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{PieceSummary, StudyResult, StudySummary, SurfaceSummary};
@@ -99,7 +100,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> 
             summary.reason = reason(&surface);
             summary.converged = summary.reason.is_none();
             let result = summarized(&surface, &question);
-            summary.error = Some(result.max_residual);
+            summary.error = result.max_residual;
             summary.result = Some(StudyResult::Surface(result));
         }
         Err(error) => summary.reason = Some(error.to_string()),
@@ -298,7 +299,7 @@ fn summarized(surface: &Surface, question: &Question<'_>) -> SurfaceSummary {
         tips: surface.points.iter().filter(|point| point.radius == 0.0).count(),
         max_curvature: question.max_curvature,
         radius: surface.radius,
-        max_residual: surface.points.iter().map(|point| point.residual).fold(0.0, f64::max),
+        max_residual: worst(surface.points.iter().map(|point| point.residual)),
         branches: surface.branches.iter().map(piece).collect(),
     }
 }

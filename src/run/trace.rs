@@ -14,6 +14,7 @@ use crate::analysis::trace::{Folded, Question, Stop, TURNING, Traced, trace};
 use crate::math::Vec3;
 use crate::model::assemble::{Surroundings, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
+use crate::numerics::{larger, worst};
 use crate::output::strain_plot::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{
@@ -113,7 +114,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
             let stopped = runner.interrupted().then(|| "interrupted".to_owned());
             summary.reason = paths.iter().find_map(Path::failure).or(stopped);
             summary.converged = summary.reason.is_none();
-            summary.error = Some(paths.iter().map(Path::residual).fold(0.0, f64::max));
+            summary.error = worst(paths.iter().filter_map(Path::residual));
             summary.result = Some(StudyResult::Trace(summarized(built, &paths, spec.engine)));
         }
         Err(error) => summary.reason = Some(error.to_string()),
@@ -217,12 +218,12 @@ impl Path<'_> {
         self.drive?.states.get(step.checked_sub(1)?)
     }
 
-    /// Largest residual: of closure, or scaled, of relaxations.
-    fn residual(&self) -> f64 {
-        let of = |relaxed: &Relaxed| relaxed.residual_force.max(relaxed.residual_length);
+    /// Largest residual: of closure, or scaled, of relaxations; `None` where there is no relaxation.
+    fn residual(&self) -> Option<f64> {
+        let of = |relaxed: &Relaxed| larger(relaxed.residual_force, relaxed.residual_length);
         match self.drive {
-            Some(drive) => drive.states.iter().map(|driven| of(&driven.relaxed)).fold(0.0, f64::max),
-            None => self.traced.states.iter().map(|state| state.residual).fold(0.0, f64::max),
+            Some(drive) => worst(drive.states.iter().map(|driven| of(&driven.relaxed))),
+            None => worst(self.traced.states.iter().map(|state| state.residual)),
         }
     }
 }
@@ -378,7 +379,7 @@ fn trajectory(built: &Built, path: &Path<'_>, engine: Engine) -> TrajectorySumma
         ends_at: one.ends_at.map(|(branch, sign)| RayName { branch, sign }),
         end: end.to_owned(),
         first_self_intersection: one.first_self_intersection.map(|arc_length| ArcLength { arc_length }),
-        error_to_kinematic: compared.map(Drive::error),
+        error_to_kinematic: compared.and_then(Drive::error),
         error_of_curvature: errors.map(|errors| errors.curvature),
         error_of_strain: errors.map(|errors| errors.strain),
         error_of_theta: errors.map(|errors| errors.theta),

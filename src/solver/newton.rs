@@ -9,10 +9,10 @@
 
 use super::problem::{self, Curvature, Linearization, Problem};
 use super::saddle::{Saddle, Solved};
-use super::tension::{nan_max, residuals, self_stresses};
+use super::tension::{residuals, self_stresses};
 use crate::numerics::factor::FactorError;
-use crate::numerics::largest;
 use crate::numerics::random::symmetric;
+use crate::numerics::{larger, largest};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use thiserror::Error;
@@ -603,5 +603,5 @@ fn accuracy(last: &Step) -> f64 {
 
 /// Largest scaled gap.
 fn largest_gap(open: &[f64], scale: &[f64]) -> f64 {
-    open.iter().zip(scale).fold(0.0, |m, (o, s)| nan_max(m, o.abs() / s))
+    open.iter().zip(scale).fold(0.0, |m, (o, s)| larger(m, o.abs() / s))
 }

@@ -2,8 +2,8 @@
 
 use super::newton::Equilibrium;
 use super::problem::{Curvature, Linearization, Problem};
-use crate::numerics::rank;
 use crate::numerics::sparse::Rows;
+use crate::numerics::{larger, rank};
 
 /// Singular values of the stiff Jacobian below this, relative to its largest entry, count as zero.
 const NULL: f64 = 1e-6;
@@ -64,13 +64,8 @@ pub fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Option<usiz
 /// Scaled residuals of force and length.
 pub fn residuals<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> (f64, f64) {
     let force = at.force(problem.layout(), tension);
-    let unbalanced = force.iter().fold(0.0f64, |m, f| nan_max(m, f.abs()));
+    let unbalanced = force.iter().fold(0.0f64, |m, f| larger(m, f.abs()));
     let open = at.gaps.iter().zip(tension).zip(problem.compliance()).map(|((m, t), c)| m - c * t);
-    let gap = open.zip(problem.gap_scale()).fold(0.0, |m, (o, s)| nan_max(m, o.abs() / s));
+    let gap = open.zip(problem.gap_scale()).fold(0.0, |m, (o, s)| larger(m, o.abs() / s));
     (if unbalanced == 0.0 { 0.0 } else { unbalanced / at.largest_force }, gap)
-}
-
-/// Like `f64::max`, but a NaN wins.
-pub(super) fn nan_max(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
 }
