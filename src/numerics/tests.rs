@@ -281,3 +281,13 @@ fn work_is_consumed_in_order() {
         assert_eq!(next, count);
     }
 }
+
+/// Claim: the worst of no residual is none, not zero, and one that is not a number is the worst of all, wherever it stands. By hand.
+#[test]
+fn the_worst_of_nothing_is_nothing() {
+    assert_eq!(super::worst([]), None);
+    assert_eq!(super::worst([0.5, 2.0, 1.0]), Some(2.0));
+    for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
+        assert!(super::worst(values).is_some_and(f64::is_nan), "{values:?}");
+    }
+}

@@ -11,6 +11,7 @@ use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limi
 use crate::analysis::wells::merge::{SAME, Translations, Well, wells};
 use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
 use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_all};
+use crate::numerics::{larger, worst};
 use crate::output::chart::{self, Chart, Point, Series};
 use crate::output::files;
 use crate::output::summary::{
@@ -125,7 +126,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Re
     summary.reason = if runner.interrupted() { Some("interrupted".to_owned()) } else { found.missing(spec) };
     summary.converged = summary.reason.is_none();
     let result = found.summarized();
-    summary.error = Some(error(&result));
+    summary.error = error(&result);
     summary.result = Some(StudyResult::Wells(result));
     Ok(summary)
 }
@@ -142,10 +143,10 @@ fn crossing(built: &Built, wells: &[Well]) -> Vec<bool> {
     wells.iter().map(|well| finder.marks(&built.drawn, &well.settled.relaxed.state, LYING).any).collect()
 }
 
-/// The largest residual.
-fn error(result: &WellsSummary) -> f64 {
-    let wells = result.wells.iter().map(|well| well.residual_force.max(well.residual_length));
-    wells.chain(result.barriers.iter().filter_map(|barrier| barrier.residual)).fold(0.0, f64::max)
+/// The largest residual; `None` where nothing was found.
+fn error(result: &WellsSummary) -> Option<f64> {
+    let wells = result.wells.iter().map(|well| larger(well.residual_force, well.residual_length));
+    worst(wells.chain(result.barriers.iter().filter_map(|barrier| barrier.residual)))
 }
 
 impl Found {
@@ -173,11 +174,8 @@ impl Found {
     fn among_rigid(&self, well: &Well) -> Option<usize> {
         let rigid = self.rigid.as_ref()?.as_ref().ok()?;
         let angles = &well.settled.relaxed.state.fold_angle;
-        let apart = |other: &[f64]| {
-            let differences = other.iter().zip(angles).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan());
-            differences.fold(0.0, f64::max)
-        };
-        rigid.wells.iter().position(|other| apart(&other.angles) <= SAME)
+        let apart = |other: &[f64]| worst(other.iter().zip(angles).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan()));
+        rigid.wells.iter().position(|other| apart(&other.angles).is_some_and(|apart| apart <= SAME))
     }
 
     fn summarized(&self) -> WellsSummary {
