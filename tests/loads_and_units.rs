@@ -115,7 +115,7 @@ fn locked_in(unit: f64, angle: f64) -> RelaxSummary {
 /// Energies are those of torques per length, so they have the unit; tolerance: rounding.
 #[test]
 fn the_unit_does_not_choose_a_branch() {
-    for angle in [-0.49339316800066285, -0.39339316800066285] {
+    for angle in [-0.49339316800066285, -0.393_393_168_000_662_9] {
         let expected = locked_in(1.0, angle);
         assert_eq!(expected.branch_point_start, Some(4));
         for unit in [2.0, 0.5, 1024.0, 1.0 / 1024.0, 0.9, 7.0, 1000.0] {
