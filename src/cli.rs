@@ -17,7 +17,9 @@ use std::sync::Arc;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
-use foldwell::output::summary::{BranchesSummary, RelaxSummary, StudyResult, StudySummary, WellsSummary, to_json};
+use foldwell::output::summary::{
+    BranchesSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary, WellsSummary, to_json,
+};
 use foldwell::run::{self, Ledger, RunError, RunOptions, RunReport};
 use foldwell::validation::report::Case;
 use foldwell::validation::{self, ValidateOptions, ValidationError};
@@ -303,6 +305,22 @@ fn describe_relaxation(relax: &RelaxSummary) -> String {
     format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}{branching}", relax.energy.total)
 }
 
+/// The folding modes have their own count, by fold angles: it is not a part of that of the zero modes.
+fn describe_modes(modes: &ModesSummary) -> String {
+    format!(
+        "{}, of which {} {} rigid; {}; {}",
+        counted(modes.zero_modes, "zero mode"),
+        modes.rigid_motions,
+        if modes.rigid_motions == 1 { "is" } else { "are" },
+        if modes.self_stresses == 1 {
+            "1 self stress".into()
+        } else {
+            format!("{} self stresses", modes.self_stresses)
+        },
+        modes.folding_modes.map_or("folding modes unknown".into(), |count| counted(count, "folding mode")),
+    )
+}
+
 /// `1 well`, `2 wells`.
 fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
@@ -335,13 +353,7 @@ fn describe_failures(found: &WellsSummary) -> String {
 fn describe_study(study: &StudySummary) -> String {
     let what = match &study.result {
         Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
-        Some(StudyResult::Modes(modes)) => format!(
-            "{} zero modes ({} rigid, {} folding), {} self stresses",
-            modes.zero_modes,
-            modes.rigid_motions,
-            modes.folding_modes.map_or("?".into(), |count| count.to_string()),
-            modes.self_stresses
-        ),
+        Some(StudyResult::Modes(modes)) => describe_modes(modes),
         Some(StudyResult::Branches(branches)) => describe_branches(branches),
         Some(StudyResult::Trace(traced)) => {
             let ends = traced.branches.iter().map(|one| format!("{} at {:.6}", one.end, one.arc_length));

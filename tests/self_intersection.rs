@@ -159,17 +159,8 @@ impl Case {
 
     /// The marks of a state with these coordinates and, all over, this fold angle.
     fn marks(&mut self, coordinates: Vec<f64>, angle: f64) -> Marks {
-        let none = vec![f64::NAN; self.tiling.edges.len()];
-        let state = State {
-            coordinates,
-            energy_bars: 0.0,
-            energy_creases: 0.0,
-            energy_facets: 0.0,
-            fold_angle: vec![angle; none.len()],
-            rest_angle: none.clone(),
-            strain: none.clone(),
-            energy: none,
-        };
+        let edges = self.tiling.edges.len();
+        let state = State { fold_angle: vec![angle; edges], ..State::empty(coordinates, edges) };
         self.check.marks(&self.drawn, &state, LYING)
     }
 }

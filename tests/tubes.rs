@@ -170,7 +170,7 @@ fn check_counts(case: &Case, rim: usize) {
     let edges = case.sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary).count();
     let found = case.modes(&Recipe { bars: Some(1.0), ..Recipe::default() }, 0).unwrap();
     let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
-    assert_eq!((edges, counts), (rim, (rim, 0, rim as i64, 6)), "gap {:e}", found.gap);
+    assert_eq!((edges, counts), (rim, (rim, 0, rim as i64, 6)), "gap {:?}", found.gap);
 }
 
 /// Claim: an open tube, cut to rows of cells, has as many zero modes as its two rims have edges, and no self stress:

@@ -10,6 +10,7 @@ pub mod intersections;
 pub mod landscape;
 pub mod modes;
 pub mod relax;
+pub mod restored;
 pub mod state;
 pub mod surface;
 pub mod trace;

@@ -8,19 +8,23 @@
 use crate::kinematics::KinematicsError;
 use crate::kinematics::closure::{Closure, HingedEdge};
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
-use crate::model::{Gauge, Model, gauge};
+use crate::model::{Domain, Gauge, Model, gauge};
 use crate::numerics::dense::{self, DenseError};
 use crate::numerics::eigen::{self, EigenError};
 use crate::numerics::factor::FactorError;
 use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::{DenseMatrix, rank};
-use crate::sheet::{Corner, EdgeKind, Sheet, Site, Tiling};
+use crate::sheet::{Corner, EdgeKind, Sheet, Site, Tiling, pieces};
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Problem};
 use thiserror::Error;
 
 /// Rigidity matrices of more rows or columns than this are not decomposed dense.
 pub const DENSE_LIMIT: usize = 1200;
+/// Models of up to this number of unknowns are decomposed dense where that gives eigenvalues that the iteration cannot give.
+pub const DENSE_EIGENVALUES: usize = 2000;
+/// Most eigenvalues that are asked of the iteration.
+pub const SPARSE_EIGENVALUES: usize = 256;
 /// Smallest ratio of kept to dropped singular values at which a rank is believed.
 pub const LEAST_GAP: f64 = 1e3;
 
@@ -37,8 +41,9 @@ pub struct Modes {
     pub folding_modes: Option<usize>,
     /// Columns less rows of the rigidity matrix.
     pub maxwell_count: i64,
-    /// Smallest kept over largest dropped singular value; a lower bound by a factor of ten for large sheets.
-    pub gap: f64,
+    /// Smallest kept over largest dropped singular value; a lower bound by a factor of ten for large sheets. `None` where none is kept:
+    /// the rank is 0.
+    pub gap: Option<f64>,
     /// Lowest eigenvalues of the energy's Hessian on what rigid terms leave free, ascending.
     pub eigenvalues: Vec<f64>,
     /// The eigenvectors, as velocities of all coordinates, one for each eigenvalue.
@@ -67,6 +72,16 @@ pub enum ModesError {
     NoGap {
         /// Smallest kept over largest dropped singular value.
         gap: f64,
+    },
+    /// The iteration cannot give so many eigenvalues, and the model is too large to be decomposed dense.
+    #[error(
+        "{wanted} eigenvalues are too many for a model of {unknowns} coordinates: at most {SPARSE_EIGENVALUES} beyond {DENSE_EIGENVALUES}"
+    )]
+    TooManyEigenvalues {
+        /// Asked for.
+        wanted: usize,
+        /// Coordinates that nothing holds.
+        unknowns: usize,
     },
     /// Two ways to the rank disagree.
     #[error("the rank of the rigidity matrix is {by_values} by singular values and {by_inertia} by counting signs")]
@@ -120,13 +135,13 @@ pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Mode
     let bars = assemble(&drawn, tiling, &rigid_part(recipe), Gauge::Free);
     let (rank, gap) = rank_of(&bars, observe)?;
     let (columns, rows) = (bars.layout().unknowns, bars.layout().stiff.len());
-    let rigid_motions = rigid_motions(&drawn, &bars);
+    let rigid_motions = rigid_motions(&drawn, tiling, &bars);
     let (zero_modes, self_stresses) = (columns - rank, rows - rank);
     go_on(observe)?;
     let folding_modes = folding_modes(question, &drawn)?;
     if let Some(closure) = folding_modes {
         let predicted = match surroundings {
-            Surroundings::Patch if recipe.pins.is_empty() => Some(zero_modes - rigid_motions),
+            Surroundings::Patch if recipe.pins.is_empty() => Some(zero_modes.saturating_sub(rigid_motions)),
             Surroundings::FixedTorus if recipe.pins.is_empty() && !has_rigid_facets(recipe) => Some(self_stresses),
             _ => None,
         };
@@ -134,8 +149,10 @@ pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Mode
             return Err(ModesError::ClosureDisagrees { bars, closure });
         }
     }
-    let (eigenvalues, vectors) = if question.eigenvalues > 0 {
-        lowest(&assemble(&drawn, tiling, recipe, Gauge::Free), question.eigenvalues, observe)?
+    // rigid bars leave their zero modes free, and no more
+    let free = if recipe.bars.is_some_and(f64::is_infinite) { zero_modes } else { columns };
+    let (eigenvalues, vectors) = if question.eigenvalues.min(free) > 0 {
+        lowest(&assemble(&drawn, tiling, recipe, Gauge::Free), question.eigenvalues, free, observe)?
     } else {
         (vec![], vec![])
     };
@@ -165,13 +182,38 @@ fn has_rigid_facets(recipe: &Recipe) -> bool {
     recipe.facets.as_ref().is_some_and(|hinges: &Hinges| hinges.stiffness.is_infinite())
 }
 
-fn rigid_motions(drawn: &Drawn, bars: &Model) -> usize {
-    let motions = gauge::rigid_motions(&drawn.domain, &drawn.coordinates, true);
-    gauge::choose(&motions, &bars.held()).len()
+/// Rigid motions of the sheet; where a patch has several pieces with faces, of each of them.
+fn rigid_motions(drawn: &Drawn, tiling: &Tiling, bars: &Model) -> usize {
+    let of = |coordinates: &[f64], held: &[bool]| {
+        gauge::choose(&gauge::rigid_motions(&drawn.domain, coordinates, true), held).len()
+    };
+    let (pieces, held) = (pieces_of(tiling), bars.held());
+    if pieces.len() < 2 || !matches!(drawn.domain, Domain::Patch) {
+        return of(&drawn.coordinates, &held);
+    }
+    let of_piece = |piece: &Vec<usize>| {
+        let members: Vec<usize> = piece.iter().flat_map(|vertex| 3 * vertex..3 * vertex + 3).collect();
+        let coordinates: Vec<f64> = members.iter().map(|&k| drawn.coordinates[k]).collect();
+        of(&coordinates, &members.iter().map(|&k| held[k]).collect::<Vec<_>>())
+    };
+    pieces.iter().map(of_piece).sum()
+}
+
+/// The vertices of the pieces of a tiling.
+fn pieces_of(tiling: &Tiling) -> Vec<Vec<usize>> {
+    let edges = tiling.edges.iter().map(|edge| edge.ends.map(|end| end.vertex));
+    pieces(tiling.positions.len(), edges, tiling.triangles.iter().map(|triangle| triangle.corners[0].vertex))
+}
+
+/// Whether a patch of several pieces has openings, about which the closure of its vertices says nothing.
+fn pieces_with_openings(tiling: &Tiling) -> bool {
+    let pieces = pieces_of(tiling);
+    let vertices: usize = pieces.iter().map(Vec::len).sum();
+    !tiling.periodic && pieces.len() > 1 && pieces.len() + tiling.edges.len() > vertices + tiling.triangles.len()
 }
 
 /// Rank of the Jacobian of a model's stiff measures at the drawn state, and the gap.
-fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, f64), ModesError> {
+fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, Option<f64>), ModesError> {
     let (layout, at) = (model.layout(), linearized(model));
     let rows = at.rows(layout);
     if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
@@ -180,12 +222,15 @@ fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, f64), Mo
     go_on(observe)?;
     let values = dense::singular_values(&dense::from_rows(&rows, layout.unknowns))?;
     let found = dense::rank_at_largest_gap(&values)?;
+    if found.rank == 0 {
+        return Ok((0, None));
+    }
     let largest = rows.values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let threshold = threshold(&values, found.rank) / largest;
     go_on(observe)?;
     let by_inertia = rank::count_above(&rows, layout.unknowns, &layout.node, threshold)?;
     if by_inertia == found.rank {
-        Ok((found.rank, found.gap))
+        Ok((found.rank, Some(found.gap)))
     } else {
         Err(ModesError::RankDisagrees { by_values: found.rank, by_inertia })
     }
@@ -204,7 +249,7 @@ fn rank_by_counting(
     columns: usize,
     node: &[u32],
     observe: &mut Observer<'_>,
-) -> Result<(usize, f64), ModesError> {
+) -> Result<(usize, Option<f64>), ModesError> {
     let mut counts = Vec::new();
     for decade in 1..=8 {
         go_on(observe)?;
@@ -218,7 +263,7 @@ fn rank_by_counting(
         }
     }
     let gap = 10f64.powi(best.1 as i32 - 1);
-    if gap >= LEAST_GAP { Ok((best.0, gap)) } else { Err(ModesError::NoGap { gap }) }
+    if gap >= LEAST_GAP { Ok((best.0, (best.0 > 0).then_some(gap))) } else { Err(ModesError::NoGap { gap }) }
 }
 
 fn linearized(model: &Model) -> Linearization {
@@ -239,7 +284,8 @@ fn folding_modes(question: &Question<'_>, drawn: &Drawn) -> Result<Option<usize>
     let at =
         |corner: Corner| drawn.domain.point(&drawn.coordinates, Site { vertex: corner.vertex, shift: corner.shift });
     let closure = Closure::of_edges(&hinged, at)?;
-    if closure.unchecked_loops() > 0 || closure.folding_edges().len() > DENSE_LIMIT || dangling(tiling) {
+    let unchecked = closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || dangling(tiling);
+    if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);
     }
     let rigid = has_rigid_facets(question.recipe);
@@ -261,11 +307,26 @@ fn dangling(tiling: &Tiling) -> bool {
 /// Eigenvalues and eigenvectors.
 type Pairs = (Vec<f64>, Vec<Vec<f64>>);
 
-/// Lowest eigenvalues and eigenvectors of the energy's Hessian on what the rigid terms leave free.
-fn lowest(model: &Model, count: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
-    let size = model.layout().unknowns;
-    let way = if size <= DENSE_LIMIT { lowest_dense } else { lowest_sparse };
-    let (values, vectors) = way(model, count.min(size), observe)?;
+/// Whether the dense way finds this number of eigenpairs of a model, of which at most `free` are finite: else the iteration does.
+///
+/// # Errors
+/// [`ModesError::TooManyEigenvalues`] where neither does.
+pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<bool, ModesError> {
+    // the iteration works on 4 wanted + 64 vectors, of which there must be so many; and it cannot find more than there are
+    let iterated = wanted <= SPARSE_EIGENVALUES && 4 * wanted + 64 <= unknowns;
+    match unknowns {
+        ..=DENSE_LIMIT => Ok(true),
+        ..=DENSE_EIGENVALUES => Ok(!iterated || wanted >= free),
+        _ if iterated => Ok(false),
+        _ => Err(ModesError::TooManyEigenvalues { wanted, unknowns }),
+    }
+}
+
+/// Lowest eigenvalues and eigenvectors of the energy's Hessian on what the rigid terms leave free, which is at most `free`.
+fn lowest(model: &Model, wanted: usize, free: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
+    let dense = decomposed_dense(model.layout().unknowns, wanted.min(free), free)?;
+    let way = if dense { lowest_dense } else { lowest_sparse };
+    let (values, vectors) = way(model, wanted.min(free), observe)?;
     Ok((values, vectors.iter().map(|v| model.velocity(v)).collect()))
 }
 

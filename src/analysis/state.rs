@@ -1,7 +1,7 @@
 //! A state of a model, edge by edge and as a cylinder.
 
 use crate::math::Vec3;
-use crate::model::{Domain, Elements, Model, Turns};
+use crate::model::{Domain, Elements, Model, TermKind, Turns};
 use crate::solver::Problem;
 use std::f64::consts::TAU;
 
@@ -24,61 +24,90 @@ pub struct State {
     pub strain: Vec<f64>,
     /// Energy of every edge, bar and hinge together.
     pub energy: Vec<f64>,
+    /// Force along every bar, positive where it is stretched; NaN where there is none.
+    pub tension: Vec<f64>,
+    /// Torque of the hinges over every edge, that of a lock included; NaN where there is none.
+    pub torque: Vec<f64>,
 }
 
 impl State {
-    /// Reads off a state of `edges` edges. Stiff measures have the energy of their tensions, without cancellation.
-    pub fn new(model: &Model, x: &[f64], tension: &[f64], edges: usize) -> Self {
-        let coordinates = model.coordinates(x);
-        let mut state = Self {
+    /// A state of `edges` edges of which nothing is known but where its points are.
+    pub fn empty(coordinates: Vec<f64>, edges: usize) -> Self {
+        let unknown = || vec![f64::NAN; edges];
+        Self {
+            coordinates,
             energy_bars: 0.0,
             energy_creases: 0.0,
             energy_facets: 0.0,
-            fold_angle: vec![f64::NAN; edges],
-            rest_angle: vec![f64::NAN; edges],
-            strain: vec![f64::NAN; edges],
+            fold_angle: unknown(),
+            rest_angle: unknown(),
+            strain: unknown(),
             energy: vec![0.0; edges],
-            coordinates,
-        };
+            tension: unknown(),
+            torque: unknown(),
+        }
+    }
+
+    /// Reads off a state of `edges` edges. Stiff measures have the energy of their tensions, without cancellation.
+    pub fn new(model: &Model, x: &[f64], tension: &[f64], edges: usize) -> Self {
+        let mut state = Self::empty(model.coordinates(x), edges);
         for term in model.soft() {
             for k in 0..term.len() {
                 let (spring, value) = (term.spring(k), term.value(k, model.domain(), &state.coordinates));
                 let off = value - spring.rest;
-                state.add(term.as_ref(), k, value, 0.5 * spring.stiffness * off * off);
+                state.add(term.as_ref(), k, value, [spring.stiffness * off, 0.5 * spring.stiffness * off * off]);
             }
         }
         let mut row = 0;
         for term in model.stiff() {
             for k in 0..term.len() {
                 let value = term.value(k, model.domain(), &state.coordinates);
-                state.add(term.as_ref(), k, value, 0.5 * model.compliance()[row] * tension[row] * tension[row]);
+                let energy = 0.5 * model.compliance()[row] * tension[row] * tension[row];
+                state.add(term.as_ref(), k, value, [tension[row], energy]);
                 row += 1;
             }
         }
         state
     }
 
-    /// Adds element `k` of a term, whose measure has this value and which has this energy.
-    fn add(&mut self, term: &dyn Elements, k: usize, value: f64, energy: f64) {
+    /// Adds element `k` of a term, whose measure has this value and which has this force and this energy.
+    fn add(&mut self, term: &dyn Elements, k: usize, value: f64, [force, energy]: [f64; 2]) {
         let (edge, spring) = (term.edge(k), term.spring(k));
         if term.is_angle() {
             (self.fold_angle[edge], self.rest_angle[edge]) = (value, spring.rest);
+            add_known(&mut self.torque[edge], force);
         } else {
             self.strain[edge] = value / spring.rest - 1.0;
+            add_known(&mut self.tension[edge], force);
         }
         self.energy[edge] += energy;
-        match term.name() {
-            "bars" => self.energy_bars += energy,
-            "creases" => self.energy_creases += energy,
-            "facets" => self.energy_facets += energy,
-            _ => {}
+        match term.kind() {
+            TermKind::Bars => self.energy_bars += energy,
+            TermKind::Creases => self.energy_creases += energy,
+            TermKind::Facets => self.energy_facets += energy,
+            TermKind::Locks => debug_assert!(energy == 0.0, "locks are rigid"),
+        }
+    }
+
+    /// Energy of the terms of a kind; locks are rigid and have none.
+    pub fn energy_of(&self, kind: TermKind) -> f64 {
+        match kind {
+            TermKind::Bars => self.energy_bars,
+            TermKind::Creases => self.energy_creases,
+            TermKind::Facets => self.energy_facets,
+            TermKind::Locks => 0.0,
         }
     }
 
     /// Energy of all terms.
     pub fn total(&self) -> f64 {
-        self.energy_bars + self.energy_creases + self.energy_facets
+        TermKind::ALL.iter().fold(0.0, |sum, kind| sum + self.energy_of(*kind))
     }
+}
+
+/// Adds to a number that is NaN as long as nothing was added.
+fn add_known(sum: &mut f64, part: f64) {
+    *sum = if sum.is_nan() { part } else { *sum + part };
 }
 
 /// A sheet periodic up to screw motions, as seen from vertex 0.

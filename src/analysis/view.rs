@@ -4,6 +4,7 @@ use crate::math::Vec3;
 use crate::model::assemble::{Drawn, Surroundings};
 use crate::model::{Domain, Site};
 use crate::sheet::{Sheet, Tiling, tile};
+use std::collections::HashMap;
 
 /// A patch of cells on which a state is shown: the patch itself, one period of a torus, some cells of a screw.
 pub struct View {
@@ -39,7 +40,7 @@ impl View {
             Site { vertex: (c2 * tiling.cells[0] + c1) * vertices + vertex, shift }
         };
         let sites = (0..patch.positions.len()).map(site).collect();
-        let number: std::collections::HashMap<(usize, [usize; 2]), usize> =
+        let number: HashMap<(usize, [usize; 2]), usize> =
             tiling.edges.iter().enumerate().map(|(k, edge)| ((edge.edge, edge.cell), k)).collect();
         let edges = patch.edges.iter().map(|e| number[&(e.edge, place(e.cell).0)]).collect();
         Self { patch, edges, sites }
@@ -63,6 +64,20 @@ impl View {
             self.positions(drawn, &x)
         };
         moved(1.0).iter().zip(moved(-1.0)).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+    }
+
+    /// Values of the edges of the model from values of lines between the points of the patch; NaN where no line is a copy of the edge.
+    pub fn on_edges(&self, edges: usize, lines: &[[usize; 2]], values: &[f64]) -> Vec<f64> {
+        let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+        let given: HashMap<[usize; 2], f64> =
+            lines.iter().map(|line| sorted(*line)).zip(values.iter().copied()).collect();
+        let mut found = vec![f64::NAN; edges];
+        for (line, &edge) in self.patch.edges.iter().zip(&self.edges) {
+            if let Some(value) = given.get(&sorted(line.ends.map(|site| site.vertex))) {
+                found[edge] = *value;
+            }
+        }
+        found
     }
 
     /// The coordinates of a state whose points are these; `None` where points do not say all (a free lattice, a screw)

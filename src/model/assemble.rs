@@ -6,7 +6,7 @@
 use super::domain::Domain;
 use super::measure::{FoldAngle, Length};
 use super::problem::{Gauge, Model, Parts};
-use super::term::{Element, Elements, Spring, Term};
+use super::term::{Element, Elements, Spring, Term, TermKind};
 use crate::math::{Vec3, fold_angle::fold_angle};
 use crate::sheet::tiling::{Site, Tiling};
 use crate::sheet::{EdgeKind, Sheet};
@@ -56,6 +56,14 @@ pub struct Recipe {
     pub pins: Vec<(usize, [bool; 3])>,
     /// Vertices of the tiling and the forces on them.
     pub loads: Vec<(usize, Vec3)>,
+}
+
+impl Recipe {
+    /// Whether any part stores energy, keeps an angle, or is pulled.
+    pub fn has_energy(&self) -> bool {
+        let Self { bars, creases, facets, locks, pins: _, loads } = self;
+        bars.is_some() || creases.is_some() || facets.is_some() || !locks.is_empty() || !loads.is_empty()
+    }
 }
 
 /// The drawn state in the coordinates of its domain.
@@ -148,11 +156,11 @@ pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -
     let given =
         [recipe.creases.as_ref().map(|h| h.stiffness), recipe.facets.as_ref().map(|h| h.stiffness), recipe.bars];
     let softest = given.into_iter().flatten().fold(f64::INFINITY, f64::min);
-    for (name, kind, hinges) in
-        [("creases", EdgeKind::Crease, &recipe.creases), ("facets", EdgeKind::Facet, &recipe.facets)]
-    {
+    let kinds =
+        [(TermKind::Creases, EdgeKind::Crease, &recipe.creases), (TermKind::Facets, EdgeKind::Facet, &recipe.facets)];
+    for (term, kind, hinges) in kinds {
         let Some(hinges) = hinges else { continue };
-        let term = Box::new(hinge_term(name, drawn, tiling, |edge| tiling.edges[edge].kind == kind, hinges));
+        let term = Box::new(hinge_term(term, drawn, tiling, |edge| tiling.edges[edge].kind == kind, hinges));
         let list = if hinges.stiffness > STIFF_RATIO * softest || hinges.stiffness.is_infinite() {
             &mut stiff
         } else {
@@ -167,7 +175,7 @@ pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -
         recipe.locks.iter().for_each(|&(edge, angle)| rest[edge] = angle);
         let locked: Vec<bool> = rest.iter().map(|angle| !angle.is_nan()).collect();
         let rigid = Hinges { stiffness: f64::INFINITY, rest };
-        stiff.push(Box::new(hinge_term("locks", drawn, tiling, |edge| locked[edge], &rigid)));
+        stiff.push(Box::new(hinge_term(TermKind::Locks, drawn, tiling, |edge| locked[edge], &rigid)));
     }
     let pins = recipe.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
     let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
@@ -208,7 +216,7 @@ fn bars(drawn: &Drawn, tiling: &Tiling, stiffness: f64) -> Term<Length, 2, 6> {
         Element { sites: tiled.ends, spring: Spring { stiffness: stiffness / rest, rest }, edge }
     };
     let elements = tiling.edges.iter().enumerate().map(element).collect();
-    Term::new("bars", elements, &drawn.domain, &drawn.coordinates)
+    Term::new(TermKind::Bars, elements, &drawn.domain, &drawn.coordinates)
 }
 
 /// The sites of the hinge over an edge; `None` where a face is missing.
@@ -224,7 +232,7 @@ pub fn drawn_angles(drawn: &Drawn, tiling: &Tiling) -> Vec<f64> {
 }
 
 fn hinge_term(
-    name: &'static str,
+    kind: TermKind,
     drawn: &Drawn,
     tiling: &Tiling,
     wanted: impl Fn(usize) -> bool,
@@ -237,5 +245,5 @@ fn hinge_term(
         Some(Element { sites, spring, edge })
     };
     let elements = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(element).collect();
-    Term::new(name, elements, &drawn.domain, &drawn.coordinates)
+    Term::new(kind, elements, &drawn.domain, &drawn.coordinates)
 }

@@ -17,4 +17,4 @@ mod tests;
 
 pub use domain::{Domain, Site, Turns};
 pub use problem::{Gauge, Model};
-pub use term::{Element, Elements, Spring, Term};
+pub use term::{Element, Elements, Spring, Term, TermKind};

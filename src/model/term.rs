@@ -15,6 +15,34 @@ pub struct Spring {
     pub rest: f64,
 }
 
+/// What a term is made of. Whoever treats terms differently names every kind here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TermKind {
+    /// The bars, one along every edge.
+    Bars,
+    /// The hinges over creases.
+    Creases,
+    /// The hinges over the diagonals of polygons.
+    Facets,
+    /// The hinges that keep a given angle.
+    Locks,
+}
+
+impl TermKind {
+    /// Every kind, in the order of a scene.
+    pub const ALL: [Self; 4] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks];
+
+    /// The name that the scene has for this kind.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bars => "bars",
+            Self::Creases => "creases",
+            Self::Facets => "facets",
+            Self::Locks => "locks",
+        }
+    }
+}
+
 /// One element: its points, its law, and the edge of the sheet to which it belongs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element<const N: usize> {
@@ -29,8 +57,8 @@ pub struct Element<const N: usize> {
 /// Elements with one measure.
 #[derive(Clone, Debug)]
 pub struct Term<M, const N: usize, const D: usize> {
-    /// Name, as in the scene: bars, creases, facets, locks.
-    pub name: &'static str,
+    /// What its elements are.
+    pub kind: TermKind,
     /// The elements.
     pub elements: Vec<Element<N>>,
     /// Values in the last accepted state, from which angles continue; empty for lengths.
@@ -65,8 +93,12 @@ impl Local {
 
 /// What the model asks of a term, whatever its measure.
 pub trait Elements: Send + Sync {
-    /// Name, as in the scene.
-    fn name(&self) -> &'static str;
+    /// What its elements are.
+    fn kind(&self) -> TermKind;
+    /// Gives the name of its kind in the scene.
+    fn name(&self) -> &'static str {
+        self.kind().name()
+    }
     /// Number of elements.
     fn len(&self) -> usize;
     /// Whether there is none.
@@ -101,8 +133,8 @@ pub trait Elements: Send + Sync {
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
     /// A term of these elements; angles continue from their values at `x`.
-    pub fn new(name: &'static str, elements: Vec<Element<N>>, domain: &Domain, x: &[f64]) -> Self {
-        let mut term = Self { name, elements, last: Vec::new(), measure: PhantomData };
+    pub fn new(kind: TermKind, elements: Vec<Element<N>>, domain: &Domain, x: &[f64]) -> Self {
+        let mut term = Self { kind, elements, last: Vec::new(), measure: PhantomData };
         if M::ANGLE {
             term.last = term.elements.iter().map(|e| M::value(&domain.points(x, &e.sites))).collect();
         }
@@ -118,8 +150,8 @@ impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
 }
 
 impl<M: Measure<N, D> + Send + Sync, const N: usize, const D: usize> Elements for Term<M, N, D> {
-    fn name(&self) -> &'static str {
-        self.name
+    fn kind(&self) -> TermKind {
+        self.kind
     }
 
     fn len(&self) -> usize {

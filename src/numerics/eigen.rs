@@ -70,12 +70,16 @@ impl<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send> LinOp<f64> for Operator<F> {
 
 /// The `count` eigenvalues of largest magnitude of a symmetric operator, descending, with their vectors.
 ///
-/// A `product` of `None` stops. Fails then, and where the iteration does not find them all.
+/// A `product` of `None` stops. Fails then, where the iteration does not find them all, and where the operator is too small for its
+/// 4 count + 64 vectors.
 pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     size: usize,
     count: usize,
     product: F,
 ) -> Result<(Vec<f64>, Vec<Vec<f64>>), EigenError> {
+    if 4 * count + 64 > size {
+        return Err(FactorError::Eigenpairs { wanted: count, found: 0 }.into());
+    }
     let operator = Operator { size, product: Mutex::new(product) };
     let params = PartialEigenParams { min_dim: 2 * count + 32, max_dim: 4 * count + 64, ..Default::default() };
     let scratch = partial_self_adjoint_eigen_scratch(&operator, count, Par::Seq, params);

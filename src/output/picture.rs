@@ -36,6 +36,10 @@ pub struct Picture {
     pub strain: Vec<f64>,
     /// Energy of bar and hinge together.
     pub energy: Vec<f64>,
+    /// Force along the bar, positive where it is stretched.
+    pub tension: Vec<f64>,
+    /// Torque of the hinge.
+    pub torque: Vec<f64>,
 }
 
 /// Parts of a picture that do not fit together.
@@ -89,6 +93,8 @@ impl Picture {
             rest_angle: on_lines(&state.rest_angle),
             strain: on_lines(&state.strain),
             energy: on_lines(&state.energy),
+            tension: on_lines(&state.tension),
+            torque: on_lines(&state.torque),
         }
     }
 
@@ -128,6 +134,8 @@ impl Picture {
             lines: lines.into_iter().map(|(ends, _)| ends).collect(),
             rest_angle: nan.clone(),
             strain: nan.clone(),
+            tension: nan.clone(),
+            torque: nan.clone(),
             energy: nan,
         }
     }
@@ -155,6 +163,8 @@ impl Picture {
             ("rest_angle", self.rest_angle.len(), lines),
             ("strain", self.strain.len(), lines),
             ("energy", self.energy.len(), lines),
+            ("tension", self.tension.len(), lines),
+            ("torque", self.torque.len(), lines),
         ];
         if let Some(&(array, found, expected)) = arrays.iter().find(|(_, found, expected)| found != expected) {
             return Err(ShapeError::Length { array, found, expected });
@@ -193,6 +203,8 @@ pub(super) mod samples {
             rest_angle: vec![0.0, none, none, none, none],
             strain: vec![1e-3, 0.0, 0.0, -2e-5, 0.0],
             energy: vec![0.5 * angle * angle, 0.0, 0.0, 0.0, 0.0],
+            tension: vec![1e-3, 0.0, 0.0, -2e-5, 0.0],
+            torque: vec![angle, none, none, none, none],
         }
     }
 }

@@ -73,11 +73,15 @@ pub struct VtuMesh {
     pub lines: Vec<[usize; 2]>,
     /// Fold angle of each line, where the file has them.
     pub fold_angle: Option<Vec<f64>>,
+    /// Force along each line, where the file has them.
+    pub tension: Option<Vec<f64>>,
+    /// Torque of the hinges over each line, where the file has them.
+    pub torque: Option<Vec<f64>>,
 }
 
 /// Writes a state: triangles, then lines.
 ///
-/// Point array `displacement`; cell arrays `fold_angle`, `rest_angle`, `strain`, `energy` (NaN on triangles),
+/// Point array `displacement`; cell arrays `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN on triangles),
 /// `self_intersecting` (0 on lines) and `edge`, the edge of the cell of which a line is a copy (-1 on triangles).
 ///
 /// # Errors
@@ -246,6 +250,8 @@ fn attributes(picture: &Picture) -> Attributes {
             scalars("rest_angle", on_lines(&picture.rest_angle)),
             scalars("strain", on_lines(&picture.strain)),
             scalars("energy", on_lines(&picture.energy)),
+            scalars("tension", on_lines(&picture.tension)),
+            scalars("torque", on_lines(&picture.torque)),
             scalars("self_intersecting", IOBuffer::U8(crossing)),
             scalars("edge", IOBuffer::I32(edges)),
         ],
@@ -300,7 +306,8 @@ fn parse_vtu(bytes: &[u8]) -> Result<VtuMesh, VtuFault> {
     let mut mesh =
         VtuMesh { points: coordinates.chunks_exact(3).map(Vec3::from_column_slice).collect(), ..<_>::default() };
     let line_cells = mesh.add_cells(piece.cells)?;
-    mesh.fold_angle = fold_angles(&piece.data, &line_cells);
+    let on_lines = |name: &str| numbers_on(name, &piece.data, &line_cells);
+    (mesh.fold_angle, mesh.tension, mesh.torque) = (on_lines("fold_angle"), on_lines("tension"), on_lines("torque"));
     Ok(mesh)
 }
 
@@ -349,9 +356,10 @@ impl VtuMesh {
     }
 }
 
-fn fold_angles(data: &Attributes, line_cells: &[usize]) -> Option<Vec<f64>> {
+/// Numbers of an array on these cells, where the file has it.
+fn numbers_on(name: &str, data: &Attributes, line_cells: &[usize]) -> Option<Vec<f64>> {
     let array = data.cell.iter().find_map(|attribute| match attribute {
-        Attribute::DataArray(array) if array.name == "fold_angle" => array.data.cast_into::<f64>(),
+        Attribute::DataArray(array) if array.name == name => array.data.cast_into::<f64>(),
         _ => None,
     })?;
     line_cells.iter().map(|&cell| array.get(cell).copied()).collect()
@@ -378,6 +386,8 @@ mod tests {
         assert_eq!((&mesh.points, &mesh.triangles, &mesh.lines), (&picture.points, &picture.triangles, &picture.lines));
         let bits = |angles: &[f64]| angles.iter().map(|a| a.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&mesh.fold_angle.unwrap()), bits(&picture.fold_angle));
+        assert_eq!(bits(&mesh.tension.unwrap()), bits(&picture.tension));
+        assert_eq!(bits(&mesh.torque.unwrap()), bits(&picture.torque));
     }
 
     /// Every array of the contract is there with a value for every cell.
@@ -394,7 +404,7 @@ mod tests {
             attributes.iter().map(length).collect()
         };
         assert_eq!(lengths(&piece.data.point), [("displacement".to_owned(), 12)]);
-        let names = ["fold_angle", "rest_angle", "strain", "energy", "self_intersecting", "edge"];
+        let names = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque", "self_intersecting", "edge"];
         assert_eq!(lengths(&piece.data.cell), names.map(|name| (name.to_owned(), 7)));
     }
 

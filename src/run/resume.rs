@@ -21,6 +21,9 @@ pub struct Kept {
     pub coordinates: Vec<f64>,
     /// Angles from which angles continue, see [`crate::model::Model::angles`].
     pub angles: Vec<f64>,
+    /// Tensions of the stiff measures; `None` where the study knows none.
+    #[serde(default)]
+    pub tension: Option<Vec<f64>>,
 }
 
 /// The parts of an earlier `summary.json` that matter here.
@@ -95,12 +98,15 @@ mod tests {
         let scene = "[sheet]\nmesh = \"a.fold\"\n[[study]]\nname = \"a\"\nkind = \"relax\"\n[[study]]\nname = \"b\"\n\
                      kind = \"relax\"\nstart = \"a\"\n";
         let file = crate::scene::parse(scene, "s.toml").unwrap();
-        let state =
-            Kept { coordinates: vec![0.1 + 0.2, -0.0, 5e-324, 1e300 / 3.0], angles: vec![-std::f64::consts::PI] };
+        let state = Kept {
+            coordinates: vec![0.1 + 0.2, -0.0, 5e-324, 1e300 / 3.0],
+            angles: vec![-std::f64::consts::PI],
+            tension: Some(vec![1.0 / 3.0, -0.0]),
+        };
         write_state(&file, folder.path(), "a", &state).unwrap();
         let back = read_state(folder.path(), "a").unwrap();
         let bits = |state: &Kept| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        assert_eq!((bits(&back), &back.angles), (bits(&state), &state.angles));
+        assert_eq!((bits(&back), &back.angles, &back.tension), (bits(&state), &state.angles, &state.tension));
         write_state(&file, folder.path(), "b", &state).unwrap();
         assert!(!state_path(folder.path(), "b").exists(), "nothing starts from it");
         std::fs::write(state_path(folder.path(), "a"), "{\"coordinates\":[0.1").unwrap();

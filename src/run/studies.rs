@@ -8,8 +8,9 @@ use super::{Progress, RunError, bloch, branches, landscape, surface, trace, well
 use crate::analysis;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::LYING;
-use crate::analysis::modes::{Modes, Question};
+use crate::analysis::modes::{Modes, Question, SPARSE_EIGENVALUES, decomposed_dense};
 use crate::analysis::relax::{RelaxError, Relaxed};
+use crate::analysis::restored::{self, Forces};
 use crate::analysis::state::State;
 use crate::analysis::view::View;
 use crate::model::assemble::assemble;
@@ -17,7 +18,7 @@ use crate::model::{Gauge, Model};
 use crate::output::picture::Picture;
 use crate::output::summary::{EnergySummary, IterationSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
-use crate::output::vtk;
+use crate::output::vtk::{self, VtuMesh};
 use crate::scene::build::Built;
 use crate::scene::forms::{RandomStart, Start};
 use crate::scene::spec::{Draw, ModesSpec, RelaxSpec, StudyKind, StudySpec};
@@ -29,7 +30,7 @@ use std::time::Instant;
 /// Checks what a study says before anything is written.
 pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) -> Result<(), RunError> {
     match &*study.kind {
-        StudyKind::Relax(_) if built.terms().0.iter().all(|term| term == "pins") => {
+        StudyKind::Relax(_) if !built.recipe.has_energy() => {
             let help = "give bars, creases or facets a stiffness";
             Err(file.error_at(study.kind.span(), "there is no energy to relax", help).into())
         }
@@ -37,7 +38,10 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
             Some(start) => start_file(file, built, view, start).map(|_| ()),
             None => Ok(()),
         },
-        StudyKind::Modes(_) => Ok(()),
+        StudyKind::Modes(spec) => match &spec.eigenvalues {
+            Some(count) => enough_eigenvalues(file, built, count),
+            None => Ok(()),
+        },
         StudyKind::Branches(_) => branches::check(file, built, study),
         StudyKind::Trace(spec) => trace::check(file, built, study, spec),
         StudyKind::Surface(_) => surface::check(file, built, study),
@@ -47,26 +51,45 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
     }
 }
 
+/// Whether the model has so many eigenvalues that a study of modes can find.
+fn enough_eigenvalues(file: &SceneFile, built: &Built, count: &Located<usize>) -> Result<(), RunError> {
+    let pinned: usize = built.recipe.pins.iter().map(|(_, axes)| axes.iter().filter(|held| **held).count()).sum();
+    let unknowns = built.drawn.coordinates.len().saturating_sub(built.drawn.held.len() + pinned);
+    let wanted = (**count).min(unknowns);
+    match decomposed_dense(unknowns, wanted, unknowns) {
+        Ok(_) => Ok(()),
+        Err(error) => {
+            let help = format!("ask for at most {SPARSE_EIGENVALUES}, or take fewer cells");
+            Err(file.error_at(count.span(), error.to_string(), help).into())
+        }
+    }
+}
+
 /// `kind = "relax"`.
 pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Result<StudySummary, RunError> {
     let built = runner.built;
     let mut model = assemble(&built.drawn, &built.tiling, &built.recipe, Gauge::Held);
-    let Some(x) = start(runner, spec, &mut model)? else { return Ok(nowhere_to_start(study)) };
+    let Some((x, forces)) = start(runner, spec, &mut model)? else { return Ok(nowhere_to_start(study)) };
     let edges = built.tiling.edges.len();
-    let first = State::new(&model, &x, &vec![0.0; crate::solver::Problem::layout(&model).stiff.len()], edges);
+    let tensions = restored::tensions(&model, &x, &forces);
+    let known = spec.start.as_deref().is_some_and(|start| matches!(start, Start::Study(_) | Start::File(_)));
+    let start = if known { restored::start(&model, x, tensions.clone()) } else { x.into() };
+    let first = State::new(&model, &start.x, start.tension.as_ref().unwrap_or(&tensions), edges);
     let mut options = Options::default();
     if let Some(tolerance) = &spec.tolerance {
         options.tolerance = tolerance.0;
     }
     let clock = Instant::now();
-    let found = analysis::relax::relax(&mut model, x, options, edges, &mut watcher(runner, study, options.tolerance));
+    let found =
+        analysis::relax::relax(&mut model, start, options, edges, &mut watcher(runner, study, options.tolerance));
     let seconds = clock.elapsed().as_secs_f64();
     match found {
         Ok(relaxed) => {
             let residuals = Some([relaxed.residual_force, relaxed.residual_length]);
             let self_intersecting = write_states(runner, study, [&first, &relaxed.state], residuals)?;
             let coordinates = relaxed.state.coordinates.clone();
-            runner.keep_state(study, Kept { coordinates, angles: model.angles() })?;
+            let tension = Some(relaxed.tension.clone());
+            runner.keep_state(study, Kept { coordinates, angles: model.angles(), tension })?;
             let angles = draw::with_all_angles(built, &relaxed.state).fold_angle;
             let error_to_kinematic = error_to_kinematic(&built.sheet, &built.tiling, &model, &angles);
             let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, Start::Drawn));
@@ -120,15 +143,16 @@ fn write_states(
     Ok(shown[1].marks.as_ref().map(|marks| marks.any))
 }
 
-/// The unknowns from which a relaxation starts; `None` where the study to start from ended in no state.
-fn start(runner: &Runner<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Option<Vec<f64>>, RunError> {
-    let Some(start) = &spec.start else { return Ok(Some(model.start())) };
+/// The unknowns from which a relaxation starts, and what is known of their forces; `None` where the study to start from ended in no
+/// state.
+fn start(runner: &Runner<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Option<(Vec<f64>, Forces)>, RunError> {
+    let Some(start) = &spec.start else { return Ok(Some((model.start(), Forces::Unknown))) };
     match &**start {
-        Start::Drawn => Ok(Some(model.start())),
-        Start::Random(random) => Ok(Some(random_start(random, model))),
+        Start::Drawn => Ok(Some((model.start(), Forces::Unknown))),
+        Start::Random(random) => Ok(Some((random_start(random, model), Forces::Unknown))),
         Start::File(_) => {
             let found = start_file(runner.file, runner.built, &runner.view, start)?;
-            Ok(found.map(|coordinates| model.start_from(coordinates)))
+            Ok(found.map(|(coordinates, mesh)| from_mesh(runner, model, coordinates, &mesh)))
         }
         Start::Study(name) => {
             let fits = |kept: &&Kept| {
@@ -137,22 +161,36 @@ fn start(runner: &Runner<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Opt
             };
             let Some(kept) = runner.state(name).filter(fits) else { return Ok(None) };
             model.set_angles(&kept.angles);
-            Ok(Some(model.start_from(kept.coordinates.clone())))
+            let forces = kept.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
+            Ok(Some((model.start_from(kept.coordinates.clone()), forces)))
         }
     }
 }
 
-/// The coordinates that a VTU file gives; `None` where the start is no file.
+/// The unknowns of a state that a VTU file gives, its angles continued from those of the file, and the forces that the file has.
+fn from_mesh(runner: &Runner<'_>, model: &mut Model, coordinates: Vec<f64>, mesh: &VtuMesh) -> (Vec<f64>, Forces) {
+    let edges = runner.built.tiling.edges.len();
+    let on_edges = |values: &Option<Vec<f64>>| match values {
+        Some(values) => runner.view.on_edges(edges, &mesh.lines, values),
+        None => vec![f64::NAN; edges],
+    };
+    let angles = restored::angles(model, &on_edges(&mesh.fold_angle));
+    model.set_angles(&angles);
+    let forces = Forces::OfEdges { tension: on_edges(&mesh.tension), torque: on_edges(&mesh.torque) };
+    (model.start_from(coordinates), forces)
+}
+
+/// The coordinates that a VTU file gives, and the file; `None` where the start is no file.
 fn start_file(
     file: &SceneFile,
     built: &Built,
     view: &View,
     start: &Located<Start>,
-) -> Result<Option<Vec<f64>>, RunError> {
+) -> Result<Option<(Vec<f64>, VtuMesh)>, RunError> {
     let Start::File(path) = &**start else { return Ok(None) };
     let mesh = vtk::read_vtu(&file.resolve(path))?;
     let found = view.coordinates(&built.drawn, &mesh.points);
-    found.map(Some).ok_or_else(|| {
+    found.map(|found| Some((found, mesh))).ok_or_else(|| {
         let count = built.drawn.coordinates.len() / 3;
         let message = format!("{} does not say where this sheet is", path.display());
         let help = format!("a start file has the {count} points of a patch or of a torus with fixed lattice");
@@ -269,7 +307,7 @@ pub fn modes(runner: &mut Runner<'_>, study: &StudySpec, spec: &ModesSpec) -> Re
     match found {
         Ok(modes) => {
             write_modes(runner, study, &modes)?;
-            summary.error = Some(1.0 / modes.gap);
+            summary.error = modes.gap.map(f64::recip);
             summary.result = Some(StudyResult::Modes(modes_summary(&modes)));
         }
         Err(error) => summary.reason = Some(error.to_string()),
@@ -284,7 +322,7 @@ fn modes_summary(modes: &Modes) -> ModesSummary {
         rigid_motions: modes.rigid_motions,
         folding_modes: modes.folding_modes,
         maxwell_count: modes.maxwell_count,
-        gap: Some(modes.gap),
+        gap: modes.gap,
         eigenvalues: modes.eigenvalues.clone(),
     }
 }
@@ -322,17 +360,8 @@ pub fn drawn_picture(runner: &Runner<'_>, study: &StudySpec) -> Picture {
 /// A state of which modes are velocities, from all its coordinates.
 pub fn picture_at(runner: &Runner<'_>, study: &StudySpec, coordinates: Vec<f64>) -> Picture {
     let built = runner.built;
-    let nan = || vec![f64::NAN; built.tiling.edges.len()];
-    let state = State {
-        coordinates,
-        energy_bars: 0.0,
-        energy_creases: 0.0,
-        energy_facets: 0.0,
-        fold_angle: nan(),
-        rest_angle: nan(),
-        strain: nan(),
-        energy: nan(),
-    };
+    let edges = built.tiling.edges.len();
+    let state = State { energy: vec![f64::NAN; edges], ..State::empty(coordinates, edges) };
     let state = draw::with_all_angles(built, &state);
     let picture = Picture::of_state(&runner.view, &built.drawn, &state);
     match draw::self_intersection(runner, study) {

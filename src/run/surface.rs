@@ -189,7 +189,7 @@ fn write(
         draw(runner, study, &mesh(&keys, surface, &rows), max_curvature)?;
         let model = assemble(&built.drawn, &built.tiling, &built.recipe, Gauge::Held);
         let angles = hinge_angles(&model, &last.angles);
-        runner.keep_state(study, Kept { coordinates: state.coordinates.clone(), angles })?;
+        runner.keep_state(study, Kept { coordinates: state.coordinates.clone(), angles, tension: None })?;
     }
     Ok(())
 }

@@ -302,7 +302,7 @@ fn keep(runner: &mut Runner<'_>, study: &StudySpec, model: &Model, paths: &[Path
         (None, Some(folded)) => (coordinates(folded), &folded.angles),
         (None, None) => return Ok(()),
     };
-    runner.keep_state(study, Kept { coordinates, angles: hinge_angles(model, angles) })
+    runner.keep_state(study, Kept { coordinates, angles: hinge_angles(model, angles), tension: None })
 }
 
 /// A relaxed state with the fold angles of all edges.

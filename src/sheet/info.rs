@@ -34,6 +34,8 @@ pub struct Info {
     pub faces: usize,
     /// Polygons.
     pub polygons: usize,
+    /// Parts that no edge joins.
+    pub pieces: usize,
     /// `vertices - edges + faces`: 0 for a cell of a periodic sheet without openings, 1 for a disc, 0 for a ring.
     pub euler_characteristic: i64,
     /// Columns minus rows of the bars' rigidity matrix: `3 Nv - Ne`, on a fixed torus or with free edges.
@@ -75,6 +77,7 @@ impl Info {
             cut: sheet.edges.iter().filter(|edge| sheet.assignment(edge) == Assignment::Cut).count(),
             faces: sheet.triangles.len(),
             polygons: sheet.polygons.len(),
+            pieces: pieces(sheet).len(),
             euler_characteristic: (sheet.vertices.len() + sheet.triangles.len()) as i64 - sheet.edges.len() as i64,
             maxwell_count: free,
             maxwell_count_screw: sheet.lattice.map(|_| free + 2),
@@ -87,6 +90,11 @@ impl Info {
             further_frames: sheet.record.further_frames,
         }
     }
+}
+
+fn pieces(sheet: &Sheet) -> Vec<Vec<usize>> {
+    let edges = sheet.edges.iter().map(|edge| edge.key.ends().map(|end| end.vertex));
+    super::pieces::pieces(sheet.vertices.len(), edges, sheet.triangles.iter().map(|t| t.corners[0].vertex))
 }
 
 fn points(sheet: &Sheet) -> impl Iterator<Item = [Vec3; 3]> + '_ {
@@ -134,6 +142,7 @@ impl fmt::Display for Info {
             self.edges
         )?;
         writeln!(f, "triangles              {} (of {} polygons)", self.faces, self.polygons)?;
+        writeln!(f, "pieces                 {}", self.pieces)?;
         writeln!(f, "Euler characteristic   {}", self.euler_characteristic)?;
         write!(f, "Maxwell count          {}", self.maxwell_count)?;
         match (self.maxwell_count_screw, self.maxwell_count_free_torus) {

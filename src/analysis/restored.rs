@@ -1,0 +1,153 @@
+//! Forces and angles of an earlier state, so that an equilibrium is one again when a relaxation starts from it.
+//!
+//! Where a state was kept with its tensions they are taken as they are. Where they are missing, or belong to another stiffness, those
+//! of finite stiffness follow from the geometry, and those of rigid measures from the balance of forces.
+
+use crate::model::{Elements, Model};
+use crate::solver::saddle::Saddle;
+use crate::solver::{Curvature, Linearization, Problem, Start, tension};
+
+/// Scaled disagreement of a measure and its tension up to which the tension is taken.
+const AGREES: f64 = 1e-10;
+/// Scaled gaps of this size may be rounding error of the coordinates: no tension follows from them.
+const ROUNDING: f64 = 1e-13;
+/// Scaled force of a state that needs no other tensions, and the relative residual of the system that finds them.
+const BALANCED: f64 = 1e-12;
+const EXACT: f64 = 1e-14;
+/// Scaled force up to which tensions are those of a state near an equilibrium, and help.
+const NEAR: f64 = 0.1;
+
+/// What is known of the forces of a state.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Forces {
+    /// Nothing.
+    Unknown,
+    /// The tension of every stiff measure of the same model.
+    OfMeasures(Vec<f64>),
+    /// The force along every bar, and the torque of all hinges over every edge; NaN where it is not known.
+    OfEdges {
+        /// Force along the bar of every edge.
+        tension: Vec<f64>,
+        /// Torque of the hinges over every edge.
+        torque: Vec<f64>,
+    },
+}
+
+/// The tensions of all stiff measures at `x`: those that are known, where they agree with the geometry; else what follows from it.
+pub fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
+    let gaps = model.gaps(x);
+    let by_law = by_law(model, &gaps);
+    let known = match known {
+        Forces::Unknown => return by_law,
+        Forces::OfMeasures(tension) if tension.len() == by_law.len() => tension.clone(),
+        Forces::OfMeasures(_) => return by_law,
+        Forces::OfEdges { tension, torque } => of_edges(model, x, (tension, torque), &by_law),
+    };
+    let scales = model.compliance().iter().zip(model.gap_scale());
+    let measures = gaps.iter().zip(scales).zip(known.into_iter().zip(by_law));
+    let agrees = |gap: f64, c: f64, scale: f64, t: f64| (gap - c * t).abs() <= AGREES * scale || c == 0.0;
+    measures
+        .map(
+            |((gap, (c, scale)), (known, law))| {
+                if known.is_finite() && agrees(*gap, *c, *scale, known) { known } else { law }
+            },
+        )
+        .collect()
+}
+
+/// Where a relaxation starts that knows these tensions, completed by those of rigid measures: with them near an equilibrium, without them
+/// elsewhere.
+pub fn start(model: &Model, x: Vec<f64>, mut tensions: Vec<f64>) -> Start {
+    let mut force = unbalanced(model, &x, &tensions);
+    while force > BALANCED && model.compliance().contains(&0.0) {
+        let Some(better) = completed(model, &x, &tensions) else { break };
+        let left = unbalanced(model, &x, &better);
+        if !(left < 0.5 * force) {
+            break;
+        }
+        (force, tensions) = (left, better);
+    }
+    let helps = force <= NEAR && tensions.iter().any(|t| *t != 0.0);
+    Start { x, tension: helps.then_some(tensions) }
+}
+
+/// The scaled unbalanced force.
+fn unbalanced(model: &Model, x: &[f64], tensions: &[f64]) -> f64 {
+    tension::residuals(model, &linearized(model, x, tensions), tensions).0
+}
+
+fn linearized(model: &Model, x: &[f64], tensions: &[f64]) -> Linearization {
+    let mut at = Linearization::new(model.layout());
+    model.linearize(x, tensions, Curvature::GaussNewton, &mut at);
+    at
+}
+
+/// The tensions, with those of rigid measures that leave the least unbalanced force; `None` where they cannot be found.
+fn completed(model: &Model, x: &[f64], tensions: &[f64]) -> Option<Vec<f64>> {
+    let (layout, compliance) = (model.layout(), model.compliance());
+    let at = linearized(model, x, tensions);
+    let mut saddle = Saddle::new(layout, &at).ok()?;
+    saddle.factor_shortest(layout, &at, compliance).ok()?;
+    // the shortest motion that the forces can make: what keeps it from being longer are the tensions
+    let nothing = vec![0.0; tensions.len()];
+    let more = saddle.solve(layout, &at, compliance, (&at.force(layout, tensions), &nothing), EXACT).dt;
+    let rigid = |((t, dt), c): ((&f64, &f64), &f64)| if *c == 0.0 { t + dt } else { *t };
+    Some(tensions.iter().zip(&more).zip(compliance).map(rigid).collect())
+}
+
+/// Tensions of finite stiffness from the gaps; zero where all gaps of a term are rounding error, and for rigid measures.
+fn by_law(model: &Model, gaps: &[f64]) -> Vec<f64> {
+    let (compliance, scale) = (model.compliance(), model.gap_scale());
+    let mut tension = vec![0.0; gaps.len()];
+    let mut first = 0;
+    for term in model.stiff() {
+        let measures = first..first + term.len();
+        first = measures.end;
+        if measures.clone().any(|k| gaps[k].abs() > ROUNDING * scale[k]) {
+            measures.filter(|&k| compliance[k] > 0.0).for_each(|k| tension[k] = gaps[k] / compliance[k]);
+        }
+    }
+    tension
+}
+
+/// Tensions of the stiff measures from forces on edges. Of several hinges over one edge the last one has what the others leave.
+fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_law: &[f64]) -> Vec<f64> {
+    let coordinates = model.coordinates(x);
+    let mut left = torque.to_vec();
+    for term in model.soft() {
+        for k in 0..term.len() {
+            let spring = term.spring(k);
+            left[term.edge(k)] -= spring.stiffness * (term.value(k, model.domain(), &coordinates) - spring.rest);
+        }
+    }
+    let measures: Vec<(bool, usize)> = model.stiff().iter().flat_map(|term| measured(term.as_ref())).collect();
+    let mut last = vec![usize::MAX; torque.len()];
+    for (row, (_, edge)) in measures.iter().enumerate().filter(|(_, (angle, _))| *angle) {
+        last[*edge] = row;
+    }
+    let mut tensions = Vec::with_capacity(measures.len());
+    for (row, &(angle, edge)) in measures.iter().enumerate() {
+        tensions.push(match angle {
+            false => tension[edge],
+            true if last[edge] == row => left[edge],
+            true => {
+                left[edge] -= by_law[row];
+                by_law[row]
+            }
+        });
+    }
+    tensions
+}
+
+/// Whether the elements of a term are angles, and the edge of each.
+fn measured(term: &dyn Elements) -> impl Iterator<Item = (bool, usize)> {
+    (0..term.len()).map(|k| (term.is_angle(), term.edge(k)))
+}
+
+/// The angles from which those of the model continue: those of the edges where they are known, its own elsewhere.
+pub fn angles(model: &Model, fold_angle: &[f64]) -> Vec<f64> {
+    let hinges = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
+    let edges = hinges.flat_map(|term| (0..term.len()).map(|k| term.edge(k)));
+    let known = |(own, edge): (f64, usize)| Some(fold_angle[edge]).filter(|angle| angle.is_finite()).unwrap_or(own);
+    model.angles().into_iter().zip(edges).map(known).collect()
+}
