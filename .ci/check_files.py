@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Opens what a run wrote with the readers other people use, and compares it with what the run says about itself.
 
-    python .ci/check_files.py OUT... [--render PICTURE.png]        needs: vtk, pyvista, meshio, numpy
+    python .ci/check_files.py OUT... [--render PICTURE.png]        needs: vtk, pyvista, meshio, numpy, h5py
 
 OUT is the folder of a run. Every .vtu is opened by VTK and by meshio, every .vtp and .vti by VTK, every .pvd by PyVista; counts, cell arrays, tables
-and summary.json have to agree. --render draws the last state off-screen with PyVista. The exit status is 1 where a check
+and summary.json have to agree: every edge and every face of the model is in a .vtu once, and the energies of its lines add up to
+the energy in the table (of a screw for each cell that is shown). Indices are signed whole numbers. meshio converts one .vtu of each
+run to STL, XDMF and PLY and back. --render draws the last state off-screen with PyVista. The exit status is 1 where a check
 fails. A table has the fold angles of one cell: of a patch or a torus the one in the middle, of a screw the only one there is.
 Each of them must be among the angles that the lines of this edge have in the last picture; where all of these agree, as on
 a screw, it must be that one.
@@ -13,6 +15,8 @@ import argparse
 import csv
 import json
 import sys
+import tempfile
+import tomllib
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
@@ -100,6 +104,7 @@ def check_vtu(checks, path):
     checks.that(np.all(cell_arrays["edge"][faces] == -1), f"{path}: edge is -1 on triangles")
     checks.that(np.all(cell_arrays["edge"][lines] >= 0), f"{path}: every line has an edge")
     check_meshio(checks, path, grid)
+    check_indices(checks, path)
     return grid
 
 
@@ -202,6 +207,8 @@ def check_meshio(checks, path, grid):
     """The second reader sees the same."""
     mesh = meshio.read(path)
     checks.that(np.array_equal(mesh.points, grid["points"]), f"{path}: meshio has VTK's points")
+    kinds = {block.data.dtype.kind for block in mesh.cells}
+    checks.that(kinds <= {"i"}, f"{path}: meshio has whole numbers as indices, not {kinds}")
     counts = {kind: sum(len(block.data) for block in mesh.cells if block.type == kind) for kind in ["triangle", "line"]}
     expected = {"triangle": int(np.sum(grid["types"] == TRIANGLE)), "line": int(np.sum(grid["types"] == LINE))}
     checks.that(counts == expected, f"{path}: meshio has {counts}, VTK {expected}")
@@ -209,6 +216,60 @@ def check_meshio(checks, path, grid):
         blocks = mesh.cell_data.get(name)
         same = blocks is not None and np.array_equal(np.concatenate(blocks), grid["cell_arrays"][name], equal_nan=True)
         checks.that(same, f"{path}: meshio has VTK's {name}")
+
+
+def check_indices(checks, path):
+    """Every list of indices in the file is of VTK's own type."""
+    text = path.read_bytes().decode("latin-1")
+    tags = [tag.split(">")[0] for tag in text.split("<DataArray ")[1:]]
+    types = {tag.split('type="')[1].split('"')[0] for tag in tags if 'Name="connectivity"' in tag or 'Name="offsets"' in tag}
+    checks.that(types <= {"Int64"}, f"{path}: indices are Int64, not {sorted(types)}")
+
+
+def check_conversions(checks, path):
+    """meshio writes the faces as STL and PLY, everything as XDMF, and reads them back: the same points, the same cells."""
+    mesh = meshio.read(path)
+    faces = mesh.cells_dict.get("triangle", np.empty((0, 3), int))
+    if not checks.that(len(faces) > 0, f"{path}: has faces"):
+        return
+    only_faces = meshio.Mesh(mesh.points, [("triangle", faces)])
+    with tempfile.TemporaryDirectory() as folder:
+        for ending, written in [("stl", only_faces), ("ply", only_faces), ("xdmf", mesh)]:
+            file = Path(folder) / f"mesh.{ending}"
+            try:
+                meshio.write(file, written)
+                back = meshio.read(file)
+            except Exception as fault:  # whatever a reader says: the file is not what it can use
+                checks.that(False, f"{path}: meshio writes and reads .{ending}: {fault!r}")
+                continue
+            corners = back.points[back.cells_dict["triangle"]]
+            size = np.abs(mesh.points).max()
+            same = corners.shape == (len(faces), 3, 3) and np.abs(corners - mesh.points[faces]).max() <= 1e-6 * size
+            checks.that(same, f"{path}: the faces come back from .{ending}")
+            if ending == "xdmf":
+                lines = np.array_equal(back.cells_dict.get("line"), mesh.cells_dict.get("line"))
+                checks.that(lines and np.array_equal(back.points, mesh.points), f"{path}: everything comes back from .xdmf")
+
+
+def check_elements(checks, path, grid, summary):
+    """Every edge and every face of the model once: those of a torus or a screw are complete, a patch loses some at its rim."""
+    counts = np.bincount(grid["cell_arrays"]["edge"][grid["types"] == LINE], minlength=summary["sheet"]["edges"])
+    faces = int(np.sum(grid["types"] == TRIANGLE))
+    unique = {tuple(sorted(pair)) for pair in grid["connectivity"][3 * faces:].reshape(-1, 2).tolist()}
+    checks.that(len(unique) == counts.sum(), f"{path}: no line is there twice")
+    n1, n2 = summary["shown"]
+    if summary["domain"] == "patch":
+        checks.that(counts.max() <= n1 * n2 and faces <= n1 * n2 * summary["sheet"]["faces"], f"{path}: no more than there is")
+    else:
+        checks.that(np.all(counts == n1 * n2), f"{path}: every edge of the {n1} x {n2} cells once, not {sorted(set(counts))} times")
+        checks.that(faces == n1 * n2 * summary["sheet"]["faces"], f"{path}: every face of the {n1} x {n2} cells, not {faces}")
+
+
+def check_energy(checks, path, grid, energy, summary):
+    """The energies of the lines add up to that of the model; a screw is one cell, shown several times."""
+    copies = np.prod(summary["shown"]) if summary["domain"] == "screw" else 1
+    found = np.nansum(grid["cell_arrays"]["energy"])
+    checks.that(abs(found - copies * energy) <= 1e-9 * abs(found) + 1e-25, f"{path}: energies add up to {found}, not {copies} x {energy}")
 
 
 def read_table(path):
@@ -272,9 +333,9 @@ def check_collection(checks, out, name):
     return files[-1]
 
 
-def check_study(checks, out, study, edges):
+def check_study(checks, out, study, summary):
     """All files of one study; gives the last picture."""
-    name, kind = study["name"], study["kind"]
+    name, kind, edges = study["name"], study["kind"], summary["sheet"]["edges"]
     missing = (STUDY | KINDS.get(kind, set())) - set(study)
     checks.that(not missing or not study["converged"], f"summary of {name}: keys {sorted(missing)}")
     checks.that(study["converged"] or "reason" in study, f"summary of {name}: a failure has a reason")
@@ -282,7 +343,15 @@ def check_study(checks, out, study, edges):
     if kind == "wells" and study["converged"]:
         check_wells(checks, out, study)
     grids = {path: check_vtu(checks, path) for path in sorted((out / name).glob("*.vtu"))}
+    energies = energies_of(out, study) if study["converged"] else []
+    for k, (path, grid) in enumerate((path, grid) for path, grid in grids.items() if grid is not None):
+        check_elements(checks, path, grid, summary)
+        if k < len(energies):
+            check_energy(checks, path, grid, energies[k], summary)
+    if kind in ("relax", "wells"):
+        checks.that(not grids or not study["converged"] or len(energies) == len(grids), f"{name}: an energy for every picture")
     for path in sorted((out / name).glob("*.vtp")):
+        check_indices(checks, path)
         if kind == "bloch":
             check_curves(checks, path, study)
         elif kind == "landscape":
@@ -301,6 +370,19 @@ def check_study(checks, out, study, edges):
     if table is not None and grids.get(last) is not None:
         check_angles(checks, last, grids[last], table)
     return last
+
+
+def energies_of(out, study):
+    """Energies of the states in the pictures of a study, in their order; of a trace, where each state is in a picture."""
+    if study["kind"] not in ("relax", "trace", "wells"):
+        return []
+    header, rows = read_table(out / f"{study['name']}.csv")
+    energies = [float(row[header.index("energy_total")] or "nan") for row in rows]
+    if study["kind"] == "relax":
+        last = study["energy"]["total"]
+        return energies[:-1] + [last]
+    pictures = len(list((out / study["name"]).glob("*.vtu")))
+    return energies if len(energies) == pictures and np.all(np.isfinite(energies)) else []
 
 
 def check_wells(checks, out, study):
@@ -337,7 +419,13 @@ def check_run(checks, out):
     checks.that(SUMMARY <= set(summary), f"{out}/summary.json: its keys")
     checks.that(SHEET <= set(summary["sheet"]), f"{out}/summary.json: keys of the sheet")
     checks.that(not list(out.rglob("*.part")), f"{out}: no half-written files")
-    lasts = [check_study(checks, out, study, summary["sheet"]["edges"]) for study in summary["studies"]]
+    scene = tomllib.loads(Path(summary["scene"]).read_text())["sheet"]
+    summary["domain"] = scene.get("domain", "patch")
+    summary["shown"] = summary["sheet"]["cells"] if summary["domain"] != "screw" else scene.get("cells", [6, 6])
+    lasts = [check_study(checks, out, study, summary) for study in summary["studies"]]
+    vtu = next(iter(sorted(out.rglob("*.vtu"))), None)
+    if vtu:
+        check_conversions(checks, vtu)
     return next((last for last in reversed(lasts) if last), None)
 
 

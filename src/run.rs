@@ -14,10 +14,12 @@ use crate::sheet::build::{self, Drawn};
 use crate::sheet::error::Defect;
 use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
 
+mod belongings;
 mod bloch;
 mod branches;
 mod convert;
 mod draw;
+mod inputs;
 mod landscape;
 mod landscape_map;
 mod ledger;

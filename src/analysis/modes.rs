@@ -314,11 +314,14 @@ type Pairs = (Vec<f64>, Vec<Vec<f64>>);
 pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<bool, ModesError> {
     // the iteration works on 4 wanted + 64 vectors, of which there must be so many; and it cannot find more than there are
     let iterated = wanted <= SPARSE_EIGENVALUES && 4 * wanted + 64 <= unknowns;
-    match unknowns {
-        ..=DENSE_LIMIT => Ok(true),
-        ..=DENSE_EIGENVALUES => Ok(!iterated || wanted >= free),
-        _ if iterated => Ok(false),
-        _ => Err(ModesError::TooManyEigenvalues { wanted, unknowns }),
+    if unknowns <= DENSE_LIMIT {
+        Ok(true)
+    } else if unknowns <= DENSE_EIGENVALUES {
+        Ok(!iterated || wanted >= free)
+    } else if iterated {
+        Ok(false)
+    } else {
+        Err(ModesError::TooManyEigenvalues { wanted, unknowns })
     }
 }
 

@@ -76,7 +76,7 @@ pub enum ShapeError {
 }
 
 impl Picture {
-    /// A state on the patch of a view.
+    /// A state on the cells of a view.
     pub fn of_state(view: &View, drawn: &Drawn, state: &State) -> Self {
         let on_lines = |values: &[f64]| view.edges.iter().map(|&edge| values[edge]).collect();
         let points = view.positions(drawn, &state.coordinates);
@@ -84,9 +84,9 @@ impl Picture {
         Self {
             displacement: points.iter().zip(&start).map(|(now, then)| now - then).collect(),
             points,
-            triangles: view.patch.triangles.iter().map(|t| t.corners.map(|site| site.vertex)).collect(),
-            self_intersecting: vec![0; view.patch.triangles.len()],
-            lines: view.patch.edges.iter().map(|edge| edge.ends.map(|site| site.vertex)).collect(),
+            triangles: view.triangles.clone(),
+            self_intersecting: vec![0; view.triangles.len()],
+            lines: view.lines.clone(),
             line_kinds: view.patch.edges.iter().map(|edge| edge.kind).collect(),
             line_edges: view.patch.edges.iter().map(|edge| edge.edge as i32).collect(),
             fold_angle: on_lines(&state.fold_angle),

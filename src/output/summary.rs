@@ -69,10 +69,25 @@ pub struct StudySummary {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "String")]
     pub reason: Option<String>,
+    /// What it wrote, by which a resumed run sees whether that is still there; absent while it is not finished.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Files")]
+    pub files: Option<Files>,
     /// The keys of its kind; null where it did not get so far.
     #[serde(flatten)]
     #[schemars(schema_with = "schema::answers")]
     pub result: Option<StudyResult>,
+}
+
+/// The files of a study, taken together.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Files {
+    /// How many there are.
+    pub count: usize,
+    /// Their bytes in all.
+    pub bytes: u64,
+    /// Sixteen hexadecimal digits that change with any name and any byte of theirs.
+    pub digest: String,
 }
 
 /// The keys of each kind of study.
@@ -638,6 +653,7 @@ impl StudySummary {
             seconds: 0.0,
             error: None,
             reason: None,
+            files: None,
             result: None,
         }
     }
@@ -682,6 +698,7 @@ mod tests {
             seconds: 0.25,
             error: Some(1e-13),
             reason: None,
+            files: None,
             result,
         };
         let relax = RelaxSummary { residual_force: f64::NAN, history: vec![<_>::default()], ..<_>::default() };

@@ -219,7 +219,33 @@ fn check_lengths<T>(path: &Path, arrays: &[(&'static str, Vec<T>)], expected: us
 fn write(path: &Path, data: DataSet) -> Result<(), OutputError> {
     let (version, byte_order) = (Version::Auto, ByteOrder::LittleEndian);
     let vtk = Vtk { version, title: String::new(), byte_order, file_path: None, data };
-    files::write_with(path, |file| vtk.write_xml(file).map_err(io::Error::other))
+    let mut text = Vec::new();
+    vtk.write_xml(&mut text)
+        .map_err(|error| OutputError::Write { path: path.into(), source: io::Error::other(error) })?;
+    files::write(path, with_signed_indices(text))
+}
+
+/// The file with connectivity and offsets as `Int64`, as VTK itself writes them: the bytes of the numbers are the same.
+///
+/// vtkio writes `UInt64`, and meshio adds signed numbers to these, which gives floating-point numbers.
+fn with_signed_indices(text: Vec<u8>) -> Vec<u8> {
+    const WRITTEN: &[u8] = b"<DataArray type=\"UInt64\" Name=\"";
+    const SIGNED: &[u8] = b"<DataArray type=\"Int64\" Name=\"";
+    let is_index = |rest: &[u8]| [&b"connectivity\""[..], b"offsets\""].iter().any(|name| rest.starts_with(name));
+    let (mut found, mut rest) = (Vec::with_capacity(text.len()), &text[..]);
+    while let Some((&byte, after)) = rest.split_first() {
+        match rest.strip_prefix(WRITTEN) {
+            Some(name) if is_index(name) => {
+                found.extend_from_slice(SIGNED);
+                rest = name;
+            }
+            _ => {
+                found.push(byte);
+                rest = after;
+            }
+        }
+    }
+    found
 }
 
 fn coordinates(points: &[Vec3]) -> IOBuffer {
@@ -408,6 +434,32 @@ mod tests {
         assert_eq!(lengths(&piece.data.cell), names.map(|name| (name.to_owned(), 7)));
     }
 
+    /// Types of the arrays that hold indices, in a file's text.
+    fn index_types(path: &Path) -> Vec<(String, String)> {
+        let text = String::from_utf8_lossy(&std::fs::read(path).unwrap()).into_owned();
+        let value = |tag: &str, key: &str| Some(tag.split_once(&format!("{key}=\""))?.1.split_once('"')?.0.to_owned());
+        let tags = text.split("<DataArray ").skip(1).filter_map(|tag| tag.split_once('>'));
+        let types = tags.filter_map(|(tag, _)| Some((value(tag, "Name")?, value(tag, "type")?)));
+        types.filter(|(name, _)| ["connectivity", "offsets"].contains(&name.as_str())).collect()
+    }
+
+    /// Claim: connectivity and offsets of every kind of file are `Int64`, as VTK's own writers have them: meshio turns `UInt64` into
+    /// floating-point numbers, with which nothing can be indexed.
+    #[test]
+    fn indices_are_signed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let points = vec![Vec3::zeros(), Vec3::x(), Vec3::y()];
+        write_vtu(&path("a.vtu"), &samples::hinge(0.3)).unwrap();
+        write_vtp(&path("b.vtp"), &super::super::strain_space::samples::cap(5)).unwrap();
+        write_surface(&path("c.vtp"), &points, (&[[0, 1, 2]], &[vec![0, 1, 2, 0]]), &[]).unwrap();
+        write_curves(&path("d.vtp"), &[vec![[0.0, 1.0], [2.0, 3.0]]], &[]).unwrap();
+        for (name, arrays) in [("a.vtu", 2), ("b.vtp", 2), ("c.vtp", 4), ("d.vtp", 2)] {
+            let types = index_types(&path(name));
+            assert!(types.len() >= arrays && types.iter().all(|(_, kind)| kind == "Int64"), "{name}: {types:?}");
+        }
+    }
+
     /// A picture whose arrays do not fit is not written.
     #[test]
     fn a_short_array_is_not_written() {
@@ -522,7 +574,7 @@ mod tests {
         #[test]
         fn wrong_counts_do_not_panic(which in 0..6usize, count in proptest::num::u64::ANY) {
             let text = String::from_utf8(written(&samples::hinge(0.3))).unwrap();
-            let old = ["NumberOfPoints=\"4\"", "NumberOfCells=\"7\"", "NumberOfComponents=\"3\"", "UInt64", "Float64", "Points"];
+            let old = ["NumberOfPoints=\"4\"", "NumberOfCells=\"7\"", "NumberOfComponents=\"3\"", "Int64", "Float64", "Points"];
             let (name, _) = old[which].split_once('=').unwrap_or((old[which], ""));
             let new = if which < 3 { format!("{name}=\"{count}\"") } else { ["Int8", "UInt8", "Float32", ""][count as usize % 4].into() };
             prop_assert!(text.contains(old[which]));

@@ -298,14 +298,12 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
 
 /// A mode on the cells that are shown, in the frame of the mesh file, as velocities of the state of which it is.
 fn moving_picture(runner: &Runner<'_>, study: &StudySpec, folded: Option<&Vec<f64>>, mode: &ModeShape) -> Picture {
-    let displacement = mode.on_cells(runner.view.patch.cells);
+    let places = &runner.view.places;
+    let displacement = mode.at(places);
     let Some(x) = folded else { return Picture { displacement, ..studies::drawn_picture(runner, study) } };
-    let Built { sheet, drawn: Drawn { domain, frame, .. }, .. } = runner.built;
-    let turned = |(k, u): (usize, Vec3)| {
-        let (cell, across) = (k / sheet.vertices.len(), runner.view.patch.cells[0]);
-        frame.transpose() * cell_rotation(domain, x, [(cell % across) as i32, (cell / across) as i32]) * u
-    };
-    let displacement = displacement.into_iter().enumerate().map(turned).collect();
+    let Drawn { domain, frame, .. } = &runner.built.drawn;
+    let turned = |((_, cell), u): (&(usize, [i32; 2]), Vec3)| frame.transpose() * cell_rotation(domain, x, *cell) * u;
+    let displacement = places.iter().zip(displacement).map(turned).collect();
     Picture { displacement, ..studies::picture_at(runner, study, x.clone()) }
 }
 

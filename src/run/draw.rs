@@ -114,11 +114,7 @@ pub fn write(runner: &Runner<'_>, study: &StudySpec, pictures: &[Picture]) -> Re
         vtk::write_vtu(&runner.path(&file), picture)?;
         entries.push((k as f64, file));
     }
-    vtk::write_pvd(&runner.path(format!("{name}.pvd")), &entries)?;
-    // states of an earlier, longer series of this name
-    let old = |k: usize| std::fs::remove_file(runner.path(format!("{name}/{name}_{k:04}.vtu")));
-    let _ = (pictures.len()..).take_while(|&k| old(k).is_ok()).count();
-    Ok(())
+    Ok(vtk::write_pvd(&runner.path(format!("{name}.pvd")), &entries)?)
 }
 
 /// Writes one picture as SVG.

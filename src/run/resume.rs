@@ -1,11 +1,12 @@
 //! What an earlier run into the same folder left, and what of it can be kept.
 //!
 //! A study enters `summary.json` only after all its files are whole, so what is listed there as converged is done. It is
-//! kept where the digest of the scene and of every file it names is the same. A study from which a later one starts
+//! kept where the digest of the scene and of every file it names is the same, and its own files are those on record. A study from which a later one starts
 //! leaves its state in `NAME.state.json`, every number in the digits that give it back exactly, so that the later one
 //! begins where it would have begun.
 
 use super::RunError;
+use super::belongings::Belongings;
 use crate::output::files;
 use crate::output::summary::StudySummary;
 use crate::scene::SceneFile;
@@ -48,10 +49,15 @@ impl Earlier {
 
     /// What the earlier run found for a study, and the state it left where later studies start from it; `None` where it
     /// has to be computed.
-    pub fn study(&self, file: &SceneFile, out: &Path, study: &StudySpec) -> Option<(StudySummary, Option<Kept>)> {
+    pub fn study(
+        &self,
+        file: &SceneFile,
+        (out, files): (&Path, &Belongings),
+        study: &StudySpec,
+    ) -> Option<(StudySummary, Option<Kept>)> {
         let name = &study.name.0;
         let found = self.studies.iter().find(|found| found.name == *name)?;
-        if !found.converged || found.result.is_none() || !out.join(format!("{name}.csv")).exists() {
+        if !found.converged || found.result.is_none() || found.files != files.record(name).ok() {
             return None;
         }
         let state = if is_start(file, name) { Some(read_state(out, name)?) } else { None };
@@ -60,7 +66,7 @@ impl Earlier {
 }
 
 /// Whether a later study starts from this one.
-fn is_start(file: &SceneFile, name: &str) -> bool {
+pub fn is_start(file: &SceneFile, name: &str) -> bool {
     file.scene.studies.iter().any(|study| match &*study.kind {
         StudyKind::Relax(RelaxSpec { start, .. }) | StudyKind::Bloch(BlochSpec { start, .. }) => {
             matches!(start.as_deref(), Some(Start::Study(start)) if start == name)

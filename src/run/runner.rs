@@ -1,9 +1,11 @@
 //! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
 
+use super::belongings::Belongings;
 use super::ledger::{INTERRUPTED, Ledger};
-use super::resume::{Earlier, Kept, write_state};
+use super::resume::{Earlier, Kept, is_start, write_state};
 use super::{
-    Observer, Progress, RunError, RunOptions, RunReport, bloch, branches, landscape, studies, surface, trace, wells,
+    Observer, Progress, RunError, RunOptions, RunReport, bloch, branches, inputs, landscape, studies, surface, trace,
+    wells,
 };
 use crate::analysis::view::View;
 use crate::numerics::parallel;
@@ -13,9 +15,10 @@ use crate::scene::build::Built;
 use crate::scene::spec::{StudyKind, StudySpec};
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// One run.
 pub struct Runner<'a> {
@@ -30,7 +33,11 @@ pub struct Runner<'a> {
     resumed: bool,
     states: HashMap<String, Kept>,
     kept: Vec<String>,
-    summary: Summary,
+    /// Places of studies in the scene.
+    order: HashMap<&'a str, usize>,
+    belongings: Belongings,
+    /// Files of the study that is computed.
+    written: Mutex<BTreeSet<PathBuf>>,
     observer: Observer<'a>,
     interrupted: AtomicBool,
     ledger: Ledger,
@@ -55,83 +62,92 @@ impl<'a> Runner<'a> {
         for study in &file.scene.studies {
             studies::check(file, built, &view, study)?;
         }
+        inputs::check(file, &out)?;
         let digest = digest(file)?;
         let earlier = if options.resume { Earlier::read(&out, &digest) } else { Earlier::default() };
         let resumed = earlier.is_of_this_scene();
-        let summary = summary(file, built, digest);
-        let (states, kept, interrupted) = (HashMap::new(), Vec::new(), AtomicBool::new(false));
-        let ledger = ledger.clone();
-        let mut runner = Self { file, built, view, out, resumed, states, kept, summary, observer, interrupted, ledger };
-        runner.keep(&earlier)?;
+        let mut runner = Self {
+            file,
+            built,
+            view,
+            resumed,
+            states: HashMap::new(),
+            kept: Vec::new(),
+            order: file.scene.studies.iter().enumerate().map(|(k, study)| (study.name.0.as_str(), k)).collect(),
+            belongings: Belongings::new(file, &out),
+            written: Mutex::default(),
+            out,
+            observer,
+            interrupted: AtomicBool::new(false),
+            ledger: ledger.clone(),
+        };
+        runner.keep(summary(file, built, digest), &earlier)?;
         Ok(runner)
     }
 
     /// Takes over what an earlier run finished, and removes what it left half-written.
-    fn keep(&mut self, earlier: &Earlier) -> Result<(), RunError> {
+    fn keep(&mut self, mut summary: Summary, earlier: &Earlier) -> Result<(), RunError> {
         files::remove_drafts(&self.out);
         for study in &self.file.scene.studies {
             files::remove_drafts(&self.out.join(&study.name.0));
-            if let Some((summary, state)) = earlier.study(self.file, &self.out, study) {
-                self.states.extend(state.map(|state| (summary.name.clone(), state)));
-                self.kept.push(summary.name.clone());
-                self.summary.studies.push(summary);
+            if let Some((found, state)) = earlier.study(self.file, (&self.out, &self.belongings), study) {
+                self.states.extend(state.map(|state| (found.name.clone(), state)));
+                self.kept.push(found.name.clone());
+                summary.studies.push(found);
             }
         }
-        self.write_summary()
+        let places = summary.studies.iter().map(|study| self.order[study.name.as_str()]).collect();
+        let (out, kept, notes) = (self.out.clone(), self.kept.clone(), self.built.notes.clone());
+        self.ledger.open(RunReport { summary, out, kept, interrupted: false, notes }, places)
     }
 
-    /// Computes one study, writes its files, and the summary so far. A study that is kept is left as it is.
+    /// Computes one study and writes its files; what an earlier run left of it goes. A study that is kept is left as it is.
     pub fn study(&mut self, study: &StudySpec) -> Result<(), RunError> {
         if self.kept.contains(&study.name.0) {
             return Ok(());
         }
-        self.ledger.begin(study, self.place(&study.name.0));
-        let mut found = match &*study.kind {
-            StudyKind::Relax(spec) => studies::relax(self, study, spec)?,
-            StudyKind::Modes(spec) => studies::modes(self, study, spec)?,
-            StudyKind::Branches(_) => branches::study(self, study)?,
-            StudyKind::Trace(spec) => trace::study(self, study, spec)?,
-            StudyKind::Surface(spec) => surface::study(self, study, spec)?,
-            StudyKind::Landscape(spec) => landscape::study(self, study, spec)?,
-            StudyKind::Bloch(spec) => bloch::study(self, study, spec)?,
-            StudyKind::Wells(spec) => wells::study(self, study, spec)?,
-        };
-        if self.interrupted() && !found.converged {
+        self.take_written();
+        self.ledger.begin(study, self.order[study.name.0.as_str()]);
+        match self.compute(study).and_then(|found| self.finished(study, found)) {
+            Ok(()) => Ok(()),
+            // the studies before it stay done
+            Err(error) => self.ledger.write().and(Err(error)),
+        }
+    }
+
+    fn compute(&mut self, study: &StudySpec) -> Result<StudySummary, RunError> {
+        match &*study.kind {
+            StudyKind::Relax(spec) => studies::relax(self, study, spec),
+            StudyKind::Modes(spec) => studies::modes(self, study, spec),
+            StudyKind::Branches(_) => branches::study(self, study),
+            StudyKind::Trace(spec) => trace::study(self, study, spec),
+            StudyKind::Surface(spec) => surface::study(self, study, spec),
+            StudyKind::Landscape(spec) => landscape::study(self, study, spec),
+            StudyKind::Bloch(spec) => bloch::study(self, study, spec),
+            StudyKind::Wells(spec) => wells::study(self, study, spec),
+        }
+    }
+
+    /// Takes in what a study found. A run that was stopped removes nothing: what it would have written is not there.
+    fn finished(&self, study: &StudySpec, mut found: StudySummary) -> Result<(), RunError> {
+        if !self.interrupted() {
+            self.belongings.remove_others(&found.name, &self.take_written());
+        } else if !found.converged {
             found.reason = Some(INTERRUPTED.to_owned()); // each method has its own words for being stopped
         }
-        self.push(found)
+        found.files = Some(self.belongings.record(&found.name)?);
+        self.ledger.finished(found, self.order[study.name.0.as_str()])
     }
 
-    /// How many of the finished studies stand before this one in the scene.
-    fn place(&self, name: &str) -> usize {
-        let before = self.file.scene.studies.iter().take_while(|study| study.name.0 != name);
-        before.filter(|study| self.summary.studies.iter().any(|done| done.name == study.name.0)).count()
-    }
-
-    fn push(&mut self, study: StudySummary) -> Result<(), RunError> {
-        self.summary.studies.push(study);
-        let order = |name: &str| self.file.scene.studies.iter().position(|study| study.name.0 == name);
-        self.summary.studies.sort_by_key(|study| order(&study.name));
-        self.write_summary()
-    }
-
-    fn write_summary(&self) -> Result<(), RunError> {
-        self.ledger.write(self.report())
-    }
-
-    /// What the run has done so far.
-    fn report(&self) -> RunReport {
-        RunReport {
-            summary: self.summary.clone(),
-            out: self.out.clone(),
-            kept: self.kept.clone(),
-            interrupted: self.interrupted(),
-            notes: self.built.notes.clone(),
-        }
+    fn take_written(&self) -> BTreeSet<PathBuf> {
+        std::mem::take(&mut *self.written.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Keeps the state in which a study ended for those that start from it.
     pub fn keep_state(&mut self, study: &StudySpec, state: Kept) -> Result<(), RunError> {
+        if is_start(self.file, &study.name.0) {
+            self.path(format!("{}.state.json", study.name.0));
+        }
         write_state(self.file, &self.out, &study.name.0, &state)?;
         self.states.insert(study.name.0.clone(), state);
         Ok(())
@@ -159,14 +175,16 @@ impl<'a> Runner<'a> {
         self.interrupted.load(Ordering::Relaxed)
     }
 
-    /// File of a study in the folder.
+    /// A file in the folder that the present study writes.
     pub fn path(&self, name: impl AsRef<Path>) -> PathBuf {
-        self.out.join(name)
+        let path = self.out.join(name);
+        self.written.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
+        path
     }
 
     /// Ends the run.
     pub fn finish(self) -> Result<RunReport, RunError> {
-        Ok(self.report())
+        self.ledger.end(self.interrupted())
     }
 }
 

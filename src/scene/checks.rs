@@ -5,9 +5,13 @@ use std::hash::Hash;
 use std::ops::Range;
 
 use super::forms::Start;
+use super::outputs::outputs;
 use super::spec::{BlochSpec, Domain, LandscapeSpec, RelaxSpec, StopSpec, StudyKind, StudySpec, WellsSpec};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
+
+/// The longest name of a study: with what is added to it, names of files stay under 255 bytes.
+const LONGEST_NAME: usize = 200;
 
 type Checked = Result<(), SceneError>;
 
@@ -124,7 +128,27 @@ fn studies(file: &SceneFile) -> Checked {
             format!("choose another: line {line} has it, and it names files"),
         ]
     })?;
+    if let Some(long) = studies.iter().find(|study| study.name.0.len() > LONGEST_NAME) {
+        let message = format!("the name of this study has {} characters", long.name.0.len());
+        let help = format!("it becomes the name of files: {LONGEST_NAME} at most");
+        return Err(file.error_at(long.name.span(), message, help));
+    }
+    files(file)?;
     studies.iter().enumerate().try_for_each(|(at, study)| kind(file, study, &studies[..at]))
+}
+
+/// Refuses studies of different names that would write the same file, also where capital letters make no difference.
+fn files(file: &SceneFile) -> Checked {
+    let of_study = |study: &StudySpec| {
+        let span = study.name.span();
+        outputs(study).into_iter().map(move |name| (name.to_ascii_lowercase(), span.clone())).collect::<Vec<_>>()
+    };
+    unique(file, file.scene.studies.iter().flat_map(of_study), |name, line| {
+        [
+            format!("this study and the one named in line {line} would both write `{name}`"),
+            "choose another name; capital and small letters are the same on some systems".into(),
+        ]
+    })
 }
 
 fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {

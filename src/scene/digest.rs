@@ -1,5 +1,6 @@
 //! A short name for everything that a run depends on: the scene and the files it names.
 
+use std::fmt;
 use std::fs;
 use std::path::PathBuf;
 
@@ -15,24 +16,42 @@ use super::{SceneError, SceneFile};
 /// # Errors
 /// [`SceneError::Read`] where one of the files cannot be read.
 pub fn digest(file: &SceneFile) -> Result<String, SceneError> {
-    let mut hash = 0xcbf2_9ce4_8422_2325;
-    add(&mut hash, env!("CARGO_PKG_VERSION").as_bytes());
-    add(&mut hash, file.text().as_bytes());
+    let mut hash = Fingerprint::default();
+    hash.add(env!("CARGO_PKG_VERSION").as_bytes());
+    hash.add(file.text().as_bytes());
     for path in named_files(file) {
-        add(&mut hash, &fs::read(&path).map_err(|source| SceneError::Read { path, source })?);
+        hash.add(&fs::read(&path).map_err(|source| SceneError::Read { path, source })?);
     }
-    Ok(format!("{hash:016x}"))
+    Ok(hash.to_string())
 }
 
-/// Length first, so that bytes moved from one file to the next make a difference.
-fn add(hash: &mut u64, bytes: &[u8]) {
-    for &byte in (bytes.len() as u64).to_le_bytes().iter().chain(bytes) {
-        *hash = (*hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+/// The hash FNV-1a of 64 bits; written as sixteen hexadecimal digits.
+#[derive(Clone, Copy, Debug)]
+pub struct Fingerprint(u64);
+
+impl Default for Fingerprint {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Fingerprint {
+    /// Takes in bytes, their number first, so that bytes moved from one file to the next make a difference.
+    pub fn add(&mut self, bytes: &[u8]) {
+        for &byte in (bytes.len() as u64).to_le_bytes().iter().chain(bytes) {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+impl fmt::Display for Fingerprint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
     }
 }
 
 /// The files that a scene names, in the order in which it names them.
-fn named_files(file: &SceneFile) -> Vec<PathBuf> {
+pub fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     let scene = &file.scene;
     let rates = |mode: &Mode| match mode {
         Mode::Rates(name) => Some(name.rates.to_path_buf()),

@@ -12,12 +12,13 @@ mod file;
 pub mod forms;
 mod located;
 mod memory;
+pub mod outputs;
 mod schema;
 pub mod spec;
 mod turns;
 pub mod values;
 
-pub use digest::digest;
+pub use digest::{Fingerprint, digest, named_files};
 pub use error::SceneError;
 pub use file::{SceneFile, parse, read};
 pub use located::Located;

@@ -34,11 +34,15 @@ impl ModeShape {
     /// the largest of them of length 1.
     pub fn on_cells(&self, [n1, n2]: [usize; 2]) -> Vec<Vec3> {
         let cells = (0..n2).flat_map(|c2| (0..n1).map(move |c1| [c1 as i32, c2 as i32]));
-        let moved = cells.flat_map(|cell| {
+        let vertices = self.displacement.len() / 3;
+        self.at(&cells.flat_map(|cell| (0..vertices).map(move |vertex| (vertex, cell))).collect::<Vec<_>>())
+    }
+
+    /// Real displacements of vertices of cells, the largest of them of length 1.
+    pub fn at(&self, places: &[(usize, [i32; 2])]) -> Vec<Vec3> {
+        let moved = places.iter().map(|&(vertex, cell)| {
             let factor = power(self.z, cell);
-            self.displacement
-                .chunks_exact(3)
-                .map(move |u| Vec3::new((u[0] * factor).re, (u[1] * factor).re, (u[2] * factor).re))
+            Vec3::from_fn(|k, _| (self.displacement[3 * vertex + k] * factor).re)
         });
         let moved: Vec<Vec3> = moved.collect();
         let largest = moved.iter().map(Vec3::norm).fold(f64::MIN_POSITIVE, f64::max);

@@ -4,7 +4,8 @@
 //! - a **patch**: its faces;
 //! - a **torus**: its period, with [`NEIGHBOURS`] more cells on every side, so that a cell is held against what really
 //!   surrounds it;
-//! - a **screw**: the cells that are drawn, as many as the scene's `cells` says, and no more. Without end, every curved
+//! - a **screw**: the cells that are drawn, as many as the scene's `cells` says, and no more; faces that reach over their rim
+//!   are among them. Without end, every curved
 //!   screw-periodic sheet winds round and meets itself: whether a tube closes on itself is a question about a number of cells. To
 //!   see it, draw a whole turn: `n` cells of rotation angle `theta` with `n |theta|` above 2 pi. Six cells, which are drawn when the
 //!   scene says nothing, show a cell among its neighbours.
@@ -58,9 +59,9 @@ impl SelfIntersection {
         let number = |triangle: usize, cell: [i32; 2]| numbers[&(triangle, cell.map(|c| c + around as i32))];
         Self {
             drawn: drawn.patch.triangles.iter().map(|t| number(t.triangle, t.cell)).collect(),
-            finder: Finder::new(view.patch.triangles.iter().map(|t| t.corners.map(|site| site.vertex)).collect()),
+            finder: Finder::new(view.triangles.clone()),
             hinges: hinges(&view),
-            mean_edge: mean_edge(&view.patch),
+            mean_edge: mean_edge(sheet, &view.patch),
             view,
         }
     }
@@ -85,23 +86,14 @@ fn is_torus(surroundings: Surroundings) -> bool {
 }
 
 fn hinges(view: &View) -> Vec<(usize, [usize; 2])> {
-    let sorted = |mut corners: [usize; 3]| {
-        corners.sort_unstable();
-        corners
-    };
-    let corners = view.patch.triangles.iter().map(|t| sorted(t.corners.map(|site| site.vertex)));
-    let numbers: HashMap<[usize; 3], usize> = corners.enumerate().map(|(k, corners)| (corners, k)).collect();
-    let hinge = |(edge, &number): (&crate::sheet::tiling::TiledEdge, &usize)| {
-        let [i, j] = edge.ends.map(|site| site.vertex);
-        let [Some(left), Some(right)] = edge.wings else { return None };
-        let face = |wing: usize| numbers.get(&sorted([i, j, wing])).copied();
-        Some((number, [face(left.vertex)?, face(right.vertex)?]))
-    };
-    view.patch.edges.iter().zip(&view.edges).filter_map(hinge).collect()
+    let hinge = |(&edge, beside): (&usize, &Vec<usize>)| Some((edge, beside.as_slice().try_into().ok()?));
+    view.edges.iter().zip(&view.beside).filter_map(hinge).collect()
 }
 
-fn mean_edge(patch: &Tiling) -> f64 {
-    let length = |ends: [usize; 2]| (patch.positions[ends[0]] - patch.positions[ends[1]]).norm();
-    let lengths = patch.edges.iter().map(|edge| length(edge.ends.map(|site| site.vertex)));
-    lengths.sum::<f64>() / patch.edges.len().max(1) as f64
+fn mean_edge(sheet: &Sheet, patch: &Tiling) -> f64 {
+    let length = |edge: usize| {
+        let [i, j] = sheet.edges[edge].key.ends().map(|end| sheet.position(end));
+        (i - j).norm()
+    };
+    patch.edges.iter().map(|edge| length(edge.edge)).sum::<f64>() / patch.edges.len().max(1) as f64
 }

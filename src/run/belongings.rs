@@ -1,0 +1,77 @@
+//! The files of each study in the folder of a run: what is left of an earlier run, and a record of what is there.
+
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::output::OutputError;
+use crate::output::summary::Files;
+use crate::scene::outputs::{is_one_of, outputs, owned};
+use crate::scene::{Fingerprint, SceneFile};
+
+/// Which file belongs to which study.
+pub struct Belongings {
+    out: PathBuf,
+    /// The study that can write a file, for files outside of the folders of studies.
+    writers: HashMap<String, String>,
+    /// Files that the scene reads: they belong to nobody.
+    read: HashSet<PathBuf>,
+}
+
+impl Belongings {
+    /// Of the studies of a scene in the folder `out`.
+    pub fn new(file: &SceneFile, out: &Path) -> Self {
+        let studies = file.scene.studies.iter();
+        let writers =
+            studies.flat_map(|study| outputs(study).into_iter().map(|file| (file, study.name.0.clone()))).collect();
+        Self { out: out.into(), writers, read: super::inputs::real_paths(file) }
+    }
+
+    /// The files there are that a study of this name has written, in order.
+    fn present(&self, name: &str) -> Vec<String> {
+        let own = owned(name);
+        let entries = fs::read_dir(self.out.join(name)).into_iter().flatten().flatten();
+        let inside = entries.map(|entry| format!("{name}/{}", entry.file_name().to_string_lossy()));
+        let beside = own.iter().filter(|file| !file.contains('/')).cloned();
+        let is_own = |file: &String| {
+            let path = self.out.join(file);
+            is_one_of(&own, file)
+                && self.writers.get(file).is_none_or(|writer| writer == name)
+                && path.is_file()
+                && fs::canonicalize(path).is_ok_and(|real| !self.read.contains(&real))
+        };
+        beside.chain(inside).filter(is_own).collect::<BTreeSet<_>>().into_iter().collect()
+    }
+
+    /// Removes files that an earlier run wrote for a study of this name and this run did not, and its folder where nothing
+    /// else is in it.
+    pub fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) {
+        let old = self.present(name).into_iter().map(|file| self.out.join(file));
+        let old: Vec<PathBuf> = old.filter(|path| !written.contains(path)).collect();
+        for path in &old {
+            let _ = fs::remove_file(path);
+        }
+        if !old.is_empty() {
+            // fails where something is left in it, as it should
+            let _ = fs::remove_dir(self.out.join(name));
+        }
+    }
+
+    /// The record of the files of a study: another one when any of them is missing, cut or changed.
+    ///
+    /// # Errors
+    /// [`OutputError::Read`].
+    pub fn record(&self, name: &str) -> Result<Files, OutputError> {
+        let (mut digest, mut files) = (Fingerprint::default(), Files::default());
+        for file in self.present(name) {
+            let path = self.out.join(&file);
+            let bytes = fs::read(&path).map_err(|source| OutputError::Read { path, source })?;
+            digest.add(file.as_bytes());
+            digest.add(&bytes);
+            files.count += 1;
+            files.bytes += bytes.len() as u64;
+        }
+        files.digest = digest.to_string();
+        Ok(files)
+    }
+}

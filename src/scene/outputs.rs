@@ -1,0 +1,70 @@
+//! The files that a study writes, by its name and kind: one list for all who ask what belongs to a study.
+//!
+//! Names are relative to the folder of the run, with `/` between folder and file; `#` stands for a number of four digits or more.
+
+use super::spec::{StudyKind, StudySpec};
+
+/// Endings of the files that a study of any kind may write; `@` stands for its name.
+const ANY: [&str; 5] = ["@.csv", "@.svg", "@.pvd", "@.state.json", "@/@_#.vtu"];
+const TRACE: &[&str] = &["@-strain.svg"];
+const SURFACE: &[&str] = &["@/@_#.vtp"];
+const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp"];
+const BLOCH: &[&str] = &["@/@_determinant.vti", "@/@_zero_lines.vtp", "@/@_mode_#.vtu"];
+const BANDS: &[&str] = &["@_bands.csv"];
+const WELLS: &[&str] = &["@-barriers.csv"];
+
+/// The files that a study can write as the scene asks for it.
+pub fn outputs(study: &StudySpec) -> Vec<String> {
+    let own: [&[&str]; 2] = match &*study.kind {
+        StudyKind::Trace(_) => [TRACE, &[]],
+        StudyKind::Surface(_) => [SURFACE, &[]],
+        StudyKind::Landscape(spec) if spec.map.is_some() => [MAP, &[]],
+        StudyKind::Bloch(spec) if spec.path.is_some() => [BLOCH, BANDS],
+        StudyKind::Bloch(_) => [BLOCH, &[]],
+        StudyKind::Wells(_) => [WELLS, &[]],
+        StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Branches(_) | StudyKind::Landscape(_) => [&[], &[]],
+    };
+    named(&study.name.0, ANY.iter().chain(own[0]).chain(own[1]))
+}
+
+/// The files that a study of this name can have written, whatever its kind was.
+pub fn owned(name: &str) -> Vec<String> {
+    let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS].into_iter().flatten();
+    named(name, ANY.iter().chain(others))
+}
+
+fn named<'a>(name: &str, files: impl Iterator<Item = &'a &'a str>) -> Vec<String> {
+    files.map(|file| file.replace('@', name)).collect()
+}
+
+/// Whether a file is one of a list, a number in the place of `#`.
+pub fn is_one_of(files: &[String], file: &str) -> bool {
+    files.iter().any(|listed| match listed.split_once('#') {
+        None => listed == file,
+        Some((start, end)) => {
+            let number = file.strip_prefix(start).and_then(|rest| rest.strip_suffix(end));
+            number.is_some_and(|number| number.len() >= 4 && number.bytes().all(|byte| byte.is_ascii_digit()))
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers stand for `#` and nothing else does; what a study writes is always among what its name owns.
+    #[test]
+    fn names_are_told_apart() {
+        let own = owned("a");
+        for file in ["a.csv", "a/a_0000.vtu", "a/a_12345.vtp", "a-map.csv", "a/a_mode_0001.vtu"] {
+            assert!(is_one_of(&own, file), "{file}");
+        }
+        for file in ["b.csv", "a/a_1.vtu", "a/a_x000.vtu", "a/b_0000.vtu", "a.toml", "a/a_.vtu", "summary.json"] {
+            assert!(!is_one_of(&own, file), "{file}");
+        }
+        let scene = "[sheet]\nmesh = \"m.fold\"\n[[study]]\nname = \"a\"\nkind = \"trace\"\n";
+        let file = super::super::parse(scene, "s.toml").unwrap();
+        let written = outputs(&file.scene.studies[0]);
+        assert!(written.contains(&"a-strain.svg".to_owned()) && written.iter().all(|file| own.contains(file)));
+    }
+}
