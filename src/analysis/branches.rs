@@ -50,6 +50,7 @@ pub struct Branches {
 }
 
 /// What to look at.
+#[derive(Clone, Copy)]
 pub struct Question<'a> {
     /// The sheet.
     pub sheet: &'a Sheet,

@@ -166,6 +166,12 @@ impl Found {
         if let Some(Err(error)) = &self.rigid {
             return Some(error.to_string());
         }
+        if let Some(Ok(RigidLandscape { wells, contacts, states, lost, .. })) = &self.rigid
+            && wells.is_empty()
+            && contacts.is_empty()
+        {
+            return Some(format!("no rigid well was found on {states} states, and {lost} could not be made exact"));
+        }
         let failed = self.barriers.iter().find_map(|(between, found)| Some((between, found.as_ref().err()?)));
         failed.map(|(between, error)| format!("barrier {between:?}: {error}"))
     }

@@ -14,13 +14,21 @@ pub(super) struct Folding<'a> {
     closure: &'a Closure,
     closing: Closing<'a>,
     embedding: &'a Embedding,
+    /// Angles of the folding edges at the state from which folding starts.
+    origin: Vec<f64>,
     max_curvature: f64,
 }
 
 impl<'a> Folding<'a> {
     pub fn new(closure: &'a Closure, embedding: &'a Embedding, max_curvature: f64) -> Self {
-        let closing = Closing::new(closure, embedding.drawn_angles().to_vec());
-        Self { closure, closing, embedding, max_curvature }
+        Self::at(closure, embedding, (embedding.drawn_angles(), max_curvature))
+    }
+
+    /// The same cell, at another state than the drawn one.
+    pub fn at(closure: &'a Closure, embedding: &'a Embedding, (angles, max_curvature): (&[f64], f64)) -> Self {
+        let closing = Closing::new(closure, angles.to_vec());
+        let origin = closing.folding(angles);
+        Self { closure, closing, embedding, origin, max_curvature }
     }
 
     /// What places the cell.
@@ -28,9 +36,9 @@ impl<'a> Folding<'a> {
         self.embedding
     }
 
-    /// The drawn angles of the folding edges.
+    /// The angles of the folding edges at the state from which folding starts, which is the drawn one mostly.
     pub fn drawn(&self) -> Vec<f64> {
-        self.folding(self.embedding.drawn_angles())
+        self.origin.clone()
     }
 
     /// The entries of the folding edges.

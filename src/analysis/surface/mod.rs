@@ -9,6 +9,7 @@
 //! Nappes of a flat cell come close to each other where its directions nearly meet, closer than the smallest charts;
 //! there the coverage stays open, and says so.
 
+mod crossing;
 mod folding;
 mod sign;
 mod starts;
@@ -18,6 +19,7 @@ use super::branches::{self, BranchesError};
 use crate::kinematics::{Closure, Embedding, KinematicsError, SecondOrder, Shape};
 use crate::model::assemble::Surroundings;
 use crate::solver::atlas::{self, Atlas, AtlasError, Coverage};
+pub use crossing::{Lowest, Seam};
 use folding::Folding;
 use thiserror::Error;
 
@@ -30,6 +32,7 @@ const OBSERVED: usize = 256;
 const REACH: f64 = 2.0;
 
 /// What to cover.
+#[derive(Clone, Copy)]
 pub struct Question<'a> {
     /// The drawn state; what is locked stays so.
     pub start: branches::Question<'a>,
@@ -82,6 +85,8 @@ pub struct Surface {
     pub lost: usize,
     /// Whether two surfaces cross at the drawn state, along a curve of spatially periodic states.
     pub crossing: bool,
+    /// Then the states of that curve on the edges of triangles that go over it.
+    pub seam: Vec<Seam>,
     /// What second order establishes where there is no surface; then there are no states.
     pub negative: Option<Negative>,
 }
@@ -238,6 +243,7 @@ impl Surface {
             radius,
             lost: 0,
             crossing: false,
+            seam: Vec::new(),
             negative,
         }
     }
@@ -263,9 +269,9 @@ fn put_together(
     let mut branches = branch.clone();
     branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
     branches.dedup();
-    let (lost, crossing, radius) = (starts.lost, starts.crossing, 0.0);
+    let (lost, crossing, radius, seam) = (starts.lost, starts.crossing, 0.0, Vec::new());
     let mut surface =
-        Surface { points, triangles, coverage, oriented, closed, branches, radius, lost, crossing, negative };
+        Surface { points, triangles, coverage, oriented, closed, branches, radius, lost, crossing, seam, negative };
     for (k, chart) in atlas.charts.iter().enumerate() {
         let stopped = surface.coverage == Coverage::Interrupted;
         if !stopped && k % OBSERVED == 0 && !observe(atlas.charts.len()) {
@@ -286,6 +292,7 @@ fn put_together(
     let from: Vec<usize> = atlas.charts.iter().take(surface.points.len()).map(|chart| chart.start).collect();
     sign::carry(folding.embedding(), &mut surface.points, &surface.triangles, &from);
     if starts.crossing {
+        surface.seam = crossing::seam(folding, &surface.points, &surface.triangles);
         // charts go over the curve along which surfaces cross, to the other sign
         let sides = surface.points.iter_mut().filter(|point| point.shape.turns());
         sides.for_each(|point| point.branch.1 = if point.shape.curvature < 0.0 { -1 } else { 1 });

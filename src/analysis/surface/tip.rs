@@ -71,10 +71,16 @@ fn tip(folding: &Folding<'_>, charts: &[Chart], rim: &[usize]) -> Option<Chart> 
     if near(&drawn) {
         return Some(chart(drawn));
     }
+    let x = periodic_near(folding, x)?;
+    near(&x).then(|| chart(x))
+}
+
+/// The spatially periodic state to which Newton's method leads, by shortest steps.
+pub(super) fn periodic_near(folding: &Folding<'_>, mut x: Vec<f64>) -> Option<Vec<f64>> {
     for _ in 0..STEPS {
         let (residual, jacobian) = folding.periodic(&x);
         if residual.amax() <= CLOSED {
-            return near(&x).then(|| chart(x));
+            return Some(x);
         }
         let right = DenseMatrix::from_column_slice(residual.len(), 1, residual.as_slice());
         let step = least_squares(&jacobian, &right).ok()?.solution;

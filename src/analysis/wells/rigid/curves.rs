@@ -55,8 +55,14 @@ pub(super) fn net(
     let rays = Rays::new(&second_order)?.rays;
     let mut folding = Folding(Closing::new(&closure, drawn.clone()));
     let crossing = rays.len() > 2;
-    let mut net =
-        Net { angles: vec![drawn.clone()], links: vec![], singular: vec![crossing], border: vec![false], dimension: 1 };
+    let mut net = Net {
+        angles: vec![drawn.clone()],
+        links: vec![],
+        singular: vec![crossing],
+        border: vec![false],
+        dimension: 1,
+        seam: usize::MAX,
+    };
     let options = Options { max_step: FINER * sampling.step, period: Some(TAU), stops: vec![0], ..Options::default() };
     for ray in &rays {
         let [x, tangent] = [&drawn, &ray.direction].map(|all| folding.0.folding(all));

@@ -16,7 +16,7 @@ mod surface;
 use super::Question;
 use crate::analysis::branches::{self, BranchesError};
 use crate::analysis::exact::{Springs, Stationary};
-use crate::analysis::surface::{Negative, SurfaceError};
+use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
 use crate::model::Gauge;
 use crate::model::assemble::{Surroundings, assemble, drawn_angles};
@@ -50,6 +50,8 @@ pub(super) struct Net {
     pub border: Vec<bool>,
     /// Dimension: 1 or 2.
     pub dimension: usize,
+    /// Number of the first state of the curve on which two surfaces cross; none has a larger one than the states.
+    pub seam: usize,
 }
 
 /// A pass.
@@ -113,15 +115,6 @@ pub enum RigidError {
         /// States covered.
         states: usize,
     },
-    /// Two surfaces cross along a curve.
-    #[error(
-        "the rigid states ({states} of them sampled) are two surfaces that cross along a curve of spatially periodic states, \
-         where wells and passes are not made exact"
-    )]
-    Crossing {
-        /// States sampled.
-        states: usize,
-    },
     /// The observer asked to stop.
     #[error("interrupted")]
     Interrupted,
@@ -142,11 +135,16 @@ pub fn landscape(
         Surroundings::Screw => surface::net(start, sampling, go_on)?,
         _ => curves::net(&start, sampling, go_on)?,
     };
-    Ok(polished(&springs, &net, sampling.step))
+    let crossing = surface::question(start, sampling);
+    let lowest = |angles: &[f64]| Surface::lowest_on_crossing(&crossing, angles, &|angles| springs.energy(angles));
+    Ok(polished(&springs, &net, (sampling.step, &lowest)))
 }
 
+/// The lowest state near one of the curve on which two surfaces cross.
+type OnCrossing<'a> = &'a dyn Fn(&[f64]) -> Option<Lowest>;
+
 /// Wells and passes of a net, made exact.
-fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
+fn polished(springs: &Springs, net: &Net, (step, lowest): (f64, OnCrossing<'_>)) -> RigidLandscape {
     let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
     let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
     let (dimension, states) = (net.dimension, net.angles.len());
@@ -155,7 +153,9 @@ fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
     // the well of each minimum; none where the landscape ends there, or where it is no well
     let mut well = vec![None; states];
     for &at in &minima {
-        let found = if net.border[at] || net.singular[at] {
+        let found = if let Some(found) = net.well_on_seam(springs, at, (NEAR * step, lowest)) {
+            Some(found)
+        } else if net.border[at] || net.singular[at] {
             net.beside(at).find_map(|other| between(springs, net, [at, other]))
         } else {
             exact(springs, &net.angles[at], (0, NEAR * step))
@@ -164,7 +164,7 @@ fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
             Some(found) => well[at] = Some(known(&mut landscape.wells, found)),
             None if net.border[at] => landscape.contacts.extend(net.touches(at).then_some(energies[at])),
             // where branches cross nothing is stationary: the state is the lowest of the samples only
-            None => landscape.lost += usize::from(!net.singular[at]),
+            None => landscape.lost += usize::from(!net.singular[at] || at >= net.seam),
         }
     }
     // wells so near to where branches cross that no sample lies between
@@ -176,7 +176,7 @@ fn polished(springs: &Springs, net: &Net, step: f64) -> RigidLandscape {
     }
     for Merge { lower, at } in merges {
         if let [Some(a), Some(b)] = lower.map(|minimum| well[minimum]) {
-            landscape.add_pass(springs, net, ([a, b], at), step);
+            landscape.add_pass(springs, net, ([a, b], at), (step, lowest));
         }
     }
     landscape.sort();
@@ -187,6 +187,22 @@ impl Net {
     /// Neighbours of a state.
     fn beside(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
         self.links.iter().filter(move |link| link.contains(&at)).map(move |[a, b]| a + b - at)
+    }
+
+    /// The well on the curve on which surfaces cross, next to a state of it or beside it.
+    fn well_on_seam(&self, springs: &Springs, at: usize, (reach, lowest): (f64, OnCrossing<'_>)) -> Option<Stationary> {
+        let mut on = [at].into_iter().chain(self.beside(at)).filter(|&at| at >= self.seam);
+        let Lowest { angles, residual, error, well } = lowest(&self.angles[on.next()?])?;
+        let apart = angles.iter().zip(&self.angles[at]).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        let inside = angles.iter().all(|angle| angle.abs() <= PI);
+        let energy = springs.energy(&angles);
+        (well && inside && apart <= reach).then_some(Stationary {
+            angles,
+            energy,
+            negative_eigenvalues: 0,
+            residual,
+            error,
+        })
     }
 
     /// Whether a curve ends in a state because a crease is shut.
@@ -225,8 +241,23 @@ fn known(wells: &mut Vec<Stationary>, found: Stationary) -> usize {
 
 impl RigidLandscape {
     /// Makes the pass at a state exact.
-    fn add_pass(&mut self, springs: &Springs, net: &Net, (joins, at): ([usize; 2], usize), step: f64) {
+    fn add_pass(
+        &mut self,
+        springs: &Springs,
+        net: &Net,
+        (joins, at): ([usize; 2], usize),
+        (step, lowest): (f64, OnCrossing<'_>),
+    ) {
         if joins[0] == joins[1] {
+            return;
+        }
+        if at >= net.seam {
+            match lowest(&net.angles[at]) {
+                Some(Lowest { angles, .. }) => {
+                    self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular: true });
+                }
+                None => self.lost += 1,
+            }
             return;
         }
         if net.singular[at] {

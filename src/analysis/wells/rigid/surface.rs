@@ -2,7 +2,7 @@
 
 use super::{Net, RigidError, Sampling};
 use crate::analysis::branches;
-use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
+use crate::analysis::surface::{Question, Seam, Surface, SurfacePoint, surface};
 use crate::solver::atlas::Coverage;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -12,8 +12,42 @@ const TOLERANCE: f64 = 3e-14;
 /// States beyond which a surface is given up.
 const MOST_POINTS: usize = 300_000;
 
+/// States of the curve on which surfaces cross are neighbours up to this distance, in distances of neighbours on a surface.
+const BESIDE: f64 = 1.5;
 /// Largest difference of an angle between two tips in one state.
 const ONE: f64 = 1e-9;
+
+/// The surface that is sampled.
+pub(super) fn question<'a>(start: branches::Question<'a>, sampling: &Sampling) -> Question<'a> {
+    Question {
+        start,
+        radius: sampling.step,
+        tolerance: TOLERANCE,
+        max_curvature: sampling.max_curvature,
+        max_points: MOST_POINTS,
+    }
+}
+
+/// Adds the states of the curve on which surfaces cross, between those whose edge goes over it, and next to each other.
+fn sew(net: &mut Net, seam: Vec<Seam>, step: f64) {
+    let over: BTreeSet<[usize; 2]> = seam.iter().map(|on| on.between).collect();
+    net.links.retain(|link| !over.contains(link));
+    let first = net.angles.len();
+    for Seam { angles, between } in seam {
+        let at = net.angles.len();
+        net.links.extend(between.map(|beside| [beside, at]));
+        for other in first..at {
+            let square: f64 = net.angles[other].iter().zip(&angles).map(|(a, b)| (a - b).powi(2)).sum();
+            if square <= (BESIDE * step).powi(2) {
+                net.links.push([other, at]);
+            }
+        }
+        net.border.push(angles.iter().any(|angle| angle.abs() > PI));
+        net.singular.push(true);
+        net.angles.push(angles);
+    }
+    net.seam = first;
+}
 
 /// Samples the surface.
 pub(super) fn net(
@@ -21,14 +55,8 @@ pub(super) fn net(
     sampling: &Sampling,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Net, RigidError> {
-    let question = Question {
-        start,
-        radius: sampling.step,
-        tolerance: TOLERANCE,
-        max_curvature: sampling.max_curvature,
-        max_points: MOST_POINTS,
-    };
-    let Surface { points, triangles, coverage, negative, crossing, .. } = surface(&question, &mut |_| go_on())?;
+    let question = question(start, sampling);
+    let Surface { points, triangles, coverage, negative, seam, .. } = surface(&question, &mut |_| go_on())?;
     if let Some(negative) = negative {
         return Err(RigidError::NoSurface(negative));
     }
@@ -36,9 +64,6 @@ pub(super) fn net(
         Coverage::Interrupted => return Err(RigidError::Interrupted),
         Coverage::TooManyCharts | Coverage::GivenUp { .. } => return Err(RigidError::Partial { states: points.len() }),
         Coverage::Complete | Coverage::Open { .. } => {}
-    }
-    if crossing {
-        return Err(RigidError::Crossing { states: points.len() });
     }
     let inside: Vec<bool> = points.iter().map(|point| point.angles.iter().all(|angle| angle.abs() <= PI)).collect();
     let mut count: std::collections::BTreeMap<[usize; 2], usize> = Default::default();
@@ -59,13 +84,16 @@ pub(super) fn net(
     let mut links: BTreeSet<[usize; 2]> =
         count.into_keys().filter(|&[a, b]| inside[a] && inside[b] && near(a, b)).collect();
     links.extend(tips(&points));
-    Ok(Net {
+    let mut net = Net {
+        seam: points.len(),
         singular: points.iter().map(|point| point.radius == 0.0).collect(),
         angles: points.into_iter().map(|point| point.angles).collect(),
         links: links.into_iter().collect(),
         border,
         dimension: 2,
-    })
+    };
+    sew(&mut net, seam, sampling.step);
+    Ok(net)
 }
 
 /// Every nappe has a tip of its own; those in one state hang together.
