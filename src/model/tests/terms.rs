@@ -1,7 +1,7 @@
 //! Terms: angles go on from the last accepted state.
 
 use crate::model::measure::FoldAngle;
-use crate::model::term::{Element, Elements, Local, Spring, Term};
+use crate::model::term::{Element, Elements, Local, Spring, Term, TermKind};
 use crate::model::{Domain, Site};
 use std::f64::consts::{PI, TAU};
 
@@ -18,7 +18,7 @@ fn hinge(angle: f64) -> Vec<f64> {
 fn angles_continue_through_pi() {
     let sites = [0, 1, 2, 3].map(|vertex| Site { vertex, shift: [0, 0] });
     let element = Element { sites, spring: Spring { stiffness: 1.0, rest: 0.0 }, edge: 0 };
-    let mut term = Term::<FoldAngle, 4, 12>::new("creases", vec![element], &Domain::Patch, &hinge(0.2));
+    let mut term = Term::<FoldAngle, 4, 12>::new(TermKind::Creases, vec![element], &Domain::Patch, &hinge(0.2));
     let mut local = Local::default();
     let there: Vec<f64> = (1..40).map(|k| 0.2 + 0.35 * f64::from(k)).collect();
     for &angle in there.iter().chain(there.iter().rev()) {
