@@ -22,7 +22,7 @@ fn foldwell(folder: &Path, words: &[&str]) -> Output {
 fn run(folder: &Path, scene: &str, more: &[&str]) -> (Value, String) {
     fs::write(folder.join("scene.toml"), scene).unwrap();
     let ran = foldwell(folder, &[&["run", "scene.toml", "--out", "out"], more].concat());
-    let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+    let said = String::from_utf8_lossy(&[ran.stdout, ran.stderr].concat()).into_owned();
     assert_eq!(ran.status.code(), Some(0), "{said}");
     (serde_json::from_slice(&fs::read(folder.join("out/summary.json")).unwrap()).unwrap(), said)
 }

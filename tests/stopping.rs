@@ -122,7 +122,7 @@ fn interrupted_after(folder: &Path, milliseconds: u64) -> Option<i32> {
 #[cfg(unix)]
 fn building_is_interrupted() {
     let folder = tempfile::tempdir().unwrap();
-    scene(folder.path(), [1, 1_000_000], "[[study]]\nname = \"a\"\nkind = \"relax\"\n");
+    scene(folder.path(), [1, 1_000_000], "[[study]]\nname = \"a\"\nkind = \"modes\"\n");
     assert_eq!(interrupted_after(folder.path(), 1500), Some(130));
     assert!(!folder.path().join("out").exists());
 }

@@ -19,16 +19,23 @@ use crate::sheet::Tiling;
 use crate::solver::continuation::End;
 use crate::solver::{Failure, Options, Step};
 use std::f64::consts::TAU;
+use thiserror::Error;
 
 /// A driven crease is kept while it moves at least this part as fast as the fastest.
 const FAST_ENOUGH: f64 = 0.5;
 
 /// Most times that a step is halved.
 const HALVINGS: usize = 6;
-/// A fold angle whose step differs from the rigid one's by more than this part of the arc length has gone elsewhere.
+/// With soft measures, a fold angle whose step differs from the rigid one's by more than this part of the arc length has gone
+/// elsewhere.
 const ELSEWHERE: f64 = 0.5;
 /// Steps count as no shorter than this there.
 const SHORT: f64 = 0.01;
+/// Where all measures are rigid there is one state beside the rigid one: a fold angle that differs by more than this, in
+/// radians, is another state's. What relaxations leave open is 1e-9 and less, times a thousand where angles move fast.
+const SAME_STATE: f64 = 1e-6;
+/// Beside a rigid state that is interpolated it may differ by this part of the arc length.
+const INTERPOLATED: f64 = 0.05;
 
 /// What relaxes.
 pub struct Question<'a> {
@@ -62,7 +69,21 @@ pub struct Drive {
     /// where one failed.
     pub states: Vec<Driven>,
     /// Why the next one failed.
-    pub failure: Option<Failure>,
+    pub failure: Option<DriveFailure>,
+}
+
+/// Why there is no relaxed state beside a rigid one.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum DriveFailure {
+    /// The relaxation failed.
+    #[error(transparent)]
+    Relaxation(#[from] Failure),
+    /// It ended in another state of rigid measures.
+    #[error("it ends in another rigid state, whose fold angles differ by up to {apart:.1e} rad")]
+    Elsewhere {
+        /// Largest difference of a fold angle to the rigid trajectory, in radians.
+        apart: f64,
+    },
 }
 
 impl Drive {
@@ -128,6 +149,16 @@ fn fastest(rates: &[f64], last: Option<usize>) -> usize {
     last.filter(|edge| speed(edge) >= FAST_ENOUGH * speed(&first)).unwrap_or(first)
 }
 
+/// The relaxed state, if its measures are all rigid only where it is the rigid one.
+fn same_state(question: &Question<'_>, driven: Driven, (from, to): (&Folded, &Folded)) -> Result<Driven, DriveFailure> {
+    let interpolated = to.positions.is_empty();
+    let most = if interpolated { INTERPOLATED * (to.arc_length - from.arc_length) } else { SAME_STATE };
+    if question.recipe.is_rigid() && !(driven.error <= most) {
+        return Err(DriveFailure::Elsewhere { apart: driven.error });
+    }
+    Ok(driven)
+}
+
 /// Whether relaxed angles made another step than the rigid ones.
 fn goes_elsewhere(before: &[f64], now: &[f64], (from, to): (&Folded, &Folded)) -> bool {
     let most = ELSEWHERE * f64::max(to.arc_length - from.arc_length, SHORT);
@@ -171,12 +202,13 @@ impl Track {
         (from, to): (&Folded, &Folded),
         halvings: usize,
         observe: &mut dyn FnMut(&Step) -> bool,
-    ) -> Result<Driven, Failure> {
+    ) -> Result<Driven, DriveFailure> {
         let before = self.clone();
         let found = self.step(question, to, fastest(&to.rates, self.crease), observe);
+        let found = found.and_then(|driven| same_state(question, driven, (from, to)));
         let wrong = match &found {
             Ok(driven) => goes_elsewhere(&before.angles, &driven.angles, (from, to)),
-            Err(failure) => *failure != Failure::Interrupted,
+            Err(failure) => *failure != DriveFailure::Relaxation(Failure::Interrupted),
         };
         if !wrong || halvings == 0 {
             return found;
@@ -193,7 +225,7 @@ impl Track {
         state: &Folded,
         crease: usize,
         observe: &mut dyn FnMut(&Step) -> bool,
-    ) -> Result<Driven, Failure> {
+    ) -> Result<Driven, DriveFailure> {
         let mut recipe = question.recipe.clone();
         recipe.locks.push((crease, state.angles[crease]));
         let mut model = assemble(question.drawn, question.tiling, &recipe, Gauge::Held);
@@ -202,7 +234,8 @@ impl Track {
         let here = model.start_from(last);
         let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
         let edges = question.tiling.edges.len();
-        let relaxed = relax(&mut model, ahead, question.options, edges, observe).map_err(|error| error.failure)?;
+        let relaxed = relax(&mut model, ahead, question.options, edges, observe)
+            .map_err(|error| DriveFailure::Relaxation(error.failure))?;
         self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());
         self.crease = Some(crease);
         self.angles = self.continued(question, &relaxed.state.coordinates);

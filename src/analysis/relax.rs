@@ -182,6 +182,7 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     let (layout, compliance) = (model.layout(), model.compliance());
     let mut at = Linearization::new(layout);
     model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
+    model.hold(&found.tension, &mut at);
     let mut saddle = Saddle::new(layout, &at).ok()?;
     let unknown = || (last.residual_force > UNBALANCED && strained(model, &found.x)).then_some(f64::INFINITY);
     if saddle.factor(layout, &at, compliance, 0.0).is_err() {

@@ -79,6 +79,7 @@ fn unbalanced(model: &Model, x: &[f64], tensions: &[f64]) -> f64 {
 fn linearized(model: &Model, x: &[f64], tensions: &[f64]) -> Linearization {
     let mut at = Linearization::new(model.layout());
     model.linearize(x, tensions, Curvature::GaussNewton, &mut at);
+    model.hold(tensions, &mut at);
     at
 }
 

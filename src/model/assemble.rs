@@ -59,6 +59,12 @@ pub struct Recipe {
 }
 
 impl Recipe {
+    /// Whether bars and facets are rigid, as far as there are any.
+    pub fn is_rigid(&self) -> bool {
+        let facets = self.facets.as_ref().map(|facets| facets.stiffness);
+        [self.bars, facets].into_iter().flatten().all(f64::is_infinite)
+    }
+
     /// Whether any part stores energy, keeps an angle, or is pulled.
     pub fn has_energy(&self) -> bool {
         let Self { bars, creases, facets, locks, pins: _, loads } = self;

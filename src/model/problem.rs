@@ -370,7 +370,6 @@ impl Problem for Model {
         self.linearize_loads(&all, out);
         self.linearize_soft(&all, curvature, out);
         self.linearize_stiff(&all, tension, out);
-        self.hold_rotations(tension, out);
     }
 
     fn accept(&mut self, x: &mut [f64]) {
@@ -387,6 +386,10 @@ impl Problem for Model {
         if moved {
             self.base = all;
         }
+    }
+
+    fn hold(&self, tension: &[f64], out: &mut Linearization) {
+        self.hold_rotations(tension, out);
     }
 
     fn relieve(&mut self, x: &mut [f64]) -> f64 {

@@ -478,7 +478,7 @@ mod tests {
     fn an_empty_picture_reads_back() {
         assert_eq!(
             parse_vtu(&written(&Picture::default())).unwrap(),
-            VtuMesh { fold_angle: Some(vec![]), ..<_>::default() }
+            VtuMesh { fold_angle: Some(vec![]), tension: Some(vec![]), torque: Some(vec![]), ..<_>::default() }
         );
     }
 

@@ -6,7 +6,7 @@ use super::runner::Runner;
 use super::{Progress, RunError, branches, studies};
 use crate::analysis::branches::Question as Start;
 use crate::analysis::chart::{coordinates, hinge_angles};
-use crate::analysis::drive::{self, Drive, Driven};
+use crate::analysis::drive::{self, Drive, DriveFailure, Driven};
 use crate::analysis::intersections::{LYING, SelfIntersection};
 use crate::analysis::relax::Relaxed;
 use crate::analysis::state::{State, cylinder};
@@ -189,7 +189,9 @@ impl Path<'_> {
         let relaxation = self.drive.and_then(|drive| drive.failure);
         let (branch, sign) = self.traced.branch;
         let why = match (relaxation, &self.traced.end) {
-            (Some(Failure::Interrupted), _) | (None, End::Interrupted) => "interrupted".to_owned(),
+            (Some(DriveFailure::Relaxation(Failure::Interrupted)), _) | (None, End::Interrupted) => {
+                "interrupted".to_owned()
+            }
             (Some(failure), _) => format!("a relaxation failed: {failure}"),
             (None, End::Failed) => "the trajectory did not come to its end: no step leads on".to_owned(),
             (None, End::Steps) => {
@@ -204,7 +206,7 @@ impl Path<'_> {
     /// Whether the observer asked to stop.
     fn interrupted(&self) -> bool {
         let relaxation = self.drive.and_then(|drive| drive.failure);
-        self.traced.end == End::Interrupted || relaxation == Some(Failure::Interrupted)
+        self.traced.end == End::Interrupted || relaxation == Some(DriveFailure::Relaxation(Failure::Interrupted))
     }
 
     /// Number of states: up to where a relaxation failed.

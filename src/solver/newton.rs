@@ -313,6 +313,7 @@ impl<P: Problem> Newton<'_, P> {
 
     fn linearize(&mut self) {
         self.problem.linearize(&self.x, &self.tension, self.curvature, &mut self.at);
+        self.problem.hold(&self.tension, &mut self.at);
     }
 
     /// Pulls the start onto the stiff measures: by chord corrections, and where one linearization does not reach so far, by

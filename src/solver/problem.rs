@@ -87,6 +87,8 @@ pub trait Problem {
     fn gaps(&self, x: &[f64]) -> Vec<f64>;
     /// Fills `out` at `(x, tension)`: all but the products with the tension of the Jacobian.
     fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization);
+    /// Adds to the Hessian what keeps motions of the whole in place that cost nothing, where there are any; forces stay as they are.
+    fn hold(&self, _tension: &[f64], _out: &mut Linearization) {}
     /// Called with every accepted state; may write the same state in other coordinates.
     fn accept(&mut self, x: &mut [f64]);
     /// Called with every accepted state: may move it as a whole where that lowers the soft energy and changes no gap. Returns by how much.

@@ -29,6 +29,8 @@ const REGULAR: f64 = 1e-7;
 const TRIES: usize = 6;
 /// Bent paths that are tried where a straight one leads over a state that is no pass.
 const BENDS: u64 = 3;
+/// Energies that differ by this part are those of one pass.
+const SAME_PASS: f64 = 1e-8;
 /// Tolerance of a pass.
 const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 /// Differences of energies, relative, from which their law is read.
@@ -126,19 +128,34 @@ pub fn barrier(
     let own = question.stiffness();
     let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
     let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
-    let mut last = Err(BarrierError::LeadsElsewhere);
+    let (mut failed, mut by_the_way): (_, Option<Barrier>) = (BarrierError::LeadsElsewhere, None);
     for stiffness in tried {
         for bend in 0..=BENDS {
-            last = from_softness(question, wells, between, (stiffness, bend), go_on);
-            if last.is_ok() || !go_on() {
-                return last;
+            match from_softness(question, wells, between, (stiffness, bend), go_on) {
+                Ok(found) if found.joins.iter().all(|well| between.contains(well)) => return Ok(found),
+                // over other wells: the way through softer bars may have been the shorter one only there
+                Ok(found) => match by_the_way.take() {
+                    Some(before) if (before.pass.energy - found.pass.energy).abs() <= SAME_PASS * found.pass.energy => {
+                        return Ok(before);
+                    }
+                    before => by_the_way = Some(lower(found, before)),
+                },
+                Err(error) => failed = error,
             }
-            if !matches!(last, Err(BarrierError::Index { .. })) {
+            if !go_on() {
+                return Err(failed);
+            }
+            if by_the_way.is_some() || !matches!(failed, BarrierError::Index { .. }) {
                 break; // a bend is of no use
             }
         }
     }
-    last
+    by_the_way.ok_or(failed)
+}
+
+/// The one with the lower pass.
+fn lower(found: Barrier, other: Option<Barrier>) -> Barrier {
+    other.filter(|other| other.pass.energy <= found.pass.energy).unwrap_or(found)
 }
 
 /// The barrier by way of bars of this stiffness, on a path that begins with this bend.
