@@ -357,7 +357,7 @@ fn study(sizes: &[usize]) {
             &mut [
                 &mut || {
                     let mut model = star.model(RIGID);
-                    seconds(|| star.relax(&mut model))
+                    seconds(|| star.relax(&mut model).expect("it converges"))
                 },
                 &mut || seconds(|| tension::settle(&model, &found)),
                 &mut || set_up(model.layout()),

@@ -18,7 +18,7 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
 use foldwell::output::summary::{
-    BranchesSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary, WellsSummary, to_json,
+    BranchesSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary, TraceSummary, WellsSummary, to_json,
 };
 use foldwell::run::{self, Ledger, RunError, RunOptions, RunReport};
 use foldwell::validation::report::Case;
@@ -299,9 +299,16 @@ fn describe_relaxation(relax: &RelaxSummary) -> String {
         [force, length] => format!("residuals {force:.1e} (force) {length:.1e} (length)"),
     };
     let iterations = counted(relax.iterations, "iteration");
-    let branching = relax.branch_point_start.map_or_else(String::new, |rays| {
-        format!(", the start is a branch point with {rays} rays: other branches may have other equilibria")
-    });
+    let branching = match (relax.branch_point_start, relax.directions_at_start.as_deref()) {
+        (_, Some("continuum")) => {
+            ", infinitely many directions leave the start: others may lead to other equilibria".into()
+        }
+        (Some(rays), _) => {
+            format!(", the start is a branch point with {rays} rays: other branches may have other equilibria")
+        }
+        (None, Some("not-established")) => ", it is not known whether the start is a branch point".into(),
+        (None, _) => String::new(),
+    };
     format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}{branching}", relax.energy.total)
 }
 
@@ -341,13 +348,31 @@ fn describe_branches(branches: &BranchesSummary) -> String {
     format!("{rays}, {} complex solutions of {}", branches.complex_solutions, branches.expected)
 }
 
-/// How many random starts failed and why, where some did.
+/// How many random starts ended in no minimum, and how many failed and why, where some did.
 fn describe_failures(found: &WellsSummary) -> String {
+    let saddles = match found.saddles {
+        0 => String::new(),
+        count => format!("; {count} of {} ended in no minimum", counted(found.starts, "start")),
+    };
     if found.failed == 0 {
-        return String::new();
+        return saddles;
     }
     let reasons: Vec<String> = found.failures.iter().map(|one| format!("{}: {}", one.starts, one.reason)).collect();
-    format!("; {} of {} failed ({})", found.failed, counted(found.starts, "start"), reasons.join("; "))
+    format!("{saddles}; {} of {} failed ({})", found.failed, counted(found.starts, "start"), reasons.join("; "))
+}
+
+/// How every trajectory ended, and whether there are directions that none follows.
+fn describe_trace(traced: &TraceSummary) -> String {
+    let ends = traced.branches.iter().map(|one| match one.branch {
+        Some(_) => format!("{} at {:.6}", one.end, one.arc_length),
+        None => "no real direction to fold along".to_owned(),
+    });
+    let others = match traced.directions.as_str() {
+        "continuum" => "; infinitely many other directions are not followed",
+        "not-established" => "; other directions are not excluded",
+        _ => "",
+    };
+    ends.collect::<Vec<_>>().join(", ") + others
 }
 
 fn describe_study(study: &StudySummary) -> String {
@@ -355,10 +380,7 @@ fn describe_study(study: &StudySummary) -> String {
         Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
         Some(StudyResult::Modes(modes)) => describe_modes(modes),
         Some(StudyResult::Branches(branches)) => describe_branches(branches),
-        Some(StudyResult::Trace(traced)) => {
-            let ends = traced.branches.iter().map(|one| format!("{} at {:.6}", one.end, one.arc_length));
-            ends.collect::<Vec<_>>().join(", ")
-        }
+        Some(StudyResult::Trace(traced)) => describe_trace(traced),
         Some(StudyResult::Surface(surface)) => {
             let found = format!("{} states, {} triangles, {}", surface.points, surface.triangles, surface.coverage);
             surface.established.as_ref().map_or(found.clone(), |established| format!("{found}: {established}"))
@@ -382,7 +404,8 @@ fn describe_study(study: &StudySummary) -> String {
         }
         Some(StudyResult::Bloch(bloch)) => {
             let [p1, p2] = bloch.polarization;
-            let lines = counted(bloch.zero_lines, "zero line");
+            let lines = bloch.zero_lines.map(|count| counted(count, "zero line"));
+            let lines = lines.unwrap_or("no real determinant, so that zero lines are not looked for".to_owned());
             let pairing = bloch.pairing_error.map_or("no root known well enough to be paired".to_owned(), |error| {
                 format!("pairing error {error:.1e}")
             });

@@ -118,6 +118,7 @@ fn the_unit_does_not_choose_a_branch() {
     for angle in [-0.49339316800066285, -0.393_393_168_000_662_9] {
         let expected = locked_in(1.0, angle);
         assert_eq!(expected.branch_point_start, Some(4));
+        assert_eq!(expected.directions_at_start.as_deref(), Some("listed"));
         for unit in [2.0, 0.5, 1024.0, 1.0 / 1024.0, 0.9, 7.0, 1000.0] {
             let found = locked_in(unit, angle);
             assert_relative_eq!(found.energy.total / unit, expected.energy.total, max_relative = 1e-10);

@@ -106,7 +106,11 @@ pub fn norm(v: &[f64]) -> f64 {
     v.iter().map(|a| a * a).sum::<f64>().sqrt()
 }
 
-/// Largest difference of two lists.
+/// Largest difference of two lists; not a number where one of their numbers is none.
+///
+/// # Panics
+/// Where there is nothing to compare, or one is longer than the other.
 pub fn difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).fold(0.0, |m, (a, b)| f64::max(m, (a - b).abs()))
+    assert_eq!(a.len(), b.len(), "lists of one length");
+    foldwell::numerics::worst(a.iter().zip(b).map(|(a, b)| (a - b).abs())).expect("something to compare")
 }

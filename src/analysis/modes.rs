@@ -25,6 +25,8 @@ pub const DENSE_LIMIT: usize = 1200;
 pub const DENSE_EIGENVALUES: usize = 2000;
 /// Most eigenvalues that are asked of the iteration.
 pub const SPARSE_EIGENVALUES: usize = 256;
+/// Most shifts of the Hessian that are tried, each four times the last.
+const SHIFTS: i32 = 30;
 /// Smallest ratio of kept to dropped singular values at which a rank is believed.
 pub const LEAST_GAP: f64 = 1e3;
 
@@ -362,8 +364,10 @@ fn lowest_sparse(model: &Model, count: usize, observe: &mut Observer<'_>) -> Res
     let compliance = model.compliance();
     let mut saddle = Saddle::new(layout, &at)?;
     let unit = at.pattern().largest_diagonal(&at.hessian);
-    let mut shift = 0.0;
-    for power in 0..30 {
+    let (mut shift, mut powers) = (0.0, 0..SHIFTS);
+    loop {
+        // without a shift that makes the Hessian positive, the largest eigenvalues of its inverse are not the lowest of its own
+        let power = powers.next().ok_or(FactorError::Singular { ratio: 0.0 })?;
         let next = 1e-7 * unit * 4f64.powi(power);
         go_on(observe)?;
         at.add_identity(next - shift);

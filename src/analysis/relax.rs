@@ -88,7 +88,7 @@ pub fn relax(
     let found = found.and_then(|found| held_firmly(model, found, options, observe, &mut history));
     match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
-            Some(angle) if angle > CERTAIN => {
+            Some(angle) if !(angle <= CERTAIN) => {
                 let state = State::new(model, &found.x, &found.tension, edges);
                 let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
                 let failure = Failure::Uncertain { angle, force, tolerance: options.tolerance };

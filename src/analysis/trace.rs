@@ -5,7 +5,7 @@
 //! and of the three strains are the zeros of their rates.
 
 use super::branches::{self, BranchesError};
-use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, RealDirections, Shape};
+use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, Rays, RealDirections, Shape};
 use crate::math::Vec3;
 use crate::model::assemble::Surroundings;
 use crate::numerics::DenseMatrix;
@@ -79,6 +79,8 @@ pub struct Traced {
     pub branch: (usize, i8),
     /// Why it ends.
     pub end: End,
+    /// What is established about the directions in which folding leaves the drawn state: whether these rays are all.
+    pub directions: RealDirections,
     /// The ray along which it comes back.
     pub ends_at: Option<(usize, i8)>,
     /// Its states, the drawn one first.
@@ -113,6 +115,9 @@ pub enum TraceError {
         "folding leaves the drawn state along infinitely many directions: lock a crease to choose among them, or ask for a surface"
     )]
     Continuum,
+    /// Where faces pass through each other from the beginning, nothing can end where they first do.
+    #[error("faces of the drawn state pass through each other already: leave out the stop at self-intersection")]
+    CrossesAlready,
     /// No ray was found, and none was excluded.
     #[error("no direction of folding was found, but none was excluded either: lock a crease")]
     NotEstablished,
@@ -127,6 +132,8 @@ struct Folding<'a, 'b> {
     known: Vec<Known>,
     stop: Stop,
     intersects: Option<Intersects<'b>>,
+    /// Whether faces of the drawn state pass through each other; false also where that is not asked.
+    crosses: bool,
 }
 
 /// A state from which the sign of the curvature is carried on.
@@ -137,6 +144,13 @@ struct Known {
 }
 
 impl Folding<'_, '_> {
+    /// Asks whether faces of the drawn state pass through each other.
+    fn look_at_start(&mut self, x: Vec<f64>) {
+        let start = Point { arc_length: 0.0, tangent: vec![0.0; x.len()], x, residual: 0.0, corrections: 0 };
+        let state = self.folded(&start);
+        self.crosses = self.intersects.as_mut().is_some_and(|intersects| intersects(&state));
+    }
+
     fn folded(&mut self, point: &Point) -> Folded {
         let (angles, rates) = (self.closing.angles(&point.x), self.closing.rates(&point.tangent));
         let placement = self.embedding.place(&angles);
@@ -239,11 +253,16 @@ pub fn trace(
     let periodic = start.surroundings == Surroundings::Screw;
     let closing = Closing::new(&closure, angles);
     let (known, stop) = (Vec::new(), question.stop);
-    let mut folding = Folding { closing, embedding: &embedding, periodic, known, stop, intersects };
+    let crosses = false;
+    let mut folding = Folding { closing, embedding: &embedding, periodic, known, stop, intersects, crosses };
+    folding.look_at_start(folding.closing.folding(start.angles));
+    if folding.crosses && stop.self_intersection {
+        return Err(TraceError::CrossesAlready);
+    }
     let wanted = rays.iter().filter(|ray| question.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
-        let one = along(&mut folding, question, ray, rays, observe);
+        let one = along(&mut folding, question, ray, &found.rays, observe);
         let interrupted = one.end == End::Interrupted;
         traced.push(one);
         if interrupted {
@@ -258,10 +277,10 @@ fn along(
     folding: &mut Folding<'_, '_>,
     question: &Question<'_>,
     ray: &Ray,
-    rays: &[Ray],
+    all: &Rays,
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Traced {
-    let branch = (ray.branch, ray.sign);
+    let (branch, rays) = ((ray.branch, ray.sign), &all.rays);
     let start = folding.closing.folding(question.start.angles);
     let directions: Vec<Vec<f64>> = rays.iter().map(|ray| folding.closing.folding(&ray.direction)).collect();
     let leaving = folding.closing.folding(&ray.direction);
@@ -288,12 +307,13 @@ fn along(
     };
     let first_self_intersection = match (&end, points.last(), crossing(&events)) {
         (End::Stopped { indicator: INTERSECTION }, Some(last), None) => Some(last.arc_length),
-        (_, _, found) => found,
+        (_, _, found) => found.filter(|_| !folding.crosses).or(folding.crosses.then_some(0.0)),
     };
     let turning = |event: &&Event| event.indicator < TURNING.len();
     let mut turned = |event: &Event| (event.indicator, folding.folded(&event.point));
     Traced {
         branch,
+        directions: all.directions,
         ends_at,
         corrections: points.iter().map(|point| point.corrections).sum(),
         first_self_intersection,

@@ -1,6 +1,6 @@
 //! A few extreme eigenpairs of a symmetric operator, by faer's restarted Lanczos iteration.
 //!
-//! The iteration has no way out before its end. A product that asks to stop leaves it by unwinding, as a panic does but
+//! The iteration has no way out before its end. A product that asks to stop, or is not finite, leaves it by unwinding, as a panic does but
 //! without a message; where a program is built with `panic = "abort"` stopping ends the program.
 
 use super::factor::FactorError;
@@ -56,9 +56,12 @@ impl<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send> LinOp<f64> for Operator<F> {
         for column in 0..right.ncols() {
             let x: Vec<f64> = (0..self.size).map(|row| right[(row, column)]).collect();
             let found = product(&x).unwrap_or_else(|| resume_unwind(Box::new(EigenError::Stopped)));
+            // the iteration inside never ends on a value that is not finite
+            if found.iter().any(|value| !value.is_finite()) {
+                resume_unwind(Box::new(EigenError::Factor(FactorError::NotFinite)));
+            }
             for (row, value) in found.into_iter().enumerate() {
-                // the iteration inside never ends on a value that is not finite
-                out[(row, column)] = if value.is_finite() { value } else { 0.0 };
+                out[(row, column)] = value;
             }
         }
     }
@@ -70,8 +73,8 @@ impl<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send> LinOp<f64> for Operator<F> {
 
 /// The `count` eigenvalues of largest magnitude of a symmetric operator, descending, with their vectors.
 ///
-/// A `product` of `None` stops. Fails then, where the iteration does not find them all, and where the operator is too small for its
-/// 4 count + 64 vectors.
+/// A `product` of `None` stops. Fails then, where a product is not finite, where the iteration does not find them all, and where the
+/// operator is too small for its 4 count + 64 vectors.
 pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     size: usize,
     count: usize,
@@ -92,8 +95,10 @@ pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     });
     let found = match catch_unwind(iterate) {
         Ok(found) => found.n_converged_eigen,
-        Err(reason) if reason.is::<EigenError>() => return Err(EigenError::Stopped),
-        Err(panic) => resume_unwind(panic),
+        Err(reason) => match reason.downcast::<EigenError>() {
+            Ok(why) => return Err(*why),
+            Err(panic) => resume_unwind(panic),
+        },
     };
     if found < count {
         return Err(FactorError::Eigenpairs { wanted: count, found }.into());

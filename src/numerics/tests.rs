@@ -261,6 +261,9 @@ fn eigenpairs_can_be_stopped() {
         });
         assert_eq!((found, products), (Err(eigen::EigenError::Stopped), stop));
     }
+    // a product that is no number is no eigenpair of zero
+    let infinite = Err(FactorError::NotFinite.into());
+    assert_eq!(eigen::largest(120, 6, |x| Some(vec![f64::NAN; x.len()])), infinite);
     let broken = std::panic::catch_unwind(|| eigen::largest(120, 6, |_| std::panic::resume_unwind(Box::new(7))));
     assert_eq!(broken.unwrap_err().downcast_ref(), Some(&7));
 }

@@ -152,8 +152,13 @@ pub struct RelaxSummary {
     /// Largest difference of a fold angle to the exact solver; null where that says nothing.
     pub error_to_kinematic: Option<f64>,
     /// Number of rays of rigid folding that leave the drawn state from which a rigid cell with locks was relaxed, where that is a branch
-    /// point: other branches may end in other equilibria. Null elsewhere.
+    /// point: other branches may end in other equilibria. Null elsewhere, and where these rays are not known.
     pub branch_point_start: Option<usize>,
+    /// What is established about the directions of rigid folding there, in the words of `branches`; null where they were not looked for:
+    /// other starts, bars that are not rigid, no locks.
+    #[serde(default)]
+    #[schemars(extend("enum" = ["listed", "continuum", "not-established", null]))]
+    pub directions_at_start: Option<String>,
     /// A row per iteration.
     pub history: Vec<IterationSummary>,
 }
@@ -200,6 +205,11 @@ pub struct ModesSummary {
 /// The trajectories of a study.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TraceSummary {
+    /// What is established about all directions in which folding leaves the drawn state, in the words of `branches`: whether the rays
+    /// below, or those of the branch that was asked for, are all of them.
+    #[serde(default)]
+    #[schemars(extend("enum" = ["listed", "continuum", "not-established"]))]
+    pub directions: String,
     /// One for each ray that was followed; where no ray is real, the one entry that says so.
     pub branches: Vec<TrajectorySummary>,
 }
@@ -227,6 +237,9 @@ pub struct TrajectorySummary {
     /// How it ended.
     #[schemars(extend("enum" = ["closed", "stop", "failed", "interrupted", "no-real-branch"]))]
     pub end: String,
+    /// Whether faces of a state on it pass through each other; null where that was not asked.
+    #[serde(default)]
+    pub self_intersecting: Option<bool>,
     /// Where faces first pass through each other; null where they do not, or it was not asked.
     pub first_self_intersection: Option<ArcLength>,
     /// Largest difference of a fold angle to the energy's; null where the two were not compared.
@@ -319,11 +332,11 @@ pub struct ModeLandscape {
     pub samples: Vec<SampleSummary>,
     /// Slope of log energy on the smallest amplitudes.
     pub exponent: Option<f64>,
-    /// Standard error of the exponent.
+    /// Standard error of the exponent; null also where there are no more samples than numbers to fit, and nothing tells it.
     pub exponent_error: Option<f64>,
     /// Limit of energy over the fourth power of the amplitude, from a fit.
     pub coefficient: Option<f64>,
-    /// Standard error of the coefficient.
+    /// Standard error of the coefficient; null likewise.
     pub coefficient_error: Option<f64>,
     /// The same without a fit, from the second order.
     pub predicted_coefficient: Option<f64>,
@@ -378,8 +391,8 @@ pub struct BlochSummary {
     pub on_circle: [f64; 2],
     /// Part of the zone in which the determinant is positive; null where it is not real.
     pub positive_fraction: Option<f64>,
-    /// Number of lines of zeros in the zone.
-    pub zero_lines: usize,
+    /// Number of lines of zeros in the zone; null where the determinant is not real, and none were looked for.
+    pub zero_lines: Option<usize>,
     /// The lines.
     pub lines: Vec<ZeroLineSummary>,
     /// Parts of the zone of one sign, the largest first.
@@ -472,7 +485,7 @@ pub struct BarrierSummary {
     pub residual: Option<f64>,
     /// The pass on its way from soft bars.
     pub heights: Vec<HeightSummary>,
-    /// Why there is no pass; absent where there is.
+    /// Why there is no pass, or none whose energy is known; absent where there is.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     #[schemars(with = "String")]
     pub reason: Option<String>,
@@ -500,8 +513,11 @@ pub struct RigidSummary {
     pub contacts: Vec<f64>,
     /// The passes at which lakes around wells meet as the water rises.
     pub passes: Vec<RigidPassSummary>,
-    /// Wells and passes of the samples that could not be made exact.
+    /// Wells and passes of the samples that could not be made exact: the study did not converge where there are any.
     pub lost: usize,
+    /// Places beyond which the folded states go on, or may, and were not sampled: likewise.
+    #[serde(default)]
+    pub open: usize,
 }
 
 /// A pass of a rigid sheet.

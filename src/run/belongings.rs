@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::output::OutputError;
@@ -45,16 +46,25 @@ impl Belongings {
 
     /// Removes files that an earlier run wrote for a study of this name and this run did not, and its folder where nothing
     /// else is in it.
-    pub fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) {
+    ///
+    /// # Errors
+    /// [`OutputError::Write`]: a file that stays would pass for one of this run.
+    pub fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) -> Result<(), OutputError> {
         let old = self.present(name).into_iter().map(|file| self.out.join(file));
         let old: Vec<PathBuf> = old.filter(|path| !written.contains(path)).collect();
         for path in &old {
-            let _ = fs::remove_file(path);
+            match fs::remove_file(path) {
+                Err(source) if source.kind() != ErrorKind::NotFound => {
+                    return Err(OutputError::Write { path: path.clone(), source });
+                }
+                _ => {}
+            }
         }
         if !old.is_empty() {
             // fails where something is left in it, as it should
             let _ = fs::remove_dir(self.out.join(name));
         }
+        Ok(())
     }
 
     /// The record of the files of a study: another one when any of them is missing, cut or changed.

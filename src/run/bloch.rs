@@ -13,6 +13,7 @@ use crate::analysis::state::cylinder;
 use crate::math::Vec3;
 use crate::model::Domain;
 use crate::model::assemble::Drawn;
+use crate::numerics::worst;
 use crate::output::Picture;
 use crate::output::bloch_plot::{self, BlochPlot};
 use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, StudySummary, ZeroLineSummary};
@@ -348,13 +349,13 @@ fn summarized(built: &Built, found: &Found) -> BlochSummary {
         symmetry_error: determinant.symmetry_error,
         imaginary_part: determinant.imaginary_part,
         decay: decays.iter().map(decay).collect(),
-        pairing_error: pairings.iter().filter_map(|pairing| pairing.error).reduce(f64::max),
-        pairing_condition: pairings.iter().filter_map(|pairing| pairing.condition).reduce(f64::max),
+        pairing_error: worst(pairings.iter().filter_map(|pairing| pairing.error)),
+        pairing_condition: worst(pairings.iter().filter_map(|pairing| pairing.condition)),
         ill_conditioned: pairings.iter().map(|pairing| pairing.left_out).sum(),
         polarization: polarization.polarization,
         on_circle: polarization.on_circle,
         positive_fraction: real.as_ref().map(|_| positive),
-        zero_lines: lines.len(),
+        zero_lines: real.as_ref().map(|(_, lines)| lines.lines.len()),
         lines: lines
             .iter()
             .map(|line| ZeroLineSummary {

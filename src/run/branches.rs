@@ -3,7 +3,7 @@
 use super::runner::Runner;
 use super::{Progress, RunError};
 use crate::analysis::branches::{Branches, BranchesError, Question, branches as find_branches};
-use crate::kinematics::RealDirections;
+use crate::kinematics::{Rays, RealDirections};
 use crate::model::assemble::{Surroundings, drawn_angles};
 use crate::output::summary::{BranchesSummary, RaySummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
@@ -45,12 +45,29 @@ fn leaving(built: &Built) -> Result<Branches, BranchesError> {
 
 /// Number of rays that leave the drawn state of a rigid cell with locks, where more than one motion passes through it: what is relaxed
 /// from there may end in other equilibria.
-pub fn branch_point(built: &Built) -> Option<usize> {
+///
+/// Beside it what is established about these directions; `None` where they were not looked for.
+pub fn branch_point(built: &Built) -> (Option<usize>, Option<RealDirections>) {
     let rigid = built.recipe.bars.is_some_and(f64::is_infinite);
     if !rigid || built.surroundings != Surroundings::Screw || built.recipe.locks.is_empty() {
-        return None;
+        return (None, None);
     }
-    leaving(built).ok().map(|branches| branches.rays.rays.len()).filter(|rays| *rays > 2)
+    match leaving(built) {
+        Ok(Branches { rays: Rays { rays, directions, .. }, .. }) => {
+            (Some(rays.len()).filter(|count| *count > 2), Some(directions))
+        }
+        Err(_) => (None, Some(RealDirections::NotEstablished)),
+    }
+}
+
+/// The word of the summary for what is established about directions.
+pub fn word(directions: RealDirections) -> String {
+    let word = match directions {
+        RealDirections::Listed => "listed",
+        RealDirections::Continuum => "continuum",
+        RealDirections::NotEstablished => "not-established",
+    };
+    word.to_owned()
 }
 
 /// Runs the study.
@@ -114,12 +131,7 @@ fn summarized(branches: &Branches) -> BranchesSummary {
         on_continua: rays.on_continua,
         extraneous: rays.extraneous,
         singular: rays.singular,
-        directions: match rays.directions {
-            RealDirections::Listed => "listed",
-            RealDirections::Continuum => "continuum",
-            RealDirections::NotEstablished => "not-established",
-        }
-        .to_owned(),
+        directions: word(rays.directions),
         real_rays: rays.rays.len(),
         rays: listed.collect(),
     }

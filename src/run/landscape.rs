@@ -5,6 +5,7 @@ use super::{RunError, landscape_map, studies};
 use crate::analysis::landscape::samples::{Landscape, OPTIONS, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::assemble::{Surroundings, drawn_angles};
+use crate::numerics::{larger, worst};
 use crate::output::chart::{self, Chart, Point, Series};
 use crate::output::files;
 use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult, StudySummary};
@@ -111,7 +112,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &LandscapeSpec) -
     }
     summary.reason = found.iter().find_map(Along::failure);
     summary.converged = summary.reason.is_none();
-    summary.error = found.iter().filter_map(Along::residual).reduce(f64::max);
+    summary.error = worst(found.iter().filter_map(Along::residual));
     let modes = found.iter().map(|along| along.summarized(&amplitudes(spec))).collect();
     let map = spec.map.as_ref().map(|map| landscape_map::map(runner, study, map)).transpose()?;
     if let Some(why) = map.as_ref().and_then(|map| map.reason.clone()) {
@@ -204,8 +205,8 @@ impl Along {
     }
 
     fn residual(&self) -> Option<f64> {
-        let of = |sample: &Sample| sample.relaxed.residual_force.max(sample.relaxed.residual_length);
-        self.samples().iter().map(of).reduce(f64::max)
+        let of = |sample: &Sample| larger(sample.relaxed.residual_force, sample.relaxed.residual_length);
+        worst(self.samples().iter().map(of))
     }
 
     /// Amplitudes and energies.
@@ -229,9 +230,9 @@ impl Along {
             wave: if let Mode::Wave(wave) = &self.mode { Some(*wave.wave) } else { None },
             samples: amplitudes.iter().enumerate().map(sample).collect(),
             exponent: exponent.map(|estimate| estimate.value),
-            exponent_error: exponent.map(|estimate| estimate.error),
+            exponent_error: exponent.and_then(|estimate| estimate.error),
             coefficient: coefficient.map(|estimate| estimate.value),
-            coefficient_error: coefficient.map(|estimate| estimate.error),
+            coefficient_error: coefficient.and_then(|estimate| estimate.error),
             predicted_coefficient: predicted.map(|expansion| expansion.fourth),
             predicted_fifth: predicted.map(|expansion| expansion.fifth),
             predicted_sixth: predicted.map(|expansion| expansion.sixth),

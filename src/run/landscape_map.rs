@@ -66,6 +66,10 @@ pub fn map(runner: &Runner<'_>, study: &StudySpec, spec: &MapSpec) -> Result<Map
             Default::default()
         }
     };
+    let cone_points = cone.iter().map(Vec::len).sum();
+    if cone_points < 2 * CONE && reason.is_none() {
+        reason = Some(format!("{} of {} points of the exact cone were not found", 2 * CONE - cone_points, 2 * CONE));
+    }
     let energies: Vec<f64> = rows.iter().map(|row| row[TOTAL]).collect();
     if rows.len() == points.len() {
         draw(runner, study, Sphere { points: &points, triangles: &net.triangles, energies: &energies, cone: &cone })?;
@@ -76,7 +80,7 @@ pub fn map(runner: &Runner<'_>, study: &StudySpec, spec: &MapSpec) -> Result<Map
         failed: energies.iter().filter(|energy| energy.is_nan()).count(),
         iterations: rows.iter().map(|row| row[ITERATIONS] as usize).sum(),
         largest_energy: worst(energies.iter().copied().filter(|energy| !energy.is_nan())),
-        cone_points: cone.iter().map(Vec::len).sum(),
+        cone_points,
         cone_distance,
     };
     Ok(Map { summary, reason })

@@ -131,7 +131,7 @@ impl<'a> Runner<'a> {
     /// Takes in what a study found. A run that was stopped removes nothing: what it would have written is not there.
     fn finished(&self, study: &StudySpec, mut found: StudySummary) -> Result<(), RunError> {
         if !self.interrupted() {
-            self.belongings.remove_others(&found.name, &self.take_written());
+            self.belongings.remove_others(&found.name, &self.take_written())?;
         } else if !found.converged {
             found.reason = Some(INTERRUPTED.to_owned()); // each method has its own words for being stopped
         }

@@ -15,6 +15,7 @@ use crate::analysis::state::State;
 use crate::analysis::view::View;
 use crate::model::assemble::assemble;
 use crate::model::{Gauge, Model};
+use crate::numerics::larger;
 use crate::output::picture::Picture;
 use crate::output::summary::{EnergySummary, IterationSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
@@ -93,11 +94,12 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
             let angles = draw::with_all_angles(built, &relaxed.state).fold_angle;
             let error_to_kinematic = error_to_kinematic(&built.sheet, &built.tiling, &model, &angles);
             let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, Start::Drawn));
-            let branch_point_start = if drawn { branches::branch_point(built) } else { None };
+            let (branch_point_start, directions) = if drawn { branches::branch_point(built) } else { (None, None) };
             let result = RelaxSummary {
                 self_intersecting,
                 error_to_kinematic,
                 branch_point_start,
+                directions_at_start: directions.map(branches::word),
                 ..result_of(built, &relaxed)
             };
             Ok(relaxation_summary(study, seconds, result, None))
@@ -224,7 +226,7 @@ fn relaxation_summary(study: &StudySpec, seconds: f64, result: RelaxSummary, fai
     StudySummary {
         converged,
         seconds,
-        error: converged.then_some(f64::max(result.residual_force, result.residual_length)),
+        error: converged.then_some(larger(result.residual_force, result.residual_length)),
         reason: failure,
         result: Some(StudyResult::Relax(result)),
         ..StudySummary::unanswered(&study.name.0, study.kind.name())

@@ -11,6 +11,7 @@ use crate::analysis::intersections::{LYING, SelfIntersection};
 use crate::analysis::relax::Relaxed;
 use crate::analysis::state::{State, cylinder};
 use crate::analysis::trace::{Folded, Question, Stop, TURNING, Traced, trace};
+use crate::kinematics::RealDirections;
 use crate::math::Vec3;
 use crate::model::assemble::{Surroundings, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
@@ -115,11 +116,16 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
             summary.reason = paths.iter().find_map(Path::failure).or(stopped);
             summary.converged = summary.reason.is_none();
             summary.error = worst(paths.iter().filter_map(Path::residual));
-            summary.result = Some(StudyResult::Trace(summarized(built, &paths, spec.engine)));
+            summary.result = Some(StudyResult::Trace(summarized(built, &paths, spec.engine, asked(study, &question))));
         }
         Err(error) => summary.reason = Some(error.to_string()),
     }
     Ok(summary)
+}
+
+/// Whether self-intersection is looked for.
+fn asked(study: &StudySpec, question: &Question<'_>) -> bool {
+    question.stop.self_intersection || !study.check.is_empty()
 }
 
 /// Follows the trajectories, watched for self-intersection where the study or a stop asks for it.
@@ -129,7 +135,7 @@ fn follow(
     question: &Question<'_>,
 ) -> Result<Vec<Traced>, crate::analysis::trace::TraceError> {
     let built = runner.built;
-    let asked = question.stop.self_intersection || !study.check.is_empty();
+    let asked = asked(study, question);
     let mut finder = asked.then(|| SelfIntersection::new(&built.sheet, &built.tiling, built.surroundings, built.shown));
     let model = model(built);
     let mut crosses = |state: &Folded| {
@@ -349,12 +355,16 @@ fn row(
     }
 }
 
-fn summarized(built: &Built, paths: &[Path<'_>], engine: Engine) -> TraceSummary {
-    if paths.is_empty() {
-        let end = "no-real-branch".to_owned();
-        return TraceSummary { branches: vec![TrajectorySummary { end, ..TrajectorySummary::default() }] };
-    }
-    TraceSummary { branches: paths.iter().map(|path| trajectory(built, path, engine)).collect() }
+fn summarized(built: &Built, paths: &[Path<'_>], engine: Engine, asked: bool) -> TraceSummary {
+    let Some(first) = paths.first() else {
+        let (directions, end) = (branches::word(RealDirections::Listed), "no-real-branch".to_owned());
+        return TraceSummary { directions, branches: vec![TrajectorySummary { end, ..TrajectorySummary::default() }] };
+    };
+    let one = |path: &Path<'_>| TrajectorySummary {
+        self_intersecting: asked.then_some(path.traced.first_self_intersection.is_some()),
+        ..trajectory(built, path, engine)
+    };
+    TraceSummary { directions: branches::word(first.traced.directions), branches: paths.iter().map(one).collect() }
 }
 
 fn trajectory(built: &Built, path: &Path<'_>, engine: Engine) -> TrajectorySummary {
@@ -380,6 +390,7 @@ fn trajectory(built: &Built, path: &Path<'_>, engine: Engine) -> TrajectorySumma
         max_residual: path.residual(),
         ends_at: one.ends_at.map(|(branch, sign)| RayName { branch, sign }),
         end: end.to_owned(),
+        self_intersecting: None,
         first_self_intersection: one.first_self_intersection.map(|arc_length| ArcLength { arc_length }),
         error_to_kinematic: compared.and_then(Drive::error),
         error_of_curvature: errors.map(|errors| errors.curvature),

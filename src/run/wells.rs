@@ -48,6 +48,9 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), R
     Ok(())
 }
 
+/// Why a pass that was found has no energy.
+const NO_LIMIT: &str = "the pass is singular in rigid bars, and its energies in stiff ones do not tell their limit";
+
 /// What came of the random starts.
 struct Tally {
     starts: usize,
@@ -172,8 +175,25 @@ impl Found {
         {
             return Some(format!("no rigid well was found on {states} states, and {lost} could not be made exact"));
         }
-        let failed = self.barriers.iter().find_map(|(between, found)| Some((between, found.as_ref().err()?)));
-        failed.map(|(between, error)| format!("barrier {between:?}: {error}"))
+        let barriers = self.barriers.iter().map(|(between, found)| self.barrier(*between, found));
+        let failed = barriers.into_iter().find_map(|found| Some((found.between, found.reason?)));
+        failed.map(|(between, why)| format!("barrier {between:?}: {why}")).or_else(|| self.not_sampled())
+    }
+
+    /// What of the rigid landscape is not there.
+    fn not_sampled(&self) -> Option<String> {
+        let RigidLandscape { lost, open, .. } = self.rigid.as_ref()?.as_ref().ok()?;
+        let what = match (*lost, *open) {
+            (0, 0) => return None,
+            (lost, 0) => format!("{lost} wells or passes of the sampled rigid states could not be made exact"),
+            (0, open) => format!("the rigid states could not be followed at {open} places"),
+            (lost, open) => {
+                format!(
+                    "{lost} wells or passes of the rigid states could not be made exact, and these not followed at {open} places"
+                )
+            }
+        };
+        Some(format!("{what}: the rigid sheet may have other wells and passes"))
     }
 
     /// The number of a well among those of the rigid sheet.
@@ -232,9 +252,9 @@ impl Found {
             exponent: limit.map(|limit| limit.exponent),
             limit: limit.map(|limit| limit.energy),
             rigid: self.rigid_between(found.joins),
-            residual: Some(found.pass.residual_force.max(found.pass.residual_length)),
+            residual: Some(larger(found.pass.residual_force, found.pass.residual_length)),
             heights: found.heights.iter().map(height).collect(),
-            reason: None,
+            reason: energy.is_none().then(|| NO_LIMIT.to_owned()),
         }
     }
 
@@ -258,6 +278,7 @@ fn rigid(found: &RigidLandscape) -> RigidSummary {
         contacts: found.contacts.clone(),
         passes: found.passes.iter().map(pass).collect(),
         lost: found.lost,
+        open: found.open,
     }
 }
 

@@ -4,6 +4,7 @@
 //! changes of the residual is orthogonal to what those before changed. So the few motions of a large sheet that are softer
 //! than the rounding errors of a factorization cost a few corrections and do not hold up the rest.
 
+use crate::numerics::larger;
 use nalgebra::DVectorView;
 
 /// Corrections go on while each makes the residual at least this much smaller, and are at most so many.
@@ -45,7 +46,7 @@ pub fn correct(
     let mut left = right.less(&system.product(&found)).times(per_unit);
     let (mut before, mut last): (Vec<Correction>, f64) = (vec![], f64::INFINITY);
     loop {
-        let residual = f64::max(norm(&left.0), norm(&left.1));
+        let residual = larger(norm(&left.0), norm(&left.1));
         if residual <= tolerance || !(residual < SLOWEST * last) || before.len() == MOST {
             return Corrected { found, residual, corrections: before.len() };
         }
@@ -116,4 +117,33 @@ pub fn norm(v: &[f64]) -> f64 {
 
 fn dot(v: &[f64], w: &[f64]) -> f64 {
     DVectorView::from_slice(v, v.len()).dot(&DVectorView::from_slice(w, w.len()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A system whose forces are not numbers, as those of a solver that broke down; its stretches are none.
+    struct Broken;
+
+    impl NearlySolved for Broken {
+        fn product(&self, found: &Pair) -> Pair {
+            Pair(vec![f64::NAN; found.0.len()], vec![0.0; found.1.len()])
+        }
+
+        fn solve(&mut self, right: &Pair) -> Pair {
+            right.clone()
+        }
+    }
+
+    /// Claim: a residual that is no number is none, also where that of the other block row is zero or there is no such row: it is never
+    /// within a tolerance. Source: the larger of two numbers is not known where one is not.
+    #[test]
+    fn what_is_no_number_is_not_solved() {
+        for stretches in [0, 2] {
+            let right = Pair(vec![1.0; 3], vec![0.0; stretches]);
+            let found = correct(&mut Broken, &right, right.clone(), [1.0; 2], 0.1);
+            assert!(found.residual.is_nan(), "{}", found.residual);
+        }
+    }
 }

@@ -5,7 +5,7 @@
 //! tension `t_r` of a measure is an unknown of its own, `m_r = c_r t_r`, so nothing is ever multiplied by `k_r`.
 
 use crate::numerics::factor::FactorError;
-use crate::numerics::largest;
+use crate::numerics::larger;
 use crate::numerics::sparse::{Cliques, FIXED, Pattern, Rows, Slots};
 use crate::numerics::tearing::Tearing;
 use std::sync::{Arc, OnceLock};
@@ -235,7 +235,7 @@ impl Linearization {
     pub fn largest_turn(&self, layout: &Layout, dx: &[f64]) -> f64 {
         let mut turns = vec![0.0; layout.soft.len()];
         self.soft_rows(layout).product(dx, &mut turns);
-        largest(&turns)
+        turns.iter().fold(0.0, |most, turn| larger(most, turn.abs()))
     }
 
     /// What each stiff measure lacks to `m = c t`.

@@ -8,8 +8,8 @@
 
 use crate::model::Model;
 use crate::numerics::factor::FactorError;
-use crate::numerics::largest;
 use crate::numerics::tearing::TornFactor;
+use crate::numerics::{larger, largest};
 use crate::solver::{Curvature, Linearization, Problem, tension};
 
 /// Most Newton steps in all, and most updates of the tensions.
@@ -80,7 +80,7 @@ pub fn minimize(model: &mut Model, form: Form) -> Result<Outcome, FactorError> {
         run.descend();
         run.before = run.tension(&run.x);
         let [force, length] = run.residuals();
-        if force.max(length) <= TOLERANCE || run.iterations >= STEPS || !(length < best) {
+        if larger(force, length) <= TOLERANCE || run.iterations >= STEPS || !(length < best) {
             break;
         }
         best = length;

@@ -7,6 +7,7 @@
 use super::singular::Search;
 use super::{BlochError, Determinant, Rigidity, cluster};
 use crate::numerics::polynomial::{Roots, roots, value_and_slope};
+use crate::numerics::{larger, worst};
 use nalgebra::Complex;
 
 /// Roots of a larger condition number are left out of the pairing: they are known to less than ten digits.
@@ -152,11 +153,11 @@ impl Decay {
     pub fn pairing(&self) -> Pairing {
         let mut found = Pairing::default();
         for (low, high) in self.roots.iter().zip(self.roots.iter().rev()) {
-            let condition = low.condition.max(high.condition);
+            let condition = larger(low.condition, high.condition);
             if condition <= WELL_CONDITIONED {
                 let error = (low.kappa() + high.kappa()).abs();
-                found.error = Some(found.error.map_or(error, |before| before.max(error)));
-                found.condition = Some(found.condition.map_or(condition, |before| before.max(condition)));
+                found.error = worst(found.error.into_iter().chain([error]));
+                found.condition = worst(found.condition.into_iter().chain([condition]));
             } else {
                 found.left_out += 1;
             }

@@ -42,7 +42,7 @@ pub fn fold_rates(sheet: &Sheet, z: [Complex<f64>; 2], displacement: &[Complex<f
 
 /// The displacement with these fold rates at Bloch factors, for rates that close round every vertex.
 ///
-/// Fails where both factors are 1 to six digits: then it does not follow from them.
+/// Fails where both factors are 1 to six digits, and where faces do not hang together at edges: then it does not follow from them.
 pub fn displacement(
     sheet: &Sheet,
     z: [Complex<f64>; 2],
@@ -111,7 +111,8 @@ fn integrate(count: usize, differences: &[Difference], z: [Complex<f64>; 2]) -> 
             }
         }
     }
-    let all: Vec<(Complex<f64>, ComplexVec3)> = found.into_iter().flatten().collect();
+    let all: Option<Vec<(Complex<f64>, ComplexVec3)>> = found.into_iter().collect();
+    let all = all.ok_or(BlochError::Pieces)?;
     let mismatch = |difference: &Difference| {
         let [from, to] = [difference.from, difference.to].map(|(node, shift)| {
             let (factor, offset) = all[node];

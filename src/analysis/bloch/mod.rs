@@ -82,4 +82,7 @@ pub enum BlochError {
         "nothing changes from a cell to the next at these Bloch factors: displacements do not follow from fold rates"
     )]
     NoPhase,
+    /// Faces that hang together at vertices only, or not at all, move against each other without any fold rate.
+    #[error("the faces do not hang together at their edges: displacements do not follow from fold rates")]
+    Pieces,
 }

@@ -15,6 +15,7 @@ use super::laurent::wavenumber;
 use super::singular::Search;
 use super::zone::{Zone, reduced};
 use super::{BlochError, Rigidity};
+use crate::numerics::larger;
 use std::f64::consts::{PI, TAU};
 
 /// Grid points along each direction.
@@ -106,7 +107,7 @@ impl ZeroLines {
                 let next = line.points[k + 1];
                 let near = norm(q.map(reduced)).min(norm([0, 1].map(|a| next[a] - q[a])));
                 let (there, error) = corrected_on_matrix(zone, &mut search, q, LONGEST_CORRECTION * near);
-                (line.points[k], line.residual) = (there, line.residual.max(error));
+                (line.points[k], line.residual) = (there, larger(line.residual, error));
             }
             line.points[last] = [0, 1].map(|a| line.points[0][a] + TAU * f64::from(line.winding[a]));
         }

@@ -69,8 +69,7 @@ impl<'a> Cone<'a> {
             let change = DVector::from_fn(unknowns, |k, _| x[k] - drawn[k]);
             let k: Vec3 = (&tensor * change).fixed_rows::<3>(0).into_owned();
             let conditions = [k.norm() / amplitude - 1.0, along.dot(&k) / amplitude];
-            let largest = residual.iter().chain(&conditions).fold(0.0f64, |most, r| most.max(r.abs()));
-            if largest <= CLOSED {
+            if residual.iter().chain(&conditions).all(|r| r.abs() <= CLOSED) {
                 return Some(k.normalize());
             }
             let mut all = jacobian.clone().resize_vertically(equations + 2, 0.0);
@@ -95,12 +94,16 @@ pub fn zero_of_energy(
     let Direction { polar, azimuth } = Direction::of(near);
     let at = |off: f64| Direction { polar: polar + off, azimuth }.point();
     let (mut middle, mut window) = (0.0, WINDOW);
-    for _ in 0..WINDOWS {
+    for narrowed in 0..WINDOWS {
         let mut root = |off: f64| -> Result<f64, SampleError> {
             Ok(sphere::sample(held, courses, &at(off), amplitude)?.relaxed.state.total().sqrt())
         };
         let (below, above) = (root(middle - window)?, root(middle + window)?);
         if !(below + above > 0.0) {
+            // in the widest window there has to be energy on both sides of the zero
+            if narrowed == 0 {
+                return Err(SampleError::NoEnergy);
+            }
             break;
         }
         middle += window * (below - above) / (below + above);

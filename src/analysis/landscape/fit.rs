@@ -11,8 +11,8 @@ const SMALLEST: usize = 3;
 pub struct Estimate {
     /// The number.
     pub value: f64,
-    /// One standard error; zero where as many numbers were fitted as there are samples.
-    pub error: f64,
+    /// One standard error; `None` where as many numbers were fitted as there are samples: then nothing tells it.
+    pub error: Option<f64>,
 }
 
 /// The coefficient `c4` of `energy = c4 a^4 + c5 a^5 + c6 a^6`, fitted to `(amplitude, energy)`; with fewer than three samples
@@ -32,7 +32,7 @@ pub fn coefficient(samples: &[(f64, f64)]) -> Option<Estimate> {
 pub fn agrees(samples: &[(f64, f64)], fitted: Estimate, predicted: Expansion) -> bool {
     let largest = samples.iter().map(|(a, _)| a.abs()).fold(0.0, f64::max);
     let next = predicted.fifth.abs() * largest + predicted.sixth.abs() * largest.powi(2);
-    (fitted.value - predicted.fourth).abs() <= 3.0 * fitted.error + 1e-3 * predicted.fourth.abs() + next
+    (fitted.value - predicted.fourth).abs() <= 3.0 * fitted.error.unwrap_or(0.0) + 1e-3 * predicted.fourth.abs() + next
 }
 
 /// The slope of log energy against log amplitude, from the three samples of smallest amplitude. `None` with fewer than two, or
@@ -60,8 +60,8 @@ fn first(rows: &[(Vec<f64>, f64)], unknowns: usize) -> Option<Estimate> {
     let solution = &normal * matrix.transpose() * &right;
     let left = (&matrix * &solution - right).norm_squared();
     let spare = rows.len() - unknowns;
-    let variance = if spare > 0 { left / spare as f64 } else { 0.0 };
-    Some(Estimate { value: solution[0], error: (variance * normal[(0, 0)]).sqrt() })
+    let error = (spare > 0).then(|| (left / spare as f64 * normal[(0, 0)]).sqrt());
+    Some(Estimate { value: solution[0], error })
 }
 
 #[cfg(test)]
@@ -75,14 +75,17 @@ mod tests {
         let energy = |a: f64| 7.0 * a.powi(4) - 3.0 * a.powi(5) + 2.0 * a.powi(6);
         let samples: Vec<(f64, f64)> = [0.1, 0.2, 0.05, 0.3].iter().map(|&a| (a, energy(a))).collect();
         let found = coefficient(&samples).unwrap();
-        assert!((found.value - 7.0).abs() <= 1e-11 && found.error <= 1e-11, "{found:?}");
+        assert!((found.value - 7.0).abs() <= 1e-11 && found.error.unwrap() <= 1e-11, "{found:?}");
         let powers: Vec<(f64, f64)> = [0.1, 0.2, 0.05, 3.0].iter().map(|&a: &f64| (a, 5.0 * a.powi(6))).collect();
         let slope = exponent(&powers).unwrap();
-        assert!((slope.value - 6.0).abs() <= 1e-12 && slope.error <= 1e-12, "{slope:?}");
+        assert!((slope.value - 6.0).abs() <= 1e-12 && slope.error.unwrap() <= 1e-12, "{slope:?}");
         let predicted = |fourth: f64| Expansion { fourth, fifth: -3.0, sixth: 2.0 };
         assert!(agrees(&samples[2..3], found, predicted(7.0)) && !agrees(&samples[2..3], found, predicted(7.2)));
         assert_eq!(exponent(&[(0.1, 0.0), (0.2, 1.0)]), None);
         assert_eq!(coefficient(&[]), None);
-        assert!((coefficient(&[(0.5, 0.25)]).unwrap().value - 4.0).abs() <= 1e-14);
+        let alone = coefficient(&[(0.5, 0.25)]).unwrap();
+        assert!((alone.value - 4.0).abs() <= 1e-14);
+        // as many samples as numbers: any would be met without an error
+        assert_eq!((alone.error, exponent(&powers[..2]).unwrap().error), (None, None));
     }
 }

@@ -68,6 +68,12 @@ pub enum LandscapeError {
         /// Waves round the torus, along both directions.
         wave: [i32; 2],
     },
+    /// Pieces of the torus move against each other without folding: fold rates do not name such motions.
+    #[error("{motions} motion(s) of this torus turn no crease: its faces do not hang together at their edges")]
+    Unfolding {
+        /// How many, linearly independent.
+        motions: usize,
+    },
     /// Rates that are no mode.
     #[error("no mode has these rates: the nearest one is off by {off:.1e} of the largest")]
     NoSuchMode {

@@ -9,6 +9,7 @@ use super::course::Place;
 use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax};
+use crate::numerics::larger;
 use crate::solver::{Curvature, Failure, Options, Problem, Start, Step};
 use nalgebra::DVector;
 use thiserror::Error;
@@ -74,6 +75,9 @@ pub enum SampleError {
         /// What is left.
         torque: f64,
     },
+    /// Where the energy should rise on both sides of its zero there is none.
+    #[error("there is no energy beside the exact cone: its zero cannot be found")]
+    NoEnergy,
 }
 
 /// Samples along one mode, each from the one before.
@@ -166,7 +170,9 @@ fn unbalanced(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> f64 {
     };
     let torque = sum(&torques, &relaxed.tension, |value| value);
     let size = sum(&least, &relaxed.tension, f64::abs);
-    torque.iter().zip(size.iter()).map(|(torque, size)| torque.abs() / size).fold(0.0, f64::max)
+    // no hinge stands over some edges: no torque is on them
+    let over = |(torque, size): (&f64, &f64)| if *size == 0.0 { 0.0 } else { torque.abs() / size };
+    torque.iter().zip(size.iter()).map(over).fold(0.0, larger)
 }
 
 /// What a landscape along one mode says.

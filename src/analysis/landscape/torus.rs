@@ -10,7 +10,7 @@ use crate::math::fold_angle::fold_angle_gradient;
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles, hinge};
 use crate::model::{Gauge, Model};
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::{from_rows, null_space, symmetric_eigen};
+use crate::numerics::dense::{from_rows, null_space, rank_at_largest_gap, singular_values, symmetric_eigen};
 use crate::sheet::{EdgeKind, Sheet, Tiling, tile};
 use crate::solver::{Curvature, Linearization, Problem};
 use nalgebra::{Complex, DVector};
@@ -40,7 +40,7 @@ impl HeldSheet {
         let rates = DenseMatrix::from_columns(
             &motions.iter().map(|motion| fold_rates(&drawn, tiling, motion)).collect::<Vec<_>>(),
         );
-        let modes = orthonormal(rates, &motions);
+        let modes = orthonormal(rates, &motions)?;
         let model = assemble(&drawn, tiling, &at_rest_as_drawn(recipe, angles), Gauge::Held);
         Self::new(model, modes, &locked, |edge| edge)
     }
@@ -124,13 +124,17 @@ fn fold_rates(drawn: &Drawn, tiling: &Tiling, motion: &[f64]) -> DVector<f64> {
     DVector::from_iterator(tiling.edges.len(), (0..tiling.edges.len()).map(rate))
 }
 
-/// Orthonormal rates with the same span, and the motions that go with them.
-fn orthonormal(rates: DenseMatrix, motions: &[Vec<f64>]) -> (DenseMatrix, Vec<Vec<f64>>) {
+/// Orthonormal rates with the same span, and the motions that go with them. Fails where a motion has no rates of its own.
+fn orthonormal(rates: DenseMatrix, motions: &[Vec<f64>]) -> Result<(DenseMatrix, Vec<Vec<f64>>), LandscapeError> {
     let moving = DenseMatrix::from_columns(&motions.iter().map(|m| DVector::from_column_slice(m)).collect::<Vec<_>>());
+    let rank = rank_at_largest_gap(&singular_values(&rates)?)?.rank;
+    if rank < motions.len() {
+        return Err(LandscapeError::Unfolding { motions: motions.len() - rank });
+    }
     let qr = rates.qr();
-    let upper = qr.r();
-    let turned = upper.transpose().lu().solve(&moving.transpose()).map(|rows| rows.transpose()).unwrap_or(moving);
-    (qr.q(), turned.column_iter().map(|motion| motion.as_slice().to_vec()).collect())
+    let turned = qr.r().transpose().lu().solve(&moving.transpose());
+    let turned = turned.ok_or(LandscapeError::Unfolding { motions: 1 })?.transpose();
+    Ok((qr.q(), turned.column_iter().map(|motion| motion.as_slice().to_vec()).collect()))
 }
 
 /// Fourier amplitudes of the basis at a wavenumber: a row for each edge of the cell.

@@ -81,7 +81,7 @@ pub struct Surface {
     pub branches: Vec<(usize, i8)>,
     /// Largest radius of a chart: that of the question, or less where the largest curvature is met close to the drawn state.
     pub radius: f64,
-    /// Ways away from the drawn state along which no state was found: what lies there may be missing.
+    /// Ways away from the drawn state along which no state was found, or that are not known: what lies there may be missing.
     pub lost: usize,
     /// Whether two surfaces cross at the drawn state, along a curve of spatially periodic states.
     pub crossing: bool,

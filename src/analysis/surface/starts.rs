@@ -10,7 +10,7 @@
 
 use super::folding::{Folding, Section};
 use super::{Negative, Question, SurfaceError};
-use crate::kinematics::{KinematicsError, Rays, SecondOrder};
+use crate::kinematics::{KinematicsError, Rays, RealDirections, SecondOrder};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{null_space, symmetric_eigen};
 use crate::solver::atlas::{Atlas, Surface as _};
@@ -42,7 +42,7 @@ pub(super) struct Starts {
     pub list: Vec<Start>,
     /// Distance from the drawn state, in fold angles, of the nearest one; infinite where the drawn state is itself the start.
     pub reach: f64,
-    /// Ways along which no state was found.
+    /// Ways along which no state was found, or that are not known themselves.
     pub lost: usize,
     /// Whether they lie on surfaces that cross along a curve through the drawn state.
     pub crossing: bool,
@@ -60,19 +60,19 @@ pub(super) fn starts(
     second_order: &SecondOrder,
     question: &Question<'_>,
 ) -> Result<Result<Starts, Negative>, SurfaceError> {
-    let directions = match &second_order.quadrics[..] {
+    let (directions, unknown) = match &second_order.quadrics[..] {
         [] => {
             let list = vec![Start { x: folding.drawn(), sign: 1, line: 0 }];
             return Ok(Ok(Starts { list, reach: f64::INFINITY, lost: 0, crossing: false }));
         }
         [quadric] => match of_one_quadric(quadric)? {
-            Ok(directions) => directions,
+            Ok(directions) => (directions, 0),
             Err(negative) => return Ok(Err(negative)),
         },
         _ => on_sections(second_order)?,
     };
     let crossing = second_order.quadrics.len() == 1 && directions.len() == 2;
-    let mut found = Starts { list: Vec::new(), reach: f64::INFINITY, lost: 0, crossing };
+    let mut found = Starts { list: Vec::new(), reach: f64::INFINITY, lost: unknown, crossing };
     for (line, Direction { along, normal }) in directions.iter().enumerate() {
         let [along, normal] = [along, normal].map(|v| folding.folding((&second_order.modes * v).as_slice()));
         for sign in [1.0, -1.0] {
@@ -136,10 +136,11 @@ fn of_one_quadric(quadric: &DenseMatrix) -> Result<Result<Vec<Direction>, Negati
 
 /// The simple real rays on hyperplanes in general position.
 ///
-/// That every hyperplane has none does not say that there are none: a small curve of directions is missed by most.
-fn on_sections(second_order: &SecondOrder) -> Result<Vec<Direction>, SurfaceError> {
+/// That every hyperplane has none does not say that there are none: a small curve of directions is missed by most. Beside them the
+/// number of those that are multiple, of which second order says no more, and of hyperplanes on which not all are known.
+fn on_sections(second_order: &SecondOrder) -> Result<(Vec<Direction>, usize), SurfaceError> {
     let count = second_order.count();
-    let (mut found, mut multiple) = (Vec::new(), 0);
+    let (mut found, mut multiple, mut unknown) = (Vec::new(), 0, 0);
     for seed in 0..SECTIONS {
         let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
         let normal = DVector::from_fn(count, |_, _| numbers.random_range(-1.0..1.0)).normalize();
@@ -151,15 +152,16 @@ fn on_sections(second_order: &SecondOrder) -> Result<Vec<Direction>, SurfaceErro
             quadrics: second_order.quadrics.iter().map(|quadric| inside.tr_mul(&(quadric * &inside))).collect(),
             gaps: second_order.gaps,
         };
-        let rays = Rays::new(&section)?.rays;
-        multiple += rays.iter().filter(|ray| ray.multiplicity > 1).count();
+        let Rays { rays, directions, .. } = Rays::new(&section)?;
+        multiple += rays.iter().filter(|ray| ray.sign == 1 && ray.multiplicity > 1).count();
+        unknown += usize::from(directions != RealDirections::Listed);
         let simple = rays.into_iter().filter(|ray| ray.sign == 1 && ray.multiplicity == 1);
         found.extend(simple.map(|ray| Direction { along: ray.direction.into(), normal: normal.clone() }));
     }
     if found.is_empty() {
         return Err(SurfaceError::NoneMet { sections: SECTIONS as usize, multiple });
     }
-    Ok(found)
+    Ok((found, multiple + unknown))
 }
 
 /// Branch and sign of every start. Starts on one line through the drawn state, and on one piece of the surface, have

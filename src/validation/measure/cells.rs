@@ -10,6 +10,7 @@ use super::trial::distance;
 use crate::analysis::relax::{Relaxed, relax};
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
 use crate::model::{Gauge, Model};
+use crate::numerics::larger;
 use crate::sheet::generate::Yoshimura;
 use crate::sheet::{EdgeKind, Pattern, Sheet, generate, tile};
 use crate::solver::Options;
@@ -81,7 +82,7 @@ fn relaxed(cells: [usize; 2]) -> Result<Size, ExperimentError> {
 }
 
 fn residual(size: &Size) -> f64 {
-    size.found.residual_force.max(size.found.residual_length)
+    larger(size.found.residual_force, size.found.residual_length)
 }
 
 impl Pleats {

@@ -6,6 +6,7 @@ use super::super::star;
 use super::trial::{Rest, Trial};
 use crate::math::Vec3;
 use crate::model::assemble::Surroundings;
+use crate::numerics::{larger, worst};
 use crate::sheet::build::{Drawn, build, draw};
 use nalgebra::Rotation3;
 use serde_json::json;
@@ -52,7 +53,7 @@ type Spectrum = (Vec<f64>, f64);
 /// depend on the lengths of the edges, which no drawing changes; so the fold angles, in ascending order, and the energy
 /// must be the same.
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
-    let (mut rows, mut worst) = (Vec::new(), [0.0f64; 2]);
+    let (mut rows, mut worst) = (Vec::new(), [f64::NEG_INFINITY; 2]);
     let domains = [
         ("patch of 3 x 3 cells", Surroundings::Patch, [3, 3]),
         ("torus", Surroundings::FreeTorus, [1, 1]),
@@ -63,7 +64,7 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
         let expected = spectrum(&SAME, surroundings, cells)?;
         for change in CHANGES.iter().filter(|change| change.keeps_patches || surroundings != Surroundings::Patch) {
             let off = difference(&spectrum(change, surroundings, cells)?, &expected, change);
-            worst = [worst[0].max(off[0]), worst[1].max(off[1])];
+            worst = [larger(worst[0], off[0]), larger(worst[1], off[1])];
             rows.push(vec![change.name.to_owned(), domain.to_owned(), figure(off[0]), figure(off[1])]);
         }
     }
@@ -86,11 +87,11 @@ fn spectrum(change: &Change, surroundings: Surroundings, cells: [usize; 2]) -> R
     Ok((angles, found.energy))
 }
 
-/// Largest difference of a fold angle, and the relative one of the energy; infinite where the counts differ.
+/// Largest difference of a fold angle, and the relative one of the energy; infinite where the counts differ, or there is none.
 fn difference((angles, energy): &Spectrum, (expected, there): &Spectrum, change: &Change) -> [f64; 2] {
     let every: Vec<f64> = expected.iter().flat_map(|angle| vec![*angle; change.times]).collect();
-    let off = angles.iter().zip(&every).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let off = if angles.len() == every.len() { off } else { f64::INFINITY };
+    let off = worst(angles.iter().zip(&every).map(|(a, b)| (a - b).abs()));
+    let off = off.filter(|_| angles.len() == every.len()).unwrap_or(f64::INFINITY);
     [off, (energy / there / change.energy - 1.0).abs()]
 }
 

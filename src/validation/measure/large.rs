@@ -5,6 +5,7 @@ use super::super::report::figure;
 use super::super::star::{Star, size};
 use super::memory;
 use super::sizes::exponent;
+use crate::numerics::larger;
 use crate::output::chart::{Chart, Point, Series};
 use crate::solver::Options;
 use serde_json::json;
@@ -42,7 +43,7 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
             unknowns: size(&model).0,
             iterations: found.iterations,
             factorizations: found.factorizations,
-            residual: found.residual_force.max(found.residual_length),
+            residual: larger(found.residual_force, found.residual_length),
             seconds: clock.elapsed().as_secs_f64(),
             memory: memory::most().unwrap_or(f64::NAN),
         });

@@ -8,6 +8,7 @@ use super::super::star::Star;
 use super::trial::distance;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::state::State;
+use crate::numerics::{larger, worst};
 use crate::solver::Options;
 use serde_json::json;
 
@@ -63,7 +64,7 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     };
     let tension = |k: usize| all[k][0].as_ref().map_or(f64::NAN, |reached| reached.iterations as f64);
     let scaled = |k: usize| STIFFNESSES[k] * diagram.methods[0].settings[k].error;
-    let most = |of: &dyn Fn(usize) -> f64| (0..STIFFNESSES.len()).map(of).fold(0.0, f64::max);
+    let most = |of: &dyn Fn(usize) -> f64| worst((0..STIFFNESSES.len()).map(of));
     let values = json!({
         "tension residuals": residuals(0),
         "penalty residuals": residuals(1),
@@ -90,7 +91,7 @@ fn exact(star: &Star) -> Result<(Vec<f64>, f64), ExperimentError> {
 
 fn by_tension(star: &Star, k: f64) -> Result<Reached, ExperimentError> {
     let found = star.relax(&mut star.model(k), Options::default())?;
-    let residual = found.residual_force.max(found.residual_length);
+    let residual = larger(found.residual_force, found.residual_length);
     Ok(Reached { angles: found.state.fold_angle, residual, iterations: found.iterations })
 }
 
@@ -99,7 +100,7 @@ fn by_form(star: &Star, k: f64, form: Form) -> Result<Reached, ExperimentError> 
     let found =
         forms::minimize(&mut model, form).map_err(|_| ExperimentError::Other("a pattern is too large".into()))?;
     let state = State::new(&model, &found.x, &found.tension, star.tiling.edges.len());
-    let residual = found.residuals[0].max(found.residuals[1]);
+    let residual = larger(found.residuals[0], found.residuals[1]);
     Ok(Reached { angles: state.fold_angle, residual, iterations: found.iterations })
 }
 

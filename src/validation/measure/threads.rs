@@ -5,6 +5,7 @@ use super::super::precision::Setting;
 use super::super::report::figure;
 use super::super::star::Star;
 use super::super::{library, star};
+use crate::numerics::worst;
 use crate::output::OutputError;
 use crate::output::files;
 use serde_json::{Value, json};
@@ -80,5 +81,5 @@ fn error(table: &str, exact: &[f64]) -> f64 {
     let fields: Vec<&str> = table.lines().last().unwrap_or_default().split(',').collect();
     let angles = fields.iter().rev().zip(exact.iter().rev());
     let off = angles.map(|(field, exact)| field.parse::<f64>().map_or(f64::INFINITY, |angle| (angle - exact).abs()));
-    off.fold(0.0, f64::max)
+    worst(off).unwrap_or(f64::NAN)
 }

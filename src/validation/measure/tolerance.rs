@@ -4,6 +4,7 @@ use super::super::experiment::{Bench, ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::star::Star;
 use crate::analysis::exact::error_to_kinematic;
+use crate::numerics::worst;
 use crate::solver::Options;
 use serde_json::json;
 
@@ -31,7 +32,7 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let over = settings.iter().zip(TOLERANCES).map(|(setting, tolerance)| setting.error / tolerance);
     let values = json!({
         "errors": settings.iter().map(|setting| setting.error).collect::<Vec<_>>(),
-        "error over tolerance": over.fold(0.0, f64::max),
+        "error over tolerance": worst(over),
         "finest": settings[TOLERANCES.len() - 1].error,
     });
     let diagram = Diagram {

@@ -7,6 +7,7 @@ use crate::analysis::relax::relax;
 use crate::analysis::state::State;
 use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
+use crate::numerics::{larger, worst};
 use crate::sheet::{Edge, EdgeKind, Sheet, TiledEdge, Tiling, tile};
 use crate::solver::Options;
 use rand::{RngExt, SeedableRng};
@@ -182,11 +183,11 @@ pub fn within(error: f64, allowed: f64) -> Outcome {
     if error <= allowed { Outcome::Right(error) } else { Outcome::Wrong(format!("off by {error:.1e}")) }
 }
 
-/// Largest difference where both have numbers; NaN where one has none that the other has.
+/// Largest difference where a number is expected; NaN where there is none, where none is expected, and of lists of other lengths.
 pub fn distance(angles: &[f64], expected: &[f64]) -> f64 {
     let known = angles.iter().zip(expected).filter(|(_, expected)| !expected.is_nan());
-    let worst = known.map(|(a, b)| (a - b).abs()).fold(0.0, |m: f64, d| if d.is_nan() { d } else { m.max(d) });
-    if angles.len() == expected.len() { worst } else { f64::NAN }
+    let worst = worst(known.map(|(a, b)| (a - b).abs()));
+    worst.filter(|_| angles.len() == expected.len()).unwrap_or(f64::NAN)
 }
 
 /// Fold angles of the augmented form's equilibrium.
@@ -202,5 +203,24 @@ fn stretch(model: &Model, x: &[f64]) -> f64 {
     let bars = model.stiff().iter().filter(|term| !term.is_angle());
     let each = bars.flat_map(|term| (0..term.len()).map(move |k| (term, k)));
     let change = each.map(|(term, k)| term.value(k, model.domain(), &coordinates) / term.spring(k).rest - 1.0);
-    change.fold(0.0, |most: f64, change| if change.is_nan() { change } else { most.max(change.abs()) })
+    change.fold(0.0, |most, change| larger(most, change.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: a fold angle that is missing fails a trial wherever it stands, and so does a comparison of nothing with nothing.
+    #[test]
+    fn what_is_missing_is_not_right() {
+        let nan = f64::NAN;
+        assert_eq!(distance(&[1.0, nan, 2.5], &[1.0, nan, 2.0]), 0.5);
+        for (angles, expected) in
+            [(&[nan, 2.0][..], &[1.0, 2.0][..]), (&[1.0], &[nan]), (&[], &[]), (&[1.0, 2.0], &[1.0])]
+        {
+            let off = distance(angles, expected);
+            assert!(off.is_nan(), "{angles:?} {expected:?}: {off}");
+            assert!(matches!(within(off, 1.0), Outcome::Wrong(_)));
+        }
+    }
 }

@@ -3,7 +3,7 @@
 
 use super::{Net, RigidError, Sampling};
 use crate::analysis::branches;
-use crate::kinematics::{Closing, Closure, KinematicsError, Rays, SecondOrder};
+use crate::kinematics::{Closing, Closure, KinematicsError, Rays, RealDirections, SecondOrder};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, End, Options, Point, follow};
@@ -52,7 +52,7 @@ pub(super) fn net(
     if dimension != 1 {
         return Err(RigidError::Dimension { dimension });
     }
-    let rays = Rays::new(&second_order)?.rays;
+    let Rays { rays, directions, .. } = Rays::new(&second_order)?;
     let mut folding = Folding(Closing::new(&closure, drawn.clone()));
     let crossing = rays.len() > 2;
     let mut net = Net {
@@ -62,6 +62,7 @@ pub(super) fn net(
         border: vec![false],
         dimension: 1,
         seam: usize::MAX,
+        open: usize::from(directions != RealDirections::Listed),
     };
     let options = Options { max_step: FINER * sampling.step, period: Some(TAU), stops: vec![0], ..Options::default() };
     for ray in &rays {
@@ -70,6 +71,7 @@ pub(super) fn net(
         if found.end == End::Interrupted {
             return Err(RigidError::Interrupted);
         }
+        net.open += usize::from(matches!(found.end, End::Failed | End::Steps));
         let back = matches!(found.end, End::Closed(_));
         let last = found.points.len() - 1;
         let mut before = 0;

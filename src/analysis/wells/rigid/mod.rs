@@ -52,6 +52,8 @@ pub(super) struct Net {
     pub dimension: usize,
     /// Number of the first state of the curve on which two surfaces cross; none has a larger one than the states.
     pub seam: usize,
+    /// Places beyond which the states go on that were not found.
+    pub open: usize,
 }
 
 /// A pass.
@@ -83,6 +85,8 @@ pub struct RigidLandscape {
     pub passes: Vec<RigidPass>,
     /// Wells and passes of the sampled states that could not be made exact.
     pub lost: usize,
+    /// Places beyond which the folded states go on, or may, and were not sampled: wells and passes may lie there.
+    pub open: usize,
 }
 
 /// Why there is no landscape of this kind.
@@ -149,7 +153,7 @@ fn polished(springs: &Springs, net: &Net, (step, lowest): (f64, OnCrossing<'_>))
     let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
     let (dimension, states) = (net.dimension, net.angles.len());
     let (wells, contacts, passes) = (Vec::new(), Vec::new(), Vec::new());
-    let mut landscape = RigidLandscape { dimension, states, wells, contacts, passes, lost: 0 };
+    let mut landscape = RigidLandscape { dimension, states, wells, contacts, passes, lost: 0, open: net.open };
     // the well of each minimum; none where the landscape ends there, or where it is no well
     let mut well = vec![None; states];
     for &at in &minima {

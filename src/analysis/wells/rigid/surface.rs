@@ -12,8 +12,11 @@ const TOLERANCE: f64 = 3e-14;
 /// States beyond which a surface is given up.
 const MOST_POINTS: usize = 300_000;
 
-/// States of the curve on which surfaces cross are neighbours up to this distance, in distances of neighbours on a surface.
+/// States of the curve on which surfaces cross, and those on the rims of holes, are neighbours up to this distance, in distances of
+/// neighbours on a surface.
 const BESIDE: f64 = 1.5;
+/// States whose curvature is the largest to this part of it are on the border where it is met.
+const AT_LIMIT: f64 = 1e-6;
 /// Largest difference of an angle between two tips in one state.
 const ONE: f64 = 1e-9;
 
@@ -56,14 +59,16 @@ pub(super) fn net(
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Net, RigidError> {
     let question = question(start, sampling);
-    let Surface { points, triangles, coverage, negative, seam, .. } = surface(&question, &mut |_| go_on())?;
+    let Surface { points, triangles, coverage, negative, seam, lost, .. } = surface(&question, &mut |_| go_on())?;
     if let Some(negative) = negative {
         return Err(RigidError::NoSurface(negative));
     }
+    let mut open = lost;
     match coverage {
         Coverage::Interrupted => return Err(RigidError::Interrupted),
         Coverage::TooManyCharts | Coverage::GivenUp { .. } => return Err(RigidError::Partial { states: points.len() }),
-        Coverage::Complete | Coverage::Open { .. } => {}
+        Coverage::Complete => {}
+        Coverage::Open { charts } => open += charts,
     }
     let inside: Vec<bool> = points.iter().map(|point| point.angles.iter().all(|angle| angle.abs() <= PI)).collect();
     let mut count: std::collections::BTreeMap<[usize; 2], usize> = Default::default();
@@ -72,18 +77,21 @@ pub(super) fn net(
             *count.entry([a.min(b), a.max(b)]).or_default() += 1;
         }
     }
+    let at_limit = |at: usize| !(points[at].shape.curvature.abs() < (1.0 - AT_LIMIT) * question.max_curvature);
     let mut border: Vec<bool> = inside.iter().map(|inside| !inside).collect();
-    for ([a, b], triangles) in &count {
-        let open = *triangles == 1;
-        let (out_a, out_b) = (!inside[*a], !inside[*b]);
-        border[*a] |= open || out_b;
-        border[*b] |= open || out_a;
+    let mut rim = BTreeSet::new();
+    for (&[a, b], triangles) in &count {
+        for (at, other) in [(a, b), (b, a)] {
+            border[at] |= !inside[other] || (*triangles == 1 && at_limit(at));
+            rim.extend((*triangles == 1 && inside[at] && !at_limit(at)).then_some(at));
+        }
     }
     // neighbours across the end of a period are none here: a turn more is another state
     let near = |a: usize, b: usize| points[a].angles.iter().zip(&points[b].angles).all(|(a, b)| (a - b).abs() <= PI);
     let mut links: BTreeSet<[usize; 2]> =
         count.into_keys().filter(|&[a, b]| inside[a] && inside[b] && near(a, b)).collect();
     links.extend(tips(&points));
+    links.extend(across(&points, &rim, sampling.step));
     let mut net = Net {
         seam: points.len(),
         singular: points.iter().map(|point| point.radius == 0.0).collect(),
@@ -91,9 +99,21 @@ pub(super) fn net(
         links: links.into_iter().collect(),
         border,
         dimension: 2,
+        open,
     };
     sew(&mut net, seam, sampling.step);
     Ok(net)
+}
+
+/// Links between states on the rims of holes that the triangles leave where the surface goes on: without them lakes on both sides of
+/// a slit would not meet.
+fn across(points: &[SurfacePoint], rim: &BTreeSet<usize>, step: f64) -> Vec<[usize; 2]> {
+    let rim: Vec<usize> = rim.iter().copied().collect();
+    let pairs = rim.iter().enumerate().flat_map(|(k, &a)| rim[..k].iter().map(move |&b| [b, a]));
+    let square = |[a, b]: [usize; 2]| -> f64 {
+        points[a].angles.iter().zip(&points[b].angles).map(|(a, b)| (a - b).powi(2)).sum()
+    };
+    pairs.filter(|pair| square(*pair) <= (BESIDE * step).powi(2)).collect()
 }
 
 /// Every nappe has a tip of its own; those in one state hang together.
