@@ -151,8 +151,8 @@ fn fastest(rates: &[f64], last: Option<usize>) -> usize {
 
 /// The relaxed state, if its measures are all rigid only where it is the rigid one.
 fn same_state(question: &Question<'_>, driven: Driven, (from, to): (&Folded, &Folded)) -> Result<Driven, DriveFailure> {
-    let interpolated = to.positions.is_empty();
-    let most = if interpolated { INTERPOLATED * (to.arc_length - from.arc_length) } else { SAME_STATE };
+    let interpolated = if to.positions.is_empty() { INTERPOLATED * (to.arc_length - from.arc_length) } else { 0.0 };
+    let most = f64::max(SAME_STATE, interpolated);
     if question.recipe.is_rigid() && !(driven.error <= most) {
         return Err(DriveFailure::Elsewhere { apart: driven.error });
     }

@@ -31,6 +31,10 @@ pub(super) const OBSERVED: usize = 256;
 /// along singular curves, and the covering stays open all the same.
 const MOST_OPEN: usize = 512;
 
+/// Charts placed around one, beyond which it counts as one that cannot be surrounded: around a regular one there are a dozen, and as
+/// many again for every time that it is made smaller. Where the surface is singular new ones would be placed without end.
+const MOST_NEIGHBOURS: usize = 256;
+
 pub(super) struct Cover<'a, S: Surface> {
     surface: &'a mut S,
     options: Options,
@@ -132,9 +136,12 @@ impl<'a, S: Surface> Cover<'a, S> {
     /// radius.
     fn surround(&mut self, number: usize) -> bool {
         self.shape(number);
+        let mut placed = 0;
         while let Some(at) = self.polygon.uncovered() {
             match self.place(number, at) {
+                Some(_) if placed == MOST_NEIGHBOURS => return false,
                 Some(chart) => {
+                    placed += 1;
                     let beyond = if chart.limit > 0.0 { self.beyond[number] + 1 } else { 0 };
                     let added = self.insert(chart, beyond);
                     if let Some(Neighbour { at, radius }) = self.neighbour(number, added) {

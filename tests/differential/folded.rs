@@ -1,0 +1,152 @@
+//! Exact folding, against relaxations along the same trajectories, surfaces that contain them, and landscapes.
+
+use crate::common::{Case, Numbers};
+use crate::report::Report;
+use crate::trial::Trial;
+use foldwell::analysis::branches;
+use foldwell::analysis::drive::{self, cylinder_errors, drive};
+use foldwell::analysis::landscape::fit::{agrees, coefficient};
+use foldwell::analysis::landscape::samples::landscape;
+use foldwell::analysis::landscape::{HeldSheet, Prediction};
+use foldwell::analysis::surface::{self, Surface, surface};
+use foldwell::analysis::trace::{self, Stop, Traced};
+use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::sheet::EdgeKind;
+use foldwell::solver::Options;
+use foldwell::solver::atlas::Coverage;
+use foldwell::solver::continuation::End;
+use std::f64::consts::TAU;
+
+/// How far trajectories are followed.
+const LENGTH: f64 = 0.6;
+const CURVATURE: f64 = 0.2;
+/// Trajectories of a cell beside which relaxations go; a flat cell has dozens.
+const RAYS: usize = 4;
+/// Radius of charts of surfaces.
+const RADIUS: f64 = 0.1;
+
+/// The rigid cell, periodic up to screws, with one crease that keeps its angle.
+pub fn examine(seed: u64, report: &mut Report) {
+    let trial = Trial::new(seed);
+    let what = format!("seed {seed}, {}, folded", trial.sheet.title);
+    let case = Case::new(trial.sheet.clone(), [1, 1], Surroundings::Screw);
+    let creases: Vec<usize> = (0..case.edges()).filter(|&k| case.tiling.edges[k].kind == EdgeKind::Crease).collect();
+    let locked = creases[seed as usize % creases.len()];
+    let recipe = Recipe {
+        facets: case.facets(f64::INFINITY).filter(|_| case.count(EdgeKind::Facet) > 0),
+        locks: vec![(locked, case.angles[locked])],
+        ..case.recipe(f64::INFINITY, 1.0, case.angles.clone())
+    };
+    let start = question(&case, &recipe);
+    let stop = Stop { arc_length: Some(LENGTH), curvature: Some(CURVATURE), ..Stop::default() };
+    let question = trace::Question { start, max_step: 0.1, tolerance: 3e-14, branch: None, stop };
+    match trace::trace(&question, None, &mut |_, _| true) {
+        Ok(traced) => {
+            traced.iter().take(RAYS).for_each(|traced| driven(&case, &recipe, traced, report, &what));
+            covered(&case, &recipe, &traced, report, &what);
+        }
+        Err(error) => report.unanswered("trajectories", &error.to_string()),
+    }
+    costs(&trial, seed, report, &what);
+}
+
+fn question<'a>(case: &'a Case, recipe: &'a Recipe) -> branches::Question<'a> {
+    let Case { sheet, tiling, surroundings, angles, .. } = case;
+    branches::Question { sheet, tiling, surroundings: *surroundings, angles, recipe }
+}
+
+/// Relaxations follow the trajectory to its end.
+fn driven(case: &Case, recipe: &Recipe, traced: &Traced, report: &mut Report, what: &str) {
+    if traced.end == End::Failed || traced.states.len() < 2 {
+        return report.unanswered("driven", "the trajectory fails");
+    }
+    let Case { tiling, drawn, .. } = case;
+    let question = drive::Question { tiling, drawn, recipe, options: Options::default() };
+    let found = drive(&question, traced, &mut |_| true);
+    let closed = usize::from(matches!(traced.end, End::Closed(_)));
+    let what = || format!("{what}, ray {:?}", traced.branch);
+    if let Some(failure) = &found.failure {
+        return report.unanswered("driven", &failure.to_string());
+    }
+    report.judge("driven", found.states.len() + 1 + closed == traced.states.len(), || format!("{}: states", what()));
+    let error = found.error();
+    report.judge("driven angles", error.is_some_and(|error| error <= 1e-8), || format!("{}: {error:?}", what()));
+    let cylinders = cylinder_errors(drawn, traced, &found);
+    let ok = cylinders.is_some_and(|e| e.curvature <= 1e-7 && e.strain <= 1e-8 && e.theta <= 1e-8);
+    report.judge("driven cylinders", ok, || format!("{}: {cylinders:?}", what()));
+}
+
+/// Every state of a trajectory lies on the surface of the cell without the lock.
+fn covered(case: &Case, recipe: &Recipe, traced: &[Traced], report: &mut Report, what: &str) {
+    let free = Recipe { locks: vec![], ..recipe.clone() };
+    let start = question(case, &free);
+    let asked =
+        surface::Question { start, radius: RADIUS, tolerance: 3e-14, max_curvature: CURVATURE, max_points: 5_000 };
+    let surface = match surface(&asked, &mut |count| count < 5_000) {
+        Ok(found) => found,
+        Err(error) => return report.unanswered("surface", &error.to_string()),
+    };
+    let away = traced.iter().any(|traced| traced.states.len() > 1);
+    report.judge("surface where there is a trajectory", !(away && surface.negative.is_some()), || what.to_owned());
+    if surface.negative.is_some() || surface.coverage != Coverage::Complete {
+        return report.unanswered("trajectory on the surface", "the surface is not covered");
+    }
+    for traced in traced.iter().filter(|traced| traced.end != End::Failed) {
+        for state in
+            traced.states.iter().filter(|state| state.shape.as_ref().is_some_and(|s| s.curvature.abs() < CURVATURE))
+        {
+            let apart = nearest(&surface, &state.angles);
+            report.judge("trajectory on the surface", apart <= 1.2 * surface.radius, || {
+                format!("{what}, ray {:?} at {}: {apart} from the surface", traced.branch, state.arc_length)
+            });
+        }
+    }
+}
+
+/// Distance of fold angles to the nearest state of a surface, whole turns taken off.
+fn nearest(surface: &Surface, angles: &[f64]) -> f64 {
+    let turned = |a: &f64, b: &f64| a - b - TAU * ((a - b) / TAU).round();
+    let square = |other: &[f64]| angles.iter().zip(other).map(|(a, b)| turned(a, b).powi(2)).sum::<f64>();
+    surface.points.iter().map(|point| square(&point.angles)).fold(f64::INFINITY, f64::min).sqrt()
+}
+
+/// A patch bent along a mode costs what the quartic form says.
+fn costs(trial: &Trial, seed: u64, report: &mut Report, what: &str) {
+    let case = Case::new(trial.sheet.clone(), [3, 3], Surroundings::Patch);
+    let recipe = Recipe {
+        facets: case.facets(trial.facets).filter(|_| case.count(EdgeKind::Facet) > 0),
+        ..case.recipe(trial.bars, 1.0, case.angles.clone())
+    };
+    let mut held = match HeldSheet::patch(&case.sheet, &case.tiling, &recipe, &case.angles) {
+        Ok(held) => held,
+        Err(error) => return report.unanswered("landscape", &error.to_string()),
+    };
+    let mut numbers = Numbers::new(seed);
+    let mode = [0; 3].map(|_| numbers.within(1.0));
+    let found = held.named(mode).and_then(|rates| {
+        let form = Prediction::new(&held)?.coefficient(&rates);
+        Ok((form, landscape(&mut held, rates, &[2e-3, 3e-3, 5e-3, 8e-3], &mut |_| true)?))
+    });
+    let (form, found) = match found {
+        Ok(found) => found,
+        Err(error) => return report.unanswered("landscape", &error.to_string()),
+    };
+    let scale = found.predicted.fourth.abs();
+    report.judge("quartic form", (form - found.predicted.fourth).abs() <= 1e-6 * scale, || {
+        format!("{what} {mode:?}: {form:e} and {:e}", found.predicted.fourth)
+    });
+    let known: Vec<(f64, f64)> = found
+        .samples
+        .iter()
+        .filter(|sample| !sample.below_rounding())
+        .map(|sample| (sample.amplitude, sample.relaxed.state.total()))
+        .collect();
+    if let Some(failure) = &found.failure {
+        return report.unanswered("landscape", &failure.to_string());
+    }
+    let fitted = coefficient(&known).filter(|_| known.len() >= 3);
+    let Some(fitted) = fitted else { return report.unanswered("landscape", "too few samples above rounding") };
+    report.judge("landscape", agrees(&known, fitted, found.predicted), || {
+        format!("{what} {mode:?}: {fitted:?} and {:?}", found.predicted)
+    });
+}

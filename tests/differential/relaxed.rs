@@ -1,0 +1,139 @@
+//! One relaxation, asked in two ways.
+
+use crate::common::{self, Numbers};
+use crate::report::{Report, SAME};
+use crate::trial::{Answer, Trial};
+use foldwell::math::Vec3;
+use foldwell::model::Gauge;
+use foldwell::model::assemble::{Recipe, Surroundings};
+use nalgebra::Rotation3;
+
+pub fn examine(seed: u64, report: &mut Report) {
+    let trial = Trial::new(seed);
+    let what = format!("seed {seed}, {}", trial.describe());
+    let answer = match trial.answer() {
+        Ok(answer) => answer,
+        Err(message) => {
+            return report.unanswered("relaxed", &message);
+        }
+    };
+    report.judge("relaxed", answer.energy.is_finite(), || what.clone());
+    let apart = (answer.pictured - answer.energy).abs();
+    report.judge("energies in the picture", apart <= 1e-12 * answer.energy, || format!("{what}: {}", answer.pictured));
+    // the kinematics knows no stretch
+    if let (Some(exact), true) = (answer.exact, trial.bars.is_infinite()) {
+        report.judge("exact kinematics", exact <= 1e-7, || format!("{what}: off by {exact:e}"));
+    }
+    if answer.negative == 0 {
+        let near = |(again, steps): &(f64, usize)| {
+            (again - answer.energy).abs() <= SAME * answer.energy + 1e-13 && *steps <= 1
+        };
+        let ok = answer.again.as_ref().is_ok_and(near);
+        report.judge("once more", ok, || format!("{what}: {:e} and {:?}", answer.energy, answer.again));
+    }
+    moved(&trial, &answer, seed, report, &what);
+    nested(&trial, &answer, report, &what);
+    nearly_rigid(&trial, &answer, report, &what);
+    eigenvalues(&trial, report, &what);
+}
+
+/// Units, mirrored, elsewhere, turned, redrawn.
+fn moved(trial: &Trial, answer: &Answer, seed: u64, report: &mut Report, what: &str) {
+    let mut numbers = Numbers::new(seed + 1_000_000);
+    for unit in [2.0, 1024.0, 1.0 / 1024.0, 0.9, 1000.0] {
+        report.compare(
+            "another unit",
+            answer.energy,
+            &trial.in_unit(unit).answer(),
+            unit,
+            &format!("{what}, unit {unit}"),
+        );
+    }
+    let mirror = |p: Vec3| Vec3::new(p.x, p.y, -p.z);
+    let mirrored = trial.mapped(mirror, mirror, -1.0).answer();
+    report.compare("mirrored", answer.energy, &mirrored, 1.0, what);
+    let far = Vec3::from_iterator(numbers.many(3, 3.0));
+    report.compare("elsewhere", answer.energy, &trial.mapped(|p| p + far, |l| l, 1.0).answer(), 1.0, what);
+    let turn = Rotation3::new(Vec3::from_iterator(numbers.many(3, 2.0)));
+    report.compare("turned", answer.energy, &trial.mapped(|p| turn * p, |l| turn * l, 1.0).answer(), 1.0, what);
+    if trial.surroundings == Surroundings::Patch {
+        return;
+    }
+    for (kind, basis) in
+        [("renumbered", [[1, 0], [0, 1]]), ("another cell", [[1, 0], [1, 1]]), ("another cell", [[2, 1], [1, 1]])]
+    {
+        match trial.redrawn(&mut numbers, basis) {
+            Some(other) => report.compare(kind, answer.energy, &other.answer(), 1.0, &format!("{what}, {basis:?}")),
+            None => report.count("not redrawn", false),
+        }
+    }
+}
+
+/// A sheet on a domain that leaves it more freedom costs no more: a patch of a screw, a screw of a torus, a free torus of a fixed one.
+/// More cells of a torus cost no more than so many times one.
+fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
+    use Surroundings::{FixedTorus, FreeTorus, Patch, Screw};
+    if !trial.loads.is_empty() || answer.negative > 0 {
+        return;
+    }
+    let wider = match trial.surroundings {
+        Patch => return,
+        Screw => [(Patch, [2, 2]), (Patch, [1, 1])],
+        FreeTorus => [(Screw, [1, 1]), (FreeTorus, [2, 1])],
+        FixedTorus => [(FreeTorus, trial.cells), (FixedTorus, [1, 2])],
+    };
+    let one = answer.energy / (trial.cells[0] * trial.cells[1]) as f64;
+    for (surroundings, cells) in wider {
+        if (surroundings, cells) == (trial.surroundings, trial.cells) {
+            continue;
+        }
+        let bound = one * (cells[0] * cells[1]) as f64;
+        match (Trial { surroundings, cells, ..trial.clone() }).answer() {
+            Ok(freer) => {
+                let ok = freer.energy <= bound * (1.0 + SAME) + 1e-13 || freer.negative > 0;
+                report.judge("more freedom", ok, || {
+                    format!("{what}, {surroundings:?} {cells:?}: {:e} above {bound:e}", freer.energy)
+                });
+            }
+            Err(message) => report.unanswered("more freedom", &message),
+        }
+    }
+}
+
+/// The same with bars that are next to rigid.
+fn nearly_rigid(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
+    if trial.bars.is_infinite() && answer.negative == 0 {
+        let nearly = Trial { bars: 1e13, ..trial.clone() }.answer();
+        if let Ok(nearly) = nearly {
+            let off = (nearly.energy - answer.energy).abs();
+            report.judge("nearly rigid", off <= 1e-6 * answer.energy + 1e-10, || {
+                format!("{what}: {:e} and {:e}", answer.energy, nearly.energy)
+            });
+            let apart = common::distance(&nearly.angles, &answer.angles);
+            report.judge("nearly rigid angles", apart <= 1e-4, || format!("{what}: {apart:e}"));
+        } else {
+            report.count("nearly rigid", false);
+        }
+    }
+}
+
+/// Eigenvalues of the drawn state: the program's and those of a dense matrix by another library.
+fn eigenvalues(trial: &Trial, report: &mut Report, what: &str) {
+    if trial.bars.is_infinite()
+        || trial.bars > 1e4
+        || trial.facets.is_infinite()
+        || trial.lock.is_some()
+        || !trial.pins.is_empty()
+    {
+        return;
+    }
+    let case = trial.case();
+    let recipe = Recipe { loads: vec![], ..case.recipe(trial.bars, 1.0, case.angles.clone()) };
+    let recipe = Recipe { facets: trial.recipe(&case).facets, ..recipe };
+    let model = case.model(&recipe, Gauge::Free);
+    let expected = common::eigenvalues(common::energy_hessian(&model, &model.start()));
+    let Ok(found) = case.modes(&recipe, 10) else { return report.count("eigenvalues", false) };
+    let largest = expected.last().copied().unwrap_or(1.0);
+    let off = found.eigenvalues.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    report.judge("eigenvalues", off <= 1e-12 * largest, || format!("{what}: off by {off:e} of {largest:e}"));
+}

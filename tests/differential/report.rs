@@ -1,0 +1,63 @@
+//! What was compared and what fell.
+
+use crate::trial::Answer;
+use std::collections::BTreeMap;
+
+/// Energies agree to this part of themselves. Residual forces of 1e-12 over the softest eigenvalue, squared, are far below; what is left
+/// is the rounding of angles far from rest.
+pub const SAME: f64 = 1e-8;
+
+#[derive(Default)]
+pub struct Report {
+    /// Comparisons made, and those in which one side had no answer, by kind.
+    pub made: BTreeMap<&'static str, [usize; 2]>,
+    /// Kinds of failures that were said.
+    pub said: BTreeMap<String, usize>,
+    pub fell: Vec<String>,
+}
+
+impl Report {
+    pub fn count(&mut self, kind: &'static str, answered: bool) {
+        self.made.entry(kind).or_default()[usize::from(!answered)] += 1;
+    }
+
+    pub fn judge(&mut self, kind: &'static str, ok: bool, what: impl Fn() -> String) {
+        self.count(kind, true);
+        if !ok {
+            self.fell.push(format!("{kind}: {}", what()));
+        }
+    }
+
+    /// Energies, the other one over its unit, must agree.
+    pub fn compare(&mut self, kind: &'static str, energy: f64, other: &Result<Answer, String>, unit: f64, what: &str) {
+        match other {
+            Ok(other) => {
+                let off = (other.energy / unit - energy).abs();
+                let ok = off <= SAME * energy.abs() + 1e-13;
+                self.judge(kind, ok, || format!("{what}: {energy:e} and {:e}", other.energy / unit));
+            }
+            Err(message) => self.unanswered(kind, message),
+        }
+    }
+
+    pub fn unanswered(&mut self, kind: &'static str, message: &str) {
+        self.count(kind, false);
+        *self.said.entry(format!("{kind}: {}", words(message))).or_default() += 1;
+    }
+
+    /// Both reports as one.
+    pub fn and(mut self, other: Self) -> Self {
+        for (kind, [made, not]) in other.made {
+            let counts = self.made.entry(kind).or_default();
+            *counts = [counts[0] + made, counts[1] + not];
+        }
+        other.said.into_iter().for_each(|(what, count)| *self.said.entry(what).or_default() += count);
+        self.fell.extend(other.fell);
+        self
+    }
+}
+
+/// A message without its numbers.
+pub fn words(message: &str) -> String {
+    message.split(' ').filter(|word| !word.contains(|c: char| c.is_ascii_digit())).collect::<Vec<_>>().join(" ")
+}

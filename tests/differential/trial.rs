@@ -1,0 +1,215 @@
+//! One random sheet, and its answers.
+
+use crate::common::{Case, Numbers};
+use foldwell::analysis::axis::drawn_for;
+use foldwell::analysis::exact::error_to_kinematic;
+use foldwell::analysis::relax::relax;
+use foldwell::analysis::view::View;
+use foldwell::math::Vec3;
+use foldwell::model::Gauge;
+use foldwell::model::assemble::{Recipe, Surroundings, assemble};
+use foldwell::output::picture::Picture;
+use foldwell::sheet::build::{Drawn as Drawing, build};
+use foldwell::sheet::generate::{Eggbox, Miura, Random, RandomDevelopable};
+use foldwell::sheet::{Corner, EdgeKind, Pattern, Sheet, generate};
+use foldwell::solver::{Options, Start};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// A sheet, what it is made of, and what acts on it.
+#[derive(Clone)]
+pub struct Trial {
+    pub sheet: Sheet,
+    pub surroundings: Surroundings,
+    pub cells: [usize; 2],
+    pub bars: f64,
+    pub facets: f64,
+    /// Rest angle less the drawn one of each edge of the cell.
+    pub off: Vec<f64>,
+    /// A locked edge of the cell, and its angle less the drawn one.
+    pub lock: Option<(usize, f64)>,
+    /// Forces on vertices of the tiling.
+    pub loads: Vec<(usize, Vec3)>,
+    pub pins: Vec<(usize, [bool; 3])>,
+}
+
+pub struct Answer {
+    pub energy: f64,
+    /// Fold angles of the tiling's edges.
+    pub angles: Vec<f64>,
+    pub negative: usize,
+    /// The same, asked again from the answer.
+    pub again: Result<(f64, usize), String>,
+    /// Distance to the exact kinematics, where that says something.
+    pub exact: Option<f64>,
+    /// The sum of the energies of all lines of the picture.
+    pub pictured: f64,
+}
+
+impl Trial {
+    pub fn new(seed: u64) -> Self {
+        let mut numbers = Numbers::new(seed);
+        let mut pick = |n: usize| ((numbers.within(0.5) + 0.5) * n as f64) as usize % n;
+        let size = [[2, 2], [2, 3], [3, 2]][pick(3)];
+        let mut others = Numbers::new(!seed);
+        let mut of = |size| others.within(size);
+        let sheet = generate(&match pick(6) {
+            0 => Pattern::RandomDevelopable(RandomDevelopable { size, seed, ..RandomDevelopable::default() }),
+            1 => Pattern::Miura(Miura {
+                a: 1.0 + of(0.3),
+                b: 1.0 + of(0.3),
+                sector: PI / 3.0 + of(0.2),
+                fold: 0.3 + of(0.2),
+            }),
+            2 => Pattern::Eggbox(Eggbox {
+                a: 1.0 + of(0.3),
+                b: 1.0 + of(0.3),
+                sector: PI / 3.0 + of(0.1),
+                fold: PI / 4.0 + of(0.1),
+            }),
+            _ => Pattern::Random(Random { size, seed, ..Random::default() }),
+        })
+        .unwrap();
+        use Surroundings::{FixedTorus, FreeTorus, Patch, Screw};
+        let surroundings = [Patch, FixedTorus, FreeTorus, Screw, Screw][pick(5)];
+        let cells = if surroundings == Screw { [1, 1] } else { [[1, 1], [2, 2]][pick(2)] };
+        let bars = [1e2, 1e4, 1e6, f64::INFINITY, f64::INFINITY][pick(5)];
+        let facets = [1.0, 10.0, f64::INFINITY][pick(3)];
+        let (with_lock, with_loads, pinned) = (pick(3) == 0, pick(2) == 0, pick(4));
+        let hinges: Vec<usize> = (0..sheet.edges.len()).filter(|&e| sheet.edges[e].kind == EdgeKind::Crease).collect();
+        let locked = hinges[pick(hinges.len())];
+        let off = numbers.many(sheet.edges.len(), 0.05);
+        let lock = with_lock.then(|| (locked, numbers.within(0.05)));
+        let mut trial = Self { sheet, surroundings, cells, bars, facets, off, lock, loads: vec![], pins: vec![] };
+        if surroundings == Patch && with_loads {
+            trial.load(&mut numbers, pinned);
+        }
+        trial
+    }
+
+    /// Balanced loads of some size between 1e-9 and 1e-1 and up to three pinned vertices.
+    pub fn load(&mut self, numbers: &mut Numbers, pinned: usize) {
+        let count = self.sheet.vertices.len() * self.cells[0] * self.cells[1];
+        let size = 10f64.powf(-5.0 + numbers.within(4.0));
+        let force = Vec3::from_iterator(numbers.many(3, size));
+        self.loads = vec![(0, force), (count - 1, -force)];
+        self.pins = (1..=pinned.min(count - 2).min(3)).map(|vertex| (vertex, [true; 3])).collect();
+    }
+
+    pub fn describe(&self) -> String {
+        let Self { surroundings, cells, bars, facets, lock, loads, pins, sheet, .. } = self;
+        let (lock, pins) = (lock.is_some(), pins.len());
+        let force = loads.first().map_or(0.0, |(_, f)| f.norm());
+        let title = &sheet.title;
+        format!(
+            "{title} {surroundings:?} {cells:?} bars {bars:e} facets {facets} lock {lock} load {force:.0e} pins {pins}"
+        )
+    }
+
+    pub fn recipe(&self, case: &Case) -> Recipe {
+        let rest = case.tiling.edges.iter().zip(&case.angles).map(|(e, angle)| angle + self.off[e.edge]).collect();
+        let hinge = |k: &usize| !case.angles[*k].is_nan();
+        let mut locks = vec![];
+        if let Some((edge, off)) = self.lock {
+            let copies = (0..case.edges()).filter(|&k| case.tiling.edges[k].edge == edge).filter(hinge);
+            locks.extend(copies.map(|k| (k, case.angles[k] + off)));
+        }
+        let facets = if case.count(EdgeKind::Facet) > 0 { case.facets(self.facets) } else { None };
+        let (loads, pins) = (self.loads.clone(), self.pins.clone());
+        Recipe { facets, locks, loads, pins, ..case.recipe(self.bars, 1.0, rest) }
+    }
+
+    pub fn case(&self) -> Case {
+        Case::new(self.sheet.clone(), self.cells, self.surroundings)
+    }
+
+    pub fn answer(&self) -> Result<Answer, String> {
+        let case = self.case();
+        let recipe = self.recipe(&case);
+        let drawn = drawn_for(&case.sheet, &case.tiling, self.surroundings, &recipe);
+        let mut model = assemble(&drawn, &case.tiling, &recipe, Gauge::Held);
+        let start = model.start();
+        let edges = case.edges();
+        let found = relax(&mut model, start, Options::default(), edges, &mut |_| true).map_err(|e| e.to_string())?;
+        let exact = error_to_kinematic(&case.sheet, &case.tiling, &model, &found.state.fold_angle);
+        let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
+        let again = relax(&mut model, start, Options::default(), edges, &mut |_| true);
+        let again = again.map(|again| (again.state.total(), again.iterations)).map_err(|e| e.to_string());
+        let negative = found.negative_eigenvalues;
+        let view = View::new(&case.sheet, &case.tiling, self.surroundings, [1, 1]);
+        let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
+        Ok(Answer { energy: found.state.total(), angles: found.state.fold_angle, negative, again, exact, pictured })
+    }
+
+    /// The same with all points mapped, forces with them, and angles times a sign.
+    pub fn mapped(&self, map: impl Fn(Vec3) -> Vec3, linear: impl Fn(Vec3) -> Vec3, sign: f64) -> Self {
+        let mut other = self.clone();
+        other.sheet.vertices.iter_mut().for_each(|p| *p = map(*p));
+        other.sheet.lattice = other.sheet.lattice.map(|lattice| lattice.map(&linear));
+        other.loads.iter_mut().for_each(|(_, force)| *force = linear(*force));
+        other.off.iter_mut().for_each(|off| *off *= sign);
+        other.lock = other.lock.map(|(edge, off)| (edge, sign * off));
+        other
+    }
+
+    /// In another unit of length: stiffnesses of creases are forces, so that torques and energies have the factor.
+    pub fn in_unit(&self, unit: f64) -> Self {
+        let mut other = self.mapped(|p| unit * p, |l| unit * l, 1.0);
+        other.loads.clone_from(&self.loads);
+        other
+    }
+
+    /// The same sheet with its vertices in another order and other lattice vectors.
+    pub fn redrawn(&self, numbers: &mut Numbers, basis: [[i32; 2]; 2]) -> Option<Self> {
+        let lattice = self.sheet.lattice?;
+        let mut corners: Vec<Corner> = self.sheet.polygons.iter().flatten().copied().collect();
+        corners.sort_unstable_by_key(|c| (c.vertex, c.shift));
+        corners.dedup();
+        let mut shuffled: Vec<(f64, Corner)> = corners.into_iter().map(|c| (numbers.within(1.0), c)).collect();
+        shuffled.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let number: BTreeMap<(usize, [i32; 2]), usize> =
+            shuffled.iter().enumerate().map(|(k, (_, c))| ((c.vertex, c.shift), k)).collect();
+        let coords = shuffled.iter().map(|(_, corner)| self.sheet.position(*corner)).collect();
+        let polygon = |p: &Vec<Corner>| p.iter().map(|c| number[&(c.vertex, c.shift)]).collect();
+        let faces = self.sheet.polygons.iter().map(polygon).collect();
+        let vector = |[a, b]: [i32; 2]| lattice[0] * f64::from(a) + lattice[1] * f64::from(b);
+        let title = self.sheet.title.clone();
+        let drawing = Drawing { title, coords, faces, lattice: Some(basis.map(vector)), ..Drawing::default() };
+        let sheet = build(&drawing).unwrap();
+        let number = same_edges(&sheet, &self.sheet)?;
+        let off = number.iter().map(|&old| self.off[old]).collect();
+        let lock = match self.lock {
+            Some((edge, off)) => Some((number.iter().position(|&old| old == edge)?, off)),
+            None => None,
+        };
+        Some(Self { sheet, off, lock, ..self.clone() })
+    }
+}
+
+/// The edge of `old` that each edge of `new` is, by its middle and direction; `None` where diagonals were drawn otherwise.
+pub fn same_edges(new: &Sheet, old: &Sheet) -> Option<Vec<usize>> {
+    let [l1, l2] = old.lattice?;
+    let normal = l1.cross(&l2);
+    let ends = |sheet: &Sheet, k: usize| {
+        let key = sheet.edges[k].key;
+        let end = Corner { vertex: key.j, shift: key.shift };
+        [sheet.position(Corner::home(key.i)), sheet.position(end)]
+    };
+    let middle = |sheet: &Sheet, k: usize| ends(sheet, k).iter().sum::<Vec3>() / 2.0;
+    let along = |sheet: &Sheet, k: usize| ends(sheet, k)[1] - ends(sheet, k)[0];
+    let whole = |x: f64| (x - x.round()).abs() < 1e-6;
+    let same = |a: Vec3, b: Vec3| {
+        let d = a - b;
+        let along = [d.cross(&l2).dot(&normal), l1.cross(&d).dot(&normal)].map(|x| x / normal.norm_squared());
+        let rest = d - l1 * along[0].round() - l2 * along[1].round();
+        along.into_iter().all(whole) && rest.norm() < 1e-6
+    };
+    // the two diagonals of a parallelogram have the same middle
+    let parallel = |a: Vec3, b: Vec3| (a - b).norm().min((a + b).norm()) < 1e-6;
+    let found = (0..new.edges.len()).map(|k| {
+        let is = |o: &usize| same(middle(new, k), middle(old, *o)) && parallel(along(new, k), along(old, *o));
+        let mut fit = (0..old.edges.len()).filter(is);
+        fit.next().filter(|_| fit.next().is_none())
+    });
+    found.collect()
+}
