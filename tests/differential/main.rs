@@ -45,5 +45,8 @@ fn two_ways_agree() {
     println!("what was said where there was no answer: {:#?}", report.said);
     let [answered, unanswered] = report.made["relaxed"];
     assert!(4 * answered >= 3 * (answered + unanswered), "{answered} of {} have an answer", answered + unanswered);
+    let compared: usize = report.made.values().map(|[made, _]| made).sum();
+    let apart = report.made.get(report::ELSEWHERE).map_or(0, |[made, _]| *made);
+    assert!(50 * apart <= compared, "{apart} of {compared} comparisons are of two equilibria");
     assert!(report.fell.is_empty(), "{} disagreements: {:#?}", report.fell.len(), report.fell);
 }

@@ -5,6 +5,8 @@ use foldwell::analysis::axis::drawn_for;
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax;
 use foldwell::analysis::view::View;
+use foldwell::analysis::wells::Question;
+use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
 use foldwell::model::assemble::{Recipe, Surroundings, assemble};
@@ -15,6 +17,9 @@ use foldwell::sheet::{Corner, EdgeKind, Pattern, Sheet, generate};
 use foldwell::solver::{Options, Start};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+
+/// Random starts from which another equilibrium is sought, of each size.
+const STARTS: usize = 40;
 
 /// A sheet, what it is made of, and what acts on it.
 #[derive(Clone)]
@@ -139,6 +144,21 @@ impl Trial {
         let view = View::new(&case.sheet, &case.tiling, self.surroundings, [1, 1]);
         let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
         Ok(Answer { energy: found.state.total(), angles: found.state.fold_angle, negative, again, exact, pictured })
+    }
+
+    /// Whether random starts reach an equilibrium of such an energy.
+    pub fn has_equilibrium(&self, such: impl Fn(f64) -> bool) -> bool {
+        let case = self.case();
+        let recipe = self.recipe(&case);
+        let Case { sheet, tiling, surroundings, drawn, .. } = &case;
+        let question = Question { sheet, tiling, surroundings: *surroundings, drawn, recipe: &recipe };
+        [0.1, 0.3, 1.0].into_iter().any(|spread| {
+            let starts = Starts { count: STARTS, seed: 1, spread, options: Options::default() };
+            relax_all(&question, &starts, &|| true).into_iter().any(|outcome| match outcome {
+                Outcome::Well(found) => such(found.energy),
+                _ => false,
+            })
+        })
     }
 
     /// The same with all points mapped, forces with them, and angles times a sign.
