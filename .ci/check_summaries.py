@@ -12,7 +12,7 @@ import sys
 import published
 
 # keys that are there only where there is something to say
-MAY_BE_ABSENT = {"reason", "files", "map", "wave"}
+MAY_BE_ABSENT = {"reason", "files", "map", "wave", "error_of_curvature", "error_of_strain", "error_of_theta"}
 
 
 def tables(value, path=()):

@@ -124,16 +124,16 @@ fn costs(trial: &Trial, seed: u64, report: &mut Report, what: &str) {
     let mut numbers = Numbers::new(seed);
     let mode = [0; 3].map(|_| numbers.within(1.0));
     let found = held.named(mode).and_then(|rates| {
-        let form = Prediction::new(&held)?.coefficient(&rates);
+        let prediction = Prediction::new(&held)?;
+        let form = (prediction.coefficient(&rates), prediction.largest(&rates));
         Ok((form, landscape(&mut held, rates, &[2e-3, 3e-3, 5e-3, 8e-3], &mut |_| true)?))
     });
-    let (form, found) = match found {
+    let ((form, scale), found) = match found {
         Ok(found) => found,
         Err(error) => return report.unanswered("landscape", &error.to_string()),
     };
-    let scale = found.predicted.fourth.abs();
     report.judge("quartic form", (form - found.predicted.fourth).abs() <= 1e-6 * scale, || {
-        format!("{what} {mode:?}: {form:e} and {:e}", found.predicted.fourth)
+        format!("{what} {mode:?} {:e} {}: {form:e} and {:e}", trial.bars, trial.facets, found.predicted.fourth)
     });
     let known: Vec<(f64, f64)> = found
         .samples

@@ -20,7 +20,7 @@ use report::Report;
 /// Seeds that once fell.
 const FELL: [u64; 1] = [130];
 /// Cases where nothing else is asked for.
-const USUAL: u64 = 60;
+const USUAL: u64 = 600;
 /// Folding is asked of one case in so many: it takes much longer than a relaxation.
 const FOLDED: u64 = 10;
 

@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Random starts from which another equilibrium is sought, of each size.
-const STARTS: usize = 40;
+const STARTS: usize = 150;
 
 /// A sheet, what it is made of, and what acts on it.
 #[derive(Clone)]
@@ -45,6 +45,7 @@ pub struct Answer {
     pub negative: usize,
     /// The same, asked again from the answer.
     pub again: Result<(f64, usize), String>,
+    pub residual: f64,
     /// Distance to the exact kinematics, where that says something.
     pub exact: Option<f64>,
     /// The sum of the energies of all lines of the picture.
@@ -143,7 +144,8 @@ impl Trial {
         let negative = found.negative_eigenvalues;
         let view = View::new(&case.sheet, &case.tiling, self.surroundings, [1, 1]);
         let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
-        Ok(Answer { energy: found.state.total(), angles: found.state.fold_angle, negative, again, exact, pictured })
+        let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
+        Ok(Answer { energy, angles, negative, again, residual, exact, pictured })
     }
 
     /// Whether random starts reach an equilibrium of such an energy.
@@ -152,7 +154,7 @@ impl Trial {
         let recipe = self.recipe(&case);
         let Case { sheet, tiling, surroundings, drawn, .. } = &case;
         let question = Question { sheet, tiling, surroundings: *surroundings, drawn, recipe: &recipe };
-        [0.1, 0.3, 1.0].into_iter().any(|spread| {
+        [0.05, 0.1, 0.3, 1.0].into_iter().any(|spread| {
             let starts = Starts { count: STARTS, seed: 1, spread, options: Options::default() };
             relax_all(&question, &starts, &|| true).into_iter().any(|outcome| match outcome {
                 Outcome::Well(found) => such(found.energy),
