@@ -223,6 +223,8 @@ struct Newton<'a, P: Problem> {
     curvature: Curvature,
     /// Scaled force where the last factorization was made, if it was of the full Hessian, without shift, and that of a minimum.
     certified: Option<f64>,
+    /// Whether the start knew its tensions.
+    restarted: bool,
     history: Vec<Step>,
 }
 
@@ -241,7 +243,8 @@ pub fn minimize<P: Problem>(
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Equilibrium, NewtonError> {
     let Start { x, tension } = start.into();
-    let curvature = if tension.is_some() { Curvature::Full } else { Curvature::GaussNewton };
+    let restarted = tension.is_some();
+    let curvature = if restarted { Curvature::Full } else { Curvature::GaussNewton };
     let tension = tension.unwrap_or_else(|| vec![0.0; problem.layout().stiff.len()]);
     let at = Linearization::new(problem.layout());
     let saddle = match Saddle::new(problem.layout(), &at) {
@@ -260,6 +263,7 @@ pub fn minimize<P: Problem>(
         patience: 1,
         curvature,
         certified: None,
+        restarted,
         history: vec![],
     };
     match newton.run(options, observe) {
@@ -305,9 +309,10 @@ impl<P: Problem> Newton<'_, P> {
         }
     }
 
-    /// Whether the force is rounding error that no further step makes smaller.
+    /// Whether the force is rounding error that no further step makes smaller. A start that knows its tensions is where steps ended before.
     fn exhausted(&self, step: &Step) -> bool {
-        let before = self.history.len().checked_sub(2).map_or(f64::INFINITY, |k| self.history[k].residual_force);
+        let start = if self.restarted { 0.0 } else { f64::INFINITY };
+        let before = self.history.len().checked_sub(2).map_or(start, |k| self.history[k].residual_force);
         step.residual_force > 0.5 * before && step.residual_force <= self.rounding()
     }
 
