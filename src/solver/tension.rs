@@ -41,17 +41,20 @@ pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> Settled {
     let even = at.even_jacobian(layout);
     let rows = Rows { cliques: &layout.stiff, values: &even };
     let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
-    let settled = |tension: Vec<f64>| {
-        let (residual_force, residual_length) = residuals(problem, &at, &tension);
+    let settled = |at: &Linearization, tension: Vec<f64>| {
+        let (residual_force, residual_length) = residuals(problem, at, &tension);
         Settled { tension, self_stresses, residual_force, residual_length }
     };
-    let before = settled(found.tension.clone());
+    let before = settled(&at, found.tension.clone());
     if !all_rigid || self_stresses.unwrap_or(0) == 0 {
         return before;
     }
     let forces: Vec<f64> = found.tension.iter().zip(&at.sizes).map(|(t, size)| t * size).collect();
     let Ok(least) = rank::without_null(&rows, layout.unknowns, &layout.node, &forces) else { return before };
-    let least = settled(least.iter().zip(&at.sizes).map(|(t, size)| t / size).collect());
+    let least: Vec<f64> = least.iter().zip(&at.sizes).map(|(t, size)| t / size).collect();
+    // the unit of forces is smaller without those that only hold each other
+    problem.linearize(&found.x, &least, Curvature::GaussNewton, &mut at);
+    let least = settled(&at, least);
     // what is taken out next to a singular state is only nearly a self stress: forces that balance are worth more
     if least.residual_force <= WORSE * before.residual_force.max(ROUNDING) { least } else { before }
 }
