@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use common::{Numbers, mesh};
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use foldwell::analysis::bloch::decay::WELL_CONDITIONED;
@@ -55,7 +56,7 @@ fn stored_numbers_of_open_star() {
     let expected: Vec<[f64; 3]> = stored.iter().map(|t| [0, 1, 2].map(|k| t[k].as_f64().unwrap())).collect();
     let same = |sign: f64| {
         let near = |(m, n, c): &(f64, f64, f64)| {
-            expected.iter().any(|e| e[0] == *m && e[1] == *n && (sign * e[2] - c).abs() <= 1e-14)
+            expected.iter().any(|e| e[0] == *m && e[1] == *n && abs_diff_eq!(sign * e[2], c, epsilon = 1e-14))
         };
         terms.iter().all(near)
     };
@@ -191,7 +192,7 @@ fn zero_lines_of_random_cells() {
             angles = angles.max(off_directions(line, &directions));
         }
         let sum: f64 = lines.regions.iter().map(|region| region.fraction).sum();
-        assert!((sum - 1.0).abs() <= 1e-12);
+        assert_abs_diff_eq!(sum, 1.0, epsilon = 1e-12);
     }
     residuals.sort_by(f64::total_cmp);
     let exact = residuals.iter().filter(|residual| **residual <= 1e-12).count();
@@ -568,7 +569,7 @@ fn polarizations_of_random_kirigami() {
             cells += 1;
             let Polarization { polarization, on_circle } = Polarization::new(&found, 24).unwrap();
             let halves = polarization.map(|p| (2.0 * p).round() as i32);
-            let constant = (0..2).all(|a| (2.0 * polarization[a] - f64::from(halves[a])).abs() <= 1e-12);
+            let constant = (0..2).all(|a| abs_diff_eq!(2.0 * polarization[a], f64::from(halves[a]), epsilon = 1e-12));
             if on_circle != [0.0, 0.0] || !constant {
                 continue; // roots cross the circle
             }

@@ -1,7 +1,7 @@
 //! The study `bloch` from a scene to its files.
 #![allow(clippy::unwrap_used)] // tests, also their helpers, may fail
 
-use approx::assert_abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::output::summary::{BlochSummary, StudyResult};
 use foldwell::run::{RunError, RunOptions, RunReport, run_scene};
 use std::ops::ControlFlow;
@@ -42,11 +42,11 @@ fn reference_cell() {
     let decay = &found.decay[2];
     assert_eq!((decay.q1, decay.kappa2.len()), (0.9, 4));
     // the stored number, see tests/cases/open-star.json
-    assert!((decay.kappa2[3] - 0.137_712_570_259_862).abs() <= 1e-12, "{decay:?}");
+    assert!(abs_diff_eq!(decay.kappa2[3], 0.137_712_570_259_862, epsilon = 1e-12), "{decay:?}");
     assert_eq!((found.polarization, found.order_at_origin, found.directions.len()), ([0.0, 0.0], Some(4), 2));
     assert_eq!((found.zero_lines, found.lines[0].passes), (Some(1), 2));
     let positive: f64 = found.regions.iter().filter(|region| region.sign > 0).map(|region| region.fraction).sum();
-    assert!((positive - found.positive_fraction.unwrap()).abs() <= 0.01);
+    assert_abs_diff_eq!(positive, found.positive_fraction.unwrap(), epsilon = 0.01);
     let names = ["modes.csv", "modes_bands.csv", "modes.pvd", "modes.svg", "modes/modes_determinant.vti"];
     let pictures = ["modes/modes_zero_lines.vtp", "modes/modes_mode_0000.vtu", "modes/modes_mode_0001.vtu"];
     for name in names.iter().chain(&pictures) {

@@ -5,6 +5,7 @@
 
 mod common;
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use common::{distance, mesh};
 use foldwell::analysis::branches::{self, Branches, branches};
 use foldwell::analysis::trace::{Folded, Question, Stop, Traced, trace};
@@ -220,7 +221,7 @@ fn strain_across_an_oblique_lattice_may_grow() {
         for sign in [1, -1] {
             let one = found.iter().find(|one| one.branch == (2, sign)).unwrap();
             let [e11, e22, _] = last(one).strain.map(|strain| strain / (length * length));
-            assert!((e22 - 4.4e-4).abs() <= 1e-5 && (e11 + 0.028).abs() <= 1e-3, "{e11} {e22}");
+            assert!(abs_diff_eq!(e22, 4.4e-4, epsilon = 1e-5) && (e11 + 0.028).abs() <= 1e-3, "{e11} {e22}");
             let chords = last(one).screw.chords.map(|chord| chord.norm());
             assert!((0..2).all(|a| chords[a] < sheet.lattice.unwrap()[a].norm()));
         }
@@ -370,7 +371,7 @@ fn poisson_ratios_are_opposite() {
         let [within, out_of] = [-e22 / e11, -k22 / k11];
         assert!(e12.abs() <= 1e-11 * e11.abs() && k12.abs() <= 1e-11 * k11.abs());
         assert!((within + ratio).abs() <= 1e-10 * ratio.abs(), "{within} for {ratio}");
-        assert!((out_of - ratio).abs() <= 1e-10 * ratio.abs(), "{out_of} for {ratio}");
+        assert!(abs_diff_eq!(out_of, ratio, epsilon = 1e-10 * ratio.abs()), "{out_of} for {ratio}");
     }
 }
 
@@ -409,7 +410,7 @@ fn triangulated_miura_does_not_bend() {
         assert!(zero <= 1e-13 * largest, "{values:?}");
         assert_eq!(values.iter().filter(|v| **v > 1e-9 * largest).count(), usize::from(!miura), "{values:?}");
         assert_eq!(values.iter().filter(|v| **v < -1e-9 * largest).count(), if miura { 2 } else { 1 }, "{values:?}");
-        assert!((scale_of_closure(&sheet) * 2.0 - DVector::from_vec(values).norm()).abs() <= 1e-12);
+        assert_abs_diff_eq!(scale_of_closure(&sheet) * 2.0, DVector::from_vec(values).norm(), epsilon = 1e-12);
         for lock in 0..12 {
             let Branches { rays, signature, .. } = ask(&sheet, &[lock], false, |start| branches(&start).unwrap());
             match (sheet.edges[lock].kind == EdgeKind::Facet, miura) {

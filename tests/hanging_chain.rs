@@ -6,6 +6,7 @@
 #[path = "common/textbook.rs"]
 mod textbook;
 
+use approx::abs_diff_eq;
 use std::f64::consts::PI;
 use textbook::{Textbook, length, linear};
 
@@ -81,7 +82,11 @@ impl Chain {
         let found = self.problem(springs).run(start).unwrap_or_else(|error| panic!("{} bars: {error}", self.bars));
         for k in 0..self.bars {
             let (tension, expected) = (found.tension[k], self.tension(k));
-            assert!((tension - expected).abs() < 1e-9 * expected, "{} bars, bar {k}: {tension}", self.bars);
+            assert!(
+                abs_diff_eq!(tension, expected, epsilon = 1e-9 * expected),
+                "{} bars, bar {k}: {tension}",
+                self.bars
+            );
         }
         for (k, place) in self.joints().iter().enumerate() {
             let off = (found.x[2 * k] - place[0]).hypot(found.x[2 * k + 1] - place[1]);

@@ -4,6 +4,7 @@
 
 mod common;
 
+use approx::abs_diff_eq;
 use common::{Numbers, distance, mesh};
 use foldwell::kinematics::{Closure, Embedding, Shape, folding_modes};
 use foldwell::math::Vec3;
@@ -180,7 +181,7 @@ fn vertices_of_degree_four() {
                 continue;
             }
             let Some(angles) = folding.close(start) else { continue };
-            assert!((angles[opposite].cos() - expected).abs() <= 1e-12, "{case}");
+            assert!(abs_diff_eq!(angles[opposite].cos(), expected, epsilon = 1e-12), "{case}");
             checked += 1;
         }
     }
@@ -213,7 +214,10 @@ impl Quads {
         for &edge in &self.creases {
             let expected = if along_x(&self.folding.sheet, edge) { along } else { across };
             let found = angles[edge];
-            assert!((found - expected.copysign(drawn[edge])).abs() <= 2e-12, "{edge}: {found} for {expected}");
+            assert!(
+                abs_diff_eq!(found, expected.copysign(drawn[edge]), epsilon = 2e-12),
+                "{edge}: {found} for {expected}"
+            );
         }
         let shape = self.folding.shape(angles);
         assert!(shape.curvature.abs() <= 1e-12 && shape.theta.iter().all(|theta| theta.abs() <= 1e-12));
@@ -263,7 +267,10 @@ fn eggbox_along_the_whole_fold() {
             let e = (t.cos() / f.sin()).asin();
             let [along, across] = [f.cos() * e.tan(), e.cos() * f.tan()].map(|tangent| 2.0 * tangent.atan());
             let [first, second] = quads.check(&mut angles, along, across);
-            assert!((first - 2.0 * a * f.cos()).abs() <= 1e-12 && (second - 2.0 * b * e.cos()).abs() <= 1e-12);
+            assert!(
+                abs_diff_eq!(first, 2.0 * a * f.cos(), epsilon = 1e-12)
+                    && abs_diff_eq!(second, 2.0 * b * e.cos(), epsilon = 1e-12)
+            );
             f += 0.02 * way;
         }
     }
@@ -310,7 +317,7 @@ fn loops_of_open_star_close() {
             let mut after = folding.shape(&next);
             after.continue_from(&shape);
             assert!(
-                (after.curvature - shape.curvature).abs() <= 0.05,
+                abs_diff_eq!(after.curvature, shape.curvature, epsilon = 0.05),
                 "{arc}: {} {}",
                 shape.curvature,
                 after.curvature
@@ -318,7 +325,7 @@ fn loops_of_open_star_close() {
             (angles, shape) = (next, after);
             assert!(arc < length + 0.1);
         }
-        assert!((arc - length).abs() <= 0.1, "{arc} for {length}");
+        assert!(abs_diff_eq!(arc, length, epsilon = 0.1), "{arc} for {length}");
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::assert_abs_diff_eq;
 use common::Case;
 use foldwell::analysis::landscape::cone::{Cone, distance};
 use foldwell::analysis::landscape::sphere::{Direction, Net, curvature, point, samples};
@@ -36,7 +37,7 @@ fn the_net_is_a_sphere() {
         assert!((point(tensor) - direction.point()).norm() <= 1e-15);
         assert!((Direction::of(&direction.point()).point() - direction.point()).norm() <= 1e-15);
         if (direction.polar - FRAC_PI_4).abs() <= 1e-12 {
-            assert!((tensor[0] * tensor[1] - tensor[2] * tensor[2]).abs() <= 1e-15);
+            assert_abs_diff_eq!(tensor[0] * tensor[1], tensor[2] * tensor[2], epsilon = 1e-15);
         }
     }
 }

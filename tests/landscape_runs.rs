@@ -3,7 +3,7 @@
 
 mod common;
 
-use approx::assert_abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::kinematics::folding_modes_with_locked;
 use foldwell::output::summary::{StudyResult, StudySummary};
 use foldwell::run::{RunOptions, run_scene};
@@ -76,7 +76,7 @@ fn waves_are_named() {
     let Some(StudyResult::Landscape(landscape)) = found.result else { panic!("{:?}", found.reason) };
     let mode = &landscape.modes[0];
     assert!(found.converged && mode.wave == Some([2, 3]) && mode.mode.is_none() && mode.defect.is_none());
-    assert!((mode.exponent.unwrap() - 6.0).abs() <= 0.05, "{mode:?}");
+    assert!(abs_diff_eq!(mode.exponent.unwrap(), 6.0, epsilon = 0.05), "{mode:?}");
     assert_eq!(mode.samples.iter().map(|sample| sample.amplitude).collect::<Vec<_>>(), [0.0005, 0.001]);
 }
 
@@ -97,9 +97,12 @@ fn modes_by_rates() {
     let found = run(&path, &folder.path().join("out"), (1, false), usize::MAX);
     let Some(StudyResult::Landscape(landscape)) = found.result else { panic!("{:?}", found.reason) };
     let [one, other] = [0, 1].map(|k| landscape.modes[k].samples[0].energy.unwrap());
-    assert!((one / other - 1.0).abs() <= 1e-9, "{one:e} {other:e}");
+    assert!(abs_diff_eq!(one / other, 1.0, epsilon = 1e-9), "{one:e} {other:e}");
     let tensor = landscape.modes[1].mode.unwrap();
-    assert!(tensor.iter().zip([1.0, 1.0, 0.0]).all(|(a, b): (&f64, f64)| (a - b).abs() <= 1e-12), "{tensor:?}");
+    assert!(
+        tensor.iter().zip([1.0, 1.0, 0.0]).all(|(a, b): (&f64, f64)| abs_diff_eq!(*a, b, epsilon = 1e-12)),
+        "{tensor:?}"
+    );
 }
 
 /// Claim: what a landscape cannot be of is refused with its reason, before anything is written.

@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::abs_diff_eq;
 use common::{Case, mesh};
 use foldwell::analysis::landscape::fit::exponent;
 use foldwell::analysis::landscape::samples::{Samples, landscape};
@@ -93,7 +94,10 @@ fn waves_cost_fourth_order_on_fixed_lattices_and_sixth_on_free_ones() {
         });
         println!("{wave:?} vertex {vertex}: fixed {:?}, free {:?}, {slopes:?} {leading:.4?}", fixed.0, free.0);
         assert!(fixed.0.fourth > 1e-3 * BARS && free.0.fourth.abs() <= 1e-12 * fixed.0.fourth);
-        assert!((slopes[0] - 4.0).abs() <= 0.03 && (slopes[1] - 6.0).abs() <= 0.03, "{slopes:?}");
+        assert!(
+            abs_diff_eq!(slopes[0], 4.0, epsilon = 0.03) && abs_diff_eq!(slopes[1], 6.0, epsilon = 0.03),
+            "{slopes:?}"
+        );
         assert!(leading.iter().all(|off| off.abs() <= 0.01), "{leading:?}");
     }
 }
@@ -137,7 +141,7 @@ fn tuning_again_removes_the_sixth_order() {
         let power = |k: usize| (high[k] / low[k]).abs().log2();
         println!("powers: {:.3?}", [1, 2, 3].map(power));
         assert!(high[3] <= 1e-2 * high[1], "{high:?}");
-        assert!((power(1) - 6.0).abs() <= 0.1 && (power(2) - 2.0).abs() <= 0.1);
+        assert!(abs_diff_eq!(power(1), 6.0, epsilon = 0.1) && abs_diff_eq!(power(2), 2.0, epsilon = 0.1));
         assert!((power(3) - 2.0 * (n as f64 - 1.0)).abs() <= 0.3);
     }
 }

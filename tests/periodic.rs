@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::abs_diff_eq;
 use common::{Case, Numbers};
 use foldwell::analysis::axis::drawn_for;
 use foldwell::analysis::exact::error_to_kinematic;
@@ -59,7 +60,7 @@ fn a_screw_goes_to_its_rigid_limit() {
     let run = |k: f64| case.relax(&case.recipe(k, 1.0, case.rest_per_hinge(0.1, 1))).unwrap().state.fold_angle;
     let rigid = run(f64::INFINITY);
     let scaled = [1e8, 1e10].map(|k| k * common::distance(&run(k), &rigid));
-    assert!((scaled[0] / scaled[1] - 1.0).abs() < 0.01 && scaled[1] > 1e-2, "{scaled:?}");
+    assert!(abs_diff_eq!(scaled[0] / scaled[1], 1.0, epsilon = 0.01) && scaled[1] > 1e-2, "{scaled:?}");
 }
 
 /// A screw whose creases rest within `off` of the drawn angles, relaxed from the drawn state with rigid bars, its axis laid

@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::abs_diff_eq;
 use common::{Case, Numbers, eigenvalues, energy_hessian, linearized, mesh};
 use foldwell::math::Vec3;
 use foldwell::model::assemble::{Recipe, Surroundings};
@@ -76,7 +77,7 @@ fn energy_and_forces_move_with_the_sheet() {
             };
             let y = moved(*surroundings, &x, &turn, Vec3::from_column_slice(&numbers.many(3, 10.0)));
             let (before, after) = (total_energy(&model, &x), total_energy(&model, &y));
-            assert!((before - after).abs() < 1e-12 * before, "{surroundings:?}: {before} {after}");
+            assert!(abs_diff_eq!(before, after, epsilon = 1e-12 * before), "{surroundings:?}: {before} {after}");
             let ((at_x, largest), (at_y, _)) = (pull(&model, &x), pull(&model, &y));
             let expected = moved(*surroundings, &at_x, &turn, Vec3::zeros());
             let off = common::distance(&expected, &at_y) / largest;
@@ -118,7 +119,7 @@ fn a_screw_keeps_its_energy() {
         let in_plane = each(&|p| plane * p, vec![direction, kappa, l1.y, l2.y, l1.x, l2.x]);
         for y in [turned, lifted, in_plane] {
             let after = total_energy(&model, &y);
-            assert!((before - after).abs() < 1e-12 * before, "seed {seed}: {before} {after}");
+            assert!(abs_diff_eq!(before, after, epsilon = 1e-12 * before), "seed {seed}: {before} {after}");
         }
     }
 }

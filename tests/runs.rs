@@ -1,6 +1,7 @@
 //! Runs from outside: what is written, what is said, and with which status a run ends.
 #![allow(clippy::unwrap_used)] // tests, also their helpers, may fail
 
+use approx::abs_diff_eq;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -165,7 +166,7 @@ fn a_tube_that_goes_through_itself() {
         let said = foldwell(out.path(), &["run", "t.toml"]);
         assert_eq!(said.status.code(), Some(0), "{}", text(&said.stderr));
         let row = last_row(&out.path().join("t/rolled.csv"));
-        assert!((row["theta2"] - 0.758).abs() < 1e-3, "{}", row["theta2"]);
+        assert!(abs_diff_eq!(row["theta2"], 0.758, epsilon = 1e-3), "{}", row["theta2"]);
         let expected = if check.is_empty() { f64::NAN } else { f64::from(u8::from(crossing)) };
         assert_eq!(row["self_intersecting"].to_bits(), expected.to_bits(), "{cells} {check}");
         let summary = json(&out.path().join("t/summary.json"))["studies"][0]["self_intersecting"].clone();

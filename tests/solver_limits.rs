@@ -3,6 +3,7 @@
 #[path = "common/textbook.rs"]
 mod textbook;
 
+use approx::assert_abs_diff_eq;
 use textbook::{Textbook, length, linear, steps};
 
 /// Claim: a stiff measure in place of the steep wall of the valley changes nothing but the path: `sqrt(200) (y - x^2)`
@@ -29,7 +30,7 @@ fn a_pendulum() {
     for start in [[2.0, 0.0], [1.0, -1.0], [-1.2, 1.6], [0.1, 2.0]] {
         let found = pendulum().run(&start).unwrap_or_else(|error| panic!("from {start:?}: {error}"));
         assert!(found.x[0].abs() < 1e-10 && (found.x[1] + 2.0).abs() < 1e-12, "{:?}", found.x);
-        assert!((found.tension[0] - 3.0).abs() < 1e-11);
+        assert_abs_diff_eq!(found.tension[0], 3.0, epsilon = 1e-11);
         assert_eq!(found.negative_eigenvalues, 0);
     }
     let top = pendulum().run(&[0.0, 2.0]).unwrap();

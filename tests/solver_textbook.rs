@@ -3,6 +3,7 @@
 #[path = "common/textbook.rs"]
 mod textbook;
 
+use approx::assert_abs_diff_eq;
 use foldwell::solver::tension::settle;
 use foldwell::solver::{Failure, Options, Start, minimize};
 use textbook::{Textbook, length, linear, steps};
@@ -47,7 +48,7 @@ fn a_quadratic_with_known_multipliers() {
         }
         assert!(steps(&found) <= 2, "{c:?}: {} steps", steps(&found));
         let energy = 0.5 * x.iter().map(|x| x * x).sum::<f64>() + 0.5 * (c[0] * t[0] * t[0] + c[1] * t[1] * t[1]);
-        assert!((found.energy - energy).abs() < 1e-12 * energy);
+        assert_abs_diff_eq!(found.energy, energy, epsilon = 1e-12 * energy);
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::abs_diff_eq;
 use common::{Case, eigenvalues, energy_hessian};
 use foldwell::analysis::modes::DENSE_LIMIT;
 use foldwell::model::Gauge;
@@ -25,7 +26,10 @@ fn sparse_and_dense_spectra_agree() {
         let found = case.modes(&recipe, 24).unwrap();
         for (k, (value, expected)) in found.eigenvalues.iter().zip(&expected).enumerate() {
             let allowed = 1e-8 * expected.abs() + 1e-13 * largest;
-            assert!((value - expected).abs() <= allowed, "{surroundings:?}, {k}: {value:e} for {expected:e}");
+            assert!(
+                abs_diff_eq!(value, expected, epsilon = allowed),
+                "{surroundings:?}, {k}: {value:e} for {expected:e}"
+            );
         }
         for (value, vector) in found.eigenvalues.iter().zip(&found.vectors) {
             let v = nalgebra::DVector::from_column_slice(vector);

@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use common::{Case, Numbers, distance, jacobian, linearized};
 use foldwell::analysis::relax::{Relaxed, relax};
 use foldwell::model::assemble::Surroundings;
@@ -79,7 +80,7 @@ fn six_by_six(rest: impl Fn(&Case) -> Vec<f64>) {
     let found = sweep(6, &rest, 12);
     report_minima(6, rest(&Case::patch("open-star", [6, 6])), &found);
     let scaled = scaled_distances(6, &found);
-    assert!((scaled[4] / scaled[5] - 1.0).abs() < 0.01, "1e10: {}, 1e12: {}", scaled[4], scaled[5]);
+    assert!(abs_diff_eq!(scaled[4] / scaled[5], 1.0, epsilon = 0.01), "1e10: {}, 1e12: {}", scaled[4], scaled[5]);
     assert!(scaled[5] > 1.0, "a distance that is no rounding error");
 }
 
@@ -156,7 +157,7 @@ fn scale_does_not_matter() {
     let (small, big) = (run(1.0), run(1024.0));
     assert_eq!(small.iterations, big.iterations);
     assert!(distance(&small.state.fold_angle, &big.state.fold_angle) < 1e-10);
-    assert!((big.state.total() / small.state.total() / 1024.0 - 1.0).abs() < 1e-10);
+    assert_abs_diff_eq!(big.state.total() / small.state.total() / 1024.0, 1.0, epsilon = 1e-10);
 }
 
 /// The residuals of both rows of the system of a step, by dense matrices and as the solver measures them: of forces over `a`, of

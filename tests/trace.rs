@@ -3,7 +3,7 @@
 
 mod common;
 
-use approx::assert_abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::analysis::branches;
 use foldwell::analysis::trace::{Question, Stop, Traced, trace};
 use foldwell::kinematics::{Embedding, Shape, drawn_fold_angles};
@@ -76,7 +76,7 @@ fn loops_of_open_star() {
             one.states.len(),
             one.corrections
         );
-        assert!((back.arc_length - length).abs() <= 1e-6, "{} for {length}", back.arc_length);
+        assert!(abs_diff_eq!(back.arc_length, length, epsilon = 1e-6), "{} for {length}", back.arc_length);
         let end = one.ends_at.expect("it arrives along a ray");
         let other = found.iter().find(|other| other.branch == end).unwrap();
         assert_eq!(other.ends_at, Some(one.branch), "the loop seen from its other end");
@@ -101,12 +101,12 @@ fn stored_states_are_met() {
         let stop = Stop { crease_angle: Some((edge(&sheet, mark), angle)), ..Stop::default() };
         let numbers = |name: &str| -> Vec<f64> { serde_json::from_value(state[name].clone()).unwrap() };
         let angles: Vec<f64> = places.iter().map(|&k| numbers("fold_angles")[k]).collect();
-        let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-9);
+        let close = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| abs_diff_eq!(a, b, epsilon = 1e-9));
         let met = run(&sheet, &[held], stop, None).into_iter().any(|one| {
             let last = one.states.last().unwrap();
             let shape = last.shape.as_ref().unwrap();
             close(&last.angles, &angles)
-                && (shape.curvature - state["kappa"].as_f64().unwrap()).abs() <= 1e-9
+                && abs_diff_eq!(shape.curvature, state["kappa"].as_f64().unwrap(), epsilon = 1e-9)
                 && close(&shape.theta, &numbers("theta"))
                 && close(&shape.strain, &numbers("strain"))
         });

@@ -3,6 +3,7 @@
 
 mod common;
 
+use approx::abs_diff_eq;
 use common::{Case, jacobian, linearized, mesh};
 use foldwell::analysis::chart::coordinates;
 use foldwell::analysis::trace::Folded;
@@ -126,7 +127,7 @@ fn the_seam_slips() {
             for point in &slipped.points {
                 let Shape { theta, compatibility, .. } = shape(&sheet, &point.x);
                 let turn = f64::from(seam[0]) * theta[0] + f64::from(seam[1]) * theta[1];
-                assert!((turn.abs() - TAU).abs() <= 1e-12, "{turn}");
+                assert!(abs_diff_eq!(turn.abs(), TAU, epsilon = 1e-12), "{turn}");
                 assert!(point.residual <= 1e-13 && compatibility.largest() <= 1e-12, "{compatibility:?}");
             }
             let rises: Vec<f64> = slipped.points.iter().map(|point| sign * tube.defects(&point.x)[1]).collect();

@@ -1,6 +1,7 @@
 //! `foldwell validate` from outside: exit statuses, reports, and a claim that is wrong.
 #![allow(clippy::unwrap_used)] // in helpers of tests as in tests
 
+use approx::abs_diff_eq;
 use assert_cmd::Command;
 use serde_json::Value;
 use std::path::Path;
@@ -52,7 +53,7 @@ fn a_wrong_claim_gives_status_one() {
     let json = report(&folder.path().join("r"));
     let case = json["cases"].as_array().unwrap().iter().find(|case| case["name"] == "wrong.toml").unwrap();
     let miss = case["miss"].as_f64().unwrap();
-    assert!(case["passed"] == false && (miss - 2e-6).abs() <= 1e-7, "{case}");
+    assert!(case["passed"] == false && abs_diff_eq!(miss, 2e-6, epsilon = 1e-7), "{case}");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(said.contains("FAILS  wrong.toml: off by 2.0") && said.contains("holds  loops-close"), "{said}");
 }

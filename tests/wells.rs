@@ -4,6 +4,7 @@
 
 mod common;
 
+use approx::assert_abs_diff_eq;
 use common::{Case, Numbers, mesh};
 use foldwell::analysis::relax::relax;
 use foldwell::analysis::wells::Question;
@@ -225,10 +226,10 @@ fn barriers_of_a_vertex() {
         println!("{} by string, {} rigid, limit {limit:?}", strung.pass.energy, pass.energy);
         assert!(strung.singular == pass.singular && strung.pass.negative_eigenvalues == 1);
         if pass.singular {
-            assert!((pass.energy - flat).abs() <= 1e-12 * flat);
+            assert_abs_diff_eq!(pass.energy, flat, epsilon = 1e-12 * flat);
             assert!((limit.exponent - 1.0 / 3.0).abs() <= 2e-3 && (limit.energy - flat).abs() <= 1e-5, "{limit:?}");
         } else {
-            assert!((strung.pass.energy - pass.energy).abs() <= 1e-10 * pass.energy);
+            assert_abs_diff_eq!(strung.pass.energy, pass.energy, epsilon = 1e-10 * pass.energy);
             assert!((limit.exponent - 1.0).abs() <= 1e-3, "{limit:?}");
         }
     }
