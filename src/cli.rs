@@ -18,7 +18,8 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
 use foldwell::output::summary::{
-    BranchesSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary, TraceSummary, WellsSummary, to_json,
+    BranchesSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
+    to_json,
 };
 use foldwell::run::{self, Ledger, RunError, RunOptions, RunReport};
 use foldwell::validation::report::Case;
@@ -375,16 +376,20 @@ fn describe_trace(traced: &TraceSummary) -> String {
     ends.collect::<Vec<_>>().join(", ") + others
 }
 
+fn describe_surface(surface: &SurfaceSummary) -> String {
+    let SurfaceSummary { points, triangles, coverage, gaps, .. } = surface;
+    let established = surface.established.iter().map(|established| format!(": {established}"));
+    let gaps = (*gaps > 0).then(|| format!(", but triangles are missing beside {gaps} states"));
+    format!("{points} states, {triangles} triangles, {coverage}") + &established.chain(gaps).collect::<String>()
+}
+
 fn describe_study(study: &StudySummary) -> String {
     let what = match &study.result {
         Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
         Some(StudyResult::Modes(modes)) => describe_modes(modes),
         Some(StudyResult::Branches(branches)) => describe_branches(branches),
         Some(StudyResult::Trace(traced)) => describe_trace(traced),
-        Some(StudyResult::Surface(surface)) => {
-            let found = format!("{} states, {} triangles, {}", surface.points, surface.triangles, surface.coverage);
-            surface.established.as_ref().map_or(found.clone(), |established| format!("{found}: {established}"))
-        }
+        Some(StudyResult::Surface(surface)) => describe_surface(surface),
         Some(StudyResult::Landscape(landscape)) => {
             let modes = landscape.modes.iter().map(|one| {
                 let mode = match (one.wave, one.mode) {

@@ -189,8 +189,8 @@ fn names_do_not_collide() {
     run(folder.path(), &(sheet + &relax(&"n".repeat(200)) + &relax("a-map") + &relax("a")), &[]);
 }
 
-/// Claim: a resumed run computes a study again when any of its files is missing, empty, cut or changed, and then the folder is what
-/// it was, byte by byte; whole files are kept.
+/// Claim: a resumed run computes a study again when any of its files is missing, empty, cut or changed, or when what the summary
+/// says of it cannot be read, and then the folder is what it was, byte by byte; whole files are kept.
 #[test]
 fn a_resumed_run_makes_broken_files_good() {
     let folder = tempfile::tempdir().unwrap();
@@ -215,6 +215,13 @@ fn a_resumed_run_makes_broken_files_good() {
         assert_eq!(said.matches("kept").count(), 1, "{}: {said}", file.display());
         assert_eq!(contents(&out), whole, "{}", file.display());
     }
+    let summary = out.join("summary.json");
+    let mut without: Value = serde_json::from_str(&fs::read_to_string(&summary).unwrap()).unwrap();
+    *without.pointer_mut("/studies/0/energy/total").unwrap() = Value::Null;
+    fs::write(&summary, without.to_string()).unwrap();
+    let (_, said) = run(folder.path(), &scene, &["--resume"]);
+    assert_eq!(said.matches("kept").count(), 1, "{said}");
+    assert_eq!(contents(&out), whole);
 }
 
 /// Claim: what an earlier run drew and this one does not is gone, and nothing else is: files of other studies, of the user, and

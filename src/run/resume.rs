@@ -1,9 +1,9 @@
 //! What an earlier run into the same folder left, and what of it can be kept.
 //!
 //! A study enters `summary.json` only after all its files are whole, so what is listed there as converged is done. It is
-//! kept where the digest of the scene and of every file it names is the same, and its own files are those on record. A study from which a later one starts
-//! leaves its state in `NAME.state.json`, every number in the digits that give it back exactly, so that the later one
-//! begins where it would have begun.
+//! kept where the digest of the scene and of every file it names is the same, and its own files are those on record. A
+//! study from which a later one starts leaves its state in `NAME.state.json`, every number in the digits that give it back
+//! exactly, so that the later one begins where it would have begun.
 
 use super::RunError;
 use super::belongings::Belongings;
@@ -13,6 +13,7 @@ use crate::scene::SceneFile;
 use crate::scene::forms::Start;
 use crate::scene::spec::{BlochSpec, RelaxSpec, StudyKind, StudySpec};
 use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
 /// A state that later studies may start from.
@@ -31,7 +32,8 @@ pub struct Kept {
 #[derive(Default, Deserialize)]
 pub struct Earlier {
     digest: String,
-    studies: Vec<StudySummary>,
+    /// One by one: what cannot be read of one study, such as a number that is none, costs no other.
+    studies: Vec<Box<RawValue>>,
 }
 
 impl Earlier {
@@ -56,12 +58,14 @@ impl Earlier {
         study: &StudySpec,
     ) -> Option<(StudySummary, Option<Kept>)> {
         let name = &study.name.0;
-        let found = self.studies.iter().find(|found| found.name == *name)?;
+        let mut readable =
+            self.studies.iter().filter_map(|study| serde_json::from_str::<StudySummary>(study.get()).ok());
+        let found = readable.find(|found| found.name == *name)?;
         if !found.converged || found.result.is_none() || found.files != files.record(name).ok() {
             return None;
         }
         let state = if is_start(file, name) { Some(read_state(out, name)?) } else { None };
-        Some((found.clone(), state))
+        Some((found, state))
     }
 }
 

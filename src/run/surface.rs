@@ -294,6 +294,7 @@ fn summarized(surface: &Surface, question: &Question<'_>) -> SurfaceSummary {
         triangles: surface.triangles.len(),
         coverage: coverage.to_owned(),
         established: surface.negative.map(|negative| negative.to_string()),
+        gaps: surface.gaps,
         closed: surface.closed && !surface.points.is_empty(),
         oriented: surface.oriented,
         tips: surface.points.iter().filter(|point| point.radius == 0.0).count(),

@@ -72,6 +72,9 @@ pub struct Surface {
     pub triangles: Vec<[usize; 3]>,
     /// How the covering ended; holes around the drawn state are closed and do not count.
     pub coverage: Coverage,
+    /// Of a complete covering: states within the limit beside which triangles are missing. Charts of one surface take those of
+    /// another for their own where both cross at a small angle, and then there is no telling how they hang together.
+    pub gaps: usize,
     /// Whether neighbours go the same way round everywhere.
     pub oriented: bool,
     /// Whether it has no border.
@@ -237,6 +240,7 @@ impl Surface {
             points,
             triangles,
             coverage,
+            gaps: 0,
             oriented: true,
             closed: false,
             branches,
@@ -257,21 +261,34 @@ fn put_together(
     observe: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Surface, KinematicsError> {
     let branch = starts::branches(&atlas, &starts.list);
-    let tip::Left { rims, open } = tip::close(folding, &mut atlas);
+    let tip::Left { border, open } = tip::close(folding, &mut atlas);
     let coverage = match atlas.coverage {
         Coverage::Open { .. } if open == 0 => Coverage::Complete,
         Coverage::Open { .. } => Coverage::Open { charts: open },
         other => other,
     };
     let points = Vec::with_capacity(atlas.charts.len());
-    let (triangles, closed, negative) = (atlas.triangles, rims == 0, None);
+    let (triangles, closed, negative) = (atlas.triangles, border == 0, None);
+    let gaps = if coverage == Coverage::Complete { open } else { 0 };
     let Atlas { oriented, .. } = atlas;
     let mut branches = branch.clone();
     branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
     branches.dedup();
     let (lost, crossing, radius, seam) = (starts.lost, starts.crossing, 0.0, Vec::new());
-    let mut surface =
-        Surface { points, triangles, coverage, oriented, closed, branches, radius, lost, crossing, seam, negative };
+    let mut surface = Surface {
+        points,
+        triangles,
+        coverage,
+        gaps,
+        oriented,
+        closed,
+        branches,
+        radius,
+        lost,
+        crossing,
+        seam,
+        negative,
+    };
     for (k, chart) in atlas.charts.iter().enumerate() {
         let stopped = surface.coverage == Coverage::Interrupted;
         if !stopped && k % OBSERVED == 0 && !observe(atlas.charts.len()) {

@@ -20,33 +20,41 @@ const STEPS: usize = 20;
 /// A tip is no further from a point of the rim than this times the largest distance of two of its points.
 const NEAR: f64 = 1.5;
 
-/// What is left of the rims of an atlas.
+/// The border of an atlas.
 pub(super) struct Left {
-    /// Rims.
-    pub rims: usize,
-    /// Charts on them that are not at the limit.
+    /// Charts on it.
+    pub border: usize,
+    /// Those of them that are not at the limit.
     pub open: usize,
 }
 
 /// Joins rims to the tips in their holes.
 pub(super) fn close(folding: &Folding<'_>, atlas: &mut Atlas) -> Left {
-    let mut left = Left { rims: 0, open: 0 };
     for rim in rims(&atlas.triangles) {
-        let off = rim.iter().filter(|&&k| atlas.charts[k].limit.abs() > BORDER).count();
-        let found = if off == rim.len() { tip(folding, &atlas.charts, &rim) } else { None };
-        match found {
-            Some(chart) => {
-                let tip = atlas.charts.len();
-                atlas.charts.push(chart);
-                atlas.triangles.extend((0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], tip]));
-            }
-            None => {
-                left.rims += 1;
-                left.open += off;
-            }
+        if !rim.iter().all(|&k| off_limit(&atlas.charts[k])) {
+            continue;
+        }
+        if let Some(chart) = tip(folding, &atlas.charts, &rim) {
+            let tip = atlas.charts.len();
+            atlas.charts.push(chart);
+            atlas.triangles.extend((0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], tip]));
         }
     }
-    left
+    let border = border(&atlas.triangles);
+    Left { border: border.len(), open: border.into_iter().filter(|&k| off_limit(&atlas.charts[k])).count() }
+}
+
+fn off_limit(chart: &Chart) -> bool {
+    chart.limit.abs() > BORDER
+}
+
+/// The corners of edges that have one triangle.
+fn border(triangles: &[[usize; 3]]) -> BTreeSet<usize> {
+    let mut count: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for [a, b] in triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]) {
+        *count.entry([a.min(b), a.max(b)]).or_default() += 1;
+    }
+    count.into_iter().filter(|&(_, triangles)| triangles == 1).flat_map(|(edge, _)| edge).collect()
 }
 
 /// The spatially periodic state within a rim, as a chart without extent.
