@@ -14,7 +14,7 @@ use foldwell::output::picture::Picture;
 use foldwell::sheet::build::{Drawn as Drawing, build};
 use foldwell::sheet::generate::{Eggbox, Miura, Random, RandomDevelopable};
 use foldwell::sheet::{Corner, EdgeKind, Pattern, Sheet, generate};
-use foldwell::solver::{Options, Start};
+use foldwell::solver::{Options, Problem, Start};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -46,6 +46,8 @@ pub struct Answer {
     /// The same, asked again from the answer.
     pub again: Result<(f64, usize), String>,
     pub residual: f64,
+    /// What the bars store, `sum t^2 / (2 k)`.
+    pub stored: f64,
     /// Distance to the exact kinematics, where that says something.
     pub exact: Option<f64>,
     /// The sum of the energies of all lines of the picture.
@@ -144,8 +146,9 @@ impl Trial {
         let negative = found.negative_eigenvalues;
         let view = View::new(&case.sheet, &case.tiling, self.surroundings, [1, 1]);
         let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
+        let stored = found.tension.iter().zip(model.compliance()).map(|(t, compliance)| 0.5 * t * t * compliance).sum();
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
-        Ok(Answer { energy, angles, negative, again, residual, exact, pictured })
+        Ok(Answer { energy, angles, negative, again, residual, stored, exact, pictured })
     }
 
     /// Whether random starts reach an equilibrium of such an energy.
