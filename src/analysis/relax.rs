@@ -1,5 +1,6 @@
 //! Relaxation: from a start to the equilibrium of a model, directly or by raising what drives it step by step.
 
+use super::apex;
 use super::state::State;
 use crate::model::{Domain, Model};
 use crate::solver::saddle::Saddle;
@@ -74,6 +75,7 @@ pub fn relax(
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
     let start = start.into();
+    let restarted = start.tension.is_some();
     let (origin, place) = (model.angles(), model.coordinates(&start.x));
     let mut history = Vec::new();
     let found = match minimize(model, start.clone(), options, observe) {
@@ -86,6 +88,12 @@ pub fn relax(
         found => found,
     };
     let found = found.and_then(|found| held_firmly(model, found, options, observe, &mut history));
+    let found = found.and_then(|found| {
+        // a restarted equilibrium stays where it is
+        let moved = !restarted || !history.is_empty() || found.history.iter().any(|step| step.fraction > 0.0);
+        let may_bend = moved && apex::at_apex(model, &found.x) && strained(model, &found.x);
+        if may_bend { apex::bent(model, found, options, observe, &mut history) } else { Ok(found) }
+    });
     match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
             Some(angle) if !(angle <= CERTAIN) => {

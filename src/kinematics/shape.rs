@@ -22,6 +22,8 @@ use std::f64::consts::TAU;
 const NO_TURN: f64 = 1e-8;
 /// Most times that a way between two states is halved.
 const HALVINGS: usize = 10;
+/// Largest incompatibility of a state between two others, over its curvature times the length of the cell.
+const OPEN: f64 = 0.1;
 
 /// A periodic sheet at some fold angles, in the frame of the [embedding](super::embedding).
 #[derive(Clone, Debug)]
@@ -88,6 +90,17 @@ impl Shape {
         self.theta.iter().any(|theta| theta.abs() >= NO_TURN)
     }
 
+    /// Whether the angles close well enough for the axis to mean something: next to a state without curvature, angles halfway between
+    /// two states leave more open than the curvature closes.
+    fn closes(&self) -> bool {
+        self.compatibility.largest() <= OPEN * self.screw.towards_axis().norm() * self.cell()
+    }
+
+    /// The longer chord from vertex 0 to its copies.
+    fn cell(&self) -> f64 {
+        self.screw.chords.iter().map(|chord| chord.norm()).fold(0.0, f64::max)
+    }
+
     /// Gives the curvature the sign that it has after a small step from `last`. Nothing changes where one of the two does not turn.
     ///
     /// The axis that passes close by vertex 0 goes to its other side as well, but there the curvature is large and keeps
@@ -97,8 +110,7 @@ impl Shape {
         if !(self.turns() && last.turns() && self.curvature.is_finite() && last.curvature.is_finite()) {
             return;
         }
-        let cell = self.screw.chords.iter().map(|chord| chord.norm()).fold(0.0, f64::max);
-        let passes_zero = before.dot(&now) < 0.0 && before.norm().min(now.norm()) * cell < 1.0;
+        let passes_zero = before.dot(&now) < 0.0 && before.norm().min(now.norm()) * self.cell() < 1.0;
         let sign = if passes_zero { -last.curvature.signum() } else { last.curvature.signum() };
         self.curvature = self.curvature.abs() * sign;
     }
@@ -115,7 +127,8 @@ impl Shape {
         if left > 0 && turned && self.turns() && last.turns() {
             let nearest = |(a, b): (&f64, &f64)| a + 0.5 * (b - a - TAU * ((b - a) / TAU).round());
             let between: Vec<f64> = from.iter().zip(to).map(nearest).collect();
-            if let Some(mut middle) = Self::at(embedding, &between).ok().filter(Self::turns) {
+            let middle = Self::at(embedding, &between).ok().filter(|middle| middle.turns() && middle.closes());
+            if let Some(mut middle) = middle {
                 middle.continue_halving(embedding, last, [from, &between], left - 1);
                 return self.continue_halving(embedding, &middle, [&between, to], left - 1);
             }

@@ -220,6 +220,14 @@ impl Domain {
         }
     }
 
+    /// Gives a screw an axis of this direction and this curvature; its lattice and its vertices stay.
+    pub fn bend(&self, x: &mut [f64], direction: f64, kappa: f64) {
+        if matches!(self, Self::Screw) {
+            let first = x.len() - self.shared();
+            (x[first], x[first + 1]) = (direction, kappa);
+        }
+    }
+
     /// Sizes of the shared coordinates in which they weigh as much as a `length` in the position of a point, or as
     /// little as nothing else: then all unknowns are lengths, whatever the unit. Empty where the coordinates are lengths themselves.
     ///

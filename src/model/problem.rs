@@ -7,6 +7,7 @@ use crate::numerics::sparse::{Cliques, FIXED};
 use crate::numerics::{largest, parallel};
 use crate::solver::{Curvature, Layout, Linearization, Problem};
 
+mod place;
 mod turning;
 
 /// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is

@@ -46,8 +46,9 @@ pub struct Answer {
     /// The same, asked again from the answer.
     pub again: Result<(f64, usize), String>,
     pub residual: f64,
-    /// What the bars store, `sum t^2 / (2 k)`.
-    pub stored: f64,
+    /// `t^2 / 2` and `1 / k` of every stiff measure.
+    pub halves: Vec<f64>,
+    pub compliance: Vec<f64>,
     /// Distance to the exact kinematics, where that says something.
     pub exact: Option<f64>,
     /// The sum of the energies of all lines of the picture.
@@ -146,9 +147,9 @@ impl Trial {
         let negative = found.negative_eigenvalues;
         let view = View::new(&case.sheet, &case.tiling, self.surroundings, [1, 1]);
         let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
-        let stored = found.tension.iter().zip(model.compliance()).map(|(t, compliance)| 0.5 * t * t * compliance).sum();
+        let (halves, compliance) = (found.tension.iter().map(|t| 0.5 * t * t).collect(), model.compliance().to_vec());
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
-        Ok(Answer { energy, angles, negative, again, residual, stored, exact, pictured })
+        Ok(Answer { energy, angles, negative, again, residual, halves, compliance, exact, pictured })
     }
 
     /// Whether random starts reach an equilibrium of such an energy.

@@ -1,0 +1,61 @@
+//! Screws whose relaxation ends without curvature.
+//!
+//! The motions of a screw that bend it are a curvature times the square of the axis's direction: a cone, whose apex is zero
+//! curvature. At the apex Newton's method sees only the direction in which the axis happens to lie, so that a state in
+//! balance along it, with no negative eigenvalue, may still lose energy by bending about another axis. A relaxation that ends at
+//! the apex is therefore repeated from states that are bent a little about several axes, both ways; the lowest equilibrium is the
+//! answer.
+
+use crate::model::Model;
+use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Step, minimize};
+use std::f64::consts::PI;
+
+/// Curvature times the unit of length below which a state has none.
+const APEX_CURVATURE: f64 = 1e-7;
+/// Curvature times the unit of length from which relaxations are repeated.
+const BENT_CURVATURE: f64 = 1e-3;
+/// Directions of the axis about which the sheet is bent, evenly over half a turn, beginning off the directions of symmetric cells.
+const AXES: usize = 4;
+const FIRST_AXIS: f64 = 0.3;
+/// Relative fall of the energy that rounding errors do not explain.
+const LOWER: f64 = 1e-10;
+
+/// Whether a state is that of a screw without curvature.
+pub(super) fn at_apex(model: &Model, x: &[f64]) -> bool {
+    let turns = model.domain().turns(&model.coordinates(x));
+    turns.is_some_and(|turns| turns.kappa.abs() * model.unit_of_length() <= APEX_CURVATURE)
+}
+
+/// The lowest equilibrium that relaxations from slightly bent states reach, or `found` where none is lower.
+///
+/// # Errors
+/// [`Failure::Interrupted`] where `observe` asks to stop. A relaxation that fails otherwise is passed over.
+pub(super) fn bent(
+    model: &mut Model,
+    mut found: Equilibrium,
+    options: Options,
+    observe: &mut dyn FnMut(&Step) -> bool,
+    history: &mut Vec<Step>,
+) -> Result<Equilibrium, NewtonError> {
+    let (start, mut place) = (model.place(), model.place());
+    let flat = model.coordinates(&found.x);
+    let bend = BENT_CURVATURE / model.unit_of_length();
+    for axis in 0..AXES {
+        for kappa in [bend, -bend] {
+            let mut coordinates = flat.clone();
+            model.domain().bend(&mut coordinates, FIRST_AXIS + PI * axis as f64 / AXES as f64, kappa);
+            model.go_to(&start);
+            let x = model.start_from(coordinates);
+            match minimize(model, x, options, observe) {
+                Ok(other) if found.energy - other.energy > LOWER * found.energy.abs() => {
+                    history.append(&mut found.history);
+                    (found, place) = (other, model.place());
+                }
+                Err(error) if error.failure == Failure::Interrupted => return Err(error),
+                _ => {}
+            }
+        }
+    }
+    model.go_to(&place);
+    Ok(found)
+}
