@@ -7,7 +7,7 @@ use foldwell::analysis::branches;
 use foldwell::analysis::drive::{self, cylinder_errors, drive};
 use foldwell::analysis::landscape::fit::{agrees, coefficient};
 use foldwell::analysis::landscape::samples::landscape;
-use foldwell::analysis::landscape::{HeldSheet, Prediction};
+use foldwell::analysis::landscape::{Expansion, HeldSheet, Prediction};
 use foldwell::analysis::surface::{self, Surface, surface};
 use foldwell::analysis::trace::{self, Stop, Traced};
 use foldwell::model::assemble::{Recipe, Surroundings};
@@ -72,7 +72,7 @@ fn driven(case: &Case, recipe: &Recipe, traced: &Traced, report: &mut Report, wh
     }
     report.judge("driven", found.states.len() + 1 + closed == traced.states.len(), || format!("{}: states", what()));
     let error = found.error();
-    report.judge("driven angles", error.is_some_and(|error| error <= 1e-8), || format!("{}: {error:?}", what()));
+    report.judge("driven angles", error.is_some_and(|error| error <= CERTAIN), || format!("{}: {error:?}", what()));
     let cylinders = cylinder_errors(drawn, traced, &found);
     let ok = cylinders.is_some_and(|e| [e.curvature, e.strain, e.theta].iter().all(|error| *error <= CERTAIN));
     report.judge("driven cylinders", ok, || format!("{}: {cylinders:?}", what()));
@@ -148,6 +148,10 @@ fn costs(trial: &Trial, seed: u64, report: &mut Report, what: &str) {
     }
     let fitted = coefficient(&known).filter(|_| known.len() >= 3);
     let Some(fitted) = fitted else { return report.unanswered("landscape", "too few samples above rounding") };
+    let (least, Expansion { fourth, fifth, sixth }) = (known[0].0, found.predicted);
+    if !(fifth.abs() * least + sixth.abs() * least * least <= fourth.abs()) {
+        return report.unanswered("landscape", "amplitudes beyond the reach of the series");
+    }
     report.judge("landscape", agrees(&known, fitted, found.predicted), || {
         format!("{what} {mode:?}: {fitted:?} and {:?}", found.predicted)
     });

@@ -127,7 +127,9 @@ fn nearly_rigid(trial: &Trial, answer: &Answer, report: &mut Report, what: &str)
         sizes
     };
     let mirrored = apart > 1e-4 && common::distance(&sizes(&nearly.angles), &sizes(&answer.angles)) <= 1e-4;
-    if close(answer.energy) && mirrored || !close(answer.energy) && trial.has_equilibrium(close) {
+    // a well of strained bars, which rigid ones do not have
+    let strained = least > 0.5 * nearly.energy;
+    if strained || close(answer.energy) && mirrored || !close(answer.energy) && trial.has_equilibrium(close) {
         return report.count(ELSEWHERE, true);
     }
     report.judge("nearly rigid", close(answer.energy), || {
