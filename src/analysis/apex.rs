@@ -10,36 +10,38 @@ use crate::model::Model;
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Step, minimize};
 use std::f64::consts::PI;
 
-/// Curvature times the unit of length below which a state has none.
-const APEX_CURVATURE: f64 = 1e-7;
-/// Curvature times the unit of length from which relaxations are repeated.
-const BENT_CURVATURE: f64 = 1e-3;
+/// Curvature times the unit of length, over the largest angle by which a hinge is off its rest: below this a state has none,
+const APEX_CURVATURE: f64 = 1e-6;
+/// and from this relaxations are repeated.
+const BENT_CURVATURE: f64 = 0.03;
 /// Directions of the axis about which the sheet is bent, evenly over half a turn, beginning off the directions of symmetric cells.
 const AXES: usize = 4;
 const FIRST_AXIS: f64 = 0.3;
 /// Relative fall of the energy that rounding errors do not explain.
 const LOWER: f64 = 1e-10;
 
-/// Whether a state is that of a screw without curvature.
-pub(super) fn at_apex(model: &Model, x: &[f64]) -> bool {
+/// Whether a state with this largest angle between a hinge and its rest is that of a screw without curvature.
+pub(super) fn at_apex(model: &Model, x: &[f64], off: f64) -> bool {
     let turns = model.domain().turns(&model.coordinates(x));
-    turns.is_some_and(|turns| turns.kappa.abs() * model.unit_of_length() <= APEX_CURVATURE)
+    turns.is_some_and(|turns| turns.kappa.abs() * model.unit_of_length() <= APEX_CURVATURE * off)
 }
 
-/// The lowest equilibrium that relaxations from slightly bent states reach, or `found` where none is lower.
+/// The lowest equilibrium that relaxations from slightly bent states reach, or `found` where none is lower. `off` is the largest angle
+/// between a hinge and its rest, in radians.
 ///
 /// # Errors
 /// [`Failure::Interrupted`] where `observe` asks to stop. A relaxation that fails otherwise is passed over.
 pub(super) fn bent(
     model: &mut Model,
     mut found: Equilibrium,
+    off: f64,
     options: Options,
     observe: &mut dyn FnMut(&Step) -> bool,
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
     let (start, mut place) = (model.place(), model.place());
     let flat = model.coordinates(&found.x);
-    let bend = BENT_CURVATURE / model.unit_of_length();
+    let bend = BENT_CURVATURE * off / model.unit_of_length();
     for axis in 0..AXES {
         for kappa in [bend, -bend] {
             let mut coordinates = flat.clone();

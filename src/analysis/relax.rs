@@ -91,8 +91,9 @@ pub fn relax(
     let found = found.and_then(|found| {
         // a restarted equilibrium stays where it is
         let moved = !restarted || !history.is_empty() || found.history.iter().any(|step| step.fraction > 0.0);
-        let may_bend = moved && apex::at_apex(model, &found.x) && strained(model, &found.x);
-        if may_bend { apex::bent(model, found, options, observe, &mut history) } else { Ok(found) }
+        let off = if moved { off_rest(model, &found.x) } else { 0.0 };
+        let may_bend = off > 0.0 && apex::at_apex(model, &found.x, off);
+        if may_bend { apex::bent(model, found, off, options, observe, &mut history) } else { Ok(found) }
     });
     match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
@@ -192,7 +193,8 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
     model.hold(&found.tension, &mut at);
     let mut saddle = Saddle::new(layout, &at).ok()?;
-    let unknown = || (last.residual_force > UNBALANCED && strained(model, &found.x)).then_some(f64::INFINITY);
+    let strained = || off_rest(model, &found.x) > CERTAIN;
+    let unknown = || (last.residual_force > UNBALANCED && strained()).then_some(f64::INFINITY);
     if saddle.factor(layout, &at, compliance, 0.0).is_err() {
         return unknown();
     }
@@ -204,12 +206,12 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     Some(at.largest_turn(layout, &step.dx))
 }
 
-/// Whether some soft hinge is off its rest angle by more than rounding errors.
-fn strained(model: &Model, x: &[f64]) -> bool {
+/// The largest angle between a soft hinge and its rest, in radians.
+fn off_rest(model: &Model, x: &[f64]) -> f64 {
     let coordinates = model.coordinates(x);
     let hinges = model.soft().iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-    let mut off = hinges.map(|(term, k)| term.value(k, model.domain(), &coordinates) - term.spring(k).rest);
-    off.any(|off| off.abs() > CERTAIN)
+    let off = hinges.map(|(term, k)| term.value(k, model.domain(), &coordinates) - term.spring(k).rest);
+    off.fold(0.0, |largest, off| largest.max(off.abs()))
 }
 
 fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>, edges: usize) -> Relaxed {
