@@ -19,6 +19,8 @@ const ROUGH: f64 = 0.1;
 const UNBALANCED: f64 = 1e-9;
 /// How often what holds a sheet against rigid motions is chosen again.
 const HOLDS: usize = 20;
+/// Largest force of a rigid measure over those of the others from which on it hides them.
+const HIDDEN: f64 = 100.0;
 /// Tolerance of the states in between.
 const LOOSE: f64 = 1e-6;
 
@@ -93,7 +95,8 @@ pub fn relax(
         let moved = !restarted || !history.is_empty() || found.history.iter().any(|step| step.fraction > 0.0);
         let off = if moved { off_rest(model, &found.x) } else { 0.0 };
         let may_bend = off > 0.0 && apex::at_apex(model, &found.x, off);
-        if may_bend { apex::bent(model, found, off, options, observe, &mut history) } else { Ok(found) }
+        let found = if may_bend { apex::bent(model, found, off, options, observe, &mut history)? } else { found };
+        if moved { refined(model, found, options, observe, &mut history) } else { Ok(found) }
     });
     match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
@@ -176,6 +179,49 @@ fn follow(
     }
 }
 
+/// The equilibrium of a screw whose rigid measures are under so much tension that they hide what is left of the others' forces, with
+/// these as small as residuals usually are; itself where they are not, or where that cannot be reached.
+///
+/// Next to zero curvature the rows of rigid measures are nearly dependent and their tensions grow without bound, and residuals are
+/// measured against the largest force.
+fn refined(
+    model: &mut Model,
+    mut found: Equilibrium,
+    options: Options,
+    observe: &mut dyn FnMut(&Step) -> bool,
+    history: &mut Vec<Step>,
+) -> Result<Equilibrium, NewtonError> {
+    if !matches!(model.domain(), Domain::Screw) || rigid_over_others(model, &found) <= HIDDEN {
+        return Ok(found);
+    }
+    let place = model.place();
+    let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
+    let tolerance = options.tolerance / HIDDEN;
+    match minimize(model, start, Options { tolerance, ..options }, observe) {
+        Ok(other) => {
+            history.append(&mut found.history);
+            Ok(other)
+        }
+        Err(error) if error.failure == Failure::Interrupted => Err(error),
+        Err(_) => {
+            model.go_to(&place);
+            Ok(found)
+        }
+    }
+}
+
+/// The largest force of a rigid measure over the largest one of all others.
+fn rigid_over_others(model: &Model, found: &Equilibrium) -> f64 {
+    let mut at = Linearization::new(model.layout());
+    let mut largest = |tension: &[f64]| {
+        model.linearize(&found.x, tension, Curvature::GaussNewton, &mut at);
+        at.largest_force
+    };
+    let of_others: Vec<f64> =
+        found.tension.iter().zip(model.compliance()).map(|(t, c)| if *c == 0.0 { 0.0 } else { *t }).collect();
+    largest(&found.tension) / largest(&of_others)
+}
+
 /// The largest change of a soft hinge's angle that one more Newton step would make, in radians: what the residual
 /// means for the state. Asked where it may mean much: where rounding errors kept it above the tolerance, and on screws, whose axis
 /// has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a state under
@@ -188,12 +234,16 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     if last.residual_force <= tolerance && !matches!(model.domain(), Domain::Screw) {
         return None;
     }
+    let strained = || off_rest(model, &found.x) > CERTAIN;
+    let of_others = || last.residual_force * rigid_over_others(model, found).max(1.0);
+    if matches!(model.domain(), Domain::Screw) && of_others() > UNBALANCED && strained() {
+        return Some(f64::INFINITY);
+    }
     let (layout, compliance) = (model.layout(), model.compliance());
     let mut at = Linearization::new(layout);
     model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
     model.hold(&found.tension, &mut at);
     let mut saddle = Saddle::new(layout, &at).ok()?;
-    let strained = || off_rest(model, &found.x) > CERTAIN;
     let unknown = || (last.residual_force > UNBALANCED && strained()).then_some(f64::INFINITY);
     if saddle.factor(layout, &at, compliance, 0.0).is_err() {
         return unknown();

@@ -91,7 +91,7 @@ fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
         match trial.answer() {
             Ok(freer) => {
                 let ok = freer.energy <= bound * (1.0 + SAME) + 1e-13;
-                if !ok && (freer.negative > 0 || trial.has_equilibrium(|found| found <= bound * (1.0 + SAME))) {
+                if !ok && (freer.negative > 0 || trial.has_equilibrium(|found, _| found <= bound * (1.0 + SAME))) {
                     report.count(ELSEWHERE, true);
                 } else {
                     report.judge("more freedom", ok, || {
@@ -115,10 +115,11 @@ fn nearly_rigid(trial: &Trial, answer: &Answer, report: &mut Report, what: &str)
     };
     let stored = |halves: &[f64]| halves.iter().zip(&nearly.compliance).map(|(t, c)| t * c).sum::<f64>();
     let (least, most) = (stored(&nearly.halves), stored(&answer.halves));
-    let close = |energy: f64| {
+    let close = |energy: f64, halves: &[f64]| {
         let (less, rounding) = (energy - nearly.energy, SAME * energy + 1e-13);
-        less >= 0.9 * least - rounding && less <= 1.1 * most + rounding
+        less >= 0.9 * least - rounding && less <= 1.1 * stored(halves) + rounding
     };
+    let is_close = close(answer.energy, &answer.halves);
     let apart = common::distance(&nearly.angles, &answer.angles);
     // a parallelogram may be split along either diagonal at the same cost
     let sizes = |angles: &[f64]| {
@@ -129,10 +130,10 @@ fn nearly_rigid(trial: &Trial, answer: &Answer, report: &mut Report, what: &str)
     let mirrored = apart > 1e-4 && common::distance(&sizes(&nearly.angles), &sizes(&answer.angles)) <= 1e-4;
     // a well of strained bars, which rigid ones do not have
     let strained = least > 0.5 * nearly.energy;
-    if strained || close(answer.energy) && mirrored || !close(answer.energy) && trial.has_equilibrium(close) {
+    if strained || is_close && mirrored || !is_close && trial.has_equilibrium(close) {
         return report.count(ELSEWHERE, true);
     }
-    report.judge("nearly rigid", close(answer.energy), || {
+    report.judge("nearly rigid", is_close, || {
         format!("{what}: {:e} and {:e}, less {least:e} to {most:e}", answer.energy, nearly.energy)
     });
     // next to singular states even such bars are soft

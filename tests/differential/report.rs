@@ -49,7 +49,7 @@ impl Report {
         let same = (energy - answer.energy).abs() <= SAME * answer.energy.abs() + 1e-13;
         if !same
             && (answer.negative + other.negative > 0
-                || trial.has_equilibrium(|found| (found - energy).abs() <= 10.0 * SAME * energy))
+                || trial.has_equilibrium(|found, _| (found - energy).abs() <= 10.0 * SAME * energy))
         {
             return self.count(ELSEWHERE, true);
         }

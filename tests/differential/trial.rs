@@ -147,13 +147,13 @@ impl Trial {
         let negative = found.negative_eigenvalues;
         let view = View::new(&case.sheet, &case.tiling, self.surroundings, [1, 1]);
         let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
-        let (halves, compliance) = (found.tension.iter().map(|t| 0.5 * t * t).collect(), model.compliance().to_vec());
+        let (halves, compliance) = (halves(&found.tension), model.compliance().to_vec());
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
         Ok(Answer { energy, angles, negative, again, residual, halves, compliance, exact, pictured })
     }
 
-    /// Whether random starts reach an equilibrium of such an energy.
-    pub fn has_equilibrium(&self, such: impl Fn(f64) -> bool) -> bool {
+    /// Whether random starts reach an equilibrium of such an energy; told beside it are `t^2 / 2` of every stiff measure.
+    pub fn has_equilibrium(&self, such: impl Fn(f64, &[f64]) -> bool) -> bool {
         let case = self.case();
         let recipe = self.recipe(&case);
         let Case { sheet, tiling, surroundings, drawn, .. } = &case;
@@ -161,7 +161,7 @@ impl Trial {
         [0.05, 0.1, 0.3, 1.0].into_iter().any(|spread| {
             let starts = Starts { count: STARTS, seed: 1, spread, options: Options::default() };
             relax_all(&question, &starts, &|| true).into_iter().any(|outcome| match outcome {
-                Outcome::Well(found) => such(found.energy),
+                Outcome::Well(found) => such(found.energy, &halves(&found.relaxed.tension)),
                 _ => false,
             })
         })
@@ -210,6 +210,10 @@ impl Trial {
         };
         Some(Self { sheet, off, lock, ..self.clone() })
     }
+}
+
+fn halves(tension: &[f64]) -> Vec<f64> {
+    tension.iter().map(|t| 0.5 * t * t).collect()
 }
 
 /// The edge of `old` that each edge of `new` is, by its middle and direction; `None` where diagonals were drawn otherwise.
