@@ -17,7 +17,7 @@ use common::{in_turns, measuring, seconds};
 use foldwell::analysis::branches;
 use foldwell::analysis::surface::{Question, surface};
 use foldwell::kinematics::{Closure, Displacement, Embedding, Shape, drawn_fold_angles};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Terms};
 use foldwell::numerics::{DenseMatrix, dense::null_space};
 use foldwell::sheet::{Sheet, fold, tile};
 use nalgebra::{DVector, DVectorView};
@@ -57,11 +57,11 @@ fn main() {
 
 /// Covers the surface of the cell up to a curvature of 2, or a little of it where nothing is measured.
 fn cover(sheet: &Sheet) {
-    let (tiling, angles, recipe) = (tile(sheet, [1, 1], true), drawn_fold_angles(sheet), Recipe::default());
+    let (tiling, angles, terms) = (tile(sheet, [1, 1], true), drawn_fold_angles(sheet), Terms::default());
     let resolutions = if measuring() { &[16, 24, 32][..] } else { &[16] };
     for &resolution in resolutions {
-        let surroundings = Surroundings::Screw;
-        let start = branches::Question { sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &recipe };
+        let boundary = Boundary::Screw;
+        let start = branches::Question { sheet, tiling: &tiling, boundary, angles: &angles, terms: &terms };
         let max_curvature = if measuring() { 2.0 } else { 0.1 };
         let radius = TAU / f64::from(resolution);
         let question = Question { start, radius, tolerance: 3e-14, max_curvature, max_points: 300_000 };

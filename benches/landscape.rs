@@ -17,7 +17,7 @@ use foldwell::analysis::landscape::{Courses, HeldSheet};
 use foldwell::analysis::relax::relax;
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use foldwell::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles};
 use foldwell::numerics::parallel;
 use foldwell::sheet::{fold, tile};
 use foldwell::solver::Options;
@@ -29,14 +29,14 @@ fn main() {
     let (rounds, rings) = if measuring() { (5, 11) } else { (1, 1) };
     let sheet = fold::parse(include_str!("../meshes/open-star.fold"), "open-star.fold").unwrap();
     let tiling = tile(&sheet, [6, 6], false);
-    let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+    let drawn = Drawn::new(&sheet, &tiling, Boundary::Patch);
     let angles = drawn_angles(&drawn, &tiling);
-    let recipe = |rest: Vec<f64>| Recipe {
+    let terms = |rest: Vec<f64>| Terms {
         bars: Some(f64::INFINITY),
         creases: Some(Hinges { stiffness: 1.0, rest }),
-        ..Recipe::default()
+        ..Terms::default()
     };
-    let make = || HeldSheet::patch(&sheet, &tiling, &recipe(angles.clone()), &angles);
+    let make = || HeldSheet::patch(&sheet, &tiling, &terms(angles.clone()), &angles);
     let held = make().unwrap();
     let courses = Courses::new(&held).unwrap();
     let rates = held.named([0.8, -0.3, 0.4]).unwrap();
@@ -45,7 +45,7 @@ fn main() {
     let relaxation = || {
         let clock = Instant::now();
         for _ in 0..20 {
-            let mut model = assemble(&drawn, &tiling, &recipe(bent.clone()), Gauge::Held);
+            let mut model = assemble(&drawn, &tiling, &terms(bent.clone()), Gauge::Held);
             let start = model.start();
             relax(&mut model, start, Options::default(), tiling.edges.len(), &mut |_| true).unwrap();
         }

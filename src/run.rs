@@ -10,7 +10,7 @@ use crate::output::picture::Picture;
 use crate::output::summary::Summary;
 use crate::output::{OutputError, files, vtk};
 use crate::scene::SceneError;
-use crate::sheet::build::{self, Drawn};
+use crate::sheet::build::{self, Drawing};
 use crate::sheet::error::Defect;
 use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
 
@@ -274,7 +274,7 @@ fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
             let mesh = vtk::read_vtu(path)?;
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let faces = mesh.triangles.iter().map(|t| t.to_vec()).collect();
-            let drawn = Drawn { title, coords: mesh.points, faces, ..Drawn::default() };
+            let drawn = Drawing { title, coords: mesh.points, faces, ..Drawing::default() };
             build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
         }
         None => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),

@@ -21,7 +21,7 @@ fn bent_patches_converge() {
             let rest = case.tiling.edges.iter().zip(&case.angles).map(|(e, angle)| angle + amplitude * mode[e.edge]);
             let rest: Vec<f64> = rest.collect();
             for k in [1e2, 1e6, f64::INFINITY] {
-                let mut model = case.model(&case.recipe(k, 1.0, rest.clone()), Gauge::Held);
+                let mut model = case.model(&case.terms(k, 1.0, rest.clone()), Gauge::Held);
                 let start = model.start();
                 let options = Options { iterations: 25, ..Options::default() };
                 let found = minimize(&mut model, start, options, &mut |_| true);

@@ -7,7 +7,7 @@ use common::{Numbers, mesh};
 use foldwell::analysis::branches::Question;
 use foldwell::analysis::trace;
 use foldwell::kinematics::{Closure, Ray, Rays, RealDirections, SecondOrder, drawn_fold_angles};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::dense::{least_squares, null_space};
 use foldwell::sheet::generate::RandomDevelopable;
@@ -301,14 +301,9 @@ fn no_ray_is_not_no_direction() {
         assert_eq!(one.directions, RealDirections::Listed, "{name}");
 
         let tiling = tile(&sheet, [1, 1], true);
-        let recipe = Recipe::default();
-        let start = Question {
-            sheet: &sheet,
-            tiling: &tiling,
-            surroundings: Surroundings::Screw,
-            angles: &angles,
-            recipe: &recipe,
-        };
+        let terms = Terms::default();
+        let start =
+            Question { sheet: &sheet, tiling: &tiling, boundary: Boundary::Screw, angles: &angles, terms: &terms };
         let question =
             trace::Question { start, max_step: 0.1, tolerance: 1e-13, branch: None, stop: trace::Stop::default() };
         let refused = trace::trace(&question, None, &mut |_, _| true);

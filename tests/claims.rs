@@ -14,7 +14,7 @@ use foldwell::kinematics::{
     Closure, Displacement, Embedding, FoldingModes, Ray, Screw, SecondOrder, Shape, drawn_fold_angles, folding_modes,
 };
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Hinges, Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Hinges, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::dense::{null_space, symmetric_eigenvalues};
 use foldwell::sheet::generate::{Eggbox, Miura, RandomDevelopable};
@@ -35,9 +35,9 @@ fn ask<A>(sheet: &Sheet, locks: &[usize], rigid: bool, ask: impl FnOnce(branches
     let angles = drawn_fold_angles(sheet);
     let locks = locks.iter().map(|&edge| (edge, angles[edge])).collect();
     let facets = rigid.then(|| Hinges { stiffness: f64::INFINITY, rest: angles.clone() });
-    let recipe = Recipe { locks, facets, ..Recipe::default() };
-    let surroundings = if periodic { Surroundings::Screw } else { Surroundings::Patch };
-    ask(branches::Question { sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &recipe })
+    let terms = Terms { locks, facets, ..Terms::default() };
+    let boundary = if periodic { Boundary::Screw } else { Boundary::Patch };
+    ask(branches::Question { sheet, tiling: &tiling, boundary, angles: &angles, terms: &terms })
 }
 
 /// Follows every ray of a sheet with rigid polygons.

@@ -11,7 +11,7 @@ use foldwell::analysis::drive::{self, Drive, cylinder_errors, drive};
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax;
 use foldwell::analysis::trace::{self, Stop, Traced};
-use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use foldwell::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles};
 use foldwell::model::{Gauge, Model};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate::Random;
@@ -23,10 +23,10 @@ use foldwell::solver::{Implicit, Options, Problem};
 struct Scene {
     sheet: Sheet,
     tiling: Tiling,
-    surroundings: Surroundings,
+    boundary: Boundary,
     drawn: Drawn,
     angles: Vec<f64>,
-    recipe: Recipe,
+    terms: Terms,
 }
 
 impl Scene {
@@ -36,16 +36,16 @@ impl Scene {
 
     fn of(sheet: Sheet, lock: Option<EdgeKey>, bars: f64) -> Self {
         let periodic = sheet.lattice.is_some();
-        let surroundings = if periodic { Surroundings::Screw } else { Surroundings::Patch };
+        let boundary = if periodic { Boundary::Screw } else { Boundary::Patch };
         let tiling = tile(&sheet, [1, 1], periodic);
-        let drawn = Drawn::new(&sheet, &tiling, surroundings);
+        let drawn = Drawn::new(&sheet, &tiling, boundary);
         let angles = drawn_angles(&drawn, &tiling);
         let edge = |key| sheet.edges.iter().position(|edge| edge.key == key).unwrap();
         let locks = lock.map(edge).map(|edge| (edge, angles[edge])).into_iter().collect();
         let creases = Some(Hinges { stiffness: 1.0, rest: angles.clone() });
         let facets = Some(Hinges { stiffness: f64::INFINITY, rest: angles.clone() });
-        let recipe = Recipe { bars: Some(bars), creases, facets, locks, ..Recipe::default() };
-        Self { sheet, tiling, surroundings, drawn, angles, recipe }
+        let terms = Terms { bars: Some(bars), creases, facets, locks, ..Terms::default() };
+        Self { sheet, tiling, boundary, drawn, angles, terms }
     }
 
     fn open_star(bars: f64) -> Self {
@@ -56,17 +56,17 @@ impl Scene {
         let start = branches::Question {
             sheet: &self.sheet,
             tiling: &self.tiling,
-            surroundings: self.surroundings,
+            boundary: self.boundary,
             angles: &self.angles,
-            recipe: &self.recipe,
+            terms: &self.terms,
         };
         let question = trace::Question { start, max_step: 0.25, tolerance: 3e-14, branch, stop };
         trace::trace(&question, None, &mut |_, _| true).unwrap()
     }
 
     fn driven(&self, traced: &Traced) -> Drive {
-        let Self { tiling, drawn, recipe, .. } = self;
-        drive(&drive::Question { tiling, drawn, recipe, options: Options::default() }, traced, &mut |_| true)
+        let Self { tiling, drawn, terms, .. } = self;
+        drive(&drive::Question { tiling, drawn, terms, options: Options::default() }, traced, &mut |_| true)
     }
 }
 
@@ -182,8 +182,8 @@ fn laid_along_x(mut screw: Vec<f64>) -> Vec<f64> {
 fn the_chart_of_screws_is_a_third_way() {
     let scene = Scene::open_star(f64::INFINITY);
     for traced in scene.traced(None, Stop { arc_length: Some(2.0), ..Stop::default() }) {
-        let recipe = Recipe { creases: None, ..scene.recipe.clone() };
-        let mut model = assemble(&scene.drawn, &scene.tiling, &recipe, Gauge::Held);
+        let terms = Terms { creases: None, ..scene.terms.clone() };
+        let mut model = assemble(&scene.drawn, &scene.tiling, &terms, Gauge::Held);
         let [from, to] = [3, 4].map(|step| laid_along_x(coordinates(&traced.states[step])));
         let x = model.start_from(from);
         let way: Vec<f64> = model.unknowns(&to).iter().zip(&x).map(|(to, from)| to - from).collect();
@@ -231,11 +231,11 @@ fn a_finite_sheet_is_driven() {
 #[test]
 fn relaxations_end_at_the_exact_equilibrium() {
     for (case, edges) in
-        [(Case::new(mesh("open-star"), [1, 1], Surroundings::Screw), 12), (Case::patch("open-star", [3, 3]), 88)]
+        [(Case::new(mesh("open-star"), [1, 1], Boundary::Screw), 12), (Case::patch("open-star", [3, 3]), 88)]
     {
         let error = |bars: f64| {
-            let recipe = case.recipe(bars, 1.0, case.rest_per_hinge(0.1, 3));
-            let mut model = case.model(&recipe, Gauge::Held);
+            let terms = case.terms(bars, 1.0, case.rest_per_hinge(0.1, 3));
+            let mut model = case.model(&terms, Gauge::Held);
             let start = model.start();
             let found = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap();
             error_to_kinematic(&case.sheet, &case.tiling, &model, &found.state.fold_angle).unwrap()

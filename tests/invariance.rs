@@ -7,7 +7,7 @@ use assert_cmd::Command;
 use common::Case;
 use foldwell::analysis::relax::relax;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Terms};
 use foldwell::numerics::parallel;
 use foldwell::solver::Options;
 use std::collections::BTreeMap;
@@ -106,13 +106,13 @@ fn nothing_is_drawn_where_nothing_is_wanted() {
 fn small_sheets_start_no_threads() {
     parallel::set_threads(2);
     let rigid = |case: &Case| {
-        let recipe = case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
-        let mut model = case.model(&recipe, Gauge::Held);
+        let terms = case.terms(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
+        let mut model = case.model(&terms, Gauge::Held);
         let start = model.start();
         relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap();
     };
-    for surroundings in [Surroundings::Screw, Surroundings::FreeTorus, Surroundings::FixedTorus] {
-        rigid(&Case::new(common::mesh("open-star"), [1, 1], surroundings));
+    for boundary in [Boundary::Screw, Boundary::FreeTorus, Boundary::FixedTorus] {
+        rigid(&Case::new(common::mesh("open-star"), [1, 1], boundary));
     }
     rigid(&Case::patch("open-star", [12, 12]));
     assert!(!parallel::started(), "a small sheet started threads");
@@ -123,28 +123,28 @@ fn small_sheets_start_no_threads() {
 }
 
 /// Names and sizes of a model's terms, soft and stiff.
-fn terms(case: &Case, recipe: &Recipe) -> [Vec<(&'static str, usize)>; 2] {
-    let model = case.model(recipe, Gauge::Held);
+fn terms(case: &Case, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
+    let model = case.model(terms, Gauge::Held);
     [model.soft(), model.stiff()].map(|list| list.iter().map(|term| (term.name(), term.len())).collect())
 }
 
-/// Claim: a model has the terms that its recipe asks for and no others: no hinge for bars alone, no bars for hinges
+/// Claim: a model has the terms that its terms asks for and no others: no hinge for bars alone, no bars for hinges
 /// alone, no facets where there is no polygon, locks only where something is locked.
 #[test]
 fn only_what_is_asked_for_is_built() {
     let star = Case::patch("open-star", [3, 3]);
     let edges = star.edges();
-    let bars = Recipe { bars: Some(1.0), ..Recipe::default() };
+    let bars = Terms { bars: Some(1.0), ..Terms::default() };
     assert_eq!(terms(&star, &bars), [vec![], vec![("bars", edges)]]);
     let creases = star.angles.iter().filter(|angle| !angle.is_nan()).count();
-    let both = star.recipe(1.0, 1.0, star.angles.clone());
+    let both = star.terms(1.0, 1.0, star.angles.clone());
     assert_eq!(terms(&star, &both), [vec![("creases", creases)], vec![("bars", edges)]]);
-    let hinges = Recipe { bars: None, ..both.clone() };
+    let hinges = Terms { bars: None, ..both.clone() };
     assert_eq!(terms(&star, &hinges), [vec![("creases", creases)], vec![]]);
-    let facets = Recipe { facets: star.facets(f64::INFINITY), ..both.clone() };
+    let facets = Terms { facets: star.facets(f64::INFINITY), ..both.clone() };
     assert_eq!(terms(&star, &facets), terms(&star, &both));
     let hinge = (0..edges).find(|&edge| !star.angles[edge].is_nan()).unwrap();
-    let locked = Recipe { locks: vec![(hinge, 0.1)], ..bars };
+    let locked = Terms { locks: vec![(hinge, 0.1)], ..bars };
     assert_eq!(terms(&star, &locked), [vec![], vec![("bars", edges), ("locks", 1)]]);
 }
 

@@ -11,7 +11,7 @@ use foldwell::analysis::landscape::samples::landscape;
 use foldwell::analysis::landscape::{Expansion, HeldSheet, Prediction};
 use foldwell::analysis::trace::{self, Stop};
 use foldwell::kinematics::{Closure, Rays, SecondOrder};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{EdgeKey, Pattern, generate};
@@ -22,8 +22,8 @@ const MODES: [[f64; 3]; 3] = [[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]
 const CYLINDERS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.25, 1.0, 0.5]];
 
 fn patch_of(case: &Case, bars: f64) -> HeldSheet {
-    let recipe = case.recipe(bars, 1.0, case.angles.clone());
-    HeldSheet::patch(&case.sheet, &case.tiling, &recipe, &case.angles).unwrap()
+    let terms = case.terms(bars, 1.0, case.angles.clone());
+    HeldSheet::patch(&case.sheet, &case.tiling, &terms, &case.angles).unwrap()
 }
 
 fn open_star(n: usize, bars: f64) -> HeldSheet {
@@ -92,7 +92,7 @@ fn only_gaussian_curvature_counts() {
         let mut spreads = Vec::new();
         for seed in 0..20 {
             let sheet = generate(&Pattern::Random(Random { size: [2, 2], seed, ..Random::default() })).unwrap();
-            let found = spread(&patch_of(&Case::new(sheet, [4, 4], Surroundings::Patch), bars), 20, seed);
+            let found = spread(&patch_of(&Case::new(sheet, [4, 4], Boundary::Patch), bars), 20, seed);
             assert!(found <= 1e-6, "seed {seed}: {found:e}");
             spreads.push(found);
         }
@@ -203,9 +203,9 @@ fn creases_of_random_stiffness() {
 #[test]
 fn triangulated_miura() {
     let case = Case::patch("miura", [4, 4]);
-    let mut recipe = case.recipe(f64::INFINITY, 1.0, case.angles.clone());
-    recipe.facets = case.facets(1.0);
-    let patch = HeldSheet::patch(&case.sheet, &case.tiling, &recipe, &case.angles).unwrap();
+    let mut terms = case.terms(f64::INFINITY, 1.0, case.angles.clone());
+    terms.facets = case.facets(1.0);
+    let patch = HeldSheet::patch(&case.sheet, &case.tiling, &terms, &case.angles).unwrap();
     let prediction = Prediction::new(&patch).unwrap();
     let mut numbers = Numbers::new(5);
     let mut quotients = Vec::new();
@@ -282,15 +282,15 @@ fn flat_vertices_cost_bars() {
 #[test]
 fn exact_cylinders_cost_nothing() {
     let case = Case::patch("open-star", [6, 6]);
-    let screw = Case::new(common::mesh("open-star"), [1, 1], Surroundings::Screw);
+    let screw = Case::new(common::mesh("open-star"), [1, 1], Boundary::Screw);
     let lock = screw.sheet.edges.iter().position(|edge| edge.key == EdgeKey { i: 0, j: 1, shift: [0, 0] }).unwrap();
-    let recipe = Recipe { locks: vec![(lock, screw.angles[lock])], ..Recipe::default() };
+    let terms = Terms { locks: vec![(lock, screw.angles[lock])], ..Terms::default() };
     let start = branches::Question {
         sheet: &screw.sheet,
         tiling: &screw.tiling,
-        surroundings: Surroundings::Screw,
+        boundary: Boundary::Screw,
         angles: &screw.angles,
-        recipe: &recipe,
+        terms: &terms,
     };
     let stop = Stop { arc_length: Some(1.0), ..Stop::default() };
     let question = trace::Question { start, max_step: 0.25, tolerance: 3e-14, branch: None, stop };
@@ -298,7 +298,7 @@ fn exact_cylinders_cost_nothing() {
         let exact = &traced.states[traced.states.len() - 1].angles;
         let rest: Vec<f64> = case.tiling.edges.iter().map(|edge| exact[edge.edge]).collect();
         for bars in [1e2, 1e6, 1e12, f64::INFINITY] {
-            let found = case.relax(&case.recipe(bars, 1.0, rest.clone())).unwrap();
+            let found = case.relax(&case.terms(bars, 1.0, rest.clone())).unwrap();
             let creases = found.state.fold_angle.iter().filter(|angle| !angle.is_nan()).count();
             let each = found.state.total() / creases as f64;
             let known = found.state.fold_angle.iter().zip(&rest).filter(|(angle, _)| !angle.is_nan());
@@ -335,7 +335,7 @@ fn large_patches_tend_to_the_continuum() {
 fn five_cells_tend_to_the_continuum() {
     for seed in 0..5 {
         let sheet = generate(&Pattern::Random(Random { size: [2, 2], seed, ..Random::default() })).unwrap();
-        let patch = |n: usize| patch_of(&Case::new(sheet.clone(), [n, n], Surroundings::Patch), f64::INFINITY);
+        let patch = |n: usize| patch_of(&Case::new(sheet.clone(), [n, n], Boundary::Patch), f64::INFINITY);
         let [low, limit] = [20, 24].map(|degree| continuum::coefficient(&sheet, &patch(2), degree).unwrap());
         let scaled = |n: usize| {
             let patch = patch(n);

@@ -9,16 +9,16 @@ use foldwell::analysis::landscape::cone::{Cone, distance};
 use foldwell::analysis::landscape::sphere::{Direction, Net, curvature, point, samples};
 use foldwell::analysis::landscape::{Courses, Expansion, HeldSheet, Place, Prediction, Samples};
 use foldwell::math::Vec3;
-use foldwell::model::assemble::Recipe;
+use foldwell::model::assemble::Terms;
 use foldwell::numerics::parallel;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-fn recipe(case: &Case) -> Recipe {
-    case.recipe(f64::INFINITY, 1.0, case.angles.clone())
+fn terms(case: &Case) -> Terms {
+    case.terms(f64::INFINITY, 1.0, case.angles.clone())
 }
 
 fn held(case: &Case) -> HeldSheet {
-    HeldSheet::patch(&case.sheet, &case.tiling, &recipe(case), &case.angles).unwrap()
+    HeldSheet::patch(&case.sheet, &case.tiling, &terms(case), &case.angles).unwrap()
 }
 
 /// Claim: the net covers the sphere once (area 4 pi but for its coarseness, Euler characteristic 2), its 45-degree rings are tensors of rank
@@ -109,7 +109,7 @@ fn samples_do_not_know_each_other() {
     let amplitude = 5e-4;
     let run = |threads: usize| -> Vec<(f64, usize)> {
         parallel::set_threads(threads);
-        let make = || HeldSheet::patch(&case.sheet, &case.tiling, &recipe(&case), &case.angles);
+        let make = || HeldSheet::patch(&case.sheet, &case.tiling, &terms(&case), &case.angles);
         let found = samples(&make, &courses, &points, amplitude, &|| true);
         found.into_iter().map(|s| s.unwrap().unwrap()).map(|s| (s.relaxed.state.total(), s.iterations)).collect()
     };

@@ -7,22 +7,22 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use common::Case;
 use foldwell::analysis::relax::Relaxed;
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Terms};
 use foldwell::output::summary::{RelaxSummary, StudyResult};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::fold;
 use std::ops::ControlFlow;
 
 /// Four cells of `open-star` whose creases rest 0.1 rad from the drawn angles, with rigid bars.
-fn patch() -> (Case, Recipe) {
+fn patch() -> (Case, Terms) {
     let case = Case::patch("open-star", [2, 2]);
-    let recipe = case.recipe(f64::INFINITY, 1.0, case.rest_per_cell(0.1, 3));
-    (case, recipe)
+    let terms = case.terms(f64::INFINITY, 1.0, case.rest_per_cell(0.1, 3));
+    (case, terms)
 }
 
 fn relaxed(loads: Vec<(usize, Vec3)>, pins: Vec<(usize, [bool; 3])>) -> Relaxed {
-    let (case, recipe) = patch();
-    case.relax(&Recipe { loads, pins, ..recipe }).unwrap()
+    let (case, terms) = patch();
+    case.relax(&Terms { loads, pins, ..terms }).unwrap()
 }
 
 /// Claim: forces that are zero, that cancel at their vertex, or that pull at what a pin holds are no forces: the same bits as without.
@@ -75,17 +75,17 @@ fn a_sheet_hangs_from_a_pin() {
 /// of an edge, in angles within 0.1 rad.
 #[test]
 fn far_from_the_origin() {
-    for surroundings in [Surroundings::Patch, Surroundings::FixedTorus, Surroundings::FreeTorus, Surroundings::Screw] {
-        let cells = if surroundings == Surroundings::Screw { [1, 1] } else { [2, 2] };
+    for boundary in [Boundary::Patch, Boundary::FixedTorus, Boundary::FreeTorus, Boundary::Screw] {
+        let cells = if boundary == Boundary::Screw { [1, 1] } else { [2, 2] };
         let run = |far: f64| {
             let mut sheet = common::mesh("open-star");
             sheet.vertices.iter_mut().for_each(|p| *p += far * Vec3::new(1.0, -1.0, 1.0));
-            let case = Case::new(sheet, cells, surroundings);
-            case.relax(&case.recipe(1e6, 1.0, case.rest_per_cell(0.1, 3))).unwrap()
+            let case = Case::new(sheet, cells, boundary);
+            case.relax(&case.terms(1e6, 1.0, case.rest_per_cell(0.1, 3))).unwrap()
         };
         let (near, far) = (run(0.0), run(1e6));
         let off = common::distance(&near.state.fold_angle, &far.state.fold_angle);
-        assert!(off <= 1e-7 && far.iterations <= near.iterations + 2, "{surroundings:?}: {off:e}, {}", far.iterations);
+        assert!(off <= 1e-7 && far.iterations <= near.iterations + 2, "{boundary:?}: {off:e}, {}", far.iterations);
     }
 }
 

@@ -5,14 +5,14 @@ mod common;
 
 use common::Case;
 use foldwell::math::fold_angle::fold_angle;
-use foldwell::model::assemble::{Recipe, Surroundings, hinge};
+use foldwell::model::assemble::{Boundary, Terms, hinge};
 use foldwell::sheet::generate::{MiuraPatch, Pattern};
 use foldwell::sheet::{EdgeKind, generate};
 use std::f64::consts::PI;
 
 fn miura(cells: [usize; 2]) -> Case {
     let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, cells, ..MiuraPatch::default() });
-    Case::new(generate(&pattern).unwrap(), [1, 1], Surroundings::Patch)
+    Case::new(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
 }
 
 /// Sign and class of a crease of Miura-ori: along the zigzags (x changes) or along the straight lines.
@@ -42,13 +42,12 @@ fn miura_follows_its_closed_form() {
     let mut failed = Vec::new();
     for (angle, energy) in [0.05, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5, 3.0].map(|a| [(a, true), (a, false)]).concat() {
         for lock in locks {
-            let mut recipe =
-                Recipe { bars: Some(f64::INFINITY), facets: case.facets(f64::INFINITY), ..Recipe::default() };
-            recipe.locks = vec![(lock, case.angles[lock].signum() * angle)];
+            let mut terms = Terms { bars: Some(f64::INFINITY), facets: case.facets(f64::INFINITY), ..Terms::default() };
+            terms.locks = vec![(lock, case.angles[lock].signum() * angle)];
             if energy {
-                recipe.creases = case.recipe(1.0, 1.0, case.angles.clone()).creases;
+                terms.creases = case.terms(1.0, 1.0, case.angles.clone()).creases;
             }
-            let found = match case.relax(&recipe) {
+            let found = match case.relax(&terms) {
                 Ok(found) => found,
                 Err(error) => {
                     failed.push(format!("edge {lock} at {angle}, creases {energy}: {error}"));

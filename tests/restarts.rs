@@ -9,7 +9,7 @@ use foldwell::analysis::modes::{SPARSE_EIGENVALUES, decomposed_dense};
 use foldwell::analysis::restored;
 use foldwell::analysis::state::State;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::Recipe;
+use foldwell::model::assemble::Terms;
 use foldwell::solver::Problem;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -173,8 +173,8 @@ fn a_saddle_stays_where_it_is() {
 #[test]
 fn windings_come_back() {
     let case = Case::patch("open-star", [2, 2]);
-    let recipe = case.recipe(1e3, 1.0, case.angles.clone());
-    let mut model = case.model(&recipe, Gauge::Held);
+    let terms = case.terms(1e3, 1.0, case.angles.clone());
+    let mut model = case.model(&terms, Gauge::Held);
     let hinge = case.angles.iter().position(|angle| !angle.is_nan()).unwrap();
     let mut given = vec![f64::NAN; case.edges()];
     given[hinge] = case.angles[hinge] + TAU;
@@ -194,9 +194,9 @@ fn windings_come_back() {
 fn all_terms_are_in_the_total() {
     let case = Case::patch("quad-cell", [2, 2]);
     let lock = case.angles.iter().position(|angle| !angle.is_nan()).unwrap();
-    let recipe = case.recipe(1e3, 1.0, case.rest_per_hinge(0.05, 1));
-    let recipe = Recipe { facets: case.facets(2.0), locks: vec![(lock, case.angles[lock])], ..recipe };
-    let state = case.relax(&recipe).unwrap().state;
+    let terms = case.terms(1e3, 1.0, case.rest_per_hinge(0.05, 1));
+    let terms = Terms { facets: case.facets(2.0), locks: vec![(lock, case.angles[lock])], ..terms };
+    let state = case.relax(&terms).unwrap().state;
     assert!(state.energy_bars > 0.0 && state.energy_creases > 0.0 && state.energy_facets > 0.0);
     assert_relative_eq!(state.total(), state.energy.iter().sum::<f64>(), max_relative = 1e-13);
 }
@@ -224,8 +224,8 @@ fn rank_zero_is_an_answer() {
 #[test]
 fn too_many_eigenvalues() {
     let case = Case::patch("open-star", [10, 11]);
-    let recipe = case.recipe(f64::INFINITY, 1.0, case.angles.clone());
-    let found = case.modes(&recipe, 1000).unwrap();
+    let terms = case.terms(f64::INFINITY, 1.0, case.angles.clone());
+    let found = case.modes(&terms, 1000).unwrap();
     assert_eq!(found.eigenvalues.len(), found.zero_modes);
     assert!(decomposed_dense(1320, 3000, 3000).unwrap() && !decomposed_dense(1320, 24, 1320).unwrap());
     assert!(!decomposed_dense(4800, SPARSE_EIGENVALUES, 4800).unwrap());

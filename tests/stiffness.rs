@@ -6,7 +6,7 @@ mod common;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use common::{Case, Numbers, distance, jacobian, linearized};
 use foldwell::analysis::relax::{Relaxed, relax};
-use foldwell::model::assemble::Surroundings;
+use foldwell::model::assemble::Boundary;
 use foldwell::model::{Gauge, Model};
 use foldwell::solver::saddle::{Saddle, Solved};
 use foldwell::solver::{Linearization, Options, Problem};
@@ -17,7 +17,7 @@ const STIFFNESSES: [f64; 9] = [1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16, f64::
 fn sweep(n: usize, rest: impl Fn(&Case) -> Vec<f64>, most: usize) -> Vec<Relaxed> {
     let case = Case::patch("open-star", [n, n]);
     let rest = rest(&case);
-    let run = |k: f64| match case.relax(&case.recipe(k, 1.0, rest.clone())) {
+    let run = |k: f64| match case.relax(&case.terms(k, 1.0, rest.clone())) {
         Ok(found) => {
             println!(
                 "n = {n}, k = {k:e}: {} iterations, {} factorizations, residuals {:.1e} {:.1e}, energy {:.10}, negative {}",
@@ -64,7 +64,7 @@ fn report_minima(n: usize, rest: Vec<f64>, found: &[Relaxed]) {
     let case = Case::patch("open-star", [n, n]);
     let rigid = &found[found.len() - 1].state;
     for (k, found) in STIFFNESSES.iter().zip(found).filter(|(k, _)| **k < 1e8) {
-        let mut model = case.model(&case.recipe(f64::INFINITY, 1.0, rest.clone()), Gauge::Held);
+        let mut model = case.model(&case.terms(f64::INFINITY, 1.0, rest.clone()), Gauge::Held);
         let start = model.start_from(found.state.coordinates.clone());
         let made_rigid = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true);
         let which = match made_rigid.map(|made_rigid| distance(&made_rigid.state.fold_angle, &rigid.fold_angle)) {
@@ -135,7 +135,7 @@ fn last_steps_share_a_factorization() {
     let case = Case::patch("open-star", [12, 12]);
     let (mut iterations, mut factorizations) = (0, 0);
     for seed in 1..7 {
-        let found = case.relax(&case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(0.02, seed))).unwrap();
+        let found = case.relax(&case.terms(f64::INFINITY, 1.0, case.rest_per_hinge(0.02, seed))).unwrap();
         println!("{seed}: {} steps, {} factorizations", found.iterations, found.factorizations);
         assert!(found.residual_force <= 1e-12 && found.residual_length <= 1e-12);
         assert_eq!(found.negative_eigenvalues, 0);
@@ -149,10 +149,10 @@ fn last_steps_share_a_factorization() {
 #[test]
 fn scale_does_not_matter() {
     let run = |scale: f64| {
-        let case = Case::new(common::scaled(common::mesh("open-star"), scale), [4, 4], Surroundings::Patch);
+        let case = Case::new(common::scaled(common::mesh("open-star"), scale), [4, 4], Boundary::Patch);
         let rest = case.rest_per_hinge(0.1, 5);
         // bars EA/L0 dL^2 ~ scale, creases kc L0 drho^2 ~ scale: the same ratio at the same EA and kc L0^0
-        case.relax(&case.recipe(1e5, 1.0, rest)).unwrap()
+        case.relax(&case.terms(1e5, 1.0, rest)).unwrap()
     };
     let (small, big) = (run(1.0), run(1024.0));
     assert_eq!(small.iterations, big.iterations);
@@ -178,7 +178,7 @@ fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: 
 fn steps_are_solved_at_every_stiffness() {
     let case = Case::patch("open-star", [4, 4]);
     for k in STIFFNESSES {
-        let model = case.model(&case.recipe(k, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
+        let model = case.model(&case.terms(k, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
         let (layout, compliance) = (model.layout(), model.compliance());
         let at = linearized(&model, &model.start(), &vec![0.0; layout.stiff.len()]);
         let mut saddle = Saddle::new(layout, &at).unwrap();
@@ -200,7 +200,7 @@ fn steps_are_solved_at_every_stiffness() {
 #[test]
 fn steps_are_solved_where_the_factorization_is_wrong_for_a_few_motions() {
     let case = Case::patch("open-star", [4, 4]);
-    let model = case.model(&case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
+    let model = case.model(&case.terms(f64::INFINITY, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
     let (layout, compliance) = (model.layout(), model.compliance());
     let mut at = linearized(&model, &model.start(), &vec![0.0; layout.stiff.len()]);
     let mut saddle = Saddle::new(layout, &at).unwrap();

@@ -7,7 +7,7 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::analysis::branches;
 use foldwell::analysis::trace::{Question, Stop, Traced, trace};
 use foldwell::kinematics::{Embedding, Shape, drawn_fold_angles};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Terms};
 use foldwell::sheet::{EdgeKey, Sheet, tile};
 use foldwell::solver::continuation::End;
 use serde_json::Value;
@@ -23,14 +23,9 @@ fn edge(sheet: &Sheet, [i, j, n1, n2]: [i64; 4]) -> usize {
 fn run(sheet: &Sheet, locks: &[usize], stop: Stop, branch: Option<usize>) -> Vec<Traced> {
     let tiling = tile(sheet, [1, 1], true);
     let angles = drawn_fold_angles(sheet);
-    let recipe = Recipe { locks: locks.iter().map(|&edge| (edge, angles[edge])).collect(), ..Recipe::default() };
-    let start = branches::Question {
-        sheet,
-        tiling: &tiling,
-        surroundings: Surroundings::Screw,
-        angles: &angles,
-        recipe: &recipe,
-    };
+    let terms = Terms { locks: locks.iter().map(|&edge| (edge, angles[edge])).collect(), ..Terms::default() };
+    let start =
+        branches::Question { sheet, tiling: &tiling, boundary: Boundary::Screw, angles: &angles, terms: &terms };
     let question = Question { start, max_step: 0.25, tolerance: 3e-14, branch, stop };
     trace(&question, None, &mut |_, _| true).unwrap()
 }

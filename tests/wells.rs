@@ -15,7 +15,7 @@ use foldwell::analysis::wells::settle::Settler;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Terms};
 use foldwell::numerics::parallel;
 use foldwell::output::summary::{StudyResult, StudySummary, WellsSummary};
 use foldwell::run::{RunOptions, run_scene};
@@ -39,8 +39,8 @@ fn fan(directions: &[f64; 4]) -> Sheet {
     fold::parse(&text, "fan.fold").unwrap()
 }
 
-fn question<'a>(case: &'a Case, recipe: &'a Recipe) -> Question<'a> {
-    Question { sheet: &case.sheet, tiling: &case.tiling, surroundings: case.surroundings, drawn: &case.drawn, recipe }
+fn question<'a>(case: &'a Case, terms: &'a Terms) -> Question<'a> {
+    Question { sheet: &case.sheet, tiling: &case.tiling, boundary: case.boundary, drawn: &case.drawn, terms }
 }
 
 /// Rest angles of a case from those of the four creases of a fan.
@@ -133,9 +133,9 @@ fn random_directions(numbers: &mut Numbers, least: f64) -> [f64; 4] {
 }
 
 fn rigid(directions: &[f64; 4], rest: [f64; 4]) -> RigidLandscape {
-    let case = Case::new(fan(directions), [1, 1], Surroundings::Patch);
-    let recipe = case.recipe(f64::INFINITY, 1.0, on_creases(&case, rest));
-    landscape(&question(&case, &recipe), &SAMPLING, &mut || true).unwrap()
+    let case = Case::new(fan(directions), [1, 1], Boundary::Patch);
+    let terms = case.terms(f64::INFINITY, 1.0, on_creases(&case, rest));
+    landscape(&question(&case, &terms), &SAMPLING, &mut || true).unwrap()
 }
 
 /// Claim: wells of random vertices counted in fold angles by the program are those counted along the closed form of
@@ -190,8 +190,8 @@ fn pass_between(question: &Question<'_>, wells: &[Well], energies: [f64; 2]) -> 
 #[test]
 fn four_wells_in_three_ways() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
-    let question = question(&case, &recipe);
+    let terms = case.terms(f64::INFINITY, 1.0, rest);
+    let question = question(&case, &terms);
     let exact = landscape(&question, &SAMPLING, &mut || true).unwrap();
     let found = reached(&question, 200, PI);
     let inside = |well: &&Well| well.settled.rho.iter().all(|angle| angle.abs() <= PI);
@@ -213,11 +213,11 @@ fn four_wells_in_three_ways() {
 #[test]
 fn barriers_of_a_vertex() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
-    let question = question(&case, &recipe);
+    let terms = case.terms(f64::INFINITY, 1.0, rest);
+    let question = question(&case, &terms);
     let exact = landscape(&question, &SAMPLING, &mut || true).unwrap();
     let found = reached(&question, 64, PI);
-    let flat = case.angles.iter().zip(&recipe.creases.as_ref().unwrap().rest).filter(|(angle, _)| !angle.is_nan());
+    let flat = case.angles.iter().zip(&terms.creases.as_ref().unwrap().rest).filter(|(angle, _)| !angle.is_nan());
     let flat: f64 = flat.map(|(_, rest)| 0.5 * rest * rest).sum();
     for pass in &exact.passes[..2] {
         let energies = pass.joins.map(|well| exact.wells[well].energy);
@@ -243,8 +243,8 @@ fn barriers_of_a_vertex() {
 #[test]
 fn no_barrier_lies_below_its_wells() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
-    let question = question(&case, &recipe);
+    let terms = case.terms(f64::INFINITY, 1.0, rest);
+    let question = question(&case, &terms);
     let starts = Starts { count: 64, seed: 0, spread: PI, options: Options::default() };
     let minima = relax_all(&question, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
@@ -275,9 +275,9 @@ fn no_barrier_lies_below_its_wells() {
 /// 1e-9 of the energies: relaxations to 1e-12.
 #[test]
 fn barrier_of_the_reference_cell() {
-    let case = Case::new(mesh("open-star"), [1, 1], Surroundings::Screw);
-    let recipe = case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(1.0, 1));
-    let question = question(&case, &recipe);
+    let case = Case::new(mesh("open-star"), [1, 1], Boundary::Screw);
+    let terms = case.terms(f64::INFINITY, 1.0, case.rest_per_hinge(1.0, 1));
+    let question = question(&case, &terms);
     let sampling = Sampling { step: TAU / 40.0, max_curvature: 0.5 };
     let exact = landscape(&question, &sampling, &mut || true).unwrap();
     let found = reached(&question, 64, 1.0);
@@ -308,15 +308,15 @@ fn barrier_of_the_reference_cell() {
 #[test]
 fn wells_stay_when_the_sheet_is_turned() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(1e4, 1.0, rest);
+    let terms = case.terms(1e4, 1.0, rest);
     let starts = Starts { count: 48, seed: 2, spread: PI, options: Options::default() };
     let turn = rotation::exp(&Vec3::new(0.9, -0.5, 0.7));
     let mut seen = 0;
-    for outcome in relax_all(&question(&case, &recipe), &starts, &|| true) {
+    for outcome in relax_all(&question(&case, &terms), &starts, &|| true) {
         let Outcome::Well(well) = outcome else { continue };
         let points = well.place.coordinates.chunks_exact(3).map(|p| turn * Vec3::new(p[0], p[1], p[2]));
         let turned = points.flat_map(<[f64; 3]>::from).collect();
-        let mut model = case.model(&recipe, Gauge::Held);
+        let mut model = case.model(&terms, Gauge::Held);
         model.set_angles(&well.place.angles);
         let start = model.start_from(turned);
         let again = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap();
@@ -332,14 +332,14 @@ fn wells_stay_when_the_sheet_is_turned() {
 #[test]
 fn a_held_well_stays() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(1e4, 1.0, rest);
-    let question = question(&case, &recipe);
+    let terms = case.terms(1e4, 1.0, rest);
+    let question = question(&case, &terms);
     let well = reached(&question, 16, PI).swap_remove(0).settled;
-    let held = Settler::new(&question, &recipe, 32.0).near(&well.place, &well.rho, Options::default(), &mut |_| true);
+    let held = Settler::new(&question, &terms, 32.0).near(&well.place, &well.rho, Options::default(), &mut |_| true);
     let held = held.unwrap();
     assert!(common::distance(&held.rho, &well.rho) <= 1e-9 && (held.energy - well.energy).abs() <= 1e-9, "{held:?}");
     let aside: Vec<f64> = well.rho.iter().map(|angle| angle + 0.05).collect();
-    let moved = Settler::new(&question, &recipe, 32.0).near(&well.place, &aside, Options::default(), &mut |_| true);
+    let moved = Settler::new(&question, &terms, 32.0).near(&well.place, &aside, Options::default(), &mut |_| true);
     let moved = moved.unwrap();
     assert!(moved.energy > well.energy + 1e-6 && common::distance(&moved.rho, &well.rho) > 1e-3);
 }
@@ -348,7 +348,7 @@ fn a_held_well_stays() {
 /// the cell; not where they differ from cell to cell.
 #[test]
 fn translations_are_not_told_apart() {
-    let case = Case::new(mesh("open-star"), [3, 2], Surroundings::FixedTorus);
+    let case = Case::new(mesh("open-star"), [3, 2], Boundary::FixedTorus);
     let angles = Numbers::new(4).many(case.edges(), 1.0);
     let place = |edge: usize, [c1, c2]: [usize; 2]| {
         case.tiling.edges.iter().position(|tiled| tiled.edge == edge && tiled.cell == [c1 % 3, c2 % 2]).unwrap()
@@ -360,8 +360,8 @@ fn translations_are_not_told_apart() {
         .map(|tiled| angles[place(tiled.edge, [tiled.cell[0] + 1, tiled.cell[1] + 1])])
         .collect();
     let distance = |rest: Vec<f64>| {
-        let recipe = case.recipe(1e3, 1.0, rest);
-        Translations::new(&question(&case, &recipe)).distance(&angles, &moved)
+        let terms = case.terms(1e3, 1.0, rest);
+        Translations::new(&question(&case, &terms)).distance(&angles, &moved)
     };
     assert!(common::distance(&angles, &moved) > 0.1);
     assert_eq!(distance(case.rest_per_cell(0.1, 1)), 0.0);
@@ -372,7 +372,7 @@ fn translations_are_not_told_apart() {
 #[test]
 fn starts_do_not_know_threads() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
+    let terms = case.terms(f64::INFINITY, 1.0, rest);
     let run = |threads: usize| -> Vec<Option<u64>> {
         parallel::set_threads(threads);
         let starts = Starts { count: 24, seed: 7, spread: PI, options: Options::default() };
@@ -380,7 +380,7 @@ fn starts_do_not_know_threads() {
             Outcome::Well(well) => Some(well.energy.to_bits()),
             _ => None,
         };
-        relax_all(&question(&case, &recipe), &starts, &|| true).into_iter().map(energy).collect()
+        relax_all(&question(&case, &terms), &starts, &|| true).into_iter().map(energy).collect()
     };
     assert_eq!(run(1), run(2));
 }

@@ -7,7 +7,7 @@
 //! does not correct the direction there, so it has to be right from the start.
 
 use crate::model::Gauge;
-use crate::model::assemble::{Drawn, Recipe, Surroundings, assemble};
+use crate::model::assemble::{Boundary, Drawn, Terms, assemble};
 use crate::sheet::{Sheet, Tiling};
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Problem};
@@ -22,13 +22,13 @@ const LEAST_SHIFT: f64 = 1e-9;
 const REDUCTIONS: usize = 36;
 
 /// The drawn state of a model; that of a screw with its axis where folding starts best.
-pub fn drawn_for(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, recipe: &Recipe) -> Drawn {
-    let plain = Drawn::new(sheet, tiling, surroundings);
-    if surroundings != Surroundings::Screw {
+pub fn drawn_for(sheet: &Sheet, tiling: &Tiling, boundary: Boundary, terms: &Terms) -> Drawn {
+    let plain = Drawn::new(sheet, tiling, boundary);
+    if boundary != Boundary::Screw {
         return plain;
     }
-    let turned = |angle: f64| Drawn::turned(sheet, tiling, surroundings, angle);
-    let fall = |angle: f64, shift: f64| promised_fall(&turned(angle), tiling, recipe, shift).unwrap_or(0.0);
+    let turned = |angle: f64| Drawn::turned(sheet, tiling, boundary, angle);
+    let fall = |angle: f64, shift: f64| promised_fall(&turned(angle), tiling, terms, shift).unwrap_or(0.0);
     let step = PI / DIRECTIONS as f64;
     let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
     for angle in (0..DIRECTIONS).map(|k| step * k as f64) {
@@ -64,8 +64,8 @@ fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 
 }
 
 /// Fall of the energy along the first Newton step, to second order.
-fn promised_fall(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, shift: f64) -> Option<f64> {
-    let model = assemble(drawn, tiling, recipe, Gauge::Held);
+fn promised_fall(drawn: &Drawn, tiling: &Tiling, terms: &Terms, shift: f64) -> Option<f64> {
+    let model = assemble(drawn, tiling, terms, Gauge::Held);
     let layout = model.layout();
     let mut at = Linearization::new(layout);
     let tension = vec![0.0; layout.stiff.len()];

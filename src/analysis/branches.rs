@@ -3,7 +3,7 @@
 //! The sheet is one cell, repeated by screw motions, or a finite patch; locked edges and rigid diagonals keep their angle.
 
 use crate::kinematics::{Closure, FoldingModes, KinematicsError, Ray, Rays, SecondOrder, folding_modes, signature};
-use crate::model::assemble::{Recipe, Surroundings};
+use crate::model::assemble::{Boundary, Terms};
 use crate::sheet::{EdgeKind, Sheet, Tiling};
 use nalgebra::DVector;
 
@@ -57,11 +57,11 @@ pub struct Question<'a> {
     /// Its cells.
     pub tiling: &'a Tiling,
     /// What surrounds them.
-    pub surroundings: Surroundings,
+    pub boundary: Boundary,
     /// Fold angles of the drawn state, one for each edge of the tiling; not read where an edge does not fold.
     pub angles: &'a [f64],
     /// The locks and rigid diagonals are read.
-    pub recipe: &'a Recipe,
+    pub terms: &'a Terms,
 }
 
 /// Finds the branches.
@@ -69,8 +69,8 @@ pub struct Question<'a> {
 /// No real ray is an answer. Fails for a torus, for sheets with openings or too many edges, and where ranks are not clear or
 /// the solutions do not add up.
 pub fn branches(question: &Question<'_>) -> Result<Branches, BranchesError> {
-    let Question { sheet, tiling, surroundings, .. } = question;
-    if matches!(surroundings, Surroundings::FixedTorus | Surroundings::FreeTorus) {
+    let Question { sheet, tiling, boundary, .. } = question;
+    if matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus) {
         return Err(BranchesError::Torus);
     }
     let closure = Closure::of_tiling(sheet, tiling)?.with_locked(&locked(question));
@@ -89,7 +89,7 @@ pub fn branches(question: &Question<'_>) -> Result<Branches, BranchesError> {
         [quadric] => Some(signature(quadric)?),
         _ => None,
     };
-    let curvature_signs = if *surroundings == Surroundings::Screw {
+    let curvature_signs = if *boundary == Boundary::Screw {
         let modes = folding_modes(sheet)?;
         rays.rays.iter().map(|ray| Some(curvature_sign(sheet, &modes, ray))).collect()
     } else {
@@ -101,10 +101,10 @@ pub fn branches(question: &Question<'_>) -> Result<Branches, BranchesError> {
 
 /// Locked creases, and diagonals of polygons where these are rigid.
 pub fn locked(question: &Question<'_>) -> Vec<usize> {
-    let rigid = question.recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
+    let rigid = question.terms.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
     let facets =
         (0..question.tiling.edges.len()).filter(|&k| rigid && question.tiling.edges[k].kind == EdgeKind::Facet);
-    question.recipe.locks.iter().map(|(edge, _)| *edge).chain(facets).collect()
+    question.terms.locks.iter().map(|(edge, _)| *edge).chain(facets).collect()
 }
 
 /// The sign of the trace of the ray's curvature tensor, which has rank one or none.

@@ -12,7 +12,7 @@ use super::chart::{self, hinge_angles};
 use super::relax::{Relaxed, relax};
 use super::state::cylinder;
 use super::trace::{Folded, Traced};
-use crate::model::assemble::{Drawn, Recipe, assemble, drawn_angles};
+use crate::model::assemble::{Drawn, Terms, assemble, drawn_angles};
 use crate::model::{Domain, Gauge};
 use crate::numerics::{larger, worst};
 use crate::sheet::Tiling;
@@ -44,7 +44,7 @@ pub struct Question<'a> {
     /// The drawn state.
     pub drawn: &'a Drawn,
     /// Its parts; locks are those of the trajectory.
-    pub recipe: &'a Recipe,
+    pub terms: &'a Terms,
     /// When a relaxation is converged.
     pub options: Options,
 }
@@ -153,7 +153,7 @@ fn fastest(rates: &[f64], last: Option<usize>) -> usize {
 fn same_state(question: &Question<'_>, driven: Driven, (from, to): (&Folded, &Folded)) -> Result<Driven, DriveFailure> {
     let interpolated = if to.positions.is_empty() { INTERPOLATED * (to.arc_length - from.arc_length) } else { 0.0 };
     let most = f64::max(SAME_STATE, interpolated);
-    if question.recipe.is_rigid() && !(driven.error <= most) {
+    if question.terms.is_rigid() && !(driven.error <= most) {
         return Err(DriveFailure::Elsewhere { apart: driven.error });
     }
     Ok(driven)
@@ -226,9 +226,9 @@ impl Track {
         crease: usize,
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Driven, DriveFailure> {
-        let mut recipe = question.recipe.clone();
-        recipe.locks.push((crease, state.angles[crease]));
-        let mut model = assemble(question.drawn, question.tiling, &recipe, Gauge::Held);
+        let mut terms = question.terms.clone();
+        terms.locks.push((crease, state.angles[crease]));
+        let mut model = assemble(question.drawn, question.tiling, &terms, Gauge::Held);
         model.set_angles(&hinge_angles(&model, &self.angles));
         let last = self.known.last().map_or_else(|| chart::coordinates(state), |(_, at)| at.clone());
         let here = model.start_from(last);

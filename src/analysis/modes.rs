@@ -7,7 +7,7 @@
 
 use crate::kinematics::KinematicsError;
 use crate::kinematics::closure::{Closure, HingedEdge};
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
+use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble};
 use crate::model::{Domain, Gauge, Model, gauge};
 use crate::numerics::dense::{self, DenseError};
 use crate::numerics::eigen::{self, EigenError};
@@ -122,9 +122,9 @@ pub struct Question<'a> {
     /// Its cells.
     pub tiling: &'a Tiling,
     /// What surrounds them.
-    pub surroundings: Surroundings,
+    pub boundary: Boundary,
     /// What it is made of.
-    pub recipe: &'a Recipe,
+    pub terms: &'a Terms,
     /// How many eigenvalues of the energy are wanted.
     pub eigenvalues: usize,
 }
@@ -132,9 +132,9 @@ pub struct Question<'a> {
 /// Finds the modes. `observe` is asked before every decomposition and factorization, and before every product of the
 /// iteration for eigenpairs; between them, at most for the time of one decomposition, nothing stops the work.
 pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
-    let Question { sheet, tiling, surroundings, recipe, .. } = *question;
-    let drawn = Drawn::new(sheet, tiling, surroundings);
-    let bars = assemble(&drawn, tiling, &rigid_part(recipe), Gauge::Free);
+    let Question { sheet, tiling, boundary, terms, .. } = *question;
+    let drawn = Drawn::new(sheet, tiling, boundary);
+    let bars = assemble(&drawn, tiling, &rigid_part(terms), Gauge::Free);
     let (rank, gap) = rank_of(&bars, observe)?;
     let (columns, rows) = (bars.layout().unknowns, bars.layout().stiff.len());
     let rigid_motions = rigid_motions(&drawn, tiling, &bars);
@@ -142,9 +142,9 @@ pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Mode
     go_on(observe)?;
     let folding_modes = folding_modes(question, &drawn)?;
     if let Some(closure) = folding_modes {
-        let predicted = match surroundings {
-            Surroundings::Patch if recipe.pins.is_empty() => Some(zero_modes.saturating_sub(rigid_motions)),
-            Surroundings::FixedTorus if recipe.pins.is_empty() && !has_rigid_facets(recipe) => Some(self_stresses),
+        let predicted = match boundary {
+            Boundary::Patch if terms.pins.is_empty() => Some(zero_modes.saturating_sub(rigid_motions)),
+            Boundary::FixedTorus if terms.pins.is_empty() && !has_rigid_facets(terms) => Some(self_stresses),
             _ => None,
         };
         if let Some(bars) = predicted.filter(|&bars| bars != closure) {
@@ -152,9 +152,9 @@ pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Mode
         }
     }
     // rigid bars leave their zero modes free, and no more
-    let free = if recipe.bars.is_some_and(f64::is_infinite) { zero_modes } else { columns };
+    let free = if terms.bars.is_some_and(f64::is_infinite) { zero_modes } else { columns };
     let (eigenvalues, vectors) = if question.eigenvalues.min(free) > 0 {
-        lowest(&assemble(&drawn, tiling, recipe, Gauge::Free), question.eigenvalues, free, observe)?
+        lowest(&assemble(&drawn, tiling, terms, Gauge::Free), question.eigenvalues, free, observe)?
     } else {
         (vec![], vec![])
     };
@@ -175,13 +175,13 @@ fn go_on(observe: &mut Observer<'_>) -> Result<(), ModesError> {
 }
 
 /// Bars and rigid polygons only, all rigid; pins as they are.
-fn rigid_part(recipe: &Recipe) -> Recipe {
-    let facets = recipe.facets.as_ref().filter(|hinges| hinges.stiffness.is_infinite()).cloned();
-    Recipe { bars: Some(f64::INFINITY), facets, pins: recipe.pins.clone(), ..Recipe::default() }
+fn rigid_part(terms: &Terms) -> Terms {
+    let facets = terms.facets.as_ref().filter(|hinges| hinges.stiffness.is_infinite()).cloned();
+    Terms { bars: Some(f64::INFINITY), facets, pins: terms.pins.clone(), ..Terms::default() }
 }
 
-fn has_rigid_facets(recipe: &Recipe) -> bool {
-    recipe.facets.as_ref().is_some_and(|hinges: &Hinges| hinges.stiffness.is_infinite())
+fn has_rigid_facets(terms: &Terms) -> bool {
+    terms.facets.as_ref().is_some_and(|hinges: &Hinges| hinges.stiffness.is_infinite())
 }
 
 /// Rigid motions of the sheet; where a patch has several pieces with faces, of each of them.
@@ -290,7 +290,7 @@ fn folding_modes(question: &Question<'_>, drawn: &Drawn) -> Result<Option<usize>
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);
     }
-    let rigid = has_rigid_facets(question.recipe);
+    let rigid = has_rigid_facets(question.terms);
     let locked: Vec<usize> =
         (0..tiling.edges.len()).filter(|&e| rigid && tiling.edges[e].kind == EdgeKind::Facet).collect();
     let angles: Vec<f64> = crate::model::assemble::drawn_angles(drawn, tiling)
@@ -416,11 +416,11 @@ mod tests {
     fn asked(cells: usize, eigenvalues: usize, stop: usize) -> (Result<Modes, ModesError>, usize) {
         let sheet = generate(&Pattern::Random(Random::default())).unwrap();
         let tiling = tile(&sheet, [cells; 2], false);
-        let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+        let drawn = Drawn::new(&sheet, &tiling, Boundary::Patch);
         let rest = drawn_angles(&drawn, &tiling);
-        let recipe = Recipe { bars: Some(1e3), creases: Some(Hinges { stiffness: 1.0, rest }), ..Recipe::default() };
-        let surroundings = Surroundings::Patch;
-        let question = Question { sheet: &sheet, tiling: &tiling, surroundings, recipe: &recipe, eigenvalues };
+        let terms = Terms { bars: Some(1e3), creases: Some(Hinges { stiffness: 1.0, rest }), ..Terms::default() };
+        let boundary = Boundary::Patch;
+        let question = Question { sheet: &sheet, tiling: &tiling, boundary, terms: &terms, eigenvalues };
         let mut asked = 0;
         let found = modes(&question, &mut || {
             asked += 1;

@@ -7,7 +7,7 @@
 use super::branches::{self, BranchesError};
 use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, Rays, RealDirections, Shape};
 use crate::math::Vec3;
-use crate::model::assemble::Surroundings;
+use crate::model::assemble::Boundary;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, End, Event, Options, Point, Trajectory, follow};
@@ -250,7 +250,7 @@ pub fn trace(
     let closure = Closure::of_cell(start.sheet)?.with_locked(&branches::locked(start));
     let embedding = Embedding::new(start.sheet)?;
     let angles: Vec<f64> = start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
-    let periodic = start.surroundings == Surroundings::Screw;
+    let periodic = start.boundary == Boundary::Screw;
     let closing = Closing::new(&closure, angles);
     let (known, stop) = (Vec::new(), question.stop);
     let crosses = false;

@@ -1,7 +1,7 @@
 //! Which copies of the cell a picture shows, and where they are in a state.
 
 use crate::math::Vec3;
-use crate::model::assemble::{Drawn, Surroundings};
+use crate::model::assemble::{Boundary, Drawn};
 use crate::model::{Domain, Site};
 use crate::sheet::tiling::{TiledEdge, TiledTriangle};
 use crate::sheet::{Sheet, Tiling, tile};
@@ -59,8 +59,8 @@ fn beside_a_triangle(ends: [Site; 2], sides: &[(usize, [i32; 2])]) -> [Site; 2] 
 
 impl View {
     /// The view of a tiling; of a screw `shown` cells.
-    pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, shown: [usize; 2]) -> Self {
-        let cells = if surroundings == Surroundings::Screw { shown } else { tiling.cells };
+    pub fn new(sheet: &Sheet, tiling: &Tiling, boundary: Boundary, shown: [usize; 2]) -> Self {
+        let cells = if boundary == Boundary::Screw { shown } else { tiling.cells };
         Self::of_cells(sheet, tiling, cells, [0, 0])
     }
 

@@ -17,11 +17,11 @@ const STIFF_RATIO: f64 = 1e4;
 /// A sheet this many times its size away from the file's origin is moved to the model's.
 const FAR: f64 = 4.0;
 
-type Terms = Vec<Box<dyn Elements>>;
+type Elementwise = Vec<Box<dyn Elements>>;
 
 /// What surrounds the cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Surroundings {
+pub enum Boundary {
     /// Free edges.
     Patch,
     /// Periodic, lattice as drawn.
@@ -43,7 +43,7 @@ pub struct Hinges {
 
 /// What the sheet is made of and what acts on it. Everything absent is not built.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Recipe {
+pub struct Terms {
     /// Stiffness `EA` of all bars; infinite: rigid.
     pub bars: Option<f64>,
     /// Creases.
@@ -58,7 +58,7 @@ pub struct Recipe {
     pub loads: Vec<(usize, Vec3)>,
 }
 
-impl Recipe {
+impl Terms {
     /// Whether bars and facets are rigid, as far as there are any.
     pub fn is_rigid(&self) -> bool {
         let facets = self.facets.as_ref().map(|facets| facets.stiffness);
@@ -89,22 +89,20 @@ pub struct Drawn {
 
 impl Drawn {
     /// Coordinates of the drawn tiling. A sheet without lattice must be a patch.
-    pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings) -> Self {
-        Self::turned(sheet, tiling, surroundings, 0.0)
+    pub fn new(sheet: &Sheet, tiling: &Tiling, boundary: Boundary) -> Self {
+        Self::turned(sheet, tiling, boundary, 0.0)
     }
 
     /// The same; the axis of a screw makes this angle with the first lattice vector, in radians.
-    pub fn turned(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, axis: f64) -> Self {
+    pub fn turned(sheet: &Sheet, tiling: &Tiling, boundary: Boundary, axis: f64) -> Self {
         let flat = |points: &[Vec3]| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
         let lattice = sheet.lattice.map(|[l1, l2]| [l1 * tiling.cells[0] as f64, l2 * tiling.cells[1] as f64]);
         let frame = Matrix3::identity();
         let (positions, origin) = near_origin(sheet, tiling);
-        let (domain, coordinates) = match (surroundings, lattice) {
-            (Surroundings::FixedTorus, Some(lattice)) => (Domain::FixedTorus(lattice), flat(&positions)),
-            (Surroundings::FreeTorus, Some(lattice)) => {
-                (Domain::FreeTorus, [flat(&positions), flat(&lattice)].concat())
-            }
-            (Surroundings::Screw, Some(lattice)) => return Self::screw(sheet, lattice, axis),
+        let (domain, coordinates) = match (boundary, lattice) {
+            (Boundary::FixedTorus, Some(lattice)) => (Domain::FixedTorus(lattice), flat(&positions)),
+            (Boundary::FreeTorus, Some(lattice)) => (Domain::FreeTorus, [flat(&positions), flat(&lattice)].concat()),
+            (Boundary::Screw, Some(lattice)) => return Self::screw(sheet, lattice, axis),
             _ => (Domain::Patch, flat(&positions)),
         };
         Self { domain, coordinates, held: vec![], frame, origin }
@@ -152,18 +150,17 @@ fn area_vector(sheet: &Sheet) -> Vec3 {
     sheet.triangles.iter().map(|t| area(t.corners)).sum()
 }
 
-/// Builds the model of a tiling. Hinges of a kind for which the recipe has nothing are not built.
-pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -> Model {
-    let (mut soft, mut stiff): (Terms, Terms) = (vec![], vec![]);
+/// Builds the model of a tiling. Hinges of a kind for which the terms has nothing are not built.
+pub fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gauge) -> Model {
+    let (mut soft, mut stiff): (Elementwise, Elementwise) = (vec![], vec![]);
     let mean_edge = mean_edge(drawn, tiling);
-    if let Some(stiffness) = recipe.bars {
+    if let Some(stiffness) = terms.bars {
         stiff.push(Box::new(bars(drawn, tiling, stiffness)));
     }
-    let given =
-        [recipe.creases.as_ref().map(|h| h.stiffness), recipe.facets.as_ref().map(|h| h.stiffness), recipe.bars];
+    let given = [terms.creases.as_ref().map(|h| h.stiffness), terms.facets.as_ref().map(|h| h.stiffness), terms.bars];
     let softest = given.into_iter().flatten().fold(f64::INFINITY, f64::min);
     let kinds =
-        [(TermKind::Creases, EdgeKind::Crease, &recipe.creases), (TermKind::Facets, EdgeKind::Facet, &recipe.facets)];
+        [(TermKind::Creases, EdgeKind::Crease, &terms.creases), (TermKind::Facets, EdgeKind::Facet, &terms.facets)];
     for (term, kind, hinges) in kinds {
         let Some(hinges) = hinges else { continue };
         let term = Box::new(hinge_term(term, drawn, tiling, |edge| tiling.edges[edge].kind == kind, hinges));
@@ -176,16 +173,16 @@ pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -
             list.push(term);
         }
     }
-    if !recipe.locks.is_empty() {
+    if !terms.locks.is_empty() {
         let mut rest = vec![f64::NAN; tiling.edges.len()];
-        recipe.locks.iter().for_each(|&(edge, angle)| rest[edge] = angle);
+        terms.locks.iter().for_each(|&(edge, angle)| rest[edge] = angle);
         let locked: Vec<bool> = rest.iter().map(|angle| !angle.is_nan()).collect();
         let rigid = Hinges { stiffness: f64::INFINITY, rest };
         stiff.push(Box::new(hinge_term(TermKind::Locks, drawn, tiling, |edge| locked[edge], &rigid)));
     }
-    let pins = recipe.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
+    let pins = terms.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
     let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
-    let loads = net_loads(recipe, drawn.coordinates.len(), &pinned);
+    let loads = net_loads(terms, drawn.coordinates.len(), &pinned);
     Model::new(Parts {
         domain: drawn.domain.clone(),
         drawn: drawn.coordinates.clone(),
@@ -199,9 +196,9 @@ pub fn assemble(drawn: &Drawn, tiling: &Tiling, recipe: &Recipe, gauge: Gauge) -
 }
 
 /// The force on every coordinate, without what pins take up; nothing where no force is left: a load that does nothing changes nothing.
-fn net_loads(recipe: &Recipe, coordinates: usize, pinned: &[usize]) -> Vec<f64> {
+fn net_loads(terms: &Terms, coordinates: usize, pinned: &[usize]) -> Vec<f64> {
     let mut loads = vec![0.0; coordinates];
-    recipe.loads.iter().for_each(|(v, f)| (0..3).for_each(|axis| loads[3 * v + axis] += f[axis]));
+    terms.loads.iter().for_each(|(v, f)| (0..3).for_each(|axis| loads[3 * v + axis] += f[axis]));
     pinned.iter().for_each(|&k| loads[k] = 0.0);
     if loads.iter().all(|force| *force == 0.0) { vec![] } else { loads }
 }

@@ -114,10 +114,10 @@ fn rigidity(file: &SceneFile, built: &Built) -> Result<Rigidity, BlochError> {
 
 /// Stiffnesses of the energy; `None` where it has no bars, or a term is rigid.
 fn stiffnesses(file: &SceneFile, built: &Built) -> Option<Stiffnesses> {
-    let creases = built.recipe.creases.as_ref().map_or(0.0, |creases| creases.stiffness);
+    let creases = built.terms.creases.as_ref().map_or(0.0, |creases| creases.stiffness);
     let has_facets = built.sheet.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
     let facets = if has_facets { facet_stiffness(file) } else { 0.0 };
-    let found = Stiffnesses { bars: built.recipe.bars?, creases, facets };
+    let found = Stiffnesses { bars: built.terms.bars?, creases, facets };
     [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
 }
 

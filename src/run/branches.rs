@@ -4,7 +4,7 @@ use super::runner::Runner;
 use super::{Progress, RunError};
 use crate::analysis::branches::{Branches, BranchesError, Question, branches as find_branches};
 use crate::kinematics::{Rays, RealDirections};
-use crate::model::assemble::{Surroundings, drawn_angles};
+use crate::model::assemble::{Boundary, drawn_angles};
 use crate::output::summary::{BranchesSummary, RaySummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
 use crate::scene::SceneFile;
@@ -17,13 +17,13 @@ const AS_DRAWN: f64 = 1e-9;
 
 /// Branches leave the drawn state of a screw or a patch: refuses a torus, and locks at other angles.
 pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
-    if matches!(built.surroundings, Surroundings::FixedTorus | Surroundings::FreeTorus) {
+    if matches!(built.boundary, Boundary::FixedTorus | Boundary::FreeTorus) {
         let message = "branches of a torus are not known: its lattice has conditions of its own";
         return Err(file.error_at(study.kind.span(), message, "use domain = \"screw\" or \"patch\"").into());
     }
     let angles = drawn_angles(&built.drawn, &built.tiling);
     let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
-    match built.recipe.locks.iter().find(moved) {
+    match built.terms.locks.iter().find(moved) {
         None => Ok(()),
         Some((edge, angle)) => {
             let message = format!("a lock holds a crease at {angle} that is drawn at {}", angles[*edge]);
@@ -37,9 +37,9 @@ fn leaving(built: &Built) -> Result<Branches, BranchesError> {
     find_branches(&Question {
         sheet: &built.sheet,
         tiling: &built.tiling,
-        surroundings: built.surroundings,
+        boundary: built.boundary,
         angles: &drawn_angles(&built.drawn, &built.tiling),
-        recipe: &built.recipe,
+        terms: &built.terms,
     })
 }
 
@@ -48,8 +48,8 @@ fn leaving(built: &Built) -> Result<Branches, BranchesError> {
 ///
 /// Beside it what is established about these directions; `None` where they were not looked for.
 pub fn branch_point(built: &Built) -> (Option<usize>, Option<RealDirections>) {
-    let rigid = built.recipe.bars.is_some_and(f64::is_infinite);
-    if !rigid || built.surroundings != Surroundings::Screw || built.recipe.locks.is_empty() {
+    let rigid = built.terms.bars.is_some_and(f64::is_infinite);
+    if !rigid || built.boundary != Boundary::Screw || built.terms.locks.is_empty() {
         return (None, None);
     }
     match leaving(built) {

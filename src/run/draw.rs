@@ -34,7 +34,7 @@ pub struct Shown<'a> {
 pub fn self_intersection(runner: &Runner<'_>, study: &StudySpec) -> Option<SelfIntersection> {
     let built = runner.built;
     let asked = study.check.contains(&Check::SelfIntersection);
-    asked.then(|| SelfIntersection::new(&built.sheet, &built.tiling, built.surroundings, built.shown))
+    asked.then(|| SelfIntersection::new(&built.sheet, &built.tiling, built.boundary, built.shown))
 }
 
 /// Writes the table of states of a study: one row each.
@@ -48,16 +48,16 @@ fn row(runner: &Runner<'_>, step: usize, shown: &Shown<'_>) -> StateRow {
     let (built, state) = (runner.built, shown.state);
     let shape = cylinder(&built.drawn.domain, &built.drawn.coordinates, &state.coordinates);
     let of = |get: fn(&Cylinder) -> f64| shape.as_ref().map(get);
-    let recipe = &built.recipe;
+    let terms = &built.terms;
     StateRow {
         step: Some(step as i64),
         curvature: of(|c| c.curvature),
         theta: [of(|c| c.theta[0]), of(|c| c.theta[1])],
         strain: [of(|c| c.strain[0]), of(|c| c.strain[1]), of(|c| c.strain[2])],
         energy: [
-            recipe.bars.map(|_| state.energy_bars),
-            recipe.creases.as_ref().map(|_| state.energy_creases),
-            recipe.facets.as_ref().map(|_| state.energy_facets),
+            terms.bars.map(|_| state.energy_bars),
+            terms.creases.as_ref().map(|_| state.energy_creases),
+            terms.facets.as_ref().map(|_| state.energy_facets),
             Some(state.total()),
         ],
         residual_force: shown.residuals.map(|r| r[0]),

@@ -4,7 +4,7 @@ use super::runner::Runner;
 use super::{RunError, landscape_map, studies};
 use crate::analysis::landscape::samples::{Landscape, OPTIONS, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
-use crate::model::assemble::{Surroundings, drawn_angles};
+use crate::model::assemble::{Boundary, drawn_angles};
 use crate::numerics::{larger, worst};
 use crate::output::chart::{self, Chart, Point, Series};
 use crate::output::files;
@@ -20,24 +20,24 @@ use std::time::Instant;
 /// Landscapes are those of patches and tori of periodic sheets, with bars and creases and nothing that holds or pulls.
 pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &LandscapeSpec) -> Result<(), RunError> {
     let refuse = |message: &str, help: &str| Err(file.error_at(study.kind.span(), message, help).into());
-    let recipe = &built.recipe;
-    let torus = match built.surroundings {
-        Surroundings::Patch => false,
-        Surroundings::FixedTorus | Surroundings::FreeTorus => true,
-        Surroundings::Screw => return refuse("a landscape needs cells around its own", "use domain = \"patch\""),
+    let terms = &built.terms;
+    let torus = match built.boundary {
+        Boundary::Patch => false,
+        Boundary::FixedTorus | Boundary::FreeTorus => true,
+        Boundary::Screw => return refuse("a landscape needs cells around its own", "use domain = \"patch\""),
     };
     if built.sheet.lattice.is_none() {
         return refuse("a finite sheet has no uniform modes", "give the mesh a lattice");
     }
-    if recipe.bars.is_none() || recipe.creases.is_none() {
+    if terms.bars.is_none() || terms.creases.is_none() {
         let help = "give bars (inf: rigid) and creases a stiffness";
         return refuse("a landscape is the energy of bars and creases", help);
     }
-    if torus && recipe.bars.is_some_and(f64::is_infinite) {
+    if torus && terms.bars.is_some_and(f64::is_infinite) {
         let help = "give bars a finite stiffness";
         return refuse("modes of a torus stretch bars beyond linear order, rigid bars forbid them", help);
     }
-    if !(recipe.locks.is_empty() && recipe.pins.is_empty() && recipe.loads.is_empty()) {
+    if !(terms.locks.is_empty() && terms.pins.is_empty() && terms.loads.is_empty()) {
         let help = "leave out [[lock]], [[pin]] and [[load]]";
         return refuse("a landscape holds nothing but the amplitude of a mode", help);
     }
@@ -60,10 +60,10 @@ const MODES: &str = "patches have modes named by curvatures, tori those of waven
 /// The patch or the torus of a scene.
 pub fn held(built: &Built) -> Result<HeldSheet, LandscapeError> {
     let angles = drawn_angles(&built.drawn, &built.tiling);
-    let (sheet, tiling, recipe) = (&built.sheet, &built.tiling, &built.recipe);
-    match built.surroundings {
-        Surroundings::Patch => HeldSheet::patch(sheet, tiling, recipe, &angles),
-        surroundings => HeldSheet::torus(sheet, tiling, recipe, (surroundings, &angles)),
+    let (sheet, tiling, terms) = (&built.sheet, &built.tiling, &built.terms);
+    match built.boundary {
+        Boundary::Patch => HeldSheet::patch(sheet, tiling, terms, &angles),
+        boundary => HeldSheet::torus(sheet, tiling, terms, (boundary, &angles)),
     }
 }
 
@@ -281,7 +281,7 @@ fn table(built: &Built, found: &[Along]) -> Table {
     for (number, along) in found.iter().enumerate() {
         for sample in along.samples() {
             let (relaxed, state) = (&sample.relaxed, &sample.relaxed.state);
-            let facets = built.recipe.facets.as_ref().map(|_| state.energy_facets);
+            let facets = built.terms.facets.as_ref().map(|_| state.energy_facets);
             let mut row = vec![Value::Whole(number as i64)];
             row.extend((0..3).map(|k| Value::from(along.curvature.map(|curvature| curvature[k]))));
             row.extend([sample.amplitude, state.energy_bars, state.energy_creases].map(Value::Number));

@@ -152,8 +152,8 @@ fn cone(runner: &Runner<'_>, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f
     let mut held: HeldSheet = held(runner.built)?;
     let courses = Courses::new(&held)?;
     let modes = held.bending.clone().ok_or(LandscapeError::NoCurvatures)?;
-    let (sheet, recipe) = (&runner.built.sheet, &runner.built.recipe);
-    let exact = Cone::new(sheet, &modes, &rigid_facets(sheet, recipe)).map_err(LandscapeError::from)?;
+    let (sheet, terms) = (&runner.built.sheet, &runner.built.terms);
+    let exact = Cone::new(sheet, &modes, &rigid_facets(sheet, terms)).map_err(LandscapeError::from)?;
     let mut largest: Option<f64> = None;
     let mut curves = Vec::new();
     for nappe in [1, -1] {

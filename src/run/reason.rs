@@ -31,7 +31,7 @@ fn unmet_lock(built: &Built, state: &State) -> Option<String> {
         Some((edge, angle, here)).filter(|_| (angle - here).abs() > MET)
     };
     let farther = |a: &(usize, f64, f64), b: &(usize, f64, f64)| (a.1 - a.2).abs().total_cmp(&(b.1 - b.2).abs());
-    let (edge, angle, here) = built.recipe.locks.iter().filter_map(off).max_by(farther)?;
+    let (edge, angle, here) = built.terms.locks.iter().filter_map(off).max_by(farther)?;
     let key = built.sheet.edges[built.tiling.edges[edge].edge].key;
     let [n1, n2] = key.shift;
     Some(format!("the lock of crease [{}, {}, {n1}, {n2}] at {angle} rad stays at {here:.6} rad", key.i, key.j))

@@ -58,7 +58,7 @@ impl<'a> Runner<'a> {
         parallel::set_threads(options.threads.unwrap_or(0));
         let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
         let out = options.out.clone().unwrap_or_else(stem);
-        let view = View::new(&built.sheet, &built.tiling, built.surroundings, built.shown);
+        let view = View::new(&built.sheet, &built.tiling, built.boundary, built.shown);
         for study in &file.scene.studies {
             studies::check(file, built, &view, study)?;
         }
@@ -192,7 +192,7 @@ fn summary(file: &SceneFile, built: &Built, digest: String) -> Summary {
     let info = Info::new(&built.sheet);
     let (terms, mut left_out) = built.terms();
     left_out.extend(file.scene.studies.iter().filter_map(|study| surface::left_out(built, study)));
-    let held = built.drawn.held.len() + built.recipe.pins.iter().flat_map(|(_, axes)| axes).filter(|a| **a).count();
+    let held = built.drawn.held.len() + built.terms.pins.iter().flat_map(|(_, axes)| axes).filter(|a| **a).count();
     Summary {
         version: env!("CARGO_PKG_VERSION"),
         scene: file.path().display().to_string(),

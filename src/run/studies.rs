@@ -31,7 +31,7 @@ use std::time::Instant;
 /// Checks what a study says before anything is written.
 pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) -> Result<(), RunError> {
     match &*study.kind {
-        StudyKind::Relax(_) if !built.recipe.has_energy() => {
+        StudyKind::Relax(_) if !built.terms.has_energy() => {
             let help = "give bars, creases or facets a stiffness";
             Err(file.error_at(study.kind.span(), "there is no energy to relax", help).into())
         }
@@ -54,7 +54,7 @@ pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) ->
 
 /// Whether the model has so many eigenvalues that a study of modes can find.
 fn enough_eigenvalues(file: &SceneFile, built: &Built, count: &Located<usize>) -> Result<(), RunError> {
-    let pinned: usize = built.recipe.pins.iter().map(|(_, axes)| axes.iter().filter(|held| **held).count()).sum();
+    let pinned: usize = built.terms.pins.iter().map(|(_, axes)| axes.iter().filter(|held| **held).count()).sum();
     let unknowns = built.drawn.coordinates.len().saturating_sub(built.drawn.held.len() + pinned);
     let wanted = (**count).min(unknowns);
     match decomposed_dense(unknowns, wanted, unknowns) {
@@ -69,7 +69,7 @@ fn enough_eigenvalues(file: &SceneFile, built: &Built, count: &Located<usize>) -
 /// `kind = "relax"`.
 pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Result<StudySummary, RunError> {
     let built = runner.built;
-    let mut model = assemble(&built.drawn, &built.tiling, &built.recipe, Gauge::Held);
+    let mut model = assemble(&built.drawn, &built.tiling, &built.terms, Gauge::Held);
     let Some((x, forces)) = start(runner, spec, &mut model)? else { return Ok(nowhere_to_start(study)) };
     let edges = built.tiling.edges.len();
     let tensions = restored::tensions(&model, &x, &forces);
@@ -266,9 +266,9 @@ fn last_of(built: &Built, error: &RelaxError) -> RelaxSummary {
 
 fn energy(built: &Built, state: &State) -> EnergySummary {
     EnergySummary {
-        bars: built.recipe.bars.map(|_| state.energy_bars),
-        creases: built.recipe.creases.as_ref().map(|_| state.energy_creases),
-        facets: built.recipe.facets.as_ref().map(|_| state.energy_facets),
+        bars: built.terms.bars.map(|_| state.energy_bars),
+        creases: built.terms.creases.as_ref().map(|_| state.energy_creases),
+        facets: built.terms.facets.as_ref().map(|_| state.energy_facets),
         total: state.total(),
     }
 }
@@ -291,8 +291,8 @@ pub fn modes(runner: &mut Runner<'_>, study: &StudySpec, spec: &ModesSpec) -> Re
     let question = Question {
         sheet: &built.sheet,
         tiling: &built.tiling,
-        surroundings: built.surroundings,
-        recipe: &built.recipe,
+        boundary: built.boundary,
+        terms: &built.terms,
         eigenvalues: spec.eigenvalues.as_ref().map_or(0, |n| **n),
     };
     let (clock, mut step, observed) = (Instant::now(), 0, &*runner);

@@ -12,7 +12,7 @@ use crate::analysis::state::State;
 use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::Gauge;
-use crate::model::assemble::{Recipe, Surroundings, assemble, drawn_angles};
+use crate::model::assemble::{Boundary, Terms, assemble, drawn_angles};
 use crate::numerics::worst;
 use crate::output::strain_plot::PathPoint;
 use crate::output::strain_space::StrainSurface;
@@ -44,7 +44,7 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), R
     if let StudyKind::Surface(SurfaceSpec { resolution: Some(resolution), .. }) = &*study.kind {
         check_resolution(file, resolution)?;
     }
-    if built.surroundings == Surroundings::Screw {
+    if built.boundary == Boundary::Screw {
         return Ok(());
     }
     let message = "a surface of folded states is drawn in the space of lattice strains";
@@ -65,21 +65,21 @@ pub fn check_resolution(file: &SceneFile, resolution: &Located<Count>) -> Result
 pub fn left_out(built: &Built, study: &StudySpec) -> Option<String> {
     let surface = matches!(*study.kind, StudyKind::Surface(_));
     let name = &study.name.0;
-    (surface && !built.recipe.locks.is_empty())
+    (surface && !built.terms.locks.is_empty())
         .then(|| format!("locks in study `{name}`: the surface is what folds without them"))
 }
 
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> Result<StudySummary, RunError> {
     let built = runner.built;
-    let recipe = Recipe { locks: Vec::new(), ..built.recipe.clone() };
+    let terms = Terms { locks: Vec::new(), ..built.terms.clone() };
     let angles = drawn_angles(&built.drawn, &built.tiling);
     let start = branches::Question {
         sheet: &built.sheet,
         tiling: &built.tiling,
-        surroundings: built.surroundings,
+        boundary: built.boundary,
         angles: &angles,
-        recipe: &recipe,
+        terms: &terms,
     };
     let question = Question {
         start,
@@ -96,7 +96,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> 
     };
     match found {
         Ok(mut surface) => {
-            write(runner, study, &recipe, (&mut surface, question.max_curvature))?;
+            write(runner, study, &terms, (&mut surface, question.max_curvature))?;
             summary.reason = reason(&surface);
             summary.converged = summary.reason.is_none();
             let result = summarized(&surface, &question);
@@ -146,9 +146,9 @@ struct States {
 
 /// The states of a surface. Where the observer asks to stop, the surface is cut down to those it has by then, or to the
 /// first few.
-fn states(runner: &Runner<'_>, study: &StudySpec, recipe: &Recipe, surface: &mut Surface) -> States {
+fn states(runner: &Runner<'_>, study: &StudySpec, terms: &Terms, surface: &mut Surface) -> States {
     let built = runner.built;
-    let mut model = assemble(&built.drawn, &built.tiling, recipe, Gauge::Held);
+    let mut model = assemble(&built.drawn, &built.tiling, terms, Gauge::Held);
     let mut finder = draw::self_intersection(runner, study);
     let (mut states, mut crossing) = (Vec::new(), Vec::new());
     for (k, point) in surface.points.iter().enumerate() {
@@ -174,29 +174,29 @@ fn states(runner: &Runner<'_>, study: &StudySpec, recipe: &Recipe, surface: &mut
 fn write(
     runner: &mut Runner<'_>,
     study: &StudySpec,
-    recipe: &Recipe,
+    terms: &Terms,
     (surface, max_curvature): (&mut Surface, f64),
 ) -> Result<(), RunError> {
     let built = runner.built;
-    let found = states(runner, study, recipe, surface);
+    let found = states(runner, study, terms, surface);
     let surface = &*surface;
-    let row = |k: usize| row(recipe, k, &surface.points[k], &found);
+    let row = |k: usize| row(terms, k, &surface.points[k], &found);
     let rows: Vec<StateRow> = (0..surface.points.len()).map(row).collect();
     let keys: Vec<EdgeKey> = built.sheet.edges.iter().map(|edge| edge.key).collect();
     let name = &study.name.0;
     Table::of_states(&keys, &rows).write(&runner.path(format!("{name}.csv")))?;
     if let Some((last, state)) = surface.points.iter().zip(&found.states).next_back() {
         draw(runner, study, &mesh(&keys, surface, &rows), max_curvature)?;
-        let model = assemble(&built.drawn, &built.tiling, &built.recipe, Gauge::Held);
+        let model = assemble(&built.drawn, &built.tiling, &built.terms, Gauge::Held);
         let angles = hinge_angles(&model, &last.angles);
         runner.keep_state(study, Kept { coordinates: state.coordinates.clone(), angles, tension: None })?;
     }
     Ok(())
 }
 
-fn row(recipe: &Recipe, k: usize, point: &SurfacePoint, found: &States) -> StateRow {
+fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRow {
     let (shape, state) = (&point.shape, &found.states[k]);
-    let any = recipe.bars.is_some() || recipe.creases.is_some();
+    let any = terms.bars.is_some() || terms.creases.is_some();
     StateRow {
         branch: Some(point.branch.0 as i64),
         sign: Some(i64::from(point.branch.1)),
@@ -206,9 +206,9 @@ fn row(recipe: &Recipe, k: usize, point: &SurfacePoint, found: &States) -> State
         theta: shape.theta.map(Some),
         strain: shape.strain.map(Some),
         energy: [
-            recipe.bars.map(|_| state.energy_bars),
-            recipe.creases.as_ref().map(|_| state.energy_creases),
-            recipe.facets.as_ref().map(|_| state.energy_facets),
+            terms.bars.map(|_| state.energy_bars),
+            terms.creases.as_ref().map(|_| state.energy_creases),
+            terms.facets.as_ref().map(|_| state.energy_facets),
             any.then(|| state.total()),
         ],
         residual_force: None,

@@ -13,7 +13,7 @@ use crate::analysis::state::{State, cylinder};
 use crate::analysis::trace::{Folded, Question, Stop, TURNING, Traced, trace};
 use crate::kinematics::RealDirections;
 use crate::math::Vec3;
-use crate::model::assemble::{Surroundings, assemble, drawn_angles};
+use crate::model::assemble::{Boundary, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
 use crate::numerics::{larger, worst};
 use crate::output::strain_plot::{self, PathPoint};
@@ -42,13 +42,13 @@ const PICTURES: usize = 40;
 /// Trajectories start from the drawn state of one cell, or of a finite sheet.
 pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &TraceSpec) -> Result<(), RunError> {
     branches::check(file, built, study)?;
-    if built.surroundings == Surroundings::Patch && built.sheet.lattice.is_some() {
+    if built.boundary == Boundary::Patch && built.sheet.lattice.is_some() {
         let message = "trajectories of a patch of a periodic sheet are not known";
         return Err(file
             .error_at(study.kind.span(), message, "use domain = \"screw\", or a mesh without lattice")
             .into());
     }
-    if spec.engine != Engine::Kinematic && built.recipe.bars.is_none() {
+    if spec.engine != Engine::Kinematic && built.terms.bars.is_none() {
         let message = "the energy engine relaxes bars, and this scene has none";
         let help = "give `bars` in [energy] a stiffness (inf: rigid), or leave `engine` out";
         return Err(file.error_at(study.kind.span(), message, help).into());
@@ -86,9 +86,9 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
     let start = Start {
         sheet: &built.sheet,
         tiling: &built.tiling,
-        surroundings: built.surroundings,
+        boundary: built.boundary,
         angles: &angles,
-        recipe: &built.recipe,
+        terms: &built.terms,
     };
     let question = Question {
         start,
@@ -136,7 +136,7 @@ fn follow(
 ) -> Result<Vec<Traced>, crate::analysis::trace::TraceError> {
     let built = runner.built;
     let asked = asked(study, question);
-    let mut finder = asked.then(|| SelfIntersection::new(&built.sheet, &built.tiling, built.surroundings, built.shown));
+    let mut finder = asked.then(|| SelfIntersection::new(&built.sheet, &built.tiling, built.boundary, built.shown));
     let model = model(built);
     let mut crosses = |state: &Folded| {
         let shown = shown_state(built, &model, state);
@@ -152,7 +152,7 @@ fn follow(
 }
 
 fn model(built: &Built) -> Model {
-    assemble(&built.drawn, &built.tiling, &built.recipe, Gauge::Held)
+    assemble(&built.drawn, &built.tiling, &built.terms, Gauge::Held)
 }
 
 /// A folded state as the model sees it, with the fold angles of all edges.
@@ -176,7 +176,7 @@ fn relaxed(runner: &Runner<'_>, study: &StudySpec, engine: Engine, traced: &[Tra
     let question = drive::Question {
         tiling: &built.tiling,
         drawn: &built.drawn,
-        recipe: &built.recipe,
+        terms: &built.terms,
         options: Options::default(),
     };
     let mut watch = studies::watcher(runner, study, question.options.tolerance);
@@ -330,8 +330,8 @@ fn row(
         Some(_) => cylinder(&built.drawn.domain, &built.drawn.coordinates, &state.coordinates)
             .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
     };
-    let recipe = &built.recipe;
-    let any = recipe.bars.is_some() || recipe.creases.is_some();
+    let terms = &built.terms;
+    let any = terms.bars.is_some() || terms.creases.is_some();
     let branch = path.traced.branch;
     StateRow {
         branch: Some(branch.0 as i64),
@@ -342,9 +342,9 @@ fn row(
         theta: [0, 1].map(|k| shape.map(|(_, theta, _)| theta[k])),
         strain: [0, 1, 2].map(|k| shape.map(|(.., strain)| strain[k])),
         energy: [
-            recipe.bars.map(|_| state.energy_bars),
-            recipe.creases.as_ref().map(|_| state.energy_creases),
-            recipe.facets.as_ref().map(|_| state.energy_facets),
+            terms.bars.map(|_| state.energy_bars),
+            terms.creases.as_ref().map(|_| state.energy_creases),
+            terms.facets.as_ref().map(|_| state.energy_facets),
             any.then(|| state.total()),
         ],
         residual_length: driven.map(|driven| driven.relaxed.residual_length),

@@ -37,12 +37,12 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), R
     if let StudyKind::Wells(WellsSpec { resolution: Some(resolution), .. }) = &*study.kind {
         check_resolution(file, resolution)?;
     }
-    let recipe = &built.recipe;
-    if recipe.bars.is_none() || recipe.creases.as_ref().is_none_or(|creases| creases.stiffness.is_infinite()) {
+    let terms = &built.terms;
+    if terms.bars.is_none() || terms.creases.as_ref().is_none_or(|creases| creases.stiffness.is_infinite()) {
         let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite";
         return refuse("wells are those of the energy of bars and creases", help);
     }
-    if !(recipe.pins.is_empty() && recipe.loads.is_empty()) {
+    if !(terms.pins.is_empty() && terms.loads.is_empty()) {
         return refuse("wells are those of a sheet that nothing holds or pulls", "leave out [[pin]] and [[load]]");
     }
     Ok(())
@@ -94,9 +94,9 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Re
     let question = Question {
         sheet: &built.sheet,
         tiling: &built.tiling,
-        surroundings: built.surroundings,
+        boundary: built.boundary,
         drawn: &built.drawn,
-        recipe: &built.recipe,
+        terms: &built.terms,
     };
     let mut summary = StudySummary::unanswered(&study.name.0, study.kind.name());
     let clock = Instant::now();
@@ -142,7 +142,7 @@ fn sampling(built: &Built, spec: &WellsSpec) -> Sampling {
 
 /// Whether faces of each well pass through each other.
 fn crossing(built: &Built, wells: &[Well]) -> Vec<bool> {
-    let mut finder = SelfIntersection::new(&built.sheet, &built.tiling, built.surroundings, built.shown);
+    let mut finder = SelfIntersection::new(&built.sheet, &built.tiling, built.boundary, built.shown);
     wells.iter().map(|well| finder.marks(&built.drawn, &well.settled.relaxed.state, LYING).any).collect()
 }
 
@@ -299,7 +299,7 @@ fn write(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Ru
             (draw::with_all_angles(built, &pass.state), [pass.residual_force, pass.residual_length])
         }))
         .collect();
-    let mut finder = SelfIntersection::new(&built.sheet, &built.tiling, built.surroundings, built.shown);
+    let mut finder = SelfIntersection::new(&built.sheet, &built.tiling, built.boundary, built.shown);
     let shown: Vec<Shown<'_>> = states
         .iter()
         .map(|(state, residuals)| Shown {

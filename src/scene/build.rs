@@ -9,7 +9,7 @@ use super::{Located, SceneError, SceneFile};
 use crate::analysis::axis::drawn_for;
 use crate::kinematics::folding_modes_with_locked;
 use crate::math::Vec3;
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, drawn_angles};
+use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, drawn_angles};
 use crate::sheet::{EdgeKey, EdgeKind, Sheet, Tiling, fold, generate, tile};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -22,11 +22,11 @@ pub struct Built {
     /// Its cells as the studies see them.
     pub tiling: Tiling,
     /// What surrounds them.
-    pub surroundings: Surroundings,
+    pub boundary: Boundary,
     /// The drawn state.
     pub drawn: Drawn,
     /// What the sheet is made of and what acts on it.
-    pub recipe: Recipe,
+    pub terms: Terms,
     /// How many cells pictures of a screw show.
     pub shown: [usize; 2],
     /// What is to be said about the scene before its studies.
@@ -37,17 +37,17 @@ pub struct Built {
 pub fn build(file: &SceneFile) -> Result<Built, SceneError> {
     let sheet = sheet(file)?;
     let spec = &file.scene.sheet;
-    let surroundings = surroundings(file, &sheet)?;
-    let screw = surroundings == Surroundings::Screw;
+    let boundary = boundary(file, &sheet)?;
+    let screw = boundary == Boundary::Screw;
     let cells = if screw || sheet.lattice.is_none() { [1, 1] } else { spec.cells() };
     super::memory::check(file, &sheet)?;
-    let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
-    let drawn = Drawn::new(&sheet, &tiling, surroundings);
+    let tiling = tile(&sheet, cells, boundary != Boundary::Patch);
+    let drawn = Drawn::new(&sheet, &tiling, boundary);
     let builder = Builder::new(file, &sheet, &tiling, drawn_angles(&drawn, &tiling));
-    let recipe = builder.recipe()?;
-    let drawn = drawn_for(&sheet, &tiling, surroundings, &recipe);
-    let notes = super::turns::notes(file, &recipe);
-    Ok(Built { surroundings, drawn, recipe, shown: spec.cells(), notes, tiling, sheet })
+    let terms = builder.terms()?;
+    let drawn = drawn_for(&sheet, &tiling, boundary, &terms);
+    let notes = super::turns::notes(file, &terms);
+    Ok(Built { boundary, drawn, terms, shown: spec.cells(), notes, tiling, sheet })
 }
 
 /// Rates of a mode from its table, for every edge of the tiling; NaN where the table has none.
@@ -71,13 +71,13 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     generate::generate(&pattern).map_err(|error| wrong(error.to_string()))
 }
 
-fn surroundings(file: &SceneFile, sheet: &Sheet) -> Result<Surroundings, SceneError> {
+fn boundary(file: &SceneFile, sheet: &Sheet) -> Result<Boundary, SceneError> {
     let spec = &file.scene.sheet;
     let periodic = match spec.domain() {
-        Domain::Patch => return Ok(Surroundings::Patch),
-        Domain::Torus if spec.lattice() == Lattice::Fixed => Surroundings::FixedTorus,
-        Domain::Torus => Surroundings::FreeTorus,
-        Domain::Screw => Surroundings::Screw,
+        Domain::Patch => return Ok(Boundary::Patch),
+        Domain::Torus if spec.lattice() == Lattice::Fixed => Boundary::FixedTorus,
+        Domain::Torus => Boundary::FreeTorus,
+        Domain::Screw => Boundary::Screw,
     };
     if sheet.lattice.is_some() {
         return Ok(periodic);
@@ -107,7 +107,7 @@ impl<'a> Builder<'a> {
         Self { file, sheet, tiling, names: names(sheet), angles }
     }
 
-    fn recipe(&self) -> Result<Recipe, SceneError> {
+    fn terms(&self) -> Result<Terms, SceneError> {
         let energy = &self.file.scene.energy;
         let creases = match &energy.creases {
             Some(spec) => Some(Hinges { stiffness: spec.stiffness.0, rest: self.rest(spec.rest.as_ref())? }),
@@ -116,7 +116,7 @@ impl<'a> Builder<'a> {
         let stiffness = self.facet_stiffness();
         let has_facets = self.tiling.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
         let facets = has_facets.then(|| Hinges { stiffness, rest: self.angles.clone() });
-        let recipe = Recipe {
+        let terms = Terms {
             bars: energy.bars.as_ref().map(|spec| spec.stiffness.0),
             creases,
             facets,
@@ -124,8 +124,8 @@ impl<'a> Builder<'a> {
             pins: self.pins()?,
             loads: self.loads()?,
         };
-        self.balance(&recipe)?;
-        Ok(recipe)
+        self.balance(&terms)?;
+        Ok(terms)
     }
 
     /// Left out, polygons are rigid.
@@ -278,11 +278,11 @@ impl<'a> Builder<'a> {
     }
 
     /// Loads must balance along every axis on which no vertex is pinned: otherwise there is no equilibrium.
-    fn balance(&self, recipe: &Recipe) -> Result<(), SceneError> {
-        let total: Vec3 = recipe.loads.iter().map(|(_, force)| force).sum();
-        let largest = recipe.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max);
+    fn balance(&self, terms: &Terms) -> Result<(), SceneError> {
+        let total: Vec3 = terms.loads.iter().map(|(_, force)| force).sum();
+        let largest = terms.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max);
         for (axis, letter) in ["x", "y", "z"].iter().enumerate() {
-            let pinned = recipe.pins.iter().any(|(_, axes)| axes[axis]);
+            let pinned = terms.pins.iter().any(|(_, axes)| axes[axis]);
             if !pinned && total[axis].abs() > 1e-12 * largest {
                 let span = self.file.scene.loads[0].force.span();
                 let message = format!("the loads push the whole sheet along {letter} with a force of {}", total[axis]);
@@ -302,16 +302,16 @@ fn name(key: EdgeKey) -> String {
 impl Built {
     /// Terms that are built, and what this scene made unnecessary, each with its reason.
     pub fn terms(&self) -> (Vec<String>, Vec<String>) {
-        let recipe = &self.recipe;
+        let terms = &self.terms;
         let kinds: HashSet<EdgeKind> = self.tiling.edges.iter().map(|edge| edge.kind).collect();
         let no_facets = if kinds.contains(&EdgeKind::Facet) { "" } else { "facets: every face is a triangle" };
         let table = [
-            ("bars", recipe.bars.is_some(), "bars: not in [energy]"),
-            ("creases", recipe.creases.is_some(), "creases: not in [energy]"),
-            ("facets", recipe.facets.is_some(), no_facets),
-            ("locks", !recipe.locks.is_empty(), "locks: none given"),
-            ("pins", !recipe.pins.is_empty(), "pins: none given"),
-            ("loads", !recipe.loads.is_empty(), "loads: none given"),
+            ("bars", terms.bars.is_some(), "bars: not in [energy]"),
+            ("creases", terms.creases.is_some(), "creases: not in [energy]"),
+            ("facets", terms.facets.is_some(), no_facets),
+            ("locks", !terms.locks.is_empty(), "locks: none given"),
+            ("pins", !terms.pins.is_empty(), "pins: none given"),
+            ("loads", !terms.loads.is_empty(), "loads: none given"),
         ];
         let (there, missing): (Vec<_>, Vec<_>) = table.into_iter().partition(|(_, there, _)| *there);
         let terms = there.into_iter().map(|(term, ..)| term.to_owned()).collect();

@@ -50,7 +50,7 @@ pub struct Tiling {
     pub cells: [usize; 2],
     /// A torus, not a patch.
     pub periodic: bool,
-    /// Drawn positions; vertex `v` of cell `(c1, c2)` has number `(c2 n1 + c1) Nv + v`.
+    /// Drawing positions; vertex `v` of cell `(c1, c2)` has number `(c2 n1 + c1) Nv + v`.
     pub positions: Vec<Vec3>,
     /// Edges, cell by cell (`c1` runs faster), in each cell in the order of the sheet.
     pub edges: Vec<TiledEdge>,

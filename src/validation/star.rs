@@ -6,7 +6,7 @@ use crate::analysis::branches;
 use crate::analysis::relax::{RelaxError, Relaxed, relax};
 use crate::analysis::trace::{self, Stop, Traced, trace};
 use crate::kinematics::drawn_fold_angles;
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
 use crate::sheet::{Sheet, SheetError, Tiling, fold, tile};
 use crate::solver::{Options, Problem};
@@ -62,7 +62,7 @@ impl Star {
     fn drawn(cells: [usize; 2]) -> Result<Self, SheetError> {
         let sheet = cell()?;
         let tiling = tile(&sheet, cells, false);
-        let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+        let drawn = Drawn::new(&sheet, &tiling, Boundary::Patch);
         let rest = drawn_angles(&drawn, &tiling);
         Ok(Self { sheet, tiling, drawn, rest })
     }
@@ -75,10 +75,9 @@ impl Star {
         let sheet = cell()?;
         let tiling = tile(&sheet, [1, 1], true);
         let angles = drawn_fold_angles(&sheet);
-        let recipe = Recipe { locks: vec![(0, angles[0])], ..Recipe::default() };
-        let surroundings = Surroundings::Screw;
-        let start =
-            branches::Question { sheet: &sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &recipe };
+        let terms = Terms { locks: vec![(0, angles[0])], ..Terms::default() };
+        let boundary = Boundary::Screw;
+        let start = branches::Question { sheet: &sheet, tiling: &tiling, boundary, angles: &angles, terms: &terms };
         let question = trace::Question { start, max_step, tolerance: 3e-14, branch: None, stop };
         Ok(trace(&question, None, &mut |_, _| true)?)
     }
@@ -96,8 +95,8 @@ impl Star {
     /// The model with this stiffness of every bar, `EA`, over that of the creases, which is 1 per length.
     pub fn model(&self, stiffness: f64) -> Model {
         let creases = Hinges { stiffness: 1.0, rest: self.rest.clone() };
-        let recipe = Recipe { bars: Some(stiffness), creases: Some(creases), ..Recipe::default() };
-        assemble(&self.drawn, &self.tiling, &recipe, Gauge::Held)
+        let terms = Terms { bars: Some(stiffness), creases: Some(creases), ..Terms::default() };
+        assemble(&self.drawn, &self.tiling, &terms, Gauge::Held)
     }
 
     /// Relaxes `model` from the drawn state.

@@ -1,9 +1,9 @@
-//! What the tests of the engine share: sheets on domains, recipes with random rest angles, and dense matrices.
+//! What the tests of the engine share: sheets on domains, terms with random rest angles, and dense matrices.
 #![allow(dead_code)] // each test file uses a part
 
 use foldwell::analysis::modes::{Modes, ModesError, Question, modes};
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax};
-use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use foldwell::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles};
 use foldwell::model::{Gauge, Model};
 use foldwell::numerics::{DenseMatrix, dense};
 use foldwell::run::{RunOptions, run_scene};
@@ -48,22 +48,22 @@ pub fn scaled(mut sheet: Sheet, by: f64) -> Sheet {
 pub struct Case {
     pub sheet: Sheet,
     pub tiling: Tiling,
-    pub surroundings: Surroundings,
+    pub boundary: Boundary,
     pub drawn: Drawn,
     /// Drawn fold angle of every edge; NaN where there is no hinge.
     pub angles: Vec<f64>,
 }
 
 impl Case {
-    pub fn new(sheet: Sheet, cells: [usize; 2], surroundings: Surroundings) -> Self {
-        let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
-        let drawn = Drawn::new(&sheet, &tiling, surroundings);
+    pub fn new(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Self {
+        let tiling = tile(&sheet, cells, boundary != Boundary::Patch);
+        let drawn = Drawn::new(&sheet, &tiling, boundary);
         let angles = drawn_angles(&drawn, &tiling);
-        Self { sheet, tiling, surroundings, drawn, angles }
+        Self { sheet, tiling, boundary, drawn, angles }
     }
 
     pub fn patch(name: &str, cells: [usize; 2]) -> Self {
-        Self::new(mesh(name), cells, Surroundings::Patch)
+        Self::new(mesh(name), cells, Boundary::Patch)
     }
 
     pub fn edges(&self) -> usize {
@@ -87,8 +87,8 @@ impl Case {
     }
 
     /// Bars and creases.
-    pub fn recipe(&self, bars: f64, creases: f64, rest: Vec<f64>) -> Recipe {
-        Recipe { bars: Some(bars), creases: Some(Hinges { stiffness: creases, rest }), ..Recipe::default() }
+    pub fn terms(&self, bars: f64, creases: f64, rest: Vec<f64>) -> Terms {
+        Terms { bars: Some(bars), creases: Some(Hinges { stiffness: creases, rest }), ..Terms::default() }
     }
 
     /// Rigid or bending facets, at rest as drawn.
@@ -96,18 +96,18 @@ impl Case {
         Some(Hinges { stiffness, rest: self.angles.clone() })
     }
 
-    pub fn model(&self, recipe: &Recipe, gauge: Gauge) -> Model {
-        assemble(&self.drawn, &self.tiling, recipe, gauge)
+    pub fn model(&self, terms: &Terms, gauge: Gauge) -> Model {
+        assemble(&self.drawn, &self.tiling, terms, gauge)
     }
 
-    pub fn modes(&self, recipe: &Recipe, eigenvalues: usize) -> Result<Modes, ModesError> {
-        let (sheet, tiling, surroundings) = (&self.sheet, &self.tiling, self.surroundings);
-        modes(&Question { sheet, tiling, surroundings, recipe, eigenvalues }, &mut || true)
+    pub fn modes(&self, terms: &Terms, eigenvalues: usize) -> Result<Modes, ModesError> {
+        let (sheet, tiling, boundary) = (&self.sheet, &self.tiling, self.boundary);
+        modes(&Question { sheet, tiling, boundary, terms, eigenvalues }, &mut || true)
     }
 
     /// Relaxes from the drawn state.
-    pub fn relax(&self, recipe: &Recipe) -> Result<Relaxed, Box<RelaxError>> {
-        let mut model = self.model(recipe, Gauge::Held);
+    pub fn relax(&self, terms: &Terms) -> Result<Relaxed, Box<RelaxError>> {
+        let mut model = self.model(terms, Gauge::Held);
         let start = model.start();
         relax(&mut model, start, Options::default(), self.edges(), &mut |_| true)
     }

@@ -10,7 +10,7 @@ use foldwell::analysis::landscape::samples::landscape;
 use foldwell::analysis::landscape::{Expansion, HeldSheet, Prediction};
 use foldwell::analysis::surface::{self, Surface, surface};
 use foldwell::analysis::trace::{self, Stop, Traced};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::assemble::{Boundary, Terms};
 use foldwell::sheet::EdgeKind;
 use foldwell::solver::Options;
 use foldwell::solver::atlas::Coverage;
@@ -31,39 +31,39 @@ const CERTAIN: f64 = 1e-7;
 pub fn examine(seed: u64, report: &mut Report) {
     let trial = Trial::new(seed);
     let what = format!("seed {seed}, {}, folded", trial.sheet.title);
-    let case = Case::new(trial.sheet.clone(), [1, 1], Surroundings::Screw);
+    let case = Case::new(trial.sheet.clone(), [1, 1], Boundary::Screw);
     let creases: Vec<usize> = (0..case.edges()).filter(|&k| case.tiling.edges[k].kind == EdgeKind::Crease).collect();
     let locked = creases[seed as usize % creases.len()];
-    let recipe = Recipe {
+    let terms = Terms {
         facets: case.facets(f64::INFINITY).filter(|_| case.count(EdgeKind::Facet) > 0),
         locks: vec![(locked, case.angles[locked])],
-        ..case.recipe(f64::INFINITY, 1.0, case.angles.clone())
+        ..case.terms(f64::INFINITY, 1.0, case.angles.clone())
     };
-    let start = question(&case, &recipe);
+    let start = question(&case, &terms);
     let stop = Stop { arc_length: Some(LENGTH), curvature: Some(CURVATURE), ..Stop::default() };
     let question = trace::Question { start, max_step: 0.1, tolerance: 3e-14, branch: None, stop };
     match trace::trace(&question, None, &mut |_, _| true) {
         Ok(traced) => {
-            traced.iter().take(RAYS).for_each(|traced| driven(&case, &recipe, traced, report, &what));
-            covered(&case, &recipe, &traced, report, &what);
+            traced.iter().take(RAYS).for_each(|traced| driven(&case, &terms, traced, report, &what));
+            covered(&case, &terms, &traced, report, &what);
         }
         Err(error) => report.unanswered("trajectories", &error.to_string()),
     }
     costs(&trial, seed, report, &what);
 }
 
-fn question<'a>(case: &'a Case, recipe: &'a Recipe) -> branches::Question<'a> {
-    let Case { sheet, tiling, surroundings, angles, .. } = case;
-    branches::Question { sheet, tiling, surroundings: *surroundings, angles, recipe }
+fn question<'a>(case: &'a Case, terms: &'a Terms) -> branches::Question<'a> {
+    let Case { sheet, tiling, boundary, angles, .. } = case;
+    branches::Question { sheet, tiling, boundary: *boundary, angles, terms }
 }
 
 /// Relaxations follow the trajectory to its end, with cylinders as near to its own as relaxations know them.
-fn driven(case: &Case, recipe: &Recipe, traced: &Traced, report: &mut Report, what: &str) {
+fn driven(case: &Case, terms: &Terms, traced: &Traced, report: &mut Report, what: &str) {
     if traced.end == End::Failed || traced.states.len() < 2 {
         return report.unanswered("driven", "the trajectory fails");
     }
     let Case { tiling, drawn, .. } = case;
-    let question = drive::Question { tiling, drawn, recipe, options: Options::default() };
+    let question = drive::Question { tiling, drawn, terms, options: Options::default() };
     let found = drive(&question, traced, &mut |_| true);
     let closed = usize::from(matches!(traced.end, End::Closed(_)));
     let what = || format!("{what}, ray {:?}", traced.branch);
@@ -79,8 +79,8 @@ fn driven(case: &Case, recipe: &Recipe, traced: &Traced, report: &mut Report, wh
 }
 
 /// Every state of a trajectory lies on the surface of the cell without the lock.
-fn covered(case: &Case, recipe: &Recipe, traced: &[Traced], report: &mut Report, what: &str) {
-    let free = Recipe { locks: vec![], ..recipe.clone() };
+fn covered(case: &Case, terms: &Terms, traced: &[Traced], report: &mut Report, what: &str) {
+    let free = Terms { locks: vec![], ..terms.clone() };
     let start = question(case, &free);
     let asked =
         surface::Question { start, radius: RADIUS, tolerance: 3e-14, max_curvature: CURVATURE, max_points: 5_000 };
@@ -114,12 +114,12 @@ fn nearest(surface: &Surface, angles: &[f64]) -> f64 {
 
 /// A patch bent along a mode costs what the quartic form says.
 fn costs(trial: &Trial, seed: u64, report: &mut Report, what: &str) {
-    let case = Case::new(trial.sheet.clone(), [3, 3], Surroundings::Patch);
-    let recipe = Recipe {
+    let case = Case::new(trial.sheet.clone(), [3, 3], Boundary::Patch);
+    let terms = Terms {
         facets: case.facets(trial.facets).filter(|_| case.count(EdgeKind::Facet) > 0),
-        ..case.recipe(trial.bars, 1.0, case.angles.clone())
+        ..case.terms(trial.bars, 1.0, case.angles.clone())
     };
-    let mut held = match HeldSheet::patch(&case.sheet, &case.tiling, &recipe, &case.angles) {
+    let mut held = match HeldSheet::patch(&case.sheet, &case.tiling, &terms, &case.angles) {
         Ok(held) => held,
         Err(error) => return report.unanswered("landscape", &error.to_string()),
     };

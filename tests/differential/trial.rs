@@ -9,9 +9,9 @@ use foldwell::analysis::wells::Question;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings, assemble};
+use foldwell::model::assemble::{Boundary, Terms, assemble};
 use foldwell::output::picture::Picture;
-use foldwell::sheet::build::{Drawn as Drawing, build};
+use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::{Eggbox, Miura, Random, RandomDevelopable};
 use foldwell::sheet::{Corner, EdgeKind, Pattern, Sheet, generate};
 use foldwell::solver::{Options, Problem, Start};
@@ -25,7 +25,7 @@ const STARTS: usize = 150;
 #[derive(Clone)]
 pub struct Trial {
     pub sheet: Sheet,
-    pub surroundings: Surroundings,
+    pub boundary: Boundary,
     pub cells: [usize; 2],
     pub bars: f64,
     pub facets: f64,
@@ -79,9 +79,9 @@ impl Trial {
             _ => Pattern::Random(Random { size, seed, ..Random::default() }),
         })
         .unwrap();
-        use Surroundings::{FixedTorus, FreeTorus, Patch, Screw};
-        let surroundings = [Patch, FixedTorus, FreeTorus, Screw, Screw][pick(5)];
-        let cells = if surroundings == Screw { [1, 1] } else { [[1, 1], [2, 2]][pick(2)] };
+        use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
+        let boundary = [Patch, FixedTorus, FreeTorus, Screw, Screw][pick(5)];
+        let cells = if boundary == Screw { [1, 1] } else { [[1, 1], [2, 2]][pick(2)] };
         let bars = [1e2, 1e4, 1e6, f64::INFINITY, f64::INFINITY][pick(5)];
         let facets = [1.0, 10.0, f64::INFINITY][pick(3)];
         let (with_lock, with_loads, pinned) = (pick(3) == 0, pick(2) == 0, pick(4));
@@ -89,8 +89,8 @@ impl Trial {
         let locked = hinges[pick(hinges.len())];
         let off = numbers.many(sheet.edges.len(), 0.05);
         let lock = with_lock.then(|| (locked, numbers.within(0.05)));
-        let mut trial = Self { sheet, surroundings, cells, bars, facets, off, lock, loads: vec![], pins: vec![] };
-        if surroundings == Patch && with_loads {
+        let mut trial = Self { sheet, boundary, cells, bars, facets, off, lock, loads: vec![], pins: vec![] };
+        if boundary == Patch && with_loads {
             trial.load(&mut numbers, pinned);
         }
         trial
@@ -106,16 +106,14 @@ impl Trial {
     }
 
     pub fn describe(&self) -> String {
-        let Self { surroundings, cells, bars, facets, lock, loads, pins, sheet, .. } = self;
+        let Self { boundary, cells, bars, facets, lock, loads, pins, sheet, .. } = self;
         let (lock, pins) = (lock.is_some(), pins.len());
         let force = loads.first().map_or(0.0, |(_, f)| f.norm());
         let title = &sheet.title;
-        format!(
-            "{title} {surroundings:?} {cells:?} bars {bars:e} facets {facets} lock {lock} load {force:.0e} pins {pins}"
-        )
+        format!("{title} {boundary:?} {cells:?} bars {bars:e} facets {facets} lock {lock} load {force:.0e} pins {pins}")
     }
 
-    pub fn recipe(&self, case: &Case) -> Recipe {
+    pub fn terms(&self, case: &Case) -> Terms {
         let rest = case.tiling.edges.iter().zip(&case.angles).map(|(e, angle)| angle + self.off[e.edge]).collect();
         let hinge = |k: &usize| !case.angles[*k].is_nan();
         let mut locks = vec![];
@@ -125,18 +123,18 @@ impl Trial {
         }
         let facets = if case.count(EdgeKind::Facet) > 0 { case.facets(self.facets) } else { None };
         let (loads, pins) = (self.loads.clone(), self.pins.clone());
-        Recipe { facets, locks, loads, pins, ..case.recipe(self.bars, 1.0, rest) }
+        Terms { facets, locks, loads, pins, ..case.terms(self.bars, 1.0, rest) }
     }
 
     pub fn case(&self) -> Case {
-        Case::new(self.sheet.clone(), self.cells, self.surroundings)
+        Case::new(self.sheet.clone(), self.cells, self.boundary)
     }
 
     pub fn answer(&self) -> Result<Answer, String> {
         let case = self.case();
-        let recipe = self.recipe(&case);
-        let drawn = drawn_for(&case.sheet, &case.tiling, self.surroundings, &recipe);
-        let mut model = assemble(&drawn, &case.tiling, &recipe, Gauge::Held);
+        let terms = self.terms(&case);
+        let drawn = drawn_for(&case.sheet, &case.tiling, self.boundary, &terms);
+        let mut model = assemble(&drawn, &case.tiling, &terms, Gauge::Held);
         let start = model.start();
         let edges = case.edges();
         let found = relax(&mut model, start, Options::default(), edges, &mut |_| true).map_err(|e| e.to_string())?;
@@ -145,7 +143,7 @@ impl Trial {
         let again = relax(&mut model, start, Options::default(), edges, &mut |_| true);
         let again = again.map(|again| (again.state.total(), again.iterations)).map_err(|e| e.to_string());
         let negative = found.negative_eigenvalues;
-        let view = View::new(&case.sheet, &case.tiling, self.surroundings, [1, 1]);
+        let view = View::new(&case.sheet, &case.tiling, self.boundary, [1, 1]);
         let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
         let (halves, compliance) = (found.tension.iter().map(|t| 0.5 * t * t).collect(), model.compliance().to_vec());
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
@@ -155,9 +153,9 @@ impl Trial {
     /// Whether random starts reach an equilibrium of such an energy.
     pub fn has_equilibrium(&self, such: impl Fn(f64) -> bool) -> bool {
         let case = self.case();
-        let recipe = self.recipe(&case);
-        let Case { sheet, tiling, surroundings, drawn, .. } = &case;
-        let question = Question { sheet, tiling, surroundings: *surroundings, drawn, recipe: &recipe };
+        let terms = self.terms(&case);
+        let Case { sheet, tiling, boundary, drawn, .. } = &case;
+        let question = Question { sheet, tiling, boundary: *boundary, drawn, terms: &terms };
         [0.05, 0.1, 0.3, 1.0].into_iter().any(|spread| {
             let starts = Starts { count: STARTS, seed: 1, spread, options: Options::default() };
             relax_all(&question, &starts, &|| true).into_iter().any(|outcome| match outcome {

@@ -3,18 +3,18 @@
 use super::{HeldSheet, LandscapeError};
 use crate::kinematics::{Displacement, Embedding, FoldingModes, KinematicsError, folding_modes_with_locked};
 use crate::model::Gauge;
-use crate::model::assemble::{Drawn, Recipe, Surroundings, assemble};
+use crate::model::assemble::{Boundary, Drawn, Terms, assemble};
 use crate::sheet::{Corner, EdgeKind, Sheet, Tiling};
 
 impl HeldSheet {
-    /// The patch of a recipe; its rest angles are not read, those drawn take their place.
+    /// The patch of a terms; its rest angles are not read, those drawn take their place.
     ///
     /// Fails where the modes are not known.
-    pub fn patch(sheet: &Sheet, tiling: &Tiling, recipe: &Recipe, drawn: &[f64]) -> Result<Self, LandscapeError> {
-        let locked = rigid_facets(sheet, recipe);
+    pub fn patch(sheet: &Sheet, tiling: &Tiling, terms: &Terms, drawn: &[f64]) -> Result<Self, LandscapeError> {
+        let locked = rigid_facets(sheet, terms);
         let modes = folding_modes_with_locked(sheet, &locked)?;
-        let recipe = at_rest_as_drawn(recipe, drawn);
-        let model = assemble(&Drawn::new(sheet, tiling, Surroundings::Patch), tiling, &recipe, Gauge::Held);
+        let terms = at_rest_as_drawn(terms, drawn);
+        let model = assemble(&Drawn::new(sheet, tiling, Boundary::Patch), tiling, &terms, Gauge::Held);
         let moving = (modes.basis.clone(), motions(sheet, tiling.cells, &modes)?);
         let mut held = Self::new(model, moving, &locked, |edge| tiling.edges[edge].edge)?;
         held.bending = Some(modes);
@@ -23,18 +23,18 @@ impl HeldSheet {
 }
 
 /// Diagonals of the cell's polygons where these are rigid.
-pub fn rigid_facets(sheet: &Sheet, recipe: &Recipe) -> Vec<usize> {
-    let rigid = recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
+pub fn rigid_facets(sheet: &Sheet, terms: &Terms) -> Vec<usize> {
+    let rigid = terms.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
     (0..sheet.edges.len()).filter(|&edge| rigid && sheet.edges[edge].kind == EdgeKind::Facet).collect()
 }
 
-/// The recipe with all hinges at rest as drawn.
-pub(super) fn at_rest_as_drawn(recipe: &Recipe, drawn: &[f64]) -> Recipe {
-    let mut recipe = recipe.clone();
-    for hinges in [&mut recipe.creases, &mut recipe.facets].into_iter().flatten() {
+/// The terms with all hinges at rest as drawn.
+pub(super) fn at_rest_as_drawn(terms: &Terms, drawn: &[f64]) -> Terms {
+    let mut terms = terms.clone();
+    for hinges in [&mut terms.creases, &mut terms.facets].into_iter().flatten() {
         hinges.rest = drawn.to_vec();
     }
-    recipe
+    terms
 }
 
 /// Velocities of all coordinates of the patch, for every mode.

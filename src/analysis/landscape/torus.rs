@@ -7,7 +7,7 @@
 use super::patch::at_rest_as_drawn;
 use super::{HeldSheet, LandscapeError};
 use crate::math::fold_angle::fold_angle_gradient;
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles, hinge};
+use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles, hinge};
 use crate::model::{Gauge, Model};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{from_rows, null_space, rank_at_largest_gap, singular_values, symmetric_eigen};
@@ -22,26 +22,26 @@ const MOST_UNKNOWNS: usize = 1500;
 const IMPURE: f64 = 1e-6;
 
 impl HeldSheet {
-    /// The torus of a recipe; its rest angles are not read, those drawn take their place.
+    /// The torus of a terms; its rest angles are not read, those drawn take their place.
     ///
     /// Fails where no motion but the rigid ones leaves all bars as they are, and where the torus is too large to tell.
     pub fn torus(
         sheet: &Sheet,
         tiling: &Tiling,
-        recipe: &Recipe,
-        (surroundings, angles): (Surroundings, &[f64]),
+        terms: &Terms,
+        (boundary, angles): (Boundary, &[f64]),
     ) -> Result<Self, LandscapeError> {
-        let drawn = Drawn::new(sheet, tiling, surroundings);
-        let rigid = recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
+        let drawn = Drawn::new(sheet, tiling, boundary);
+        let rigid = terms.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
         let locked = rigid_facets(tiling, rigid);
         let facets = Hinges { stiffness: f64::INFINITY, rest: angles.to_vec() };
-        let bars = Recipe { bars: Some(f64::INFINITY), facets: rigid.then_some(facets), ..Recipe::default() };
+        let bars = Terms { bars: Some(f64::INFINITY), facets: rigid.then_some(facets), ..Terms::default() };
         let motions = zero_modes(&assemble(&drawn, tiling, &bars, Gauge::Held))?;
         let rates = DenseMatrix::from_columns(
             &motions.iter().map(|motion| fold_rates(&drawn, tiling, motion)).collect::<Vec<_>>(),
         );
         let modes = orthonormal(rates, &motions)?;
-        let model = assemble(&drawn, tiling, &at_rest_as_drawn(recipe, angles), Gauge::Held);
+        let model = assemble(&drawn, tiling, &at_rest_as_drawn(terms, angles), Gauge::Held);
         Self::new(model, modes, &locked, |edge| edge)
     }
 
@@ -51,16 +51,16 @@ impl HeldSheet {
     pub fn for_sheet(
         &self,
         sheet: &Sheet,
-        recipe: &Recipe,
-        surroundings: Surroundings,
+        terms: &Terms,
+        boundary: Boundary,
         cells: [usize; 2],
     ) -> Result<Self, LandscapeError> {
         let tiling = tile(sheet, cells, true);
-        let drawn = Drawn::new(sheet, &tiling, surroundings);
-        let recipe = at_rest_as_drawn(recipe, &drawn_angles(&drawn, &tiling));
-        let rigid = recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
+        let drawn = Drawn::new(sheet, &tiling, boundary);
+        let terms = at_rest_as_drawn(terms, &drawn_angles(&drawn, &tiling));
+        let rigid = terms.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
         let locked = rigid_facets(&tiling, rigid);
-        let model = assemble(&drawn, &tiling, &recipe, Gauge::Held);
+        let model = assemble(&drawn, &tiling, &terms, Gauge::Held);
         Self::new(model, (self.basis.clone(), self.motions.clone()), &locked, |edge| edge)
     }
 

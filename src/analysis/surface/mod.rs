@@ -17,7 +17,7 @@ mod tip;
 
 use super::branches::{self, BranchesError};
 use crate::kinematics::{Closure, Embedding, KinematicsError, SecondOrder, Shape};
-use crate::model::assemble::Surroundings;
+use crate::model::assemble::Boundary;
 use crate::solver::atlas::{self, Atlas, AtlasError, Coverage};
 pub use crossing::{Lowest, Seam};
 use folding::Folding;
@@ -189,7 +189,7 @@ pub enum SurfaceError {
 /// to stop.
 pub fn surface(question: &Question<'_>, observe: &mut dyn FnMut(usize) -> bool) -> Result<Surface, SurfaceError> {
     let start = &question.start;
-    if start.surroundings != Surroundings::Screw {
+    if start.boundary != Boundary::Screw {
         return Err(SurfaceError::NotScrew);
     }
     let closure = Closure::of_cell(start.sheet)?.with_locked(&branches::locked(start));

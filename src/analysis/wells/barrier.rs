@@ -124,7 +124,7 @@ pub fn barrier(
     between: [usize; 2],
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
-    let creases = question.recipe.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
+    let creases = question.terms.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
     let own = question.stiffness();
     let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
     let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
@@ -227,7 +227,7 @@ struct Followed {
 /// The pass with ever stiffer bars, up to those of the sheet.
 fn followed(question: &Question<'_>, first: Pass, stiffness: f64) -> Result<Followed, BarrierError> {
     let goal = question.stiffness();
-    let creases = question.recipe.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
+    let creases = question.terms.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
     let mut heights = vec![Height { stiffness, energy: first.energy }];
     let (mut pass, mut at, mut factor) = (first, stiffness, STIFFER);
     while at < goal {

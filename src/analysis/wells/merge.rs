@@ -58,19 +58,19 @@ impl Translations {
 
 /// Whether rest angles and locks go over into themselves.
 fn unfelt(question: &Question<'_>, moved: &[usize]) -> bool {
-    let recipe = question.recipe;
+    let terms = question.terms;
     let same = |rest: &[f64]| {
         let pairs = rest.iter().zip(moved).map(|(rest, &to)| [*rest, rest_of(question, to)]);
         pairs.into_iter().all(|[a, b]| (a - b).abs() <= ROUNDING || (a.is_nan() && b.is_nan()))
     };
-    let locks: HashMap<usize, f64> = recipe.locks.iter().copied().collect();
+    let locks: HashMap<usize, f64> = terms.locks.iter().copied().collect();
     let locked = |edge: usize, angle: f64| locks.get(&edge).is_some_and(|other| (other - angle).abs() <= ROUNDING);
-    recipe.creases.as_ref().is_none_or(|hinges| same(&hinges.rest))
+    terms.creases.as_ref().is_none_or(|hinges| same(&hinges.rest))
         && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
 }
 
 fn rest_of(question: &Question<'_>, edge: usize) -> f64 {
-    question.recipe.creases.as_ref().map_or(f64::NAN, |hinges| hinges.rest[edge])
+    question.terms.creases.as_ref().map_or(f64::NAN, |hinges| hinges.rest[edge])
 }
 
 /// The wells among these states, sorted by energy.

@@ -14,7 +14,7 @@ pub mod settle;
 pub mod starts;
 pub mod string;
 
-use crate::model::assemble::{Drawn, Recipe, Surroundings};
+use crate::model::assemble::{Boundary, Drawn, Terms};
 use crate::sheet::{Sheet, Tiling};
 
 /// A sheet and its energy.
@@ -25,21 +25,21 @@ pub struct Question<'a> {
     /// Its cells.
     pub tiling: &'a Tiling,
     /// What surrounds them.
-    pub surroundings: Surroundings,
+    pub boundary: Boundary,
     /// The drawn state.
     pub drawn: &'a Drawn,
     /// Bars, creases, and what holds or pulls.
-    pub recipe: &'a Recipe,
+    pub terms: &'a Terms,
 }
 
 impl Question<'_> {
     /// Stiffness `EA` of the bars; infinite where there are none to stretch.
     pub fn stiffness(&self) -> f64 {
-        self.recipe.bars.unwrap_or(f64::INFINITY)
+        self.terms.bars.unwrap_or(f64::INFINITY)
     }
 
     /// The parts with bars of another stiffness.
-    pub fn with_bars(&self, stiffness: f64) -> Recipe {
-        Recipe { bars: Some(stiffness), ..self.recipe.clone() }
+    pub fn with_bars(&self, stiffness: f64) -> Terms {
+        Terms { bars: Some(stiffness), ..self.terms.clone() }
     }
 }

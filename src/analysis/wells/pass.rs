@@ -9,7 +9,7 @@ use super::merge::SAME;
 use super::settle::{Place, Settled, Settler};
 use super::string::STRENGTH;
 use crate::analysis::state::State;
-use crate::model::assemble::{Recipe, assemble};
+use crate::model::assemble::{Terms, assemble};
 use crate::model::{Gauge, Model};
 use crate::numerics::factor::FactorError;
 use crate::solver::saddle::Saddle;
@@ -124,7 +124,7 @@ impl Found {
 /// one state, both are held more strongly.
 pub fn sides(
     question: &Question<'_>,
-    recipe: &Recipe,
+    terms: &Terms,
     pass: &Pass,
     along: &[f64],
     options: Options,
@@ -134,7 +134,7 @@ pub fn sides(
         let strength = STRENGTH * 100f64.powi(stronger);
         let side = |sign: f64| -> Result<(Settled, bool), Failure> {
             let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
-            descent(question, recipe, pass, &push, strength, options)
+            descent(question, terms, pass, &push, strength, options)
         };
         let ends = side(1.0).and_then(|one| Ok((one, side(-1.0)?)));
         let sound = matches!(&ends, Ok(((a, true), (b, true))) if !same(a, b));
@@ -155,7 +155,7 @@ fn same(a: &Settled, b: &Settled) -> bool {
 /// went to that side.
 fn descent(
     question: &Question<'_>,
-    recipe: &Recipe,
+    terms: &Terms,
     pass: &Pass,
     push: &[f64],
     strength: f64,
@@ -163,7 +163,7 @@ fn descent(
 ) -> Result<(Settled, bool), Failure> {
     let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + turn).collect();
     let (mut place, mut strength, mut to_its_side) = (pass.place.clone(), strength, None);
-    let mut settler = Settler::new(question, recipe, strength);
+    let mut settler = Settler::new(question, terms, strength);
     let mut weak = 0;
     while weak < DESCENT {
         let found = settler.near(&place, &target, LOOSE, &mut |_| true).map_err(|error| error.failure)?;
@@ -172,7 +172,7 @@ fn descent(
         (place, target) = (found.place, found.rho);
         if strength > STRENGTH {
             strength = (strength / WEAKER).max(STRENGTH);
-            settler = Settler::new(question, recipe, strength);
+            settler = Settler::new(question, terms, strength);
         } else {
             weak += 1;
         }

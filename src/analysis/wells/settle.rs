@@ -7,7 +7,7 @@
 use super::Question;
 use crate::analysis::relax::{RelaxError, Relaxed, relax};
 use crate::analysis::state::State;
-use crate::model::assemble::{Recipe, assemble};
+use crate::model::assemble::{Terms, assemble};
 use crate::model::{Gauge, Model};
 use crate::solver::{Options, Problem, Start, Step};
 
@@ -48,8 +48,8 @@ pub struct Settler {
 
 impl Settler {
     /// Of a sheet with these parts.
-    pub fn new(question: &Question<'_>, recipe: &Recipe, strength: f64) -> Self {
-        let model = || assemble(question.drawn, question.tiling, recipe, Gauge::Held);
+    pub fn new(question: &Question<'_>, terms: &Terms, strength: f64) -> Self {
+        let model = || assemble(question.drawn, question.tiling, terms, Gauge::Held);
         let (free, mut held) = (model(), model());
         let count = free.layout().soft.len();
         held.scale_soft(&vec![1.0 + strength; count]);

@@ -8,7 +8,7 @@
 
 use super::Question;
 use super::settle::{Place, Settled, Settler};
-use crate::model::assemble::{Drawn, Recipe, Surroundings, drawn_angles};
+use crate::model::assemble::{Boundary, Drawn, Terms, drawn_angles};
 use crate::numerics::parallel;
 use crate::solver::{Failure, Options};
 use rand::{RngExt, SeedableRng};
@@ -99,8 +99,8 @@ fn one(question: &Question<'_>, starts: &Starts, number: usize) -> Outcome {
     let mut within = |size: f64| size * (2.0 * numbers.random::<f64>() - 1.0);
     let turned;
     let mut question = *question;
-    if question.surroundings == Surroundings::Screw {
-        turned = Drawn::turned(question.sheet, question.tiling, question.surroundings, within(0.5 * PI));
+    if question.boundary == Boundary::Screw {
+        turned = Drawn::turned(question.sheet, question.tiling, question.boundary, within(0.5 * PI));
         question.drawn = &turned;
     }
     let mut last = Outcome::Saddle;
@@ -118,7 +118,7 @@ fn one(question: &Question<'_>, starts: &Starts, number: usize) -> Outcome {
 
 /// What the sheet does with its own bars and rest angles.
 fn released(question: &Question<'_>, from: &Place, options: Options) -> Outcome {
-    match Settler::new(question, question.recipe, 1.0).free(from, false, options, &mut |_| true) {
+    match Settler::new(question, question.terms, 1.0).free(from, false, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),
         Ok(found) if found.relaxed.negative_eigenvalues > 0 => Outcome::Saddle,
         Ok(found) => Outcome::Well(Box::new(found)),
@@ -127,13 +127,13 @@ fn released(question: &Question<'_>, from: &Place, options: Options) -> Outcome 
 
 /// A state near random fold angles. One in which the relaxation did not converge is as good a start as any, where it is a state.
 fn crumpled(question: &Question<'_>, spread: f64, within: &mut dyn FnMut(f64) -> f64) -> Result<Place, Failure> {
-    let mut recipe: Recipe = question.recipe.clone();
-    if let Some(creases) = &mut recipe.creases {
+    let mut terms: Terms = question.terms.clone();
+    if let Some(creases) = &mut terms.creases {
         let drawn = drawn_angles(question.drawn, question.tiling);
         creases.rest = drawn.iter().map(|angle| angle + within(spread)).collect();
-        recipe.bars = recipe.bars.map(|bars| bars.min(SOFT * creases.stiffness));
+        terms.bars = terms.bars.map(|bars| bars.min(SOFT * creases.stiffness));
     }
-    let mut settler = Settler::new(question, &recipe, 1.0);
+    let mut settler = Settler::new(question, &terms, 1.0);
     let mut from = settler.drawn();
     shake(question, &mut from.coordinates, within);
     match settler.free(&from, false, CRUMPLED, &mut |_| true) {

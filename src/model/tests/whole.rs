@@ -2,7 +2,7 @@
 
 use super::Numbers;
 use crate::math::Vec3;
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
 use crate::numerics::dense;
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
@@ -11,25 +11,25 @@ use crate::sheet::{EdgeKind, Tiling, generate, tile};
 use crate::solver::{Curvature, Linearization, Problem};
 
 /// Miura-ori on a domain: the smallest tiling that has creases and facets there.
-fn sheet(surroundings: Surroundings) -> (Drawn, Tiling) {
-    let pattern = match surroundings {
-        Surroundings::Patch => Pattern::MiuraPatch(MiuraPatch { cells: [1, 1], fold: 0.4, ..MiuraPatch::default() }),
+fn sheet(boundary: Boundary) -> (Drawn, Tiling) {
+    let pattern = match boundary {
+        Boundary::Patch => Pattern::MiuraPatch(MiuraPatch { cells: [1, 1], fold: 0.4, ..MiuraPatch::default() }),
         _ => Pattern::Miura(Miura { fold: 0.4, ..Miura::default() }),
     };
     let sheet = generate(&pattern).unwrap();
-    let cells = if surroundings == Surroundings::FreeTorus { [2, 1] } else { [1, 1] };
-    let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
-    (Drawn::new(&sheet, &tiling, surroundings), tiling)
+    let cells = if boundary == Boundary::FreeTorus { [2, 1] } else { [1, 1] };
+    let tiling = tile(&sheet, cells, boundary != Boundary::Patch);
+    (Drawn::new(&sheet, &tiling, boundary), tiling)
 }
 
 /// Bars, creases, facets, two locks, and on a patch a pin and loads.
-fn recipe(drawn: &Drawn, tiling: &Tiling, numbers: &mut Numbers, creases: f64, facets: f64) -> Recipe {
+fn terms(drawn: &Drawn, tiling: &Tiling, numbers: &mut Numbers, creases: f64, facets: f64) -> Terms {
     let angles = drawn_angles(drawn, tiling);
     let rest: Vec<f64> = angles.iter().map(|angle| angle + numbers.within(0.2)).collect();
     let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
     let folding = (0..tiling.edges.len()).filter(|&e| tiling.edges[e].kind == EdgeKind::Crease);
     let patch = !tiling.periodic;
-    Recipe {
+    Terms {
         bars: Some(30.0),
         creases: hinges(creases),
         facets: hinges(facets),
@@ -72,15 +72,15 @@ fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
 /// derivative of the energy, the Jacobian that of the gaps, and the Hessian that of gradient plus tensions.
 #[test]
 fn derivatives_on_every_domain() {
-    use Surroundings::{FixedTorus, FreeTorus, Patch, Screw};
-    for surroundings in [Patch, FixedTorus, FreeTorus, Screw] {
-        let (drawn, tiling) = sheet(surroundings);
+    use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
+    for boundary in [Patch, FixedTorus, FreeTorus, Screw] {
+        let (drawn, tiling) = sheet(boundary);
         for (creases, facets) in [(1.0, 3.0), (1.0, f64::INFINITY), (1e7, 1.0)] {
             for gauge in [Gauge::Held, Gauge::Free] {
                 let mut numbers = Numbers::new(7);
-                let recipe = recipe(&drawn, &tiling, &mut numbers, creases, facets);
-                let mut model = assemble(&drawn, &tiling, &recipe, gauge);
-                let what = format!("{surroundings:?}, {gauge:?}, creases {creases:e}, facets {facets:e}");
+                let terms = terms(&drawn, &tiling, &mut numbers, creases, facets);
+                let mut model = assemble(&drawn, &tiling, &terms, gauge);
+                let what = format!("{boundary:?}, {gauge:?}, creases {creases:e}, facets {facets:e}");
                 check(&mut model, &mut numbers, &what);
             }
         }
@@ -90,13 +90,13 @@ fn derivatives_on_every_domain() {
 /// Claim: a curved screw: kappa among the unknowns is moved away from the drawn 0 by a step at which cells turn.
 #[test]
 fn derivatives_on_a_curved_screw() {
-    let (mut drawn, tiling) = sheet(Surroundings::Screw);
+    let (mut drawn, tiling) = sheet(Boundary::Screw);
     for kappa in [1e-9, 0.2, -0.6] {
         let shared = drawn.coordinates.len() - 5;
         drawn.coordinates[shared] = kappa;
         let mut numbers = Numbers::new(8);
-        let recipe = recipe(&drawn, &tiling, &mut numbers, 1.0, 3.0);
-        check(&mut assemble(&drawn, &tiling, &recipe, Gauge::Held), &mut numbers, &format!("kappa {kappa:e}"));
+        let terms = terms(&drawn, &tiling, &mut numbers, 1.0, 3.0);
+        check(&mut assemble(&drawn, &tiling, &terms, Gauge::Held), &mut numbers, &format!("kappa {kappa:e}"));
     }
 }
 
@@ -104,10 +104,10 @@ fn derivatives_on_a_curved_screw() {
 /// with rest angles at the state itself it is the full Hessian. Tolerance: rounding.
 #[test]
 fn gauss_newton_is_exact_at_rest() {
-    let (drawn, tiling) = sheet(Surroundings::FreeTorus);
+    let (drawn, tiling) = sheet(Boundary::FreeTorus);
     let rest = drawn_angles(&drawn, &tiling);
-    let recipe = Recipe { bars: Some(1.0), creases: Some(Hinges { stiffness: 2.0, rest }), ..Recipe::default() };
-    let model = assemble(&drawn, &tiling, &recipe, Gauge::Free);
+    let terms = Terms { bars: Some(1.0), creases: Some(Hinges { stiffness: 2.0, rest }), ..Terms::default() };
+    let model = assemble(&drawn, &tiling, &terms, Gauge::Free);
     let none = vec![0.0; model.layout().stiff.len()];
     let full = linearized(&model, &model.start(), &none, Curvature::Full);
     let half = linearized(&model, &model.start(), &none, Curvature::GaussNewton);
@@ -127,13 +127,13 @@ fn residuals_have_their_units() {
     let oblong = MiuraPatch { cells: [1, 1], fold: 0.4, a: 1.5, ..MiuraPatch::default() };
     let sheet = generate(&Pattern::MiuraPatch(oblong)).unwrap();
     let tiling = tile(&sheet, [1, 1], false);
-    let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+    let drawn = Drawn::new(&sheet, &tiling, Boundary::Patch);
     let model_with_rest = |off: f64| {
         let rest: Vec<f64> = drawn_angles(&drawn, &tiling).iter().map(|angle| angle + off).collect();
         let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
         let (creases, facets) = (hinges(2.0), hinges(f64::INFINITY));
-        let recipe = Recipe { bars: Some(f64::INFINITY), creases, facets, ..Recipe::default() };
-        assemble(&drawn, &tiling, &recipe, Gauge::Held)
+        let terms = Terms { bars: Some(f64::INFINITY), creases, facets, ..Terms::default() };
+        assemble(&drawn, &tiling, &terms, Gauge::Held)
     };
     let unit = |off: f64| {
         let model = model_with_rest(off);

@@ -8,7 +8,7 @@ use super::super::star::size;
 use super::memory;
 use super::trial::distance;
 use crate::analysis::relax::{Relaxed, relax};
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
+use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble};
 use crate::model::{Gauge, Model};
 use crate::numerics::larger;
 use crate::sheet::generate::Yoshimura;
@@ -90,13 +90,13 @@ impl Pleats {
         let pattern = Pattern::Yoshimura(Yoshimura { fold: DRAWN, ..Yoshimura::default() });
         let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("the pattern cannot be generated".into()))?;
         let tiling = tile(&sheet, cells, false);
-        let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+        let drawn = Drawn::new(&sheet, &tiling, Boundary::Patch);
         let angles = closed_form(&sheet, RESTING);
         let angle = |kind, edge: usize| if kind == EdgeKind::Crease { angles[edge] } else { f64::NAN };
         let rest: Vec<f64> = tiling.edges.iter().map(|edge| angle(edge.kind, edge.edge)).collect();
         let creases = Some(Hinges { stiffness: 1.0, rest: rest.clone() });
-        let recipe = Recipe { bars: Some(f64::INFINITY), creases, ..Recipe::default() };
-        Ok(Self { model: assemble(&drawn, &tiling, &recipe, Gauge::Held), rest })
+        let terms = Terms { bars: Some(f64::INFINITY), creases, ..Terms::default() };
+        Ok(Self { model: assemble(&drawn, &tiling, &terms, Gauge::Held), rest })
     }
 }
 

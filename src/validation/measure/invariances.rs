@@ -5,9 +5,9 @@ use super::super::report::figure;
 use super::super::star;
 use super::trial::{Rest, Trial};
 use crate::math::Vec3;
-use crate::model::assemble::Surroundings;
+use crate::model::assemble::Boundary;
 use crate::numerics::{larger, worst};
-use crate::sheet::build::{Drawn, build, draw};
+use crate::sheet::build::{Drawing, build, draw};
 use nalgebra::Rotation3;
 use serde_json::json;
 
@@ -21,7 +21,7 @@ const UNIT: f64 = 1000.0;
 struct Change {
     name: &'static str,
     /// The other drawing.
-    draw: fn(Drawn) -> Drawn,
+    draw: fn(Drawing) -> Drawing,
     /// Whether patches of the other cell are the same patches.
     keeps_patches: bool,
     /// How often each crease of the sheet occurs in the other cell, the unit of energy, and the sign of its fold angles.
@@ -55,15 +55,15 @@ type Spectrum = (Vec<f64>, f64);
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let (mut rows, mut worst) = (Vec::new(), [f64::NEG_INFINITY; 2]);
     let domains = [
-        ("patch of 3 x 3 cells", Surroundings::Patch, [3, 3]),
-        ("torus", Surroundings::FreeTorus, [1, 1]),
-        ("screw", Surroundings::Screw, [1, 1]),
+        ("patch of 3 x 3 cells", Boundary::Patch, [3, 3]),
+        ("torus", Boundary::FreeTorus, [1, 1]),
+        ("screw", Boundary::Screw, [1, 1]),
     ];
-    for (step, (domain, surroundings, cells)) in domains.into_iter().enumerate() {
+    for (step, (domain, boundary, cells)) in domains.into_iter().enumerate() {
         bench.step(step, domains.len())?;
-        let expected = spectrum(&SAME, surroundings, cells)?;
-        for change in CHANGES.iter().filter(|change| change.keeps_patches || surroundings != Surroundings::Patch) {
-            let off = difference(&spectrum(change, surroundings, cells)?, &expected, change);
+        let expected = spectrum(&SAME, boundary, cells)?;
+        for change in CHANGES.iter().filter(|change| change.keeps_patches || boundary != Boundary::Patch) {
+            let off = difference(&spectrum(change, boundary, cells)?, &expected, change);
             worst = [larger(worst[0], off[0]), larger(worst[1], off[1])];
             rows.push(vec![change.name.to_owned(), domain.to_owned(), figure(off[0]), figure(off[1])]);
         }
@@ -75,13 +75,12 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     Ok(Findings { values, tables, ..Findings::default() })
 }
 
-fn spectrum(change: &Change, surroundings: Surroundings, cells: [usize; 2]) -> Result<Spectrum, ExperimentError> {
+fn spectrum(change: &Change, boundary: Boundary, cells: [usize; 2]) -> Result<Spectrum, ExperimentError> {
     let drawn = (change.draw)(draw(&star::cell()?));
     let sheet = build(&drawn).map_err(|_| ExperimentError::Other(format!("{}: no sheet", change.name)))?;
     let (stiffness, rest) = ([BARS, 1.0], Rest::ByLength(change.sign * OFF));
-    let trial = Trial { sheet, cells, surroundings, stiffness, rest, lock: None };
-    let found =
-        trial.run().map_err(|why| ExperimentError::Other(format!("{}, {surroundings:?}: {why}", change.name)))?;
+    let trial = Trial { sheet, cells, boundary, stiffness, rest, lock: None };
+    let found = trial.run().map_err(|why| ExperimentError::Other(format!("{}, {boundary:?}: {why}", change.name)))?;
     let mut angles: Vec<f64> = found.angles.iter().filter(|a| !a.is_nan()).map(|a| change.sign * a).collect();
     angles.sort_by(f64::total_cmp);
     Ok((angles, found.energy))
@@ -96,7 +95,7 @@ fn difference((angles, energy): &Spectrum, (expected, there): &Spectrum, change:
 }
 
 /// All points mapped; lattice vectors too where the map has a fixed origin.
-fn mapped(mut drawn: Drawn, map: impl Fn(Vec3) -> Vec3, vectors: bool) -> Drawn {
+fn mapped(mut drawn: Drawing, map: impl Fn(Vec3) -> Vec3, vectors: bool) -> Drawing {
     drawn.planar = false;
     drawn.coords.iter_mut().for_each(|p| *p = map(*p));
     if vectors {
@@ -105,26 +104,26 @@ fn mapped(mut drawn: Drawn, map: impl Fn(Vec3) -> Vec3, vectors: bool) -> Drawn 
     drawn
 }
 
-fn turned(drawn: Drawn) -> Drawn {
+fn turned(drawn: Drawing) -> Drawing {
     let rotation = Rotation3::new(Vec3::new(0.7, -1.1, 2.3));
     mapped(drawn, |p| rotation * p, true)
 }
 
-fn renumbered(mut drawn: Drawn) -> Drawn {
+fn renumbered(mut drawn: Drawing) -> Drawing {
     let last = drawn.coords.len() - 1;
     drawn.coords.reverse();
     drawn.faces.iter_mut().flatten().for_each(|vertex| *vertex = last - *vertex);
     drawn
 }
 
-fn relisted(mut drawn: Drawn) -> Drawn {
+fn relisted(mut drawn: Drawing) -> Drawing {
     drawn.faces.reverse();
     drawn.faces.iter_mut().for_each(|face| face.rotate_left(1));
     drawn
 }
 
 /// Copies of faces, moved by a lattice vector; vertices that are drawn there already are used again.
-fn moved(drawn: &mut Drawn, faces: std::ops::Range<usize>, by: Vec3) -> Vec<Vec<usize>> {
+fn moved(drawn: &mut Drawing, faces: std::ops::Range<usize>, by: Vec3) -> Vec<Vec<usize>> {
     let mut copies = drawn.faces[faces].to_vec();
     for vertex in copies.iter_mut().flatten() {
         let place = drawn.coords[*vertex] + by;
@@ -137,7 +136,7 @@ fn moved(drawn: &mut Drawn, faces: std::ops::Range<usize>, by: Vec3) -> Vec<Vec<
     copies
 }
 
-fn shifted(mut drawn: Drawn) -> Drawn {
+fn shifted(mut drawn: Drawing) -> Drawing {
     let half = drawn.faces.len() / 2;
     if let Some([along, _]) = drawn.lattice {
         let copies = moved(&mut drawn, 0..half, along);
@@ -147,7 +146,7 @@ fn shifted(mut drawn: Drawn) -> Drawn {
 }
 
 /// Without the vertices that no face has.
-fn without_unused(mut drawn: Drawn) -> Drawn {
+fn without_unused(mut drawn: Drawing) -> Drawing {
     let mut numbers = vec![None; drawn.coords.len()];
     let mut coords = Vec::new();
     for vertex in drawn.faces.iter_mut().flatten() {
@@ -157,10 +156,10 @@ fn without_unused(mut drawn: Drawn) -> Drawn {
         });
         *vertex = *number;
     }
-    Drawn { coords, ..drawn }
+    Drawing { coords, ..drawn }
 }
 
-fn doubled(mut drawn: Drawn) -> Drawn {
+fn doubled(mut drawn: Drawing) -> Drawing {
     if let Some([along, across]) = drawn.lattice {
         let copies = {
             let all = 0..drawn.faces.len();

@@ -5,7 +5,7 @@ use crate::analysis::axis::drawn_for;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::relax::relax;
 use crate::analysis::state::State;
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
+use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles};
 use crate::model::{Gauge, Model};
 use crate::numerics::{larger, worst};
 use crate::sheet::{Edge, EdgeKind, Sheet, TiledEdge, Tiling, tile};
@@ -45,7 +45,7 @@ pub struct Trial {
     /// Its cells.
     pub cells: [usize; 2],
     /// What surrounds them.
-    pub surroundings: Surroundings,
+    pub boundary: Boundary,
     /// Stiffness of bars and creases; facets are rigid.
     pub stiffness: [f64; 2],
     /// Rest angles of the creases.
@@ -83,12 +83,12 @@ impl Trial {
     pub fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
         let stiffness = [f64::INFINITY, 1.0];
         let rest = Rest::Random(off, 1);
-        Self { sheet, cells, surroundings: Surroundings::Patch, stiffness, rest, lock: None }
+        Self { sheet, cells, boundary: Boundary::Patch, stiffness, rest, lock: None }
     }
 
     /// What it is, in a few words.
     pub fn description(&self) -> String {
-        let Self { sheet, cells: [n1, n2], surroundings, stiffness: [bars, _], rest, .. } = self;
+        let Self { sheet, cells: [n1, n2], boundary, stiffness: [bars, _], rest, .. } = self;
         let (vertices, off) = (
             sheet.vertices.len(),
             match rest {
@@ -96,26 +96,26 @@ impl Trial {
                 Rest::ByLength(off) => format!("{off:.1e} off by length"),
             },
         );
-        format!("{surroundings:?} of {n1} x {n2} cells of {vertices}, bars {bars:.1e}, rest {off}")
+        format!("{boundary:?} of {n1} x {n2} cells of {vertices}, bars {bars:.1e}, rest {off}")
     }
 
     /// Relaxes from the drawn state. `Err`: why not.
     pub fn run(&self) -> Result<Found, String> {
-        let Self { sheet, surroundings, stiffness: [bars, creases], .. } = self;
-        let tiling = tile(sheet, self.cells, *surroundings != Surroundings::Patch);
-        let drawn = Drawn::new(sheet, &tiling, *surroundings);
+        let Self { sheet, boundary, stiffness: [bars, creases], .. } = self;
+        let tiling = tile(sheet, self.cells, *boundary != Boundary::Patch);
+        let drawn = Drawn::new(sheet, &tiling, *boundary);
         let angles = drawn_angles(&drawn, &tiling);
         let rest = self.rest_angles(&tiling, &angles);
         let polygons = tiling.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
-        let recipe = Recipe {
+        let terms = Terms {
             bars: Some(*bars),
             creases: Some(Hinges { stiffness: *creases, rest }),
             facets: polygons.then_some(Hinges { stiffness: f64::INFINITY, rest: angles }),
             locks: self.lock.into_iter().collect(),
-            ..Recipe::default()
+            ..Terms::default()
         };
-        let drawn = drawn_for(sheet, &tiling, *surroundings, &recipe);
-        let mut model = assemble(&drawn, &tiling, &recipe, Gauge::Held);
+        let drawn = drawn_for(sheet, &tiling, *boundary, &terms);
+        let mut model = assemble(&drawn, &tiling, &terms, Gauge::Held);
         let (start, clock) = (model.start(), Instant::now());
         let options = Options::default();
         let edges = tiling.edges.len();

@@ -19,7 +19,7 @@ use crate::analysis::exact::{Springs, Stationary};
 use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
 use crate::model::Gauge;
-use crate::model::assemble::{Surroundings, assemble, drawn_angles};
+use crate::model::assemble::{Boundary, assemble, drawn_angles};
 use flood::Merge;
 use std::f64::consts::PI;
 use thiserror::Error;
@@ -130,13 +130,13 @@ pub fn landscape(
     sampling: &Sampling,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<RigidLandscape, RigidError> {
-    let Question { sheet, tiling, surroundings, drawn, recipe } = *question;
+    let Question { sheet, tiling, boundary, drawn, terms } = *question;
     let angles = drawn_angles(drawn, tiling);
-    let model = assemble(drawn, tiling, recipe, Gauge::Held);
+    let model = assemble(drawn, tiling, terms, Gauge::Held);
     let springs = Springs::new(sheet, tiling, &model, &angles).ok_or(RigidError::NotOfHinges)?;
-    let start = branches::Question { sheet, tiling, surroundings, angles: &angles, recipe };
-    let net = match surroundings {
-        Surroundings::Screw => surface::net(start, sampling, go_on)?,
+    let start = branches::Question { sheet, tiling, boundary, angles: &angles, terms };
+    let net = match boundary {
+        Boundary::Screw => surface::net(start, sampling, go_on)?,
         _ => curves::net(&start, sampling, go_on)?,
     };
     let crossing = surface::question(start, sampling);

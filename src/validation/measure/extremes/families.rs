@@ -2,8 +2,8 @@
 
 use super::super::trial::{Outcome, Trial, distance, judge, within};
 use crate::math::Vec3;
-use crate::model::assemble::Surroundings;
-use crate::sheet::build::{self, Drawn};
+use crate::model::assemble::Boundary;
+use crate::sheet::build::{self, Drawing};
 use crate::sheet::generate::{MiuraPatch, Random};
 use crate::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use crate::validation::experiment::ExperimentError;
@@ -114,7 +114,7 @@ fn units(cell: &Sheet) -> Result<Family, ExperimentError> {
 
 /// Curvature and direction of the axis are measured as lengths, so that here the unit matters no sooner.
 fn screw_units(cell: &Sheet) -> Result<Family, ExperimentError> {
-    let trial = |sheet: Sheet| Trial { surroundings: Surroundings::Screw, ..Trial::rigid(sheet, [1, 1], 0.1) };
+    let trial = |sheet: Sheet| Trial { boundary: Boundary::Screw, ..Trial::rigid(sheet, [1, 1], 0.1) };
     let expected = reference(&trial(cell.clone()))?;
     let cases = POWERS.into_iter().chain([-12, -3, 3, 12]).map(|power| {
         let unit = 10f64.powi(power);
@@ -211,7 +211,7 @@ fn vertices() -> Result<Family, ExperimentError> {
         let pattern = Pattern::Random(Random { size, seed: 2, ..Random::default() });
         let sheet =
             generate(&pattern).map_err(|_| ExperimentError::Other("a random cell cannot be generated".into()))?;
-        let trial = Trial { surroundings: Surroundings::Screw, ..Trial::rigid(sheet, [1, 1], 0.02) };
+        let trial = Trial { boundary: Boundary::Screw, ..Trial::rigid(sheet, [1, 1], 0.02) };
         cases.push(case(format!("{} vertices", size[0] * size[1]), move || trial.judged(1e-9)));
     }
     Ok(Family { name: "vertices of a screw-periodic cell", compared: "the exact kinematics", cases })
@@ -227,7 +227,7 @@ fn degrees() -> Result<Family, ExperimentError> {
         });
         let coords: Vec<Vec3> = [Vec3::zeros()].into_iter().chain(rim).collect();
         let faces = (0..degree).map(|k| vec![0, 1 + k, 1 + (k + 1) % degree]).collect();
-        let drawn = Drawn { coords, faces, ..Drawn::default() };
+        let drawn = Drawing { coords, faces, ..Drawing::default() };
         let sheet = build::build(&drawn).map_err(|_| ExperimentError::Other("a fan cannot be built".into()))?;
         cases.push(case(format!("{degree}"), move || Trial::rigid(sheet, [1, 1], 0.05).judged(1e-9)));
     }

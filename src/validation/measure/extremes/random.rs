@@ -3,7 +3,7 @@
 use super::super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::trial::{Outcome, Rest, Trial};
 use super::{Tally, said};
-use crate::model::assemble::Surroundings;
+use crate::model::assemble::Boundary;
 use crate::numerics::parallel;
 use crate::sheet::generate::Random;
 use crate::sheet::{Pattern, generate};
@@ -57,13 +57,12 @@ fn in_a_row(bench: &Bench, count: usize) -> Result<Findings, ExperimentError> {
 fn random_trial(numbers: &mut ChaCha8Rng, seed: u64) -> Result<Trial, ExperimentError> {
     let mut below = |most: usize| ((numbers.random::<f64>() * most as f64) as usize).min(most - 1);
     let size = [2 + below(2), 2 + below(3)];
-    let surroundings =
-        [Surroundings::Patch, Surroundings::Screw, Surroundings::FreeTorus, Surroundings::FixedTorus][below(4)];
-    let cells = if surroundings == Surroundings::Screw { [1, 1] } else { [1 + below(3), 1 + below(3)] };
+    let boundary = [Boundary::Patch, Boundary::Screw, Boundary::FreeTorus, Boundary::FixedTorus][below(4)];
+    let cells = if boundary == Boundary::Screw { [1, 1] } else { [1 + below(3), 1 + below(3)] };
     let rigid = below(3) == 0;
     let (power, spread) = (2.0 + 14.0 * numbers.random::<f64>(), 10f64.powf(-6.0 + 5.5 * numbers.random::<f64>()));
     let bars = if rigid { f64::INFINITY } else { 10f64.powf(power) };
     let sheet = generate(&Pattern::Random(Random { size, seed, ..Random::default() }))
         .map_err(|_| ExperimentError::Other("a random cell cannot be generated".into()))?;
-    Ok(Trial { sheet, cells, surroundings, stiffness: [bars, 1.0], rest: Rest::Random(spread, seed), lock: None })
+    Ok(Trial { sheet, cells, boundary, stiffness: [bars, 1.0], rest: Rest::Random(spread, seed), lock: None })
 }
