@@ -150,7 +150,7 @@ fn area_vector(sheet: &Sheet) -> Vec3 {
     sheet.triangles.iter().map(|t| area(t.corners)).sum()
 }
 
-/// Builds the model of a tiling. Hinges of a kind for which the terms has nothing are not built.
+/// Builds the model of a tiling. Hinges of a kind for which the terms have nothing are not built.
 pub fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gauge) -> Model {
     let (mut soft, mut stiff): (Elementwise, Elementwise) = (vec![], vec![]);
     let mean_edge = mean_edge(drawn, tiling);

@@ -7,7 +7,7 @@ use crate::model::assemble::{Boundary, Drawn, Terms, assemble};
 use crate::sheet::{Corner, EdgeKind, Sheet, Tiling};
 
 impl HeldSheet {
-    /// The patch of a terms; its rest angles are not read, those drawn take their place.
+    /// The patch of these terms; their rest angles are not read, those drawn take their place.
     ///
     /// Fails where the modes are not known.
     pub fn patch(sheet: &Sheet, tiling: &Tiling, terms: &Terms, drawn: &[f64]) -> Result<Self, LandscapeError> {

@@ -22,7 +22,7 @@ const MOST_UNKNOWNS: usize = 1500;
 const IMPURE: f64 = 1e-6;
 
 impl HeldSheet {
-    /// The torus of a terms; its rest angles are not read, those drawn take their place.
+    /// The torus of these terms; their rest angles are not read, those drawn take their place.
     ///
     /// Fails where no motion but the rigid ones leaves all bars as they are, and where the torus is too large to tell.
     pub fn torus(
