@@ -26,3 +26,7 @@ pub mod scene;
 pub mod sheet;
 pub mod solver;
 pub mod validation;
+
+pub use analysis::relax::{RelaxError, Relaxed};
+pub use model::{Assembly, AssemblyError, Boundary, Gauge, Model, RIGID, Rest, Terms};
+pub use sheet::{Pattern, Sheet, generate};

@@ -189,8 +189,8 @@ pub fn run_with_ledger(
             "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
         return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
     }
-    let built = crate::scene::build::build(&file)?;
-    let mut runner = Runner::new(&file, &built, options, observer, ledger)?;
+    let assembly = crate::scene::build::assembly(&file)?;
+    let mut runner = Runner::new(&file, &assembly, options, observer, ledger)?;
     for study in &file.scene.studies {
         runner.study(study)?;
         if runner.interrupted() {

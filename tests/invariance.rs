@@ -4,10 +4,10 @@
 mod common;
 
 use assert_cmd::Command;
-use common::Case;
+use common::{Testing, on, patch};
 use foldwell::analysis::relax::relax;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Boundary, Terms};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::numerics::parallel;
 use foldwell::solver::Options;
 use std::collections::BTreeMap;
@@ -59,13 +59,13 @@ const SHALLOW: &str = "bars = { stiffness = 1e6 }\ncreases = { stiffness = 1.0, 
 #[test]
 fn the_same_bits_for_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    let case = Case::patch("open-star", [16, 16]);
+    let case = patch("open-star", [16, 16]);
     assert!(case.edges() > parallel::LEAST, "the case is too small to show anything");
     let sheet = "domain = \"patch\"\ncells = [16, 16]";
     let mut table = String::from("i,j,n1,n2,angle\n");
     let mut numbers = common::Numbers::new(1);
-    for edge in &case.sheet.edges {
-        let (key, angle) = (edge.key, case.sheet.drawn_angle(edge).unwrap() + numbers.within(0.1));
+    for edge in &case.sheet().edges {
+        let (key, angle) = (edge.key, case.sheet().drawn_angle(edge).unwrap() + numbers.within(0.1));
         table += &format!("{},{},{},{},{angle:e}\n", key.i, key.j, key.shift[0], key.shift[1]);
     }
     std::fs::write(folder.path().join("rest.csv"), table).unwrap();
@@ -105,26 +105,26 @@ fn nothing_is_drawn_where_nothing_is_wanted() {
 #[test]
 fn small_sheets_start_no_threads() {
     parallel::set_threads(2);
-    let rigid = |case: &Case| {
-        let terms = case.terms(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
-        let mut model = case.model(&terms, Gauge::Held);
+    let rigid = |case: &Assembly| {
+        let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
+        let mut model = case.model_of(&terms, Gauge::Held);
         let start = model.start();
-        relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap();
+        relax(&mut model, start, Options::default(), &mut |_| true).unwrap();
     };
     for boundary in [Boundary::Screw, Boundary::FreeTorus, Boundary::FixedTorus] {
-        rigid(&Case::new(common::mesh("open-star"), [1, 1], boundary));
+        rigid(&on(common::mesh("open-star"), [1, 1], boundary));
     }
-    rigid(&Case::patch("open-star", [12, 12]));
+    rigid(&patch("open-star", [12, 12]));
     assert!(!parallel::started(), "a small sheet started threads");
-    let case = Case::patch("open-star", [14, 14]);
+    let case = patch("open-star", [14, 14]);
     assert!(case.edges() > parallel::LEAST);
     rigid(&case);
     assert!(parallel::started(), "a large sheet started none: the test shows nothing");
 }
 
 /// Names and sizes of a model's terms, soft and stiff.
-fn terms(case: &Case, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
-    let model = case.model(terms, Gauge::Held);
+fn terms(case: &Assembly, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
+    let model = case.model_of(terms, Gauge::Held);
     [model.soft(), model.stiff()].map(|list| list.iter().map(|term| (term.name(), term.len())).collect())
 }
 
@@ -132,18 +132,18 @@ fn terms(case: &Case, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
 /// alone, no facets where there is no polygon, locks only where something is locked.
 #[test]
 fn only_what_is_asked_for_is_built() {
-    let star = Case::patch("open-star", [3, 3]);
+    let star = patch("open-star", [3, 3]);
     let edges = star.edges();
     let bars = Terms { bars: Some(1.0), ..Terms::default() };
     assert_eq!(terms(&star, &bars), [vec![], vec![("bars", edges)]]);
-    let creases = star.angles.iter().filter(|angle| !angle.is_nan()).count();
-    let both = star.terms(1.0, 1.0, star.angles.clone());
+    let creases = star.drawn_angles().iter().filter(|angle| !angle.is_nan()).count();
+    let both = Terms::bars_and_creases(1.0, 1.0, star.drawn_angles().to_vec());
     assert_eq!(terms(&star, &both), [vec![("creases", creases)], vec![("bars", edges)]]);
     let hinges = Terms { bars: None, ..both.clone() };
     assert_eq!(terms(&star, &hinges), [vec![("creases", creases)], vec![]]);
     let facets = Terms { facets: star.facets(f64::INFINITY), ..both.clone() };
     assert_eq!(terms(&star, &facets), terms(&star, &both));
-    let hinge = (0..edges).find(|&edge| !star.angles[edge].is_nan()).unwrap();
+    let hinge = (0..edges).find(|&edge| !star.drawn_angles()[edge].is_nan()).unwrap();
     let locked = Terms { locks: vec![(hinge, 0.1)], ..bars };
     assert_eq!(terms(&star, &locked), [vec![], vec![("bars", edges), ("locks", 1)]]);
 }

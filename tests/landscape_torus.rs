@@ -4,12 +4,12 @@
 mod common;
 
 use approx::abs_diff_eq;
-use common::{Case, mesh};
+use common::{mesh, on};
 use foldwell::analysis::landscape::fit::exponent;
 use foldwell::analysis::landscape::samples::{Samples, landscape};
 use foldwell::analysis::landscape::tuning::tuned;
 use foldwell::analysis::landscape::{Expansion, HeldSheet};
-use foldwell::model::assemble::Boundary;
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Pattern, Sheet, generate};
 use std::f64::consts::TAU;
@@ -18,10 +18,10 @@ use std::f64::consts::TAU;
 const BARS: f64 = 1e3;
 const LATTICES: [Boundary; 2] = [Boundary::FixedTorus, Boundary::FreeTorus];
 
-fn torus(sheet: &Sheet, n: usize, boundary: Boundary) -> (Case, HeldSheet) {
-    let case = Case::new(sheet.clone(), [n, n], boundary);
-    let terms = case.terms(BARS, 1.0, case.angles.clone());
-    let held = HeldSheet::torus(&case.sheet, &case.tiling, &terms, (boundary, &case.angles)).unwrap();
+fn torus(sheet: &Sheet, n: usize, boundary: Boundary) -> (Assembly, HeldSheet) {
+    let case = on(sheet.clone(), [n, n], boundary);
+    let terms = Terms::bars_and_creases(BARS, 1.0, case.drawn_angles().to_vec());
+    let held = HeldSheet::torus(&case.with_terms(terms)).unwrap();
     (case, held)
 }
 
@@ -79,7 +79,7 @@ fn waves_cost_fourth_order_on_fixed_lattices_and_sixth_on_free_ones() {
     for (sheet, wave, vertex) in tuned_cells(6) {
         let [fixed, free] = LATTICES.map(|boundary| {
             let (case, mut held) = torus(&sheet, 5, boundary);
-            let rates = held.wave(&case.tiling, wave).unwrap();
+            let rates = held.wave(case.tiling(), wave).unwrap();
             let expected = Expansion::new(&held, &rates).unwrap();
             let found = landscape(&mut held, rates, &[2e-4, 4e-4, 8e-4], &mut |_| true).unwrap();
             assert!(found.failure.is_none(), "{:?}", found.failure);
@@ -107,13 +107,14 @@ fn waves_cost_fourth_order_on_fixed_lattices_and_sixth_on_free_ones() {
 fn tuned_again(n: usize, wave: [i32; 2], amplitude: f64) -> [f64; 4] {
     let (vertex, sheet) = nearest(&mesh("open-star"), wave, n).unwrap();
     let (case, held) = torus(&sheet, n, Boundary::FreeTorus);
-    let rates = held.wave(&case.tiling, wave).unwrap();
+    let rates = held.wave(case.tiling(), wave).unwrap();
     let (_, course) = Expansion::with_course(&held, &rates).unwrap();
-    let terms = case.terms(BARS, 1.0, case.angles.clone());
+    let terms = Terms::bars_and_creases(BARS, 1.0, case.drawn_angles().to_vec());
     let energy = |height: f64| -> f64 {
         let mut moved = sheet.clone();
         moved.vertices[vertex].z += height;
-        let mut other = held.for_sheet(&moved, &terms, Boundary::FreeTorus, [n, n]).unwrap();
+        let moved = on(moved, [n, n], Boundary::FreeTorus).with_terms(terms.clone());
+        let mut other = held.for_sheet(&moved).unwrap();
         let sample = Samples::new(&mut other, course.clone()).at(amplitude, &mut |_| true).unwrap();
         sample.relaxed.state.total()
     };

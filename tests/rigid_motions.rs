@@ -4,9 +4,9 @@
 mod common;
 
 use approx::abs_diff_eq;
-use common::{Case, Numbers, eigenvalues, energy_hessian, linearized, mesh};
+use common::{Numbers, Testing, eigenvalues, energy_hessian, linearized, mesh, on, patch};
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Boundary, Terms};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::model::{Gauge, Model};
 use foldwell::sheet::generate::{MiuraPatch, Pattern, Random};
 use foldwell::sheet::{EdgeKind, Sheet, generate};
@@ -21,10 +21,9 @@ fn random_sheet(seed: u64) -> Sheet {
 
 /// Bars of stiffness 1000 and creases of stiffness 1 at rest as drawn; nothing held, not even vertex 0 of a screw.
 fn free_model(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Model {
-    let mut case = Case::new(sheet, cells, boundary);
-    case.drawn.held.clear();
-    let terms = case.terms(1e3, 1.0, case.angles.clone());
-    case.model(&terms, Gauge::Free)
+    let case = on(sheet, cells, boundary).with_free_coordinates();
+    let terms = Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec());
+    case.model_of(&terms, Gauge::Free)
 }
 
 /// A strained state, for a screw a curved one.
@@ -159,15 +158,15 @@ fn forces_balance() {
 fn zeros_of_the_hessian_are_rigid_motions() {
     for (boundary, expected) in [(DOMAINS[0], 6), (DOMAINS[1], 3), (DOMAINS[2], 6)] {
         for seed in 0..4 {
-            let case = Case::new(random_sheet(seed), [2, 2], boundary);
-            let terms = case.terms(1e3, 1.0, case.angles.clone());
-            let model = case.model(&terms, Gauge::Free);
+            let case = on(random_sheet(seed), [2, 2], boundary);
+            let terms = Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec());
+            let model = case.model_of(&terms, Gauge::Free);
             let values = eigenvalues(energy_hessian(&model, &model.start()));
             let largest = values[values.len() - 1];
             let zeros = values.iter().filter(|v| v.abs() < 1e-12 * largest).count();
             assert_eq!(zeros, expected, "{boundary:?}, seed {seed}: {:e}", values[expected] / largest);
             assert!(values[expected] > 1e-6 * largest, "{boundary:?}, seed {seed}: {:e}", values[expected] / largest);
-            let modes = case.modes(&terms, values.len()).unwrap();
+            let modes = case.modes_of(&terms, values.len()).unwrap();
             assert_eq!(modes.rigid_motions, expected);
             let off = common::distance(&modes.eigenvalues, &values) / largest;
             assert!(off < 1e-13, "{off:e}");
@@ -188,16 +187,16 @@ fn what_is_held_is_what_costs_nothing() {
         (Boundary::FixedTorus, vec![], 3),
         (Boundary::FreeTorus, vec![], 6),
     ] {
-        let case = Case::new(random_sheet(2), [2, 2], boundary);
-        let terms = Terms { pins, ..case.terms(1e3, 1.0, case.angles.clone()) };
-        let [free, held] = [Gauge::Free, Gauge::Held].map(|gauge| case.model(&terms, gauge));
+        let case = on(random_sheet(2), [2, 2], boundary);
+        let terms = Terms { pins, ..Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec()) };
+        let [free, held] = [Gauge::Free, Gauge::Held].map(|gauge| case.model_of(&terms, gauge));
         assert_eq!(free.layout().unknowns - held.layout().unknowns, expected, "{boundary:?}");
         let values = eigenvalues(energy_hessian(&held, &held.start()));
         assert!(values[0] > 1e-7 * values[values.len() - 1], "{boundary:?}: {:e}", values[0]);
     }
-    let case = Case::new(random_sheet(2), [1, 1], Boundary::Screw);
-    let held = case.model(&case.terms(1e3, 1.0, case.angles.clone()), Gauge::Held);
-    assert_eq!(held.layout().unknowns, 3 * (case.sheet.vertices.len() - 1) + 5);
+    let case = on(random_sheet(2), [1, 1], Boundary::Screw);
+    let held = case.model_of(&Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec()), Gauge::Held);
+    assert_eq!(held.layout().unknowns, 3 * (case.sheet().vertices.len() - 1) + 5);
 }
 
 /// Claim: `[zero modes, self stresses, Maxwell count, rigid motions]` of the bars alone of generic random cells, with
@@ -212,8 +211,8 @@ fn modes_of_generic_periodic_bars() {
             (Boundary::Screw, [1, 1], (2, 0, 2, 0)),
         ] {
             let sheet = generate(&Pattern::Random(Random { seed, size, ..Random::default() })).unwrap();
-            let case = Case::new(sheet, cells, boundary);
-            let found = case.modes(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+            let case = on(sheet, cells, boundary);
+            let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
             let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
             assert_eq!(counts, expected, "{boundary:?}, seed {seed}");
             assert!(found.gap.unwrap() > 1e6, "{boundary:?}, seed {seed}: gap {:?}", found.gap);
@@ -227,13 +226,14 @@ fn modes_of_generic_periodic_bars() {
 #[test]
 fn modes_of_patches() {
     for cells in [[2, 2], [3, 3], [4, 4], [6, 6], [7, 7], [1, 5], [2, 9]] {
-        let case = Case::patch("open-star", cells);
-        let sides =
-            |wings: usize| case.tiling.edges.iter().filter(|edge| edge.wings.iter().flatten().count() == wings).count();
+        let case = patch("open-star", cells);
+        let sides = |wings: usize| {
+            case.tiling().edges.iter().filter(|edge| edge.wings.iter().flatten().count() == wings).count()
+        };
         let (loose, rim) = (sides(0), sides(1));
-        let found = case.modes(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+        let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
         assert_eq!((found.zero_modes, found.self_stresses), (rim + 3 + 2 * loose, 0), "{cells:?}, {loose} loose bars");
-        let columns = 3 * case.tiling.positions.len() as i64;
+        let columns = 3 * case.tiling().positions.len() as i64;
         assert_eq!((found.maxwell_count, found.rigid_motions), (columns - case.edges() as i64, 6));
         if loose == 0 {
             assert_eq!(found.folding_modes, Some(rim - 3), "{cells:?}");
@@ -241,9 +241,9 @@ fn modes_of_patches() {
     }
 }
 
-fn miura(fold: f64) -> Case {
+fn miura(fold: f64) -> Assembly {
     let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, fold, ..MiuraPatch::default() });
-    Case::new(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
+    on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
 }
 
 /// Claim: Miura-ori of 5 x 5 cells, bars alone, diagonals included: V = 121, 40 vertices on its rim; folded
@@ -253,8 +253,8 @@ fn modes_of_miura_flat_and_folded() {
     let bars = Terms { bars: Some(1.0), ..Terms::default() };
     for (fold, expected) in [(0.0, (124, 81)), (std::f64::consts::PI / 12.0, (43, 0))] {
         let case = miura(fold);
-        assert_eq!(case.tiling.positions.len(), 121);
-        let found = case.modes(&bars, 0).unwrap();
+        assert_eq!(case.tiling().positions.len(), 121);
+        let found = case.modes_of(&bars, 0).unwrap();
         assert_eq!((found.zero_modes, found.self_stresses), expected, "fold {fold}");
         assert_eq!(found.maxwell_count, 43);
     }
@@ -267,7 +267,7 @@ fn modes_of_miura_with_rigid_quadrilaterals() {
     let case = miura(std::f64::consts::PI / 12.0);
     assert_eq!((case.edges(), case.count(EdgeKind::Facet)), (320, 100));
     let terms = Terms { bars: Some(1.0), facets: case.facets(f64::INFINITY), ..Terms::default() };
-    let found = case.modes(&terms, 0).unwrap();
+    let found = case.modes_of(&terms, 0).unwrap();
     assert_eq!((found.zero_modes, found.self_stresses, found.folding_modes), (7, 64, Some(1)));
 }
 
@@ -281,8 +281,8 @@ fn counts_are_invariant() {
     let lattice = sheet.lattice.unwrap().map(|l| turn * l * 1e3);
     sheet.lattice = Some(lattice);
     for (boundary, expected) in [(DOMAINS[1], (3, 3)), (DOMAINS[2], (6, 0)), (DOMAINS[3], (2, 0))] {
-        let case = Case::new(sheet.clone(), [1, 1], boundary);
-        let found = case.modes(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+        let case = on(sheet.clone(), [1, 1], boundary);
+        let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
         assert_eq!((found.zero_modes, found.self_stresses), expected, "{boundary:?}");
     }
 }

@@ -1,10 +1,13 @@
 //! Sheets that go through themselves, and sheets that only touch themselves, where one can say which is which.
 #![allow(clippy::unwrap_used)] // tests, also their helpers, may fail
 
+mod common;
+
+use common::on;
 use foldwell::analysis::intersections::{Crossings, Finder, LYING, Marks, SelfIntersection, crossings, first_crossing};
 use foldwell::analysis::state::State;
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Boundary, Drawn};
+use foldwell::model::{Boundary, Drawn};
 use foldwell::sheet::{Sheet, Tiling, fold, tile};
 use rand::{RngExt, SeedableRng};
 use std::convert::Infallible;
@@ -152,9 +155,9 @@ struct Case {
 
 impl Case {
     fn new(sheet: &Sheet, cells: [usize; 2], boundary: Boundary, shown: [usize; 2]) -> Self {
-        let tiling = tile(sheet, cells, boundary != Boundary::Patch);
-        let drawn = Drawn::new(sheet, &tiling, boundary);
-        Self { check: SelfIntersection::new(sheet, &tiling, boundary, shown), drawn, tiling }
+        let cells = if boundary == Boundary::Screw { shown } else { cells };
+        let drawn = on(sheet.clone(), cells, boundary);
+        Self { check: SelfIntersection::new(&drawn), drawn: drawn.drawn().clone(), tiling: drawn.tiling().clone() }
     }
 
     /// The marks of a state with these coordinates and, all over, this fold angle.

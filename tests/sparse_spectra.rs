@@ -4,10 +4,10 @@
 mod common;
 
 use approx::abs_diff_eq;
-use common::{Case, eigenvalues, energy_hessian};
+use common::{Testing, eigenvalues, energy_hessian, on};
 use foldwell::analysis::modes::DENSE_LIMIT;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::Boundary;
+use foldwell::model::{Boundary, Terms};
 use foldwell::solver::Problem;
 
 /// Claim: the lowest eigenvalues of a sheet just above the limit of the dense path are those of a dense decomposition
@@ -15,15 +15,15 @@ use foldwell::solver::Problem;
 #[test]
 fn sparse_and_dense_spectra_agree() {
     for boundary in [Boundary::Patch, Boundary::FixedTorus] {
-        let case = Case::new(common::mesh("open-star"), [10, 11], boundary);
-        let terms = case.terms(1e3, 1.0, case.angles.clone());
-        let model = case.model(&terms, Gauge::Free);
+        let case = on(common::mesh("open-star"), [10, 11], boundary);
+        let terms = Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec());
+        let model = case.model_of(&terms, Gauge::Free);
         let size = model.layout().unknowns;
         assert!(size > DENSE_LIMIT && size < DENSE_LIMIT + 200, "{size}");
         let hessian = energy_hessian(&model, &model.start());
         let expected = eigenvalues(hessian.clone());
         let largest = expected[size - 1];
-        let found = case.modes(&terms, 24).unwrap();
+        let found = case.modes_of(&terms, 24).unwrap();
         for (k, (value, expected)) in found.eigenvalues.iter().zip(&expected).enumerate() {
             let allowed = 1e-8 * expected.abs() + 1e-13 * largest;
             assert!(abs_diff_eq!(value, expected, epsilon = allowed), "{boundary:?}, {k}: {value:e} for {expected:e}");

@@ -4,14 +4,14 @@
 
 mod common;
 
-use foldwell::analysis::branches;
-use foldwell::analysis::surface::{Negative, Question, Surface, SurfaceError, SurfacePoint, surface};
+use common::on;
+use foldwell::analysis::surface::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, surface};
 use foldwell::kinematics::{Closure, drawn_fold_angles};
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Boundary, Hinges, Terms};
+use foldwell::model::{Boundary, Hinges, Terms};
 use foldwell::numerics::dense::null_space;
 use foldwell::sheet::generate::{Eggbox, Miura, RandomDevelopable};
-use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate, tile};
+use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate};
 use foldwell::solver::atlas::Coverage;
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
@@ -28,11 +28,10 @@ struct Extent {
 }
 
 fn cover(sheet: &Sheet, terms: &Terms, extent: Extent, most: usize) -> Result<Surface, SurfaceError> {
-    let tiling = tile(sheet, [1, 1], true);
-    let angles = drawn_fold_angles(sheet);
-    let start = branches::Question { sheet, tiling: &tiling, boundary: Boundary::Screw, angles: &angles, terms };
+    let cell = on(sheet.clone(), [1, 1], Boundary::Screw).with_terms(terms.clone());
     let Extent { radius, max_curvature } = extent;
-    surface(&Question { start, radius, tolerance: 3e-14, max_curvature, max_points: 100_000 }, &mut |n| n < most)
+    let options = SurfaceOptions { radius, tolerance: 3e-14, max_curvature, max_points: 100_000 };
+    surface(&cell, &options, &mut |n| n < most)
 }
 
 fn star(radius: f64, max_curvature: f64) -> (Sheet, Surface) {
@@ -213,11 +212,9 @@ fn what_has_no_surface() {
     let rigid = Terms { facets: facets(f64::INFINITY), ..Terms::default() };
     let found = cover(&sheet, &rigid, extent, usize::MAX);
     assert!(matches!(found, Err(SurfaceError::NotTwoDimensional { modes: 1, .. })), "{found:?}");
-    let (tiling, angles) = (tile(&sheet, [1, 1], false), drawn_fold_angles(&sheet));
-    let boundary = Boundary::Patch;
-    let start = branches::Question { sheet: &sheet, tiling: &tiling, boundary, angles: &angles, terms: &soft };
-    let question = Question { start, radius: 0.1, tolerance: 1e-13, max_curvature: 1.0, max_points: 100 };
-    assert!(matches!(surface(&question, &mut |_| true), Err(SurfaceError::NotScrew)));
+    let patch = on(sheet, [1, 1], Boundary::Patch);
+    let options = SurfaceOptions { radius: 0.1, tolerance: 1e-13, max_curvature: 1.0, max_points: 100 };
+    assert!(matches!(surface(&patch, &options, &mut |_| true), Err(SurfaceError::NotScrew)));
 }
 
 fn eggbox() -> Sheet {
@@ -321,14 +318,10 @@ fn a_surface_with_many_open_charts_is_given_up() {
 /// than 4,096 states, so that it is quick.
 #[test]
 fn stopping_after_the_last_chart() {
-    let sheet = common::mesh("open-star");
-    let tiling = tile(&sheet, [1, 1], true);
-    let (angles, terms) = (drawn_fold_angles(&sheet), Terms::default());
-    let boundary = Boundary::Screw;
-    let start = branches::Question { sheet: &sheet, tiling: &tiling, boundary, angles: &angles, terms: &terms };
-    let question = Question { start, radius: 0.036, tolerance: 3e-14, max_curvature: 0.5, max_points: 100_000 };
+    let cell = on(common::mesh("open-star"), [1, 1], Boundary::Screw);
+    let options = SurfaceOptions { radius: 0.036, tolerance: 3e-14, max_curvature: 0.5, max_points: 100_000 };
     let mut asked = Vec::new();
-    let whole = surface(&question, &mut |charts| {
+    let whole = surface(&cell, &options, &mut |charts| {
         asked.push(charts);
         true
     });
@@ -336,7 +329,7 @@ fn stopping_after_the_last_chart() {
     let placed = asked.iter().position(|charts| Some(charts) == asked.last()).unwrap();
     assert!(whole.points.len() > 5000 && asked.len() > placed + whole.points.len() / 256, "{} {placed}", asked.len());
     let (mut count, last) = (0, placed + 2);
-    let stopped = surface(&question, &mut |_| {
+    let stopped = surface(&cell, &options, &mut |_| {
         count += 1;
         count <= last
     });

@@ -2,10 +2,9 @@
 
 mod common;
 
-use common::{Case, Numbers};
+use common::{Numbers, Testing, on};
 use foldwell::analysis::relax::relax;
-use foldwell::model::Gauge;
-use foldwell::model::assemble::Boundary;
+use foldwell::model::{Boundary, Gauge, Terms};
 use foldwell::solver::Options;
 
 /// Claim: from a start moved at random by up to 0.003 of an edge, bars and creases at rest as drawn: back to the drawn
@@ -26,15 +25,16 @@ fn screws_come_back_to_rest() {
 fn come_back(domains: &[(Boundary, [usize; 2])]) {
     let mut failed = Vec::new();
     for &(boundary, cells) in domains {
-        let case = Case::new(common::mesh("open-star"), cells, boundary);
+        let case = on(common::mesh("open-star"), cells, boundary);
         for k in [1e2, 1e4, 1e6, 1e8, 1e12, f64::INFINITY] {
             for seed in 1..6 {
-                let mut model = case.model(&case.terms(k, 1.0, case.angles.clone()), Gauge::Held);
+                let mut model =
+                    case.model_of(&Terms::bars_and_creases(k, 1.0, case.drawn_angles().to_vec()), Gauge::Held);
                 let mut numbers = Numbers::new(seed);
                 let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.003)).collect();
-                match relax(&mut model, start, Options::default(), case.edges(), &mut |_| true) {
+                match relax(&mut model, start, Options::default(), &mut |_| true) {
                     Ok(found) => {
-                        let off = common::distance(&found.state.fold_angle, &case.angles);
+                        let off = common::distance(&found.state.fold_angle, case.drawn_angles());
                         assert!(off < 1e-9, "{boundary:?}, k = {k:e}, seed {seed}: off by {off:e}");
                     }
                     Err(error) => failed.push(format!("{boundary:?}, k = {k:e}, seed {seed}: {error}")),

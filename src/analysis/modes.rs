@@ -7,14 +7,13 @@
 
 use crate::kinematics::KinematicsError;
 use crate::kinematics::closure::{Closure, HingedEdge};
-use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble};
-use crate::model::{Domain, Gauge, Model, gauge};
+use crate::model::{Assembly, Boundary, Domain, Drawn, Gauge, Model, RIGID, Terms, gauge};
 use crate::numerics::dense::{self, DenseError};
 use crate::numerics::eigen::{self, EigenError};
 use crate::numerics::factor::FactorError;
 use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::{DenseMatrix, rank};
-use crate::sheet::{Corner, EdgeKind, Sheet, Site, Tiling, pieces};
+use crate::sheet::{Corner, Site, Tiling, pieces};
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Problem};
 use thiserror::Error;
@@ -115,36 +114,22 @@ impl From<EigenError> for ModesError {
 /// Called between the parts of the work; returns false to stop.
 pub type Observer<'a> = dyn FnMut() -> bool + Send + 'a;
 
-/// What to look at.
-pub struct Question<'a> {
-    /// The sheet.
-    pub sheet: &'a Sheet,
-    /// Its cells.
-    pub tiling: &'a Tiling,
-    /// What surrounds them.
-    pub boundary: Boundary,
-    /// What it is made of.
-    pub terms: &'a Terms,
-    /// How many eigenvalues of the energy are wanted.
-    pub eigenvalues: usize,
-}
-
 /// Finds the modes. `observe` is asked before every decomposition and factorization, and before every product of the
 /// iteration for eigenpairs; between them, at most for the time of one decomposition, nothing stops the work.
-pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
-    let Question { sheet, tiling, boundary, terms, .. } = *question;
-    let drawn = Drawn::new(sheet, tiling, boundary);
-    let bars = assemble(&drawn, tiling, &rigid_part(terms), Gauge::Free);
+pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
+    let assembly = assembly.with_axis(0.0);
+    let (tiling, boundary, terms, drawn) = (assembly.tiling(), assembly.boundary(), assembly.terms(), assembly.drawn());
+    let bars = assembly.with_terms(rigid_part(terms)).model(Gauge::Free);
     let (rank, gap) = rank_of(&bars, observe)?;
     let (columns, rows) = (bars.layout().unknowns, bars.layout().stiff.len());
-    let rigid_motions = rigid_motions(&drawn, tiling, &bars);
+    let rigid_motions = rigid_motions(drawn, tiling, &bars);
     let (zero_modes, self_stresses) = (columns - rank, rows - rank);
     go_on(observe)?;
-    let folding_modes = folding_modes(question, &drawn)?;
+    let folding_modes = folding_modes(&assembly)?;
     if let Some(closure) = folding_modes {
         let predicted = match boundary {
             Boundary::Patch if terms.pins.is_empty() => Some(zero_modes.saturating_sub(rigid_motions)),
-            Boundary::FixedTorus if terms.pins.is_empty() && !has_rigid_facets(terms) => Some(self_stresses),
+            Boundary::FixedTorus if terms.pins.is_empty() && !terms.has_rigid_facets() => Some(self_stresses),
             _ => None,
         };
         if let Some(bars) = predicted.filter(|&bars| bars != closure) {
@@ -153,8 +138,8 @@ pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Mode
     }
     // rigid bars leave their zero modes free, and no more
     let free = if terms.bars.is_some_and(f64::is_infinite) { zero_modes } else { columns };
-    let (eigenvalues, vectors) = if question.eigenvalues.min(free) > 0 {
-        lowest(&assemble(&drawn, tiling, terms, Gauge::Free), question.eigenvalues, free, observe)?
+    let (eigenvalues, vectors) = if eigenvalues.min(free) > 0 {
+        lowest(&assembly.model(Gauge::Free), eigenvalues, free, observe)?
     } else {
         (vec![], vec![])
     };
@@ -177,11 +162,7 @@ fn go_on(observe: &mut Observer<'_>) -> Result<(), ModesError> {
 /// Bars and rigid polygons only, all rigid; pins as they are.
 fn rigid_part(terms: &Terms) -> Terms {
     let facets = terms.facets.as_ref().filter(|hinges| hinges.stiffness.is_infinite()).cloned();
-    Terms { bars: Some(f64::INFINITY), facets, pins: terms.pins.clone(), ..Terms::default() }
-}
-
-fn has_rigid_facets(terms: &Terms) -> bool {
-    terms.facets.as_ref().is_some_and(|hinges: &Hinges| hinges.stiffness.is_infinite())
+    Terms { bars: Some(RIGID), facets, pins: terms.pins.clone(), ..Terms::default() }
 }
 
 /// Rigid motions of the sheet; where a patch has several pieces with faces, of each of them.
@@ -275,8 +256,8 @@ fn linearized(model: &Model) -> Linearization {
 }
 
 /// Null space of the closure conditions of the tiling, rigid facets locked.
-fn folding_modes(question: &Question<'_>, drawn: &Drawn) -> Result<Option<usize>, ModesError> {
-    let tiling = question.tiling;
+fn folding_modes(assembly: &Assembly) -> Result<Option<usize>, ModesError> {
+    let (tiling, drawn) = (assembly.tiling(), assembly.drawn());
     let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };
     let hinged: Vec<HingedEdge> = tiling
         .edges
@@ -290,13 +271,8 @@ fn folding_modes(question: &Question<'_>, drawn: &Drawn) -> Result<Option<usize>
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);
     }
-    let rigid = has_rigid_facets(question.terms);
-    let locked: Vec<usize> =
-        (0..tiling.edges.len()).filter(|&e| rigid && tiling.edges[e].kind == EdgeKind::Facet).collect();
-    let angles: Vec<f64> = crate::model::assemble::drawn_angles(drawn, tiling)
-        .into_iter()
-        .map(|angle| if angle.is_nan() { 0.0 } else { angle })
-        .collect();
+    let locked: Vec<usize> = tiling.facets().filter(|_| assembly.terms().has_rigid_facets()).collect();
+    let angles = assembly.drawn_angles_or_zero();
     let null = dense::null_space(&closure.with_locked(&locked).jacobian(&angles))?;
     Ok(Some(null.basis.ncols()))
 }
@@ -407,22 +383,16 @@ fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::assemble::drawn_angles;
+    use crate::sheet::generate;
     use crate::sheet::generate::{Pattern, Random};
-    use crate::sheet::{generate, tile};
 
     /// Asks for modes of a patch of random cells and stops at the `stop`-th question; the answer, and how many
     /// questions there were.
     fn asked(cells: usize, eigenvalues: usize, stop: usize) -> (Result<Modes, ModesError>, usize) {
         let sheet = generate(&Pattern::Random(Random::default())).unwrap();
-        let tiling = tile(&sheet, [cells; 2], false);
-        let drawn = Drawn::new(&sheet, &tiling, Boundary::Patch);
-        let rest = drawn_angles(&drawn, &tiling);
-        let terms = Terms { bars: Some(1e3), creases: Some(Hinges { stiffness: 1.0, rest }), ..Terms::default() };
-        let boundary = Boundary::Patch;
-        let question = Question { sheet: &sheet, tiling: &tiling, boundary, terms: &terms, eigenvalues };
+        let assembly = Assembly::patch(sheet, [cells; 2]).bars(1e3).creases(1.0).build().unwrap();
         let mut asked = 0;
-        let found = modes(&question, &mut || {
+        let found = modes(&assembly, eigenvalues, &mut || {
             asked += 1;
             asked != stop
         });

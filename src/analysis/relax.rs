@@ -71,7 +71,6 @@ pub fn relax(
     model: &mut Model,
     start: impl Into<Start>,
     options: Options,
-    edges: usize,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
     let start = start.into();
@@ -98,17 +97,17 @@ pub fn relax(
     match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
             Some(angle) if !(angle <= CERTAIN) => {
-                let state = State::new(model, &found.x, &found.tension, edges);
+                let state = State::new(model, &found.x, &found.tension);
                 let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
                 let failure = Failure::Uncertain { angle, force, tolerance: options.tolerance };
                 history.extend(found.history);
                 Err(Box::new(RelaxError { failure, state, x: found.x, history }))
             }
-            _ => Ok(finish(model, found, history, edges)),
+            _ => Ok(finish(model, found, history)),
         },
         Err(error) => {
             history.extend(error.history);
-            let state = State::new(model, &error.x, &error.tension, edges);
+            let state = State::new(model, &error.x, &error.tension);
             Err(Box::new(RelaxError { failure: error.failure, state, x: error.x, history }))
         }
     }
@@ -214,11 +213,11 @@ fn off_rest(model: &Model, x: &[f64]) -> f64 {
     off.fold(0.0, |largest, off| largest.max(off.abs()))
 }
 
-fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>, edges: usize) -> Relaxed {
+fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed {
     let settled = tension::settle(model, &found);
     history.extend(found.history);
     Relaxed {
-        state: State::new(model, &found.x, &settled.tension, edges),
+        state: State::new(model, &found.x, &settled.tension),
         x: found.x,
         tension: settled.tension,
         iterations: history.iter().filter(|step| step.fraction > 0.0).count(),

@@ -1,8 +1,8 @@
 //! The model: terms on a domain, as the problem that the solver minimises.
 
 use super::domain::Domain;
+use super::element::{Elements, Local, Spring};
 use super::gauge;
-use super::term::{Elements, Local, Spring};
 use crate::numerics::sparse::{Cliques, FIXED};
 use crate::numerics::{largest, parallel};
 use crate::solver::{Curvature, Layout, Linearization, Problem};
@@ -35,6 +35,7 @@ pub struct Model {
     layout: Layout,
     compliance: Vec<f64>,
     gap_scale: Vec<f64>,
+    edges: usize,
     mean_edge: f64,
     gauge: Gauge,
     /// Sizes of the shared unknowns in units of their coordinates; empty: both are the same.
@@ -65,6 +66,8 @@ pub struct Parts {
     pub pinned: Vec<usize>,
     /// Force on each coordinate; empty: none.
     pub loads: Vec<f64>,
+    /// Number of edges that elements may name.
+    pub edges: usize,
     /// Unit of length for gaps of lengths: the mean edge.
     pub mean_edge: f64,
     /// What is done about rigid motions.
@@ -74,7 +77,7 @@ pub struct Parts {
 impl Model {
     /// Puts the parts together.
     pub fn new(parts: Parts) -> Self {
-        let Parts { domain, drawn, soft, stiff, pinned, loads, mean_edge, gauge } = parts;
+        let Parts { domain, drawn, soft, stiff, pinned, loads, edges, mean_edge, gauge } = parts;
         let springs = || stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term.is_angle(), term.spring(k))));
         let compliance = springs().map(|(_, spring)| 1.0 / spring.stiffness).collect();
         let gap_scale = springs().map(|(angle, _)| if angle { 1.0 } else { mean_edge }).collect();
@@ -91,6 +94,7 @@ impl Model {
             layout,
             compliance,
             gap_scale,
+            edges,
             mean_edge,
             gauge,
             units: vec![],
@@ -216,6 +220,11 @@ impl Model {
     /// Where points come from.
     pub fn domain(&self) -> &Domain {
         &self.domain
+    }
+
+    /// The number of edges of the tiling, of which elements name some.
+    pub fn edges(&self) -> usize {
+        self.edges
     }
 
     /// Terms that enter with their energy.

@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::analysis::state::State;
 use crate::analysis::view::View;
 use crate::math::Vec3;
-use crate::model::assemble::Drawn;
+use crate::model::Drawn;
 use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
 use std::collections::HashMap;
 

@@ -12,14 +12,13 @@ use crate::analysis::bloch::{
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
 use crate::model::Domain;
-use crate::model::assemble::Drawn;
+use crate::model::{Assembly, Drawn};
 use crate::numerics::worst;
 use crate::output::Picture;
 use crate::output::bloch_plot::{self, BlochPlot};
 use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, StudySummary, ZeroLineSummary};
 use crate::output::table::{Table, Value};
 use crate::output::vtk;
-use crate::scene::build::Built;
 use crate::scene::forms::Start;
 use crate::scene::spec::{BlochSpec, Draw, StudySpec};
 use crate::scene::values::Pair;
@@ -41,15 +40,15 @@ const STEPS: usize = 50;
 const DRAWN: usize = 240;
 
 /// Spatially varying modes need a lattice, and as many conditions as coordinates.
-pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &BlochSpec) -> Result<(), RunError> {
+pub fn check(file: &SceneFile, assembly: &Assembly, study: &StudySpec, spec: &BlochSpec) -> Result<(), RunError> {
     if let Some(start) = &spec.start {
-        check_start(file, built, spec, start)?;
+        check_start(file, assembly, spec, start)?;
     }
-    if let (Some(path), None) = (&spec.path, stiffnesses(file, built)) {
+    if let (Some(path), None) = (&spec.path, stiffnesses(file, assembly)) {
         let help = "give bars a finite stiffness and facets too, or leave out `path`";
         return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
     }
-    let refused = rigidity(file, built).and_then(|rigidity| rigidity.require_square());
+    let refused = rigidity(file, assembly).and_then(|rigidity| rigidity.require_square());
     let help = match &refused {
         Ok(()) => return Ok(()),
         Err(BlochError::NoLattice) => "a periodic sheet has the key `foldwell:lattice` in its mesh",
@@ -62,11 +61,16 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &BlochSpe
 }
 
 /// A state of one cell that an earlier study found.
-fn check_start(file: &SceneFile, built: &Built, spec: &BlochSpec, start: &Located<Start>) -> Result<(), RunError> {
+fn check_start(
+    file: &SceneFile,
+    assembly: &Assembly,
+    spec: &BlochSpec,
+    start: &Located<Start>,
+) -> Result<(), RunError> {
     let wrong = |message: &str, help: &str| Err(file.error_at(start.span(), message, help).into());
     match &**start {
         Start::Drawn => Ok(()),
-        Start::Study(_) if matches!(built.drawn.domain, Domain::Patch) || built.tiling.cells != [1, 1] => {
+        Start::Study(_) if matches!(assembly.drawn().domain, Domain::Patch) || assembly.tiling().cells != [1, 1] => {
             let help = "give domain = \"screw\", or \"torus\" with cells = [1, 1]";
             wrong("spatially varying modes are those of a state of one cell", help)
         }
@@ -91,9 +95,9 @@ struct Ground {
 /// The state that the scene names; `None` where the study that should have found it did not.
 fn ground(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Option<Ground>, BlochError> {
     let Some(Start::Study(name)) = spec.start.as_deref() else {
-        return Ok(Some(Ground { rigidity: rigidity(runner.file, runner.built)?, folded: None }));
+        return Ok(Some(Ground { rigidity: rigidity(runner.file, runner.assembly)?, folded: None }));
     };
-    let Built { sheet, drawn, .. } = runner.built;
+    let (sheet, drawn) = (runner.assembly.sheet(), runner.assembly.drawn());
     let fits = |kept: &&Kept| kept.coordinates.len() == drawn.coordinates.len();
     let Some(kept) = runner.state(name).filter(fits) else { return Ok(None) };
     let rigid = facet_stiffness(runner.file).is_infinite();
@@ -108,16 +112,16 @@ fn facet_stiffness(file: &SceneFile) -> f64 {
 }
 
 /// Bars of the drawn state, and the locks of polygons that are rigid.
-fn rigidity(file: &SceneFile, built: &Built) -> Result<Rigidity, BlochError> {
-    Rigidity::of_sheet(&built.sheet, facet_stiffness(file).is_infinite())
+fn rigidity(file: &SceneFile, assembly: &Assembly) -> Result<Rigidity, BlochError> {
+    Rigidity::of_sheet(assembly.sheet(), facet_stiffness(file).is_infinite())
 }
 
 /// Stiffnesses of the energy; `None` where it has no bars, or a term is rigid.
-fn stiffnesses(file: &SceneFile, built: &Built) -> Option<Stiffnesses> {
-    let creases = built.terms.creases.as_ref().map_or(0.0, |creases| creases.stiffness);
-    let has_facets = built.sheet.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
+fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
+    let creases = assembly.terms().creases.as_ref().map_or(0.0, |creases| creases.stiffness);
+    let has_facets = assembly.sheet().edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
     let facets = if has_facets { facet_stiffness(file) } else { 0.0 };
-    let found = Stiffnesses { bars: built.terms.bars?, creases, facets };
+    let found = Stiffnesses { bars: assembly.terms().bars?, creases, facets };
     [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
 }
 
@@ -163,7 +167,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
             }
             draw(runner, study, &found)?;
             summary.error = Some(found.determinant.error);
-            summary.result = Some(StudyResult::Bloch(summarized(runner.built, &found)));
+            summary.result = Some(StudyResult::Bloch(summarized(runner.assembly, &found)));
         }
         Ok(None) => (summary.converged, summary.reason) = (false, Some("interrupted".to_owned())),
         Err(error) => summary.reason = Some(error.to_string()),
@@ -218,10 +222,10 @@ fn shapes(rigidity: &Rigidity, spec: &BlochSpec, determinant: &Determinant) -> R
 
 /// The bands along the path of the scene.
 fn bands(runner: &Runner<'_>, spec: &BlochSpec) -> Result<Vec<Bands>, BlochError> {
-    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.file, runner.built)) else {
+    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(runner.file, runner.assembly)) else {
         return Ok(Vec::new());
     };
-    let matrix = DynamicalMatrix::new(&runner.built.sheet, stiffnesses)?;
+    let matrix = DynamicalMatrix::new(runner.assembly.sheet(), stiffnesses)?;
     let corners: Vec<[f64; 2]> = path.iter().map(|corner| corner.0).collect();
     along_path(&corners, STEPS).into_iter().map(|q| Ok(Bands { q, values: matrix.bands(q)? })).collect()
 }
@@ -289,7 +293,8 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
     }
     if study.draw.contains(&Draw::Svg) {
         let lines = found.real.iter().flat_map(|(_, lines)| &lines.lines).map(|line| line.points.clone()).collect();
-        let marks = theta(runner.built, &found.ground).map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
+        let marks =
+            theta(runner.assembly, &found.ground).map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
         let (rates, polynomial) = (rates(&found.determinant), &found.determinant.polynomial);
         let plot = BlochPlot { rates, polynomial, lines, marks };
         bloch_plot::write_svg(&runner.path(format!("{name}.svg")), &plot, &runner.file.title())?;
@@ -302,16 +307,16 @@ fn moving_picture(runner: &Runner<'_>, study: &StudySpec, folded: Option<&Vec<f6
     let places = &runner.view.places;
     let displacement = mode.at(places);
     let Some(x) = folded else { return Picture { displacement, ..studies::drawn_picture(runner, study) } };
-    let Drawn { domain, frame, .. } = &runner.built.drawn;
+    let Drawn { domain, frame, .. } = runner.assembly.drawn();
     let turned = |((_, cell), u): (&(usize, [i32; 2]), Vec3)| frame.transpose() * cell_rotation(domain, x, *cell) * u;
     let displacement = places.iter().zip(displacement).map(turned).collect();
     Picture { displacement, ..studies::picture_at(runner, study, x.clone()) }
 }
 
 /// Rotation angles from a cell of the state to the next; `None` of the drawn state.
-fn theta(built: &Built, ground: &Ground) -> Option<[f64; 2]> {
+fn theta(assembly: &Assembly, ground: &Ground) -> Option<[f64; 2]> {
     let x = ground.folded.as_ref()?;
-    cylinder(&built.drawn.domain, &built.drawn.coordinates, x).map(|cylinder| cylinder.theta)
+    cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, x).map(|cylinder| cylinder.theta)
 }
 
 /// `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers; those at which the determinant vanishes for
@@ -323,7 +328,7 @@ fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
         .collect()
 }
 
-fn summarized(built: &Built, found: &Found) -> BlochSummary {
+fn summarized(assembly: &Assembly, found: &Found) -> BlochSummary {
     let Found { determinant, decays, polarization, real, map, .. } = found;
     let pairings: Vec<_> = decays.iter().map(Decay::pairing).collect();
     let decay = |decay: &Decay| DecaySummary {
@@ -334,7 +339,7 @@ fn summarized(built: &Built, found: &Found) -> BlochSummary {
     };
     let positive = map[0].iter().filter(|value| **value > 0.0).count() as f64 / map[0].len() as f64;
     let lines = real.as_ref().map_or(&[][..], |(_, lines)| &lines.lines);
-    let theta = theta(built, &found.ground);
+    let theta = theta(assembly, &found.ground);
     let to_zero = |(zone, q): (&Zone, [f64; 2])| {
         let (value, gradient) = zone.at(q);
         value.abs() / gradient[0].hypot(gradient[1])

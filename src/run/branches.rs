@@ -2,13 +2,12 @@
 
 use super::runner::Runner;
 use super::{Progress, RunError};
-use crate::analysis::branches::{Branches, BranchesError, Question, branches as find_branches};
+use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::{Rays, RealDirections};
-use crate::model::assemble::{Boundary, drawn_angles};
+use crate::model::{Assembly, Boundary};
 use crate::output::summary::{BranchesSummary, RaySummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
 use crate::scene::SceneFile;
-use crate::scene::build::Built;
 use crate::scene::spec::StudySpec;
 use std::time::Instant;
 
@@ -16,14 +15,14 @@ use std::time::Instant;
 const AS_DRAWN: f64 = 1e-9;
 
 /// Branches leave the drawn state of a screw or a patch: refuses a torus, and locks at other angles.
-pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
-    if matches!(built.boundary, Boundary::FixedTorus | Boundary::FreeTorus) {
+pub fn check(file: &SceneFile, assembly: &Assembly, study: &StudySpec) -> Result<(), RunError> {
+    if matches!(assembly.boundary(), Boundary::FixedTorus | Boundary::FreeTorus) {
         let message = "branches of a torus are not known: its lattice has conditions of its own";
         return Err(file.error_at(study.kind.span(), message, "use domain = \"screw\" or \"patch\"").into());
     }
-    let angles = drawn_angles(&built.drawn, &built.tiling);
+    let angles = assembly.drawn_angles();
     let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
-    match built.terms.locks.iter().find(moved) {
+    match assembly.terms().locks.iter().find(moved) {
         None => Ok(()),
         Some((edge, angle)) => {
             let message = format!("a lock holds a crease at {angle} that is drawn at {}", angles[*edge]);
@@ -33,26 +32,16 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), R
     }
 }
 
-fn leaving(built: &Built) -> Result<Branches, BranchesError> {
-    find_branches(&Question {
-        sheet: &built.sheet,
-        tiling: &built.tiling,
-        boundary: built.boundary,
-        angles: &drawn_angles(&built.drawn, &built.tiling),
-        terms: &built.terms,
-    })
-}
-
 /// Number of rays that leave the drawn state of a rigid cell with locks, where more than one motion passes through it: what is relaxed
 /// from there may end in other equilibria.
 ///
 /// Beside it what is established about these directions; `None` where they were not looked for.
-pub fn branch_point(built: &Built) -> (Option<usize>, Option<RealDirections>) {
-    let rigid = built.terms.bars.is_some_and(f64::is_infinite);
-    if !rigid || built.boundary != Boundary::Screw || built.terms.locks.is_empty() {
+pub fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDirections>) {
+    let rigid = assembly.terms().bars.is_some_and(f64::is_infinite);
+    if !rigid || assembly.boundary() != Boundary::Screw || assembly.terms().locks.is_empty() {
         return (None, None);
     }
-    match leaving(built) {
+    match branches(assembly) {
         Ok(Branches { rays: Rays { rays, directions, .. }, .. }) => {
             (Some(rays.len()).filter(|count| *count > 2), Some(directions))
         }
@@ -72,10 +61,10 @@ pub fn word(directions: RealDirections) -> String {
 
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary, RunError> {
-    let built = runner.built;
+    let assembly = runner.assembly;
     runner.watch(&Progress { study: study.name.0.clone(), step: 0, of: None, residual: f64::NAN, target: None });
     let clock = Instant::now();
-    let found = leaving(built);
+    let found = branches(assembly);
     let mut summary = StudySummary {
         converged: found.is_ok(),
         seconds: clock.elapsed().as_secs_f64(),
@@ -83,7 +72,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary,
     };
     match found {
         Ok(branches) => {
-            table(built, &branches).write(&runner.path(format!("{}.csv", study.name.0)))?;
+            table(assembly, &branches).write(&runner.path(format!("{}.csv", study.name.0)))?;
             summary.error = branches.rays.rays.iter().map(|ray| ray.error).max_by(f64::total_cmp);
             summary.result = Some(StudyResult::Branches(summarized(&branches)));
         }
@@ -93,10 +82,10 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary,
 }
 
 /// A row for each ray, with the rate of every fold angle. On a patch of several cells columns also name the cell.
-fn table(built: &Built, branches: &Branches) -> Table {
-    let several = built.tiling.cells != [1, 1];
-    let rate = built.tiling.edges.iter().map(|edge| {
-        let key = built.sheet.edges[edge.edge].key;
+fn table(assembly: &Assembly, branches: &Branches) -> Table {
+    let several = assembly.tiling().cells != [1, 1];
+    let rate = assembly.tiling().edges.iter().map(|edge| {
+        let key = assembly.sheet().edges[edge.edge].key;
         let cell = if several { format!("_{}_{}", edge.cell[0], edge.cell[1]) } else { String::new() };
         format!("rate_{}_{}_{}_{}{cell}", key.i, key.j, key.shift[0], key.shift[1])
     });

@@ -3,19 +3,16 @@
 use super::{RunError, Runner};
 use crate::analysis::intersections::{Marks, SelfIntersection};
 use crate::analysis::state::{Cylinder, State, cylinder};
-use crate::model::assemble::{Drawn, drawn_angles};
+use crate::model::Assembly;
 use crate::output::picture::Picture;
 use crate::output::table::{StateRow, Table};
 use crate::output::{plot, vtk};
-use crate::scene::build::Built;
 use crate::scene::spec::{Check, Draw, StudySpec};
 
 /// The state with the fold angle of every edge between two faces, also of those that are no hinge of the model: these from
 /// its coordinates, in (-pi, pi].
-pub fn with_all_angles(built: &Built, state: &State) -> State {
-    let Drawn { frame, origin, .. } = built.drawn;
-    let (domain, coordinates) = (built.drawn.domain.clone(), state.coordinates.clone());
-    let angles = drawn_angles(&Drawn { domain, coordinates, held: Vec::new(), frame, origin }, &built.tiling);
+pub fn with_all_angles(assembly: &Assembly, state: &State) -> State {
+    let angles = assembly.fold_angles_at(&state.coordinates);
     let known = |(known, other): (&f64, f64)| if known.is_nan() { other } else { *known };
     State { fold_angle: state.fold_angle.iter().zip(angles).map(known).collect(), ..state.clone() }
 }
@@ -32,23 +29,22 @@ pub struct Shown<'a> {
 
 /// What finds self-intersection in the states of a study; `None` where that is not asked.
 pub fn self_intersection(runner: &Runner<'_>, study: &StudySpec) -> Option<SelfIntersection> {
-    let built = runner.built;
     let asked = study.check.contains(&Check::SelfIntersection);
-    asked.then(|| SelfIntersection::new(&built.sheet, &built.tiling, built.boundary, built.shown))
+    asked.then(|| SelfIntersection::new(runner.assembly))
 }
 
 /// Writes the table of states of a study: one row each.
 pub fn table(runner: &Runner<'_>, study: &StudySpec, states: &[Shown<'_>]) -> Result<(), RunError> {
-    let keys: Vec<_> = runner.built.sheet.edges.iter().map(|edge| edge.key).collect();
+    let keys: Vec<_> = runner.assembly.sheet().edges.iter().map(|edge| edge.key).collect();
     let rows: Vec<StateRow> = states.iter().enumerate().map(|(step, shown)| row(runner, step, shown)).collect();
     Ok(Table::of_states(&keys, &rows).write(&runner.path(format!("{}.csv", study.name.0)))?)
 }
 
 fn row(runner: &Runner<'_>, step: usize, shown: &Shown<'_>) -> StateRow {
-    let (built, state) = (runner.built, shown.state);
-    let shape = cylinder(&built.drawn.domain, &built.drawn.coordinates, &state.coordinates);
+    let (assembly, state) = (runner.assembly, shown.state);
+    let shape = cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, &state.coordinates);
     let of = |get: fn(&Cylinder) -> f64| shape.as_ref().map(get);
-    let terms = &built.terms;
+    let terms = assembly.terms();
     StateRow {
         step: Some(step as i64),
         curvature: of(|c| c.curvature),
@@ -70,9 +66,9 @@ fn row(runner: &Runner<'_>, step: usize, shown: &Shown<'_>) -> StateRow {
 
 /// Fold angles of the edges of the cell: of a patch or a torus, those of the cell in its middle.
 fn cell_angles(runner: &Runner<'_>, state: &State) -> Vec<f64> {
-    let tiling = &runner.built.tiling;
+    let tiling = runner.assembly.tiling();
     let middle = tiling.cells.map(|n| (n - 1) / 2);
-    let mut angles = vec![f64::NAN; runner.built.sheet.edges.len()];
+    let mut angles = vec![f64::NAN; runner.assembly.sheet().edges.len()];
     for (edge, &angle) in tiling.edges.iter().zip(&state.fold_angle) {
         if edge.cell == middle {
             angles[edge.edge] = angle;
@@ -83,7 +79,7 @@ fn cell_angles(runner: &Runner<'_>, state: &State) -> Vec<f64> {
 
 /// The picture of a state, with what passes through itself.
 pub fn picture(runner: &Runner<'_>, shown: &Shown<'_>) -> Picture {
-    let picture = Picture::of_state(&runner.view, &runner.built.drawn, shown.state);
+    let picture = Picture::of_state(&runner.view, runner.assembly.drawn(), shown.state);
     shown.marks.iter().fold(picture, |picture, marks| picture.with_crossing(&marks.faces))
 }
 

@@ -4,13 +4,13 @@ use super::runner::Runner;
 use super::{RunError, landscape_map, studies};
 use crate::analysis::landscape::samples::{Landscape, OPTIONS, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
-use crate::model::assemble::{Boundary, drawn_angles};
+use crate::model::{Assembly, Boundary};
 use crate::numerics::{larger, worst};
 use crate::output::chart::{self, Chart, Point, Series};
 use crate::output::files;
 use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
-use crate::scene::build::{Built, rates as scene_rates};
+use crate::scene::build::rates as scene_rates;
 use crate::scene::forms::Mode;
 use crate::scene::spec::{Draw, LandscapeSpec, StudySpec};
 use crate::scene::{Located, SceneFile};
@@ -18,15 +18,15 @@ use crate::sheet::EdgeKey;
 use std::time::Instant;
 
 /// Landscapes are those of patches and tori of periodic sheets, with bars and creases and nothing that holds or pulls.
-pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &LandscapeSpec) -> Result<(), RunError> {
+pub fn check(file: &SceneFile, assembly: &Assembly, study: &StudySpec, spec: &LandscapeSpec) -> Result<(), RunError> {
     let refuse = |message: &str, help: &str| Err(file.error_at(study.kind.span(), message, help).into());
-    let terms = &built.terms;
-    let torus = match built.boundary {
+    let terms = assembly.terms();
+    let torus = match assembly.boundary() {
         Boundary::Patch => false,
         Boundary::FixedTorus | Boundary::FreeTorus => true,
         Boundary::Screw => return refuse("a landscape needs cells around its own", "use domain = \"patch\""),
     };
-    if built.sheet.lattice.is_none() {
+    if assembly.sheet().lattice.is_none() {
         return refuse("a finite sheet has no uniform modes", "give the mesh a lattice");
     }
     if terms.bars.is_none() || terms.creases.is_none() {
@@ -41,11 +41,11 @@ pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &Landscap
         let help = "leave out [[lock]], [[pin]] and [[load]]";
         return refuse("a landscape holds nothing but the amplitude of a mode", help);
     }
-    let held = held(built).map_err(|error| file.error_at(study.kind.span(), error.to_string(), MODES))?;
+    let held = held(assembly).map_err(|error| file.error_at(study.kind.span(), error.to_string(), MODES))?;
     if let Some(map) = &spec.map {
         held.named([1.0, 0.0, 0.0]).map_err(|error| file.error_at(map.span(), error.to_string(), NO_MAP))?;
     }
-    spec.modes.iter().try_for_each(|mode| rates(file, built, &held, mode).map(|_| ()))
+    spec.modes.iter().try_for_each(|mode| rates(file, assembly, &held, mode).map(|_| ()))
 }
 
 /// Samples above rounding that a fit needs where others are below.
@@ -58,33 +58,31 @@ const NO_MAP: &str = "maps are of patches with three modes that curvatures name;
 const MODES: &str = "patches have modes named by curvatures, tori those of wavenumbers on zero lines";
 
 /// The patch or the torus of a scene.
-pub fn held(built: &Built) -> Result<HeldSheet, LandscapeError> {
-    let angles = drawn_angles(&built.drawn, &built.tiling);
-    let (sheet, tiling, terms) = (&built.sheet, &built.tiling, &built.terms);
-    match built.boundary {
-        Boundary::Patch => HeldSheet::patch(sheet, tiling, terms, &angles),
-        boundary => HeldSheet::torus(sheet, tiling, terms, (boundary, &angles)),
+pub fn held(assembly: &Assembly) -> Result<HeldSheet, LandscapeError> {
+    match assembly.boundary() {
+        Boundary::Patch => HeldSheet::patch(assembly),
+        _ => HeldSheet::torus(assembly),
     }
 }
 
 /// Rates of the rest angles of a mode.
-fn rates(file: &SceneFile, built: &Built, held: &HeldSheet, mode: &Located<Mode>) -> Result<Vec<f64>, RunError> {
+fn rates(file: &SceneFile, assembly: &Assembly, held: &HeldSheet, mode: &Located<Mode>) -> Result<Vec<f64>, RunError> {
     let found = match &**mode {
         Mode::Curvature(curvature) => held.named(*curvature),
-        Mode::Wave(wave) if built.tiling.periodic => held.wave(&built.tiling, *wave.wave),
+        Mode::Wave(wave) if assembly.tiling().periodic => held.wave(assembly.tiling(), *wave.wave),
         Mode::Wave(_) => Err(LandscapeError::NoWaves),
-        Mode::Rates(name) => held.with_rates(&uniform(file, built, mode, &scene_rates(file, built, name)?)?),
+        Mode::Rates(name) => held.with_rates(&uniform(file, assembly, mode, &scene_rates(file, assembly, name)?)?),
     };
     Ok(found.map_err(|error| file.error_at(mode.span(), error.to_string(), MODES))?)
 }
 
 /// From all edges to those of the piece of sheet that repeats: a patch has the same rates in every cell.
-fn uniform(file: &SceneFile, built: &Built, mode: &Located<Mode>, all: &[f64]) -> Result<Vec<f64>, RunError> {
-    if built.tiling.periodic {
+fn uniform(file: &SceneFile, assembly: &Assembly, mode: &Located<Mode>, all: &[f64]) -> Result<Vec<f64>, RunError> {
+    if assembly.tiling().periodic {
         return Ok(all.to_vec());
     }
-    let mut cell = vec![f64::NAN; built.sheet.edges.len()];
-    for (tiled, rate) in built.tiling.edges.iter().zip(all) {
+    let mut cell = vec![f64::NAN; assembly.sheet().edges.len()];
+    for (tiled, rate) in assembly.tiling().edges.iter().zip(all) {
         if !cell[tiled.edge].is_nan() && !rate.is_nan() && cell[tiled.edge] != *rate {
             let help = "give one row for each crease of the cell, without cell1 and cell2";
             return Err(file.error_at(mode.span(), "the rates differ from cell to cell", help).into());
@@ -105,7 +103,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &LandscapeSpec) -
         ..StudySummary::unanswered(&study.name.0, study.kind.name())
     };
     let found = found?;
-    table(runner.built, &found).write(&runner.path(format!("{}.csv", study.name.0)))?;
+    table(runner.assembly, &found).write(&runner.path(format!("{}.csv", study.name.0)))?;
     if study.draw.contains(&Draw::Svg) {
         let picture = chart::svg(&energies(&runner.file.title(), &found));
         files::write(&runner.path(format!("{}.svg", study.name.0)), picture)?;
@@ -139,9 +137,9 @@ fn along(
     spec: &LandscapeSpec,
     mode: &Located<Mode>,
 ) -> Result<Along, RunError> {
-    let built = runner.built;
-    let mut held = held(built).map_err(|error| runner.file.error_at(mode.span(), error.to_string(), MODES))?;
-    let rates = rates(runner.file, built, &held, mode)?;
+    let assembly = runner.assembly;
+    let mut held = held(assembly).map_err(|error| runner.file.error_at(mode.span(), error.to_string(), MODES))?;
+    let rates = rates(runner.file, assembly, &held, mode)?;
     let curvature = match &**mode {
         Mode::Curvature(curvature) => Some(*curvature),
         _ => held.curvature(&rates),
@@ -258,7 +256,7 @@ fn energies(title: &str, found: &[Along]) -> Chart {
 }
 
 /// A row for each sample: the mode, the amplitude, the energies, and on patches the rest angles less those drawn.
-fn table(built: &Built, found: &[Along]) -> Table {
+fn table(assembly: &Assembly, found: &[Along]) -> Table {
     let names = [
         "mode",
         "k11",
@@ -275,13 +273,13 @@ fn table(built: &Built, found: &[Along]) -> Table {
         "rounds",
     ];
     let rest = |key: &EdgeKey| format!("rest_{}_{}_{}_{}", key.i, key.j, key.shift[0], key.shift[1]);
-    let uniform = if built.tiling.periodic { &[] } else { built.sheet.edges.as_slice() };
+    let uniform = if assembly.tiling().periodic { &[] } else { assembly.sheet().edges.as_slice() };
     let rests = uniform.iter().map(|edge| rest(&edge.key));
     let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).chain(rests).collect());
     for (number, along) in found.iter().enumerate() {
         for sample in along.samples() {
             let (relaxed, state) = (&sample.relaxed, &sample.relaxed.state);
-            let facets = built.terms.facets.as_ref().map(|_| state.energy_facets);
+            let facets = assembly.terms().facets.as_ref().map(|_| state.energy_facets);
             let mut row = vec![Value::Whole(number as i64)];
             row.extend((0..3).map(|k| Value::from(along.curvature.map(|curvature| curvature[k]))));
             row.extend([sample.amplitude, state.energy_bars, state.energy_creases].map(Value::Number));

@@ -8,7 +8,7 @@ use super::runner::Runner;
 use crate::analysis::landscape::cone::{Cone, distance};
 use crate::analysis::landscape::samples::{Sample, SampleError};
 use crate::analysis::landscape::sphere::{self, Direction, Net};
-use crate::analysis::landscape::{Courses, HeldSheet, LandscapeError, rigid_facets};
+use crate::analysis::landscape::{Courses, HeldSheet, LandscapeError};
 use crate::math::Vec3;
 use crate::numerics::worst;
 use crate::output::sphere_plot::{self, Sphere};
@@ -97,7 +97,7 @@ fn sampled(
     points: &[Vec3],
     amplitude: f64,
 ) -> Result<(Vec<Row>, Option<String>), RunError> {
-    let make = || held(runner.built);
+    let make = || held(runner.assembly);
     let courses = match make().and_then(|held| Courses::new(&held)) {
         Ok(courses) => courses,
         Err(error) => return Ok((Vec::new(), Some(error.to_string()))),
@@ -149,11 +149,11 @@ fn table(rows: &[Row]) -> Table {
 
 /// The exact cone, as a closed curve on each nappe, and the largest angle to zeros of the energy.
 fn cone(runner: &Runner<'_>, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f64>), SampleError> {
-    let mut held: HeldSheet = held(runner.built)?;
+    let mut held: HeldSheet = held(runner.assembly)?;
     let courses = Courses::new(&held)?;
     let modes = held.bending.clone().ok_or(LandscapeError::NoCurvatures)?;
-    let (sheet, terms) = (&runner.built.sheet, &runner.built.terms);
-    let exact = Cone::new(sheet, &modes, &rigid_facets(sheet, terms)).map_err(LandscapeError::from)?;
+    let sheet = runner.assembly.sheet();
+    let exact = Cone::new(sheet, &modes, &runner.assembly.rigid_facets_of_cell()).map_err(LandscapeError::from)?;
     let mut largest: Option<f64> = None;
     let mut curves = Vec::new();
     for nappe in [1, -1] {

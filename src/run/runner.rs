@@ -1,4 +1,4 @@
-//! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
+//! What the studies of one run share: the assembly, the folder, the summary, and the states already found.
 
 use super::belongings::Belongings;
 use super::ledger::{INTERRUPTED, Ledger};
@@ -8,10 +8,11 @@ use super::{
     wells,
 };
 use crate::analysis::view::View;
+use crate::model::Assembly;
 use crate::numerics::parallel;
 use crate::output::files;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
-use crate::scene::build::Built;
+use crate::scene::build::notes;
 use crate::scene::spec::{StudyKind, StudySpec};
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
@@ -24,8 +25,8 @@ use std::sync::{Mutex, PoisonError};
 pub struct Runner<'a> {
     /// The scene as written.
     pub file: &'a SceneFile,
-    /// The scene as built.
-    pub built: &'a Built,
+    /// The sheet with its boundary conditions and terms.
+    pub assembly: &'a Assembly,
     /// What pictures show.
     pub view: View,
     /// Where files go.
@@ -50,7 +51,7 @@ impl<'a> Runner<'a> {
     /// earlier scene.
     pub fn new(
         file: &'a SceneFile,
-        built: &'a Built,
+        assembly: &'a Assembly,
         options: &RunOptions,
         observer: Observer<'a>,
         ledger: &Ledger,
@@ -58,9 +59,9 @@ impl<'a> Runner<'a> {
         parallel::set_threads(options.threads.unwrap_or(0));
         let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
         let out = options.out.clone().unwrap_or_else(stem);
-        let view = View::new(&built.sheet, &built.tiling, built.boundary, built.shown);
+        let view = View::new(assembly);
         for study in &file.scene.studies {
-            studies::check(file, built, &view, study)?;
+            studies::check(file, assembly, &view, study)?;
         }
         inputs::check(file, &out)?;
         let digest = digest(file)?;
@@ -68,7 +69,7 @@ impl<'a> Runner<'a> {
         let resumed = earlier.is_of_this_scene();
         let mut runner = Self {
             file,
-            built,
+            assembly,
             view,
             resumed,
             states: HashMap::new(),
@@ -81,7 +82,7 @@ impl<'a> Runner<'a> {
             interrupted: AtomicBool::new(false),
             ledger: ledger.clone(),
         };
-        runner.keep(summary(file, built, digest), &earlier)?;
+        runner.keep(summary(file, assembly, digest), &earlier)?;
         Ok(runner)
     }
 
@@ -97,7 +98,7 @@ impl<'a> Runner<'a> {
             }
         }
         let places = summary.studies.iter().map(|study| self.order[study.name.as_str()]).collect();
-        let (out, kept, notes) = (self.out.clone(), self.kept.clone(), self.built.notes.clone());
+        let (out, kept, notes) = (self.out.clone(), self.kept.clone(), notes(self.file, self.assembly));
         self.ledger.open(RunReport { summary, out, kept, interrupted: false, notes }, places)
     }
 
@@ -188,11 +189,11 @@ impl<'a> Runner<'a> {
     }
 }
 
-fn summary(file: &SceneFile, built: &Built, digest: String) -> Summary {
-    let info = Info::new(&built.sheet);
-    let (terms, mut left_out) = built.terms();
-    left_out.extend(file.scene.studies.iter().filter_map(|study| surface::left_out(built, study)));
-    let held = built.drawn.held.len() + built.terms.pins.iter().flat_map(|(_, axes)| axes).filter(|a| **a).count();
+fn summary(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
+    let info = Info::new(assembly.sheet());
+    let (terms, mut left_out) = built_terms(assembly);
+    left_out.extend(file.scene.studies.iter().filter_map(|study| surface::left_out(assembly, study)));
+    let held = assembly.drawn().held.len() + assembly.terms().pinned();
     Summary {
         version: env!("CARGO_PKG_VERSION"),
         scene: file.path().display().to_string(),
@@ -203,11 +204,28 @@ fn summary(file: &SceneFile, built: &Built, digest: String) -> Summary {
             faces: info.faces,
             polygons: info.polygons,
             developable: info.developable,
-            cells: built.tiling.cells,
-            degrees_of_freedom: built.drawn.coordinates.len() - held,
+            cells: assembly.tiling().cells,
+            degrees_of_freedom: assembly.drawn().coordinates.len() - held,
         },
         terms,
         left_out,
         studies: vec![],
     }
+}
+
+/// The terms that are built, and those that this scene made unnecessary, each with its reason.
+fn built_terms(assembly: &Assembly) -> (Vec<String>, Vec<String>) {
+    let terms = assembly.terms();
+    let no_facets = if assembly.tiling().facets().next().is_some() { "" } else { "facets: every face is a triangle" };
+    let table = [
+        ("bars", terms.bars.is_some(), "bars: not in [energy]"),
+        ("creases", terms.creases.is_some(), "creases: not in [energy]"),
+        ("facets", terms.facets.is_some(), no_facets),
+        ("locks", !terms.locks.is_empty(), "locks: none given"),
+        ("pins", !terms.pins.is_empty(), "pins: none given"),
+        ("loads", !terms.loads.is_empty(), "loads: none given"),
+    ];
+    let (there, missing): (Vec<_>, Vec<_>) = table.into_iter().partition(|(_, there, _)| *there);
+    let terms = there.into_iter().map(|(term, ..)| term.to_owned()).collect();
+    (terms, missing.into_iter().map(|(_, _, why)| why.to_owned()).collect())
 }

@@ -8,19 +8,17 @@ use super::{Progress, RunError, bloch, branches, landscape, surface, trace, well
 use crate::analysis;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::LYING;
-use crate::analysis::modes::{Modes, Question, SPARSE_EIGENVALUES, decomposed_dense};
+use crate::analysis::modes::{Modes, SPARSE_EIGENVALUES, decomposed_dense};
 use crate::analysis::relax::{RelaxError, Relaxed};
 use crate::analysis::restored::{self, Forces};
 use crate::analysis::state::State;
 use crate::analysis::view::View;
-use crate::model::assemble::assemble;
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, Gauge, Model};
 use crate::numerics::larger;
 use crate::output::picture::Picture;
 use crate::output::summary::{EnergySummary, IterationSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
 use crate::output::vtk::{self, VtuMesh};
-use crate::scene::build::Built;
 use crate::scene::forms::{RandomStart, Start};
 use crate::scene::spec::{Draw, ModesSpec, RelaxSpec, StudyKind, StudySpec};
 use crate::scene::{Located, SceneFile};
@@ -29,33 +27,33 @@ use rand::{RngExt, SeedableRng};
 use std::time::Instant;
 
 /// Checks what a study says before anything is written.
-pub fn check(file: &SceneFile, built: &Built, view: &View, study: &StudySpec) -> Result<(), RunError> {
+pub fn check(file: &SceneFile, assembly: &Assembly, view: &View, study: &StudySpec) -> Result<(), RunError> {
     match &*study.kind {
-        StudyKind::Relax(_) if !built.terms.has_energy() => {
+        StudyKind::Relax(_) if !assembly.terms().has_energy() => {
             let help = "give bars, creases or facets a stiffness";
             Err(file.error_at(study.kind.span(), "there is no energy to relax", help).into())
         }
         StudyKind::Relax(spec) => match &spec.start {
-            Some(start) => start_file(file, built, view, start).map(|_| ()),
+            Some(start) => start_file(file, assembly, view, start).map(|_| ()),
             None => Ok(()),
         },
         StudyKind::Modes(spec) => match &spec.eigenvalues {
-            Some(count) => enough_eigenvalues(file, built, count),
+            Some(count) => enough_eigenvalues(file, assembly, count),
             None => Ok(()),
         },
-        StudyKind::Branches(_) => branches::check(file, built, study),
-        StudyKind::Trace(spec) => trace::check(file, built, study, spec),
-        StudyKind::Surface(_) => surface::check(file, built, study),
-        StudyKind::Landscape(spec) => landscape::check(file, built, study, spec),
-        StudyKind::Bloch(spec) => bloch::check(file, built, study, spec),
-        StudyKind::Wells(_) => wells::check(file, built, study),
+        StudyKind::Branches(_) => branches::check(file, assembly, study),
+        StudyKind::Trace(spec) => trace::check(file, assembly, study, spec),
+        StudyKind::Surface(_) => surface::check(file, assembly, study),
+        StudyKind::Landscape(spec) => landscape::check(file, assembly, study, spec),
+        StudyKind::Bloch(spec) => bloch::check(file, assembly, study, spec),
+        StudyKind::Wells(_) => wells::check(file, assembly, study),
     }
 }
 
 /// Whether the model has so many eigenvalues that a study of modes can find.
-fn enough_eigenvalues(file: &SceneFile, built: &Built, count: &Located<usize>) -> Result<(), RunError> {
-    let pinned: usize = built.terms.pins.iter().map(|(_, axes)| axes.iter().filter(|held| **held).count()).sum();
-    let unknowns = built.drawn.coordinates.len().saturating_sub(built.drawn.held.len() + pinned);
+fn enough_eigenvalues(file: &SceneFile, assembly: &Assembly, count: &Located<usize>) -> Result<(), RunError> {
+    let held = assembly.drawn().held.len() + assembly.terms().pinned();
+    let unknowns = assembly.drawn().coordinates.len().saturating_sub(held);
     let wanted = (**count).min(unknowns);
     match decomposed_dense(unknowns, wanted, unknowns) {
         Ok(_) => Ok(()),
@@ -68,21 +66,19 @@ fn enough_eigenvalues(file: &SceneFile, built: &Built, count: &Located<usize>) -
 
 /// `kind = "relax"`.
 pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Result<StudySummary, RunError> {
-    let built = runner.built;
-    let mut model = assemble(&built.drawn, &built.tiling, &built.terms, Gauge::Held);
+    let assembly = runner.assembly;
+    let mut model = assembly.model(Gauge::Held);
     let Some((x, forces)) = start(runner, spec, &mut model)? else { return Ok(nowhere_to_start(study)) };
-    let edges = built.tiling.edges.len();
     let tensions = restored::tensions(&model, &x, &forces);
     let known = spec.start.as_deref().is_some_and(|start| matches!(start, Start::Study(_) | Start::File(_)));
     let start = if known { restored::start(&model, x, tensions.clone()) } else { x.into() };
-    let first = State::new(&model, &start.x, start.tension.as_ref().unwrap_or(&tensions), edges);
+    let first = State::new(&model, &start.x, start.tension.as_ref().unwrap_or(&tensions));
     let mut options = Options::default();
     if let Some(tolerance) = &spec.tolerance {
         options.tolerance = tolerance.0;
     }
     let clock = Instant::now();
-    let found =
-        analysis::relax::relax(&mut model, start, options, edges, &mut watcher(runner, study, options.tolerance));
+    let found = analysis::relax::relax(&mut model, start, options, &mut watcher(runner, study, options.tolerance));
     let seconds = clock.elapsed().as_secs_f64();
     match found {
         Ok(relaxed) => {
@@ -91,24 +87,24 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
             let coordinates = relaxed.state.coordinates.clone();
             let tension = Some(relaxed.tension.clone());
             runner.keep_state(study, Kept { coordinates, angles: model.angles(), tension })?;
-            let angles = draw::with_all_angles(built, &relaxed.state).fold_angle;
-            let error_to_kinematic = error_to_kinematic(&built.sheet, &built.tiling, &model, &angles);
+            let angles = draw::with_all_angles(assembly, &relaxed.state).fold_angle;
+            let error_to_kinematic = error_to_kinematic(assembly.sheet(), assembly.tiling(), &model, &angles);
             let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, Start::Drawn));
-            let (branch_point_start, directions) = if drawn { branches::branch_point(built) } else { (None, None) };
+            let (branch_point_start, directions) = if drawn { branches::branch_point(assembly) } else { (None, None) };
             let result = RelaxSummary {
                 self_intersecting,
                 error_to_kinematic,
                 branch_point_start,
                 directions_at_start: directions.map(branches::word),
-                ..result_of(built, &relaxed)
+                ..result_of(assembly, &relaxed)
             };
             Ok(relaxation_summary(study, seconds, result, None))
         }
         Err(error) => {
             let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
             let self_intersecting = write_states(runner, study, [&first, &error.state], residuals)?;
-            let result = RelaxSummary { self_intersecting, ..last_of(built, &error) };
-            Ok(relaxation_summary(study, seconds, result, Some(reason(built, error.failure, &error.state))))
+            let result = RelaxSummary { self_intersecting, ..last_of(assembly, &error) };
+            Ok(relaxation_summary(study, seconds, result, Some(reason(assembly, error.failure, &error.state))))
         }
     }
 }
@@ -133,10 +129,10 @@ fn write_states(
     states: [&State; 2],
     residuals: Option<[f64; 2]>,
 ) -> Result<Option<bool>, RunError> {
-    let states = states.map(|state| draw::with_all_angles(runner.built, state));
+    let states = states.map(|state| draw::with_all_angles(runner.assembly, state));
     let mut check = draw::self_intersection(runner, study);
     let [first, last] = states.each_ref().map(|state| {
-        let marks = check.as_mut().map(|check| check.marks(&runner.built.drawn, state, LYING));
+        let marks = check.as_mut().map(|check| check.marks(runner.assembly.drawn(), state, LYING));
         Shown { state, residuals: None, marks }
     });
     let shown = [first, Shown { residuals, ..last }];
@@ -153,12 +149,12 @@ fn start(runner: &Runner<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Opt
         Start::Drawn => Ok(Some((model.start(), Forces::Unknown))),
         Start::Random(random) => Ok(Some((random_start(random, model), Forces::Unknown))),
         Start::File(_) => {
-            let found = start_file(runner.file, runner.built, &runner.view, start)?;
+            let found = start_file(runner.file, runner.assembly, &runner.view, start)?;
             Ok(found.map(|(coordinates, mesh)| from_mesh(runner, model, coordinates, &mesh)))
         }
         Start::Study(name) => {
             let fits = |kept: &&Kept| {
-                kept.coordinates.len() == runner.built.drawn.coordinates.len()
+                kept.coordinates.len() == runner.assembly.drawn().coordinates.len()
                     && kept.angles.len() == model.angles().len()
             };
             let Some(kept) = runner.state(name).filter(fits) else { return Ok(None) };
@@ -171,7 +167,7 @@ fn start(runner: &Runner<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Opt
 
 /// The unknowns of a state that a VTU file gives, its angles continued from those of the file, and the forces that the file has.
 fn from_mesh(runner: &Runner<'_>, model: &mut Model, coordinates: Vec<f64>, mesh: &VtuMesh) -> (Vec<f64>, Forces) {
-    let edges = runner.built.tiling.edges.len();
+    let edges = runner.assembly.tiling().edges.len();
     let on_edges = |values: &Option<Vec<f64>>| match values {
         Some(values) => runner.view.on_edges(edges, &mesh.lines, values),
         None => vec![f64::NAN; edges],
@@ -185,15 +181,15 @@ fn from_mesh(runner: &Runner<'_>, model: &mut Model, coordinates: Vec<f64>, mesh
 /// The coordinates that a VTU file gives, and the file; `None` where the start is no file.
 fn start_file(
     file: &SceneFile,
-    built: &Built,
+    assembly: &Assembly,
     view: &View,
     start: &Located<Start>,
 ) -> Result<Option<(Vec<f64>, VtuMesh)>, RunError> {
     let Start::File(path) = &**start else { return Ok(None) };
     let mesh = vtk::read_vtu(&file.resolve(path))?;
-    let found = view.coordinates(&built.drawn, &mesh.points);
+    let found = view.coordinates(assembly.drawn(), &mesh.points);
     found.map(|found| Some((found, mesh))).ok_or_else(|| {
-        let count = built.drawn.coordinates.len() / 3;
+        let count = assembly.drawn().coordinates.len() / 3;
         let message = format!("{} does not say where this sheet is", path.display());
         let help = format!("a start file has the {count} points of a patch or of a torus with fixed lattice");
         file.error_at(start.span(), message, help).into()
@@ -234,9 +230,9 @@ fn relaxation_summary(study: &StudySpec, seconds: f64, result: RelaxSummary, fai
 }
 
 /// What a relaxation found; what is asked of the state besides is left open.
-fn result_of(built: &Built, relaxed: &Relaxed) -> RelaxSummary {
+fn result_of(assembly: &Assembly, relaxed: &Relaxed) -> RelaxSummary {
     RelaxSummary {
-        energy: energy(built, &relaxed.state),
+        energy: energy(assembly, &relaxed.state),
         iterations: relaxed.iterations,
         factorizations: relaxed.factorizations,
         chord_solves: relaxed.solves,
@@ -250,10 +246,10 @@ fn result_of(built: &Built, relaxed: &Relaxed) -> RelaxSummary {
 }
 
 /// Where a relaxation that failed ended, likewise.
-fn last_of(built: &Built, error: &RelaxError) -> RelaxSummary {
+fn last_of(assembly: &Assembly, error: &RelaxError) -> RelaxSummary {
     let last = error.history.last();
     RelaxSummary {
-        energy: energy(built, &error.state),
+        energy: energy(assembly, &error.state),
         iterations: error.history.iter().filter(|step| step.fraction > 0.0).count(),
         factorizations: error.history.iter().map(|step| step.factorizations).sum(),
         chord_solves: error.history.iter().map(|step| step.solves).sum(),
@@ -264,11 +260,11 @@ fn last_of(built: &Built, error: &RelaxError) -> RelaxSummary {
     }
 }
 
-fn energy(built: &Built, state: &State) -> EnergySummary {
+fn energy(assembly: &Assembly, state: &State) -> EnergySummary {
     EnergySummary {
-        bars: built.terms.bars.map(|_| state.energy_bars),
-        creases: built.terms.creases.as_ref().map(|_| state.energy_creases),
-        facets: built.terms.facets.as_ref().map(|_| state.energy_facets),
+        bars: assembly.terms().bars.map(|_| state.energy_bars),
+        creases: assembly.terms().creases.as_ref().map(|_| state.energy_creases),
+        facets: assembly.terms().facets.as_ref().map(|_| state.energy_facets),
         total: state.total(),
     }
 }
@@ -287,16 +283,10 @@ fn history(steps: &[Step]) -> Vec<IterationSummary> {
 
 /// `kind = "modes"`.
 pub fn modes(runner: &mut Runner<'_>, study: &StudySpec, spec: &ModesSpec) -> Result<StudySummary, RunError> {
-    let built = runner.built;
-    let question = Question {
-        sheet: &built.sheet,
-        tiling: &built.tiling,
-        boundary: built.boundary,
-        terms: &built.terms,
-        eigenvalues: spec.eigenvalues.as_ref().map_or(0, |n| **n),
-    };
+    let assembly = runner.assembly;
+    let eigenvalues = spec.eigenvalues.as_ref().map_or(0, |n| **n);
     let (clock, mut step, observed) = (Instant::now(), 0, &*runner);
-    let found = analysis::modes::modes(&question, &mut || {
+    let found = analysis::modes::modes(assembly, eigenvalues, &mut || {
         step += 1;
         observed.watch(&Progress { study: study.name.0.clone(), step, of: None, residual: f64::NAN, target: None })
     });
@@ -342,7 +332,7 @@ fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<
     }
     let drawn = drawn_picture(runner, study);
     let moving = |rates: &Vec<f64>| {
-        let displacement = runner.view.velocities(&runner.built.drawn, rates);
+        let displacement = runner.view.velocities(runner.assembly.drawn(), rates);
         Picture { displacement, ..drawn.clone() }
     };
     let pictures: Vec<Picture> = modes.vectors.iter().map(moving).collect();
@@ -356,18 +346,18 @@ fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<
 
 /// The drawn state, of which modes are velocities.
 pub fn drawn_picture(runner: &Runner<'_>, study: &StudySpec) -> Picture {
-    picture_at(runner, study, runner.built.drawn.coordinates.clone())
+    picture_at(runner, study, runner.assembly.drawn().coordinates.clone())
 }
 
 /// A state of which modes are velocities, from all its coordinates.
 pub fn picture_at(runner: &Runner<'_>, study: &StudySpec, coordinates: Vec<f64>) -> Picture {
-    let built = runner.built;
-    let edges = built.tiling.edges.len();
+    let assembly = runner.assembly;
+    let edges = assembly.tiling().edges.len();
     let state = State { energy: vec![f64::NAN; edges], ..State::empty(coordinates, edges) };
-    let state = draw::with_all_angles(built, &state);
-    let picture = Picture::of_state(&runner.view, &built.drawn, &state);
+    let state = draw::with_all_angles(assembly, &state);
+    let picture = Picture::of_state(&runner.view, assembly.drawn(), &state);
     match draw::self_intersection(runner, study) {
-        Some(mut check) => picture.with_crossing(&check.marks(&built.drawn, &state, LYING).faces),
+        Some(mut check) => picture.with_crossing(&check.marks(assembly.drawn(), &state, LYING).faces),
         None => picture,
     }
 }

@@ -5,21 +5,18 @@ use super::resume::Kept;
 use super::runner::Runner;
 use super::trace::state_at;
 use super::{Progress, RunError};
-use crate::analysis::branches;
 use crate::analysis::chart::{hinge_angles, screw_coordinates};
 use crate::analysis::intersections::LYING;
 use crate::analysis::state::State;
-use crate::analysis::surface::{Question, Surface, SurfacePoint, surface};
+use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
-use crate::model::Gauge;
-use crate::model::assemble::{Boundary, Terms, assemble, drawn_angles};
+use crate::model::{Assembly, Boundary, Gauge, Terms};
 use crate::numerics::worst;
 use crate::output::strain_plot::PathPoint;
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{PieceSummary, StudyResult, StudySummary, SurfaceSummary};
 use crate::output::table::{StateRow, Table, read_columns};
 use crate::output::{strain_plot, vtk};
-use crate::scene::build::Built;
 use crate::scene::spec::{Draw, StudyKind, StudySpec, SurfaceSpec};
 use crate::scene::values::Count;
 use crate::scene::{Located, SceneFile};
@@ -40,11 +37,11 @@ const MOST_POINTS: usize = 300_000;
 const OBSERVED: usize = 256;
 
 /// Surfaces are drawn in the space of lattice strains: refuses other domains than the screw.
-pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+pub fn check(file: &SceneFile, assembly: &Assembly, study: &StudySpec) -> Result<(), RunError> {
     if let StudyKind::Surface(SurfaceSpec { resolution: Some(resolution), .. }) = &*study.kind {
         check_resolution(file, resolution)?;
     }
-    if built.boundary == Boundary::Screw {
+    if assembly.boundary() == Boundary::Screw {
         return Ok(());
     }
     let message = "a surface of folded states is drawn in the space of lattice strains";
@@ -62,44 +59,35 @@ pub fn check_resolution(file: &SceneFile, resolution: &Located<Count>) -> Result
 }
 
 /// What this study does not use of the scene.
-pub fn left_out(built: &Built, study: &StudySpec) -> Option<String> {
+pub fn left_out(assembly: &Assembly, study: &StudySpec) -> Option<String> {
     let surface = matches!(*study.kind, StudyKind::Surface(_));
     let name = &study.name.0;
-    (surface && !built.terms.locks.is_empty())
+    (surface && !assembly.terms().locks.is_empty())
         .then(|| format!("locks in study `{name}`: the surface is what folds without them"))
 }
 
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> Result<StudySummary, RunError> {
-    let built = runner.built;
-    let terms = Terms { locks: Vec::new(), ..built.terms.clone() };
-    let angles = drawn_angles(&built.drawn, &built.tiling);
-    let start = branches::Question {
-        sheet: &built.sheet,
-        tiling: &built.tiling,
-        boundary: built.boundary,
-        angles: &angles,
-        terms: &terms,
-    };
-    let question = Question {
-        start,
+    let assembly = runner.assembly;
+    let unlocked = assembly.with_terms(Terms { locks: Vec::new(), ..assembly.terms().clone() });
+    let options = SurfaceOptions {
         radius: TAU / f64::from(spec.resolution.as_ref().map_or(RESOLUTION, |count| count.0)),
         tolerance: TOLERANCE,
-        max_curvature: spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(built), |most| most.0),
+        max_curvature: spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(assembly), |most| most.0),
         max_points: MOST_POINTS,
     };
     let clock = Instant::now();
-    let found = surface(&question, &mut |step| watch(runner, study, step));
+    let found = surface(&unlocked, &options, &mut |step| watch(runner, study, step));
     let mut summary = StudySummary {
         seconds: clock.elapsed().as_secs_f64(),
         ..StudySummary::unanswered(&study.name.0, study.kind.name())
     };
     match found {
         Ok(mut surface) => {
-            write(runner, study, &terms, (&mut surface, question.max_curvature))?;
+            write(runner, study, &unlocked, (&mut surface, options.max_curvature))?;
             summary.reason = reason(&surface);
             summary.converged = summary.reason.is_none();
-            let result = summarized(&surface, &question);
+            let result = summarized(&surface, &options);
             summary.error = result.max_residual;
             summary.result = Some(StudyResult::Surface(result));
         }
@@ -109,8 +97,8 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &SurfaceSpec) -> 
 }
 
 /// One over the square root of the area of the cell.
-pub fn curvature_of_cell(built: &Built) -> f64 {
-    built.sheet.lattice.map_or(1.0, |[first, second]| first.cross(&second).norm().sqrt().recip())
+pub fn curvature_of_cell(assembly: &Assembly) -> f64 {
+    assembly.sheet().lattice.map_or(1.0, |[first, second]| first.cross(&second).norm().sqrt().recip())
 }
 
 fn watch(runner: &Runner<'_>, study: &StudySpec, step: usize) -> bool {
@@ -146,9 +134,9 @@ struct States {
 
 /// The states of a surface. Where the observer asks to stop, the surface is cut down to those it has by then, or to the
 /// first few.
-fn states(runner: &Runner<'_>, study: &StudySpec, terms: &Terms, surface: &mut Surface) -> States {
-    let built = runner.built;
-    let mut model = assemble(&built.drawn, &built.tiling, terms, Gauge::Held);
+fn states(runner: &Runner<'_>, study: &StudySpec, unlocked: &Assembly, surface: &mut Surface) -> States {
+    let assembly = runner.assembly;
+    let mut model = unlocked.model(Gauge::Held);
     let mut finder = draw::self_intersection(runner, study);
     let (mut states, mut crossing) = (Vec::new(), Vec::new());
     for (k, point) in surface.points.iter().enumerate() {
@@ -162,8 +150,8 @@ fn states(runner: &Runner<'_>, study: &StudySpec, terms: &Terms, surface: &mut S
         let coordinates = screw_coordinates(&point.shape);
         model.set_angles(&hinge_angles(&model, &point.angles));
         model.start_from(coordinates.clone());
-        let state = state_at(built, &model, coordinates, &point.angles);
-        crossing.extend(finder.as_mut().map(|finder| finder.marks(&built.drawn, &state, LYING).any));
+        let state = state_at(&model, coordinates, &point.angles);
+        crossing.extend(finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, LYING).any));
         states.push(state);
     }
     surface.truncate(states.len());
@@ -174,20 +162,20 @@ fn states(runner: &Runner<'_>, study: &StudySpec, terms: &Terms, surface: &mut S
 fn write(
     runner: &mut Runner<'_>,
     study: &StudySpec,
-    terms: &Terms,
+    unlocked: &Assembly,
     (surface, max_curvature): (&mut Surface, f64),
 ) -> Result<(), RunError> {
-    let built = runner.built;
-    let found = states(runner, study, terms, surface);
+    let assembly = runner.assembly;
+    let found = states(runner, study, unlocked, surface);
     let surface = &*surface;
-    let row = |k: usize| row(terms, k, &surface.points[k], &found);
+    let row = |k: usize| row(unlocked.terms(), k, &surface.points[k], &found);
     let rows: Vec<StateRow> = (0..surface.points.len()).map(row).collect();
-    let keys: Vec<EdgeKey> = built.sheet.edges.iter().map(|edge| edge.key).collect();
+    let keys: Vec<EdgeKey> = assembly.sheet().edges.iter().map(|edge| edge.key).collect();
     let name = &study.name.0;
     Table::of_states(&keys, &rows).write(&runner.path(format!("{name}.csv")))?;
     if let Some((last, state)) = surface.points.iter().zip(&found.states).next_back() {
         draw(runner, study, &mesh(&keys, surface, &rows), max_curvature)?;
-        let model = assemble(&built.drawn, &built.tiling, &built.terms, Gauge::Held);
+        let model = assembly.model(Gauge::Held);
         let angles = hinge_angles(&model, &last.angles);
         runner.keep_state(study, Kept { coordinates: state.coordinates.clone(), angles, tension: None })?;
     }
@@ -276,7 +264,7 @@ fn paths(runner: &Runner<'_>, study: &StudySpec, max_curvature: f64) -> Result<V
     Ok(paths)
 }
 
-fn summarized(surface: &Surface, question: &Question<'_>) -> SurfaceSummary {
+fn summarized(surface: &Surface, options: &SurfaceOptions) -> SurfaceSummary {
     let coverage = match surface.coverage {
         _ if surface.negative.is_some() => "no-real-branch",
         Coverage::Complete => "complete",
@@ -298,7 +286,7 @@ fn summarized(surface: &Surface, question: &Question<'_>) -> SurfaceSummary {
         closed: surface.closed && !surface.points.is_empty(),
         oriented: surface.oriented,
         tips: surface.points.iter().filter(|point| point.radius == 0.0).count(),
-        max_curvature: question.max_curvature,
+        max_curvature: options.max_curvature,
         radius: surface.radius,
         max_residual: worst(surface.points.iter().map(|point| point.residual)),
         branches: surface.branches.iter().map(piece).collect(),

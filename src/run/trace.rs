@@ -4,17 +4,15 @@ use super::draw::{self, Shown};
 use super::resume::Kept;
 use super::runner::Runner;
 use super::{Progress, RunError, branches, studies};
-use crate::analysis::branches::Question as Start;
 use crate::analysis::chart::{coordinates, hinge_angles};
 use crate::analysis::drive::{self, Drive, DriveFailure, Driven};
 use crate::analysis::intersections::{LYING, SelfIntersection};
 use crate::analysis::relax::Relaxed;
 use crate::analysis::state::{State, cylinder};
-use crate::analysis::trace::{Folded, Question, Stop, TURNING, Traced, trace};
+use crate::analysis::trace::{Folded, Intersects, Stop, TURNING, TraceOptions, Traced, trace};
 use crate::kinematics::RealDirections;
 use crate::math::Vec3;
-use crate::model::assemble::{Boundary, assemble, drawn_angles};
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, Boundary, Gauge, Model};
 use crate::numerics::{larger, worst};
 use crate::output::strain_plot::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
@@ -23,7 +21,6 @@ use crate::output::summary::{
 };
 use crate::output::table::{StateRow, Table};
 use crate::scene::SceneFile;
-use crate::scene::build::Built;
 use crate::scene::forms::BranchChoice;
 use crate::scene::spec::{Draw, Engine, StudySpec, TraceSpec};
 use crate::sheet::EdgeKey;
@@ -40,29 +37,29 @@ const OBSERVED: usize = 64;
 const PICTURES: usize = 40;
 
 /// Trajectories start from the drawn state of one cell, or of a finite sheet.
-pub fn check(file: &SceneFile, built: &Built, study: &StudySpec, spec: &TraceSpec) -> Result<(), RunError> {
-    branches::check(file, built, study)?;
-    if built.boundary == Boundary::Patch && built.sheet.lattice.is_some() {
+pub fn check(file: &SceneFile, assembly: &Assembly, study: &StudySpec, spec: &TraceSpec) -> Result<(), RunError> {
+    branches::check(file, assembly, study)?;
+    if assembly.boundary() == Boundary::Patch && assembly.sheet().lattice.is_some() {
         let message = "trajectories of a patch of a periodic sheet are not known";
         return Err(file
             .error_at(study.kind.span(), message, "use domain = \"screw\", or a mesh without lattice")
             .into());
     }
-    if spec.engine != Engine::Kinematic && built.terms.bars.is_none() {
+    if spec.engine != Engine::Kinematic && assembly.terms().bars.is_none() {
         let message = "the energy engine relaxes bars, and this scene has none";
         let help = "give `bars` in [energy] a stiffness (inf: rigid), or leave `engine` out";
         return Err(file.error_at(study.kind.span(), message, help).into());
     }
-    stop(file, built, spec).map(|_| ())
+    stop(file, assembly, spec).map(|_| ())
 }
 
-fn stop(file: &SceneFile, built: &Built, spec: &TraceSpec) -> Result<Stop, RunError> {
+fn stop(file: &SceneFile, assembly: &Assembly, spec: &TraceSpec) -> Result<Stop, RunError> {
     let Some(said) = &spec.stop else { return Ok(Stop::default()) };
     let crease_angle = match &said.crease_angle {
         None => None,
         Some(wanted) => {
             let key = wanted.crease.0;
-            let found = built.sheet.edges.iter().position(|edge| edge.key == key);
+            let found = assembly.sheet().edges.iter().position(|edge| edge.key == key);
             let edge = found.ok_or_else(|| {
                 let EdgeKey { i, j, shift: [n1, n2] } = key;
                 let message = format!("the sheet has no crease [{i}, {j}, {n1}, {n2}]");
@@ -81,27 +78,18 @@ fn stop(file: &SceneFile, built: &Built, spec: &TraceSpec) -> Result<Stop, RunEr
 
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Result<StudySummary, RunError> {
-    let built = runner.built;
-    let angles = drawn_angles(&built.drawn, &built.tiling);
-    let start = Start {
-        sheet: &built.sheet,
-        tiling: &built.tiling,
-        boundary: built.boundary,
-        angles: &angles,
-        terms: &built.terms,
-    };
-    let question = Question {
-        start,
+    let assembly = runner.assembly;
+    let options = TraceOptions {
         max_step: spec.max_step.as_ref().map_or(MAX_STEP, |step| step.0),
         tolerance: spec.tolerance.as_ref().map_or(TOLERANCE, |tolerance| tolerance.0),
         branch: match spec.branch.as_deref() {
             Some(BranchChoice::Number(branch)) => Some(*branch),
             _ => None,
         },
-        stop: stop(runner.file, built, spec)?,
+        stop: stop(runner.file, assembly, spec)?,
     };
     let clock = Instant::now();
-    let found = follow(runner, study, &question);
+    let found = follow(runner, study, &options);
     let seconds = clock.elapsed().as_secs_f64();
     let mut summary = StudySummary { seconds, ..StudySummary::unanswered(&study.name.0, study.kind.name()) };
     match found {
@@ -116,7 +104,8 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
             summary.reason = paths.iter().find_map(Path::failure).or(stopped);
             summary.converged = summary.reason.is_none();
             summary.error = worst(paths.iter().filter_map(Path::residual));
-            summary.result = Some(StudyResult::Trace(summarized(built, &paths, spec.engine, asked(study, &question))));
+            summary.result =
+                Some(StudyResult::Trace(summarized(assembly, &paths, spec.engine, asked(study, &options))));
         }
         Err(error) => summary.reason = Some(error.to_string()),
     }
@@ -124,23 +113,23 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &TraceSpec) -> Re
 }
 
 /// Whether self-intersection is looked for.
-fn asked(study: &StudySpec, question: &Question<'_>) -> bool {
-    question.stop.self_intersection || !study.check.is_empty()
+fn asked(study: &StudySpec, options: &TraceOptions) -> bool {
+    options.stop.self_intersection || !study.check.is_empty()
 }
 
 /// Follows the trajectories, watched for self-intersection where the study or a stop asks for it.
 fn follow(
     runner: &Runner<'_>,
     study: &StudySpec,
-    question: &Question<'_>,
+    options: &TraceOptions,
 ) -> Result<Vec<Traced>, crate::analysis::trace::TraceError> {
-    let built = runner.built;
-    let asked = asked(study, question);
-    let mut finder = asked.then(|| SelfIntersection::new(&built.sheet, &built.tiling, built.boundary, built.shown));
-    let model = model(built);
+    let assembly = runner.assembly;
+    let asked = asked(study, options);
+    let mut finder = asked.then(|| SelfIntersection::new(assembly));
+    let model = assembly.model(Gauge::Held);
     let mut crosses = |state: &Folded| {
-        let shown = shown_state(built, &model, state);
-        finder.as_mut().is_some_and(|finder| finder.marks(&built.drawn, &shown, LYING).any)
+        let shown = shown_state(&model, state);
+        finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown, LYING).any)
     };
     let mut step = 0;
     let mut observe = |_: (usize, i8), point: &crate::solver::continuation::Point| {
@@ -148,22 +137,19 @@ fn follow(
         let (study, residual) = (study.name.0.clone(), point.residual);
         runner.watch(&Progress { study, step, of: None, residual, target: None })
     };
-    if asked { trace(question, Some(&mut crosses), &mut observe) } else { trace(question, None, &mut observe) }
-}
-
-fn model(built: &Built) -> Model {
-    assemble(&built.drawn, &built.tiling, &built.terms, Gauge::Held)
+    let crosses = asked.then_some(&mut crosses as Intersects<'_>);
+    trace(assembly, options, crosses, &mut observe)
 }
 
 /// A folded state as the model sees it, with the fold angles of all edges.
-fn shown_state(built: &Built, model: &Model, folded: &Folded) -> State {
-    state_at(built, model, coordinates(folded), &folded.angles)
+fn shown_state(model: &Model, folded: &Folded) -> State {
+    state_at(model, coordinates(folded), &folded.angles)
 }
 
 /// The state of a model at coordinates, with the fold angles of all edges.
-pub fn state_at(built: &Built, model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
+pub fn state_at(model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
     let tension = vec![0.0; model.layout().stiff.len()];
-    let state = State::new(model, &model.unknowns(&coordinates), &tension, built.tiling.edges.len());
+    let state = State::new(model, &model.unknowns(&coordinates), &tension);
     State { coordinates, fold_angle: angles.to_vec(), ..state }
 }
 
@@ -172,15 +158,9 @@ fn relaxed(runner: &Runner<'_>, study: &StudySpec, engine: Engine, traced: &[Tra
     if engine == Engine::Kinematic {
         return Vec::new();
     }
-    let built = runner.built;
-    let question = drive::Question {
-        tiling: &built.tiling,
-        drawn: &built.drawn,
-        terms: &built.terms,
-        options: Options::default(),
-    };
-    let mut watch = studies::watcher(runner, study, question.options.tolerance);
-    traced.iter().map(|one| drive::drive(&question, one, &mut watch)).collect()
+    let options = Options::default();
+    let mut watch = studies::watcher(runner, study, options.tolerance);
+    traced.iter().map(|one| drive::drive(runner.assembly, options, one, &mut watch)).collect()
 }
 
 /// A trajectory, with the relaxations beside it where there are.
@@ -237,8 +217,8 @@ impl Path<'_> {
 }
 
 fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Path<'_>]) -> Result<(), RunError> {
-    let built = runner.built;
-    let mut model = model(built);
+    let assembly = runner.assembly;
+    let mut model = assembly.model(Gauge::Held);
     let mut finder = draw::self_intersection(runner, study);
     let (mut rows, mut pictures) = (Vec::new(), Vec::new());
     for path in paths {
@@ -251,9 +231,9 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
             }
             model.set_angles(&hinge_angles(&model, &folded.angles));
             model.start_from(coordinates(folded));
-            let state = driven.map_or_else(|| shown_state(built, &model, folded), relaxed_state);
-            let marks = finder.as_mut().map(|finder| finder.marks(&built.drawn, &state, LYING));
-            let row = row(built, (path, step), (folded, driven), &state, marks.as_ref().map(|marks| marks.any));
+            let state = driven.map_or_else(|| shown_state(&model, folded), relaxed_state);
+            let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, LYING));
+            let row = row(assembly, (path, step), (folded, driven), &state, marks.as_ref().map(|marks| marks.any));
             let compared = driven.filter(|_| engine == Engine::Both);
             rows.push(StateRow { error_to_kinematic: compared.map(|driven| driven.error), ..row });
             if step % every == 0 || step + 1 == path.len() {
@@ -261,7 +241,7 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
             }
         }
     }
-    let keys: Vec<EdgeKey> = built.sheet.edges.iter().map(|edge| edge.key).collect();
+    let keys: Vec<EdgeKey> = assembly.sheet().edges.iter().map(|edge| edge.key).collect();
     Table::of_states(&keys, &rows).write(&runner.path(format!("{}.csv", study.name.0)))?;
     let (states, marks): (Vec<State>, Vec<_>) = pictures.into_iter().unzip();
     let shown: Vec<Shown<'_>> =
@@ -319,7 +299,7 @@ fn relaxed_state(driven: &Driven) -> State {
 }
 
 fn row(
-    built: &Built,
+    assembly: &Assembly,
     (path, step): (&Path<'_>, usize),
     (folded, driven): (&Folded, Option<&Driven>),
     state: &State,
@@ -327,10 +307,10 @@ fn row(
 ) -> StateRow {
     let shape = match driven {
         None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
-        Some(_) => cylinder(&built.drawn.domain, &built.drawn.coordinates, &state.coordinates)
+        Some(_) => cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, &state.coordinates)
             .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
     };
-    let terms = &built.terms;
+    let terms = assembly.terms();
     let any = terms.bars.is_some() || terms.creases.is_some();
     let branch = path.traced.branch;
     StateRow {
@@ -355,19 +335,19 @@ fn row(
     }
 }
 
-fn summarized(built: &Built, paths: &[Path<'_>], engine: Engine, asked: bool) -> TraceSummary {
+fn summarized(assembly: &Assembly, paths: &[Path<'_>], engine: Engine, asked: bool) -> TraceSummary {
     let Some(first) = paths.first() else {
         let (directions, end) = (branches::word(RealDirections::Listed), "no-real-branch".to_owned());
         return TraceSummary { directions, branches: vec![TrajectorySummary { end, ..TrajectorySummary::default() }] };
     };
     let one = |path: &Path<'_>| TrajectorySummary {
         self_intersecting: asked.then_some(path.traced.first_self_intersection.is_some()),
-        ..trajectory(built, path, engine)
+        ..trajectory(assembly, path, engine)
     };
     TraceSummary { directions: branches::word(first.traced.directions), branches: paths.iter().map(one).collect() }
 }
 
-fn trajectory(built: &Built, path: &Path<'_>, engine: Engine) -> TrajectorySummary {
+fn trajectory(assembly: &Assembly, path: &Path<'_>, engine: Engine) -> TrajectorySummary {
     let one = path.traced;
     let end = match one.end {
         _ if path.interrupted() => "interrupted",
@@ -378,7 +358,7 @@ fn trajectory(built: &Built, path: &Path<'_>, engine: Engine) -> TrajectorySumma
     };
     let last = path.len().checked_sub(1).map(|last| &one.states[last]);
     let compared = path.drive.filter(|_| engine == Engine::Both);
-    let errors = compared.and_then(|drive| drive::cylinder_errors(&built.drawn, one, drive));
+    let errors = compared.and_then(|drive| drive::cylinder_errors(assembly.drawn(), one, drive));
     let newton = |drive: &Drive| drive.states.iter().map(|driven| driven.relaxed.iterations).sum();
     TrajectorySummary {
         branch: Some(one.branch.0),

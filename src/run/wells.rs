@@ -6,11 +6,11 @@ use super::surface::{check_resolution, curvature_of_cell};
 use super::{Progress, RunError};
 use crate::analysis::intersections::{LYING, SelfIntersection};
 use crate::analysis::state::State;
-use crate::analysis::wells::Question;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limit};
 use crate::analysis::wells::merge::{SAME, Translations, Well, wells};
 use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
 use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_all};
+use crate::model::Assembly;
 use crate::numerics::{larger, worst};
 use crate::output::chart::{self, Chart, Point, Series};
 use crate::output::files;
@@ -20,7 +20,6 @@ use crate::output::summary::{
 };
 use crate::output::table::{Table, Value};
 use crate::scene::SceneFile;
-use crate::scene::build::Built;
 use crate::scene::spec::{Draw, StudyKind, StudySpec, WellsSpec};
 use crate::solver::Options;
 use std::f64::consts::{PI, TAU};
@@ -32,12 +31,12 @@ const STARTS: u32 = 64;
 const RESOLUTION: u32 = 64;
 
 /// Wells are those of bars and creases, with nothing that holds or pulls.
-pub fn check(file: &SceneFile, built: &Built, study: &StudySpec) -> Result<(), RunError> {
+pub fn check(file: &SceneFile, assembly: &Assembly, study: &StudySpec) -> Result<(), RunError> {
     let refuse = |message: &str, help: &str| Err(file.error_at(study.kind.span(), message, help).into());
     if let StudyKind::Wells(WellsSpec { resolution: Some(resolution), .. }) = &*study.kind {
         check_resolution(file, resolution)?;
     }
-    let terms = &built.terms;
+    let terms = assembly.terms();
     if terms.bars.is_none() || terms.creases.as_ref().is_none_or(|creases| creases.stiffness.is_infinite()) {
         let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite";
         return refuse("wells are those of the energy of bars and creases", help);
@@ -90,14 +89,7 @@ struct Found {
 
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Result<StudySummary, RunError> {
-    let built = runner.built;
-    let question = Question {
-        sheet: &built.sheet,
-        tiling: &built.tiling,
-        boundary: built.boundary,
-        drawn: &built.drawn,
-        terms: &built.terms,
-    };
+    let assembly = runner.assembly;
     let mut summary = StudySummary::unanswered(&study.name.0, study.kind.name());
     let clock = Instant::now();
     let step = AtomicUsize::new(0);
@@ -108,22 +100,22 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Re
     };
     let spread = spec.spread.as_ref().map_or(PI, |spread| spread.0);
     let from = Starts { count: starts, seed: spec.seed, spread, options: Options::default() };
-    let outcomes = relax_all(&question, &from, &|| watch(Some(starts)));
+    let outcomes = relax_all(assembly, &from, &|| watch(Some(starts)));
     let tally = Tally::of(&outcomes);
     let minima = outcomes.into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
     });
-    let wells = wells(minima, &Translations::new(&question));
-    let rigid = spec.rigid.then(|| landscape(&question, &sampling(built, spec), &mut || watch(None)));
+    let wells = wells(minima, &Translations::new(assembly));
+    let rigid = spec.rigid.then(|| landscape(assembly, &sampling(assembly, spec), &mut || watch(None)));
     let mut barriers = Vec::new();
     for &between in spec.barriers.iter().map(|pair| &pair.0) {
         if between.iter().all(|well| *well < wells.len()) && !runner.interrupted() {
-            barriers.push((between, barrier(&question, &wells, between, &mut || watch(None))));
+            barriers.push((between, barrier(assembly, &wells, between, &mut || watch(None))));
         }
     }
-    let crossing = crossing(built, &wells);
-    let found = Found { tally, stiffness: question.stiffness(), wells, crossing, barriers, rigid };
+    let crossing = crossing(assembly, &wells);
+    let found = Found { tally, stiffness: assembly.bar_stiffness(), wells, crossing, barriers, rigid };
     summary.seconds = clock.elapsed().as_secs_f64();
     write(runner, study, &found)?;
     summary.reason = if runner.interrupted() { Some("interrupted".to_owned()) } else { found.missing(spec) };
@@ -134,16 +126,16 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Re
     Ok(summary)
 }
 
-fn sampling(built: &Built, spec: &WellsSpec) -> Sampling {
+fn sampling(assembly: &Assembly, spec: &WellsSpec) -> Sampling {
     let resolution = spec.resolution.as_ref().map_or(RESOLUTION, |count| count.0);
-    let max_curvature = spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(built), |most| most.0);
+    let max_curvature = spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(assembly), |most| most.0);
     Sampling { step: TAU / f64::from(resolution), max_curvature }
 }
 
 /// Whether faces of each well pass through each other.
-fn crossing(built: &Built, wells: &[Well]) -> Vec<bool> {
-    let mut finder = SelfIntersection::new(&built.sheet, &built.tiling, built.boundary, built.shown);
-    wells.iter().map(|well| finder.marks(&built.drawn, &well.settled.relaxed.state, LYING).any).collect()
+fn crossing(assembly: &Assembly, wells: &[Well]) -> Vec<bool> {
+    let mut finder = SelfIntersection::new(assembly);
+    wells.iter().map(|well| finder.marks(assembly.drawn(), &well.settled.relaxed.state, LYING).any).collect()
 }
 
 /// The largest residual; `None` where nothing was found.
@@ -285,27 +277,27 @@ fn rigid(found: &RigidLandscape) -> RigidSummary {
 /// The wells and then the passes, as a table and as pictures; the energies of passes against stiffness; energies along
 /// the paths.
 fn write(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), RunError> {
-    let (name, built) = (&study.name.0, runner.built);
+    let (name, assembly) = (&study.name.0, runner.assembly);
     let passes: Vec<&Barrier> = found.barriers.iter().filter_map(|(_, found)| found.as_ref().ok()).collect();
     let states: Vec<(State, [f64; 2])> = found
         .wells
         .iter()
         .map(|well| {
             let relaxed = &well.settled.relaxed;
-            (draw::with_all_angles(built, &relaxed.state), [relaxed.residual_force, relaxed.residual_length])
+            (draw::with_all_angles(assembly, &relaxed.state), [relaxed.residual_force, relaxed.residual_length])
         })
         .chain(passes.iter().map(|barrier| {
             let pass = &barrier.pass;
-            (draw::with_all_angles(built, &pass.state), [pass.residual_force, pass.residual_length])
+            (draw::with_all_angles(assembly, &pass.state), [pass.residual_force, pass.residual_length])
         }))
         .collect();
-    let mut finder = SelfIntersection::new(&built.sheet, &built.tiling, built.boundary, built.shown);
+    let mut finder = SelfIntersection::new(assembly);
     let shown: Vec<Shown<'_>> = states
         .iter()
         .map(|(state, residuals)| Shown {
             state,
             residuals: Some(*residuals),
-            marks: Some(finder.marks(&built.drawn, state, LYING)),
+            marks: Some(finder.marks(assembly.drawn(), state, LYING)),
         })
         .collect();
     draw::table(runner, study, &shown)?;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::forms::Rest;
 use super::spec::{StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
-use crate::model::assemble::Terms;
+use crate::model::Terms;
 
 /// What is wrong with an angle of more than a turn, and what would be right.
 pub(super) fn fault(angle: f64) -> Option<[String; 2]> {

@@ -5,6 +5,7 @@ use super::precision::Diagram;
 use super::{library, measure};
 use crate::analysis::relax::RelaxError;
 use crate::analysis::trace::TraceError;
+use crate::model::AssemblyError;
 use crate::output::chart::Chart;
 use crate::output::{OutputError, files};
 use crate::run::{Observer, Progress, RunError, RunOptions, run_scene};
@@ -28,6 +29,9 @@ pub enum ExperimentError {
     /// A mesh is wrong.
     #[error(transparent)]
     Mesh(#[from] SheetError),
+    /// A sheet cannot be put together.
+    #[error(transparent)]
+    Assembly(#[from] AssemblyError),
     /// A relaxation failed.
     #[error(transparent)]
     Relax(#[from] Box<RelaxError>),

@@ -2,25 +2,18 @@
 
 use super::experiment::ExperimentError;
 use super::library;
-use crate::analysis::branches;
 use crate::analysis::relax::{RelaxError, Relaxed, relax};
-use crate::analysis::trace::{self, Stop, Traced, trace};
-use crate::kinematics::drawn_fold_angles;
-use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles};
-use crate::model::{Gauge, Model};
-use crate::sheet::{Sheet, SheetError, Tiling, fold, tile};
+use crate::analysis::trace::{Stop, TraceOptions, Traced, trace};
+use crate::model::{Assembly, Boundary, Gauge, Model, Terms};
+use crate::sheet::{Sheet, SheetError, fold};
 use crate::solver::{Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// A patch of `meshes/open-star.fold` with rest angles.
 pub struct Star {
-    /// The cell.
-    pub sheet: Sheet,
-    /// The patch.
-    pub tiling: Tiling,
-    /// The drawn state.
-    pub drawn: Drawn,
+    /// The patch, without terms.
+    pub assembly: Assembly,
     /// Rest angle of every edge, in radians; NaN where there is no hinge.
     pub rest: Vec<f64>,
 }
@@ -39,7 +32,7 @@ impl Star {
     ///
     /// # Errors
     /// None that the repository's own mesh could cause.
-    pub fn new(cells: [usize; 2], most: f64) -> Result<Self, SheetError> {
+    pub fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
         let mut numbers = ChaCha8Rng::seed_from_u64(1);
         let off = |angle: &mut f64| *angle += most * (2.0 * numbers.random::<f64>() - 1.0);
@@ -51,20 +44,18 @@ impl Star {
     ///
     /// # Errors
     /// None that the repository's own mesh could cause.
-    pub fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, SheetError> {
+    pub fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
-        for (rest, edge) in star.rest.iter_mut().zip(&star.tiling.edges).filter(|(rest, _)| !rest.is_nan()) {
+        for (rest, edge) in star.rest.iter_mut().zip(&star.assembly.tiling().edges).filter(|(rest, _)| !rest.is_nan()) {
             *rest = angles[edge.edge];
         }
         Ok(star)
     }
 
-    fn drawn(cells: [usize; 2]) -> Result<Self, SheetError> {
-        let sheet = cell()?;
-        let tiling = tile(&sheet, cells, false);
-        let drawn = Drawn::new(&sheet, &tiling, Boundary::Patch);
-        let rest = drawn_angles(&drawn, &tiling);
-        Ok(Self { sheet, tiling, drawn, rest })
+    fn drawn(cells: [usize; 2]) -> Result<Self, ExperimentError> {
+        let assembly = Assembly::without_terms(cell()?, cells, Boundary::Patch)?;
+        let rest = assembly.drawn_angles().to_vec();
+        Ok(Self { assembly, rest })
     }
 
     /// The trajectories of the cell with its first edge, (0, 1, 0, 0), locked, followed with steps of at most this length.
@@ -72,14 +63,10 @@ impl Star {
     /// # Errors
     /// [`ExperimentError::Trace`] where there are none.
     pub fn traced(max_step: f64, stop: Stop) -> Result<Vec<Traced>, ExperimentError> {
-        let sheet = cell()?;
-        let tiling = tile(&sheet, [1, 1], true);
-        let angles = drawn_fold_angles(&sheet);
-        let terms = Terms { locks: vec![(0, angles[0])], ..Terms::default() };
-        let boundary = Boundary::Screw;
-        let start = branches::Question { sheet: &sheet, tiling: &tiling, boundary, angles: &angles, terms: &terms };
-        let question = trace::Question { start, max_step, tolerance: 3e-14, branch: None, stop };
-        Ok(trace(&question, None, &mut |_, _| true)?)
+        let drawn = Assembly::without_terms(cell()?, [1, 1], Boundary::Screw)?;
+        let locked = Terms { locks: vec![(0, drawn.drawn_angles()[0])], ..Terms::default() };
+        let options = TraceOptions { max_step, tolerance: 3e-14, branch: None, stop };
+        Ok(trace(&drawn.with_terms(locked), &options, None, &mut |_, _| true)?)
     }
 
     /// Fold angles of the edges of the cell, folded along its first ray over this arc length: an exact cylinder.
@@ -94,9 +81,8 @@ impl Star {
 
     /// The model with this stiffness of every bar, `EA`, over that of the creases, which is 1 per length.
     pub fn model(&self, stiffness: f64) -> Model {
-        let creases = Hinges { stiffness: 1.0, rest: self.rest.clone() };
-        let terms = Terms { bars: Some(stiffness), creases: Some(creases), ..Terms::default() };
-        assemble(&self.drawn, &self.tiling, &terms, Gauge::Held)
+        let terms = Terms::bars_and_creases(stiffness, 1.0, self.rest.clone());
+        self.assembly.with_terms(terms).model(Gauge::Held)
     }
 
     /// Relaxes `model` from the drawn state.
@@ -105,7 +91,7 @@ impl Star {
     /// [`RelaxError`] where it does not converge.
     pub fn relax(&self, model: &mut Model, options: Options) -> Result<Relaxed, Box<RelaxError>> {
         let start = model.start();
-        relax(model, start, options, self.tiling.edges.len(), &mut |_| true)
+        relax(model, start, options, &mut |_| true)
     }
 }
 

@@ -1,11 +1,11 @@
 //! One relaxation, asked in two ways.
 
-use crate::common::{self, Numbers};
+use crate::common::{self, Numbers, Testing};
 use crate::report::{ELSEWHERE, Report, SAME};
 use crate::trial::{Answer, Trial};
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Boundary, Terms};
+use foldwell::model::{Boundary, Terms};
 use foldwell::solver::Options;
 use nalgebra::Rotation3;
 
@@ -154,11 +154,11 @@ fn eigenvalues(trial: &Trial, report: &mut Report, what: &str) {
         return;
     }
     let case = trial.case();
-    let terms = Terms { loads: vec![], ..case.terms(trial.bars, 1.0, case.angles.clone()) };
+    let terms = Terms { loads: vec![], ..Terms::bars_and_creases(trial.bars, 1.0, case.drawn_angles().to_vec()) };
     let terms = Terms { facets: trial.terms(&case).facets, ..terms };
-    let model = case.model(&terms, Gauge::Free);
+    let model = case.model_of(&terms, Gauge::Free);
     let expected = common::eigenvalues(common::energy_hessian(&model, &model.start()));
-    let Ok(found) = case.modes(&terms, 10) else { return report.count("eigenvalues", false) };
+    let Ok(found) = case.modes_of(&terms, 10) else { return report.count("eigenvalues", false) };
     let largest = expected.last().copied().unwrap_or(1.0);
     let off = found.eigenvalues.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     report.judge("eigenvalues", off <= 1e-12 * largest, || format!("{what}: off by {off:e} of {largest:e}"));

@@ -1,15 +1,12 @@
 //! One random sheet, and its answers.
 
-use crate::common::{Case, Numbers};
-use foldwell::analysis::axis::drawn_for;
+use crate::common::{Numbers, Testing, on};
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax;
 use foldwell::analysis::view::View;
-use foldwell::analysis::wells::Question;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
-use foldwell::model::Gauge;
-use foldwell::model::assemble::{Boundary, Terms, assemble};
+use foldwell::model::{Assembly, Boundary, Gauge, Terms};
 use foldwell::output::picture::Picture;
 use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::{Eggbox, Miura, Random, RandomDevelopable};
@@ -113,38 +110,38 @@ impl Trial {
         format!("{title} {boundary:?} {cells:?} bars {bars:e} facets {facets} lock {lock} load {force:.0e} pins {pins}")
     }
 
-    pub fn terms(&self, case: &Case) -> Terms {
-        let rest = case.tiling.edges.iter().zip(&case.angles).map(|(e, angle)| angle + self.off[e.edge]).collect();
-        let hinge = |k: &usize| !case.angles[*k].is_nan();
+    pub fn terms(&self, case: &Assembly) -> Terms {
+        let rest =
+            case.tiling().edges.iter().zip(case.drawn_angles()).map(|(e, angle)| angle + self.off[e.edge]).collect();
+        let hinge = |k: &usize| !case.drawn_angles()[*k].is_nan();
         let mut locks = vec![];
         if let Some((edge, off)) = self.lock {
-            let copies = (0..case.edges()).filter(|&k| case.tiling.edges[k].edge == edge).filter(hinge);
-            locks.extend(copies.map(|k| (k, case.angles[k] + off)));
+            let copies = (0..case.edges()).filter(|&k| case.tiling().edges[k].edge == edge).filter(hinge);
+            locks.extend(copies.map(|k| (k, case.drawn_angles()[k] + off)));
         }
         let facets = if case.count(EdgeKind::Facet) > 0 { case.facets(self.facets) } else { None };
         let (loads, pins) = (self.loads.clone(), self.pins.clone());
-        Terms { facets, locks, loads, pins, ..case.terms(self.bars, 1.0, rest) }
+        Terms { facets, locks, loads, pins, ..Terms::bars_and_creases(self.bars, 1.0, rest) }
     }
 
-    pub fn case(&self) -> Case {
-        Case::new(self.sheet.clone(), self.cells, self.boundary)
+    pub fn case(&self) -> Assembly {
+        on(self.sheet.clone(), self.cells, self.boundary)
     }
 
     pub fn answer(&self) -> Result<Answer, String> {
         let case = self.case();
         let terms = self.terms(&case);
-        let drawn = drawn_for(&case.sheet, &case.tiling, self.boundary, &terms);
-        let mut model = assemble(&drawn, &case.tiling, &terms, Gauge::Held);
+        let assembly = case.with_terms(terms).with_best_axis();
+        let mut model = assembly.model(Gauge::Held);
         let start = model.start();
-        let edges = case.edges();
-        let found = relax(&mut model, start, Options::default(), edges, &mut |_| true).map_err(|e| e.to_string())?;
-        let exact = error_to_kinematic(&case.sheet, &case.tiling, &model, &found.state.fold_angle);
+        let found = relax(&mut model, start, Options::default(), &mut |_| true).map_err(|e| e.to_string())?;
+        let exact = error_to_kinematic(case.sheet(), case.tiling(), &model, &found.state.fold_angle);
         let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
-        let again = relax(&mut model, start, Options::default(), edges, &mut |_| true);
+        let again = relax(&mut model, start, Options::default(), &mut |_| true);
         let again = again.map(|again| (again.state.total(), again.iterations)).map_err(|e| e.to_string());
         let negative = found.negative_eigenvalues;
-        let view = View::new(&case.sheet, &case.tiling, self.boundary, [1, 1]);
-        let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
+        let view = View::new(&assembly);
+        let pictured = Picture::of_state(&view, assembly.drawn(), &found.state).energy.iter().sum();
         let (halves, compliance) = (found.tension.iter().map(|t| 0.5 * t * t).collect(), model.compliance().to_vec());
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
         Ok(Answer { energy, angles, negative, again, residual, halves, compliance, exact, pictured })
@@ -154,11 +151,10 @@ impl Trial {
     pub fn has_equilibrium(&self, such: impl Fn(f64) -> bool) -> bool {
         let case = self.case();
         let terms = self.terms(&case);
-        let Case { sheet, tiling, boundary, drawn, .. } = &case;
-        let question = Question { sheet, tiling, boundary: *boundary, drawn, terms: &terms };
+        let assembly = case.with_terms(terms);
         [0.05, 0.1, 0.3, 1.0].into_iter().any(|spread| {
             let starts = Starts { count: STARTS, seed: 1, spread, options: Options::default() };
-            relax_all(&question, &starts, &|| true).into_iter().any(|outcome| match outcome {
+            relax_all(&assembly, &starts, &|| true).into_iter().any(|outcome| match outcome {
                 Outcome::Well(found) => such(found.energy),
                 _ => false,
             })

@@ -10,7 +10,7 @@ use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax};
 use crate::numerics::larger;
-use crate::solver::{Curvature, Failure, Options, Problem, Start, Step};
+use crate::solver::{Curvature, Failure, Options, Start, Step};
 use nalgebra::DVector;
 use thiserror::Error;
 
@@ -109,9 +109,8 @@ impl<'a> Samples<'a> {
             }
             let rest = self.rest(&place, amplitude);
             self.held.set_rest(rest.as_slice());
-            let edges = self.held.model.layout().soft.len() + self.held.model.layout().stiff.len();
             let start = Start { x: place.x, tension: Some(place.tension) };
-            let relaxed = relax(&mut self.held.model, start, OPTIONS, edges, observe)
+            let relaxed = relax(&mut self.held.model, start, OPTIONS, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
             place = Place { x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: place.rest };

@@ -13,33 +13,3 @@ pub mod rigid;
 pub mod settle;
 pub mod starts;
 pub mod string;
-
-use crate::model::assemble::{Boundary, Drawn, Terms};
-use crate::sheet::{Sheet, Tiling};
-
-/// A sheet and its energy.
-#[derive(Clone, Copy)]
-pub struct Question<'a> {
-    /// The sheet.
-    pub sheet: &'a Sheet,
-    /// Its cells.
-    pub tiling: &'a Tiling,
-    /// What surrounds them.
-    pub boundary: Boundary,
-    /// The drawn state.
-    pub drawn: &'a Drawn,
-    /// Bars, creases, and what holds or pulls.
-    pub terms: &'a Terms,
-}
-
-impl Question<'_> {
-    /// Stiffness `EA` of the bars; infinite where there are none to stretch.
-    pub fn stiffness(&self) -> f64 {
-        self.terms.bars.unwrap_or(f64::INFINITY)
-    }
-
-    /// The parts with bars of another stiffness.
-    pub fn with_bars(&self, stiffness: f64) -> Terms {
-        Terms { bars: Some(stiffness), ..self.terms.clone() }
-    }
-}

@@ -4,13 +4,11 @@
 //! converges to whatever equilibrium is near, so the inertia is counted afterwards. What a pass joins is found by
 //! descending from it on both sides.
 
-use super::Question;
 use super::merge::SAME;
 use super::settle::{Place, Settled, Settler};
 use super::string::STRENGTH;
 use crate::analysis::state::State;
-use crate::model::assemble::{Terms, assemble};
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, Gauge, Model};
 use crate::numerics::factor::FactorError;
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Failure, Linearization, Options, Problem, tension};
@@ -50,9 +48,12 @@ pub struct Pass {
     pub iterations: usize,
 }
 
-/// The equilibrium near a place, with bars of this stiffness.
-pub fn equilibrium(question: &Question<'_>, stiffness: f64, from: &Place, options: Options) -> Result<Pass, Failure> {
-    let mut model = assemble(question.drawn, question.tiling, &question.with_bars(stiffness), Gauge::Held);
+/// The equilibrium near a place.
+///
+/// # Errors
+/// [`Failure`] where Newton's method does not converge, or its linear systems cannot be solved.
+pub fn equilibrium(assembly: &Assembly, from: &Place, options: Options) -> Result<Pass, Failure> {
+    let mut model = assembly.model(Gauge::Held);
     model.set_angles(&from.angles);
     let mut x = model.hold_anew(from.coordinates.clone());
     let mut t = from.tension.clone();
@@ -64,7 +65,7 @@ pub fn equilibrium(question: &Question<'_>, stiffness: f64, from: &Place, option
         if force <= options.tolerance && length <= options.tolerance {
             let negative_eigenvalues = saddle.inertia(model.layout(), &at, model.compliance())?.negative;
             let found = Found { negative_eigenvalues, residual_force: force, residual_length: length, iterations };
-            return Ok(found.pass(&model, &x, t, question.tiling.edges.len()));
+            return Ok(found.pass(&model, &x, t));
         }
         if iterations == options.iterations || !(force.is_finite() && length.is_finite()) {
             return Err(Failure::TooManySteps { iterations, force, length });
@@ -100,8 +101,8 @@ struct Found {
 }
 
 impl Found {
-    fn pass(self, model: &Model, x: &[f64], tension: Vec<f64>, edges: usize) -> Pass {
-        let state = State::new(model, x, &tension, edges);
+    fn pass(self, model: &Model, x: &[f64], tension: Vec<f64>) -> Pass {
+        let state = State::new(model, x, &tension);
         let mut rho = model.values(x);
         rho.truncate(model.layout().soft.len());
         let Self { negative_eigenvalues, residual_force, residual_length, iterations } = self;
@@ -122,19 +123,13 @@ impl Found {
 ///
 /// A descent that is held too weakly steps across a steep pass: where one side leads over to the other, or both end in
 /// one state, both are held more strongly.
-pub fn sides(
-    question: &Question<'_>,
-    terms: &Terms,
-    pass: &Pass,
-    along: &[f64],
-    options: Options,
-) -> Result<[Settled; 2], Failure> {
+pub fn sides(assembly: &Assembly, pass: &Pass, along: &[f64], options: Options) -> Result<[Settled; 2], Failure> {
     let mut last = Err(Failure::SingularStart);
     for stronger in 0..STRONGER {
         let strength = STRENGTH * 100f64.powi(stronger);
         let side = |sign: f64| -> Result<(Settled, bool), Failure> {
             let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
-            descent(question, terms, pass, &push, strength, options)
+            descent(assembly, pass, &push, strength, options)
         };
         let ends = side(1.0).and_then(|one| Ok((one, side(-1.0)?)));
         let sound = matches!(&ends, Ok(((a, true), (b, true))) if !same(a, b));
@@ -154,8 +149,7 @@ fn same(a: &Settled, b: &Settled) -> bool {
 /// Descends from a pass to the side of a push, first held with this strength and then ever less; whether the first step
 /// went to that side.
 fn descent(
-    question: &Question<'_>,
-    terms: &Terms,
+    assembly: &Assembly,
     pass: &Pass,
     push: &[f64],
     strength: f64,
@@ -163,7 +157,7 @@ fn descent(
 ) -> Result<(Settled, bool), Failure> {
     let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + turn).collect();
     let (mut place, mut strength, mut to_its_side) = (pass.place.clone(), strength, None);
-    let mut settler = Settler::new(question, terms, strength);
+    let mut settler = Settler::new(assembly, strength);
     let mut weak = 0;
     while weak < DESCENT {
         let found = settler.near(&place, &target, LOOSE, &mut |_| true).map_err(|error| error.failure)?;
@@ -172,7 +166,7 @@ fn descent(
         (place, target) = (found.place, found.rho);
         if strength > STRENGTH {
             strength = (strength / WEAKER).max(STRENGTH);
-            settler = Settler::new(question, terms, strength);
+            settler = Settler::new(assembly, strength);
         } else {
             weak += 1;
         }

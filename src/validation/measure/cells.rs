@@ -8,11 +8,10 @@ use super::super::star::size;
 use super::memory;
 use super::trial::distance;
 use crate::analysis::relax::{Relaxed, relax};
-use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble};
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, Gauge, Model, RIGID, Terms};
 use crate::numerics::larger;
 use crate::sheet::generate::Yoshimura;
-use crate::sheet::{EdgeKind, Pattern, Sheet, generate, tile};
+use crate::sheet::{EdgeKind, Pattern, Sheet, TiledEdge, generate};
 use crate::solver::Options;
 use serde_json::json;
 use std::time::Instant;
@@ -68,7 +67,7 @@ fn relaxed(cells: [usize; 2]) -> Result<Size, ExperimentError> {
     let mut pleats = Pleats::new(cells)?;
     let (start, clock) = (pleats.model.start(), Instant::now());
     let options = Options { tolerance: TOLERANCE, ..Options::default() };
-    let found = relax(&mut pleats.model, start, options, pleats.rest.len(), &mut |_| true)?;
+    let found = relax(&mut pleats.model, start, options, &mut |_| true)?;
     let seconds = clock.elapsed().as_secs_f64();
     let error = distance(&found.state.fold_angle, &pleats.rest);
     Ok(Size {
@@ -89,14 +88,12 @@ impl Pleats {
     fn new(cells: [usize; 2]) -> Result<Self, ExperimentError> {
         let pattern = Pattern::Yoshimura(Yoshimura { fold: DRAWN, ..Yoshimura::default() });
         let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("the pattern cannot be generated".into()))?;
-        let tiling = tile(&sheet, cells, false);
-        let drawn = Drawn::new(&sheet, &tiling, Boundary::Patch);
         let angles = closed_form(&sheet, RESTING);
-        let angle = |kind, edge: usize| if kind == EdgeKind::Crease { angles[edge] } else { f64::NAN };
-        let rest: Vec<f64> = tiling.edges.iter().map(|edge| angle(edge.kind, edge.edge)).collect();
-        let creases = Some(Hinges { stiffness: 1.0, rest: rest.clone() });
-        let terms = Terms { bars: Some(f64::INFINITY), creases, ..Terms::default() };
-        Ok(Self { model: assemble(&drawn, &tiling, &terms, Gauge::Held), rest })
+        let drawn = Assembly::patch(sheet, cells).build()?;
+        let angle = |edge: &TiledEdge| if edge.kind == EdgeKind::Crease { angles[edge.edge] } else { f64::NAN };
+        let rest: Vec<f64> = drawn.tiling().edges.iter().map(angle).collect();
+        let terms = Terms::bars_and_creases(RIGID, 1.0, rest.clone());
+        Ok(Self { model: drawn.with_terms(terms).model(Gauge::Held), rest })
     }
 }
 

@@ -5,7 +5,7 @@ use super::super::report::figure;
 use super::super::star;
 use super::trial::{Rest, Trial};
 use crate::math::Vec3;
-use crate::model::assemble::Boundary;
+use crate::model::Boundary;
 use crate::numerics::{larger, worst};
 use crate::sheet::build::{Drawing, build, draw};
 use nalgebra::Rotation3;

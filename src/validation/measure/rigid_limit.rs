@@ -88,7 +88,7 @@ fn size(n: usize) -> Result<Size, ExperimentError> {
     for stiffness in DECADES.rev().map(|decade| 10f64.powi(decade)) {
         let mut model = star.model(stiffness);
         let start = if stiffness >= ALIKE { model.start().into() } else { last };
-        let found = relax(&mut model, start, Options::default(), star.tiling.edges.len(), &mut |_| true)?;
+        let found = relax(&mut model, start, Options::default(), &mut |_| true)?;
         reached.push(Reached {
             stiffness,
             distance: stiffness * distance(&found.state.fold_angle, &rigid.state.fold_angle) / law.distance,

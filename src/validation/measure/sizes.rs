@@ -119,7 +119,7 @@ fn table(sizes: &[Size]) -> Grid {
 fn by_penalty(star: &Star) -> Vec<f64> {
     let mut model = star.model(STIFFNESS);
     let found = forms::minimize(&mut model, Form::Penalty);
-    found.map_or(vec![], |found| State::new(&model, &found.x, &found.tension, star.tiling.edges.len()).fold_angle)
+    found.map_or(vec![], |found| State::new(&model, &found.x, &found.tension).fold_angle)
 }
 
 /// Exponent `p` of the power law `y ~ x^p` that fits best in logarithms.

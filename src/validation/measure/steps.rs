@@ -3,10 +3,9 @@
 use super::super::experiment::{Bench, ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::star;
-use crate::analysis::branches::{BranchesError, Question, branches, locked};
-use crate::kinematics::{Closing, Closure, KinematicsError, drawn_fold_angles};
-use crate::model::assemble::{Boundary, Terms};
-use crate::sheet::tile;
+use crate::analysis::branches::{BranchesError, branches};
+use crate::kinematics::{Closing, Closure, KinematicsError};
+use crate::model::{Assembly, Boundary, Terms};
 use crate::solver::continuation::{End, Options, follow};
 use serde_json::json;
 use std::f64::consts::TAU;
@@ -64,18 +63,15 @@ struct Short {
 
 impl Short {
     fn new() -> Result<Self, ExperimentError> {
-        let sheet = star::cell()?;
-        let tiling = tile(&sheet, [1, 1], true);
-        let angles = drawn_fold_angles(&sheet);
-        let terms = Terms { locks: vec![(0, angles[0])], ..Terms::default() };
-        let boundary = Boundary::Screw;
-        let question = Question { sheet: &sheet, tiling: &tiling, boundary, angles: &angles, terms: &terms };
-        let found = branches(&question).map_err(|error: BranchesError| ExperimentError::Other(error.to_string()))?;
+        let drawn = Assembly::without_terms(star::cell()?, [1, 1], Boundary::Screw)?;
+        let angles = drawn.drawn_angles().to_vec();
+        let cell = drawn.with_terms(Terms { locks: vec![(0, angles[0])], ..Terms::default() });
+        let found = branches(&cell).map_err(|error: BranchesError| ExperimentError::Other(error.to_string()))?;
         let ray = found.rays.rays.iter().find(|ray| (ray.branch, ray.sign) == (0, -1));
         let direction = ray.ok_or(ExperimentError::Other("there is no such ray".into()))?.direction.clone();
-        let closure =
-            Closure::of_cell(&sheet).map_err(|error: KinematicsError| ExperimentError::Other(error.to_string()))?;
-        Ok(Self { closure: closure.with_locked(&locked(&question)), angles, direction })
+        let closure = Closure::of_cell(cell.sheet())
+            .map_err(|error: KinematicsError| ExperimentError::Other(error.to_string()))?;
+        Ok(Self { closure: closure.with_locked(&cell.locked_edges()), angles, direction })
     }
 
     /// Its length.

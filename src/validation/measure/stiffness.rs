@@ -82,7 +82,7 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
 fn exact(star: &Star) -> Result<(Vec<f64>, f64), ExperimentError> {
     let mut model = star.model(f64::INFINITY);
     let angles = star.relax(&mut model, Options::default())?.state.fold_angle;
-    match error_to_kinematic(&star.sheet, &star.tiling, &model, &angles) {
+    match error_to_kinematic(star.assembly.sheet(), star.assembly.tiling(), &model, &angles) {
         Some(error) if error <= 1e-9 => Ok((angles, error)),
         Some(_) => Err(ExperimentError::Other("the rigid state is not that of the exact kinematics".into())),
         None => Err(ExperimentError::Other("there is no exact state to compare with".into())),
@@ -99,7 +99,7 @@ fn by_form(star: &Star, k: f64, form: Form) -> Result<Reached, ExperimentError> 
     let mut model = star.model(k);
     let found =
         forms::minimize(&mut model, form).map_err(|_| ExperimentError::Other("a pattern is too large".into()))?;
-    let state = State::new(&model, &found.x, &found.tension, star.tiling.edges.len());
+    let state = State::new(&model, &found.x, &found.tension);
     let residual = larger(found.residuals[0], found.residuals[1]);
     Ok(Reached { angles: state.fold_angle, residual, iterations: found.iterations })
 }

@@ -1,14 +1,12 @@
 //! One relaxation far from the ordinary, and a verdict on it: right, refused for a reason, or wrong.
 
 use super::super::forms::{self, Form};
-use crate::analysis::axis::drawn_for;
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::relax::relax;
 use crate::analysis::state::State;
-use crate::model::assemble::{Boundary, Drawn, Hinges, Terms, assemble, drawn_angles};
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, AssemblyError, Boundary, Gauge, Hinges, Model, RIGID, Terms};
 use crate::numerics::{larger, worst};
-use crate::sheet::{Edge, EdgeKind, Sheet, TiledEdge, Tiling, tile};
+use crate::sheet::{Edge, Sheet, TiledEdge};
 use crate::solver::Options;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -99,41 +97,42 @@ impl Trial {
         format!("{boundary:?} of {n1} x {n2} cells of {vertices}, bars {bars:.1e}, rest {off}")
     }
 
+    /// The sheet with its bars, creases, rigid polygons and lock.
+    fn assembly(&self) -> Result<Assembly, AssemblyError> {
+        let drawn = Assembly::without_terms(self.sheet.clone(), self.cells, self.boundary)?;
+        let [bars, creases] = self.stiffness;
+        let polygons = drawn.tiling().facets().next().is_some();
+        let terms = Terms {
+            facets: polygons.then(|| Hinges { stiffness: RIGID, rest: drawn.drawn_angles().to_vec() }),
+            locks: self.lock.into_iter().collect(),
+            ..Terms::bars_and_creases(bars, creases, self.rest_angles(&drawn))
+        };
+        Ok(drawn.with_terms(terms).with_best_axis())
+    }
+
     /// Relaxes from the drawn state. `Err`: why not.
     pub fn run(&self) -> Result<Found, String> {
-        let Self { sheet, boundary, stiffness: [bars, creases], .. } = self;
-        let tiling = tile(sheet, self.cells, *boundary != Boundary::Patch);
-        let drawn = Drawn::new(sheet, &tiling, *boundary);
-        let angles = drawn_angles(&drawn, &tiling);
-        let rest = self.rest_angles(&tiling, &angles);
-        let polygons = tiling.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
-        let terms = Terms {
-            bars: Some(*bars),
-            creases: Some(Hinges { stiffness: *creases, rest }),
-            facets: polygons.then_some(Hinges { stiffness: f64::INFINITY, rest: angles }),
-            locks: self.lock.into_iter().collect(),
-            ..Terms::default()
-        };
-        let drawn = drawn_for(sheet, &tiling, *boundary, &terms);
-        let mut model = assemble(&drawn, &tiling, &terms, Gauge::Held);
+        let [bars, creases] = self.stiffness;
+        let assembly = self.assembly().map_err(|error| error.to_string())?;
+        let mut model = assembly.model(Gauge::Held);
         let (start, clock) = (model.start(), Instant::now());
-        let options = Options::default();
-        let edges = tiling.edges.len();
-        let found = relax(&mut model, start, options, edges, &mut |_| clock.elapsed() < PATIENCE);
+        let found = relax(&mut model, start, Options::default(), &mut |_| clock.elapsed() < PATIENCE);
         let found = found.map_err(|error| error.failure.to_string())?;
-        let state = State::new(&model, &found.x, &found.tension, edges);
+        let state = State::new(&model, &found.x, &found.tension);
         let (rigid, angles) = (bars.is_infinite(), state.fold_angle);
         Ok(Found {
-            to_kinematic: rigid.then(|| error_to_kinematic(sheet, &tiling, &model, &angles)).flatten(),
-            to_augmented: if rigid { None } else { augmented(&mut model, edges, creases) }
-                .map(|a| distance(&angles, &a)),
+            to_kinematic: rigid
+                .then(|| error_to_kinematic(assembly.sheet(), assembly.tiling(), &model, &angles))
+                .flatten(),
+            to_augmented: if rigid { None } else { augmented(&mut model, creases) }.map(|a| distance(&angles, &a)),
             stretch: stretch(&model, &found.x),
             energy: found.state.total(),
             angles,
         })
     }
 
-    fn rest_angles(&self, tiling: &Tiling, drawn: &[f64]) -> Vec<f64> {
+    fn rest_angles(&self, assembly: &Assembly) -> Vec<f64> {
+        let drawn = assembly.drawn_angles();
         match self.rest {
             Rest::Random(most, seed) => {
                 let mut numbers = ChaCha8Rng::seed_from_u64(seed);
@@ -144,7 +143,7 @@ impl Trial {
                 let lengths: Vec<f64> = self.sheet.edges.iter().map(ends).map(|[a, b]| (b - a).norm()).collect();
                 let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
                 let off = |edge: &TiledEdge| most * (10.0 * lengths[edge.edge] / mean).sin();
-                drawn.iter().zip(&tiling.edges).map(|(angle, edge)| angle + off(edge)).collect()
+                drawn.iter().zip(&assembly.tiling().edges).map(|(angle, edge)| angle + off(edge)).collect()
             }
         }
     }
@@ -191,10 +190,10 @@ pub fn distance(angles: &[f64], expected: &[f64]) -> f64 {
 }
 
 /// Fold angles of the augmented form's equilibrium.
-fn augmented(model: &mut Model, edges: usize, creases: &f64) -> Option<Vec<f64>> {
+fn augmented(model: &mut Model, creases: f64) -> Option<Vec<f64>> {
     let found = forms::minimize(model, Form::Augmented(WEIGHT * creases)).ok()?;
     let balanced = found.residuals.iter().all(|residual| *residual <= BALANCED);
-    balanced.then(|| State::new(model, &found.x, &found.tension, edges).fold_angle)
+    balanced.then(|| State::new(model, &found.x, &found.tension).fold_angle)
 }
 
 /// Largest relative change of the length of a bar, from the points themselves.

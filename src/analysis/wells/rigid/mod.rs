@@ -13,13 +13,11 @@ mod curves;
 mod flood;
 mod surface;
 
-use super::Question;
-use crate::analysis::branches::{self, BranchesError};
+use crate::analysis::branches::BranchesError;
 use crate::analysis::exact::{Springs, Stationary};
 use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
-use crate::model::Gauge;
-use crate::model::assemble::{Boundary, assemble, drawn_angles};
+use crate::model::{Assembly, Boundary, Gauge};
 use flood::Merge;
 use std::f64::consts::PI;
 use thiserror::Error;
@@ -126,21 +124,20 @@ pub enum RigidError {
 
 /// The landscape of a sheet. `go_on` returns false to stop.
 pub fn landscape(
-    question: &Question<'_>,
+    assembly: &Assembly,
     sampling: &Sampling,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<RigidLandscape, RigidError> {
-    let Question { sheet, tiling, boundary, drawn, terms } = *question;
-    let angles = drawn_angles(drawn, tiling);
-    let model = assemble(drawn, tiling, terms, Gauge::Held);
-    let springs = Springs::new(sheet, tiling, &model, &angles).ok_or(RigidError::NotOfHinges)?;
-    let start = branches::Question { sheet, tiling, boundary, angles: &angles, terms };
-    let net = match boundary {
-        Boundary::Screw => surface::net(start, sampling, go_on)?,
-        _ => curves::net(&start, sampling, go_on)?,
+    let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
+    let model = assembly.model(Gauge::Held);
+    let springs = Springs::new(sheet, tiling, &model, assembly.drawn_angles()).ok_or(RigidError::NotOfHinges)?;
+    let net = match assembly.boundary() {
+        Boundary::Screw => surface::net(assembly, sampling, go_on)?,
+        _ => curves::net(assembly, sampling, go_on)?,
     };
-    let crossing = surface::question(start, sampling);
-    let lowest = |angles: &[f64]| Surface::lowest_on_crossing(&crossing, angles, &|angles| springs.energy(angles));
+    let options = surface::options(sampling);
+    let energy = |angles: &[f64]| springs.energy(angles);
+    let lowest = |angles: &[f64]| Surface::lowest_on_crossing(assembly, &options, angles, &energy);
     Ok(polished(&springs, &net, (sampling.step, &lowest)))
 }
 

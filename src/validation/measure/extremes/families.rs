@@ -2,7 +2,7 @@
 
 use super::super::trial::{Outcome, Trial, distance, judge, within};
 use crate::math::Vec3;
-use crate::model::assemble::Boundary;
+use crate::model::Boundary;
 use crate::sheet::build::{self, Drawing};
 use crate::sheet::generate::{MiuraPatch, Random};
 use crate::sheet::{EdgeKind, Pattern, Sheet, fold, generate};

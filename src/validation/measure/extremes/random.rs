@@ -3,7 +3,7 @@
 use super::super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::trial::{Outcome, Rest, Trial};
 use super::{Tally, said};
-use crate::model::assemble::Boundary;
+use crate::model::Boundary;
 use crate::numerics::parallel;
 use crate::sheet::generate::Random;
 use crate::sheet::{Pattern, generate};

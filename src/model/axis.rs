@@ -6,9 +6,9 @@
 //! the maximum next to it. Near zero curvature the direction and the curvature are polar coordinates; Newton's method
 //! does not correct the direction there, so it has to be right from the start.
 
-use crate::model::Gauge;
-use crate::model::assemble::{Boundary, Drawn, Terms, assemble};
-use crate::sheet::{Sheet, Tiling};
+use super::assembly::Assembly;
+use super::boundary::Boundary;
+use super::problem::Gauge;
 use crate::solver::saddle::Saddle;
 use crate::solver::{Curvature, Linearization, Problem};
 use std::f64::consts::PI;
@@ -21,14 +21,12 @@ const LEAST_SHIFT: f64 = 1e-9;
 /// Reductions of the interval in which the maximum is, each by the golden section: from a quarter of a radian to 1e-8.
 const REDUCTIONS: usize = 36;
 
-/// The drawn state of a model; that of a screw with its axis where folding starts best.
-pub fn drawn_for(sheet: &Sheet, tiling: &Tiling, boundary: Boundary, terms: &Terms) -> Drawn {
-    let plain = Drawn::new(sheet, tiling, boundary);
-    if boundary != Boundary::Screw {
-        return plain;
+/// The assembly with the axis of its screw where folding starts best; itself where it is no screw.
+pub(super) fn with_best_axis(assembly: &Assembly) -> Assembly {
+    if assembly.boundary() != Boundary::Screw {
+        return assembly.clone();
     }
-    let turned = |angle: f64| Drawn::turned(sheet, tiling, boundary, angle);
-    let fall = |angle: f64, shift: f64| promised_fall(&turned(angle), tiling, terms, shift).unwrap_or(0.0);
+    let fall = |angle: f64, shift: f64| promised_fall(&assembly.with_axis(angle), shift).unwrap_or(0.0);
     let step = PI / DIRECTIONS as f64;
     let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
     for angle in (0..DIRECTIONS).map(|k| step * k as f64) {
@@ -38,9 +36,9 @@ pub fn drawn_for(sheet: &Sheet, tiling: &Tiling, boundary: Boundary, terms: &Ter
         }
     }
     if !(most > 0.0) {
-        return plain;
+        return assembly.with_axis(0.0);
     }
-    turned(maximum([best - step, best + step], |angle| fall(angle, LEAST_SHIFT)))
+    assembly.with_axis(maximum([best - step, best + step], |angle| fall(angle, LEAST_SHIFT)))
 }
 
 /// Where a function with one maximum between two places has it, by the golden section.
@@ -64,8 +62,8 @@ fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 
 }
 
 /// Fall of the energy along the first Newton step, to second order.
-fn promised_fall(drawn: &Drawn, tiling: &Tiling, terms: &Terms, shift: f64) -> Option<f64> {
-    let model = assemble(drawn, tiling, terms, Gauge::Held);
+fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
+    let model = assembly.model(Gauge::Held);
     let layout = model.layout();
     let mut at = Linearization::new(layout);
     let tension = vec![0.0; layout.stiff.len()];
