@@ -14,7 +14,7 @@ mod common;
 use common::{in_turns, measuring};
 use foldwell::analysis::landscape::sphere::{Direction, Net, samples};
 use foldwell::analysis::landscape::{Courses, HeldSheet};
-use foldwell::analysis::relax::relax;
+use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Gauge, RIGID, Terms};
 use foldwell::numerics::parallel;
@@ -41,7 +41,7 @@ fn main() {
         for _ in 0..20 {
             let mut model = bent.model(Gauge::Held);
             let start = model.start();
-            relax(&mut model, start, Options::default(), &mut |_| true).unwrap();
+            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
         }
         clock.elapsed().as_secs_f64() / 20.0
     };

@@ -8,7 +8,7 @@ use common::{Testing, jacobian, linearized, mesh, on, patch};
 use foldwell::analysis::chart::coordinates;
 use foldwell::analysis::drive::{Drive, Driven, cylinder_errors, drive};
 use foldwell::analysis::exact::error_to_kinematic;
-use foldwell::analysis::relax::relax;
+use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
 use foldwell::numerics::DenseMatrix;
@@ -213,7 +213,7 @@ fn relaxations_end_at_the_exact_equilibrium() {
             let terms = Terms::bars_and_creases(bars, 1.0, case.rest_per_hinge(0.1, 3));
             let mut model = case.model_of(&terms, Gauge::Held);
             let start = model.start();
-            let found = relax(&mut model, start, Options::default(), &mut |_| true).unwrap();
+            let found = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
             error_to_kinematic(case.sheet(), case.tiling(), &model, &found.state.fold_angle).unwrap()
         };
         let [rigid, stiff, soft] = [f64::INFINITY, 1e8, 1e6].map(error);

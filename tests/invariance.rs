@@ -5,7 +5,7 @@ mod common;
 
 use assert_cmd::Command;
 use common::{Testing, on, patch};
-use foldwell::analysis::relax::relax;
+use foldwell::analysis::relax::relax_from;
 use foldwell::model::Gauge;
 use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::numerics::parallel;
@@ -109,7 +109,7 @@ fn small_sheets_start_no_threads() {
         let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
         let mut model = case.model_of(&terms, Gauge::Held);
         let start = model.start();
-        relax(&mut model, start, Options::default(), &mut |_| true).unwrap();
+        relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
     };
     for boundary in [Boundary::Screw, Boundary::FreeTorus, Boundary::FixedTorus] {
         rigid(&on(common::mesh("open-star"), [1, 1], boundary));

@@ -6,7 +6,7 @@ mod common;
 use approx::abs_diff_eq;
 use common::{Numbers, Testing, on};
 use foldwell::analysis::exact::error_to_kinematic;
-use foldwell::analysis::relax::{RelaxError, relax};
+use foldwell::analysis::relax::{RelaxError, relax_from};
 use foldwell::model::Gauge;
 use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::generate::Random;
@@ -69,7 +69,7 @@ fn relaxed_screw(case: &Assembly, off: f64, seed: u64) -> Result<(usize, Vec<f64
     let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(off, seed));
     let mut model = case.with_terms(terms).with_best_axis().model(Gauge::Held);
     let start = model.start();
-    let found = relax(&mut model, start, Options::default(), &mut |_| true)?;
+    let found = relax_from(&mut model, start, Options::default(), &mut |_| true)?;
     let angles = found.state.fold_angle;
     let error = error_to_kinematic(case.sheet(), case.tiling(), &model, &angles);
     Ok((found.iterations, angles, error))

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Numbers, Testing, distance, eigenvalues, jacobian, linearized, mesh, on, patch};
-use foldwell::analysis::relax::{Relaxed, relax};
+use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
 use foldwell::model::{Assembly, Boundary, Terms};
@@ -123,12 +123,12 @@ fn a_random_developable_patch_on_a_branch() {
             let mut model = case.model_of(&Terms::bars_and_creases(1e5, 1.0, rest.clone()), Gauge::Held);
             let mut numbers = Numbers::new(seed);
             let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.1)).collect();
-            relax(&mut model, start, Options::default(), &mut |_| true).unwrap()
+            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap()
         };
         assert_eq!(stiff.negative_eigenvalues, 0);
         let mut model = case.model_of(&Terms::bars_and_creases(RIGID, 1.0, rest), Gauge::Held);
         let start = model.start_from(stiff.state.coordinates.clone());
-        let found = relax(&mut model, start, Options::default(), &mut |_| true)
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| true)
             .unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         converged(&found);
         assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), 0), "seed {seed}");

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Numbers, Testing, on};
-use foldwell::analysis::relax::relax;
+use foldwell::analysis::relax::relax_from;
 use foldwell::model::{Boundary, Gauge, Terms};
 use foldwell::solver::Options;
 
@@ -32,7 +32,7 @@ fn come_back(domains: &[(Boundary, [usize; 2])]) {
                     case.model_of(&Terms::bars_and_creases(k, 1.0, case.drawn_angles().to_vec()), Gauge::Held);
                 let mut numbers = Numbers::new(seed);
                 let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.003)).collect();
-                match relax(&mut model, start, Options::default(), &mut |_| true) {
+                match relax_from(&mut model, start, Options::default(), &mut |_| true) {
                     Ok(found) => {
                         let off = common::distance(&found.state.fold_angle, case.drawn_angles());
                         assert!(off < 1e-9, "{boundary:?}, k = {k:e}, seed {seed}: off by {off:e}");

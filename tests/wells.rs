@@ -6,7 +6,7 @@ mod common;
 
 use approx::assert_abs_diff_eq;
 use common::{Numbers, Testing, mesh, on, patch};
-use foldwell::analysis::relax::relax;
+use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::wells::barrier::{Barrier, Height, barrier, rigid_limit};
 use foldwell::analysis::wells::merge::{Translations, Well, wells};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
@@ -313,7 +313,7 @@ fn wells_stay_when_the_sheet_is_turned() {
         let mut model = case.model_of(&terms, Gauge::Held);
         model.set_angles(&well.place.angles);
         let start = model.start_from(turned);
-        let again = relax(&mut model, start, Options::default(), &mut |_| true).unwrap();
+        let again = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
         let moved = common::distance(&again.state.fold_angle, &well.relaxed.state.fold_angle);
         assert!(moved <= 1e-8, "{moved:e}");
         seen += 1;

@@ -9,7 +9,7 @@
 //! stay off it by what the creases pull them.
 
 use super::chart::{self, hinge_angles};
-use super::relax::{Relaxed, relax};
+use super::relax::{Relaxed, relax_from};
 use super::state::cylinder;
 use super::trace::{Folded, Traced};
 use crate::model::{Assembly, Domain, Drawn, Gauge};
@@ -215,8 +215,8 @@ impl Track<'_> {
         let last = self.known.last().map_or_else(|| chart::coordinates(state), |(_, at)| at.clone());
         let here = model.start_from(last);
         let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
-        let relaxed =
-            relax(&mut model, ahead, self.options, observe).map_err(|error| DriveFailure::Relaxation(error.failure))?;
+        let relaxed = relax_from(&mut model, ahead, self.options, observe)
+            .map_err(|error| DriveFailure::Relaxation(error.failure))?;
         self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());
         self.crease = Some(crease);
         self.angles = self.continued(&relaxed.state.coordinates);

@@ -2,11 +2,12 @@
 
 use super::apex;
 use super::state::State;
-use crate::model::{Domain, Model};
+use crate::model::{Assembly, Domain, Gauge, Model};
 use crate::solver::saddle::Saddle;
 use crate::solver::{
     Curvature, Equilibrium, Failure, Linearization, NewtonError, Options, Problem, Start, Step, minimize, tension,
 };
+use std::fmt;
 use thiserror::Error;
 
 /// Smallest step of the continuation that is tried before giving up.
@@ -50,7 +51,7 @@ pub struct Relaxed {
 }
 
 /// Relaxation failed; the last accepted state is here.
-#[derive(Debug, Error)]
+#[derive(Error)]
 #[error("{failure}")]
 pub struct RelaxError {
     /// Why.
@@ -63,11 +64,43 @@ pub struct RelaxError {
     pub history: Vec<Step>,
 }
 
-/// Relaxes from a start. `observe` sees every accepted step and returns false to stop.
+/// Says why it failed and how far it came, not the numbers of the state.
+impl fmt::Debug for RelaxError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (steps, edges) = (self.history.len(), self.state.energy.len());
+        write!(out, "{} (after {steps} steps; a sheet of {edges} edges)", self.failure)
+    }
+}
+
+/// The equilibrium that a sheet reaches from its drawn state.
+///
+/// ```
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
+///
+/// let sheet = generate(&Pattern::named("miura").expect("a known pattern"))?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// let relaxed = relax(&assembly)?;
+/// assert!(relaxed.state.total() < 1e-12 && relaxed.negative_eigenvalues == 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
+pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
+    let mut model = assembly.model(Gauge::Held);
+    let start = model.start();
+    relax_from(&mut model, start, Options::default(), &mut |_| true)
+}
+
+/// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
+/// step and returns false to stop.
 ///
 /// Where the direct way fails, all rest angles and locked angles are moved from their values at the start to their
 /// targets in steps that adapt.
-pub fn relax(
+///
+/// # Errors
+/// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
+pub fn relax_from(
     model: &mut Model,
     start: impl Into<Start>,
     options: Options,

@@ -6,9 +6,7 @@ use super::{Progress, RunError, studies};
 use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
-use crate::analysis::bloch::{
-    BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, Root, ZeroLines, Zone,
-};
+use crate::analysis::bloch::{self, BlochError, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone};
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
 use crate::model::Domain;
@@ -21,10 +19,8 @@ use crate::output::table::{Table, Value};
 use crate::output::vtk;
 use crate::scene::forms::Start;
 use crate::scene::spec::{BlochSpec, Draw, StudySpec};
-use crate::scene::values::Pair;
 use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKind;
-use nalgebra::Complex;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
@@ -128,15 +124,8 @@ fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
 /// What the analysis found.
 struct Found {
     ground: Ground,
-    determinant: Determinant,
-    decays: Vec<Decay>,
-    polarization: Polarization,
-    /// Zone and lines; `None` where the determinant is not real.
-    real: Option<(Zone, ZeroLines)>,
-    /// Real and imaginary parts on the grid.
-    map: [Vec<f64>; 2],
+    survey: Survey,
     grid: [usize; 2],
-    modes: Vec<ModeShape>,
     bands: Vec<Bands>,
 }
 
@@ -161,12 +150,12 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
     };
     match found {
         Ok(Some(found)) => {
-            table(&found.decays).write(&runner.path(format!("{}.csv", study.name.0)))?;
+            table(&found.survey.decays).write(&runner.path(format!("{}.csv", study.name.0)))?;
             if !found.bands.is_empty() {
                 band_table(&found.bands).write(&runner.path(format!("{}_bands.csv", study.name.0)))?;
             }
             draw(runner, study, &found)?;
-            summary.error = Some(found.determinant.error);
+            summary.error = Some(found.survey.determinant.error);
             summary.result = Some(StudyResult::Bloch(summarized(runner.assembly, &found)));
         }
         Ok(None) => (summary.converged, summary.reason) = (false, Some("interrupted".to_owned())),
@@ -177,47 +166,18 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
 
 /// All answers; `None` where the observer asked to stop.
 fn find(runner: &Runner<'_>, study: &StudySpec, spec: &BlochSpec, ground: Ground) -> Result<Option<Found>, BlochError> {
-    let watch = |step: usize| {
-        let (study, of) = (study.name.0.clone(), Some(4));
+    let mut watch = |step: usize| {
+        let (study, of) = (study.name.0.clone(), Some(bloch::STEPS));
         runner.watch(&Progress { study, step, of, residual: f64::NAN, target: None })
     };
-    let rigidity = &ground.rigidity;
-    let determinant = Determinant::new(rigidity)?;
-    if !watch(1) {
-        return Ok(None);
-    }
-    let decay = |q1| Decay::new(&determinant, 0, q1).map(|decay| decay.refined(rigidity));
-    let decays = wavenumbers(spec).into_iter().map(decay).collect::<Result<_, _>>()?;
-    if !watch(2) {
-        return Ok(None);
-    }
-    let polarization = Polarization::new(&determinant, AVERAGED)?;
-    if !watch(3) {
-        return Ok(None);
-    }
-    let real = match Zone::new(&determinant) {
-        Ok(zone) => Some((zone.clone(), ZeroLines::new(&zone)?.refined(&zone, rigidity))),
-        Err(BlochError::NotSymmetric { .. }) => None,
-        Err(error) => return Err(error),
+    let options = SurveyOptions {
+        wavenumbers: wavenumbers(spec),
+        averaged: AVERAGED,
+        grid: spec.grid.as_ref().map_or(GRID, |grid| grid.0),
+        modes: spec.modes.iter().flat_map(|modes| modes.iter()).map(|pair| pair.0).collect(),
     };
-    let grid = spec.grid.as_ref().map_or(GRID, |grid| grid.0);
-    let values = determinant.polynomial.map(grid);
-    let map = [values.iter().map(|value| value.re).collect(), values.iter().map(|value| value.im).collect()];
-    let (modes, bands) = (shapes(rigidity, spec, &determinant)?, bands(runner, spec)?);
-    Ok(watch(4).then_some(Found { ground, determinant, decays, polarization, real, map, grid, modes, bands }))
-}
-
-/// The modes that the scene names, each of the root nearest to its decay rate.
-fn shapes(rigidity: &Rigidity, spec: &BlochSpec, determinant: &Determinant) -> Result<Vec<ModeShape>, BlochError> {
-    let mut found = Vec::new();
-    for Pair([q1, kappa2]) in spec.modes.iter().flat_map(|modes| modes.iter()) {
-        let decay = Decay::new(determinant, 0, *q1)?.refined(rigidity);
-        let away = |root: &Root| (root.kappa() - kappa2).abs();
-        if let Some(root) = decay.roots.iter().min_by(|a, b| away(a).total_cmp(&away(b))) {
-            found.push(ModeShape::new(rigidity, [Complex::from_polar(1.0, *q1), root.z])?);
-        }
-    }
-    Ok(found)
+    let Some(survey) = bloch::survey(&ground.rigidity, &options, &mut watch)? else { return Ok(None) };
+    Ok(Some(Found { ground, survey, grid: options.grid, bands: bands(runner, spec)? }))
 }
 
 /// The bands along the path of the scene.
@@ -273,10 +233,10 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
         let mut files = vec![(0.0, format!("{name}/{name}_determinant.vti"))];
         let spacing = found.grid.map(|n| TAU / n as f64);
         let origin = found.grid.map(|n| wavenumber(0, n));
-        let [real, imaginary] = found.map.clone();
+        let [real, imaginary] = found.survey.map.clone();
         let arrays = [("determinant", real), ("imaginary_part", imaginary)];
         vtk::write_vti(&runner.path(&files[0].1), found.grid, [origin, spacing], &arrays)?;
-        if let Some((_, lines)) = &found.real {
+        if let Some((_, lines)) = &found.survey.real {
             files.push((1.0, format!("{name}/{name}_zero_lines.vtp")));
             let curves: Vec<Vec<[f64; 2]>> = lines.lines.iter().map(|line| line.points.clone()).collect();
             let winding = |a: usize| lines.lines.iter().map(|line| line.winding[a]).collect();
@@ -284,7 +244,7 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
             let arrays = [("winding1", winding(0)), ("winding2", winding(1)), ("passes", passes)];
             vtk::write_curves(&runner.path(&files[1].1), &curves, &arrays)?;
         }
-        for (k, mode) in found.modes.iter().enumerate() {
+        for (k, mode) in found.survey.modes.iter().enumerate() {
             let picture = moving_picture(runner, study, found.ground.folded.as_ref(), mode);
             files.push((files.len() as f64, format!("{name}/{name}_mode_{k:04}.vtu")));
             vtk::write_vtu(&runner.path(format!("{name}/{name}_mode_{k:04}.vtu")), &picture)?;
@@ -292,10 +252,11 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
         vtk::write_pvd(&runner.path(format!("{name}.pvd")), &files)?;
     }
     if study.draw.contains(&Draw::Svg) {
-        let lines = found.real.iter().flat_map(|(_, lines)| &lines.lines).map(|line| line.points.clone()).collect();
+        let lines =
+            found.survey.real.iter().flat_map(|(_, lines)| &lines.lines).map(|line| line.points.clone()).collect();
         let marks =
             theta(runner.assembly, &found.ground).map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
-        let (rates, polynomial) = (rates(&found.determinant), &found.determinant.polynomial);
+        let (rates, polynomial) = (rates(&found.survey.determinant), &found.survey.determinant.polynomial);
         let plot = BlochPlot { rates, polynomial, lines, marks };
         bloch_plot::write_svg(&runner.path(format!("{name}.svg")), &plot, &runner.file.title())?;
     }
@@ -329,7 +290,7 @@ fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
 }
 
 fn summarized(assembly: &Assembly, found: &Found) -> BlochSummary {
-    let Found { determinant, decays, polarization, real, map, .. } = found;
+    let Survey { determinant, decays, polarization, real, map, .. } = &found.survey;
     let pairings: Vec<_> = decays.iter().map(Decay::pairing).collect();
     let decay = |decay: &Decay| DecaySummary {
         q1: decay.q,

@@ -78,7 +78,7 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
         options.tolerance = tolerance.0;
     }
     let clock = Instant::now();
-    let found = analysis::relax::relax(&mut model, start, options, &mut watcher(runner, study, options.tolerance));
+    let found = analysis::relax::relax_from(&mut model, start, options, &mut watcher(runner, study, options.tolerance));
     let seconds = clock.elapsed().as_secs_f64();
     match found {
         Ok(relaxed) => {

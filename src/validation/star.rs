@@ -2,7 +2,7 @@
 
 use super::experiment::ExperimentError;
 use super::library;
-use crate::analysis::relax::{RelaxError, Relaxed, relax};
+use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
 use crate::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use crate::model::{Assembly, Boundary, Gauge, Model, Terms};
 use crate::sheet::{Sheet, SheetError, fold};
@@ -91,7 +91,7 @@ impl Star {
     /// [`RelaxError`] where it does not converge.
     pub fn relax(&self, model: &mut Model, options: Options) -> Result<Relaxed, Box<RelaxError>> {
         let start = model.start();
-        relax(model, start, options, &mut |_| true)
+        relax_from(model, start, options, &mut |_| true)
     }
 }
 

@@ -2,7 +2,7 @@
 #![allow(dead_code)] // each test file uses a part
 
 use foldwell::analysis::modes::{Modes, ModesError, modes};
-use foldwell::analysis::relax::{RelaxError, Relaxed, relax};
+use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
 use foldwell::model::{Assembly, Boundary, Gauge, Hinges, Model, Terms};
 use foldwell::numerics::{DenseMatrix, dense};
 use foldwell::run::{RunOptions, run_scene};
@@ -98,7 +98,7 @@ impl Testing for Assembly {
     fn relax(&self, terms: &Terms) -> Result<Relaxed, Box<RelaxError>> {
         let mut model = self.model_of(terms, Gauge::Held);
         let start = model.start();
-        relax(&mut model, start, Options::default(), &mut |_| true)
+        relax_from(&mut model, start, Options::default(), &mut |_| true)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::{Numbers, Testing, on};
 use foldwell::analysis::exact::error_to_kinematic;
-use foldwell::analysis::relax::relax;
+use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::view::View;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
@@ -134,10 +134,10 @@ impl Trial {
         let assembly = case.with_terms(terms).with_best_axis();
         let mut model = assembly.model(Gauge::Held);
         let start = model.start();
-        let found = relax(&mut model, start, Options::default(), &mut |_| true).map_err(|e| e.to_string())?;
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| true).map_err(|e| e.to_string())?;
         let exact = error_to_kinematic(case.sheet(), case.tiling(), &model, &found.state.fold_angle);
         let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
-        let again = relax(&mut model, start, Options::default(), &mut |_| true);
+        let again = relax_from(&mut model, start, Options::default(), &mut |_| true);
         let again = again.map(|again| (again.state.total(), again.iterations)).map_err(|e| e.to_string());
         let negative = found.negative_eigenvalues;
         let view = View::new(&assembly);

@@ -8,7 +8,7 @@
 use super::course::Place;
 use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
-use crate::analysis::relax::{Relaxed, relax};
+use crate::analysis::relax::{Relaxed, relax_from};
 use crate::numerics::larger;
 use crate::solver::{Curvature, Failure, Options, Start, Step};
 use nalgebra::DVector;
@@ -110,7 +110,7 @@ impl<'a> Samples<'a> {
             let rest = self.rest(&place, amplitude);
             self.held.set_rest(rest.as_slice());
             let start = Start { x: place.x, tension: Some(place.tension) };
-            let relaxed = relax(&mut self.held.model, start, OPTIONS, observe)
+            let relaxed = relax_from(&mut self.held.model, start, OPTIONS, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
             place = Place { x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: place.rest };

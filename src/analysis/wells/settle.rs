@@ -4,7 +4,7 @@
 //! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
 //! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
 
-use crate::analysis::relax::{RelaxError, Relaxed, relax};
+use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
 use crate::analysis::state::State;
 use crate::model::{Assembly, Gauge, Model};
 use crate::solver::{Options, Problem, Start, Step};
@@ -121,5 +121,5 @@ fn go(
 ) -> Result<Relaxed, Box<RelaxError>> {
     model.set_angles(&from.angles);
     let x = model.start_from(from.coordinates.clone());
-    relax(model, Start { x, tension: warm.then(|| from.tension.clone()) }, options, observe)
+    relax_from(model, Start { x, tension: warm.then(|| from.tension.clone()) }, options, observe)
 }

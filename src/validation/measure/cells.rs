@@ -7,7 +7,7 @@ use super::super::report::figure;
 use super::super::star::size;
 use super::memory;
 use super::trial::distance;
-use crate::analysis::relax::{Relaxed, relax};
+use crate::analysis::relax::{Relaxed, relax_from};
 use crate::model::{Assembly, Gauge, Model, RIGID, Terms};
 use crate::numerics::larger;
 use crate::sheet::generate::Yoshimura;
@@ -67,7 +67,7 @@ fn relaxed(cells: [usize; 2]) -> Result<Size, ExperimentError> {
     let mut pleats = Pleats::new(cells)?;
     let (start, clock) = (pleats.model.start(), Instant::now());
     let options = Options { tolerance: TOLERANCE, ..Options::default() };
-    let found = relax(&mut pleats.model, start, options, &mut |_| true)?;
+    let found = relax_from(&mut pleats.model, start, options, &mut |_| true)?;
     let seconds = clock.elapsed().as_secs_f64();
     let error = distance(&found.state.fold_angle, &pleats.rest);
     Ok(Size {

@@ -8,7 +8,7 @@ use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::report::figure;
 use super::super::star::Star;
 use super::trial::distance;
-use crate::analysis::relax::{Relaxed, relax};
+use crate::analysis::relax::{Relaxed, relax_from};
 use crate::model::Model;
 use crate::output::chart::{Chart, Point, Series};
 use crate::solver::saddle::Saddle;
@@ -88,7 +88,7 @@ fn size(n: usize) -> Result<Size, ExperimentError> {
     for stiffness in DECADES.rev().map(|decade| 10f64.powi(decade)) {
         let mut model = star.model(stiffness);
         let start = if stiffness >= ALIKE { model.start().into() } else { last };
-        let found = relax(&mut model, start, Options::default(), &mut |_| true)?;
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| true)?;
         reached.push(Reached {
             stiffness,
             distance: stiffness * distance(&found.state.fold_angle, &rigid.state.fold_angle) / law.distance,

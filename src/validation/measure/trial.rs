@@ -2,7 +2,7 @@
 
 use super::super::forms::{self, Form};
 use crate::analysis::exact::error_to_kinematic;
-use crate::analysis::relax::relax;
+use crate::analysis::relax::relax_from;
 use crate::analysis::state::State;
 use crate::model::{Assembly, AssemblyError, Boundary, Gauge, Hinges, Model, RIGID, Terms};
 use crate::numerics::{larger, worst};
@@ -116,7 +116,7 @@ impl Trial {
         let assembly = self.assembly().map_err(|error| error.to_string())?;
         let mut model = assembly.model(Gauge::Held);
         let (start, clock) = (model.start(), Instant::now());
-        let found = relax(&mut model, start, Options::default(), &mut |_| clock.elapsed() < PATIENCE);
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| clock.elapsed() < PATIENCE);
         let found = found.map_err(|error| error.failure.to_string())?;
         let state = State::new(&model, &found.x, &found.tension);
         let (rigid, angles) = (bars.is_infinite(), state.fold_angle);
