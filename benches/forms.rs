@@ -18,6 +18,9 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[allow(dead_code)] // the validation reads the rest
+#[path = "../src/validate/forms.rs"]
+mod forms;
 
 use common::{Star, difference, measuring, norm, seconds, size, vector, wanted};
 use foldwell::model::Model;
@@ -27,7 +30,6 @@ use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, symmetric_product};
 use foldwell::solver::corrections::{NearlySolved, Pair, correct};
 use foldwell::solver::saddle::Saddle;
 use foldwell::solver::{Curvature, Layout, Linearization, Options, Problem, minimize};
-use foldwell::validation::forms;
 
 /// Regularisation of the block form: `d` and `e`, over the same entry.
 const DELTA: f64 = 1e-8;

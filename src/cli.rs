@@ -14,6 +14,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use crate::validate::report::Case;
+use crate::validate::{self, ValidateOptions, ValidationError};
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
@@ -22,8 +24,6 @@ use foldwell::output::summary::{
     to_json,
 };
 use foldwell::run::{self, Ledger, RunError, RunOptions, RunReport};
-use foldwell::validation::report::Case;
-use foldwell::validation::{self, ValidateOptions, ValidationError};
 use miette::{Diagnostic, GraphicalReportHandler};
 
 use crate::parameters::{self, ParameterError};
@@ -219,7 +219,7 @@ fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Res
 fn validate(options: &ValidateOptions) -> Result<u8, Failure> {
     let watch = Arc::new(Watch::new(false));
     let options = options.clone();
-    let found = watch.over(move |watch| validation::validate(&options, &|step| watch.step(step), &mut announce));
+    let found = watch.over(move |watch| validate::validate(&options, &|step| watch.step(step), &mut announce));
     watch.finish();
     let Some(report) = found.map_err(Failure::Thread)? else { return Ok(INTERRUPTED) };
     let report = report.map_err(Failure::Validation)?;

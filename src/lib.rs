@@ -52,7 +52,6 @@
 //!
 //! | floor | modules | what stands there |
 //! |---|---|---|
-//! | 6 | [`validation`] | claims about the program, checked by the program |
 //! | 5 | [`run`] | the pipeline: read a scene, build it, study it, write files |
 //! | 4 | [`scene`], [`output`] | what the user writes, what the user gets |
 //! | 3 | [`analysis`] | questions about states: equilibria, modes, spectra |
@@ -71,7 +70,6 @@ pub mod run;
 pub mod scene;
 pub mod sheet;
 pub mod solver;
-pub mod validation;
 
 pub use analysis::relax::{Relaxed, relax};
 pub use model::{Assembly, Boundary, RIGID, Rest, Terms};

@@ -3,6 +3,7 @@
 mod cli;
 mod parameters;
 mod progress;
+mod validate;
 
 use std::process::ExitCode;
 

@@ -45,8 +45,6 @@ pub struct Progress {
     pub of: Option<usize>,
     /// The residual that has to become small; not a number where there is none.
     pub residual: f64,
-    /// How small, where the study ends there.
-    pub target: Option<f64>,
 }
 
 /// Whoever watches a run: called after every step, it says whether to go on.

@@ -19,7 +19,7 @@ const FLOORS: &[(&str, u8)] = &[
     ("scene", 4),
     ("output", 4),
     ("run", 5),
-    ("validation", 6),
+    ("validate", 6),
     ("parameters", 6),
     ("progress", 6),
     ("cli", 7),

@@ -168,7 +168,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &BlochSpec) -> Re
 fn find(runner: &Runner<'_>, study: &StudySpec, spec: &BlochSpec, ground: Ground) -> Result<Option<Found>, BlochError> {
     let mut watch = |step: usize| {
         let (study, of) = (study.name.0.clone(), Some(bloch::STEPS));
-        runner.watch(&Progress { study, step, of, residual: f64::NAN, target: None })
+        runner.watch(&Progress { study, step, of, residual: f64::NAN })
     };
     let options = SurveyOptions {
         wavenumbers: wavenumbers(spec),

@@ -62,7 +62,7 @@ pub fn word(directions: RealDirections) -> String {
 /// Runs the study.
 pub fn study(runner: &mut Runner<'_>, study: &StudySpec) -> Result<StudySummary, RunError> {
     let assembly = runner.assembly;
-    runner.watch(&Progress { study: study.name.0.clone(), step: 0, of: None, residual: f64::NAN, target: None });
+    runner.watch(&Progress { study: study.name.0.clone(), step: 0, of: None, residual: f64::NAN });
     let clock = Instant::now();
     let found = branches(assembly);
     let mut summary = StudySummary {

@@ -2,7 +2,7 @@
 
 use super::runner::Runner;
 use super::{RunError, landscape_map, studies};
-use crate::analysis::landscape::samples::{Landscape, OPTIONS, Sample, landscape};
+use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::{Assembly, Boundary};
 use crate::numerics::{larger, worst};
@@ -144,7 +144,7 @@ fn along(
         Mode::Curvature(curvature) => Some(*curvature),
         _ => held.curvature(&rates),
     };
-    let mut watch = studies::watcher(runner, study, OPTIONS.tolerance);
+    let mut watch = studies::watcher(runner, study);
     let landscape = landscape(&mut held, rates, &amplitudes(spec), &mut watch);
     Ok(Along { mode: (**mode).clone(), curvature, landscape })
 }

@@ -109,7 +109,7 @@ fn sampled(
     let done = AtomicUsize::new(rows.len());
     let go_on = || {
         let (step, of) = (done.fetch_add(1, Ordering::Relaxed) + 1, Some(points.len()));
-        runner.watch(&Progress { study: study.name.0.clone(), step, of, residual: f64::NAN, target: None })
+        runner.watch(&Progress { study: study.name.0.clone(), step, of, residual: f64::NAN })
     };
     while rows.len() < points.len() && reason.is_none() {
         let batch = &points[rows.len()..points.len().min(rows.len() + BATCH)];

@@ -78,7 +78,7 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
         options.tolerance = tolerance.0;
     }
     let clock = Instant::now();
-    let found = analysis::relax::relax_from(&mut model, start, options, &mut watcher(runner, study, options.tolerance));
+    let found = analysis::relax::relax_from(&mut model, start, options, &mut watcher(runner, study));
     let seconds = clock.elapsed().as_secs_f64();
     match found {
         Ok(relaxed) => {
@@ -109,15 +109,13 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
     }
 }
 
-/// Shows the steps of a relaxation. A second start begins a continuation, the end of which nobody can tell.
-pub fn watcher(runner: &Runner<'_>, study: &StudySpec, tolerance: f64) -> impl FnMut(&Step) -> bool {
-    let (mut step, mut starts) = (0, 0);
+/// Shows the steps of a relaxation.
+pub fn watcher(runner: &Runner<'_>, study: &StudySpec) -> impl FnMut(&Step) -> bool {
+    let mut step = 0;
     move |last| {
         step += 1;
-        starts += usize::from(last.fraction == 0.0);
         let residual = last.residual_force.max(last.residual_length);
-        let target = (starts == 1).then_some(tolerance);
-        runner.watch(&Progress { study: study.name.0.clone(), step, of: None, residual, target })
+        runner.watch(&Progress { study: study.name.0.clone(), step, of: None, residual })
     }
 }
 
@@ -288,7 +286,7 @@ pub fn modes(runner: &mut Runner<'_>, study: &StudySpec, spec: &ModesSpec) -> Re
     let (clock, mut step, observed) = (Instant::now(), 0, &*runner);
     let found = analysis::modes::modes(assembly, eigenvalues, &mut || {
         step += 1;
-        observed.watch(&Progress { study: study.name.0.clone(), step, of: None, residual: f64::NAN, target: None })
+        observed.watch(&Progress { study: study.name.0.clone(), step, of: None, residual: f64::NAN })
     });
     let seconds = clock.elapsed().as_secs_f64();
     let mut summary = StudySummary {

@@ -102,7 +102,7 @@ pub fn curvature_of_cell(assembly: &Assembly) -> f64 {
 }
 
 fn watch(runner: &Runner<'_>, study: &StudySpec, step: usize) -> bool {
-    runner.watch(&Progress { study: study.name.0.clone(), step, of: None, residual: f64::NAN, target: None })
+    runner.watch(&Progress { study: study.name.0.clone(), step, of: None, residual: f64::NAN })
 }
 
 /// Why a surface is not whole; `None` where it is.

@@ -135,7 +135,7 @@ fn follow(
     let mut observe = |_: (usize, i8), point: &crate::solver::continuation::Point| {
         step += 1;
         let (study, residual) = (study.name.0.clone(), point.residual);
-        runner.watch(&Progress { study, step, of: None, residual, target: None })
+        runner.watch(&Progress { study, step, of: None, residual })
     };
     let crosses = asked.then_some(&mut crosses as Intersects<'_>);
     trace(assembly, options, crosses, &mut observe)
@@ -159,7 +159,7 @@ fn relaxed(runner: &Runner<'_>, study: &StudySpec, engine: Engine, traced: &[Tra
         return Vec::new();
     }
     let options = Options::default();
-    let mut watch = studies::watcher(runner, study, options.tolerance);
+    let mut watch = studies::watcher(runner, study);
     traced.iter().map(|one| drive::drive(runner.assembly, options, one, &mut watch)).collect()
 }
 
@@ -254,7 +254,7 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
 /// Tells the observer of a state that is looked at for crossing faces; false: stop.
 fn watch(runner: &Runner<'_>, study: &StudySpec, step: usize) -> bool {
     let study = study.name.0.clone();
-    runner.watch(&Progress { study, step, of: None, residual: 0.0, target: None })
+    runner.watch(&Progress { study, step, of: None, residual: 0.0 })
 }
 
 /// The trajectories in the space of lattice strains.

@@ -96,7 +96,7 @@ pub fn study(runner: &mut Runner<'_>, study: &StudySpec, spec: &WellsSpec) -> Re
     let starts = spec.starts.as_ref().map_or(STARTS, |count| count.0) as usize;
     let watch = |of: Option<usize>| {
         let step = step.fetch_add(1, Ordering::Relaxed) + 1;
-        runner.watch(&Progress { study: study.name.0.clone(), step, of, residual: f64::NAN, target: None })
+        runner.watch(&Progress { study: study.name.0.clone(), step, of, residual: f64::NAN })
     };
     let spread = spec.spread.as_ref().map_or(PI, |spread| spread.0);
     let from = Starts { count: starts, seed: spec.seed, spread, options: Options::default() };

@@ -6,10 +6,10 @@ use super::super::precision::shortest;
 use super::super::report::figure;
 use super::super::star::{Star, size};
 use super::trial::distance;
-use crate::analysis::relax::{RelaxError, Relaxed};
-use crate::analysis::state::State;
-use crate::output::chart::{Chart, Point, Series};
-use crate::solver::Options;
+use foldwell::analysis::relax::{RelaxError, Relaxed};
+use foldwell::analysis::state::State;
+use foldwell::output::chart::{Chart, Point, Series};
+use foldwell::solver::Options;
 use serde_json::json;
 
 const CELLS: [usize; 6] = [3, 6, 9, 12, 18, 24];

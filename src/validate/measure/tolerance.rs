@@ -3,9 +3,9 @@
 use super::super::experiment::{Bench, ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::star::Star;
-use crate::analysis::exact::error_to_kinematic;
-use crate::numerics::worst;
-use crate::solver::Options;
+use foldwell::analysis::exact::error_to_kinematic;
+use foldwell::numerics::worst;
+use foldwell::solver::Options;
 use serde_json::json;
 
 const TOLERANCES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];

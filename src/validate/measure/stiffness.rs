@@ -6,10 +6,10 @@ use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::report::figure;
 use super::super::star::Star;
 use super::trial::distance;
-use crate::analysis::exact::error_to_kinematic;
-use crate::analysis::state::State;
-use crate::numerics::{larger, worst};
-use crate::solver::Options;
+use foldwell::analysis::exact::error_to_kinematic;
+use foldwell::analysis::state::State;
+use foldwell::numerics::{larger, worst};
+use foldwell::solver::Options;
 use serde_json::json;
 
 const STIFFNESSES: [f64; 9] = [1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16, f64::INFINITY];

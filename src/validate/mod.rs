@@ -8,7 +8,8 @@
 
 pub mod claim;
 pub mod experiment;
-pub mod forms;
+#[allow(dead_code)] // the bench reads the rest
+mod forms;
 pub mod library;
 pub mod measure;
 pub mod page;
@@ -17,10 +18,10 @@ pub mod report;
 pub mod star;
 pub mod verdict;
 
-use crate::output::OutputError;
-use crate::run::Observer;
 use claim::{Claim, ClaimError};
 use experiment::{ExperimentError, Laboratory};
+use foldwell::output::OutputError;
+use foldwell::run::Observer;
 use miette::Diagnostic;
 use report::{Case, Report};
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! Error against run time: settings of one method with what they reach and what they cost.
 
-use crate::output::chart::{Chart, Point, Series};
+use foldwell::output::chart::{Chart, Point, Series};
 use serde::Serialize;
 use std::time::Instant;
 

@@ -4,13 +4,13 @@
 //! proximal form of the tensions, which are `t = w (m + t0/gamma)`. With `1/gamma = 0` that is the plain penalty `k m^2 / 2`,
 //! whose forces carry a rounding error of `k` times that of a length. With a moderate `gamma` nothing large is ever
 //! multiplied; the minimisation is repeated with `t0 = t` until `m = c t` (augmented form; R. T. Rockafellar, Math. Oper.
-//! Res. 1, 97, 1976). The program's own way, tensions as unknowns beside `x`, is [`crate::solver::minimize`].
+//! Res. 1, 97, 1976). The program's own way, tensions as unknowns beside `x`, is [`foldwell::solver::minimize`].
 
-use crate::model::Model;
-use crate::numerics::factor::FactorError;
-use crate::numerics::tearing::TornFactor;
-use crate::numerics::{larger, largest};
-use crate::solver::{Curvature, Linearization, Problem, tension};
+use foldwell::model::Model;
+use foldwell::numerics::factor::FactorError;
+use foldwell::numerics::tearing::TornFactor;
+use foldwell::numerics::{larger, largest};
+use foldwell::solver::{Curvature, Linearization, Problem, tension};
 
 /// Most Newton steps in all, and most updates of the tensions.
 const STEPS: usize = 200;

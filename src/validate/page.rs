@@ -2,7 +2,7 @@
 
 use super::experiment::Grid;
 use super::report::{Case, Report, cheapest};
-use crate::output::chart::{escaped, svg};
+use foldwell::output::chart::{escaped, svg};
 
 const STYLE: &str = "body{font:15px/1.5 Helvetica,Arial,sans-serif;color:#2e3238;background:#fff;max-width:1100px;\
 margin:2em auto;padding:0 1em}table{border-collapse:collapse;margin:1em 0;width:100%}th,td{text-align:left;\

@@ -7,12 +7,12 @@ use super::super::report::figure;
 use super::super::star::size;
 use super::memory;
 use super::trial::distance;
-use crate::analysis::relax::{Relaxed, relax_from};
-use crate::model::{Assembly, Gauge, Model, RIGID, Terms};
-use crate::numerics::larger;
-use crate::sheet::generate::Yoshimura;
-use crate::sheet::{EdgeKind, Pattern, Sheet, TiledEdge, generate};
-use crate::solver::Options;
+use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::model::{Assembly, Gauge, Model, RIGID, Terms};
+use foldwell::numerics::larger;
+use foldwell::sheet::generate::Yoshimura;
+use foldwell::sheet::{EdgeKind, Pattern, Sheet, TiledEdge, generate};
+use foldwell::solver::Options;
 use serde_json::json;
 use std::time::Instant;
 

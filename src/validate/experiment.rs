@@ -3,13 +3,13 @@
 use super::claim::Experiment;
 use super::precision::Diagram;
 use super::{library, measure};
-use crate::analysis::relax::RelaxError;
-use crate::analysis::trace::TraceError;
-use crate::model::AssemblyError;
-use crate::output::chart::Chart;
-use crate::output::{OutputError, files};
-use crate::run::{Observer, Progress, RunError, RunOptions, run_scene};
-use crate::sheet::SheetError;
+use foldwell::analysis::relax::RelaxError;
+use foldwell::analysis::trace::TraceError;
+use foldwell::model::AssemblyError;
+use foldwell::output::chart::Chart;
+use foldwell::output::{OutputError, files};
+use foldwell::run::{Observer, Progress, RunError, RunOptions, run_scene};
+use foldwell::sheet::SheetError;
 use serde::Serialize;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -124,7 +124,7 @@ impl Bench<'_> {
     /// # Errors
     /// [`ExperimentError::Interrupted`] where the observer asks to stop.
     pub fn step(&self, step: usize, of: usize) -> Result<(), ExperimentError> {
-        let progress = Progress { study: self.name.into(), step, of: Some(of), residual: f64::NAN, target: None };
+        let progress = Progress { study: self.name.into(), step, of: Some(of), residual: f64::NAN };
         if (self.observer)(&progress).is_continue() { Ok(()) } else { Err(ExperimentError::Interrupted) }
     }
 }

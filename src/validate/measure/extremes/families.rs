@@ -1,13 +1,13 @@
 //! The families of extreme cases, each with what its result is compared with.
 
 use super::super::trial::{Outcome, Trial, distance, judge, within};
-use crate::math::Vec3;
-use crate::model::Boundary;
-use crate::sheet::build::{self, Drawing};
-use crate::sheet::generate::{MiuraPatch, Random};
-use crate::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
-use crate::validation::experiment::ExperimentError;
-use crate::validation::{library, star};
+use crate::validate::experiment::ExperimentError;
+use crate::validate::{library, star};
+use foldwell::math::Vec3;
+use foldwell::model::Boundary;
+use foldwell::sheet::build::{self, Drawing};
+use foldwell::sheet::generate::{MiuraPatch, Random};
+use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
 /// A trial that is not made yet.

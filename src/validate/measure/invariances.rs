@@ -4,10 +4,10 @@ use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::report::figure;
 use super::super::star;
 use super::trial::{Rest, Trial};
-use crate::math::Vec3;
-use crate::model::Boundary;
-use crate::numerics::{larger, worst};
-use crate::sheet::build::{Drawing, build, draw};
+use foldwell::math::Vec3;
+use foldwell::model::Boundary;
+use foldwell::numerics::{larger, worst};
+use foldwell::sheet::build::{Drawing, build, draw};
 use nalgebra::Rotation3;
 use serde_json::json;
 

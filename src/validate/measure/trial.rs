@@ -1,13 +1,13 @@
 //! One relaxation far from the ordinary, and a verdict on it: right, refused for a reason, or wrong.
 
 use super::super::forms::{self, Form};
-use crate::analysis::exact::error_to_kinematic;
-use crate::analysis::relax::relax_from;
-use crate::analysis::state::State;
-use crate::model::{Assembly, AssemblyError, Boundary, Gauge, Hinges, Model, RIGID, Terms};
-use crate::numerics::{larger, worst};
-use crate::sheet::{Edge, Sheet, TiledEdge};
-use crate::solver::Options;
+use foldwell::analysis::exact::error_to_kinematic;
+use foldwell::analysis::relax::relax_from;
+use foldwell::analysis::state::State;
+use foldwell::model::{Assembly, AssemblyError, Boundary, Gauge, Hinges, Model, RIGID, Terms};
+use foldwell::numerics::{larger, worst};
+use foldwell::sheet::{Edge, Sheet, TiledEdge};
+use foldwell::solver::Options;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -8,11 +8,11 @@ use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::report::figure;
 use super::super::star::Star;
 use super::trial::distance;
-use crate::analysis::relax::{Relaxed, relax_from};
-use crate::model::Model;
-use crate::output::chart::{Chart, Point, Series};
-use crate::solver::saddle::Saddle;
-use crate::solver::{Curvature, Linearization, Options, Problem, Start};
+use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::model::Model;
+use foldwell::output::chart::{Chart, Point, Series};
+use foldwell::solver::saddle::Saddle;
+use foldwell::solver::{Curvature, Linearization, Options, Problem, Start};
 use serde_json::json;
 use std::ops::RangeInclusive;
 

@@ -2,11 +2,11 @@
 
 use super::experiment::ExperimentError;
 use super::library;
-use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
-use crate::analysis::trace::{Stop, TraceOptions, Traced, trace};
-use crate::model::{Assembly, Boundary, Gauge, Model, Terms};
-use crate::sheet::{Sheet, SheetError, fold};
-use crate::solver::{Options, Problem};
+use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
+use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
+use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
+use foldwell::sheet::{Sheet, SheetError, fold};
+use foldwell::solver::{Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

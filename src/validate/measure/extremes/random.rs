@@ -3,10 +3,10 @@
 use super::super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::trial::{Outcome, Rest, Trial};
 use super::{Tally, said};
-use crate::model::Boundary;
-use crate::numerics::parallel;
-use crate::sheet::generate::Random;
-use crate::sheet::{Pattern, generate};
+use foldwell::model::Boundary;
+use foldwell::numerics::parallel;
+use foldwell::sheet::generate::Random;
+use foldwell::sheet::{Pattern, generate};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

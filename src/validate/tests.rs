@@ -2,7 +2,7 @@
 
 use super::claim::Numbers;
 use super::*;
-use crate::run::Progress;
+use foldwell::run::Progress;
 use serde_json::Value;
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -5,9 +5,9 @@ use super::super::report::figure;
 use super::super::star::{Star, size};
 use super::memory;
 use super::sizes::exponent;
-use crate::numerics::larger;
-use crate::output::chart::{Chart, Point, Series};
-use crate::solver::Options;
+use foldwell::numerics::larger;
+use foldwell::output::chart::{Chart, Point, Series};
+use foldwell::solver::Options;
 use serde_json::json;
 use std::time::Instant;
 

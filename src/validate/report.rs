@@ -5,9 +5,9 @@ use super::experiment::{Grid, Outcome};
 use super::page;
 use super::precision::{Diagram, Setting};
 use super::verdict::{compare, numbers_at};
-use crate::output::chart::Chart;
-use crate::output::summary::to_json;
-use crate::output::{OutputError, files};
+use foldwell::output::chart::Chart;
+use foldwell::output::summary::to_json;
+use foldwell::output::{OutputError, files};
 use serde::Serialize;
 use std::path::Path;
 

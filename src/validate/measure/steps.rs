@@ -3,10 +3,10 @@
 use super::super::experiment::{Bench, ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::star;
-use crate::analysis::branches::{BranchesError, branches};
-use crate::kinematics::{Closing, Closure, KinematicsError};
-use crate::model::{Assembly, Boundary, Terms};
-use crate::solver::continuation::{End, Options, follow};
+use foldwell::analysis::branches::{BranchesError, branches};
+use foldwell::kinematics::{Closing, Closure, KinematicsError};
+use foldwell::model::{Assembly, Boundary, Terms};
+use foldwell::solver::continuation::{End, Options, follow};
 use serde_json::json;
 use std::f64::consts::TAU;
 

@@ -2,7 +2,7 @@
 
 use super::super::experiment::{Bench, ExperimentError, Findings};
 use super::super::library;
-use crate::output::{OutputError, files};
+use foldwell::output::{OutputError, files};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
