@@ -25,7 +25,6 @@ mod forms;
 use common::{Star, difference, measuring, norm, seconds, size, vector, wanted};
 use foldwell::model::Model;
 use foldwell::numerics::factor::{Factor, Inertia};
-use foldwell::numerics::parallel;
 use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, symmetric_product};
 use foldwell::solver::corrections::{NearlySolved, Pair, correct};
 use foldwell::solver::saddle::Saddle;
@@ -36,7 +35,6 @@ const DELTA: f64 = 1e-8;
 const LEAST: f64 = 1e-10;
 
 fn main() {
-    parallel::set_threads(1);
     let parts: [(&str, fn()); 3] = [("system", system), ("weight", weight), ("relaxation", relaxation)];
     for (name, part) in parts {
         if wanted(name) {

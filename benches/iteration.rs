@@ -15,7 +15,7 @@
 //!   and what that is made of. Comes last and ends with an error where the first one is more than 1.5.
 //! - `study`: what a whole relaxation adds to its iterations: analysis of the pattern, self stresses.
 //! - `assembly`: its cost against the number of unknowns; the exponent must be 1.
-//! - `threads`: assembly with one and two threads (this program starts itself again, since threads are set once).
+//! - `threads`: assembly with one and two threads, in turns.
 //! - `dense`: below which size the dense factorization is faster than the sparse one.
 #![allow(clippy::unwrap_used)]
 
@@ -25,7 +25,8 @@ use common::kernels::{Sparse, dense_factor_and_solve};
 use common::{Star, exponent, in_turns, measuring, seconds, size, vector, wanted};
 use foldwell::model::Model;
 use foldwell::numerics::factor::DENSE_LIMIT;
-use foldwell::numerics::{parallel, tearing::TornFactor};
+use foldwell::numerics::parallel::{FEWEST_SHARED_ELEMENTS, Threads};
+use foldwell::numerics::tearing::TornFactor;
 use foldwell::solver::saddle::Saddle;
 use foldwell::solver::{
     Curvature, Equilibrium, Layout, Linearization, NewtonError, Options, Problem, minimize, tension,
@@ -42,13 +43,7 @@ const SOME_STEPS: usize = 8;
 /// A part of the benchmark, at these numbers of cells a side.
 type Part = fn(&[usize]);
 
-const CHILD: &str = "FOLDWELL_BENCH_THREADS";
-
 fn main() {
-    if let Ok(threads) = std::env::var(CHILD) {
-        return report_assembly(threads.parse().unwrap());
-    }
-    parallel::set_threads(1);
     let parts: [(&str, Part); 5] =
         [("study", study), ("assembly", assembly), ("threads", threads), ("dense", dense), ("split", split)];
     let sizes: &[usize] = if measuring() { &[13, 24, 40, 57, 82] } else { &[3] };
@@ -403,24 +398,6 @@ fn assembly(sizes: &[usize]) {
     }
 }
 
-/// What a child prints: microseconds of one assembly and one evaluation, size by size.
-fn report_assembly(threads: usize) {
-    parallel::set_threads(threads);
-    for n in std::env::args().filter_map(|argument| argument.parse::<usize>().ok()) {
-        let star = Star::new(n);
-        let model = star.model(RIGID);
-        let (x, t) = (model.start(), vec![0.0; size(&model).1]);
-        let mut at = Linearization::new(model.layout());
-        let medians = in_turns(
-            20,
-            &mut [&mut || elapsed(|| model.linearize(&x, &t, Curvature::Full, &mut at)), &mut || {
-                elapsed(|| _ = (model.gaps(&x), model.energy(&x)))
-            }],
-        );
-        println!("{} {} {}", size(&model).1, 1e6 * medians[0], 1e6 * medians[1]);
-    }
-}
-
 /// Seconds on the wall: several threads share the work.
 fn elapsed(work: impl FnOnce()) -> f64 {
     let clock = std::time::Instant::now();
@@ -430,24 +407,27 @@ fn elapsed(work: impl FnOnce()) -> f64 {
 
 fn threads(sizes: &[usize]) {
     let small: &[usize] = if measuring() { &[8, 9, 10, 11, 12, 16, 18] } else { &[] };
-    let sizes: Vec<String> = small.iter().chain(sizes).map(usize::to_string).collect();
-    let measure = |threads: &str| -> Vec<[f64; 3]> {
-        let program = std::env::current_exe().unwrap();
-        let child = std::process::Command::new(program).args(&sizes).env(CHILD, threads).output().unwrap();
-        let row = |line: &str| -> Vec<f64> { line.split(' ').map(|word| word.parse().unwrap()).collect() };
-        String::from_utf8(child.stdout).unwrap().lines().map(|line| row(line).try_into().unwrap()).collect()
-    };
-    let mut runs: Vec<[Vec<[f64; 3]>; 2]> = (0..rounds()).map(|_| [measure("1"), measure("2")]).collect();
-    println!("below {} elements one thread does all the work", parallel::LEAST);
+    println!("below {FEWEST_SHARED_ELEMENTS} elements one thread does all the work");
     println!("{:>8} {:>11} {:>6} {:>11} {:>6}", "elements", "assemble us", "2 / 1", "evaluate us", "2 / 1");
-    for k in 0..sizes.len() {
-        let mut middle = |threads: usize, column: usize| {
-            let mut times: Vec<f64> = runs.iter_mut().map(|run| run[threads][k][column]).collect();
-            common::median(&mut times)
-        };
-        let (elements, assemble, evaluate) = (middle(0, 0), middle(0, 1), middle(0, 2));
-        let (ratio, evaluation) = (middle(1, 1) / assemble, middle(1, 2) / evaluate);
-        println!("{elements:8} {assemble:11.0} {ratio:6.2} {evaluate:11.0} {evaluation:6.2}");
+    let [one, two] = [1, 2].map(|count| Threads::new(Some(count)));
+    for &n in small.iter().chain(sizes) {
+        let model = Star::new(n).model(RIGID);
+        let (x, t) = (model.start(), vec![0.0; size(&model).1]);
+        let [mut at, mut other] = [0, 1].map(|_| Linearization::new(model.layout()));
+        let assemble = |at: &mut Linearization| elapsed(|| model.linearize(&x, &t, Curvature::Full, at));
+        let evaluate = || elapsed(|| _ = (model.gaps(&x), model.energy(&x)));
+        let medians = in_turns(
+            20 * rounds(),
+            &mut [
+                &mut || one.install(|| assemble(&mut at)),
+                &mut || two.install(|| assemble(&mut other)),
+                &mut || one.install(evaluate),
+                &mut || two.install(evaluate),
+            ],
+        );
+        let [alone, shared, evaluated, evaluated_shared] = medians[..] else { unreachable!("four pieces of work") };
+        let (elements, assembly, evaluation) = (t.len(), shared / alone, evaluated_shared / evaluated);
+        println!("{elements:8} {:11.0} {assembly:6.2} {:11.0} {evaluation:6.2}", 1e6 * alone, 1e6 * evaluated);
     }
 }
 

@@ -17,7 +17,7 @@ use foldwell::analysis::landscape::{Courses, HeldSheet};
 use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Gauge, RIGID, Terms};
-use foldwell::numerics::parallel;
+use foldwell::numerics::parallel::Threads;
 use foldwell::sheet::fold;
 use foldwell::solver::Options;
 use std::time::Instant;
@@ -46,9 +46,8 @@ fn main() {
         clock.elapsed().as_secs_f64() / 20.0
     };
     let map = |threads: usize| {
-        parallel::set_threads(threads);
         let clock = Instant::now();
-        let found = samples(&make, &courses, &points, AMPLITUDE, &|| true);
+        let found = Threads::new(Some(threads)).install(|| samples(&make, &courses, &points, AMPLITUDE, &|| true));
         assert!(found.iter().all(|sample| sample.as_ref().is_some_and(Result::is_ok)));
         clock.elapsed().as_secs_f64() / points.len() as f64
     };

@@ -16,7 +16,6 @@ mod common;
 use common::{Star, in_turns, measuring, seconds, size, vector};
 use foldwell::numerics::factor::Factor;
 use foldwell::numerics::largest;
-use foldwell::numerics::parallel;
 use foldwell::numerics::sparse::{Pattern, symmetric_product};
 use foldwell::numerics::tearing::TornFactor;
 use foldwell::solver::saddle::Saddle;
@@ -27,7 +26,6 @@ use std::path::{Path, PathBuf};
 const ROUNDS: usize = 7;
 
 fn main() {
-    parallel::set_threads(1);
     let folder = folder();
     let sizes: &[usize] = if measuring() || folder.is_some() { &[12, 24, 48] } else { &[3] };
     println!("{:>13} {:>6} {:>27} {:>27}", "", "hinges", "torn: factor, solve, stored", "whole");

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::numerics::parallel::Threads;
 use crate::output::picture::Picture;
 use crate::output::summary::Summary;
 use crate::output::{OutputError, files, vtk};
@@ -173,6 +174,15 @@ pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Resu
 /// # Errors
 /// [`RunError`], as [`run_scene`].
 pub fn run_with_ledger(
+    scene: &Path,
+    options: &RunOptions,
+    observer: Observer,
+    ledger: &Ledger,
+) -> Result<RunReport, RunError> {
+    Threads::new(options.threads).install(|| run_on_these_threads(scene, options, observer, ledger))
+}
+
+fn run_on_these_threads(
     scene: &Path,
     options: &RunOptions,
     observer: Observer,

@@ -8,7 +8,7 @@ use common::{Testing, on, patch};
 use foldwell::analysis::relax::relax_from;
 use foldwell::model::Gauge;
 use foldwell::model::{Assembly, Boundary, Terms};
-use foldwell::numerics::parallel;
+use foldwell::numerics::parallel::{FEWEST_SHARED_ELEMENTS, Threads};
 use foldwell::solver::Options;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ const SHALLOW: &str = "bars = { stiffness = 1e6 }\ncreases = { stiffness = 1.0, 
 fn the_same_bits_for_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let case = patch("open-star", [16, 16]);
-    assert!(case.edges() > parallel::LEAST, "the case is too small to show anything");
+    assert!(case.edges() > FEWEST_SHARED_ELEMENTS, "the case is too small to show anything");
     let sheet = "domain = \"patch\"\ncells = [16, 16]";
     let mut table = String::from("i,j,n1,n2,angle\n");
     let mut numbers = common::Numbers::new(1);
@@ -101,25 +101,25 @@ fn nothing_is_drawn_where_nothing_is_wanted() {
 }
 
 /// Claim: a cell, and a patch below the threshold, start no threads; a large one does (so that the question is answered
-/// by something that can say yes). One test, since the pool belongs to the process.
+/// by something that can say yes).
 #[test]
 fn small_sheets_start_no_threads() {
-    parallel::set_threads(2);
+    let threads = Threads::new(Some(2));
     let rigid = |case: &Assembly| {
         let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
         let mut model = case.model_of(&terms, Gauge::Held);
         let start = model.start();
-        relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+        threads.install(|| relax_from(&mut model, start, Options::default(), &mut |_| true)).unwrap();
     };
     for boundary in [Boundary::Screw, Boundary::FreeTorus, Boundary::FixedTorus] {
         rigid(&on(common::mesh("open-star"), [1, 1], boundary));
     }
     rigid(&patch("open-star", [12, 12]));
-    assert!(!parallel::started(), "a small sheet started threads");
+    assert!(!threads.started(), "a small sheet started threads");
     let case = patch("open-star", [14, 14]);
-    assert!(case.edges() > parallel::LEAST);
+    assert!(case.edges() > FEWEST_SHARED_ELEMENTS);
     rigid(&case);
-    assert!(parallel::started(), "a large sheet started none: the test shows nothing");
+    assert!(threads.started(), "a large sheet started none: the test shows nothing");
 }
 
 /// Names and sizes of a model's terms, soft and stiff.

@@ -10,7 +10,7 @@ use foldwell::analysis::landscape::sphere::{Direction, Net, curvature, point, sa
 use foldwell::analysis::landscape::{Courses, Expansion, HeldSheet, Place, Prediction, Samples};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Terms};
-use foldwell::numerics::parallel;
+use foldwell::numerics::parallel::Threads;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 fn terms(case: &Assembly) -> Terms {
@@ -108,9 +108,8 @@ fn samples_do_not_know_each_other() {
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
     let amplitude = 5e-4;
     let run = |threads: usize| -> Vec<(f64, usize)> {
-        parallel::set_threads(threads);
         let make = || HeldSheet::patch(&case.with_terms(terms(&case)));
-        let found = samples(&make, &courses, &points, amplitude, &|| true);
+        let found = Threads::new(Some(threads)).install(|| samples(&make, &courses, &points, amplitude, &|| true));
         found.into_iter().map(|s| s.unwrap().unwrap()).map(|s| (s.relaxed.state.total(), s.iterations)).collect()
     };
     let (one, two) = (run(1), run(2));

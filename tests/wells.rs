@@ -15,7 +15,7 @@ use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::Gauge;
 use foldwell::model::{Assembly, Boundary, Terms};
-use foldwell::numerics::parallel;
+use foldwell::numerics::parallel::Threads;
 use foldwell::output::summary::{StudyResult, StudySummary, WellsSummary};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{EdgeKey, Sheet, fold};
@@ -368,13 +368,14 @@ fn starts_do_not_know_threads() {
     let (case, rest) = near_cross();
     let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, rest);
     let run = |threads: usize| -> Vec<Option<u64>> {
-        parallel::set_threads(threads);
         let starts = Starts { count: 24, seed: 7, spread: PI, options: Options::default() };
         let energy = |outcome: Outcome| match outcome {
             Outcome::Well(well) => Some(well.energy.to_bits()),
             _ => None,
         };
-        relax_all(&case.with_terms(terms.clone()), &starts, &|| true).into_iter().map(energy).collect()
+        let assembly = case.with_terms(terms.clone());
+        let relaxed = Threads::new(Some(threads)).install(|| relax_all(&assembly, &starts, &|| true));
+        relaxed.into_iter().map(energy).collect()
     };
     assert_eq!(run(1), run(2));
 }

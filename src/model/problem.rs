@@ -359,7 +359,7 @@ impl Problem for Model {
                 let off = term.value(k, &self.domain, &all) - spring.rest;
                 *energy = 0.5 * spring.stiffness * off * off;
             };
-            parallel::ordered(term.len(), cost, |_, value| energy += value);
+            parallel::compute_and_consume(term.len(), cost, |_, value| energy += value);
         }
         energy
     }
@@ -369,7 +369,7 @@ impl Problem for Model {
         let mut gaps = Vec::with_capacity(self.compliance.len());
         for term in &self.stiff {
             let gap = |k: usize, gap: &mut f64| *gap = term.value(k, &self.domain, &all) - term.spring(k).rest;
-            parallel::ordered(term.len(), gap, |_, gap| gaps.push(*gap));
+            parallel::compute_and_consume(term.len(), gap, |_, gap| gaps.push(*gap));
         }
         gaps
     }
@@ -430,7 +430,7 @@ impl Model {
                 out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
                 out.add_soft(&self.layout, first + k, (spring.stiffness, &local.gradient), (force, &local.hessian));
             };
-            parallel::ordered(term.len(), self.locals(term, all, full), add);
+            parallel::compute_and_consume(term.len(), self.locals(term, all, full), add);
         }
     }
 
@@ -446,7 +446,7 @@ impl Model {
                 out.jacobian[self.layout.stiff.range(measure)].copy_from_slice(&local.gradient);
                 out.add_stiff(measure, tension[measure], &local.hessian);
             };
-            parallel::ordered(term.len(), self.locals(term, all, true), add);
+            parallel::compute_and_consume(term.len(), self.locals(term, all, true), add);
         }
     }
 

@@ -271,9 +271,16 @@ fn eigenpairs_can_be_stopped() {
 /// Claim: results arrive in order, each once, above and below the size at which threads are used.
 #[test]
 fn work_is_consumed_in_order() {
-    for count in [0, 1, parallel::LEAST - 1, parallel::LEAST, 3 * parallel::LEAST + 7, 10_000] {
+    for count in [
+        0,
+        1,
+        parallel::FEWEST_SHARED_ELEMENTS - 1,
+        parallel::FEWEST_SHARED_ELEMENTS,
+        3 * parallel::FEWEST_SHARED_ELEMENTS + 7,
+        10_000,
+    ] {
         let mut next = 0;
-        parallel::ordered(
+        parallel::compute_and_consume(
             count,
             |k, square: &mut usize| *square = k * k,
             |k, square| {

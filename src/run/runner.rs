@@ -9,7 +9,6 @@ use super::{
 };
 use crate::analysis::view::View;
 use crate::model::Assembly;
-use crate::numerics::parallel;
 use crate::output::files;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
 use crate::scene::build::notes;
@@ -56,7 +55,6 @@ impl<'a> Runner<'a> {
         observer: Observer<'a>,
         ledger: &Ledger,
     ) -> Result<Self, RunError> {
-        parallel::set_threads(options.threads.unwrap_or(0));
         let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
         let out = options.out.clone().unwrap_or_else(stem);
         let view = View::new(assembly);

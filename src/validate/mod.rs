@@ -20,6 +20,7 @@ pub mod verdict;
 
 use claim::{Claim, ClaimError};
 use experiment::{ExperimentError, Laboratory};
+use foldwell::numerics::parallel::Threads;
 use foldwell::output::OutputError;
 use foldwell::run::Observer;
 use miette::Diagnostic;
@@ -82,7 +83,8 @@ pub fn validate(
     observer: Observer,
     announce: &mut dyn FnMut(&Case),
 ) -> Result<Report, ValidationError> {
-    check(chosen(library::claims()?, options)?, options, observer, announce)
+    let claims = chosen(library::claims()?, options)?;
+    Threads::new(None).install(|| check(claims, options, observer, announce))
 }
 
 /// The claims that are asked for.

@@ -51,7 +51,7 @@ pub enum Outcome {
 
 /// Relaxes from all starts, in their order. `go_on` is asked after each and returns false to stop.
 pub fn relax_all(assembly: &Assembly, starts: &Starts, go_on: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
-    parallel::each(
+    parallel::map_with_state(
         starts.count,
         || true,
         |going, number| {

@@ -161,7 +161,7 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
         endgame::finish(&mut tracker, quadrics, x)
     };
     let ends: Vec<End> =
-        parallel::each(paths, || (), |(), number| path(number)).into_iter().filter_map(Result::ok).collect();
+        parallel::map_with_state(paths, || (), |(), number| path(number)).into_iter().filter_map(Result::ok).collect();
     if ends.len() < paths {
         return Err(HomotopyError::Lost { paths: paths - ends.len() });
     }
@@ -183,8 +183,10 @@ fn add_simple(ends: &[End], solutions: &mut Solutions) -> Result<(), HomotopyErr
     let simple: Vec<Simple> = ends.iter().filter_map(simple).collect();
     let same = |a: &Simple, b: &Simple| distance(&a.point, &b.point) <= a.separation.max(b.separation);
     let twice = |(k, one): (usize, &Simple)| simple[..k].iter().any(|other| same(one, other));
-    let paths =
-        parallel::each(simple.len(), || (), |(), k| twice((k, &simple[k]))).into_iter().filter(|twice| *twice).count();
+    let paths = parallel::map_with_state(simple.len(), || (), |(), k| twice((k, &simple[k])))
+        .into_iter()
+        .filter(|twice| *twice)
+        .count();
     if paths > 0 {
         return Err(HomotopyError::Collision { paths });
     }
@@ -258,7 +260,7 @@ fn check_pairs(solutions: &[Solution]) -> Result<(), HomotopyError> {
         let same = |other: &Solution| other.multiplicity == solution.multiplicity;
         !solution.real && !solutions.iter().any(|other| same(other) && distance(&other.point, &partner) <= SAME)
     };
-    let lonely = parallel::each(solutions.len(), || (), |(), k| alone(&solutions[k]));
+    let lonely = parallel::map_with_state(solutions.len(), || (), |(), k| alone(&solutions[k]));
     match lonely.into_iter().filter(|alone| *alone).count() {
         0 => Ok(()),
         paths => Err(HomotopyError::Unpaired { paths }),

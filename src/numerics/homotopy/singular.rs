@@ -89,8 +89,10 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
         let x = tracker.track(start, begin, end, 0.05)?;
         endgame::finish(&mut tracker, &polar, x)
     };
-    let ends: Vec<End> =
-        parallel::each(starts.len(), || (), |(), k| path(&starts[k])).into_iter().filter_map(Result::ok).collect();
+    let ends: Vec<End> = parallel::map_with_state(starts.len(), || (), |(), k| path(&starts[k]))
+        .into_iter()
+        .filter_map(Result::ok)
+        .collect();
     if ends.len() < starts.len() {
         return Err(HomotopyError::Lost { paths: starts.len() - ends.len() });
     }

@@ -1,4 +1,4 @@
-//! What more threads buy. The number of threads is set once in a process, so the program starts itself.
+//! What more threads buy: the program starts itself, so that what is timed is what its user waits for.
 
 use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::precision::Setting;

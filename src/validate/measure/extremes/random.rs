@@ -38,7 +38,7 @@ fn in_a_row(bench: &Bench, count: usize) -> Result<Findings, ExperimentError> {
         let seeds = first..count.min(first + BATCH);
         let trials: Vec<Trial> =
             seeds.map(|seed| random_trial(&mut numbers, seed as u64)).collect::<Result<_, ExperimentError>>()?;
-        let outcomes = parallel::each(trials.len(), || (), |(), k| trials[k].judged(ALLOWED));
+        let outcomes = parallel::map_with_state(trials.len(), || (), |(), k| trials[k].judged(ALLOWED));
         for (trial, outcome) in trials.iter().zip(&outcomes) {
             tally.add(&trial.description(), outcome);
             if let Outcome::Refused(_) | Outcome::Wrong(_) = outcome {
