@@ -27,11 +27,12 @@ use foldwell::model::Model;
 use foldwell::numerics::factor::DENSE_LIMIT;
 use foldwell::numerics::parallel::{FEWEST_SHARED_ELEMENTS, Threads};
 use foldwell::numerics::tearing::TornFactor;
-use foldwell::solver::saddle::Saddle;
+use foldwell::solver::kkt::KktSystem;
 use foldwell::solver::{
-    Curvature, Equilibrium, Layout, Linearization, NewtonError, Options, Problem, minimize, tension,
+    Equilibrium, HessianKind, Layout, Linearization, NewtonError, Options, Problem, Residuals, minimize, tension,
 };
 use std::cell::Cell;
+use std::sync::Arc;
 
 const RIGID: f64 = f64::INFINITY;
 /// Most that a plain iteration may take of one factorization and one solve.
@@ -77,7 +78,7 @@ impl<'a> Timed<'a> {
 }
 
 impl Problem for Timed<'_> {
-    fn layout(&self) -> &Layout {
+    fn layout(&self) -> &Arc<Layout> {
         self.model.layout()
     }
 
@@ -104,8 +105,8 @@ impl Problem for Timed<'_> {
         gaps
     }
 
-    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
-        let time = seconds(|| self.model.linearize(x, tension, curvature, out));
+    fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
+        let time = seconds(|| self.model.linearize(x, tension, kind, out));
         self.linearize.set(self.linearize.get() + time);
     }
 
@@ -161,29 +162,28 @@ fn minimise(star: &Star, iterations: usize) -> (Spent, Equilibrium) {
 struct Step {
     model: Model,
     at: Linearization,
-    saddle: Saddle,
+    system: KktSystem,
     right: (Vec<f64>, Vec<f64>),
 }
 
 impl Step {
     fn new(model: Model, x: &[f64], tension: &[f64]) -> Self {
         let mut at = Linearization::new(model.layout());
-        model.linearize(x, tension, Curvature::Full, &mut at);
-        let saddle = Saddle::new(model.layout(), &at).unwrap();
+        model.linearize(x, tension, HessianKind::Full, &mut at);
+        let system = KktSystem::new(model.layout()).unwrap();
         let (unknowns, measures) = size(&model);
         let right = (vector(2, unknowns, 1.0), vector(3, measures, 1e-2));
-        Self { model, at, saddle, right }
+        Self { model, at, system, right }
     }
 
     /// Adding up `S` and factoring it.
     fn factor(&mut self) -> f64 {
-        let (layout, compliance) = (self.model.layout(), self.model.compliance());
-        seconds(|| self.saddle.factor(layout, &self.at, compliance, 0.0).unwrap())
+        let compliance = self.model.compliance();
+        seconds(|| self.system.factor(&self.at, compliance, 0.0).unwrap())
     }
 
     fn solve(&mut self) -> f64 {
-        let layout = self.model.layout();
-        seconds(|| self.saddle.apply(layout, &self.right.0, &self.right.1))
+        seconds(|| self.system.apply(&self.right.0, &self.right.1))
     }
 
     /// One iteration without anything around it, its linear system solved to this relative residual, in at least one solve: its
@@ -192,11 +192,10 @@ impl Step {
         let closed = vec![0.0; tension.len()];
         let mut left = f64::NAN;
         let time = seconds(|| {
-            self.model.linearize(x, tension, Curvature::Full, &mut self.at);
-            let (layout, compliance) = (self.model.layout(), self.model.compliance());
-            self.saddle.factor(layout, &self.at, compliance, 0.0).unwrap();
-            let residuals = tension::residuals(&self.model, &self.at, tension);
-            let step = self.saddle.solve(layout, &self.at, compliance, (&self.right.0, &closed), tolerance);
+            self.model.linearize(x, tension, HessianKind::Full, &mut self.at);
+            self.system.factor(&self.at, self.model.compliance(), 0.0).unwrap();
+            let residuals = Residuals::new(&self.model, &self.at, tension);
+            let step = self.system.solve(&self.at, &self.right.0, &closed, tolerance);
             left = step.residual;
             (residuals, self.model.gaps(x), self.model.energy(x))
         });
@@ -215,7 +214,7 @@ struct Bare {
 /// Seconds to analyse couplings and to make room, which a problem needs once.
 fn set_up(layout: &Layout) -> f64 {
     let fresh = Layout::new(layout.node.clone(), layout.soft.clone(), layout.stiff.clone());
-    seconds(|| Saddle::new(&fresh, &Linearization::new(&fresh)).is_ok())
+    seconds(|| (KktSystem::new(&fresh).is_ok(), Linearization::new(&fresh)))
 }
 
 impl Bare {
@@ -224,14 +223,14 @@ impl Bare {
         let mut values = step.at.hessian.clone();
         let weights = vec![1e6; layout.stiff.len()];
         for (row, weight) in weights.iter().enumerate() {
-            step.at.add_outer(layout, row, *weight, &mut values);
+            step.at.add_outer(row, *weight, &mut values);
         }
         let factor = TornFactor::of(layout.tearing().unwrap()).unwrap();
         Self { factor, weights, values, right: step.right.0.clone() }
     }
 
     fn factor(&mut self, step: &Step) -> f64 {
-        let outer = step.at.outer(step.model.layout(), 1.0, &self.weights);
+        let outer = step.at.rank_one_terms(1.0, &self.weights);
         seconds(|| self.factor.factor(step.at.pattern(), &self.values, outer).unwrap())
     }
 
@@ -299,9 +298,9 @@ fn split(sizes: &[usize]) {
                 times[1].push(bare.solve());
                 times[2].push(step.factor());
                 times[3].push(step.solve());
-                let before = step.saddle.solves;
+                let before = step.system.solves;
                 times[5].push(step.plain(&found.x, &found.tension, SOLVED).0);
-                solves = step.saddle.solves - before;
+                solves = step.system.solves - before;
                 let once = step.plain(&found.x, &found.tension, f64::INFINITY);
                 times[6].push(once.0);
                 left = once.1;
@@ -382,8 +381,8 @@ fn assembly(sizes: &[usize]) {
         let medians = in_turns(
             3 * rounds(),
             &mut [
-                &mut || seconds(|| model.linearize(x, t, Curvature::Full, &mut full)),
-                &mut || seconds(|| model.linearize(x, t, Curvature::GaussNewton, &mut gauss)),
+                &mut || seconds(|| model.linearize(x, t, HessianKind::Full, &mut full)),
+                &mut || seconds(|| model.linearize(x, t, HessianKind::GaussNewton, &mut gauss)),
                 &mut || seconds(|| (model.gaps(x), model.energy(x))),
             ],
         );
@@ -414,7 +413,7 @@ fn threads(sizes: &[usize]) {
         let model = Star::new(n).model(RIGID);
         let (x, t) = (model.start(), vec![0.0; size(&model).1]);
         let [mut at, mut other] = [0, 1].map(|_| Linearization::new(model.layout()));
-        let assemble = |at: &mut Linearization| elapsed(|| model.linearize(&x, &t, Curvature::Full, at));
+        let assemble = |at: &mut Linearization| elapsed(|| model.linearize(&x, &t, HessianKind::Full, at));
         let evaluate = || elapsed(|| _ = (model.gaps(&x), model.energy(&x)));
         let medians = in_turns(
             20 * rounds(),

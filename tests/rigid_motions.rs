@@ -46,7 +46,7 @@ fn pull(model: &Model, x: &[f64]) -> (Vec<f64>, f64) {
     let gaps = linearized(model, x, &vec![0.0; model.layout().stiff.len()]).gaps;
     let tension: Vec<f64> = gaps.iter().zip(model.compliance()).map(|(gap, c)| gap / c).collect();
     let at = linearized(model, x, &tension);
-    (at.force(model.layout(), &tension).iter().map(|f| -f).collect(), at.largest_force)
+    (at.force(&tension).iter().map(|f| -f).collect(), at.largest_force)
 }
 
 /// The coordinates turned and moved; lattice vectors are only turned.

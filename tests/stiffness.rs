@@ -8,7 +8,7 @@ use common::{Numbers, Testing, distance, jacobian, linearized, on, patch};
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::model::Boundary;
 use foldwell::model::{Assembly, Gauge, Model, Terms};
-use foldwell::solver::saddle::{Saddle, Solved};
+use foldwell::solver::kkt::{Increment, KktSystem};
 use foldwell::solver::{Linearization, Options, Problem};
 use nalgebra::DVector;
 
@@ -162,7 +162,7 @@ fn scale_does_not_matter() {
 
 /// The residuals of both rows of the system of a step, by dense matrices and as the solver measures them: of forces over `a`, of
 /// stretches over `b` and a hundred lengths of the step.
-fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: Solved) -> [f64; 2] {
+fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: Increment) -> [f64; 2] {
     let [a, b] = [a, b].map(DVector::from_column_slice);
     let [dx, dt] = [found.dx, found.dt].map(DVector::from_vec);
     let (hessian, rows) = (at.pattern().to_dense(&at.hessian), jacobian(model, at));
@@ -181,15 +181,15 @@ fn steps_are_solved_at_every_stiffness() {
         let model = case.model_of(&Terms::bars_and_creases(k, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
         let (layout, compliance) = (model.layout(), model.compliance());
         let at = linearized(&model, &model.start(), &vec![0.0; layout.stiff.len()]);
-        let mut saddle = Saddle::new(layout, &at).unwrap();
-        saddle.factor(layout, &at, compliance, 0.0).unwrap();
+        let mut system = KktSystem::new(layout).unwrap();
+        system.factor(&at, compliance, 0.0).unwrap();
         let mut numbers = Numbers::new(3);
         let [a, b] = [layout.unknowns, layout.stiff.len()].map(|count| numbers.many(count, 1.0));
-        let found = saddle.solve(layout, &at, compliance, (&a, &b), 1e-9);
+        let found = system.solve(&at, &a, &b, 1e-9);
         let left = unsolved(&model, &at, (&a, &b), found);
-        println!("k = {k:e}: {} solves, residuals {left:?}", saddle.solves);
+        println!("k = {k:e}: {} solves, residuals {left:?}", system.solves);
         assert!(left.iter().all(|left| *left <= 2e-9), "k = {k:e}: {left:?}");
-        assert!(saddle.solves <= if k <= 1e4 { 1 } else { 10 }, "k = {k:e}: {} solves", saddle.solves);
+        assert!(system.solves <= if k <= 1e4 { 1 } else { 10 }, "k = {k:e}: {} solves", system.solves);
     }
 }
 
@@ -203,8 +203,8 @@ fn steps_are_solved_where_the_factorization_is_wrong_for_a_few_motions() {
     let model = case.model_of(&Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
     let (layout, compliance) = (model.layout(), model.compliance());
     let mut at = linearized(&model, &model.start(), &vec![0.0; layout.stiff.len()]);
-    let mut saddle = Saddle::new(layout, &at).unwrap();
-    saddle.factor(layout, &at, compliance, 0.0).unwrap();
+    let mut system = KktSystem::new(layout).unwrap();
+    system.factor(&at, compliance, 0.0).unwrap();
     let wrong = 4;
     for unknown in (1..=wrong).map(|k| k * layout.unknowns / (wrong + 1)) {
         let diagonal: usize = (0..unknown).map(|column| at.pattern().column(column).len()).sum();
@@ -212,9 +212,9 @@ fn steps_are_solved_where_the_factorization_is_wrong_for_a_few_motions() {
     }
     let mut numbers = Numbers::new(3);
     let [a, b] = [layout.unknowns, layout.stiff.len()].map(|count| numbers.many(count, 1.0));
-    let found = saddle.solve(layout, &at, compliance, (&a, &b), 1e-9);
+    let found = system.solve(&at, &a, &b, 1e-9);
     let left = unsolved(&model, &at, (&a, &b), found);
-    println!("{} solves, residuals {left:?}", saddle.solves);
+    println!("{} solves, residuals {left:?}", system.solves);
     assert!(left.iter().all(|left| *left <= 2e-9), "{left:?}");
-    assert!(saddle.solves <= 5 + 2 * wrong, "{} solves", saddle.solves);
+    assert!(system.solves <= 5 + 2 * wrong, "{} solves", system.solves);
 }

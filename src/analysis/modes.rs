@@ -14,8 +14,7 @@ use crate::numerics::factor::FactorError;
 use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::{DenseMatrix, rank};
 use crate::sheet::{Corner, Site, Tiling, pieces};
-use crate::solver::saddle::Saddle;
-use crate::solver::{Curvature, Linearization, Problem};
+use crate::solver::{HessianKind, Linearization, Problem, Tangent};
 use thiserror::Error;
 
 /// Rigidity matrices of more rows or columns than this are not decomposed dense.
@@ -198,7 +197,7 @@ fn pieces_with_openings(tiling: &Tiling) -> bool {
 /// Rank of the Jacobian of a model's stiff measures at the drawn state, and the gap.
 fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, Option<f64>), ModesError> {
     let (layout, at) = (model.layout(), linearized(model));
-    let rows = at.rows(layout);
+    let rows = at.rows();
     if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
         return rank_by_counting(&rows, layout.unknowns, &layout.node, observe);
     }
@@ -251,7 +250,7 @@ fn rank_by_counting(
 
 fn linearized(model: &Model) -> Linearization {
     let mut at = Linearization::new(model.layout());
-    model.linearize(&model.start(), &vec![0.0; model.layout().stiff.len()], Curvature::Full, &mut at);
+    model.linearize(&model.start(), &vec![0.0; model.layout().stiff.len()], HessianKind::Full, &mut at);
     at
 }
 
@@ -317,10 +316,10 @@ fn lowest_dense(model: &Model, count: usize, observe: &mut Observer<'_>) -> Resu
     let compliance = model.compliance();
     let mut values = std::mem::take(&mut at.hessian);
     for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
-        at.add_outer(layout, row, 1.0 / c, &mut values);
+        at.add_outer(row, 1.0 / c, &mut values);
     }
     let hessian = at.pattern().to_dense(&values);
-    let full = dense::from_rows(&at.rows(layout), layout.unknowns);
+    let full = dense::from_rows(&at.rows(), layout.unknowns);
     let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
     let free = if rigid.is_empty() {
         DenseMatrix::identity(layout.unknowns, layout.unknowns)
@@ -336,29 +335,29 @@ fn lowest_dense(model: &Model, count: usize, observe: &mut Observer<'_>) -> Resu
 
 /// By shift and invert: the largest eigenvalues of `(H + shift)^-1` on the null space of the rigid measures.
 fn lowest_sparse(model: &Model, count: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
-    let (layout, mut at) = (model.layout(), linearized(model));
-    let compliance = model.compliance();
-    let mut saddle = Saddle::new(layout, &at)?;
-    let unit = at.pattern().largest_diagonal(&at.hessian);
+    let layout = model.layout();
+    let zero = vec![0.0; layout.stiff.len()];
+    let mut tangent = Tangent::at_state(model, &model.start(), &zero, HessianKind::Full)?;
+    let unit = tangent.at.pattern().largest_diagonal(&tangent.at.hessian);
     let (mut shift, mut powers) = (0.0, 0..SHIFTS);
     loop {
         // without a shift that makes the Hessian positive, the largest eigenvalues of its inverse are not the lowest of its own
         let power = powers.next().ok_or(FactorError::Singular { ratio: 0.0 })?;
         let next = 1e-7 * unit * 4f64.powi(power);
         go_on(observe)?;
-        at.add_identity(next - shift);
+        tangent.at.add_identity(next - shift);
         shift = next;
-        if saddle.factor(layout, &at, compliance, 0.0).is_ok_and(|inertia| inertia.negative == 0) {
+        if tangent.factor(0.0).is_ok_and(|inertia| inertia.negative == 0) {
             break;
         }
     }
-    let zero = vec![0.0; layout.stiff.len()];
-    let mut inverse = |v: &[f64]| saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx;
+    let mut inverse = |v: &[f64]| tangent.solve(v, &zero, 1e-13).dx;
     let (_, vectors) = eigen::largest(layout.unknowns, count, |v| observe().then(|| inverse(v)))?;
     // once more, since Lanczos vectors are only as good as the largest eigenvalue of the inverse allows
     let vectors: Vec<Vec<f64>> = vectors.iter().map(|v| normalized(inverse(v))).collect();
-    at.add_identity(-shift);
-    let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (rayleigh_quotient(model, &at, &v), v)).collect();
+    tangent.at.add_identity(-shift);
+    let quotient = |v: &[f64]| rayleigh_quotient(model, &tangent.at, v);
+    let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (quotient(&v), v)).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(pairs.into_iter().unzip())
 }
@@ -375,7 +374,7 @@ fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
     symmetric_product(at.pattern(), &at.hessian, v, &mut product);
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut stretch = vec![0.0; model.compliance().len()];
-    at.rows(model.layout()).product(v, &mut stretch);
+    at.rows().product(v, &mut stretch);
     let finite = stretch.iter().zip(model.compliance()).filter(|(_, c)| **c > 0.0);
     (dot(v, &product) + finite.map(|(s, c)| s * s / c).sum::<f64>()) / dot(v, v)
 }

@@ -3,9 +3,8 @@
 use super::apex;
 use super::state::State;
 use crate::model::{Assembly, Domain, Gauge, Model};
-use crate::solver::saddle::Saddle;
 use crate::solver::{
-    Curvature, Equilibrium, Failure, Linearization, NewtonError, Options, Problem, Start, Step, minimize, tension,
+    Equilibrium, Failure, HessianKind, NewtonError, Options, Problem, Start, Step, Tangent, minimize, tension,
 };
 use std::fmt;
 use thiserror::Error;
@@ -220,22 +219,18 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     if last.residual_force <= tolerance && !matches!(model.domain(), Domain::Screw) {
         return None;
     }
-    let (layout, compliance) = (model.layout(), model.compliance());
-    let mut at = Linearization::new(layout);
-    model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
-    model.hold(&found.tension, &mut at);
-    let mut saddle = Saddle::new(layout, &at).ok()?;
+    let mut tangent = Tangent::at_state(model, &found.x, &found.tension, HessianKind::Full).ok()?;
+    model.hold(&found.tension, &mut tangent.at);
     let strained = || off_rest(model, &found.x) > CERTAIN;
     let unknown = || (last.residual_force > UNBALANCED && strained()).then_some(f64::INFINITY);
-    if saddle.factor(layout, &at, compliance, 0.0).is_err() {
+    if tangent.factor(0.0).is_err() {
         return unknown();
     }
-    let missing = at.missing(&found.tension, compliance);
-    let step = saddle.solve(layout, &at, compliance, (&at.force(layout, &found.tension), &missing), ROUGH);
+    let step = tangent.newton_step(&found.tension, ROUGH);
     if !(step.residual <= ROUGH) {
         return unknown();
     }
-    Some(at.largest_turn(layout, &step.dx))
+    Some(tangent.at.largest_measure_change(&step.dx))
 }
 
 /// The largest angle between a soft hinge and its rest, in radians.
@@ -256,8 +251,8 @@ fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed 
         iterations: history.iter().filter(|step| step.fraction > 0.0).count(),
         factorizations: history.iter().map(|step| step.factorizations).sum(),
         solves: history.iter().map(|step| step.solves).sum(),
-        residual_force: settled.residual_force,
-        residual_length: settled.residual_length,
+        residual_force: settled.residuals.force,
+        residual_length: settled.residuals.length,
         negative_eigenvalues: found.negative_eigenvalues,
         self_stresses: settled.self_stresses,
         history,

@@ -9,8 +9,7 @@
 use super::assembly::Assembly;
 use super::boundary::Boundary;
 use super::problem::Gauge;
-use crate::solver::saddle::Saddle;
-use crate::solver::{Curvature, Linearization, Problem};
+use crate::solver::{HessianKind, Problem, Tangent};
 use std::f64::consts::PI;
 
 /// Directions that are tried, evenly over half a turn.
@@ -64,13 +63,10 @@ fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 
 /// Fall of the energy along the first Newton step, to second order.
 fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
     let model = assembly.model(Gauge::Held);
-    let layout = model.layout();
-    let mut at = Linearization::new(layout);
-    let tension = vec![0.0; layout.stiff.len()];
-    model.linearize(&model.start(), &tension, Curvature::GaussNewton, &mut at);
-    let mut saddle = Saddle::new(layout, &at).ok()?;
-    saddle.factor(layout, &at, model.compliance(), shift).ok()?;
-    let force = at.force(layout, &tension);
-    let step = saddle.solve(layout, &at, model.compliance(), (&force, &tension), 1e-8);
+    let tension = vec![0.0; model.layout().stiff.len()];
+    let mut tangent = Tangent::at_state(&model, &model.start(), &tension, HessianKind::GaussNewton).ok()?;
+    tangent.factor(shift).ok()?;
+    let force = tangent.at.force(&tension);
+    let step = tangent.solve(&force, &tension, 1e-8);
     Some(force.iter().zip(&step.dx).map(|(f, d)| f * d).sum::<f64>() / 2.0)
 }

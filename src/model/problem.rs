@@ -3,9 +3,13 @@
 use super::domain::Domain;
 use super::element::{Elements, Local, Spring};
 use super::gauge;
+use crate::numerics::parallel;
 use crate::numerics::sparse::{Cliques, FIXED};
-use crate::numerics::{largest, parallel};
-use crate::solver::{Curvature, Layout, Linearization, Problem};
+use crate::numerics::vector::max_abs;
+use crate::solver::{HessianKind, Layout, Linearization, Problem, SoftElement};
+
+use std::ops::Range;
+use std::sync::Arc;
 
 mod place;
 mod turning;
@@ -13,6 +17,9 @@ mod turning;
 /// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is
 /// closer to rest than that, residuals are relative to the force of a milliradian instead of to round-off.
 const LEAST_ANGLE: f64 = 1e-3;
+/// Places of the coordinates of a hinge's wings among those of its element.
+pub(super) const LEFT_WING: Range<u32> = 6..9;
+pub(super) const RIGHT_WING: Range<u32> = 9..12;
 
 /// Rigid motions that the held coordinates cannot tell apart, against the largest one.
 const DEPENDENT: f64 = 1e-9;
@@ -32,7 +39,7 @@ pub struct Model {
     loads: Vec<f64>,
     /// Unknowns that would have to be held to keep the sheet from turning where loads pull.
     turning: Vec<u32>,
-    layout: Layout,
+    layout: Arc<Layout>,
     compliance: Vec<f64>,
     gap_scale: Vec<f64>,
     edges: usize,
@@ -305,13 +312,13 @@ fn layout(
     number: &[u32],
     soft: &[Box<dyn Elements>],
     stiff: &[Box<dyn Elements>],
-) -> Layout {
+) -> Arc<Layout> {
     let collect = |terms: &[Box<dyn Elements>]| {
         let mut cliques = Cliques::new();
         for term in terms {
             for k in 0..term.len() {
                 let members = members(term.as_ref(), k, domain, number);
-                if term.is_hinge() { cliques.push_hinge(members) } else { cliques.push(members) }
+                if term.is_hinge() { cliques.push_split(members, LEFT_WING, RIGHT_WING) } else { cliques.push(members) }
             }
         }
         cliques
@@ -334,7 +341,7 @@ fn numbered(terms: &[Box<dyn Elements>]) -> impl Iterator<Item = (usize, &dyn El
 }
 
 impl Problem for Model {
-    fn layout(&self) -> &Layout {
+    fn layout(&self) -> &Arc<Layout> {
         &self.layout
     }
 
@@ -374,11 +381,11 @@ impl Problem for Model {
         gaps
     }
 
-    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
+    fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
         let all = self.coordinates(x);
-        out.clear(curvature);
+        out.clear(kind);
         self.linearize_loads(&all, out);
-        self.linearize_soft(&all, curvature, out);
+        self.linearize_soft(&all, kind, out);
         self.linearize_stiff(&all, tension, out);
     }
 
@@ -418,17 +425,18 @@ impl Model {
         }
     }
 
-    fn linearize_soft(&self, all: &[f64], curvature: Curvature, out: &mut Linearization) {
-        let full = curvature == Curvature::Full;
+    fn linearize_soft(&self, all: &[f64], kind: HessianKind, out: &mut Linearization) {
+        let full = kind == HessianKind::Full;
         for (first, term) in numbered(&self.soft) {
             let add = |k: usize, local: &Local| {
                 let spring = term.spring(k);
                 let off = local.value - spring.rest;
                 let force = spring.stiffness * off;
                 out.energy += 0.5 * force * off;
-                let largest = largest(&local.gradient);
+                let largest = max_abs(&local.gradient);
                 out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
-                out.add_soft(&self.layout, first + k, (spring.stiffness, &local.gradient), (force, &local.hessian));
+                let (gradient, hessian) = (&local.gradient, &local.hessian);
+                out.add_soft(first + k, &SoftElement { stiffness: spring.stiffness, force, gradient, hessian });
             };
             parallel::compute_and_consume(term.len(), self.locals(term, all, full), add);
         }
@@ -441,7 +449,7 @@ impl Model {
             let add = |k: usize, local: &Local| {
                 let measure = first + k;
                 out.gaps[measure] = local.value - term.spring(k).rest;
-                let largest = largest(&local.gradient);
+                let largest = max_abs(&local.gradient);
                 out.largest_force = out.largest_force.max(largest * tension[measure].abs());
                 out.jacobian[self.layout.stiff.range(measure)].copy_from_slice(&local.gradient);
                 out.add_stiff(measure, tension[measure], &local.hessian);

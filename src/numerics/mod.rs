@@ -14,25 +14,12 @@ pub mod random;
 pub mod rank;
 pub mod sparse;
 pub mod tearing;
+pub mod vector;
 
 #[cfg(test)]
 mod tests;
 
+pub use vector::{larger, worst};
+
 /// The dense matrix that modules hand to each other.
 pub type DenseMatrix = nalgebra::DMatrix<f64>;
-
-/// The largest of some residuals or errors: `None` where there is none of them, since nothing was then measured, and not a number
-/// where one of them is none.
-pub fn worst(values: impl IntoIterator<Item = f64>) -> Option<f64> {
-    values.into_iter().reduce(larger)
-}
-
-/// The larger of two numbers, or not a number where one of them is none.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
-}
-
-/// Largest magnitude of these numbers, 0 of none; a NaN is passed over.
-pub fn largest(values: &[f64]) -> f64 {
-    values.iter().map(|value| value.abs()).fold(0.0, |most, size| if size > most { size } else { most })
-}

@@ -5,8 +5,8 @@
 //! and an `L D L^T` factorization counts them.
 
 use super::factor::{Factor, FactorError};
-use super::largest;
-use super::sparse::{Cliques, Pattern, Rows, Slots};
+use super::sparse::{Cliques, Pattern, RankOne, Rows, Slots};
+use super::vector::max_abs;
 
 /// Number of singular values of `rows` (a matrix of `columns` columns) above `tau`, a fraction of the largest entry.
 pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> Result<usize, FactorError> {
@@ -20,7 +20,7 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
     let node: Vec<u32> = node.iter().copied().chain((0..count as u32).map(|row| blocks + row)).collect();
     let pattern = Pattern::new(size, &[&cliques]);
     let slots = Slots::new(&pattern, &cliques);
-    let scale = largest(rows.values);
+    let scale = max_abs(rows.values);
     if scale == 0.0 {
         return Ok(0);
     }
@@ -52,9 +52,10 @@ pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) ->
     let slots = Slots::new(&pattern, rows.cliques);
     let mut values = vec![0.0; pattern.entries()];
     for row in 0..rows.cliques.len() {
-        slots.add_outer(row, 1.0, &rows.values[rows.cliques.range(row)], &mut values);
+        let gradient = &rows.values[rows.cliques.range(row)];
+        slots.add_outer(row, RankOne { weight: 1.0, gradient }, &mut values);
     }
-    let scale = largest(&values);
+    let scale = max_abs(&values);
     pattern.add_to_diagonal(&mut values, REGULAR * scale);
     let mut factor = Factor::new(&pattern, node, &[rows.cliques])?;
     factor.factor(&pattern, &values)?;
@@ -62,7 +63,7 @@ pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) ->
     loop {
         let mut y = vec![0.0; columns];
         rows.add_transpose_product(&open, &mut y);
-        let pull = largest(&y);
+        let pull = max_abs(&y);
         if !(pull < SLOWEST * last) {
             return Ok(out);
         }

@@ -3,7 +3,7 @@
 use super::DenseMatrix;
 use super::dense::{full_svd, singular_values, symmetric_eigenvalues};
 use super::factor::{DENSE_LIMIT, Factor, FactorError};
-use super::sparse::{Cliques, FIXED, LEFT, Pattern, RIGHT, Rows, Slots, symmetric_product};
+use super::sparse::{Cliques, ElementBlock, FIXED, Pattern, RankOne, Rows, Slots, symmetric_product};
 use super::tearing::{Tearing, TornFactor};
 use super::{eigen, parallel, rank};
 use rand::{RngExt, SeedableRng};
@@ -86,6 +86,10 @@ fn inertia_and_solution() {
     }
 }
 
+/// Places of the wings of a hinge among the members of its clique.
+const LEFT: std::ops::Range<u32> = 6..9;
+const RIGHT: std::ops::Range<u32> = 9..12;
+
 /// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the wings of a
 /// hinge uncoupled and random outer products besides, some of weight zero.
 struct Hinges {
@@ -125,7 +129,7 @@ fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hing
         // the first vertex is held, and one unknown belongs to all hinges
         let place = |vertex: u32, k: u32| if vertex == 0 { FIXED } else { 3 * (vertex - 1) + k };
         let members = points.iter().flat_map(|&vertex| [0, 1, 2].map(|k| place(vertex, k)));
-        cliques.push_hinge(members.chain([3 * vertices - 3]));
+        cliques.push_split(members.chain([3 * vertices - 3]), LEFT, RIGHT);
     }
     let node: Vec<u32> = (0..3 * vertices - 2).map(|k| k / 3).collect();
     let pattern = Pattern::new(node.len(), &[&cliques]);
@@ -140,7 +144,8 @@ fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hing
         let apart = |(p, q)| RIGHT.contains(&p) && LEFT.contains(&q);
         let block: Vec<f64> =
             places.map(|place| if apart(place) { 0.0 } else { numbers.random::<f64>() - 0.5 }).collect();
-        slots.add_curvature(k, (weight, &gradient), (0.5, &block), &mut values);
+        let outer = RankOne { weight, gradient: &gradient };
+        slots.add_element(k, &ElementBlock { outer, scale: 0.5, block: &block }, &mut values);
         weights.push(weight);
         gradients.extend(gradient);
     }
@@ -158,7 +163,8 @@ fn torn_inertia_and_solution() {
             let tearing = Arc::new(Tearing::new(&pattern, &node, &[&cliques]).unwrap());
             assert!(tearing.open() >= open, "{width} x {height}: {} open", tearing.open());
             let mut factor = TornFactor::of(&tearing).unwrap();
-            let outer = |_, clique: usize| (weights[clique], &gradients[cliques.range(clique)]);
+            let outer =
+                |_, clique: usize| RankOne { weight: weights[clique], gradient: &gradients[cliques.range(clique)] };
             let inertia = factor.factor(&pattern, &values, outer).unwrap();
             let dense = pattern.to_dense(&values);
             let expected = symmetric_eigenvalues(&dense).unwrap().iter().filter(|v| **v < 0.0).count();
@@ -289,15 +295,5 @@ fn work_is_consumed_in_order() {
             },
         );
         assert_eq!(next, count);
-    }
-}
-
-/// Claim: the worst of no residual is none, not zero, and one that is not a number is the worst of all, wherever it stands. By hand.
-#[test]
-fn the_worst_of_nothing_is_nothing() {
-    assert_eq!(super::worst([]), None);
-    assert_eq!(super::worst([0.5, 2.0, 1.0]), Some(2.0));
-    for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
-        assert!(super::worst(values).is_some_and(f64::is_nan), "{values:?}");
     }
 }

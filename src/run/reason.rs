@@ -3,7 +3,7 @@
 use crate::analysis::state::State;
 use crate::model::Assembly;
 use crate::sheet::Info;
-use crate::solver::newton::Failure;
+use crate::solver::Failure;
 
 /// Quality of a triangle below which rounding errors of its shape can matter.
 const THIN: f64 = 1e-2;

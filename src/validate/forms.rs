@@ -8,9 +8,10 @@
 
 use foldwell::model::Model;
 use foldwell::numerics::factor::FactorError;
+use foldwell::numerics::larger;
 use foldwell::numerics::tearing::TornFactor;
-use foldwell::numerics::{larger, largest};
-use foldwell::solver::{Curvature, Linearization, Problem, tension};
+use foldwell::numerics::vector::max_abs;
+use foldwell::solver::{HessianKind, Linearization, Problem, Residuals};
 
 /// Most Newton steps in all, and most updates of the tensions.
 const STEPS: usize = 200;
@@ -106,8 +107,9 @@ impl Weighted<'_> {
     }
 
     fn residuals(&mut self) -> [f64; 2] {
-        self.model.linearize(&self.x, &self.before, Curvature::Full, &mut self.at);
-        tension::residuals(&*self.model, &self.at, &self.before).into()
+        self.model.linearize(&self.x, &self.before, HessianKind::Full, &mut self.at);
+        let Residuals { force, length } = Residuals::new(&*self.model, &self.at, &self.before);
+        [force, length]
     }
 
     /// Newton's method until the force is small or no step lowers the energy.
@@ -115,12 +117,12 @@ impl Weighted<'_> {
         let mut last = f64::INFINITY;
         while self.iterations < STEPS {
             let tension = self.tension(&self.x);
-            self.model.linearize(&self.x, &tension, Curvature::Full, &mut self.at);
-            let force = self.at.force(self.model.layout(), &tension);
+            self.model.linearize(&self.x, &tension, HessianKind::Full, &mut self.at);
+            let force = self.at.force(&tension);
             if force.iter().all(|f| f.abs() <= TOLERANCE * self.at.largest_force) {
                 return;
             }
-            let size = largest(&force);
+            let size = max_abs(&force);
             let Some((next, gain)) = self.step(&force) else { return };
             if gain <= NOISE * self.energy(&self.x) && size > 0.5 * last {
                 return;
@@ -134,12 +136,12 @@ impl Weighted<'_> {
 
     /// The state after one step, and what a whole one is expected to gain; `None` where no fraction lowers the energy.
     fn step(&mut self, force: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let (layout, mut matrix) = (self.model.layout(), self.at.hessian.clone());
+        let mut matrix = self.at.hessian.clone();
         let weights: Vec<f64> = self.model.compliance().iter().map(|c| self.weight(*c)).collect();
         for (row, weight) in weights.iter().enumerate() {
-            self.at.add_outer(layout, row, *weight, &mut matrix);
+            self.at.add_outer(row, *weight, &mut matrix);
         }
-        let outer = self.at.outer(layout, 1.0, &weights);
+        let outer = self.at.rank_one_terms(1.0, &weights);
         let mut shift = 0.0;
         while !self.factor.factor(self.at.pattern(), &matrix, &outer).is_ok_and(|inertia| inertia.negative == 0) {
             let more = if shift == 0.0 { FIRST_SHIFT } else { (RAISE - 1.0) * shift };

@@ -7,7 +7,7 @@ use foldwell::model::{Assembly, Boundary, Gauge, Hinges, Model, Terms};
 use foldwell::numerics::{DenseMatrix, dense};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{EdgeKind, Sheet, fold};
-use foldwell::solver::{Curvature, Linearization, Options, Problem};
+use foldwell::solver::{HessianKind, Linearization, Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::ops::ControlFlow;
@@ -104,13 +104,13 @@ impl Testing for Assembly {
 
 pub fn linearized(model: &Model, x: &[f64], tension: &[f64]) -> Linearization {
     let mut at = Linearization::new(model.layout());
-    model.linearize(x, tension, Curvature::Full, &mut at);
+    model.linearize(x, tension, HessianKind::Full, &mut at);
     at
 }
 
 /// Jacobian of the stiff measures.
 pub fn jacobian(model: &Model, at: &Linearization) -> DenseMatrix {
-    dense::from_rows(&at.rows(model.layout()), model.layout().unknowns)
+    dense::from_rows(&at.rows(), model.layout().unknowns)
 }
 
 /// Hessian of the whole energy, `H + R^T k R`, at a state without tensions. All stiffnesses must be finite.

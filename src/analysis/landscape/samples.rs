@@ -10,7 +10,7 @@ use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax_from};
 use crate::numerics::larger;
-use crate::solver::{Curvature, Failure, Options, Start, Step};
+use crate::solver::{HessianKind, Failure, Options, Start, Step};
 use nalgebra::DVector;
 use thiserror::Error;
 
@@ -137,7 +137,7 @@ impl<'a> Samples<'a> {
         for steps in 1..=JOINT {
             self.held.set_rest(self.rest(place, amplitude).as_slice());
             let at = (place.x.as_slice(), place.tension.as_slice());
-            let step = Settling::new(self.held, at, Curvature::Full, ROUGH)?.joint(at, LONGEST)?;
+            let step = Settling::new(self.held, at, HessianKind::Full, ROUGH)?.joint(at, LONGEST)?;
             place.add(1.0, &step);
             if step.rest.amax() <= CLOSE * place.rest.amax() {
                 return Ok(steps);

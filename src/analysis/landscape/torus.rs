@@ -10,7 +10,7 @@ use crate::model::{Assembly, Drawn, Gauge, Hinges, Model, RIGID, Terms};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{from_rows, null_space, rank_at_largest_gap, singular_values, symmetric_eigen};
 use crate::sheet::{TiledEdge, Tiling};
-use crate::solver::{Curvature, Linearization, Problem};
+use crate::solver::{HessianKind, Linearization, Problem};
 use nalgebra::{Complex, DVector};
 use std::f64::consts::TAU;
 
@@ -89,8 +89,8 @@ fn zero_modes(bars: &Model) -> Result<Vec<Vec<f64>>, LandscapeError> {
         return Err(LandscapeError::TooLarge { unknowns, most: MOST_UNKNOWNS });
     }
     let mut at = Linearization::new(bars.layout());
-    bars.linearize(&bars.start(), &vec![0.0; bars.layout().stiff.len()], Curvature::GaussNewton, &mut at);
-    let null = null_space(&from_rows(&at.rows(bars.layout()), unknowns))?.basis;
+    bars.linearize(&bars.start(), &vec![0.0; bars.layout().stiff.len()], HessianKind::GaussNewton, &mut at);
+    let null = null_space(&from_rows(&at.rows(), unknowns))?.basis;
     if null.ncols() == 0 {
         return Err(LandscapeError::NoZeroModes);
     }

@@ -7,7 +7,7 @@ use crate::numerics::dense;
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
 use crate::sheet::generate::{Miura, MiuraPatch, Pattern};
 use crate::sheet::{EdgeKind, generate};
-use crate::solver::{Curvature, Linearization, Problem};
+use crate::solver::{HessianKind, Linearization, Problem};
 
 /// Miura-ori on a domain: the smallest tiling that has creases and facets there.
 fn sheet(boundary: Boundary) -> Assembly {
@@ -37,9 +37,9 @@ fn terms(assembly: &Assembly, numbers: &mut Numbers, creases: f64, facets: f64) 
     }
 }
 
-fn linearized(model: &Model, x: &[f64], tension: &[f64], curvature: Curvature) -> Linearization {
+fn linearized(model: &Model, x: &[f64], tension: &[f64], kind: HessianKind) -> Linearization {
     let mut at = Linearization::new(model.layout());
-    model.linearize(x, tension, curvature, &mut at);
+    model.linearize(x, tension, kind, &mut at);
     at
 }
 
@@ -50,17 +50,17 @@ fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
     let model = &*model;
     let rows = model.layout().stiff.len();
     let tension = numbers.many(rows, 1.0);
-    let at = linearized(model, &x, &tension, Curvature::Full);
+    let at = linearized(model, &x, &tension, HessianKind::Full);
     let energy = |x: &[f64]| model.energy(x);
     assert!((at.energy - energy(&x)).abs() <= 1e-14 * at.energy.abs(), "{what}: two functions, one energy");
     check_gradient(energy, &x, &at.gradient, TOLERANCE).unwrap_or_else(|e| panic!("{what}, gradient: {e}"));
     let gaps = |x: &[f64]| model.gaps(x);
     assert_eq!(at.gaps, gaps(&x), "{what}: two functions, one gap");
-    let jacobian = dense::from_rows(&at.rows(model.layout()), model.layout().unknowns);
+    let jacobian = dense::from_rows(&at.rows(), model.layout().unknowns);
     check_jacobian(gaps, &x, &jacobian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Jacobian: {e}"));
     let pull = |x: &[f64]| {
-        let at = linearized(model, x, &tension, Curvature::Full);
-        at.force(model.layout(), &tension).iter().map(|f| -f).collect()
+        let at = linearized(model, x, &tension, HessianKind::Full);
+        at.force(&tension).iter().map(|f| -f).collect()
     };
     let hessian = at.pattern().to_dense(&at.hessian);
     check_jacobian(pull, &x, &hessian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Hessian: {e}"));
@@ -109,12 +109,12 @@ fn gauss_newton_is_exact_at_rest() {
     let terms = Terms::bars_and_creases(1.0, 2.0, assembly.drawn_angles().to_vec());
     let model = assembly.with_terms(terms).model(Gauge::Free);
     let none = vec![0.0; model.layout().stiff.len()];
-    let full = linearized(&model, &model.start(), &none, Curvature::Full);
-    let half = linearized(&model, &model.start(), &none, Curvature::GaussNewton);
+    let full = linearized(&model, &model.start(), &none, HessianKind::Full);
+    let half = linearized(&model, &model.start(), &none, HessianKind::GaussNewton);
     assert!(full.hessian.iter().zip(&half.hessian).all(|(a, b)| (a - b).abs() < 1e-13));
     assert!(full.hessian.iter().any(|h| *h > 1.0));
     let mut metric = vec![0.0; half.hessian.len()];
-    half.add_metric(model.layout(), 1.0, &mut metric);
+    half.add_metric(1.0, &mut metric);
     assert_eq!(metric, half.hessian);
 }
 
@@ -137,7 +137,7 @@ fn residuals_have_their_units() {
     };
     let unit = |off: f64| {
         let model = model_with_rest(off);
-        linearized(&model, &model.start(), &vec![0.0; model.layout().stiff.len()], Curvature::Full).largest_force
+        linearized(&model, &model.start(), &vec![0.0; model.layout().stiff.len()], HessianKind::Full).largest_force
     };
     let least = unit(0.0);
     assert!(least > 1e-4);

@@ -11,8 +11,7 @@ use super::trial::distance;
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::model::Model;
 use foldwell::output::chart::{Chart, Point, Series};
-use foldwell::solver::saddle::Saddle;
-use foldwell::solver::{Curvature, Linearization, Options, Problem, Start};
+use foldwell::solver::{HessianKind, Options, Problem, Start, Tangent};
 use serde_json::json;
 use std::ops::RangeInclusive;
 
@@ -103,15 +102,12 @@ fn size(n: usize) -> Result<Size, ExperimentError> {
 /// From the rigid state and, for the compliances of the bars, the model with stiffness 1.
 fn law(model: &Model, unit: &Model, rigid: &Relaxed) -> Result<Law, ExperimentError> {
     let failed = |_| ExperimentError::Other("the rigid state has no inverse".into());
-    let (layout, none) = (model.layout(), model.compliance());
-    let mut at = Linearization::new(layout);
-    model.linearize(&rigid.x, &rigid.tension, Curvature::Full, &mut at);
-    let mut saddle = Saddle::new(layout, &at).map_err(failed)?;
-    saddle.factor(layout, &at, none, 0.0).map_err(failed)?;
+    let mut tangent = Tangent::at_state(model, &rigid.x, &rigid.tension, HessianKind::Full).map_err(failed)?;
+    tangent.factor(0.0).map_err(failed)?;
     let stretch: Vec<f64> = unit.compliance().iter().zip(&rigid.tension).map(|(c, t)| c * t).collect();
-    let step = saddle.solve(layout, &at, none, (&vec![0.0; layout.unknowns], &stretch), 1e-12);
+    let step = tangent.solve(&vec![0.0; rigid.x.len()], &stretch, 1e-12);
     Ok(Law {
-        distance: at.largest_turn(layout, &step.dx),
+        distance: tangent.at.largest_measure_change(&step.dx),
         energy: stretch.iter().zip(&rigid.tension).map(|(s, t)| 0.5 * s * t).sum(),
     })
 }
