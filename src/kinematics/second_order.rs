@@ -8,6 +8,7 @@
 
 use super::{Closure, KinematicsError};
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::orthonormal_triangular;
 use crate::numerics::dense::{Svd, full_svd, null_space, rank_at_largest_gap, symmetric_eigenvalues};
 use crate::numerics::vector::max_abs;
 
@@ -76,7 +77,7 @@ fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), Kinemat
         return Ok((Vec::new(), 1.0 / f64::EPSILON));
     }
     let columns = DenseMatrix::from_fn(entries, forms.len(), |entry, form| forms[form][entry]);
-    let Svd { singular_values, v, .. } = full_svd(&columns.qr().r())?;
+    let Svd { singular_values, v, .. } = full_svd(&orthonormal_triangular(columns)[1])?;
     let natural = singular_values.first().copied().unwrap_or(0.0).max(1.0);
     let with_natural: Vec<f64> = [natural].into_iter().chain(singular_values.iter().copied()).collect();
     let found = rank_at_largest_gap(&with_natural)?;

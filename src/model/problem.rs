@@ -3,6 +3,7 @@
 use super::domain::Domain;
 use super::element::{Elements, Local, Spring};
 use super::gauge;
+use crate::numerics::dense::small::shortest_solution;
 use crate::numerics::parallel;
 use crate::numerics::sparse::{Cliques, FIXED};
 use crate::numerics::vector::max_abs;
@@ -187,7 +188,7 @@ impl Model {
         let held: Vec<usize> = (0..velocity.len()).zip(self.held()).filter(|(_, held)| *held).map(|(k, _)| k).collect();
         let rows = nalgebra::DMatrix::from_fn(held.len(), 6, |row, motion| motions[held[row]][motion]);
         let right = nalgebra::DVector::from_fn(held.len(), |row, _| velocity[held[row]]);
-        let drift = rows.svd(true, true).solve(&right, DEPENDENT).unwrap_or_else(|_| nalgebra::DVector::zeros(6));
+        let drift = shortest_solution(rows, &right, DEPENDENT).unwrap_or_else(|| nalgebra::DVector::zeros(6));
         let moved = motions.iter().map(|motion| motion.iter().zip(drift.iter()).map(|(m, d)| m * d).sum::<f64>());
         velocity.iter().zip(moved).map(|(v, drift)| v - drift).collect()
     }

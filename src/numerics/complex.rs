@@ -6,10 +6,13 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, evd_cplx, evd_scratch, self_adjoint_evd, self_adjoint_evd_scratch};
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{ColMut, MatMut, MatRef, Par, Spec};
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, DMatrix, DVector};
 
 /// A complex matrix, dense.
 pub type ComplexMatrix = DMatrix<Complex<f64>>;
+
+/// A complex vector.
+pub type ComplexVector = DVector<Complex<f64>>;
 
 /// `matrix = u * diag(singular_values) * v^H` of a square matrix.
 #[derive(Clone, Debug)]
@@ -22,7 +25,8 @@ pub struct ComplexSvd {
     pub v: ComplexMatrix,
 }
 
-/// The determinant of a square matrix, by elimination with row pivots.
+/// The determinant of a square matrix, by elimination with row pivots of the largest modulus. (nalgebra's LU factorization chooses them by
+/// `|re| + |im|`, and its determinants differ in the last digits.)
 ///
 /// # Panics
 /// Where the matrix is not square.
@@ -56,6 +60,21 @@ fn eliminate(entries: &mut [Complex<f64>], n: usize, k: usize) {
             other[k + 1..].iter_mut().zip(factors).for_each(|(entry, factor)| *entry -= factor * top);
         }
     }
+}
+
+/// The solutions `y` of `A^H y = right` and `x` of `A x = right`, in this order, from one elimination with row pivots; `None` where the
+/// square matrix `A` is singular or a solution is not finite.
+pub fn solve_with_adjoint(matrix: ComplexMatrix, right: &ComplexVector) -> Option<[ComplexVector; 2]> {
+    let (rows, lower, upper) = matrix.lu().unpack();
+    let (mut adjoint, mut solution) = (right.clone(), right.clone());
+    rows.permute_rows(&mut solution);
+    lower.solve_lower_triangular_with_diag_mut(&mut solution, Complex::ONE);
+    let solvable = upper.solve_upper_triangular_mut(&mut solution)
+        && upper.ad_solve_upper_triangular_mut(&mut adjoint)
+        && lower.ad_solve_lower_triangular_mut(&mut adjoint);
+    rows.inv_permute_rows(&mut adjoint);
+    let finite = |vector: &ComplexVector| vector.iter().all(|x| x.norm_sqr().is_finite());
+    (solvable && finite(&adjoint) && finite(&solution)).then_some([adjoint, solution])
 }
 
 /// All eigenvalues of a square matrix, in no order. Fails on an entry that is not finite.

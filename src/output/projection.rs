@@ -1,8 +1,9 @@
 //! From space to paper: an oblique view of a sheet along directions of its own.
 
-use nalgebra::{Matrix3, SymmetricEigen};
+use nalgebra::Matrix3;
 
 use crate::math::Vec3;
+use crate::numerics::dense::small::symmetric_eigen_3;
 
 /// An orthographic view; the three directions are orthonormal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,11 +57,11 @@ fn principal_axes(points: &[Vec3], triangles: &[[usize; 3]]) -> [Vec3; 3] {
     let mean = finite.iter().sum::<Vec3>() / finite.len().max(1) as f64;
     let size = finite.iter().map(|p| (p - mean).amax()).fold(f64::MIN_POSITIVE, f64::max);
     let spread: Matrix3<f64> = finite.iter().map(|p| (p - mean) / size).map(|d| d * d.transpose()).sum();
-    let eigen = SymmetricEigen::new(spread);
+    let (values, vectors) = symmetric_eigen_3(spread);
     let mut order = [0, 1, 2];
-    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-    let [long, _, thin] = order.map(|axis| eigen.eigenvectors.column(axis).into_owned());
-    let square = eigen.eigenvalues[order[1]] > 0.7 * eigen.eigenvalues[order[0]];
+    order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+    let [long, _, thin] = order.map(|axis| vectors.column(axis).into_owned());
+    let square = values[order[1]] > 0.7 * values[order[0]];
     let normal = upright(thin, mean_normal(points, triangles));
     let first = if square { level_x(normal).unwrap_or(long) } else { upright(long, Vec3::x()) };
     let second = normal.cross(&first);

@@ -6,7 +6,8 @@
 //! harm. The tangents solve `(J^T J + T T^T) U = T`, once refined, and are then made orthonormal.
 
 use crate::numerics::DenseMatrix;
-use nalgebra::{Cholesky, DVector, Dyn};
+use crate::numerics::dense::small::{CholeskyFactor, cholesky};
+use nalgebra::DVector;
 
 /// Corrections allowed.
 const CORRECTIONS: usize = 6;
@@ -91,10 +92,10 @@ impl Corrector {
         Some(())
     }
 
-    fn normal(&self, across: &DenseMatrix) -> Option<Cholesky<f64, Dyn>> {
+    fn normal(&self, across: &DenseMatrix) -> Option<CholeskyFactor> {
         let mut normal = self.jacobian.tr_mul(&self.jacobian);
         across.column_iter().for_each(|tangent| normal.ger(1.0, &tangent, &tangent, 1.0));
-        Cholesky::new(normal)
+        cholesky(normal)
     }
 
     /// Orthonormal null vectors of the Jacobian along the frame.

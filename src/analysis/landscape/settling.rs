@@ -4,6 +4,7 @@ use super::course::{self, Place};
 use super::{HeldSheet, LandscapeError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
+use crate::numerics::dense::small::cholesky;
 use crate::numerics::factor::FactorError;
 use crate::solver::{HessianKind, Problem, Tangent};
 use nalgebra::DVector;
@@ -142,7 +143,7 @@ impl<'a> Settling<'a> {
         }
         let pull: Vec<f64> = tension.iter().zip(&found.dt).map(|(t, dt)| t + dt).collect();
         let torques = DVector::from_fn(self.free.len(), |j, _| self.torque((&off, &pull), j));
-        let factor = nalgebra::Cholesky::new(self.hessian.clone()).ok_or(FactorError::Singular { ratio: 0.0 })?;
+        let factor = cholesky(self.hessian.clone()).ok_or(FactorError::Singular { ratio: 0.0 })?;
         let rest = factor.solve(&torques);
         let rest = &rest * (longest / rest.amax()).min(1.0);
         let mut step = Place { x: found.dx, tension: found.dt, ..self.held.still() };

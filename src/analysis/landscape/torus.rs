@@ -8,6 +8,7 @@ use super::{HeldSheet, LandscapeError};
 use crate::math::fold_angle::fold_angle_gradient;
 use crate::model::{Assembly, Drawn, Gauge, Hinges, Model, RIGID, Terms};
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::{orthonormal_triangular, solve_square};
 use crate::numerics::dense::{from_rows, null_space, rank_at_largest_gap, singular_values, symmetric_eigen};
 use crate::sheet::{TiledEdge, Tiling};
 use crate::solver::{HessianKind, Linearization, Problem};
@@ -116,10 +117,10 @@ fn orthonormal(rates: DenseMatrix, motions: &[Vec<f64>]) -> Result<(DenseMatrix,
     if rank < motions.len() {
         return Err(LandscapeError::Unfolding { motions: motions.len() - rank });
     }
-    let qr = rates.qr();
-    let turned = qr.r().transpose().lu().solve(&moving.transpose());
+    let [q, r] = orthonormal_triangular(rates);
+    let turned = solve_square(r.transpose(), &moving.transpose());
     let turned = turned.ok_or(LandscapeError::Unfolding { motions: 1 })?.transpose();
-    Ok((qr.q(), turned.column_iter().map(|motion| motion.as_slice().to_vec()).collect()))
+    Ok((q, turned.column_iter().map(|motion| motion.as_slice().to_vec()).collect()))
 }
 
 /// Fourier amplitudes of the basis at a wavenumber: a row for each edge of the cell.

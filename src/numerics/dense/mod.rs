@@ -2,6 +2,8 @@
 //!
 //! Matrices come and go as [`DenseMatrix`]; everything runs on the calling thread.
 
+pub mod small;
+
 use super::DenseMatrix;
 use super::sparse::{FIXED, Rows};
 use faer::diag::DiagMut;

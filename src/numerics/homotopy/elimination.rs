@@ -1,4 +1,7 @@
-//! Gaussian elimination of small complex matrices: solutions, and ranks by complete pivoting.
+//! Gaussian elimination of small complex matrices: solutions, determinants, and ranks by complete pivoting.
+//!
+//! Matrices are stored by rows and overwritten, in memory that a path uses again at every step; nalgebra's factorizations are stored by
+//! columns and own their memory.
 
 use super::system::C;
 
