@@ -12,6 +12,7 @@ use crate::numerics::dense::{self, DenseError};
 use crate::numerics::eigen::{self, EigenError};
 use crate::numerics::factor::FactorError;
 use crate::numerics::sparse::{Rows, symmetric_product};
+use crate::numerics::vector::{dot, normalize};
 use crate::numerics::{DenseMatrix, rank};
 use crate::sheet::{Corner, Site, Tiling, pieces};
 use crate::solver::{HessianKind, Linearization, Problem, Tangent};
@@ -363,8 +364,7 @@ fn lowest_sparse(model: &Model, count: usize, observe: &mut Observer<'_>) -> Res
 }
 
 fn normalized(mut v: Vec<f64>) -> Vec<f64> {
-    let length = v.iter().map(|a| a * a).sum::<f64>().sqrt();
-    v.iter_mut().for_each(|a| *a /= length);
+    normalize(&mut v);
     v
 }
 
@@ -372,7 +372,6 @@ fn normalized(mut v: Vec<f64>) -> Vec<f64> {
 fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
     let mut product = vec![0.0; v.len()];
     symmetric_product(at.pattern(), &at.hessian, v, &mut product);
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut stretch = vec![0.0; model.compliance().len()];
     at.rows().product(v, &mut stretch);
     let finite = stretch.iter().zip(model.compliance()).filter(|(_, c)| **c > 0.0);

@@ -15,6 +15,7 @@ use crate::analysis::state::State;
 use crate::analysis::view::View;
 use crate::model::{Assembly, Gauge, Model};
 use crate::numerics::larger;
+use crate::numerics::random::symmetric;
 use crate::output::picture::Picture;
 use crate::output::summary::{EnergySummary, IterationSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
@@ -23,7 +24,7 @@ use crate::scene::forms::{RandomStart, Start};
 use crate::scene::spec::{Draw, ModesSpec, RelaxSpec, StudyKind, StudySpec};
 use crate::scene::{Located, SceneFile};
 use crate::solver::{Options, Step};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use std::time::Instant;
 
 /// Checks what a study says before anything is written.
@@ -198,7 +199,7 @@ fn start_file(
 fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
     let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(random.seed);
     let amplitude = random.random.0;
-    let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * (2.0 * numbers.random::<f64>() - 1.0)).collect();
+    let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * symmetric(&mut numbers)).collect();
     let mut coordinates = model.coordinates(&x);
     if let Some(drawn) = model.domain().turns(&model.coordinates(&model.start())) {
         model.domain().point_axis(&mut coordinates, drawn.direction);

@@ -5,8 +5,8 @@
 //! -J^T F`. They lose digits of `d`, not of the point, since `F` is evaluated anew; and redundant rows of `J` do no
 //! harm. The tangents solve `(J^T J + T T^T) U = T`, once refined, and are then made orthonormal.
 
-use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::{CholeskyFactor, cholesky};
+use crate::numerics::{DenseMatrix, vector};
 use nalgebra::DVector;
 
 /// Corrections allowed.
@@ -63,7 +63,7 @@ impl Corrector {
             let residual = self.residual.amax();
             if residual <= tolerance {
                 frame.copy_from_slice(self.tangents(&across)?.as_slice());
-                let distance = x.iter().zip(&predicted).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+                let distance = vector::distance(x, &predicted);
                 return Some(Corrected { residual, corrections, distance });
             }
             if !(residual < last) {

@@ -5,9 +5,10 @@ use super::library;
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
+use foldwell::numerics::random::symmetric;
 use foldwell::sheet::{Sheet, SheetError, fold};
 use foldwell::solver::{Options, Problem};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 /// A patch of `meshes/open-star.fold` with rest angles.
@@ -35,7 +36,7 @@ impl Star {
     pub fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
         let mut numbers = ChaCha8Rng::seed_from_u64(1);
-        let off = |angle: &mut f64| *angle += most * (2.0 * numbers.random::<f64>() - 1.0);
+        let off = |angle: &mut f64| *angle += most * symmetric(&mut numbers);
         star.rest.iter_mut().for_each(off);
         Ok(star)
     }

@@ -10,7 +10,7 @@ use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
 use crate::analysis::relax::{Relaxed, relax_from};
 use crate::numerics::larger;
-use crate::solver::{HessianKind, Failure, Options, Start, Step};
+use crate::solver::{Failure, HessianKind, Options, Start, Step};
 use nalgebra::DVector;
 use thiserror::Error;
 

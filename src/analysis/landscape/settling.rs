@@ -1,11 +1,12 @@
 //! How a held sheet settles, to first order, when its hinges and bars are off: the sheet and the rest angles across its modes.
 
-use super::course::{self, Place};
+use super::course::Place;
 use super::{HeldSheet, LandscapeError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
 use crate::numerics::dense::small::cholesky;
 use crate::numerics::factor::FactorError;
+use crate::numerics::vector::add_scaled;
 use crate::solver::{HessianKind, Problem, Tangent};
 use nalgebra::DVector;
 
@@ -36,8 +37,8 @@ impl Response {
 
     fn add(&mut self, factor: f64, other: &Self) {
         self.place.add(factor, &other.place);
-        course::add(&mut self.off, factor, &other.off);
-        course::add(&mut self.open, factor, &other.open);
+        add_scaled(&mut self.off, factor, &other.off);
+        add_scaled(&mut self.open, factor, &other.open);
     }
 }
 

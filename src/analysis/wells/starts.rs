@@ -9,8 +9,9 @@
 use super::settle::{Place, Settled, Settler};
 use crate::model::{Assembly, Boundary};
 use crate::numerics::parallel;
+use crate::numerics::random::symmetric;
 use crate::solver::{Failure, Options};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
@@ -95,7 +96,7 @@ fn reason_of(failure: &Failure) -> &'static str {
 fn one(assembly: &Assembly, starts: &Starts, number: usize) -> Outcome {
     let mut numbers = ChaCha8Rng::seed_from_u64(starts.seed);
     numbers.set_stream(number as u64);
-    let mut within = |size: f64| size * (2.0 * numbers.random::<f64>() - 1.0);
+    let mut within = |size: f64| size * symmetric(&mut numbers);
     let mut assembly = assembly.clone();
     if assembly.boundary() == Boundary::Screw {
         assembly = assembly.with_axis(within(0.5 * PI));

@@ -5,9 +5,11 @@
 //! of polynomials", 2005, chapter 13). With more, random combinations of the quadrics are solved, and of their solutions those
 //! are kept that satisfy all quadrics.
 
+use super::error::HomotopyError;
 use super::multiplicity::{Multiplicity, multiplicity};
+use super::solutions::{Group, Solutions, grouped, multiple, turned};
+use super::square::solve_square;
 use super::system::{C, Quadrics};
-use super::{Group, HomotopyError, Solutions, grouped, multiple, solve_square, turned};
 use crate::numerics::DenseMatrix;
 use crate::numerics::random::symmetric;
 use nalgebra::DVector;

@@ -12,10 +12,12 @@
 
 use super::elimination::determinant;
 use super::endgame::{self, End, Simple, Target};
+use super::error::HomotopyError;
+use super::sections::on_linear_space;
 use super::sections::random_frame;
-use super::system::{C, Homotopy, Local, Quadrics, unit};
-use super::track::Tracker;
-use super::{HomotopyError, SAME, careful, conjugate, grouped, turned};
+use super::solutions::{SAME, conjugate, grouped, turned};
+use super::system::{C, Homotopy, Local, Quadrics, distance, unit};
+use super::track::{Care, Tracker};
 use crate::numerics::dense::{full_svd, symmetric_eigenvalues};
 use crate::numerics::{DenseMatrix, parallel};
 use nalgebra::{Complex, DVector};
@@ -61,7 +63,7 @@ pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<Singu
 fn confirmed(quadrics: &Quadrics, attempt: u32) -> Result<Option<Vec<Estimate>>, HomotopyError> {
     let [first, second] = [0, 1].map(|choice| singular_points(quadrics, attempt, choice));
     let (Some(first), Some(second)) = (first?, second?) else { return Ok(None) };
-    let near = |a: &[C], b: &[C]| super::distance(a, b) <= SAME;
+    let near = |a: &[C], b: &[C]| distance(a, b) <= SAME;
     let real = first.into_iter().filter(|(point, _)| near(point, &conjugate(point)));
     Ok(Some(real.filter(|(point, _)| second.iter().any(|(other, _)| near(point, other))).collect()))
 }
@@ -74,7 +76,7 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
     for _ in 0..quadrics.count() {
         let frame = random_frame(quadrics.unknowns, quadrics.unknowns, &mut random);
         let (plane, inside) = (frame.column(0).into_owned(), frame.columns(1, quadrics.unknowns - 1).into_owned());
-        let solutions = super::sections::on_linear_space(quadrics, &inside)?;
+        let solutions = on_linear_space(quadrics, &inside)?;
         if solutions.isolated.len() < solutions.paths {
             return Ok(None);
         }
@@ -84,7 +86,7 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
     let frame = random_frame(quadrics.unknowns, quadrics.count(), &mut random);
     let polar = Polar { quadrics, frame, planes, factor: unit(&mut random) };
     let path = |start: &Vec<C>| {
-        let mut tracker = Tracker::new(&polar, careful(attempt));
+        let mut tracker = Tracker::new(&polar, Care::of_attempt(attempt));
         let [begin, end] = [1.0, endgame::START].map(|t| C::new(t, 0.0));
         let x = tracker.track(start, begin, end, 0.05)?;
         endgame::finish(&mut tracker, &polar, x)

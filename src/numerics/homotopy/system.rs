@@ -1,6 +1,6 @@
 //! Systems of homogeneous quadrics, and the homotopy that deforms one with known solutions into them.
 
-use super::HomotopyError;
+use super::error::HomotopyError;
 use crate::numerics::DenseMatrix;
 use crate::numerics::random::symmetric;
 use nalgebra::Complex;

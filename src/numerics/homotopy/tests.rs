@@ -1,9 +1,12 @@
 //! Systems whose solutions are known beforehand.
 
-use super::system::{C, Quadrics};
+use super::system::{C, Quadrics, distance, normalize};
 use super::*;
+use crate::numerics::DenseMatrix;
 use crate::numerics::random::symmetric;
 use nalgebra::DVector;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 
 fn random(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(1000 + seed)

@@ -24,6 +24,13 @@ pub(super) struct Care {
     pub contraction: f64,
 }
 
+impl Care {
+    /// Care at the first attempt (0), and more at each repetition.
+    pub fn of_attempt(repeated: u32) -> Self {
+        Self { correction: 0.01 * 0.1f64.powi(repeated as i32), contraction: 0.1 * 0.3f64.powi(repeated as i32) }
+    }
+}
+
 /// A path could not be followed: its steps became too short, or too many.
 #[derive(Debug)]
 pub(super) struct Lost;

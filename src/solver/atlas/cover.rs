@@ -2,9 +2,10 @@
 
 use super::grid::Grid;
 use super::polygon::Polygon;
-use super::{AtlasError, Chart, Coverage, KEPT, Options, Surface, add, dot, norm};
+use super::surface::{AtlasError, Chart, Coverage, KEPT, Options, Surface};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
+use crate::numerics::vector::{add_scaled, dot, norm};
 use crate::solver::implicit::{Corrected, Corrector};
 use std::collections::{HashSet, VecDeque};
 
@@ -172,8 +173,8 @@ impl<'a, S: Surface> Cover<'a, S> {
         let from = &self.charts[number];
         let (n, radius, start) = (from.x.len(), from.radius, from.start);
         let (mut x, mut frame) = (from.x.clone(), from.frame.clone());
-        add(&mut x, at[0], &from.frame[..n]);
-        add(&mut x, at[1], &from.frame[n..]);
+        add_scaled(&mut x, at[0], &from.frame[..n]);
+        add_scaled(&mut x, at[1], &from.frame[n..]);
         let found = self.correct(&mut x, &mut frame, self.options.max_turn * radius)?;
         if !(turn(&self.charts[number].frame, &frame) <= self.options.max_turn) {
             return None;
@@ -191,7 +192,7 @@ impl<'a, S: Surface> Cover<'a, S> {
         let mut square = 0.0;
         for tangent in frame.chunks_exact(x.len()) {
             self.way.copy_from_slice(&x);
-            add(&mut self.way, aside, tangent);
+            add_scaled(&mut self.way, aside, tangent);
             let mut turned = frame.clone();
             self.corrector.turn(self.surface, &self.way, &mut turned)?;
             square += (turn(&frame, &turned) / aside).powi(2);
@@ -320,7 +321,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     pub fn between(&mut self, a: usize, b: usize, part: f64) -> Option<Chart> {
         separate(&self.charts[a].x, &self.charts[b].x, &self.periods, &mut self.way);
         let mut chart = self.charts[a].clone();
-        add(&mut chart.x, part, &self.way);
+        add_scaled(&mut chart.x, part, &self.way);
         chart.residual = self.correct(&mut chart.x, &mut chart.frame, self.charts[a].radius)?.residual;
         chart.limit = self.surface.limit(&chart.x);
         Some(chart)

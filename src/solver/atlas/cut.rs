@@ -1,7 +1,7 @@
 //! The border of a surface at its limit: triangles cut where the limit is zero.
 
 use super::cover::{Cover, OBSERVED};
-use super::{Chart, Coverage, Surface};
+use super::surface::{Chart, Coverage, Surface};
 use std::collections::HashMap;
 
 /// A chart nearer to the border than this part of an edge is moved onto it, so that no thin triangle is left.

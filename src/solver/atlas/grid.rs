@@ -5,7 +5,7 @@
 //! distances, so all points within the side of a cube are in the 27 cubes around, and those whose projections are
 //! further apart are not near.
 
-use super::{add, dot, norm};
+use crate::numerics::vector::{add_scaled, dot, norm};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
@@ -87,7 +87,7 @@ fn directions(coordinates: usize) -> Vec<f64> {
         let direction = &mut rest[..coordinates];
         for other in before.chunks_exact(coordinates) {
             let part = dot(other, direction);
-            add(direction, -part, other);
+            add_scaled(direction, -part, other);
         }
         let length = norm(direction);
         direction.iter_mut().for_each(|d| *d /= length);

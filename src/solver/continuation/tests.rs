@@ -3,6 +3,7 @@
 use super::*;
 use crate::numerics::DenseMatrix;
 use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
+use crate::solver::Implicit;
 use std::f64::consts::{PI, TAU};
 
 /// `F` and its Jacobian, row by row.

@@ -5,10 +5,11 @@ use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::state::State;
 use foldwell::model::{Assembly, AssemblyError, Boundary, Gauge, Hinges, Model, RIGID, Terms};
+use foldwell::numerics::random::symmetric;
 use foldwell::numerics::{larger, worst};
 use foldwell::sheet::{Edge, Sheet, TiledEdge};
 use foldwell::solver::Options;
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
@@ -136,7 +137,7 @@ impl Trial {
         match self.rest {
             Rest::Random(most, seed) => {
                 let mut numbers = ChaCha8Rng::seed_from_u64(seed);
-                drawn.iter().map(|angle| angle + most * (2.0 * numbers.random::<f64>() - 1.0)).collect()
+                drawn.iter().map(|angle| angle + most * symmetric(&mut numbers)).collect()
             }
             Rest::ByLength(most) => {
                 let ends = |edge: &Edge| edge.key.ends().map(|end| self.sheet.position(end));
