@@ -10,10 +10,10 @@
 
 use nalgebra::Complex;
 
-/// Up to here the power series is used, beyond it the closed form.
-const SWITCH: f64 = 1.5;
+/// Magnitude of `t` up to which the power series is used, beyond it the closed form.
+const LARGEST_SERIES_ARGUMENT: f64 = 1.5;
 
-/// Terms of the power series; the first one left out is below 1e-21 at the switch.
+/// Number of terms of the power series; the first one left out is below 1e-21 at the switch.
 const TERMS: usize = 22;
 
 /// `phi(t) = (e^{it} - 1) / (it)` with its first two derivatives in `t`.
@@ -29,7 +29,8 @@ pub struct Phi {
 
 /// The function and its first two derivatives, for every finite `t`; not a number where `t` is not finite.
 pub fn phi(t: f64) -> Phi {
-    let [m0, m1, m2] = if t.abs() <= SWITCH { moments_by_series(t) } else { moments_in_closed_form(t) };
+    let [m0, m1, m2] =
+        if t.abs() <= LARGEST_SERIES_ARGUMENT { moments_by_series(t) } else { moments_in_closed_form(t) };
     Phi { value: m0, first: Complex::new(-m1.im, m1.re), second: -m2 }
 }
 
@@ -88,7 +89,7 @@ mod tests {
             for (found, exact) in parts(phi(t)).iter().zip(exact.chunks(2)) {
                 let modulus = exact[0].hypot(exact[1]);
                 for (found, exact) in [(found.re, exact[0]), (found.im, exact[1])] {
-                    let scale = if t.abs() <= SWITCH { exact.abs() } else { modulus };
+                    let scale = if t.abs() <= LARGEST_SERIES_ARGUMENT { exact.abs() } else { modulus };
                     assert!((found - exact).abs() <= 4.0 * f64::EPSILON * scale, "t = {t}: {found:e} for {exact:e}");
                 }
             }
@@ -99,7 +100,9 @@ mod tests {
     #[test]
     fn both_formulas_agree_around_the_switch() {
         for step in -300..=300 {
-            for t in [SWITCH + 1e-3 * f64::from(step), -SWITCH - 1e-3 * f64::from(step)] {
+            for t in
+                [LARGEST_SERIES_ARGUMENT + 1e-3 * f64::from(step), -LARGEST_SERIES_ARGUMENT - 1e-3 * f64::from(step)]
+            {
                 let (series, closed) = (moments_by_series(t), moments_in_closed_form(t));
                 for (a, b) in series.iter().zip(&closed) {
                     assert!((a - b).norm() <= 1e-15, "t = {t}: {:e}", (a - b).norm());

@@ -8,7 +8,7 @@ use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{ColMut, MatMut, MatRef, Par, Spec};
 use nalgebra::{Complex, DMatrix, DVector};
 
-/// A complex matrix, dense.
+/// A dense complex matrix.
 pub type ComplexMatrix = DMatrix<Complex<f64>>;
 
 /// A complex vector.
@@ -29,7 +29,7 @@ pub struct ComplexSvd {
 /// `|re| + |im|`, and its determinants differ in the last digits.)
 ///
 /// # Panics
-/// Where the matrix is not square.
+/// Panics where the matrix is not square.
 pub fn determinant(mut matrix: ComplexMatrix) -> Complex<f64> {
     assert!(matrix.is_square(), "a determinant is that of a square matrix");
     let n = matrix.nrows();
@@ -77,7 +77,10 @@ pub fn solve_with_adjoint(matrix: ComplexMatrix, right: &ComplexVector) -> Optio
     (solvable && finite(&adjoint) && finite(&solution)).then_some([adjoint, solution])
 }
 
-/// All eigenvalues of a square matrix, in no order. Fails on an entry that is not finite.
+/// All eigenvalues of a square matrix, in no order.
+///
+/// # Errors
+/// [`DenseError`] where the matrix is not square, or an entry is not finite.
 pub fn eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<Complex<f64>>, DenseError> {
     let (rows, columns) = check(matrix)?;
     let mut values = vec![Complex::ZERO; rows];
@@ -93,6 +96,9 @@ pub fn eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<Complex<f64>>, DenseErr
 }
 
 /// Eigenvalues of a Hermitian matrix, ascending; only the lower triangle is read.
+///
+/// # Errors
+/// As [`eigenvalues`].
 pub fn hermitian_eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<f64>, DenseError> {
     let (rows, columns) = check(matrix)?;
     let mut values = vec![Complex::ZERO; rows];
@@ -107,7 +113,10 @@ pub fn hermitian_eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<f64>, DenseEr
     Ok(values.into_iter().map(|value| value.re).collect())
 }
 
-/// Singular values and vectors of a square matrix. Fails on an entry that is not finite.
+/// Singular values and vectors of a square matrix.
+///
+/// # Errors
+/// As [`eigenvalues`].
 pub fn complex_svd(matrix: &ComplexMatrix) -> Result<ComplexSvd, DenseError> {
     let (rows, columns) = check(matrix)?;
     let (mut u, mut v) = (ComplexMatrix::identity(rows, rows), ComplexMatrix::identity(rows, rows));

@@ -24,7 +24,7 @@ use thiserror::Error;
 /// unknowns), but single cells are small enough to afford pivoting.
 pub const DENSE_LIMIT: usize = 64;
 
-/// Why a factorization cannot be used.
+/// The reason for which a factorization cannot be used.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
 pub enum FactorError {
     /// An entry of the matrix is infinite or not a number.
@@ -45,9 +45,9 @@ pub enum FactorError {
     /// An iteration for eigenpairs ended early.
     #[error("{found} of {wanted} eigenpairs were found")]
     Eigenpairs {
-        /// Asked for.
+        /// Number asked for.
         wanted: usize,
-        /// Found.
+        /// Number found.
         found: usize,
     },
     /// The symbolic analysis ran out of memory or indices.
@@ -67,11 +67,11 @@ pub struct Inertia {
     pub ratio: f64,
 }
 
-/// The analysis of a pattern: the order of elimination and where the factor has entries. Shared by all its factorizations.
+/// The symbolic analysis of a pattern: the order of elimination and the pattern of the factor. Shared by all its factorizations.
 #[derive(Clone, Debug)]
 pub struct Symbolic {
     size: usize,
-    /// `None`: dense.
+    /// `None` for a small matrix, which is factored dense.
     sparse: Option<Arc<SymbolicCholesky<u32>>>,
 }
 
@@ -93,12 +93,16 @@ struct Sparse {
 }
 
 impl Factor {
-    /// Analyses a pattern and makes room, as [`Symbolic::new`].
+    /// Analyses a pattern and makes room for its factorizations. `node` groups unknowns into blocks, see [`super::order`]; `cliques` are
+    /// those of which the pattern is made.
+    ///
+    /// # Errors
+    /// [`FactorError::TooLarge`] where memory or indices run out.
     pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         Self::of(&Symbolic::new(pattern, node, cliques)?)
     }
 
-    /// Room for a factorization of a pattern that was analysed.
+    /// Makes room for a factorization of a pattern that was analysed.
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where there is not enough memory.
@@ -110,7 +114,10 @@ impl Factor {
         Ok(Self { kind, size: symbolic.size })
     }
 
-    /// Factors the matrix with these values.
+    /// Factors the matrix with these values, the entries of its lower triangle in the pattern. Returns the inertia.
+    ///
+    /// # Errors
+    /// [`FactorError::NotFinite`] and [`FactorError::Singular`].
     pub fn factor(&mut self, pattern: &Pattern, values: &[f64]) -> Result<Inertia, FactorError> {
         if values.iter().any(|v| !v.is_finite()) {
             return Err(FactorError::NotFinite);
@@ -136,7 +143,7 @@ impl Factor {
         }
     }
 
-    /// Numbers stored in the factor.
+    /// Count of numbers stored in the factor.
     pub fn stored(&self) -> usize {
         match &self.kind {
             Kind::Dense(_) => self.size * (self.size + 1) / 2,

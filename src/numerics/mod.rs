@@ -1,4 +1,47 @@
-//! Sparse and dense linear algebra, all solutions of quadrics, and the check of derivatives. The only module that names `faer`.
+//! Linear algebra, sparse and dense, solutions of polynomial systems, and loops over many elements. The only module that names `faer`, and
+//! the only one that decomposes matrices by nalgebra.
+//!
+//! A symmetric sparse matrix `S = sum_k B_k` is a sum of small dense blocks, one a clique of unknowns. It is factored as
+//! `P S P^T = L D L^T`, and the signs of `D` are those of its eigenvalues (Sylvester's law of inertia).
+//!
+//! | file | what it is for |
+//! |---|---|
+//! | [`vector`] | norms, products and maxima of plain vectors |
+//! | [`sparse`] | cliques, patterns, slots of blocks, rows |
+//! | [`factor`], [`order`], [`tearing`] | `L D L^T` with inertia, the order of elimination, cliques opened for smaller factors |
+//! | [`rank`], [`eigen`] | ranks by counting signs; a few extreme eigenpairs |
+//! | [`dense`], [`complex`] | decompositions of dense matrices, real and complex |
+//! | [`polynomial`], [`fourier`], [`homotopy`] | roots; coefficients of trigonometric polynomials; all solutions of quadrics |
+//! | [`parallel`], [`random`] | loops over the caller's threads; random numbers |
+//! | [`derivatives`] | the check of hand-written derivatives |
+//!
+//! # Example
+//!
+//! A chain of two springs of stiffness 1 and 2 between three points, the first of them held, with a force of 3 on the last:
+//!
+//! ```
+//! use foldwell::numerics::factor::{Factor, FactorError};
+//! use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, RankOne, Slots};
+//!
+//! # fn main() -> Result<(), FactorError> {
+//! let mut springs = Cliques::new();
+//! springs.push([FIXED, 0]);
+//! springs.push([0, 1]);
+//! let pattern = Pattern::new(2, &[&springs]);
+//! let slots = Slots::new(&pattern, &springs);
+//! let mut values = vec![0.0; pattern.entries()];
+//! for (spring, weight) in [1.0, 2.0].into_iter().enumerate() {
+//!     slots.add_outer(spring, RankOne { weight, gradient: &[-1.0, 1.0] }, &mut values);
+//! }
+//! let blocks = [0, 1];
+//! let mut factor = Factor::new(&pattern, &blocks, &[&springs])?;
+//! assert_eq!(factor.factor(&pattern, &values)?.negative, 0);
+//! let mut x = vec![0.0, 3.0];
+//! factor.solve(&mut x);
+//! assert!((x[0] - 3.0).abs() < 1e-14 && (x[1] - 4.5).abs() < 1e-14);
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod complex;
 pub mod dense;
@@ -21,5 +64,5 @@ mod tests;
 
 pub use vector::{larger, worst};
 
-/// The dense matrix that modules hand to each other.
+/// A dense real matrix, as it is passed between modules.
 pub type DenseMatrix = nalgebra::DMatrix<f64>;

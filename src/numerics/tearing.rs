@@ -116,7 +116,7 @@ impl Tearing {
 }
 
 impl TornFactor {
-    /// Room for a factorization.
+    /// Makes room for a factorization.
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where there is not enough memory.
@@ -164,7 +164,7 @@ impl TornFactor {
         x.iter_mut().zip(numbers).for_each(|(x, &number)| *x = self.solution[number as usize]);
     }
 
-    /// Numbers stored in the factor.
+    /// Count of numbers stored in the factor.
     pub fn stored(&self) -> usize {
         self.factor.stored()
     }

@@ -9,16 +9,16 @@ use crate::numerics::dense::small::{CholeskyFactor, cholesky};
 use crate::numerics::{DenseMatrix, vector};
 use nalgebra::DVector;
 
-/// Corrections allowed.
-const CORRECTIONS: usize = 6;
+/// Largest number of corrections.
+const MOST_CORRECTIONS: usize = 6;
 
-/// Equations `F(x) = 0`, of which some may be redundant.
+/// Equations `F(x) = 0`, some of which may be redundant.
 pub trait Implicit {
     /// Number of unknowns.
     fn unknowns(&self) -> usize;
     /// Number of equations, redundant ones included.
     fn equations(&self) -> usize;
-    /// `F(x)` and its Jacobian, equations by unknowns.
+    /// Fills in `F(x)` and its Jacobian, equations by unknowns.
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix);
 }
 
@@ -28,19 +28,19 @@ pub struct Corrector {
     jacobian: DenseMatrix,
 }
 
-/// What a correction found.
+/// The result of correcting a predicted point.
 #[derive(Clone, Copy, Debug)]
 pub struct Corrected {
-    /// Largest component of `F`.
+    /// Largest component of `F` at the corrected point.
     pub residual: f64,
-    /// Corrections made.
+    /// Number of corrections made.
     pub corrections: usize,
-    /// How far the point is from where it was predicted.
+    /// Distance of the corrected point from the predicted one.
     pub distance: f64,
 }
 
 impl Corrector {
-    /// For equations of this size.
+    /// Makes room for equations of this size.
     pub fn new(equations: &impl Implicit) -> Self {
         let (rows, unknowns) = (equations.equations(), equations.unknowns());
         Self { residual: DVector::zeros(rows), jacobian: DenseMatrix::zeros(rows, unknowns) }
@@ -58,7 +58,7 @@ impl Corrector {
         let across = columns(frame, x.len());
         let predicted = x.to_vec();
         let mut last = f64::INFINITY;
-        for corrections in 0..=CORRECTIONS {
+        for corrections in 0..=MOST_CORRECTIONS {
             equations.linearize(x, self.residual.as_mut_slice(), &mut self.jacobian);
             let residual = self.residual.amax();
             if residual <= tolerance {

@@ -5,12 +5,12 @@ use crate::numerics::larger;
 use crate::numerics::sparse::{ElementBlock, FIXED, Pattern, RankOne, Rows};
 use std::sync::Arc;
 
-/// How much of the soft Hessian a linearization contains.
+/// The part of the soft Hessian that a linearization contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HessianKind {
-    /// Only `k g g^T` of each soft element: positive semidefinite.
+    /// The term `k g g^T` of each soft element alone: positive semidefinite.
     GaussNewton,
-    /// All of it.
+    /// The whole Hessian.
     Full,
 }
 
@@ -49,7 +49,7 @@ pub struct Linearization {
     pub sizes: Vec<f64>,
     /// Largest force of a single element on a single unknown.
     pub largest_force: f64,
-    /// How much of the soft Hessian is contained.
+    /// The part of the soft Hessian that is contained.
     pub kind: HessianKind,
     layout: Arc<Layout>,
     plan: Arc<Plan>,
@@ -75,7 +75,7 @@ impl Linearization {
         }
     }
 
-    /// Sets all numbers that are summed to zero, and notes how much of the soft Hessian will be added.
+    /// Sets all numbers that are summed to zero, and notes which part of the soft Hessian will be added.
     pub fn clear(&mut self, kind: HessianKind) {
         self.kind = kind;
         self.energy = 0.0;

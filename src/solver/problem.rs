@@ -35,7 +35,7 @@ pub trait Problem {
     }
 }
 
-/// How far a state is from equilibrium; a component is not a number where one of the numbers it is made of is none.
+/// Distance of a state from equilibrium. A component is not a number where one of the numbers it is made of is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residuals {
     /// Largest unbalanced force on an unknown, relative to the largest force of a single element.

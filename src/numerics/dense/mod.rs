@@ -15,7 +15,7 @@ use faer::{ColMut, MatMut, MatRef, Par, Spec};
 /// The smallest gap between kept and dropped singular values at which a rank is believed.
 pub const SMALLEST_GAP: f64 = 1e3;
 
-/// Why a decomposition was not given.
+/// The reason for which a matrix was not decomposed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DenseError {
     /// An entry is infinite or not a number.
@@ -25,7 +25,7 @@ pub enum DenseError {
         row: usize,
         /// Column of the entry.
         column: usize,
-        /// Its value.
+        /// Value of the entry.
         value: f64,
     },
     /// Eigenvalues were asked of a matrix that is not square.
@@ -58,7 +58,7 @@ pub enum DenseError {
          after {rank} of them, less than {SMALLEST_GAP:e}"
     )]
     NoGap {
-        /// How many singular values stand before the largest gap.
+        /// Number of singular values before the largest gap.
         rank: usize,
         /// The last value before the gap.
         kept: f64,
@@ -101,7 +101,7 @@ pub struct NullSpace {
     pub singular_values: Vec<f64>,
     /// The numerical rank, at the largest gap.
     pub rank: usize,
-    /// See [`Rank::gap`].
+    /// The gap at which the rank was read off, see [`Rank::gap`].
     pub gap: f64,
 }
 
@@ -114,10 +114,10 @@ pub struct SymmetricEigen {
     pub vectors: DenseMatrix,
 }
 
-/// For every right-hand side the shortest among the vectors with the least residual.
+/// Least-squares solutions: for every right-hand side the shortest vector with the least residual.
 #[derive(Clone, Debug)]
 pub struct LeastSquares {
-    /// The vectors, as columns.
+    /// The solutions, as columns.
     pub solution: DenseMatrix,
     /// `matrix * solution - right`.
     pub residual: DenseMatrix,
@@ -137,12 +137,18 @@ pub fn from_rows(rows: &Rows<'_>, columns: usize) -> DenseMatrix {
     matrix
 }
 
-/// Singular values of a matrix, descending. Fails on an entry that is not finite.
+/// Singular values of a matrix, descending.
+///
+/// # Errors
+/// [`DenseError::NotFinite`] and [`DenseError::NoConvergence`].
 pub fn singular_values(matrix: &DenseMatrix) -> Result<Vec<f64>, DenseError> {
     decompose(matrix, None)
 }
 
-/// All singular values and vectors. Fails on an entry that is not finite.
+/// All singular values and vectors of a matrix.
+///
+/// # Errors
+/// As [`singular_values`].
 pub fn full_svd(matrix: &DenseMatrix) -> Result<Svd, DenseError> {
     let (rows, columns) = matrix.shape();
     let mut u = DenseMatrix::identity(rows, rows);
@@ -153,8 +159,10 @@ pub fn full_svd(matrix: &DenseMatrix) -> Result<Svd, DenseError> {
 
 /// The number of singular values before their largest gap, among `values` in descending order.
 ///
-/// A matrix of zeros has rank 0; any other has at least rank 1. Fails with [`DenseError::NoGap`] where the largest gap
-/// is below [`SMALLEST_GAP`].
+/// A matrix of zeros has rank 0; any other has at least rank 1.
+///
+/// # Errors
+/// [`DenseError::NoGap`] where the largest gap is below [`SMALLEST_GAP`].
 pub fn rank_at_largest_gap(values: &[f64]) -> Result<Rank, DenseError> {
     let largest = values.first().copied().unwrap_or(0.0);
     if largest == 0.0 {
@@ -178,6 +186,9 @@ pub fn rank_at_largest_gap(values: &[f64]) -> Result<Rank, DenseError> {
 /// An orthonormal basis of the null space, the rank chosen by [`rank_at_largest_gap`].
 ///
 /// A matrix without rows has the whole space as null space. The left null space is that of the transpose.
+///
+/// # Errors
+/// As [`singular_values`] and [`rank_at_largest_gap`].
 pub fn null_space(matrix: &DenseMatrix) -> Result<NullSpace, DenseError> {
     let Svd { v, singular_values, .. } = full_svd(matrix)?;
     let Rank { rank, gap } = rank_at_largest_gap(&singular_values)?;
@@ -187,6 +198,9 @@ pub fn null_space(matrix: &DenseMatrix) -> Result<NullSpace, DenseError> {
 
 /// The minimal-norm least-squares solutions of `matrix * x = right`, a column for each of `right`, the rank chosen by
 /// [`rank_at_largest_gap`].
+///
+/// # Errors
+/// As [`null_space`], and [`DenseError::RightHandSide`].
 pub fn least_squares(matrix: &DenseMatrix, right: &DenseMatrix) -> Result<LeastSquares, DenseError> {
     if right.nrows() != matrix.nrows() {
         return Err(DenseError::RightHandSide { rows: matrix.nrows(), found: right.nrows() });
@@ -201,7 +215,10 @@ pub fn least_squares(matrix: &DenseMatrix, right: &DenseMatrix) -> Result<LeastS
     Ok(LeastSquares { solution, residual, rank })
 }
 
-/// Eigenvalues and eigenvectors of a symmetric matrix, of which only the lower triangle is read.
+/// Eigenvalues and eigenvectors of a symmetric matrix; only the lower triangle is read.
+///
+/// # Errors
+/// [`DenseError`] where the matrix is not square, or an entry is not finite.
 pub fn symmetric_eigen(matrix: &DenseMatrix) -> Result<SymmetricEigen, DenseError> {
     let mut vectors = DenseMatrix::identity(matrix.nrows(), matrix.nrows());
     let values = diagonalize(matrix, Some(&mut vectors))?;
@@ -209,6 +226,9 @@ pub fn symmetric_eigen(matrix: &DenseMatrix) -> Result<SymmetricEigen, DenseErro
 }
 
 /// Eigenvalues of a symmetric matrix, ascending; only the lower triangle is read.
+///
+/// # Errors
+/// As [`symmetric_eigen`].
 pub fn symmetric_eigenvalues(matrix: &DenseMatrix) -> Result<Vec<f64>, DenseError> {
     diagonalize(matrix, None)
 }

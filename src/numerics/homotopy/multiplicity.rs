@@ -21,13 +21,13 @@ const ZERO: f64 = 1e-6;
 /// More monomials than these are not looked at.
 const MOST_MONOMIALS: usize = 500;
 
-/// What the equations say about one of their solutions.
+/// The multiplicity of a solution, by the equations around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Multiplicity {
     Isolated(usize),
     /// Larger than the limit that was given.
     Larger,
-    /// It takes more monomials than are looked at.
+    /// The multiplicity needs more monomials than are looked at.
     Unknown,
 }
 

@@ -17,7 +17,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 /// Largest residual, for quadrics of norm 1, of a solution of combinations that is one of all quadrics.
-const RESIDUAL: f64 = 1e-8;
+const SOLUTION_RESIDUAL: f64 = 1e-8;
 
 /// The solutions of quadrics of any number, or where there are infinitely many, those on a random linear space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,7 +34,10 @@ pub struct Section {
 
 /// Solves quadrics `x^T A_k x = 0` of any number in `unknowns` homogeneous unknowns.
 ///
-/// Fails as [`solve`](super::solve). The quadrics should be linearly independent.
+/// The quadrics should be linearly independent.
+///
+/// # Errors
+/// Those of [`solve`](super::solve).
 pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, HomotopyError> {
     if unknowns == 0 {
         return Ok(Section::default());
@@ -90,7 +93,7 @@ pub(super) fn on_linear_space(all: &Quadrics, frame: &DenseMatrix) -> Result<Sol
     Ok(solutions)
 }
 
-/// As many random combinations of the quadrics as determine points.
+/// Random combinations of the quadrics, as many as determine points.
 fn combined(all: &Quadrics, random: &mut ChaCha8Rng) -> Result<Quadrics, HomotopyError> {
     let weights = random_frame(all.count(), all.unknowns - 1, random);
     let combinations: Vec<DenseMatrix> = weights
@@ -100,18 +103,18 @@ fn combined(all: &Quadrics, random: &mut ChaCha8Rng) -> Result<Quadrics, Homotop
     Quadrics::new(&combinations, all.unknowns)
 }
 
-/// Of the solutions of combinations those of all quadrics, with their multiplicity there.
+/// The solutions of combinations that are solutions of all quadrics, with their multiplicity there.
 fn kept(all: &Quadrics, combined: Solutions) -> Solutions {
     let Solutions { isolated, on_continua, paths, repeated } = combined;
     let mut kept = Solutions { paths, repeated, ..Solutions::default() };
-    for mut solution in isolated.into_iter().filter(|solution| all.residual(&solution.point) <= RESIDUAL) {
+    for mut solution in isolated.into_iter().filter(|solution| all.residual(&solution.point) <= SOLUTION_RESIDUAL) {
         if let Multiplicity::Isolated(multiplicity) = multiplicity(all, &solution.point, solution.multiplicity) {
             solution.multiplicity = multiplicity;
         }
         kept.isolated.push(solution);
     }
     // what combinations have in common along a curve, all quadrics may have at a point
-    let common = on_continua.into_iter().filter(|point| all.residual(point) <= RESIDUAL);
+    let common = on_continua.into_iter().filter(|point| all.residual(point) <= SOLUTION_RESIDUAL);
     for Group { point, error, members } in grouped(common.map(|point| (point, 0.0))) {
         match multiplicity(all, &point, members.len()) {
             Multiplicity::Isolated(found) => kept.isolated.push(multiple(point, found, error)),

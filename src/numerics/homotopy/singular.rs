@@ -24,8 +24,9 @@ use nalgebra::{Complex, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// Singular values of the Jacobian below this are zero.
+/// Singular value of the Jacobian below which it counts as zero.
 const ZERO: f64 = 1e-6;
+/// Number of attempts, each with smaller steps and other random numbers than the one before.
 const ATTEMPTS: u32 = 4;
 
 /// A point, and the estimated distance to the exact one.
@@ -45,7 +46,10 @@ pub struct SingularPoint {
 /// The real singular points of the curve of solutions of `m` quadrics in `m + 2` homogeneous unknowns.
 ///
 /// `None` where some of the curve is counted twice or more: all of that is singular. Points where more than two branches meet
-/// are not called isolated. Fails as [`solve`](super::solve).
+/// are not called isolated.
+///
+/// # Errors
+/// Those of [`solve`](super::solve).
 pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<SingularPoint>>, HomotopyError> {
     let count = quadrics.len();
     let quadrics = Quadrics::new(quadrics, count + 2)?;

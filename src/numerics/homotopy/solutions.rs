@@ -11,7 +11,7 @@ pub(super) const SAME: f64 = 1e-6;
 pub struct Solution {
     /// A vector of norm 1, its largest entry real and positive; all entries are real where the solution is.
     pub point: Vec<Complex<f64>>,
-    /// Its multiplicity.
+    /// Multiplicity of the solution.
     pub multiplicity: usize,
     /// Whether it is real: proved where it is simple, otherwise up to 1e-6.
     pub real: bool,
@@ -19,7 +19,7 @@ pub struct Solution {
     pub error: f64,
 }
 
-/// All solutions of a square system.
+/// The solutions of a square system.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Solutions {
     /// The isolated solutions, in the order of their paths.
@@ -73,7 +73,7 @@ pub(super) fn conjugate(point: &[C]) -> Vec<C> {
     point.iter().map(C::conj).collect()
 }
 
-/// The same point with its largest entry real and positive; a real one without imaginary parts.
+/// A point multiplied by a phase so that its largest entry is real and positive; a real one without imaginary parts.
 pub(super) fn turned(point: Vec<C>, real: bool) -> Vec<C> {
     let largest =
         point.iter().copied().fold(C::default(), |a, b| if b.norm() > a.norm() * (1.0 + 1e-9) { b } else { a });

@@ -15,9 +15,9 @@ const ATTEMPTS: u32 = 4;
 /// First step of a path in its parameter, which goes from 1 to 0.
 const FIRST_STEP: f64 = 0.05;
 
-/// All solutions of `m` quadrics `x^T A_k x = 0` in `m + 1` homogeneous unknowns.
+/// Finds all solutions of `m` quadrics `x^T A_k x = 0` in `m + 1` homogeneous unknowns.
 ///
-/// Of each matrix the symmetric part counts. The same matrices give the same solutions: the random numbers have fixed
+/// The symmetric part of each matrix counts. The same matrices give the same solutions: the random numbers have fixed
 /// seeds.
 ///
 /// # Errors
@@ -27,7 +27,7 @@ pub fn solve(quadrics: &[DenseMatrix]) -> Result<Solutions, HomotopyError> {
     solve_square(&Quadrics::new(quadrics, quadrics.len() + 1)?)
 }
 
-/// As [`solve`].
+/// Finds all solutions, as [`solve`].
 pub(super) fn solve_square(quadrics: &Quadrics) -> Result<Solutions, HomotopyError> {
     let count = quadrics.count();
     if quadrics.unknowns != count + 1 {

@@ -15,7 +15,7 @@ const CORRECTED: f64 = 1e-9;
 const MOST_STEPS: usize = 20_000;
 const SHORTEST_STEP: f64 = 1e-10;
 
-/// How careful the steps are.
+/// Bounds of the corrections of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Care {
     /// Largest first correction.

@@ -4,7 +4,7 @@ use crate::numerics::dense::DenseError;
 use crate::solver::implicit::Implicit;
 use thiserror::Error;
 
-/// Charts that are kept of an interrupted covering.
+/// Number of charts that are kept of an interrupted covering.
 pub const KEPT: usize = 4096;
 
 /// A surface given by equations, with its limit.
@@ -13,22 +13,22 @@ pub trait Surface: Implicit {
     fn period(&self, _unknown: usize) -> Option<f64> {
         None
     }
-    /// Negative on the part of the surface that is wanted, zero on its border; continuous.
+    /// A continuous function that is negative on the part of the surface that is wanted, and zero on its border.
     fn limit(&mut self, _x: &[f64]) -> f64 {
         f64::NEG_INFINITY
     }
 }
 
-/// How finely and how far to cover.
+/// Fineness and extent of a covering.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Largest residual of a point.
+    /// Largest component of the residual of a point.
     pub tolerance: f64,
     /// Largest radius of a chart: neighbouring points are one to two radii apart.
     pub radius: f64,
     /// Largest angle between the tangent planes of a chart and of one placed on its rim, in radians.
     pub max_turn: f64,
-    /// Most charts.
+    /// Largest number of charts.
     pub max_charts: usize,
 }
 
@@ -45,32 +45,32 @@ pub struct Chart {
     pub x: Vec<f64>,
     /// Two orthonormal tangents, one behind the other; the same way round on a sheet.
     pub frame: Vec<f64>,
-    /// Radius of its ball.
+    /// Radius of the ball of the chart.
     pub radius: f64,
     /// Value of [`Surface::limit`]; zero to rounding on the border.
     pub limit: f64,
     /// Largest component of the residual.
     pub residual: f64,
-    /// Number of the start from which it was reached.
+    /// Number of the start from which the chart was reached.
     pub start: usize,
 }
 
-/// How the covering ended.
+/// The end of a covering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// All that can be reached within the limit is covered.
+    /// Everything that can be reached within the limit is covered.
     Complete,
-    /// But for what lies beyond so many charts, at which the surface could not be followed with the smallest radius.
+    /// Everything is covered but what lies beyond some charts, at which the surface could not be followed with the smallest radius.
     Open {
-        /// Their number.
+        /// Number of these charts.
         charts: usize,
     },
     /// The surface could not be followed at so many charts that it was given up before all of it was covered.
     GivenUp {
-        /// Their number.
+        /// Number of these charts.
         charts: usize,
     },
-    /// [`Options::max_charts`] were placed.
+    /// As many charts as [`Options::max_charts`] allows were placed.
     TooManyCharts,
     /// The observer asked to stop.
     Interrupted,
@@ -79,18 +79,18 @@ pub enum Coverage {
 /// A covered surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Atlas {
-    /// Charts, those on the border last.
+    /// The charts, those on the border last.
     pub charts: Vec<Chart>,
     /// Triangles of neighbouring charts, counter-clockwise in their frames. Across the end of a period the nearest
     /// images are meant.
     pub triangles: Vec<[usize; 3]>,
-    /// How the covering ended.
+    /// The end of a covering.
     pub coverage: Coverage,
     /// Whether the frames of all neighbours go the same way round.
     pub oriented: bool,
 }
 
-/// Why there is no atlas.
+/// The reason for which a surface was not covered.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum AtlasError {
     /// A start is not on the surface.
@@ -99,12 +99,12 @@ pub enum AtlasError {
         /// Number of the start.
         start: usize,
     },
-    /// At a start there are more or fewer tangents than two.
+    /// The equations leave more or fewer tangents than two at a start.
     #[error("at start {start} the equations leave {tangents} tangents; a surface has two")]
     Singular {
         /// Number of the start.
         start: usize,
-        /// Dimension of the null space.
+        /// Dimension of the null space of the Jacobian.
         tangents: usize,
     },
     /// The linear algebra at a start failed.

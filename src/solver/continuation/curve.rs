@@ -19,28 +19,28 @@ pub struct Point {
     pub x: Vec<f64>,
     /// Unit tangent.
     pub tangent: Vec<f64>,
-    /// Largest component of `F`.
+    /// Largest component of `F` at the point.
     pub residual: f64,
-    /// Corrections made.
+    /// Number of corrections made.
     pub corrections: usize,
 }
 
-/// How a trajectory is followed.
+/// Tolerance, steps and ends of a trajectory.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Bound on the largest component of `F`.
     pub tolerance: f64,
-    /// Longest step.
+    /// Longest step, in arc length.
     pub max_step: f64,
-    /// Arc length at which it ends.
+    /// Arc length at which the trajectory ends.
     pub length: f64,
-    /// Most points.
+    /// Largest number of points.
     pub steps: usize,
-    /// Period of every unknown: then coming back to the start modulo periods ends it.
+    /// Period of every unknown, if they are periodic: coming back to the start modulo periods then ends the trajectory.
     pub period: Option<f64>,
-    /// Indicators that end it.
+    /// Numbers of the indicators whose sign change ends the trajectory.
     pub stops: Vec<usize>,
-    /// Points of the interpolant of a step, 2 to 4: its degree is twice that, less one.
+    /// Number `n` of points of the interpolant of a step, 2 to 4; its degree is `2 n - 1`.
     pub points: usize,
 }
 
@@ -56,25 +56,25 @@ impl Default for Options {
 pub struct Event {
     /// Number of the indicator.
     pub indicator: usize,
-    /// Where it vanishes, or jumps.
+    /// The point at which it vanishes, or jumps.
     pub point: Point,
 }
 
-/// Why a trajectory ends.
+/// The reason for which a trajectory ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
-    /// It came back; the last point is the start, periods added.
+    /// The trajectory came back; its last point is the start, periods added.
     Closed(Return),
-    /// This indicator changed sign at the last point.
+    /// An indicator changed sign at the last point.
     Stopped {
         /// Number of the indicator.
         indicator: usize,
     },
-    /// It has the wanted length.
+    /// The trajectory has the wanted length.
     Length,
-    /// The most steps were made.
+    /// The largest number of points was reached.
     Steps,
-    /// No step leads on.
+    /// No step, however short, could be corrected onto the curve.
     Failed,
     /// The observer asked to stop.
     Interrupted,
@@ -83,21 +83,21 @@ pub enum End {
 /// A trajectory, whatever its end.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
-    /// Its points, the start first.
+    /// Points, the start first.
     pub points: Vec<Point>,
-    /// Sign changes of indicators that do not end it, in order.
+    /// Sign changes of indicators that do not end the trajectory, in order.
     pub events: Vec<Event>,
-    /// Why it ends.
+    /// The reason for its end.
     pub end: End,
 }
 
-/// Where a trajectory came back.
+/// The return of a trajectory to its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Return {
     /// Arc length of the whole trajectory.
     pub arc_length: f64,
-    /// Its unit tangent where it arrives.
+    /// Unit tangent where it arrives.
     pub arrival: Vec<f64>,
-    /// Periods by which each unknown differs from the start.
+    /// Number of periods by which each unknown differs from the start.
     pub windings: Vec<i64>,
 }

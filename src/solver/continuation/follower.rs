@@ -6,24 +6,24 @@ use super::hermite::{Hermite, MOST};
 use crate::numerics::vector::{dot, normalize};
 use crate::solver::implicit::Corrector;
 
-/// Error of a prediction that is aimed at, and the one above which a step is refused.
-const AIM: f64 = 3e-6;
-const MOST_ERROR: f64 = 1e-2;
-/// Cosine of the largest turn of the tangent in a step.
-const LEAST_TURN: f64 = 0.9;
-/// First step, and the one below which a trajectory has failed.
-const FIRST: f64 = 1e-2;
-const LEAST: f64 = 1e-9;
-/// Accuracy in arc length to which sign changes are located.
-const LOCATED: f64 = 1e-11;
+/// Distance of a prediction from the curve that is aimed at, and the one above which a step is refused.
+const WANTED_DISTANCE: f64 = 3e-6;
+const LARGEST_DISTANCE: f64 = 1e-2;
+/// Cosine of the largest angle between the tangents at both ends of a step.
+const LEAST_TANGENT_COSINE: f64 = 0.9;
+/// First step, in arc length, and the one below which a trajectory has failed.
+const FIRST_STEP: f64 = 1e-2;
+const LEAST_STEP: f64 = 1e-9;
+/// Arc length to which sign changes are located.
+const LOCATED_ARC_LENGTH: f64 = 1e-11;
 
-/// What is known while following a curve.
+/// A trajectory on its way.
 struct Follower<'a, C> {
     curve: &'a mut C,
     corrector: Corrector,
     tolerance: f64,
     points: Vec<Point>,
-    /// Interpolant of the last step, through this many points.
+    /// Interpolant of the last step, through `memory` points.
     dense: Hermite,
     memory: usize,
     spare: Vec<f64>,
@@ -64,7 +64,7 @@ impl<C: Curve> Follower<'_, C> {
         events: &mut Vec<Event>,
         observe: &mut dyn FnMut(&Point) -> bool,
     ) -> End {
-        let mut step = FIRST.min(options.max_step);
+        let mut step = FIRST_STEP.min(options.max_step);
         let mut approach = 0.0;
         while self.points.len() <= options.steps {
             let Some(next) = self.step(step.min(options.max_step)) else { return End::Failed };
@@ -87,24 +87,24 @@ impl<C: Curve> Follower<'_, C> {
         End::Steps
     }
 
-    /// One accepted step of about this length, or shorter; the length of the next, `None` where there is none.
+    /// Makes one step of about this length, or shorter. Returns the length of the next one, `None` where no step leads on.
     fn step(&mut self, mut length: f64) -> Option<f64> {
         let first = self.points.len().saturating_sub(self.memory);
         let known: Vec<&Point> = self.points[first..].iter().collect();
         let order = 2 * known.len();
         self.dense.fit(&known);
         let last = self.points[self.points.len() - 1].clone();
-        while length > LEAST {
+        while length > LEAST_STEP {
             let mut point = last.clone();
             self.dense.at(last.arc_length + length, &mut point.x, &mut point.tangent);
             normalize(&mut point.tangent);
             let found = self.corrector.correct(self.curve, &mut point.x, &mut point.tangent, self.tolerance);
             let turn = dot(&point.tangent, &last.tangent);
             match found {
-                Some(found) if turn >= LEAST_TURN && found.distance <= MOST_ERROR.min(0.2 * length) => {
+                Some(found) if turn >= LEAST_TANGENT_COSINE && found.distance <= LARGEST_DISTANCE.min(0.2 * length) => {
                     (point.residual, point.corrections) = (found.residual, found.corrections);
                     self.push(point, length);
-                    let factor = 0.9 * (AIM / found.distance.max(1e-16)).powf(1.0 / order as f64);
+                    let factor = 0.9 * (WANTED_DISTANCE / found.distance.max(1e-16)).powf(1.0 / order as f64);
                     return Some(length * factor.clamp(0.3, 2.0));
                 }
                 _ => length *= 0.4,
@@ -133,7 +133,7 @@ impl<C: Curve> Follower<'_, C> {
         self.points.push(point);
     }
 
-    /// The end by coming back.
+    /// The end of a trajectory that came back to its start.
     fn ended(&mut self, options: &Options, approach: &mut f64) -> Option<End> {
         let period = options.period?;
         let start = self.points[0].x.clone();
@@ -176,14 +176,14 @@ impl<C: Curve> Follower<'_, C> {
         None
     }
 
-    /// Where an indicator changes sign within the last step: the Illinois variant of the rule of false position.
+    /// Locates the sign change of an indicator within the last step, by the Illinois variant of the rule of false position.
     fn locate(&mut self, indicator: usize, before: f64, after: f64) -> Option<Event> {
         let (from, to) = self.last_step()?;
         let (mut low, mut high) = ((from, before), (to, after));
         let mut best = self.points[self.points.len() - 1].clone();
         let mut values = Vec::new();
         for round in 0..100 {
-            if (high.0 - low.0).abs() <= LOCATED || high.1 == 0.0 {
+            if (high.0 - low.0).abs() <= LOCATED_ARC_LENGTH || high.1 == 0.0 {
                 break;
             }
             let share = if round % 3 == 2 { 0.5 } else { (low.1 / (low.1 - high.1)).clamp(1e-3, 1.0 - 1e-3) };
@@ -228,7 +228,7 @@ impl<C: Curve> Follower<'_, C> {
         normalize(&mut point.tangent);
         let predicted = point.clone();
         match self.corrector.correct(self.curve, &mut point.x, &mut point.tangent, self.tolerance) {
-            Some(found) if found.distance <= MOST_ERROR => {
+            Some(found) if found.distance <= LARGEST_DISTANCE => {
                 (point.residual, point.corrections) = (found.residual, found.corrections);
                 Some(point)
             }

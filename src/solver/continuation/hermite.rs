@@ -3,7 +3,7 @@
 use super::curve::Point;
 use crate::numerics::vector::norm;
 
-/// Most points of an interpolant.
+/// Largest number of points of an interpolant.
 pub const MOST: usize = 4;
 /// Nodes and weights of the Gauss-Legendre rule of five points on [-1, 1].
 const GAUSS: [(f64, f64); 5] = [

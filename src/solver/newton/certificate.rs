@@ -1,4 +1,4 @@
-//! What is known of a state beside its residuals: the inertia, whether rigid measures are independent, whether a start is singular.
+//! Diagnostics of a state besides its residuals: the inertia, whether rigid measures are independent, whether a start is singular.
 
 use super::iteration::Newton;
 use super::outcome::Failure;

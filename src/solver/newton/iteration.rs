@@ -13,7 +13,7 @@ pub(super) struct Shift {
     pub(super) value: f64,
     /// Number of steps for which the shift is not lowered.
     pub(super) hold: usize,
-    /// That number, doubled, when lowering fails the next time.
+    /// The next such number, doubled whenever lowering fails.
     pub(super) patience: usize,
 }
 

@@ -99,8 +99,8 @@ impl<P: Problem> Newton<'_, P> {
         (trial.merit <= last.energy + self.merit_uncertainty(&trial, last)).then_some(trial)
     }
 
-    /// How much the merits of the last state and of a trial may differ for no reason: rounding error, and what the gaps
-    /// still open at the last state weigh by its tension and by that of the trial.
+    /// Uncertainty of the difference between the merits of the last state and of a trial: rounding error, and the weight of the gaps
+    /// still open at the last state by its tension and by that of the trial.
     fn merit_uncertainty(&self, trial: &Trial, last: &Step) -> f64 {
         let at = &self.tangent.at;
         let open = at.missing(&self.tension, self.problem.compliance());

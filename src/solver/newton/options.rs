@@ -1,6 +1,6 @@
 //! Where a minimisation begins and when it stops.
 
-/// When to stop.
+/// Tolerance and number of steps of a minimisation.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// Largest scaled residual, of force and of length, of a converged state.
@@ -15,7 +15,7 @@ impl Default for Options {
     }
 }
 
-/// Where to begin.
+/// The state in which a minimisation begins.
 #[derive(Clone, Debug)]
 pub struct Start {
     /// Unknowns.
