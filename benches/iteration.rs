@@ -8,7 +8,8 @@
 //! Patches of the reference cell with exactly rigid bars and random rest angles. All times of a line are medians of
 //! runs taken in turns; compare along a line, not between machines.
 //!
-//! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution (assembly, filling
+//! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution
+//!   (assembly, filling
 //!   and factoring the matrix, solving with corrections to 1e-6 for random forces, which takes so many `solves`, residuals, energy and
 //!   gaps of the new state); the same with one solve and the relative residual that this leaves; and one iteration as it comes out of
 //!   the run (the minimiser's time, less the set-up, over its accepted steps: refused shifts, retraction and shorter steps included),
@@ -186,8 +187,8 @@ impl Step {
         seconds(|| self.system.apply(&self.right.0, &self.right.1))
     }
 
-    /// One iteration without anything around it, its linear system solved to this relative residual, in at least one solve: its
-    /// time, and the relative residual that is left.
+    /// One iteration without anything around it, its linear system solved to this relative residual, in at least one
+    /// solve: its time, and the relative residual that is left.
     fn plain(&mut self, x: &[f64], tension: &[f64], tolerance: f64) -> (f64, f64) {
         let closed = vec![0.0; tension.len()];
         let mut left = f64::NAN;
@@ -240,7 +241,8 @@ impl Bare {
     }
 }
 
-/// How often a sheet of this many cells a side is made and run, and how often the parts of an iteration are timed each time.
+/// How often a sheet of this many cells a side is made and run, and how often the parts of an iteration are timed each
+/// time.
 fn repeats(n: usize) -> (usize, usize) {
     match n {
         _ if !measuring() => (1, 1),
@@ -286,7 +288,8 @@ fn split(sizes: &[usize]) {
         let (mut runs, mut left, mut solves) = (Vec::new(), f64::NAN, 0);
         let mut times = [const { Vec::new() }; 7];
         for _ in 0..rounds {
-            // made anew: where they lie in memory makes a few per cent, most of all with the smallest and the largest sheet
+            // made anew: where they lie in memory makes a few per cent, most of all with the smallest and the largest
+            // sheet
             let mut step = Step::new(star.model(RIGID), &found.x, &found.tension);
             step.factor();
             let mut bare = Bare::new(&step);

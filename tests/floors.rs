@@ -36,7 +36,8 @@ const OWNED: &[(&str, &[&str])] = &[
     ("clap_complete", &["cli.rs"]),
 ];
 
-/// Decompositions that nalgebra offers as methods and as types: they are asked of `numerics::dense`, which says which library does it.
+/// Decompositions that nalgebra offers as methods and as types: they are asked of `numerics::dense`, which says which
+/// library does it.
 const DECOMPOSITIONS: &[&str] = &[
     "svd",
     "lu",
@@ -232,8 +233,8 @@ fn violations(folder: &Path) -> Vec<String> {
     found
 }
 
-/// Decompositions outside of test modules: methods that are called, `.lu()`, and types that are named. Functions of `numerics` have
-/// some of these names too, but no dot before them; fields have no parenthesis after them.
+/// Decompositions outside of test modules: methods that are called, `.lu()`, and types that are named. Functions of
+/// `numerics` have some of these names too, but no dot before them; fields have no parenthesis after them.
 fn decompositions(words: &[String]) -> impl Iterator<Item = &str> {
     let word = |at: usize| words.get(at).map_or("", String::as_str);
     let tests = (0..words.len()).find(|&at| (word(at), word(at + 1)) == ("mod", "tests")).unwrap_or(words.len());
@@ -264,8 +265,8 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Claim: the reader above can find what it looks for. One violation at a time is planted in a copy of the sources, each
-/// in another way of writing; exactly that one is found. What only looks like one is not.
+/// Claim: the reader above can find what it looks for. One violation at a time is planted in a copy of the sources,
+/// each in another way of writing; exactly that one is found. What only looks like one is not.
 #[test]
 fn planted_violations_are_found() {
     let plants = [

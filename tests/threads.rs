@@ -40,11 +40,11 @@ fn workers() -> BTreeSet<Option<String>> {
     map_with_state(200, || (), name).into_iter().collect()
 }
 
-/// Claim: with one thread no study starts another one; with two some do, so that the count can say yes. A pool of the run lives until
-/// the run ends, rayon's own until the program ends: they are counted at every step and at the end. Homotopies with `2^n` paths are
-/// among these (branches), and systems beyond the size from which elements are shared out. A loop stays where its caller is: outside
-/// of any pool on the calling thread, in a pool of rayon in that pool, and two callers have two pools of their own. One test,
-/// since all threads of the process are counted.
+/// Claim: with one thread no study starts another one; with two some do, so that the count can say yes. A pool of the
+/// run lives until the run ends, rayon's own until the program ends: they are counted at every step and at the end.
+/// Homotopies with `2^n` paths are among these (branches), and systems beyond the size from which elements are shared
+/// out. A loop stays where its caller is: outside of any pool on the calling thread, in a pool of rayon in that pool,
+/// and two callers have two pools of their own. One test, since all threads of the process are counted.
 #[test]
 fn work_stays_on_the_threads_that_are_given() {
     let before = threads();

@@ -10,9 +10,9 @@
 //! The Hessian follows with `dN = (I - 2 n n^T/|n|^2) dn / |n|^2`. With `[p, q] = p q^T + q p^T` and
 //! `v = e/|e| + 2 |e| N x a`, and symmetric where it must be, it is on the left side
 //! `aa = [N, |e| e x N]`, `ae = N v^T - |e| |N|^2 [a]_x`, `ee = -[N, |e| ds/de + s v]/2`,
-//! on the right one the same with `M`, `b`, `r` and `-|e|` before cross products, and `ab = 0`. The lengths and angles in these
-//! formulas are those of R. Tamstorf and E. Grinspun, "Discrete bending forces and their Jacobians", Graphical Models 75 (2013)
-//! 362-370.
+//! on the right one the same with `M`, `b`, `r` and `-|e|` before cross products, and `ab = 0`. The lengths and angles
+//! in these formulas are those of R. Tamstorf and E. Grinspun, "Discrete bending forces and their Jacobians", Graphical
+//! Models 75 (2013) 362-370.
 
 use super::Vec3;
 use super::taylor::{Path, Taylor, cross, difference, dot};

@@ -2,7 +2,7 @@
 //!
 //! | file | what it is for |
 //! |---|---|
-//! | [`fold_angle`](mod@fold_angle) | the fold angle `rho = atan2(|e| a.m, n.m)` of a hinge, its gradient, Hessian and Taylor series |
+//! | [`fold_angle`](mod@fold_angle) | the fold angle of a hinge, its gradient, Hessian and Taylor series |
 //! | [`rotation`] | rotation matrices and rotation vectors |
 //! | [`sinc`] | `(e^{it} - 1) / (it)` and its derivatives without a singular point |
 //! | [`taylor`] | Taylor series of the fourth degree |

@@ -25,8 +25,8 @@ pub struct ComplexSvd {
     pub v: ComplexMatrix,
 }
 
-/// The determinant of a square matrix, by elimination with row pivots of the largest modulus. (nalgebra's LU factorization chooses them by
-/// `|re| + |im|`, and its determinants differ in the last digits.)
+/// The determinant of a square matrix, by elimination with row pivots of the largest modulus. (nalgebra's LU
+/// factorization chooses them by `|re| + |im|`, and its determinants differ in the last digits.)
 ///
 /// # Panics
 /// Panics where the matrix is not square.
@@ -62,8 +62,8 @@ fn eliminate(entries: &mut [Complex<f64>], n: usize, k: usize) {
     }
 }
 
-/// The solutions `y` of `A^H y = right` and `x` of `A x = right`, in this order, from one elimination with row pivots; `None` where the
-/// square matrix `A` is singular or a solution is not finite.
+/// The solutions `y` of `A^H y = right` and `x` of `A x = right`, in this order, from one elimination with row pivots;
+/// `None` where the square matrix `A` is singular or a solution is not finite.
 pub fn solve_with_adjoint(matrix: ComplexMatrix, right: &ComplexVector) -> Option<[ComplexVector; 2]> {
     let (rows, lower, upper) = matrix.lu().unpack();
     let (mut adjoint, mut solution) = (right.clone(), right.clone());

@@ -7,9 +7,9 @@
 //!
 //! An entry passes when `|found - expected| <= tolerance * max(|expected|, 1e-4 * largest) + 1e-12 * size`, where
 //! `largest` is the largest entry of the gradient, or of the same row of the Jacobian, and `size` (which only matters
-//! where a whole row is zero but for rounding) is the largest of all entries and of `|function| / |x|`. With [`TOLERANCE`]
-//! a relative fault of 1e-6 is caught in every entry that is larger than 1e-4 times `largest` (and 1e-5 times
-//! `size`). Where the differences themselves are not good enough to judge an entry, that is an error too.
+//! where a whole row is zero but for rounding) is the largest of all entries and of `|function| / |x|`. With
+//! [`TOLERANCE`] a relative fault of 1e-6 is caught in every entry that is larger than 1e-4 times `largest` (and 1e-5
+//! times `size`). Where the differences themselves are not good enough to judge an entry, that is an error too.
 
 use super::DenseMatrix;
 
@@ -22,7 +22,8 @@ const SMALL_ENTRY: f64 = 1e-4;
 /// Relative size, compared with the function and its derivative, below which differences are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// First step of the differences relative to the largest coordinate, and the number of steps, each half of the one before.
+/// First step of the differences relative to the largest coordinate, and the number of steps, each half of the one
+/// before.
 const FIRST_STEP: f64 = 0.125;
 const LEVELS: usize = 16;
 const HIGHEST_ORDER: usize = 7;
@@ -278,8 +279,8 @@ mod tests {
         check_gradient(product, &[2.0, 0.0], &[1e-10, 2.0], TOLERANCE).unwrap_err();
     }
 
-    /// Claim: at a stationary point, where all derivatives are zero but for rounding, zero passes and a millionth of the
-    /// function over the coordinate does not.
+    /// Claim: at a stationary point, where all derivatives are zero but for rounding, zero passes and a millionth of
+    /// the function over the coordinate does not.
     #[test]
     fn stationary_points_are_judged() {
         let well = |x: &[f64]| (x[0] - 1.0).cos() + (x[1] - 1.0).cos();

@@ -1,7 +1,7 @@
 //! A few extreme eigenpairs of a symmetric operator, by faer's restarted Lanczos iteration.
 //!
-//! The iteration has no way out before its end. A product that asks to stop, or is not finite, leaves it by unwinding, as a panic does but
-//! without a message; where a program is built with `panic = "abort"` stopping ends the program.
+//! The iteration has no way out before its end. A product that asks to stop, or is not finite, leaves it by unwinding,
+//! as a panic does but without a message; where a program is built with `panic = "abort"` stopping ends the program.
 
 use super::factor::FactorError;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -74,8 +74,8 @@ impl<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send> LinOp<f64> for Operator<F> {
 /// The `count` eigenvalues of largest magnitude of a symmetric operator, descending, with their vectors.
 ///
 /// # Errors
-/// [`EigenError::Stopped`] where `product` gives `None`. [`EigenError::Factor`] where a product is not finite, where the iteration does
-/// not find all eigenpairs, and where the operator is too small for its `4 count + 64` vectors.
+/// [`EigenError::Stopped`] where `product` gives `None`. [`EigenError::Factor`] where a product is not finite, where
+/// the iteration does not find all eigenpairs, and where the operator is too small for its `4 count + 64` vectors.
 pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     size: usize,
     count: usize,

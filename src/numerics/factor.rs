@@ -1,8 +1,8 @@
 //! `L D L^T` factorization of symmetric matrices, with inertia, for one pattern and many sets of numbers.
 //!
-//! Sparse: faer's supernodal `L D L^T` without pivoting, on one thread. The pattern is analysed once ([`Symbolic`]). Small matrices
-//! go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia:
-//! the signs of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
+//! Sparse: faer's supernodal `L D L^T` without pivoting, on one thread. The pattern is analysed once ([`Symbolic`]).
+//! Small matrices go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia: the signs
+//! of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
 
 use super::sparse::{Cliques, Pattern};
 use faer::diag::Diag;
@@ -20,8 +20,8 @@ use faer::{Conj, Mat, MatMut, MatRef, Par, Side};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Matrices up to this size are factored dense. It is no faster (`cargo bench --bench iteration -- dense`: 1.4 times as long up to 42
-/// unknowns), but single cells are small enough to afford pivoting.
+/// Matrices up to this size are factored dense. It is no faster (`cargo bench --bench iteration -- dense`: 1.4 times as
+/// long up to 42 unknowns), but single cells are small enough to afford pivoting.
 pub const DENSE_LIMIT: usize = 64;
 
 /// The reason for which a factorization cannot be used.
@@ -67,7 +67,8 @@ pub struct Inertia {
     pub ratio: f64,
 }
 
-/// The symbolic analysis of a pattern: the order of elimination and the pattern of the factor. Shared by all its factorizations.
+/// The symbolic analysis of a pattern: the order of elimination and the pattern of the factor. Shared by all its
+/// factorizations.
 #[derive(Clone, Debug)]
 pub struct Symbolic {
     size: usize,
@@ -93,8 +94,8 @@ struct Sparse {
 }
 
 impl Factor {
-    /// Analyses a pattern and makes room for its factorizations. `node` groups unknowns into blocks, see [`super::order`]; `cliques` are
-    /// those of which the pattern is made.
+    /// Analyses a pattern and makes room for its factorizations. `node` groups unknowns into blocks, see
+    /// [`super::order`]; `cliques` are those of which the pattern is made.
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
@@ -170,7 +171,8 @@ impl Symbolic {
         Self::sparse(pattern.symbolic(), Side::Lower, ordering)
     }
 
-    /// Analyses a pattern whose unknowns are numbered in the order of elimination: nothing is put in order at a factorization.
+    /// Analyses a pattern whose unknowns are numbered in the order of elimination: nothing is put in order at a
+    /// factorization.
     pub(super) fn in_order(pattern: &Pattern) -> Result<Self, FactorError> {
         let size = pattern.size();
         if size <= DENSE_LIMIT {

@@ -1,23 +1,24 @@
-//! Linear algebra, sparse and dense, solutions of polynomial systems, and loops over many elements. The only module that names `faer`, and
-//! the only one that decomposes matrices by nalgebra.
+//! Linear algebra, sparse and dense, solutions of polynomial systems, and loops over many elements. The only module
+//! that names `faer`, and the only one that decomposes matrices by nalgebra.
 //!
-//! A symmetric sparse matrix `S = sum_k B_k` is a sum of small dense blocks, one a clique of unknowns. It is factored as
-//! `P S P^T = L D L^T`, and the signs of `D` are those of its eigenvalues (Sylvester's law of inertia).
+//! A symmetric sparse matrix `S = sum_k B_k` is a sum of small dense blocks, one a clique of unknowns. It is factored
+//! as `P S P^T = L D L^T`, and the signs of `D` are those of its eigenvalues (Sylvester's law of inertia).
 //!
 //! | file | what it is for |
 //! |---|---|
 //! | [`vector`] | norms, products and maxima of plain vectors |
 //! | [`sparse`] | cliques, patterns, slots of blocks, rows |
-//! | [`factor`], [`order`], [`tearing`] | `L D L^T` with inertia, the order of elimination, cliques opened for smaller factors |
+//! | [`factor`], [`order`], [`tearing`] | `L D L^T` with inertia, order of elimination, smaller factors by open cliques |
 //! | [`rank`], [`eigen`] | ranks by counting signs; a few extreme eigenpairs |
 //! | [`dense`], [`complex`] | decompositions of dense matrices, real and complex |
-//! | [`polynomial`], [`fourier`], [`homotopy`] | roots; coefficients of trigonometric polynomials; all solutions of quadrics |
+//! | [`polynomial`], [`fourier`], [`homotopy`] | roots; trigonometric polynomials; all solutions of quadrics |
 //! | [`parallel`], [`random`] | loops over the caller's threads; random numbers |
 //! | [`derivatives`] | the check of hand-written derivatives |
 //!
 //! # Example
 //!
-//! A chain of two springs of stiffness 1 and 2 between three points, the first of them held, with a force of 3 on the last:
+//! A chain of two springs of stiffness 1 and 2 between three points, the first of them held, with a force of 3 on the
+//! last:
 //!
 //! ```
 //! use foldwell::numerics::factor::{Factor, FactorError};

@@ -1,9 +1,10 @@
 //! Data-parallel loops with the same bits for any number of threads.
 //!
-//! Results are computed in parallel and consumed in order by the calling thread. Which threads take part is decided by the caller,
-//! not by this library, and nothing about it is global to the process:
+//! Results are computed in parallel and consumed in order by the calling thread. Which threads take part is decided by
+//! the caller, not by this library, and nothing about it is global to the process:
 //!
-//! - inside [`Threads::install`] the pool of those [`Threads`], which is started by the first loop that is large enough for it;
+//! - inside [`Threads::install`] the pool of those [`Threads`], which is started by the first loop that is large enough
+//!   for it;
 //! - on a thread of a rayon pool (`rayon::ThreadPool::install`) that pool;
 //! - anywhere else the calling thread alone. Rayon's own global pool is never started.
 
@@ -27,7 +28,8 @@ thread_local! {
     static INSTALLED: RefCell<Option<Threads>> = const { RefCell::new(None) };
 }
 
-/// A number of threads, and the pool of them once a loop has needed it. Clones share the pool; it ends with the last of them.
+/// A number of threads, and the pool of them once a loop has needed it. Clones share the pool; it ends with the last of
+/// them.
 ///
 /// ```
 /// use foldwell::numerics::parallel::{self, Threads};
@@ -46,7 +48,8 @@ struct LazyPool {
 }
 
 impl Threads {
-    /// A pool of `threads` threads, or of as many as there are processors; none is started yet. With one thread none ever is.
+    /// A pool of `threads` threads, or of as many as there are processors; none is started yet. With one thread none
+    /// ever is.
     pub fn new(threads: Option<usize>) -> Self {
         Self(Arc::new(LazyPool { wanted: threads.unwrap_or(0), pool: OnceLock::new() }))
     }
@@ -114,8 +117,8 @@ impl Place {
     }
 }
 
-/// Calls `compute(k, &mut result)` and then `consume(k, &result)` for `k` in `0..count`, the latter in this order and on the calling
-/// thread. Loops of fewer than [`FEWEST_SHARED_ELEMENTS`] stay on the calling thread altogether.
+/// Calls `compute(k, &mut result)` and then `consume(k, &result)` for `k` in `0..count`, the latter in this order and
+/// on the calling thread. Loops of fewer than [`FEWEST_SHARED_ELEMENTS`] stay on the calling thread altogether.
 ///
 /// A result is used again for a later `k`, so that what it owns is not allocated anew.
 pub fn compute_and_consume<T: Default + Send>(
@@ -141,9 +144,11 @@ pub fn compute_and_consume<T: Default + Send>(
     }
 }
 
-/// The results of `compute(state, k)` for `k` in `0..count`, in this order; every worker has a state of its own from `make_state`.
+/// The results of `compute(state, k)` for `k` in `0..count`, in this order; every worker has a state of its own from
+/// `make_state`.
 ///
-/// For pieces of work that take long: even two are shared out. The result must not depend on what the state was used for before.
+/// For pieces of work that take long: even two are shared out. The result must not depend on what the state was used
+/// for before.
 pub fn map_with_state<S, T: Send>(
     count: usize,
     make_state: impl Fn() -> S + Sync + Send,

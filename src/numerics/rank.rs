@@ -8,8 +8,8 @@ use super::factor::{Factor, FactorError};
 use super::sparse::{Cliques, Pattern, RankOne, Rows, Slots};
 use super::vector::max_abs;
 
-/// Number of singular values of `rows` (a matrix of `columns` columns) above `tau` times the largest entry. `node` groups the columns into
-/// blocks, see [`super::order`].
+/// Number of singular values of `rows` (a matrix of `columns` columns) above `tau` times the largest entry. `node`
+/// groups the columns into blocks, see [`super::order`].
 ///
 /// # Errors
 /// [`FactorError`] where the matrix of the count cannot be factored.
@@ -42,16 +42,16 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
     Ok(size - inertia.negative)
 }
 
-/// Multiple of the identity that makes `R^T R` regular, relative to its largest entry: so small that singular vectors of small singular
-/// values still count.
+/// Multiple of the identity that makes `R^T R` regular, relative to its largest entry: so small that singular vectors
+/// of small singular values still count.
 const REGULARIZATION: f64 = 1e-13;
 /// Ratio of successive residuals above which another correction is not worth a solve.
 const SLOWEST_CONTRACTION: f64 = 0.9;
 
 /// The shortest vector with the same `R^T t` as `t`: its part outside of the null space of `R^T`.
 ///
-/// `R^T R y = R^T t` is solved with a factorization of `R^T R` made regular, so that zero modes of `R` do no harm, and corrected
-/// as long as that helps; then `R y` is the answer.
+/// `R^T R y = R^T t` is solved with a factorization of `R^T R` made regular, so that zero modes of `R` do no harm, and
+/// corrected as long as that helps; then `R y` is the answer.
 ///
 /// # Errors
 /// [`FactorError`] where the regularised matrix cannot be factored.

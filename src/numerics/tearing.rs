@@ -1,20 +1,21 @@
 //! Torn factorization: cliques are opened where they would widen the separators of nested dissection.
 //!
-//! The block of a *split* clique couples two blocks of its unknowns by an outer product alone, `k g g^T` with the gradient
-//! `g = (g_o, g_l, g_r)` by the other members, the left and the right block ([`Cliques::push_split`]). The hinge between two
-//! triangles is one: only its stiffness couples the two opposite vertices. Such a coupling makes separators two vertices wide.
+//! The block of a *split* clique couples two blocks of its unknowns by an outer product alone, `k g g^T` with the
+//! gradient `g = (g_o, g_l, g_r)` by the other members, the left and the right block ([`Cliques::push_split`]). The
+//! hinge between two triangles is one: only its stiffness couples the two opposite vertices. Such a coupling makes
+//! separators two vertices wide.
 //!
-//! With `d = (g_o, g_l, -g_r)` the sum `k (g g^T + d d^T)` does not couple the blocks. So an open clique gets an unknown `y` of its own,
-//! which costs `k (d.x - y)^2 / 2`: nothing at its best value, `y = d.x`. The matrix with these unknowns has the first one, `S`, as
-//! its Schur complement, the same solutions, and as many negative eigenvalues:
+//! With `d = (g_o, g_l, -g_r)` the sum `k (g g^T + d d^T)` does not couple the blocks. So an open clique gets an
+//! unknown `y` of its own, which costs `k (d.x - y)^2 / 2`: nothing at its best value, `y = d.x`. The matrix with these
+//! unknowns has the first one, `S`, as its Schur complement, the same solutions, and as many negative eigenvalues:
 //!
 //! `[ S + sum k d d^T   -sum k d ]`
 //! `[ -sum k d^T         diag(k) ]`.
 //!
-//! To add an unknown that takes a coupling out is tearing (G. Kron, Diakoptics, 1963). An open clique stands in a separator with one
-//! unknown, a second line of vertices would with three. Only cliques between two branches of the elimination tree are opened,
-//! one in ten, and a factorization takes 0.84, 0.74 and 0.66 of the time for sheets of 12, 24 and 48 cells a side
-//! (`cargo bench --bench systems`).
+//! To add an unknown that takes a coupling out is tearing (G. Kron, Diakoptics, 1963). An open clique stands in a
+//! separator with one unknown, a second line of vertices would with three. Only cliques between two branches of the
+//! elimination tree are opened, one in ten, and a factorization takes 0.84, 0.74 and 0.66 of the time for sheets of 12,
+//! 24 and 48 cells a side (`cargo bench --bench systems`).
 
 use super::factor::{DENSE_LIMIT, Factor, FactorError, Inertia, Symbolic};
 use super::order;
@@ -27,7 +28,8 @@ const MOST_NODES_OF_A_SMALL_PART: usize = 20;
 /// No node: the root of a tree, or one that was not found.
 const NONE: usize = usize::MAX;
 
-/// The analysis of a sum of cliques' blocks: which cliques are open, where the entries go, and the order of elimination.
+/// The analysis of a sum of cliques' blocks: which cliques are open, where the entries go, and the order of
+/// elimination.
 #[derive(Debug)]
 pub struct Tearing {
     torn: Vec<Torn>,
@@ -60,7 +62,8 @@ pub struct TornFactor {
 }
 
 impl Tearing {
-    /// Analyses the pattern of the sum of these cliques' blocks. `node` groups unknowns into blocks, see [`super::order`].
+    /// Analyses the pattern of the sum of these cliques' blocks. `node` groups unknowns into blocks, see
+    /// [`super::order`].
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
@@ -125,8 +128,9 @@ impl TornFactor {
         Ok(Self { factor: Factor::of(&tearing.symbolic)?, tearing: tearing.clone(), values, solution })
     }
 
-    /// Factors the matrix with these values. `outer(list, clique)` is the outer product in the block of a torn clique, of a weight
-    /// `k >= 0`; the rest of that block leaves left and right uncoupled. The inertia is that of the matrix itself.
+    /// Factors the matrix with these values. `outer(list, clique)` is the outer product in the block of a torn clique,
+    /// of a weight `k >= 0`; the rest of that block leaves left and right uncoupled. The inertia is that of the matrix
+    /// itself.
     ///
     /// # Errors
     /// As [`Factor::factor`].
@@ -170,8 +174,8 @@ impl TornFactor {
     }
 }
 
-/// The nodes of the two blocks of a split clique, where they can be taken apart: each block is one node, no other member of the
-/// clique is in these nodes, and there is another member.
+/// The nodes of the two blocks of a split clique, where they can be taken apart: each block is one node, no other
+/// member of the clique is in these nodes, and there is another member.
 fn separable_blocks(cliques: &Cliques, clique: usize, node: &[u32]) -> Option<[u32; 2]> {
     let blocks = cliques.split(clique)?;
     let members = cliques.members(clique);

@@ -90,8 +90,8 @@ fn inertia_and_solution() {
 const LEFT: std::ops::Range<u32> = 6..9;
 const RIGHT: std::ops::Range<u32> = 9..12;
 
-/// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the wings of a
-/// hinge uncoupled and random outer products besides, some of weight zero.
+/// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the
+/// wings of a hinge uncoupled and random outer products besides, some of weight zero.
 struct Hinges {
     pattern: Pattern,
     node: Vec<u32>,
@@ -152,8 +152,8 @@ fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hing
     Hinges { pattern, node, cliques, weights, gradients, values }
 }
 
-/// Claim: a torn factorization counts the negative eigenvalues of the matrix itself and solves with it; on sheets, and on tubes so
-/// narrow that wings meet each other or an end of their hinge. Tolerance as in [`inertia_and_solution`].
+/// Claim: a torn factorization counts the negative eigenvalues of the matrix itself and solves with it; on sheets, and
+/// on tubes so narrow that wings meet each other or an end of their hinge. Tolerance as in [`inertia_and_solution`].
 #[test]
 fn torn_inertia_and_solution() {
     for (width, height, tube, open) in [(12, 9, false, 20), (3, 80, true, 1), (2, 30, true, 0), (1, 30, true, 0)] {
@@ -177,8 +177,8 @@ fn torn_inertia_and_solution() {
     }
 }
 
-/// Claim: tearing makes the factor smaller, and leaves alone what is too small for it. The bound is what a sheet of 6,400 vertices
-/// is seen to need, rounded up.
+/// Claim: tearing makes the factor smaller, and leaves alone what is too small for it. The bound is what a sheet of
+/// 6,400 vertices is seen to need, rounded up.
 #[test]
 fn tearing_saves() {
     let Hinges { pattern, node, cliques, .. } = hinges(80, 80, false, 1, 0.0);

@@ -64,7 +64,8 @@ pub fn normalize(v: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// Claim: the worst of no residual is none, not zero, and one that is not a number is the worst of all, wherever it stands. By hand.
+    /// Claim: the worst of no residual is none, not zero, and one that is not a number is the worst of all, wherever it
+    /// stands. By hand.
     #[test]
     fn the_worst_of_nothing_is_nothing() {
         assert_eq!((worst([]), max_abs(&[])), (None, 0.0));

@@ -1,8 +1,9 @@
 //! Iterative refinement of the solution of a linear system, with a solver that nearly solves it.
 //!
-//! The corrections are generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20, 345, 1983): what each
-//! changes of the residual is orthogonal to what those before changed. So the few motions of a large system that are softer
-//! than the rounding errors of a factorization cost a few corrections and do not hold up the rest.
+//! The corrections are generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20, 345,
+//! 1983): what each changes of the residual is orthogonal to what those before changed. So the few motions of a large
+//! system that are softer than the rounding errors of a factorization cost a few corrections and do not hold up the
+//! rest.
 
 use crate::numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
 
@@ -26,14 +27,15 @@ pub trait NearlySolved {
 pub struct Corrected {
     /// The solution.
     pub found: Pair,
-    /// Residual as the corrections update it: the larger one of the two block rows, in their units. Rounding errors of the
-    /// solution are not part of it.
+    /// Residual as the corrections update it: the larger one of the two block rows, in their units. Rounding errors of
+    /// the solution are not part of it.
     pub residual: f64,
     /// Number of corrections made.
     pub corrections: usize,
 }
 
-/// Corrects `found` until the residual of each block row is at most `tolerance` of its unit, or until that no longer helps.
+/// Corrects `found` until the residual of each block row is at most `tolerance` of its unit, or until that no longer
+/// helps.
 pub fn correct(
     system: &mut dyn NearlySolved,
     right: &Pair,
@@ -126,8 +128,8 @@ mod tests {
         }
     }
 
-    /// Claim: a residual that is no number is none, also where that of the other block row is zero or there is no such row: it is never
-    /// within a tolerance. Source: the larger of two numbers is not known where one is not.
+    /// Claim: a residual that is no number is none, also where that of the other block row is zero or there is no such
+    /// row: it is never within a tolerance. Source: the larger of two numbers is not known where one is not.
     #[test]
     fn what_is_no_number_is_not_solved() {
         for stretches in [0, 2] {

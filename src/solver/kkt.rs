@@ -9,16 +9,18 @@
 //! up the difference.
 //!
 //! The alternative is the *block form*: factor the whole quasi-definite matrix, tensions among the unknowns, with its
-//! lower block regularised. Measured for rigid sheets of 12, 24 and 48 cells a side (`cargo bench --bench forms -- system`,
-//! solved to 1e-10) it takes 1.5 to 1.9 times as long, with 1.1 to 1.3 times as many numbers in the factor and the same inertia.
-//! The augmented form is kept because it is faster there, has half the unknowns, and needs no regularisation where `k` is moderate.
+//! lower block regularised. Measured for rigid sheets of 12, 24 and 48 cells a side
+//! (`cargo bench --bench forms -- system`, solved to 1e-10) it takes 1.5 to 1.9 times as long, with 1.1 to 1.3 times as
+//! many numbers in the factor and the same inertia. The augmented form is kept because it is faster there, has half the
+//! unknowns, and needs no regularisation where `k` is moderate.
 //!
-//! `gamma` (`-- weight`, the same patches, drawn, to 1e-8): 1e4 needs 6, 16 and over 30 corrections, 1e6 needs 2, 3 and 4, 3e6 needs
-//! 2, 2 and 3, 1e7 needs 1, 2 and 3, 1e8 needs 2, 2 and 5, 1e9 fails at 48. With the Gauss-Newton Hessian it is 1e7: steps are long
-//! then and open gaps, which plain solves close the better the larger it is (at 1e6 starts with self stresses fail, `tests/redundant.rs`
-//! and `tests/miura.rs`). With the full Hessian it is 3e6: near a solution there are next to no gaps to close and rounding decides, which
-//! grows with it: to 1e-6, 3e6 needs one correction up to 57 cells a side and two at 82, 1e7 a second one from 40 or 57 on.
-//! Larger problems have motions that this weight loses to rounding; the corrections of [`KktSystem::solve`] find them again
+//! `gamma` (`-- weight`, the same patches, drawn, to 1e-8): 1e4 needs 6, 16 and over 30 corrections, 1e6 needs 2, 3 and
+//! 4, 3e6 needs 2, 2 and 3, 1e7 needs 1, 2 and 3, 1e8 needs 2, 2 and 5, 1e9 fails at 48. With the Gauss-Newton Hessian
+//! it is 1e7: steps are long then and open gaps, which plain solves close the better the larger it is (at 1e6 starts
+//! with self stresses fail, `tests/redundant.rs` and `tests/miura.rs`). With the full Hessian it is 3e6: near a
+//! solution there are next to no gaps to close and rounding decides, which grows with it: to 1e-6, 3e6 needs one
+//! correction up to 57 cells a side and two at 82, 1e7 a second one from 40 or 57 on. Larger problems have motions that
+//! this weight loses to rounding; the corrections of [`KktSystem::solve`] find them again
 //! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the undeformed states of 24 and 48 cells a side.
 
@@ -31,8 +33,8 @@ use crate::numerics::tearing::TornFactor;
 use crate::numerics::vector::{max_abs, norm_blocked};
 use std::sync::Arc;
 
-/// Largest weight `gamma` of stiff measures relative to the largest entry of the soft Hessian, times the squared largest entry of
-/// their gradient; see the module's page.
+/// Largest weight `gamma` of stiff measures relative to the largest entry of the soft Hessian, times the squared
+/// largest entry of their gradient; see the module's page.
 const fn largest_relative_weight(kind: HessianKind) -> f64 {
     match kind {
         HessianKind::GaussNewton => 1e7,
@@ -40,14 +42,15 @@ const fn largest_relative_weight(kind: HessianKind) -> f64 {
     }
 }
 
-/// Fraction of the identity added to the metric of a shift, relative to the largest entry of the Hessian. It is above the rounding
-/// error of `S`, so that motions that cost nothing are held. Where there is no metric at all the identity takes its place.
+/// Fraction of the identity added to the metric of a shift, relative to the largest entry of the Hessian. It is above
+/// the rounding error of `S`, so that motions that cost nothing are held. Where there is no metric at all the identity
+/// takes its place.
 const IDENTITY_IN_METRIC: f64 = 1e-7;
-/// Residuals of the second block row are measured against this many lengths of `dx`, besides the norm of its right-hand side, which
-/// may be rounding error alone.
+/// Residuals of the second block row are measured against this many lengths of `dx`, besides the norm of its right-hand
+/// side, which may be rounding error alone.
 const STRETCH_UNIT_PER_LENGTH: f64 = 1e2;
-/// Residuals of the first block row are measured against this part of the forces `R^T dt` before they balance, where its right-hand
-/// side is smaller still and may be rounding error alone.
+/// Residuals of the first block row are measured against this part of the forces `R^T dt` before they balance, where
+/// its right-hand side is smaller still and may be rounding error alone.
 const FORCE_UNIT_PER_PULL: f64 = 1e-9;
 /// Eigenvalues of `S` below this, relative to its largest diagonal entry, count as zero in [`KktSystem::inertia`].
 const ZERO_EIGENVALUE: f64 = 1e-14;
@@ -102,7 +105,8 @@ impl KktSystem {
         })
     }
 
-    /// The same with another largest weight of stiff measures, `gamma` relative to the largest entry of the soft Hessian.
+    /// The same with another largest weight of stiff measures, `gamma` relative to the largest entry of the soft
+    /// Hessian.
     ///
     /// # Errors
     /// As [`KktSystem::new`].
@@ -110,8 +114,8 @@ impl KktSystem {
         Ok(Self { relative_weight: Some(gamma), ..Self::new(layout)? })
     }
 
-    /// Factors `S` with `shift` times the metric added to the Hessian. Returns the inertia of `S`: without negative eigenvalues the
-    /// state is a minimum, as far as second order tells.
+    /// Factors `S` with `shift` times the metric added to the Hessian. Returns the inertia of `S`: without negative
+    /// eigenvalues the state is a minimum, as far as second order tells.
     ///
     /// # Errors
     /// [`FactorError`] where an entry is not finite, or a pivot vanishes.
@@ -120,7 +124,8 @@ impl KktSystem {
         self.factor_filled(at, 1.0 + shift)
     }
 
-    /// Entries of the matrix that was factored last, in the pattern of the linearization: its lower triangle, by columns.
+    /// Entries of the matrix that was factored last, in the pattern of the linearization: its lower triangle, by
+    /// columns.
     pub fn entries(&self) -> &[f64] {
         &self.values
     }
@@ -190,8 +195,8 @@ impl KktSystem {
         }
     }
 
-    /// Solves the system that was factored, with `-1/w` instead of `-C`, for a force on every unknown and a stretch of every stiff
-    /// measure. Returns the changes of the unknowns and of the tensions.
+    /// Solves the system that was factored, with `-1/w` instead of `-C`, for a force on every unknown and a stretch of
+    /// every stiff measure. Returns the changes of the unknowns and of the tensions.
     pub fn apply(&mut self, force: &[f64], stretch: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let rows = Rows { cliques: &self.layout.stiff, values: &self.jacobian };
         let mut dx = force.to_vec();
@@ -205,9 +210,9 @@ impl KktSystem {
         (dx, dt)
     }
 
-    /// Solves the true system of a linearization to a relative residual of `tolerance`, or until [corrections] no longer help. The
-    /// linearization may be another one than that which was factored, near by: the corrections make up for the difference. Its own
-    /// Hessian counts where the factorization has no shift.
+    /// Solves the true system of a linearization to a relative residual of `tolerance`, or until [corrections] no
+    /// longer help. The linearization may be another one than that which was factored, near by: the corrections make up
+    /// for the difference. Its own Hessian counts where the factorization has no shift.
     pub fn solve(&mut self, at: &Linearization, force: &[f64], stretch: &[f64], tolerance: f64) -> Increment {
         let (dx, dt) = self.apply(force, stretch);
         let right = Pair(force.to_vec(), divided(stretch, &at.sizes));
@@ -220,8 +225,8 @@ impl KktSystem {
         Increment { dx, dt: divided(&dt, &at.sizes), residual }
     }
 
-    /// The part of a stretch that no motion makes, relative to the stretch: 1 where it is a self stress, 0 where it can be reached.
-    /// Corrections end where the part is at most `enough`.
+    /// The part of a stretch that no motion makes, relative to the stretch: 1 where it is a self stress, 0 where it can
+    /// be reached. Corrections end where the part is at most `enough`.
     pub fn unreachable_part(&mut self, at: &Linearization, stretch: &[f64], enough: f64) -> f64 {
         let right = Pair(vec![0.0; self.layout.unknowns], divided(stretch, &at.sizes));
         let (dx, dt) = self.apply(&right.0, stretch);
@@ -252,8 +257,8 @@ fn multiplied(v: &[f64], sizes: &[f64]) -> Vec<f64> {
     v.iter().zip(sizes).map(|(v, size)| v * size).collect()
 }
 
-/// The true system and its augmented form. Stretches are divided by the natural sizes of the measures' gradients and tensions
-/// multiplied by them: then all stretches are lengths, and all tensions forces.
+/// The true system and its augmented form. Stretches are divided by the natural sizes of the measures' gradients and
+/// tensions multiplied by them: then all stretches are lengths, and all tensions forces.
 struct Equations<'a> {
     system: &'a mut KktSystem,
     at: &'a Linearization,

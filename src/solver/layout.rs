@@ -5,8 +5,8 @@ use crate::numerics::sparse::{Cliques, Pattern, Slots};
 use crate::numerics::tearing::Tearing;
 use std::sync::{Arc, OnceLock};
 
-/// The unknowns of a problem and their couplings, the same at every state. A problem, its linearizations and their factorizations
-/// share one layout.
+/// The unknowns of a problem and their couplings, the same at every state. A problem, its linearizations and their
+/// factorizations share one layout.
 #[derive(Debug)]
 pub struct Layout {
     /// Number of unknowns.
@@ -20,7 +20,8 @@ pub struct Layout {
     plan: OnceLock<Arc<Plan>>,
 }
 
-/// The pattern of the Hessian, the places of the elements in it, and how it is factored: the same for all states and all solves.
+/// The pattern of the Hessian, the places of the elements in it, and how it is factored: the same for all states and
+/// all solves.
 #[derive(Debug)]
 pub(super) struct Plan {
     pub(super) pattern: Pattern,
@@ -30,7 +31,8 @@ pub(super) struct Plan {
 }
 
 impl Layout {
-    /// A layout of `node.len()` unknowns: the block of each, the unknowns of every soft element, and those of every stiff measure.
+    /// A layout of `node.len()` unknowns: the block of each, the unknowns of every soft element, and those of every
+    /// stiff measure.
     pub fn new(node: Vec<u32>, soft: Cliques, stiff: Cliques) -> Arc<Self> {
         Arc::new(Self { unknowns: node.len(), node, soft, stiff, plan: OnceLock::new() })
     }

@@ -44,8 +44,8 @@ pub struct Linearization {
     pub soft_gradients: Vec<f64>,
     /// Stiffnesses of the soft elements.
     pub soft_stiffness: Vec<f64>,
-    /// Natural size of each stiff measure's gradient: 1 for lengths, one over the unit of length for angles. Rows of the Jacobian
-    /// are compared in these units, so that nothing depends on the unit of length.
+    /// Natural size of each stiff measure's gradient: 1 for lengths, one over the unit of length for angles. Rows of
+    /// the Jacobian are compared in these units, so that nothing depends on the unit of length.
     pub sizes: Vec<f64>,
     /// Largest force of a single element on a single unknown.
     pub largest_force: f64,
@@ -117,8 +117,8 @@ impl Linearization {
         self.plan.stiff.add_outer(measure, RankOne { weight, gradient }, values);
     }
 
-    /// The rank-one terms of a matrix that contains `part` times the soft elements' Gauss-Newton Hessian and the stiff measures with
-    /// these weights: a function of the list (0: soft elements, 1: stiff measures) and the number in it.
+    /// The rank-one terms of a matrix that contains `part` times the soft elements' Gauss-Newton Hessian and the stiff
+    /// measures with these weights: a function of the list (0: soft elements, 1: stiff measures) and the number in it.
     pub fn rank_one_terms<'a>(&'a self, part: f64, weights: &[f64]) -> impl Fn(usize, usize) -> RankOne<'a> {
         move |list, number| match list {
             0 => {

@@ -1,13 +1,13 @@
-//! Minimisation of a soft energy under stiff measures, for any stiffness up to exactly rigid; and solutions of equations `F(x) = 0`
-//! along curves and over surfaces. Knows no origami.
+//! Minimisation of a soft energy under stiff measures, for any stiffness up to exactly rigid; and solutions of
+//! equations `F(x) = 0` along curves and over surfaces. Knows no origami.
 //!
-//! A [`Problem`] is a soft energy `E(x)` and stiff measures with gaps `m_r(x)` (the measure minus its rest value) and compliances
-//! `c_r = 1/k_r >= 0`:
+//! A [`Problem`] is a soft energy `E(x)` and stiff measures with gaps `m_r(x)` (the measure minus its rest value) and
+//! compliances `c_r = 1/k_r >= 0`:
 //!
 //! minimise `E(x) + sum_r m_r(x)^2 / (2 c_r)`.
 //!
-//! A compliance of zero is the constraint `m_r(x) = 0`. The *tension* `t_r` of a measure is an unknown of its own, so nothing is ever
-//! multiplied by a stiffness. With `R = dm/dx` a state is in equilibrium where
+//! A compliance of zero is the constraint `m_r(x) = 0`. The *tension* `t_r` of a measure is an unknown of its own, so
+//! nothing is ever multiplied by a stiffness. With `R = dm/dx` a state is in equilibrium where
 //!
 //! `dE/dx + R^T t = 0` and `m = c t`.
 //!
@@ -25,8 +25,8 @@
 //!
 //! # Example
 //!
-//! A point on a rigid rod of length 1 about the origin, pulled towards `(2, 1)` by a soft spring of stiffness 1: the equilibrium
-//! lies in the direction of `(2, 1)`, and the rod is pulled by `sqrt(5) - 1`.
+//! A point on a rigid rod of length 1 about the origin, pulled towards `(2, 1)` by a soft spring of stiffness 1: the
+//! equilibrium lies in the direction of `(2, 1)`, and the rod is pulled by `sqrt(5) - 1`.
 //!
 //! ```
 //! use foldwell::numerics::sparse::Cliques;

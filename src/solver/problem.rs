@@ -21,15 +21,16 @@ pub trait Problem {
     fn energy(&self, x: &[f64]) -> f64;
     /// Gaps of the stiff measures at `x`: each measure minus its rest value.
     fn gaps(&self, x: &[f64]) -> Vec<f64>;
-    /// Fills `out` at `(x, tension)`. The gradient there is that of the soft energy: products of tensions with the Jacobian are not
-    /// part of it, those with the Hessians of the stiff measures are part of the Hessian.
+    /// Fills `out` at `(x, tension)`. The gradient there is that of the soft energy: products of tensions with the
+    /// Jacobian are not part of it, those with the Hessians of the stiff measures are part of the Hessian.
     fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization);
-    /// Adds terms to the Hessian that make it regular along motions that cost nothing, where there are any; forces stay as they are.
+    /// Adds terms to the Hessian that make it regular along motions that cost nothing, where there are any; forces stay
+    /// as they are.
     fn hold(&self, _tension: &[f64], _out: &mut Linearization) {}
     /// Sees every accepted state; may write the same state in other coordinates.
     fn accept(&mut self, x: &mut [f64]);
-    /// Sees every accepted state; may move it as a whole where that lowers the soft energy and changes no gap. Returns by how much
-    /// the energy fell.
+    /// Sees every accepted state; may move it as a whole where that lowers the soft energy and changes no gap. Returns
+    /// by how much the energy fell.
     fn relieve(&mut self, _x: &mut [f64]) -> f64 {
         0.0
     }

@@ -26,11 +26,12 @@ pub struct StationaryPoint {
     pub iterations: usize,
 }
 
-/// Finds the stationary point to which Newton's method in unknowns and tensions leads. A step is shortened where it would change the
-/// measure of a soft element by more than `longest`. A start without tensions has none.
+/// Finds the stationary point to which Newton's method in unknowns and tensions leads. A step is shortened where it
+/// would change the measure of a soft element by more than `longest`. A start without tensions has none.
 ///
 /// # Errors
-/// [`Failure::TooManySteps`] where the iteration does not converge, and [`Failure::Factor`] where a linear system cannot be solved.
+/// [`Failure::TooManySteps`] where the iteration does not converge, and [`Failure::Factor`] where a linear system
+/// cannot be solved.
 pub fn stationary_point<P: Problem>(
     problem: &mut P,
     start: impl Into<Start>,

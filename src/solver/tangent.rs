@@ -42,8 +42,8 @@ impl Tangent {
         Ok(tangent)
     }
 
-    /// Factors with `shift` times the metric added to the Hessian. Returns the inertia: without negative eigenvalues and without a
-    /// shift the state is that of a minimum, on what the rigid measures leave free.
+    /// Factors with `shift` times the metric added to the Hessian. Returns the inertia: without negative eigenvalues
+    /// and without a shift the state is that of a minimum, on what the rigid measures leave free.
     ///
     /// # Errors
     /// [`FactorError`] where an entry is not finite, or a pivot vanishes.
@@ -59,8 +59,8 @@ impl Tangent {
         self.system.factor_shortest(&self.at, &self.compliance)
     }
 
-    /// Inertia of the Hessian on what the rigid measures leave free, with eigenvalues that are zero to rounding error counted as
-    /// positive. Factors anew, with a small multiple of the identity added.
+    /// Inertia of the Hessian on what the rigid measures leave free, with eigenvalues that are zero to rounding error
+    /// counted as positive. Factors anew, with a small multiple of the identity added.
     ///
     /// # Errors
     /// As [`Tangent::factor`].
@@ -68,8 +68,8 @@ impl Tangent {
         self.system.inertia(&self.at, &self.compliance)
     }
 
-    /// The response of unknowns and tensions to a force on every unknown and a stretch of every stiff measure, by the last
-    /// factorization and corrected until the relative residual is at most `tolerance` or no longer falls.
+    /// The response of unknowns and tensions to a force on every unknown and a stretch of every stiff measure, by the
+    /// last factorization and corrected until the relative residual is at most `tolerance` or no longer falls.
     pub fn solve(&mut self, force: &[f64], stretch: &[f64], tolerance: f64) -> Increment {
         self.system.solve(&self.at, force, stretch, tolerance)
     }

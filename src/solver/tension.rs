@@ -7,7 +7,8 @@ use super::self_stress::self_stresses;
 use crate::numerics::rank;
 use crate::numerics::sparse::Rows;
 
-/// Tensions without self stress are taken where the scaled residual force with them is at most this many times the one before.
+/// Tensions without self stress are taken where the scaled residual force with them is at most this many times the one
+/// before.
 const MOST_FORCE_RATIO: f64 = 10.0;
 /// Scaled residual force below which it may be rounding error alone.
 const ROUNDING_FORCE: f64 = 1e-13;
@@ -23,7 +24,8 @@ pub struct Settled {
     pub residuals: Residuals,
 }
 
-/// Takes self stresses out of the tensions of an equilibrium. Where its measures were seen to be independent there are none.
+/// Takes self stresses out of the tensions of an equilibrium. Where its measures were seen to be independent there are
+/// none.
 pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> Settled {
     if let (true, Some(last)) = (found.independent, found.history.last()) {
         return Settled {

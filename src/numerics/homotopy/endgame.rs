@@ -1,10 +1,10 @@
 //! The end of a path, at `t = 0`: simple solutions by Newton's method, multiple ones by Cauchy's integral.
 //!
-//! Near `t = 0` a path is a power series in `t^(1/c)` with a winding number `c`. Led `c` times round the circle `|t| = r` it comes
-//! back to where it began, and the mean over these rounds is its end (A. P. Morgan, A. J. Sommese and C. W. Wampler,
-//! "Computing singular solutions to polynomial systems", Advances in Applied Mathematics 13, 305, 1992). The mean of equally
-//! spaced points converges geometrically. A circle that holds more than the one singular point gives a mean that is no
-//! solution; then the path goes on to a smaller circle.
+//! Near `t = 0` a path is a power series in `t^(1/c)` with a winding number `c`. Led `c` times round the circle
+//! `|t| = r` it comes back to where it began, and the mean over these rounds is its end (A. P. Morgan, A. J. Sommese
+//! and C. W. Wampler, "Computing singular solutions to polynomial systems", Advances in Applied Mathematics 13, 305,
+//! 1992). The mean of equally spaced points converges geometrically. A circle that holds more than the one singular
+//! point gives a mean that is no solution; then the path goes on to a smaller circle.
 
 use super::elimination;
 use super::system::{C, Homotopy, Quadrics, distance, in_patch, norm, normalize};
@@ -19,14 +19,15 @@ const MOST_CIRCLES: usize = 24;
 /// Number of points on a round; every second one gives the estimate of the error.
 const POINTS_PER_ROUND: usize = 16;
 const MOST_ROUNDS: usize = 64;
-/// Distance of the end of a round from its beginning, relative to the size of the circle, below which the round is closed.
+/// Distance of the end of a round from its beginning, relative to the size of the circle, below which the round is
+/// closed.
 const CLOSED_DISTANCE: f64 = 1e-4;
 /// Largest residual of a mean that is a solution.
 const SOLUTION_RESIDUAL: f64 = 3e-13;
 /// Largest distance between the means of all points and of every second one.
 const MEANS_DISTANCE: f64 = 1e-9;
-/// Largest product of a correction and the curvature bound at which a solution counts as simple. Smale's theorem needs 0.157
-/// (M. Shub and S. Smale, "Complexity of Bezout's theorem I", J. AMS 6, 459, 1993).
+/// Largest product of a correction and the curvature bound at which a solution counts as simple. Smale's theorem needs
+/// 0.157 (M. Shub and S. Smale, "Complexity of Bezout's theorem I", J. AMS 6, 459, 1993).
 const APPROXIMATE_ZERO: f64 = 0.1;
 
 /// The end of a path.
@@ -129,9 +130,9 @@ fn rounds<H: Homotopy>(tracker: &mut Tracker<H>, x: &[C], radius: f64) -> Option
 
 /// Newton's method at the target; `Some` where Smale's criterion proves a simple solution.
 ///
-/// With `b` a bound of the correction and `g >= |DF^-1 D^2F / 2|`, `b g` small proves a solution within `2 b` and no other
-/// within `0.2 / g`. The quadrics have norm 1, so `|D^2F / 2| <= sqrt(m)`; and as they are known to rounding only, the correction
-/// is never less than `|DF^-1|` times that.
+/// With `b` a bound of the correction and `g >= |DF^-1 D^2F / 2|`, `b g` small proves a solution within `2 b` and no
+/// other within `0.2 / g`. The quadrics have norm 1, so `|D^2F / 2| <= sqrt(m)`; and as they are known to rounding
+/// only, the correction is never less than `|DF^-1|` times that.
 fn proved_simple(quadrics: &Quadrics, x: &[C]) -> Option<Simple> {
     let mut point = x.to_vec();
     let (mut error, mut bound, mut curvature) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);

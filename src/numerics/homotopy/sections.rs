@@ -1,9 +1,9 @@
 //! Quadrics of any number: more than determine points, or fewer.
 //!
 //! With fewer the solutions are curves, surfaces and so on. A random linear space of the right dimension meets them in
-//! points, as many as their degree says (witness points; A. J. Sommese and C. W. Wampler, "The numerical solution of systems
-//! of polynomials", 2005, chapter 13). With more, random combinations of the quadrics are solved, and of their solutions those
-//! are kept that satisfy all quadrics.
+//! points, as many as their degree says (witness points; A. J. Sommese and C. W. Wampler, "The numerical solution of
+//! systems of polynomials", 2005, chapter 13). With more, random combinations of the quadrics are solved, and of their
+//! solutions those are kept that satisfy all quadrics.
 
 use super::error::HomotopyError;
 use super::multiplicity::{Multiplicity, multiplicity};
@@ -24,7 +24,8 @@ const SOLUTION_RESIDUAL: f64 = 1e-8;
 pub struct Section {
     /// Dimension of the solutions in projective space: unknowns less one less quadrics, and 0 with more quadrics.
     pub dimension: usize,
-    /// Bezout's number: the sum of all multiplicities, of the paths that ended on continua and of the extraneous solutions.
+    /// Bezout's number: the sum of all multiplicities, of the paths that ended on continua and of the extraneous
+    /// solutions.
     pub expected: usize,
     /// The solutions, of the random linear space where `dimension` is not 0.
     pub solutions: Solutions,
@@ -58,8 +59,9 @@ pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, H
     Ok(Section { dimension, expected, solutions, extraneous: expected.saturating_sub(found) })
 }
 
-/// Whether one of some random real linear spaces meets the solutions of fewer quadrics than determine points in a real point. The solutions
-/// then have infinitely many real points; where none of the spaces does, nothing is said about them.
+/// Whether one of some random real linear spaces meets the solutions of fewer quadrics than determine points in a real
+/// point. The solutions then have infinitely many real points; where none of the spaces does, nothing is said about
+/// them.
 ///
 /// # Errors
 /// Those of [`solve`](super::solve).

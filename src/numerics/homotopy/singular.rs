@@ -1,14 +1,16 @@
 //! The singular points of a curve of solutions: `m` quadrics in `m + 2` homogeneous unknowns.
 //!
-//! A random linear space misses them, and an isolated real point of a curve is always one of them. With a random frame `N` of
-//! `m` columns the points where `D(x) = det(dF/dx N)` vanishes are those where the projection of the curve along `N` to a line is
-//! ramified, and its singular points, whatever `N` is. `D` has degree `m`, so there are `m 2^m` such points, and the homotopy
+//! A random linear space misses them, and an isolated real point of a curve is always one of them. With a random frame
+//! `N` of `m` columns the points where `D(x) = det(dF/dx N)` vanishes are those where the projection of the curve along
+//! `N` to a line is ramified, and its singular points, whatever `N` is. `D` has degree `m`, so there are `m 2^m` such
+//! points, and the homotopy
 //!
 //! `F(x) = 0, (1 - t) D(x) + t g l_1(x) ... l_m(x) = 0`
 //!
 //! begins at the points of the curve on `m` random planes `l_k = 0` (regeneration: J. D. Hauenstein, A. J. Sommese and
-//! C. W. Wampler, "Regeneration homotopies for solving systems of polynomials", Mathematics of Computation 80, 345, 2011).
-//! Singular points are those ends where the Jacobian of `F` has not its full rank. A second choice of `N` confirms them.
+//! C. W. Wampler, "Regeneration homotopies for solving systems of polynomials", Mathematics of Computation 80, 345,
+//! 2011). Singular points are those ends where the Jacobian of `F` has not its full rank. A second choice of `N`
+//! confirms them.
 
 use super::elimination::determinant;
 use super::endgame::{self, End, Simple, Target};
@@ -45,8 +47,8 @@ pub struct SingularPoint {
 
 /// The real singular points of the curve of solutions of `m` quadrics in `m + 2` homogeneous unknowns.
 ///
-/// `None` where some of the curve is counted twice or more: all of that is singular. Points where more than two branches meet
-/// are not called isolated.
+/// `None` where some of the curve is counted twice or more: all of that is singular. Points where more than two
+/// branches meet are not called isolated.
 ///
 /// # Errors
 /// Those of [`solve`](super::solve).

@@ -21,8 +21,8 @@ const FIRST_STEP: f64 = 0.05;
 /// seeds.
 ///
 /// # Errors
-/// [`HomotopyError`] on matrices that are zero, not finite or of the wrong size or number, and where after several attempts paths
-/// and multiplicities still do not agree.
+/// [`HomotopyError`] on matrices that are zero, not finite or of the wrong size or number, and where after several
+/// attempts paths and multiplicities still do not agree.
 pub fn solve(quadrics: &[DenseMatrix]) -> Result<Solutions, HomotopyError> {
     solve_square(&Quadrics::new(quadrics, quadrics.len() + 1)?)
 }

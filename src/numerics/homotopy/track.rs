@@ -2,8 +2,8 @@
 //!
 //! Points are vectors of norm 1; each step works in the affine patch of the point where it begins. The predictor is the
 //! classical Runge-Kutta method on `H_x x' = -H_t`, the corrector Newton's method. A step is accepted where the first
-//! correction is small and the corrections then fall as they do for a simple solution: their quotient measures distance over
-//! distance to the next solution, so that paths near each other are not confused.
+//! correction is small and the corrections then fall as they do for a simple solution: their quotient measures distance
+//! over distance to the next solution, so that paths near each other are not confused.
 
 use super::elimination;
 use super::system::{C, Homotopy, Local, norm, normalize};
@@ -55,8 +55,8 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
         Self { homotopy, care, local: Local::new(n), matrix: vec![C::default(); n * n] }
     }
 
-    /// Follows the solution `x` along the straight line between two parameters; `first` is the part of the line that the
-    /// first step tries.
+    /// Follows the solution `x` along the straight line between two parameters; `first` is the part of the line that
+    /// the first step tries.
     pub fn track(&mut self, x: &[C], from: C, to: C, first: f64) -> Result<Vec<C>, Lost> {
         let (mut x, mut done, mut length) = (x.to_vec(), 0.0, first);
         for _ in 0..MOST_STEPS {

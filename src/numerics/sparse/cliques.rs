@@ -26,9 +26,9 @@ impl Cliques {
         self.splits.push(None);
     }
 
-    /// Appends a clique two blocks of which, the members at the places `left` and `right`, meet in a rank-one term alone: in the
-    /// matrix of this clique, only the outer product of a gradient couples one block with the other. A factorization can take
-    /// such blocks apart, see [`tearing`](crate::numerics::tearing).
+    /// Appends a clique two blocks of which, the members at the places `left` and `right`, meet in a rank-one term
+    /// alone: in the matrix of this clique, only the outer product of a gradient couples one block with the other. A
+    /// factorization can take such blocks apart, see [`tearing`](crate::numerics::tearing).
     pub fn push_split(&mut self, members: impl IntoIterator<Item = u32>, left: Range<u32>, right: Range<u32>) {
         self.push(members);
         if let Some(last) = self.splits.last_mut() {

@@ -38,9 +38,9 @@ impl Pattern {
         Self { n, columns, rows }
     }
 
-    /// This pattern with unknown `k` numbered `number[k]`, without the pairs of unknowns that are `apart`, and with `more` unknowns:
-    /// the number of each and the unknowns, as they are numbered here, with which it is coupled. Also the slot that each entry of
-    /// this pattern has there, or [`FIXED`].
+    /// This pattern with unknown `k` numbered `number[k]`, without the pairs of unknowns that are `apart`, and with
+    /// `more` unknowns: the number of each and the unknowns, as they are numbered here, with which it is coupled. Also
+    /// the slot that each entry of this pattern has there, or [`FIXED`].
     pub(in crate::numerics) fn renumbered(
         &self,
         number: &[u32],

@@ -95,7 +95,8 @@ impl Slots {
     }
 }
 
-/// Puts the slots of a clique's block in place that stand in the column of the matrix to which the member at `place` belongs.
+/// Puts the slots of a clique's block in place that stand in the column of the matrix to which the member at `place`
+/// belongs.
 fn fill_column(block: &mut [u32], members: &[u32], place: usize, slot_of_row: &[u32]) {
     for (other, &row) in members.iter().enumerate().filter(|(_, row)| **row != FIXED && **row >= members[place]) {
         let (high, low) = (place.max(other), place.min(other));

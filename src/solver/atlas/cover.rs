@@ -28,12 +28,13 @@ const LEAST_FRAME_DETERMINANT: f64 = 0.5;
 const CHARTS_BEYOND_LIMIT: usize = 1;
 /// Number of charts from one question of the observer to the next.
 pub(super) const CHARTS_PER_QUESTION: usize = 256;
-/// Number of charts at which the surface cannot be followed beyond which it is given up: smallest charts would be placed for long
-/// along singular curves, and the covering stays open all the same.
+/// Number of charts at which the surface cannot be followed beyond which it is given up: smallest charts would be
+/// placed for long along singular curves, and the covering stays open all the same.
 const MOST_OPEN_CHARTS: usize = 512;
 
-/// Number of charts placed around one beyond which it counts as one that cannot be surrounded: around a regular one there are a dozen,
-/// and as many again for every time that it is made smaller. Where the surface is singular new ones would be placed without end.
+/// Number of charts placed around one beyond which it counts as one that cannot be surrounded: around a regular one
+/// there are a dozen, and as many again for every time that it is made smaller. Where the surface is singular new ones
+/// would be placed without end.
 const MOST_NEIGHBOURS: usize = 256;
 
 pub(super) struct Cover<'a, S: Surface> {

@@ -150,8 +150,8 @@ fn inside<S: Surface>(cover: &Cover<S>, chart: usize) -> bool {
     cover.charts[chart].limit <= 0.0
 }
 
-/// The zero of the limit on the way from an inner to an outer chart: the part of the way, and the point on the surface. Found by false
-/// position with halved values, and bisection in between.
+/// The zero of the limit on the way from an inner to an outer chart: the part of the way, and the point on the surface.
+/// Found by false position with halved values, and bisection in between.
 fn crossing<S: Surface>(cover: &mut Cover<S>, from: usize, to: usize) -> Option<(f64, Chart)> {
     let [mut a, mut b] = [0.0, 1.0];
     let [mut fa, mut fb] = [from, to].map(|chart| cover.charts[chart].limit);

@@ -75,8 +75,8 @@ fn rims(rings: &Rings, edges: &HashSet<[usize; 2]>) -> Vec<Vec<usize>> {
     rims
 }
 
-/// The next chart of the rim after `at[1]`: clockwise from the neighbour it comes from to the next one with a triangle on
-/// the far side; and whether the ring is closed in between.
+/// The next chart of the rim after `at[1]`: clockwise from the neighbour it comes from to the next one with a triangle
+/// on the far side; and whether the ring is closed in between.
 fn next_on_rim(ring: &[Option<usize>], at: [usize; 2], edges: &HashSet<[usize; 2]>) -> Option<(usize, bool)> {
     let count = ring.len();
     let from = ring.iter().position(|neighbour| *neighbour == Some(at[0]))?;

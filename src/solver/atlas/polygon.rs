@@ -7,8 +7,9 @@
 
 /// Half the side of the square relative to the radius of the disc.
 const SQUARE_PER_RADIUS: f64 = 1.1;
-/// Distance of a corner from the centre, relative to the radius, beyond which it gets a chart though it is within the disc, unless a
-/// neighbour is within the second part of the radius. So no triangle with an angle near 120 degrees is left.
+/// Distance of a corner from the centre, relative to the radius, beyond which it gets a chart though it is within the
+/// disc, unless a neighbour is within the second part of the radius. So no triangle with an angle near 120 degrees is
+/// left.
 const COVERED: f64 = 0.9;
 const CROWDED: f64 = 0.7;
 
@@ -71,8 +72,8 @@ impl Polygon {
 
     /// A place for a new chart where the disc is not covered well; `None` where it is.
     ///
-    /// It is on the rim of the disc and of a neighbour where that can be: discs placed there are one radius apart. A corner
-    /// within the disc but close to its rim is itself the place.
+    /// It is on the rim of the disc and of a neighbour where that can be: discs placed there are one radius apart. A
+    /// corner within the disc but close to its rim is itself the place.
     pub fn uncovered(&self) -> Option<[f64; 2]> {
         let count = self.corners.len();
         let apart = |a: [f64; 2], b: [f64; 2]| length([a[0] - b[0], a[1] - b[1]]);

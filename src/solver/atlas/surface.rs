@@ -60,7 +60,8 @@ pub struct Chart {
 pub enum Coverage {
     /// Everything that can be reached within the limit is covered.
     Complete,
-    /// Everything is covered but what lies beyond some charts, at which the surface could not be followed with the smallest radius.
+    /// Everything is covered but what lies beyond some charts, at which the surface could not be followed with the
+    /// smallest radius.
     Open {
         /// Number of these charts.
         charts: usize,

@@ -32,8 +32,8 @@ pub(super) fn approach(point: &Point, start: &[f64], period: f64) -> f64 {
     dot(&away, &point.tangent)
 }
 
-/// Arc length near a step of this interpolant at which the distance to the start has its minimum; `None` where the minimum is too far
-/// away to be that of the start.
+/// Arc length near a step of this interpolant at which the distance to the start has its minimum; `None` where the
+/// minimum is too far away to be that of the start.
 pub(super) fn nearest(dense: &Hermite, (from, to): (f64, f64), start: &[f64], period: f64) -> Option<f64> {
     let found = Nearest::new(dense, 0.5 * (from + to), start, period);
     let width = to - from;

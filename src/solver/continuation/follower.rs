@@ -87,7 +87,8 @@ impl<C: Curve> Follower<'_, C> {
         End::Steps
     }
 
-    /// Makes one step of about this length, or shorter. Returns the length of the next one, `None` where no step leads on.
+    /// Makes one step of about this length, or shorter. Returns the length of the next one, `None` where no step leads
+    /// on.
     fn step(&mut self, mut length: f64) -> Option<f64> {
         let first = self.points.len().saturating_sub(self.memory);
         let known: Vec<&Point> = self.points[first..].iter().collect();
@@ -176,7 +177,8 @@ impl<C: Curve> Follower<'_, C> {
         None
     }
 
-    /// Locates the sign change of an indicator within the last step, by the Illinois variant of the rule of false position.
+    /// Locates the sign change of an indicator within the last step, by the Illinois variant of the rule of false
+    /// position.
     fn locate(&mut self, indicator: usize, before: f64, after: f64) -> Option<Event> {
         let (from, to) = self.last_step()?;
         let (mut low, mut high) = ((from, before), (to, after));
@@ -219,8 +221,8 @@ impl<C: Curve> Follower<'_, C> {
 
     /// A point of the curve near the last step.
     ///
-    /// Next to a point where branches cross no correction converges, or it goes to another branch: there the interpolant
-    /// itself is taken where it is as good as a corrected point.
+    /// Next to a point where branches cross no correction converges, or it goes to another branch: there the
+    /// interpolant itself is taken where it is as good as a corrected point.
     fn point_at(&mut self, arc_length: f64) -> Option<Point> {
         let mut point = self.points[self.points.len() - 1].clone();
         point.arc_length = arc_length;

@@ -1,4 +1,5 @@
-//! Diagnostics of a state besides its residuals: the inertia, whether rigid measures are independent, whether a start is singular.
+//! Diagnostics of a state besides its residuals: the inertia, whether rigid measures are independent, whether a start
+//! is singular.
 
 use super::iteration::Newton;
 use super::outcome::Failure;
@@ -19,14 +20,15 @@ const PROBE_LENGTH: f64 = 1e-3;
 const SINGULAR_UNREACHABLE_PART: f64 = 0.05;
 /// Ratio of second-order to first-order gaps of a step below which a start is not singular.
 const LEAST_SECOND_ORDER_RATIO: f64 = 10.0;
-/// Unreachable part of a random stretch above which a self stress is taken to exist, relative to the part that one self stress would
-/// leave (about `1/sqrt(m)` for `m` rigid measures).
+/// Unreachable part of a random stretch above which a self stress is taken to exist, relative to the part that one self
+/// stress would leave (about `1/sqrt(m)` for `m` rigid measures).
 const SELF_STRESS_PART: f64 = 1e-2;
 /// Seed of that random stretch.
 const SEED: u64 = 1;
 
 impl<P: Problem> Newton<'_, P> {
-    /// Whether the last factorization was made a few whole steps ago and so near the minimum that its inertia is that of the minimum.
+    /// Whether the last factorization was made a few whole steps ago and so near the minimum that its inertia is that
+    /// of the minimum.
     pub(super) fn near_certified_minimum(&self) -> bool {
         self.certified.is_some_and(|force| force < FORCE_NEAR_MINIMUM)
             && self.history.last().is_some_and(|step| step.fraction == 1.0)

@@ -33,7 +33,8 @@ pub(super) struct Newton<'a, P: Problem> {
     pub(super) merit: f64,
     pub(super) shift: Shift,
     pub(super) kind: HessianKind,
-    /// Scaled force where the last factorization was made, if it was of the full Hessian, without shift, and that of a minimum.
+    /// Scaled force where the last factorization was made, if it was of the full Hessian, without shift, and that of a
+    /// minimum.
     pub(super) certified: Option<f64>,
     /// Whether the start knew its tensions.
     pub(super) restarted: bool,
@@ -102,14 +103,15 @@ impl<'a, P: Problem> Newton<'a, P> {
         gaps.iter().zip(self.problem.gap_scale()).fold(0.0, |m, (gap, scale)| larger(m, gap.abs() / scale))
     }
 
-    /// The scaled force that rounding of the unknowns alone makes: a last place of the largest unknown times the largest
-    /// stiffness. It is above the tolerance only where all forces are tiny.
+    /// The scaled force that rounding of the unknowns alone makes: a last place of the largest unknown times the
+    /// largest stiffness. It is above the tolerance only where all forces are tiny.
     pub(super) fn rounding_force(&self) -> f64 {
         let at = &self.tangent.at;
         f64::EPSILON * max_abs(&self.x) * at.pattern().largest_diagonal(&at.hessian) / at.largest_force
     }
 
-    /// Whether the force is rounding error that no further step makes smaller. A start that knows its tensions is where steps ended before.
+    /// Whether the force is rounding error that no further step makes smaller. A start that knows its tensions is where
+    /// steps ended before.
     pub(super) fn exhausted(&self, step: &Step) -> bool {
         let start = if self.restarted { 0.0 } else { f64::INFINITY };
         let before = self.history.len().checked_sub(2).map_or(start, |k| self.history[k].residual_force);

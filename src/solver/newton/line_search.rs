@@ -1,4 +1,5 @@
-//! One accepted step: a direction, the largest fraction of it that lowers the merit, and a larger shift where none does.
+//! One accepted step: a direction, the largest fraction of it that lowers the merit, and a larger shift where none
+//! does.
 
 use super::iteration::{Newton, inaccurate};
 use super::outcome::{Failure, Step};
@@ -8,9 +9,9 @@ use crate::solver::kkt::Increment;
 use crate::solver::linearization::HessianKind;
 use crate::solver::problem::Problem;
 
-/// Bounds of the relative residual to which the linear system of a step is solved; between them it is a hundredth of the scaled force.
-/// With the scaled force itself large problems take less time, but their soft motions are not found as exactly
-/// (`foldwell validate rigid-limit-distance`).
+/// Bounds of the relative residual to which the linear system of a step is solved; between them it is a hundredth of
+/// the scaled force. With the scaled force itself large problems take less time, but their soft motions are not found
+/// as exactly (`foldwell validate rigid-limit-distance`).
 const FINEST_RESIDUAL: f64 = 1e-8;
 const COARSEST_RESIDUAL: f64 = 1e-3;
 const RESIDUAL_PER_FORCE: f64 = 0.01;
@@ -22,7 +23,8 @@ const HALVINGS: i32 = 5;
 const MOST_SHIFTS: usize = 12;
 /// Largest number of chord corrections of a trial.
 const TRIAL_CHORDS: i32 = 12;
-/// Allowed scaled gap of a trial relative to the scaled force (1e-3 to 1e-2 need equally many iterations), and its bounds.
+/// Allowed scaled gap of a trial relative to the scaled force (1e-3 to 1e-2 need equally many iterations), and its
+/// bounds.
 const GAP_PER_FORCE: f64 = 3e-3;
 const SMALLEST_GAP: f64 = 1e-14;
 const LARGEST_GAP: f64 = 1e-4;
@@ -57,7 +59,8 @@ impl<P: Problem> Newton<'_, P> {
         }
     }
 
-    /// A whole step with the last factorization, corrected to the Hessian of this state, where that is accurate and accepted.
+    /// A whole step with the last factorization, corrected to the Hessian of this state, where that is accurate and
+    /// accepted.
     fn advance_with_last_factorization(&mut self, last: &Step) -> Option<f64> {
         if !self.near_certified_minimum() {
             return None;
@@ -99,8 +102,8 @@ impl<P: Problem> Newton<'_, P> {
         (trial.merit <= last.energy + self.merit_uncertainty(&trial, last)).then_some(trial)
     }
 
-    /// Uncertainty of the difference between the merits of the last state and of a trial: rounding error, and the weight of the gaps
-    /// still open at the last state by its tension and by that of the trial.
+    /// Uncertainty of the difference between the merits of the last state and of a trial: rounding error, and the
+    /// weight of the gaps still open at the last state by its tension and by that of the trial.
     fn merit_uncertainty(&self, trial: &Trial, last: &Step) -> f64 {
         let at = &self.tangent.at;
         let open = at.missing(&self.tension, self.problem.compliance());

@@ -1,12 +1,13 @@
 //! Newton's method with retraction onto the stiff measures, uniform in their stiffness.
 //!
-//! One iteration: linearize; factor, with a [shift] raised until the inertia is that of a minimum; take the whole step in
-//! `(x, t)`, or a fraction of it ([line_search]); pull the state back onto `m = c t` by a few chord corrections with the same
-//! factorization, in `x` *and* `t` ([retraction]); accept when the merit `E + sum c t^2 / 2` fell. On retracted states the merit
-//! is the true energy, without cancellation at any stiffness; the iterates stay on the surface that the stiff measures leave, where
-//! the soft energy decides. Far from the solution soft elements enter with their Gauss-Newton Hessian, once steps contract with
-//! the full one. Near it a factorization serves the next steps too, which it solves by corrections on the residual of their own
-//! system. In the end the inertia is counted ([certificate]).
+//! One iteration: linearize; factor, with a [shift] raised until the inertia is that of a minimum; take the whole step
+//! in `(x, t)`, or a fraction of it ([line_search]); pull the state back onto `m = c t` by a few chord corrections with
+//! the same factorization, in `x` *and* `t` ([retraction]); accept when the merit `E + sum c t^2 / 2` fell. On
+//! retracted states the merit is the true energy, without cancellation at any stiffness; the iterates stay on the
+//! surface that the stiff measures leave, where the soft energy decides. Far from the solution soft elements enter with
+//! their Gauss-Newton Hessian, once steps contract with the full one. Near it a factorization serves the next steps
+//! too, which it solves by corrections on the residual of their own system. In the end the inertia is counted
+//! ([certificate]).
 
 mod certificate;
 mod iteration;
@@ -21,7 +22,8 @@ use iteration::Newton;
 pub use options::{Options, Start};
 pub use outcome::{Equilibrium, Failure, NewtonError, Step};
 
-/// Minimises a problem from a start. `observe` sees every accepted step, the retracted start first, and returns false to stop.
+/// Minimises a problem from a start. `observe` sees every accepted step, the retracted start first, and returns false
+/// to stop.
 ///
 /// # Errors
 /// [`NewtonError`] with the reason and the last accepted state.

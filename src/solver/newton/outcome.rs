@@ -51,7 +51,8 @@ pub enum Failure {
     },
     /// The force does not vanish, but to first order the rigid measures leave no motion that relieves it.
     #[error(
-        "singular start: to first order the rigid measures leave no motion that relieves the force; leave along a branch"
+        "singular start: to first order the rigid measures leave no motion that relieves the force; \
+         leave along a branch"
     )]
     SingularStart,
     /// No step along the Newton direction lowers the merit.
@@ -96,7 +97,8 @@ pub enum Failure {
 fn uncertain(angle: f64, force: f64, tolerance: f64) -> String {
     if force <= tolerance {
         return format!(
-            "the forces balance, but the angles are known to {angle:.1e} rad only: rounding, or a direction without cost"
+            "the forces balance, but the angles are known to {angle:.1e} rad only: \
+             rounding, or a direction without cost"
         );
     }
     let stays = format!("the residual force {force:.2e} stays above the tolerance {tolerance:.1e}");

@@ -27,8 +27,8 @@ pub(super) struct Trial {
 }
 
 impl<P: Problem> Newton<'_, P> {
-    /// Pulls the start onto the stiff measures: by chord corrections, and where one linearization does not reach so far, by
-    /// damped Gauss-Newton steps before.
+    /// Pulls the start onto the stiff measures: by chord corrections, and where one linearization does not reach so
+    /// far, by damped Gauss-Newton steps before.
     pub(super) fn retract_start(&mut self) -> Result<(), Failure> {
         let mut gap = Residuals::new(self.problem, &self.tangent.at, &self.tension).length;
         for _ in 0..START_STEPS {
@@ -47,8 +47,8 @@ impl<P: Problem> Newton<'_, P> {
         Err(Failure::Infeasible { gap })
     }
 
-    /// Factors for the retraction of a start: near a solution, where tensions are known, it should cost the least energy; elsewhere
-    /// it should be the shortest.
+    /// Factors for the retraction of a start: near a solution, where tensions are known, it should cost the least
+    /// energy; elsewhere it should be the shortest.
     fn factor_start(&mut self) -> Result<(), Failure> {
         if self.kind == HessianKind::Full {
             return self.factor(0.0);
@@ -57,7 +57,8 @@ impl<P: Problem> Newton<'_, P> {
         Ok(())
     }
 
-    /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller; that gap.
+    /// One Gauss-Newton step towards the stiff measures, halved until it makes the largest gap clearly smaller; that
+    /// gap.
     fn approach(&mut self, gap: f64) -> Option<f64> {
         let open = self.tangent.at.missing(&self.tension, self.problem.compliance());
         let (dx, dt) = self.tangent.system.apply(&vec![0.0; self.x.len()], &open);

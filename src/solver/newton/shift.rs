@@ -14,7 +14,8 @@ const SHIFT_RATIO: f64 = 4.0;
 const LEAST_SHIFT: f64 = 2e-2;
 /// Largest number of shifts tried at one state.
 const MOST_SHIFTS: usize = 40;
-/// Scaled force below which the next lower shift is none at once: a remaining shift would only slow the convergence of soft modes.
+/// Scaled force below which the next lower shift is none at once: a remaining shift would only slow the convergence of
+/// soft modes.
 const UNSHIFTED_FORCE: f64 = 1e-5;
 /// Largest number of steps in a row for which a shift is not lowered.
 const MOST_PATIENCE: usize = 8;
@@ -22,8 +23,8 @@ const MOST_PATIENCE: usize = 8;
 const SINGULAR_PIVOT_RATIO: f64 = 1e-15;
 
 impl<P: Problem> Newton<'_, P> {
-    /// Factors for a new step with a lower shift than the last one, none near a minimum. Lower shifts are tried less often the more
-    /// often they were in vain.
+    /// Factors for a new step with a lower shift than the last one, none near a minimum. Lower shifts are tried less
+    /// often the more often they were in vain.
     pub(super) fn factor_lower(&mut self, last: &Step) -> Result<(), Failure> {
         if self.shift.hold > 0 {
             self.shift.hold -= 1;
