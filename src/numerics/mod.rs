@@ -8,7 +8,7 @@
 //! |---|---|
 //! | [`vector`] | norms, products and maxima of plain vectors |
 //! | [`sparse`] | cliques, patterns, slots of blocks, rows |
-//! | [`factor`], [`order`], [`tearing`] | `L D L^T` with inertia, order of elimination, smaller factors by open cliques |
+//! | [`factor`], [`order`], [`tearing`] | `L D L^T` with inertia, orders, smaller factors by open cliques |
 //! | [`rank`], [`eigen`] | ranks by counting signs; a few extreme eigenpairs |
 //! | [`dense`], [`complex`] | decompositions of dense matrices, real and complex |
 //! | [`polynomial`], [`fourier`], [`homotopy`] | roots; trigonometric polynomials; all solutions of quadrics |

@@ -23,14 +23,14 @@ pub trait Implicit {
 }
 
 /// Workspace of the corrections.
-pub struct Corrector {
+pub(super) struct Corrector {
     residual: DVector<f64>,
     jacobian: DenseMatrix,
 }
 
 /// The result of correcting a predicted point.
 #[derive(Clone, Copy, Debug)]
-pub struct Corrected {
+pub(super) struct Corrected {
     /// Largest component of `F` at the corrected point.
     pub residual: f64,
     /// Number of corrections made.

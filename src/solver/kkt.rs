@@ -227,7 +227,7 @@ impl KktSystem {
 
     /// The part of a stretch that no motion makes, relative to the stretch: 1 where it is a self stress, 0 where it can
     /// be reached. Corrections end where the part is at most `enough`.
-    pub fn unreachable_part(&mut self, at: &Linearization, stretch: &[f64], enough: f64) -> f64 {
+    pub(super) fn unreachable_part(&mut self, at: &Linearization, stretch: &[f64], enough: f64) -> f64 {
         let right = Pair(vec![0.0; self.layout.unknowns], divided(stretch, &at.sizes));
         let (dx, dt) = self.apply(&right.0, stretch);
         let units = [pull(at, &dt), norm_blocked(&right.1)];

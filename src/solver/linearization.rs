@@ -155,7 +155,7 @@ impl Linearization {
     }
 
     /// The Jacobian of the stiff measures with every row divided by its natural size.
-    pub fn scaled_jacobian(&self) -> Vec<f64> {
+    pub(super) fn scaled_jacobian(&self) -> Vec<f64> {
         let mut values = self.jacobian.clone();
         for (row, size) in self.sizes.iter().enumerate() {
             values[self.layout.stiff.range(row)].iter_mut().for_each(|v| *v /= size);
