@@ -13,7 +13,9 @@ use crate::model::Domain;
 use crate::model::{Assembly, Drawn};
 use crate::numerics::worst;
 use crate::output::Picture;
-use crate::output::bloch_plot::{self, BlochPlot};
+use crate::output::figure::bloch::{self as figure, BlochPlot};
+use crate::output::figure::rounded;
+use crate::output::files;
 use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, StudySummary, ZeroLineSummary};
 use crate::output::table::{Table, Value};
 use crate::output::vtk;
@@ -254,11 +256,19 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Run
     if study.draw.contains(&Draw::Svg) {
         let lines =
             found.survey.real.iter().flat_map(|(_, lines)| &lines.lines).map(|line| line.points.clone()).collect();
-        let marks =
-            theta(runner.assembly, &found.ground).map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
+        let theta = theta(runner.assembly, &found.ground);
+        let marks = theta.map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
+        let state = theta.map_or("modes of the drawn state".to_owned(), |[theta1, theta2]| {
+            format!(
+                "modes of a cylinder with rotations of {} and {} rad per cell",
+                rounded(theta1, 4),
+                rounded(theta2, 4)
+            )
+        });
         let (rates, polynomial) = (rates(&found.survey.determinant), &found.survey.determinant.polynomial);
         let plot = BlochPlot { rates, polynomial, lines, marks };
-        bloch_plot::write_svg(&runner.path(format!("{name}.svg")), &plot, &runner.file.title())?;
+        let figure = figure::svg(&plot, &super::draw::caption(runner, &state));
+        files::write(&runner.path(format!("{name}.svg")), figure)?;
     }
     Ok(())
 }

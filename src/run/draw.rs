@@ -4,9 +4,10 @@ use super::{RunError, Runner};
 use crate::analysis::intersections::{Marks, SelfIntersection};
 use crate::analysis::state::{Cylinder, State, cylinder};
 use crate::model::Assembly;
+use crate::output::figure::{Caption, sheet};
 use crate::output::picture::Picture;
 use crate::output::table::{StateRow, Table};
-use crate::output::{plot, vtk};
+use crate::output::{files, vtk};
 use crate::scene::spec::{Check, Draw, StudySpec};
 
 /// The state with the fold angle of every edge between two faces, also of those that are no hinge of the model: these from
@@ -83,12 +84,17 @@ pub fn picture(runner: &Runner<'_>, shown: &Shown<'_>) -> Picture {
     shown.marks.iter().fold(picture, |picture, marks| picture.with_crossing(&marks.faces))
 }
 
-/// Writes the VTK series and the picture of the last state, as the study asks.
-pub fn series(runner: &Runner<'_>, study: &StudySpec, states: &[Shown<'_>]) -> Result<(), RunError> {
+/// Writes the VTK series, and the picture of one of the states with what it is, as the study asks.
+pub fn series(
+    runner: &Runner<'_>,
+    study: &StudySpec,
+    states: &[Shown<'_>],
+    (shown, state): (usize, &str),
+) -> Result<(), RunError> {
     let pictures: Vec<Picture> = states.iter().map(|shown| picture(runner, shown)).collect();
     write(runner, study, &pictures)?;
-    if let (true, Some(last)) = (study.draw.contains(&Draw::Svg), pictures.last()) {
-        svg(runner, study, last)?;
+    if let (true, Some(picture)) = (study.draw.contains(&Draw::Svg), pictures.get(shown)) {
+        svg(runner, study, picture, state)?;
     }
     Ok(())
 }
@@ -113,8 +119,13 @@ pub fn write(runner: &Runner<'_>, study: &StudySpec, pictures: &[Picture]) -> Re
     Ok(vtk::write_pvd(&runner.path(format!("{name}.pvd")), &entries)?)
 }
 
-/// Writes one picture as SVG.
-pub fn svg(runner: &Runner<'_>, study: &StudySpec, picture: &Picture) -> Result<(), RunError> {
-    let title = runner.file.title();
-    Ok(plot::write_svg(&runner.path(format!("{}.svg", study.name.0)), picture, &title)?)
+/// Writes one picture as SVG, with what state it is.
+pub fn svg(runner: &Runner<'_>, study: &StudySpec, picture: &Picture, state: &str) -> Result<(), RunError> {
+    let path = runner.path(format!("{}.svg", study.name.0));
+    Ok(files::write_figure(&path, sheet::svg(picture, &caption(runner, state)))?)
+}
+
+/// The title of the scene, and what is shown.
+pub fn caption(runner: &Runner<'_>, state: &str) -> Caption {
+    Caption { title: runner.file.title().to_string(), state: state.to_owned() }
 }

@@ -6,7 +6,8 @@ use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
 use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
 use crate::model::{Assembly, Boundary};
 use crate::numerics::{larger, worst};
-use crate::output::chart::{self, Chart, Point, Series};
+use crate::output::figure::chart::{self, Chart, Point, Series};
+use crate::output::figure::rounded;
 use crate::output::files;
 use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
@@ -177,6 +178,18 @@ impl Along {
         }
     }
 
+    /// The mode in the words of a legend.
+    fn legend(&self) -> String {
+        match (&self.mode, self.curvature) {
+            (Mode::Wave(wave), _) => format!("wave ({}, {})", wave.wave[0], wave.wave[1]),
+            (Mode::Rates(name), _) => format!("rates of {:?}", *name.rates),
+            (Mode::Curvature([k11, k22, k12]), _) => {
+                format!("k\u{2081}\u{2081}, k\u{2082}\u{2082}, k\u{2081}\u{2082} = {k11}, {k22}, {k12}")
+                    .replace('-', "\u{2212}")
+            }
+        }
+    }
+
     /// That too few samples are above rounding for a fit, where some are not.
     fn rounded(&self) -> Option<String> {
         let (below, all) = (self.below_rounding(), self.samples().len());
@@ -241,17 +254,22 @@ impl Along {
     }
 }
 
-/// Energies against amplitudes, a line for each mode.
+/// Energies against amplitudes, a line for each mode, with the slope of those that have one.
 fn energies(title: &str, found: &[Along]) -> Chart {
+    let point = |sample: &Sample| Point { x: sample.amplitude, y: sample.relaxed.state.total(), label: String::new() };
     let series = |along: &Along| {
-        let point = |(amplitude, energy)| Point { x: amplitude, y: energy, label: String::new() };
-        Series { name: along.name(), points: along.energies().into_iter().map(point).collect() }
+        let above = along.samples().iter().filter(|sample| !sample.below_rounding());
+        let slope = fit::exponent(&along.fitted()).map(|slope| format!(", slope {}", rounded(slope.value, 4)));
+        Series { name: along.legend() + &slope.unwrap_or_default(), points: above.map(point).collect() }
     };
+    let below = found.iter().flat_map(Along::samples).filter(|sample| sample.below_rounding());
     Chart {
         title: title.to_owned(),
         x: "amplitude of the mode".to_owned(),
-        y: "energy".to_owned(),
+        y: "energy (unit of the scene)".to_owned(),
         series: found.iter().map(series).collect(),
+        rounding: below.map(point).collect(),
+        ..Chart::default()
     }
 }
 

@@ -2,22 +2,23 @@
 //!
 //! Samples are written as they come, so that an interrupted map goes on where it stopped.
 
-use super::RunError;
 use super::landscape::held;
 use super::runner::Runner;
+use super::{RunError, draw};
 use crate::analysis::landscape::cone::{Cone, distance};
 use crate::analysis::landscape::samples::{Sample, SampleError};
 use crate::analysis::landscape::sphere::{self, Direction, Net};
 use crate::analysis::landscape::{Courses, HeldSheet, LandscapeError};
 use crate::math::Vec3;
 use crate::numerics::worst;
-use crate::output::sphere_plot::{self, Sphere};
+use crate::output::figure::sphere::{self as figure, Sphere};
+use crate::output::files;
 use crate::output::summary::MapSummary;
 use crate::output::table::{Table, Value, read_columns};
 use crate::output::vtk;
 use crate::run::Progress;
 use crate::scene::spec::{Draw, MapSpec, StudySpec};
-use std::f64::consts::{FRAC_PI_4, TAU};
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -72,7 +73,8 @@ pub fn map(runner: &Runner<'_>, study: &StudySpec, spec: &MapSpec) -> Result<Map
     }
     let energies: Vec<f64> = rows.iter().map(|row| row[TOTAL]).collect();
     if rows.len() == points.len() {
-        draw(runner, study, Sphere { points: &points, triangles: &net.triangles, energies: &energies, cone: &cone })?;
+        let sphere = Sphere { points: &points, triangles: &net.triangles, energies: &energies, cone: &cone };
+        draw_map(runner, study, sphere, amplitude)?;
     }
     let summary = MapSummary {
         amplitude,
@@ -168,7 +170,7 @@ fn cone(runner: &Runner<'_>, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f
     Ok((curves, largest))
 }
 
-fn draw(runner: &Runner<'_>, study: &StudySpec, sphere: Sphere<'_>) -> Result<(), RunError> {
+fn draw_map(runner: &Runner<'_>, study: &StudySpec, sphere: Sphere<'_>, amplitude: f64) -> Result<(), RunError> {
     let name = &study.name.0;
     if study.draw.contains(&Draw::Vtk) {
         let file = format!("{name}/{name}_map.vtp");
@@ -176,7 +178,8 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, sphere: Sphere<'_>) -> Result<()
         vtk::write_pvd(&runner.path(format!("{name}.pvd")), &[(0.0, file)])?;
     }
     if study.draw.contains(&Draw::Svg) {
-        sphere_plot::write_svg(&runner.path(format!("{name}-map.svg")), &sphere, FRAC_PI_4, &runner.file.title())?;
+        let caption = draw::caption(runner, &format!("energies of curvature tensors of norm {amplitude}"));
+        files::write(&runner.path(format!("{name}-map.svg")), figure::svg(&sphere, &caption))?;
     }
     Ok(())
 }

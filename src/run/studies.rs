@@ -15,6 +15,7 @@ use crate::analysis::state::State;
 use crate::analysis::view::View;
 use crate::model::{Assembly, Gauge, Model};
 use crate::numerics::larger;
+use crate::output::figure::rounded;
 use crate::output::picture::Picture;
 use crate::output::summary::{EnergySummary, IterationSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary};
 use crate::output::table::{Table, Value};
@@ -83,7 +84,8 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
     match found {
         Ok(relaxed) => {
             let residuals = Some([relaxed.residual_force, relaxed.residual_length]);
-            let self_intersecting = write_states(runner, study, [&first, &relaxed.state], residuals)?;
+            let shown = format!("equilibrium, energy {}", rounded(relaxed.state.total(), 5));
+            let self_intersecting = write_states(runner, study, [&first, &relaxed.state], residuals, &shown)?;
             let coordinates = relaxed.state.coordinates.clone();
             let tension = Some(relaxed.tension.clone());
             runner.keep_state(study, Kept { coordinates, angles: model.angles(), tension })?;
@@ -102,7 +104,8 @@ pub fn relax(runner: &mut Runner<'_>, study: &StudySpec, spec: &RelaxSpec) -> Re
         }
         Err(error) => {
             let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
-            let self_intersecting = write_states(runner, study, [&first, &error.state], residuals)?;
+            let shown = "last state of a relaxation without end";
+            let self_intersecting = write_states(runner, study, [&first, &error.state], residuals, shown)?;
             let result = RelaxSummary { self_intersecting, ..last_of(assembly, &error) };
             Ok(relaxation_summary(study, seconds, result, Some(reason(assembly, error.failure, &error.state))))
         }
@@ -126,6 +129,7 @@ fn write_states(
     study: &StudySpec,
     states: [&State; 2],
     residuals: Option<[f64; 2]>,
+    state: &str,
 ) -> Result<Option<bool>, RunError> {
     let states = states.map(|state| draw::with_all_angles(runner.assembly, state));
     let mut check = draw::self_intersection(runner, study);
@@ -135,7 +139,7 @@ fn write_states(
     });
     let shown = [first, Shown { residuals, ..last }];
     draw::table(runner, study, &shown)?;
-    draw::series(runner, study, &shown)?;
+    draw::series(runner, study, &shown, (1, state))?;
     Ok(shown[1].marks.as_ref().map(|marks| marks.any))
 }
 
@@ -337,7 +341,9 @@ fn write_modes(runner: &Runner<'_>, study: &StudySpec, modes: &Modes) -> Result<
     draw::write(runner, study, &pictures)?;
     if study.draw.contains(&Draw::Svg) {
         let softest = modes.rigid_motions.min(pictures.len() - 1);
-        draw::svg(runner, study, &pictures[softest].displaced(0.1))?;
+        let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
+        let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
+        draw::svg(runner, study, &pictures[softest].displaced(0.1), &state)?;
     }
     Ok(())
 }

@@ -11,12 +11,12 @@ use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::{Assembly, Boundary, Gauge, Terms};
-use crate::numerics::worst;
-use crate::output::strain_plot::PathPoint;
+use crate::numerics::{larger, worst};
+use crate::output::figure::surface::{self as figure, PathPoint};
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{PieceSummary, StudyResult, StudySummary, SurfaceSummary};
 use crate::output::table::{StateRow, Table, read_columns};
-use crate::output::{strain_plot, vtk};
+use crate::output::{files, vtk};
 use crate::scene::spec::{Draw, StudyKind, StudySpec, SurfaceSpec};
 use crate::scene::values::Count;
 use crate::scene::{Located, SceneFile};
@@ -233,8 +233,8 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, mesh: &StrainSurface, max_curvat
     }
     if study.draw.contains(&Draw::Svg) {
         let paths = paths(runner, study, max_curvature)?;
-        let title = runner.file.title();
-        strain_plot::write_svg(&runner.path(format!("{name}.svg")), mesh, &paths, &title)?;
+        let caption = draw::caption(runner, &format!("all folded states up to a curvature of {max_curvature}"));
+        files::write_figure(&runner.path(format!("{name}.svg")), figure::svg(mesh, &paths, &caption))?;
     }
     Ok(())
 }
@@ -242,21 +242,22 @@ fn draw(runner: &Runner<'_>, study: &StudySpec, mesh: &StrainSurface, max_curvat
 /// The trajectories of the `trace` studies before this one, as far as the surface goes: from their tables, which are
 /// there also where an earlier run made them.
 fn paths(runner: &Runner<'_>, study: &StudySpec, max_curvature: f64) -> Result<Vec<Vec<PathPoint>>, RunError> {
-    const COLUMNS: [&str; 6] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12"];
+    const COLUMNS: [&str; 8] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12", "theta1", "theta2"];
     let mut paths = Vec::new();
     let earlier = runner.file.scene.studies.iter().take_while(|earlier| earlier.name.0 != study.name.0);
     for earlier in earlier.filter(|earlier| matches!(*earlier.kind, StudyKind::Trace(_))) {
         let table = runner.path(format!("{}.csv", earlier.name.0));
         let rows = if table.exists() { read_columns(&table, COLUMNS)? } else { Vec::new() };
         let (mut path, mut last) = (Vec::new(), None);
-        for [branch, sign, curvature, strain11, strain22, strain12] in rows {
+        for [branch, sign, curvature, strain11, strain22, strain12, theta1, theta2] in rows {
             let within = curvature.abs() <= max_curvature;
             if last != Some((branch, sign)) || !within {
                 paths.push(std::mem::take(&mut path));
             }
             last = Some((branch, sign));
             let strain = Vec3::new(strain11, strain22, strain12);
-            path.extend(within.then_some(PathPoint { strain, curvature }));
+            let turn = larger(theta1.abs(), theta2.abs());
+            path.extend(within.then_some(PathPoint { strain, curvature, turn }));
         }
         paths.push(path);
     }

@@ -14,7 +14,9 @@ use crate::kinematics::RealDirections;
 use crate::math::Vec3;
 use crate::model::{Assembly, Boundary, Gauge, Model};
 use crate::numerics::{larger, worst};
-use crate::output::strain_plot::{self, PathPoint};
+use crate::output::figure::rounded;
+use crate::output::figure::surface::{self, PathPoint};
+use crate::output::files;
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{
     ArcLength, RayName, StudyResult, StudySummary, TraceSummary, TrajectorySummary, TurningPoint,
@@ -201,6 +203,27 @@ impl Path<'_> {
         failed.map_or(self.traced.states.len(), |drive| drive.states.len() + 1)
     }
 
+    /// The state of which there is a picture, and what it is: the last one, of a closed trajectory that half way along.
+    fn shown(&self) -> (usize, String) {
+        let (states, (branch, sign)) = (&self.traced.states[..self.len()], self.traced.branch);
+        let all = states.last().map_or(0.0, |state| state.arc_length);
+        let closed = matches!(self.traced.end, End::Closed(_)) && self.failure().is_none();
+        let half = states.partition_point(|state| state.arc_length < 0.5 * all);
+        let step = if closed { half / self.every() * self.every() } else { states.len() - 1 };
+        let at = rounded(states[step].arc_length, 4);
+        let which = if closed {
+            format!("half way along a closed trajectory of {}", rounded(all, 4))
+        } else {
+            "its end".into()
+        };
+        (step, format!("branch {branch}, sign {}1, arc length {at}: {which}", if sign < 0 { '\u{2212}' } else { '+' }))
+    }
+
+    /// One of how many states has a picture.
+    fn every(&self) -> usize {
+        self.len().div_ceil(PICTURES)
+    }
+
     /// The relaxation beside a state; none beside the drawn state, where trajectories begin and close.
     fn driven(&self, step: usize) -> Option<&Driven> {
         self.drive?.states.get(step.checked_sub(1)?)
@@ -221,8 +244,10 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
     let mut model = assembly.model(Gauge::Held);
     let mut finder = draw::self_intersection(runner, study);
     let (mut rows, mut pictures) = (Vec::new(), Vec::new());
+    let mut shown = (0, String::new());
     for path in paths {
-        let every = path.len().div_ceil(PICTURES);
+        let first = pictures.len();
+        let every = path.every();
         for step in 0..path.len() {
             let folded = &path.traced.states[step];
             let driven = path.driven(step);
@@ -240,13 +265,15 @@ fn write(runner: &mut Runner<'_>, study: &StudySpec, engine: Engine, paths: &[Pa
                 pictures.push((state, marks));
             }
         }
+        let (step, words) = path.shown();
+        shown = (first + if step + 1 < path.len() { step / every } else { pictures.len() - first - 1 }, words);
     }
     let keys: Vec<EdgeKey> = assembly.sheet().edges.iter().map(|edge| edge.key).collect();
     Table::of_states(&keys, &rows).write(&runner.path(format!("{}.csv", study.name.0)))?;
     let (states, marks): (Vec<State>, Vec<_>) = pictures.into_iter().unzip();
-    let shown: Vec<Shown<'_>> =
+    let states: Vec<Shown<'_>> =
         states.iter().zip(marks).map(|(state, marks)| Shown { state, residuals: None, marks }).collect();
-    draw::series(runner, study, &shown)?;
+    draw::series(runner, study, &states, (shown.0, &shown.1))?;
     draw_paths(runner, study, paths, &rows)?;
     keep(runner, study, &model, paths)
 }
@@ -268,8 +295,9 @@ fn draw_paths(
     for path in paths {
         let (own, rest) = rows.split_at(path.len());
         let point = |row: &StateRow| {
-            let [a, b, c] = row.strain;
-            Some(PathPoint { strain: Vec3::new(a?, b?, c?), curvature: row.curvature? })
+            let ([a, b, c], [theta1, theta2]) = (row.strain, row.theta);
+            let turn = larger(theta1?.abs(), theta2?.abs());
+            Some(PathPoint { strain: Vec3::new(a?, b?, c?), curvature: row.curvature?, turn })
         };
         lines.push(own.iter().filter_map(point).collect::<Vec<PathPoint>>());
         rows = rest;
@@ -278,7 +306,9 @@ fn draw_paths(
         return Ok(());
     }
     let file = runner.path(format!("{}-strain.svg", study.name.0));
-    Ok(strain_plot::write_svg(&file, &StrainSurface::default(), &lines, &runner.file.title())?)
+    let rays = if lines.len() == 1 { "one trajectory".to_owned() } else { format!("{} trajectories", lines.len()) };
+    let caption = draw::caption(runner, &format!("{rays}, coloured by curvature"));
+    Ok(files::write_figure(&file, surface::svg(&StrainSurface::default(), &lines, &caption))?)
 }
 
 /// Keeps the last state of the first trajectory, for studies that start from it.

@@ -12,7 +12,8 @@ use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landsc
 use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_all};
 use crate::model::Assembly;
 use crate::numerics::{larger, worst};
-use crate::output::chart::{self, Chart, Point, Series};
+use crate::output::figure::chart::{self, Chart, Point, Series};
+use crate::output::figure::rounded;
 use crate::output::files;
 use crate::output::summary::{
     BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, StudyResult, StudySummary,
@@ -167,7 +168,7 @@ impl Found {
         {
             return Some(format!("no rigid well was found on {states} states, and {lost} could not be made exact"));
         }
-        let barriers = self.barriers.iter().map(|(between, found)| self.barrier(*between, found));
+        let barriers = self.barriers.iter().map(|(between, found)| self.barrier(*between, found.as_ref()));
         let failed = barriers.into_iter().find_map(|found| Some((found.between, found.reason?)));
         failed.map(|(between, why)| format!("barrier {between:?}: {why}")).or_else(|| self.not_sampled())
     }
@@ -213,12 +214,12 @@ impl Found {
             failures: failures.collect(),
             saddles,
             wells: self.wells.iter().zip(&self.crossing).map(well).collect(),
-            barriers: self.barriers.iter().map(|(between, found)| self.barrier(*between, found)).collect(),
+            barriers: self.barriers.iter().map(|(between, found)| self.barrier(*between, found.as_ref())).collect(),
             rigid: self.rigid.as_ref().and_then(|found| found.as_ref().ok()).map(rigid),
         }
     }
 
-    fn barrier(&self, between: [usize; 2], found: &Result<Barrier, BarrierError>) -> BarrierSummary {
+    fn barrier(&self, between: [usize; 2], found: Result<&Barrier, &BarrierError>) -> BarrierSummary {
         let found = match found {
             Ok(found) => found,
             Err(error) => {
@@ -304,12 +305,15 @@ fn write(runner: &Runner<'_>, study: &StudySpec, found: &Found) -> Result<(), Ru
     heights(&passes).write(&runner.path(format!("{name}-barriers.csv")))?;
     draw::states(runner, study, &shown)?;
     if study.draw.contains(&Draw::Svg) {
-        let picture =
-            if passes.is_empty() { None } else { Some(chart::linear_svg(&paths(&runner.file.title(), &passes))) };
-        match (picture, shown.first()) {
-            (Some(picture), _) => files::write(&runner.path(format!("{name}.svg")), picture)?,
-            (None, Some(lowest)) => draw::svg(runner, study, &draw::picture(runner, lowest))?,
-            _ => {}
+        if !passes.is_empty() {
+            let state =
+                "energies along the paths between wells; a dashed line marks the pass at the stiffness of the sheet";
+            let charts: Vec<Chart> = passes.iter().map(|barrier| path_chart(found, barrier)).collect();
+            let figure = chart::panels(&charts, &draw::caption(runner, state));
+            files::write(&runner.path(format!("{name}.svg")), figure)?;
+        } else if let Some(lowest) = shown.first() {
+            let state = format!("well 0, energy {}", rounded(found.wells[0].settled.energy, 5));
+            draw::svg(runner, study, &draw::picture(runner, lowest), &state)?;
         }
     }
     Ok(())
@@ -328,24 +332,38 @@ fn heights(passes: &[&Barrier]) -> Table {
     table
 }
 
-/// Energies along the paths in soft bars on which the passes were found.
-fn paths(title: &str, passes: &[&Barrier]) -> Chart {
-    let series = |barrier: &&Barrier| {
-        let last = barrier.path.len() - 1;
-        let label = |at: usize| match at {
-            0 => format!("well {}", barrier.between[0]),
-            at if at == last => format!("well {}", barrier.between[1]),
-            _ => String::new(),
-        };
-        let point = |(at, &(x, y)): (usize, &(f64, f64))| Point { x, y, label: label(at) };
-        let [a, b] = barrier.between;
-        let name = format!("{a} to {b}, bars of {:e}", barrier.stiffness);
-        Series { name, points: barrier.path.iter().enumerate().map(point).collect() }
+/// Energies along the path on which a pass was found, which may be one in softer bars, with the pass itself.
+fn path_chart(found: &Found, barrier: &Barrier) -> Chart {
+    let ([from, to], last) = (barrier.between, barrier.path.len() - 1);
+    let label = |at: usize| match at {
+        0 => format!("well {from}"),
+        at if at == last => format!("well {to}"),
+        _ => String::new(),
+    };
+    let point = |(at, &(x, y)): (usize, &(f64, f64))| Point { x, y, label: label(at) };
+    let points: Vec<Point> = barrier.path.iter().enumerate().map(point).collect();
+    let top = points.iter().max_by(|a, b| a.y.total_cmp(&b.y)).map_or(0.0, |top| top.x);
+    let summary = found.barrier(barrier.between, Ok(barrier));
+    let level = |energy: f64| {
+        let above = energy - found.wells[from].settled.energy;
+        Point {
+            x: top,
+            y: energy,
+            label: format!("pass at {}, {} above well {from}", rounded(energy, 5), rounded(above, 5)),
+        }
+    };
+    let [a, b] = barrier.joins;
+    let joins = if barrier.joins == barrier.between || [b, a] == barrier.between {
+        String::new()
+    } else {
+        format!(" (the pass joins {a} and {b})")
     };
     Chart {
-        title: title.to_owned(),
-        x: "distance along the path, sqrt(sum k (d rho)^2)".to_owned(),
-        y: "energy".to_owned(),
-        series: passes.iter().map(series).collect(),
+        title: format!("well {from} to well {to}{joins}"),
+        x: format!("length of the path in bars of {}", rounded(barrier.stiffness, 3)),
+        y: "energy (unit of the scene)".to_owned(),
+        series: vec![Series { name: String::new(), points }],
+        levels: summary.energy.map(level).into_iter().collect(),
+        ..Chart::default()
     }
 }

@@ -6,7 +6,7 @@ use super::{library, measure};
 use foldwell::analysis::relax::RelaxError;
 use foldwell::analysis::trace::TraceError;
 use foldwell::model::AssemblyError;
-use foldwell::output::chart::Chart;
+use foldwell::output::figure::chart::Chart;
 use foldwell::output::{OutputError, files};
 use foldwell::run::{Observer, Progress, RunError, RunOptions, run_scene};
 use foldwell::sheet::SheetError;

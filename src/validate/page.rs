@@ -2,13 +2,14 @@
 
 use super::experiment::Grid;
 use super::report::{Case, Report, cheapest};
-use foldwell::output::chart::{escaped, svg};
+use foldwell::output::figure::chart::svg;
+use foldwell::output::figure::escaped;
 
 const STYLE: &str = "body{font:15px/1.5 Helvetica,Arial,sans-serif;color:#2e3238;background:#fff;max-width:1100px;\
 margin:2em auto;padding:0 1em}table{border-collapse:collapse;margin:1em 0;width:100%}th,td{text-align:left;\
 vertical-align:top;padding:.35em .7em;border-bottom:1px solid #dcd9cf}th{border-bottom:2px solid #2e3238}\
 .fails{background:#fbe9e6}.mark{font-weight:bold;white-space:nowrap}.holds .mark{color:#2c8a6b}.fails .mark{color:#c8372d}\
-code{font-size:13px}summary{cursor:pointer}small{color:#6a6760}svg{max-width:100%;height:auto}td.n{white-space:nowrap}";
+code{font-size:13px}summary{cursor:pointer}small{color:#6a6760}svg{max-width:800px;height:auto}td.n{white-space:nowrap}";
 
 /// The text of the page.
 pub fn html(report: &Report) -> String {

@@ -1,6 +1,6 @@
 //! Error against run time: settings of one method with what they reach and what they cost.
 
-use foldwell::output::chart::{Chart, Point, Series};
+use foldwell::output::figure::chart::{Chart, Point, Series};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -48,6 +48,7 @@ impl Diagram {
             x: self.error.clone(),
             y: "seconds".into(),
             series: self.methods.iter().map(series).collect(),
+            ..Chart::default()
         }
     }
 

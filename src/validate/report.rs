@@ -5,7 +5,7 @@ use super::experiment::{Grid, Outcome};
 use super::page;
 use super::precision::{Diagram, Setting};
 use super::verdict::{compare, numbers_at};
-use foldwell::output::chart::Chart;
+use foldwell::output::figure::chart::Chart;
 use foldwell::output::summary::to_json;
 use foldwell::output::{OutputError, files};
 use serde::Serialize;

@@ -6,7 +6,7 @@ use super::super::star::{Star, size};
 use super::memory;
 use super::sizes::exponent;
 use foldwell::numerics::larger;
-use foldwell::output::chart::{Chart, Point, Series};
+use foldwell::output::figure::chart::{Chart, Point, Series};
 use foldwell::solver::Options;
 use serde_json::json;
 use std::time::Instant;
@@ -68,6 +68,7 @@ fn chart(sizes: &[Size]) -> Chart {
         x: "unknowns".into(),
         y: "seconds".into(),
         series: vec![Series { name: "tension form, rigid".into(), points: sizes.iter().map(point).collect() }],
+        ..Chart::default()
     }
 }
 

@@ -10,7 +10,7 @@ use super::super::star::Star;
 use super::trial::distance;
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::model::Model;
-use foldwell::output::chart::{Chart, Point, Series};
+use foldwell::output::figure::chart::{Chart, Point, Series};
 use foldwell::solver::saddle::Saddle;
 use foldwell::solver::{Curvature, Linearization, Options, Problem, Start};
 use serde_json::json;
@@ -178,5 +178,6 @@ fn chart(sizes: &[Size]) -> Chart {
         x: "stiffness of the bars".into(),
         y: "distance (rad)".into(),
         series: sizes.iter().map(series).collect(),
+        ..Chart::default()
     }
 }

@@ -8,7 +8,7 @@ use super::super::star::{Star, size};
 use super::trial::distance;
 use foldwell::analysis::relax::{RelaxError, Relaxed};
 use foldwell::analysis::state::State;
-use foldwell::output::chart::{Chart, Point, Series};
+use foldwell::output::figure::chart::{Chart, Point, Series};
 use foldwell::solver::Options;
 use serde_json::json;
 
@@ -98,6 +98,7 @@ fn chart(sizes: &[Size]) -> Chart {
                 points: sizes.iter().filter_map(penalty).collect(),
             },
         ],
+        ..Chart::default()
     }
 }
 

@@ -6,7 +6,7 @@ use crate::math::Vec3;
 
 /// An orthographic view; the three directions are orthonormal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct View {
+pub struct View {
     /// Direction on the paper to the right.
     pub right: Vec3,
     /// Direction on the paper upwards.
