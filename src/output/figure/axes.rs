@@ -157,7 +157,7 @@ pub fn number(value: f64, step: f64) -> String {
         return "0".into();
     }
     let power = rounded.abs().log10().floor() as i32;
-    if step < 2e-5 || rounded.abs() >= 1e6 {
+    if (step < 2e-5 && rounded.abs() < 1e-3) || rounded.abs() >= 1e6 {
         let digits = (f64::from(power) - step.log10().floor()).clamp(0.0, 15.0) as usize;
         let factor = rounded / 10f64.powi(power);
         return scientific(&signed(&format!("{factor:.digits$}")), power);
@@ -284,6 +284,7 @@ mod tests {
             ["\u{2212}0.5", "0", "2\u{b7}10\u{2076}"]
         );
         let three = [18.91665, 0.25, 5.6789e-9, 0.0, -3.0, 1e6, 2e-7].map(|value| rounded(value, 3));
+        assert_eq!([rounded(13.712287, 5), rounded(0.277977, 5)], ["13.712", "0.27798"]);
         assert_eq!([unit(0.5), unit(3e-7)], [(1.0, String::new()), (1e-7, " (10\u{207b}\u{2077})".to_owned())]);
         assert_eq!(
             three,

@@ -13,7 +13,7 @@ use super::contour::regions;
 use super::palette::{Colour, GRID, INK, MAGNITUDE, SERIES, SIGNED};
 use crate::analysis::bloch::Laurent;
 
-const HEIGHT: f64 = 712.0;
+const HEIGHT: f64 = 728.0;
 /// Side of both panels, their top, and their left sides.
 const SIDE: f64 = 450.0;
 const TOP: f64 = 132.0;

@@ -88,7 +88,7 @@ const TWO: Layout = Layout {
     height: 780.0,
     middles: &[[312.0, 390.0], [830.0, 390.0]],
     scale: 330.0,
-    bar: Area { low: [1112.0, 230.0], high: [1132.0, 530.0] },
+    bar: Area { low: [1100.0, 230.0], high: [1118.0, 530.0] },
 };
 
 /// Which states a panel shows.
