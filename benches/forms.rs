@@ -8,7 +8,7 @@
 //!
 //! - `system`: the linear system of one Newton step, `[H R^T; R -C]`, at the same linearization, solved to a relative
 //!   residual of 1e-10 in both block rows. *Augmented*: `H + R^T w R` is factored, `w = min(k, gamma)`, and corrections
-//!   on the true residual do the rest (this is `solver::saddle`). *Block*: the whole matrix is factored, regularised to
+//!   on the true residual do the rest (this is `solver::kkt`). *Block*: the whole matrix is factored, regularised to
 //!   `[H + e  R^T; R  -C - d]` so that it has pivots without pivoting, with the same corrections; tensions are nodes of
 //!   the graph that is ordered. *Penalty*: `H + k R^T R`, with the same corrections.
 //! - `weight`: corrections needed and accuracy reached against `gamma`, and against `d` of the block form; and, as in the steps near
@@ -18,23 +18,24 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[allow(dead_code)] // the validation reads the rest
+#[path = "../src/validate/forms.rs"]
+mod forms;
 
 use common::{Star, difference, measuring, norm, seconds, size, vector, wanted};
 use foldwell::model::Model;
 use foldwell::numerics::factor::{Factor, Inertia};
-use foldwell::numerics::parallel;
 use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, symmetric_product};
 use foldwell::solver::corrections::{NearlySolved, Pair, correct};
-use foldwell::solver::saddle::Saddle;
-use foldwell::solver::{Curvature, Layout, Linearization, Options, Problem, minimize};
-use foldwell::validation::forms;
+use foldwell::solver::kkt::KktSystem;
+use foldwell::solver::{HessianKind, Layout, Linearization, Options, Problem, minimize};
+use std::sync::Arc;
 
 /// Regularisation of the block form: `d` and `e`, over the same entry.
 const DELTA: f64 = 1e-8;
 const LEAST: f64 = 1e-10;
 
 fn main() {
-    parallel::set_threads(1);
     let parts: [(&str, fn()); 3] = [("system", system), ("weight", weight), ("relaxation", relaxation)];
     for (name, part) in parts {
         if wanted(name) {
@@ -58,10 +59,10 @@ impl System {
     fn new(star: &Star, relaxed: bool) -> Self {
         let mut model = star.model(f64::INFINITY);
         let (unknowns, measures) = size(&model);
-        let (mut x, mut tension, mut curvature) = (model.start(), vec![0.0; measures], Curvature::GaussNewton);
+        let (mut x, mut tension, mut curvature) = (model.start(), vec![0.0; measures], HessianKind::GaussNewton);
         if relaxed {
             let found = minimize(&mut model, x, Options::default(), &mut |_| true).unwrap();
-            (x, tension, curvature) = (found.x, found.tension, Curvature::Full);
+            (x, tension, curvature) = (found.x, found.tension, HessianKind::Full);
         }
         let mut at = Linearization::new(model.layout());
         model.linearize(&x, &tension, curvature, &mut at);
@@ -69,7 +70,7 @@ impl System {
         Self { model, at, compliance: vec![0.0; measures], a, b }
     }
 
-    fn layout(&self) -> &Layout {
+    fn layout(&self) -> &Arc<Layout> {
         self.model.layout()
     }
 
@@ -85,7 +86,7 @@ impl System {
     }
 
     fn product(&self, Pair(dx, dt): &Pair) -> Pair {
-        let rows = self.at.rows(self.layout());
+        let rows = self.at.rows();
         let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
         symmetric_product(self.at.pattern(), &self.at.hessian, dx, &mut a);
         rows.add_transpose_product(dt, &mut a);
@@ -121,26 +122,26 @@ fn solve(form: &mut dyn Form, system: &System, tolerance: f64) -> (usize, f64) {
     let units = [norm(&system.a), norm(&system.b)];
     let first = form.apply(system, &right);
     let corrected = correct(&mut Solver(form, system), &right, first, units, tolerance);
-    let left = right.less(&system.product(&corrected.found));
+    let left = right.minus(&system.product(&corrected.found));
     (corrected.corrections, f64::max(norm(&left.0) / units[0], norm(&left.1) / units[1]))
 }
 
 /// `H + R^T w R`, `w = min(k, gamma)`; a penalty where `gamma` is infinite.
-struct Weighted(Saddle);
+struct Weighted(KktSystem);
 
 impl Weighted {
     fn new(system: &System, gamma: f64) -> Self {
-        Self(Saddle::weighing(system.layout(), &system.at, gamma).unwrap())
+        Self(KktSystem::with_largest_weight(system.layout(), gamma).unwrap())
     }
 }
 
 impl Form for Weighted {
     fn factor(&mut self, system: &System) -> Option<Inertia> {
-        self.0.factor(system.layout(), &system.at, &system.compliance, 0.0).ok()
+        self.0.factor(&system.at, &system.compliance, 0.0).ok()
     }
 
-    fn apply(&mut self, system: &System, Pair(a, b): &Pair) -> Pair {
-        let (dx, dt) = self.0.apply(system.layout(), a, b);
+    fn apply(&mut self, _: &System, Pair(a, b): &Pair) -> Pair {
+        let (dx, dt) = self.0.apply(a, b);
         Pair(dx, dt)
     }
 
@@ -240,7 +241,7 @@ fn system() {
 
 fn compare_forms(system: &System, label: &str, rounds: usize) {
     let mut forms: Vec<(&str, Box<dyn Form>)> = vec![
-        ("augmented", Box::new(Weighted(Saddle::new(system.layout(), &system.at).unwrap()))),
+        ("augmented", Box::new(Weighted(KktSystem::new(system.layout()).unwrap()))),
         ("block", Box::new(Block::new(system, DELTA))),
         ("penalty", Box::new(Weighted::new(system, f64::INFINITY))),
     ];
@@ -323,10 +324,10 @@ fn without_gaps(sizes: &[usize]) {
         let system = System::new(&Star::new(n), true);
         let closed = vec![0.0; system.b.len()];
         let corrections = weights.map(|gamma| {
-            let mut saddle = Saddle::weighing(system.layout(), &system.at, gamma).unwrap();
-            saddle.factor(system.layout(), &system.at, &system.compliance, 0.0).unwrap();
-            let solved = saddle.solve(system.layout(), &system.at, &system.compliance, (&system.a, &closed), 1e-6);
-            let shown = if solved.residual <= 1e-6 { (saddle.solves - 1).to_string() } else { "-".to_string() };
+            let mut kkt = KktSystem::with_largest_weight(system.layout(), gamma).unwrap();
+            kkt.factor(&system.at, &system.compliance, 0.0).unwrap();
+            let solved = kkt.solve(&system.at, &system.a, &closed, 1e-6);
+            let shown = if solved.residual <= 1e-6 { (kkt.solves - 1).to_string() } else { "-".to_string() };
             format!("{shown:>5}")
         });
         println!("{n:3} {}", corrections.join(" "));

@@ -8,14 +8,15 @@
 //! Patches of the reference cell with exactly rigid bars and random rest angles. All times of a line are medians of
 //! runs taken in turns; compare along a line, not between machines.
 //!
-//! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution (assembly, filling
+//! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution
+//!   (assembly, filling
 //!   and factoring the matrix, solving with corrections to 1e-6 for random forces, which takes so many `solves`, residuals, energy and
 //!   gaps of the new state); the same with one solve and the relative residual that this leaves; and one iteration as it comes out of
 //!   the run (the minimiser's time, less the set-up, over its accepted steps: refused shifts, retraction and shorter steps included),
 //!   and what that is made of. Comes last and ends with an error where the first one is more than 1.5.
 //! - `study`: what a whole relaxation adds to its iterations: analysis of the pattern, self stresses.
 //! - `assembly`: its cost against the number of unknowns; the exponent must be 1.
-//! - `threads`: assembly with one and two threads (this program starts itself again, since threads are set once).
+//! - `threads`: assembly with one and two threads, in turns.
 //! - `dense`: below which size the dense factorization is faster than the sparse one.
 #![allow(clippy::unwrap_used)]
 
@@ -25,12 +26,14 @@ use common::kernels::{Sparse, dense_factor_and_solve};
 use common::{Star, exponent, in_turns, measuring, seconds, size, vector, wanted};
 use foldwell::model::Model;
 use foldwell::numerics::factor::DENSE_LIMIT;
-use foldwell::numerics::{parallel, tearing::TornFactor};
-use foldwell::solver::saddle::Saddle;
+use foldwell::numerics::parallel::{FEWEST_SHARED_ELEMENTS, Threads};
+use foldwell::numerics::tearing::TornFactor;
+use foldwell::solver::kkt::KktSystem;
 use foldwell::solver::{
-    Curvature, Equilibrium, Layout, Linearization, NewtonError, Options, Problem, minimize, tension,
+    Equilibrium, HessianKind, Layout, Linearization, NewtonError, Options, Problem, Residuals, minimize, tension,
 };
 use std::cell::Cell;
+use std::sync::Arc;
 
 const RIGID: f64 = f64::INFINITY;
 /// Most that a plain iteration may take of one factorization and one solve.
@@ -42,13 +45,7 @@ const SOME_STEPS: usize = 8;
 /// A part of the benchmark, at these numbers of cells a side.
 type Part = fn(&[usize]);
 
-const CHILD: &str = "FOLDWELL_BENCH_THREADS";
-
 fn main() {
-    if let Ok(threads) = std::env::var(CHILD) {
-        return report_assembly(threads.parse().unwrap());
-    }
-    parallel::set_threads(1);
     let parts: [(&str, Part); 5] =
         [("study", study), ("assembly", assembly), ("threads", threads), ("dense", dense), ("split", split)];
     let sizes: &[usize] = if measuring() { &[13, 24, 40, 57, 82] } else { &[3] };
@@ -82,7 +79,7 @@ impl<'a> Timed<'a> {
 }
 
 impl Problem for Timed<'_> {
-    fn layout(&self) -> &Layout {
+    fn layout(&self) -> &Arc<Layout> {
         self.model.layout()
     }
 
@@ -109,8 +106,8 @@ impl Problem for Timed<'_> {
         gaps
     }
 
-    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
-        let time = seconds(|| self.model.linearize(x, tension, curvature, out));
+    fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
+        let time = seconds(|| self.model.linearize(x, tension, kind, out));
         self.linearize.set(self.linearize.get() + time);
     }
 
@@ -166,42 +163,40 @@ fn minimise(star: &Star, iterations: usize) -> (Spent, Equilibrium) {
 struct Step {
     model: Model,
     at: Linearization,
-    saddle: Saddle,
+    system: KktSystem,
     right: (Vec<f64>, Vec<f64>),
 }
 
 impl Step {
     fn new(model: Model, x: &[f64], tension: &[f64]) -> Self {
         let mut at = Linearization::new(model.layout());
-        model.linearize(x, tension, Curvature::Full, &mut at);
-        let saddle = Saddle::new(model.layout(), &at).unwrap();
+        model.linearize(x, tension, HessianKind::Full, &mut at);
+        let system = KktSystem::new(model.layout()).unwrap();
         let (unknowns, measures) = size(&model);
         let right = (vector(2, unknowns, 1.0), vector(3, measures, 1e-2));
-        Self { model, at, saddle, right }
+        Self { model, at, system, right }
     }
 
     /// Adding up `S` and factoring it.
     fn factor(&mut self) -> f64 {
-        let (layout, compliance) = (self.model.layout(), self.model.compliance());
-        seconds(|| self.saddle.factor(layout, &self.at, compliance, 0.0).unwrap())
+        let compliance = self.model.compliance();
+        seconds(|| self.system.factor(&self.at, compliance, 0.0).unwrap())
     }
 
     fn solve(&mut self) -> f64 {
-        let layout = self.model.layout();
-        seconds(|| self.saddle.apply(layout, &self.right.0, &self.right.1))
+        seconds(|| self.system.apply(&self.right.0, &self.right.1))
     }
 
-    /// One iteration without anything around it, its linear system solved to this relative residual, in at least one solve: its
-    /// time, and the relative residual that is left.
+    /// One iteration without anything around it, its linear system solved to this relative residual, in at least one
+    /// solve: its time, and the relative residual that is left.
     fn plain(&mut self, x: &[f64], tension: &[f64], tolerance: f64) -> (f64, f64) {
         let closed = vec![0.0; tension.len()];
         let mut left = f64::NAN;
         let time = seconds(|| {
-            self.model.linearize(x, tension, Curvature::Full, &mut self.at);
-            let (layout, compliance) = (self.model.layout(), self.model.compliance());
-            self.saddle.factor(layout, &self.at, compliance, 0.0).unwrap();
-            let residuals = tension::residuals(&self.model, &self.at, tension);
-            let step = self.saddle.solve(layout, &self.at, compliance, (&self.right.0, &closed), tolerance);
+            self.model.linearize(x, tension, HessianKind::Full, &mut self.at);
+            self.system.factor(&self.at, self.model.compliance(), 0.0).unwrap();
+            let residuals = Residuals::new(&self.model, &self.at, tension);
+            let step = self.system.solve(&self.at, &self.right.0, &closed, tolerance);
             left = step.residual;
             (residuals, self.model.gaps(x), self.model.energy(x))
         });
@@ -220,7 +215,7 @@ struct Bare {
 /// Seconds to analyse couplings and to make room, which a problem needs once.
 fn set_up(layout: &Layout) -> f64 {
     let fresh = Layout::new(layout.node.clone(), layout.soft.clone(), layout.stiff.clone());
-    seconds(|| Saddle::new(&fresh, &Linearization::new(&fresh)).is_ok())
+    seconds(|| (KktSystem::new(&fresh).is_ok(), Linearization::new(&fresh)))
 }
 
 impl Bare {
@@ -229,14 +224,14 @@ impl Bare {
         let mut values = step.at.hessian.clone();
         let weights = vec![1e6; layout.stiff.len()];
         for (row, weight) in weights.iter().enumerate() {
-            step.at.add_outer(layout, row, *weight, &mut values);
+            step.at.add_outer(row, *weight, &mut values);
         }
         let factor = TornFactor::of(layout.tearing().unwrap()).unwrap();
         Self { factor, weights, values, right: step.right.0.clone() }
     }
 
     fn factor(&mut self, step: &Step) -> f64 {
-        let outer = step.at.outer(step.model.layout(), 1.0, &self.weights);
+        let outer = step.at.rank_one_terms(1.0, &self.weights);
         seconds(|| self.factor.factor(step.at.pattern(), &self.values, outer).unwrap())
     }
 
@@ -246,7 +241,8 @@ impl Bare {
     }
 }
 
-/// How often a sheet of this many cells a side is made and run, and how often the parts of an iteration are timed each time.
+/// How often a sheet of this many cells a side is made and run, and how often the parts of an iteration are timed each
+/// time.
 fn repeats(n: usize) -> (usize, usize) {
     match n {
         _ if !measuring() => (1, 1),
@@ -292,7 +288,8 @@ fn split(sizes: &[usize]) {
         let (mut runs, mut left, mut solves) = (Vec::new(), f64::NAN, 0);
         let mut times = [const { Vec::new() }; 7];
         for _ in 0..rounds {
-            // made anew: where they lie in memory makes a few per cent, most of all with the smallest and the largest sheet
+            // made anew: where they lie in memory makes a few per cent, most of all with the smallest and the largest
+            // sheet
             let mut step = Step::new(star.model(RIGID), &found.x, &found.tension);
             step.factor();
             let mut bare = Bare::new(&step);
@@ -304,9 +301,9 @@ fn split(sizes: &[usize]) {
                 times[1].push(bare.solve());
                 times[2].push(step.factor());
                 times[3].push(step.solve());
-                let before = step.saddle.solves;
+                let before = step.system.solves;
                 times[5].push(step.plain(&found.x, &found.tension, SOLVED).0);
-                solves = step.saddle.solves - before;
+                solves = step.system.solves - before;
                 let once = step.plain(&found.x, &found.tension, f64::INFINITY);
                 times[6].push(once.0);
                 left = once.1;
@@ -387,8 +384,8 @@ fn assembly(sizes: &[usize]) {
         let medians = in_turns(
             3 * rounds(),
             &mut [
-                &mut || seconds(|| model.linearize(x, t, Curvature::Full, &mut full)),
-                &mut || seconds(|| model.linearize(x, t, Curvature::GaussNewton, &mut gauss)),
+                &mut || seconds(|| model.linearize(x, t, HessianKind::Full, &mut full)),
+                &mut || seconds(|| model.linearize(x, t, HessianKind::GaussNewton, &mut gauss)),
                 &mut || seconds(|| (model.gaps(x), model.energy(x))),
             ],
         );
@@ -403,24 +400,6 @@ fn assembly(sizes: &[usize]) {
     }
 }
 
-/// What a child prints: microseconds of one assembly and one evaluation, size by size.
-fn report_assembly(threads: usize) {
-    parallel::set_threads(threads);
-    for n in std::env::args().filter_map(|argument| argument.parse::<usize>().ok()) {
-        let star = Star::new(n);
-        let model = star.model(RIGID);
-        let (x, t) = (model.start(), vec![0.0; size(&model).1]);
-        let mut at = Linearization::new(model.layout());
-        let medians = in_turns(
-            20,
-            &mut [&mut || elapsed(|| model.linearize(&x, &t, Curvature::Full, &mut at)), &mut || {
-                elapsed(|| _ = (model.gaps(&x), model.energy(&x)))
-            }],
-        );
-        println!("{} {} {}", size(&model).1, 1e6 * medians[0], 1e6 * medians[1]);
-    }
-}
-
 /// Seconds on the wall: several threads share the work.
 fn elapsed(work: impl FnOnce()) -> f64 {
     let clock = std::time::Instant::now();
@@ -430,24 +409,27 @@ fn elapsed(work: impl FnOnce()) -> f64 {
 
 fn threads(sizes: &[usize]) {
     let small: &[usize] = if measuring() { &[8, 9, 10, 11, 12, 16, 18] } else { &[] };
-    let sizes: Vec<String> = small.iter().chain(sizes).map(usize::to_string).collect();
-    let measure = |threads: &str| -> Vec<[f64; 3]> {
-        let program = std::env::current_exe().unwrap();
-        let child = std::process::Command::new(program).args(&sizes).env(CHILD, threads).output().unwrap();
-        let row = |line: &str| -> Vec<f64> { line.split(' ').map(|word| word.parse().unwrap()).collect() };
-        String::from_utf8(child.stdout).unwrap().lines().map(|line| row(line).try_into().unwrap()).collect()
-    };
-    let mut runs: Vec<[Vec<[f64; 3]>; 2]> = (0..rounds()).map(|_| [measure("1"), measure("2")]).collect();
-    println!("below {} elements one thread does all the work", parallel::LEAST);
+    println!("below {FEWEST_SHARED_ELEMENTS} elements one thread does all the work");
     println!("{:>8} {:>11} {:>6} {:>11} {:>6}", "elements", "assemble us", "2 / 1", "evaluate us", "2 / 1");
-    for k in 0..sizes.len() {
-        let mut middle = |threads: usize, column: usize| {
-            let mut times: Vec<f64> = runs.iter_mut().map(|run| run[threads][k][column]).collect();
-            common::median(&mut times)
-        };
-        let (elements, assemble, evaluate) = (middle(0, 0), middle(0, 1), middle(0, 2));
-        let (ratio, evaluation) = (middle(1, 1) / assemble, middle(1, 2) / evaluate);
-        println!("{elements:8} {assemble:11.0} {ratio:6.2} {evaluate:11.0} {evaluation:6.2}");
+    let [one, two] = [1, 2].map(|count| Threads::new(Some(count)));
+    for &n in small.iter().chain(sizes) {
+        let model = Star::new(n).model(RIGID);
+        let (x, t) = (model.start(), vec![0.0; size(&model).1]);
+        let [mut at, mut other] = [0, 1].map(|_| Linearization::new(model.layout()));
+        let assemble = |at: &mut Linearization| elapsed(|| model.linearize(&x, &t, HessianKind::Full, at));
+        let evaluate = || elapsed(|| _ = (model.gaps(&x), model.energy(&x)));
+        let medians = in_turns(
+            20 * rounds(),
+            &mut [
+                &mut || one.install(|| assemble(&mut at)),
+                &mut || two.install(|| assemble(&mut other)),
+                &mut || one.install(evaluate),
+                &mut || two.install(evaluate),
+            ],
+        );
+        let [alone, shared, evaluated, evaluated_shared] = medians[..] else { unreachable!("four pieces of work") };
+        let (elements, assembly, evaluation) = (t.len(), shared / alone, evaluated_shared / evaluated);
+        println!("{elements:8} {:11.0} {assembly:6.2} {:11.0} {evaluation:6.2}", 1e6 * alone, 1e6 * evaluated);
     }
 }
 

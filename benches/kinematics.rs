@@ -14,12 +14,11 @@
 mod common;
 
 use common::{in_turns, measuring, seconds};
-use foldwell::analysis::branches;
-use foldwell::analysis::surface::{Question, surface};
-use foldwell::kinematics::{Closure, Displacement, Embedding, Shape, drawn_fold_angles};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::analysis::surface::{SurfaceOptions, surface};
+use foldwell::kinematics::{Closure, Displacement, Embedding, Shape};
+use foldwell::model::{Assembly, Boundary};
 use foldwell::numerics::{DenseMatrix, dense::null_space};
-use foldwell::sheet::{Sheet, fold, tile};
+use foldwell::sheet::{Sheet, fold};
 use nalgebra::{DVector, DVectorView};
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -57,16 +56,14 @@ fn main() {
 
 /// Covers the surface of the cell up to a curvature of 2, or a little of it where nothing is measured.
 fn cover(sheet: &Sheet) {
-    let (tiling, angles, recipe) = (tile(sheet, [1, 1], true), drawn_fold_angles(sheet), Recipe::default());
+    let cell = Assembly::without_terms(sheet.clone(), [1, 1], Boundary::Screw).unwrap();
     let resolutions = if measuring() { &[16, 24, 32][..] } else { &[16] };
     for &resolution in resolutions {
-        let surroundings = Surroundings::Screw;
-        let start = branches::Question { sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &recipe };
         let max_curvature = if measuring() { 2.0 } else { 0.1 };
         let radius = TAU / f64::from(resolution);
-        let question = Question { start, radius, tolerance: 3e-14, max_curvature, max_points: 300_000 };
+        let options = SurfaceOptions { radius, tolerance: 3e-14, max_curvature, max_points: 300_000 };
         let mut found = None;
-        let time = seconds(|| found = Some(surface(&question, &mut |_| true).unwrap()));
+        let time = seconds(|| found = Some(surface(&cell, &options, &mut |_| true).unwrap()));
         let points = found.unwrap().points.len();
         let each = 1e6 * time / points as f64;
         println!(

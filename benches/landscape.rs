@@ -14,12 +14,11 @@ mod common;
 use common::{in_turns, measuring};
 use foldwell::analysis::landscape::sphere::{Direction, Net, samples};
 use foldwell::analysis::landscape::{Courses, HeldSheet};
-use foldwell::analysis::relax::relax;
+use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
-use foldwell::model::Gauge;
-use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
-use foldwell::numerics::parallel;
-use foldwell::sheet::{fold, tile};
+use foldwell::model::{Assembly, Gauge, RIGID, Terms};
+use foldwell::numerics::parallel::Threads;
+use foldwell::sheet::fold;
 use foldwell::solver::Options;
 use std::time::Instant;
 
@@ -28,33 +27,27 @@ const AMPLITUDE: f64 = 1e-3;
 fn main() {
     let (rounds, rings) = if measuring() { (5, 11) } else { (1, 1) };
     let sheet = fold::parse(include_str!("../meshes/open-star.fold"), "open-star.fold").unwrap();
-    let tiling = tile(&sheet, [6, 6], false);
-    let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
-    let angles = drawn_angles(&drawn, &tiling);
-    let recipe = |rest: Vec<f64>| Recipe {
-        bars: Some(f64::INFINITY),
-        creases: Some(Hinges { stiffness: 1.0, rest }),
-        ..Recipe::default()
-    };
-    let make = || HeldSheet::patch(&sheet, &tiling, &recipe(angles.clone()), &angles);
+    let patch = Assembly::patch(sheet, [6, 6]).bars(RIGID).creases(1.0).build().unwrap();
+    let make = || HeldSheet::patch(&patch);
     let held = make().unwrap();
     let courses = Courses::new(&held).unwrap();
     let rates = held.named([0.8, -0.3, 0.4]).unwrap();
-    let bent: Vec<f64> = tiling.edges.iter().zip(&angles).map(|(e, angle)| angle + AMPLITUDE * rates[e.edge]).collect();
+    let edges = patch.tiling().edges.iter().zip(patch.drawn_angles());
+    let bent: Vec<f64> = edges.map(|(edge, angle)| angle + AMPLITUDE * rates[edge.edge]).collect();
+    let bent = patch.with_terms(Terms::bars_and_creases(RIGID, 1.0, bent));
     let points: Vec<Vec3> = Net::new(rings).directions.iter().map(Direction::point).collect();
     let relaxation = || {
         let clock = Instant::now();
         for _ in 0..20 {
-            let mut model = assemble(&drawn, &tiling, &recipe(bent.clone()), Gauge::Held);
+            let mut model = bent.model(Gauge::Held);
             let start = model.start();
-            relax(&mut model, start, Options::default(), tiling.edges.len(), &mut |_| true).unwrap();
+            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
         }
         clock.elapsed().as_secs_f64() / 20.0
     };
     let map = |threads: usize| {
-        parallel::set_threads(threads);
         let clock = Instant::now();
-        let found = samples(&make, &courses, &points, AMPLITUDE, &|| true);
+        let found = Threads::new(Some(threads)).install(|| samples(&make, &courses, &points, AMPLITUDE, &|| true));
         assert!(found.iter().all(|sample| sample.as_ref().is_some_and(Result::is_ok)));
         clock.elapsed().as_secs_f64() / points.len() as f64
     };

@@ -15,19 +15,17 @@ mod common;
 
 use common::{Star, in_turns, measuring, seconds, size, vector};
 use foldwell::numerics::factor::Factor;
-use foldwell::numerics::largest;
-use foldwell::numerics::parallel;
 use foldwell::numerics::sparse::{Pattern, symmetric_product};
 use foldwell::numerics::tearing::TornFactor;
-use foldwell::solver::saddle::Saddle;
-use foldwell::solver::{Curvature, Linearization, Options, Problem, minimize};
+use foldwell::numerics::vector::max_abs;
+use foldwell::solver::kkt::KktSystem;
+use foldwell::solver::{HessianKind, Linearization, Options, Problem, minimize};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 const ROUNDS: usize = 7;
 
 fn main() {
-    parallel::set_threads(1);
     let folder = folder();
     let sizes: &[usize] = if measuring() || folder.is_some() { &[12, 24, 48] } else { &[3] };
     println!("{:>13} {:>6} {:>27} {:>27}", "", "hinges", "torn: factor, solve, stored", "whole");
@@ -51,17 +49,17 @@ fn one(n: usize, folder: Option<&Path>) {
     let start = model.start();
     let found = minimize(&mut model, start, Options::default(), &mut |_| true).unwrap();
     let mut at = Linearization::new(model.layout());
-    model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
+    model.linearize(&found.x, &found.tension, HessianKind::Full, &mut at);
     let rigid = vec![0.0; measures];
-    let mut saddle = Saddle::new(model.layout(), &at).unwrap();
-    let inertia = saddle.factor(model.layout(), &at, &rigid, 0.0).unwrap();
+    let mut system = KktSystem::new(model.layout()).unwrap();
+    let inertia = system.factor(&at, &rigid, 0.0).unwrap();
     assert_eq!(inertia.negative, 0, "a minimum");
     let right = vector(2, unknowns, 1.0);
-    let (layout, pattern, entries) = (model.layout(), at.pattern(), saddle.entries());
+    let (layout, pattern, entries) = (model.layout(), at.pattern(), system.entries());
     let tearing = layout.tearing().unwrap();
     let mut torn = TornFactor::of(tearing).unwrap();
     let mut whole = Factor::new(pattern, &layout.node, &[&layout.soft, &layout.stiff]).unwrap();
-    let outer = at.outer(layout, 1.0, saddle.weights());
+    let outer = at.rank_one_terms(1.0, system.weights());
     let factoring = in_turns(
         ROUNDS,
         &mut [&mut || seconds(|| torn.factor(pattern, entries, &outer)), &mut || {
@@ -80,7 +78,7 @@ fn one(n: usize, folder: Option<&Path>) {
     torn.solve(&mut solution);
     let mut product = vec![0.0; unknowns];
     symmetric_product(pattern, entries, &solution, &mut product);
-    let size = pattern.largest_diagonal(entries) * largest(&solution);
+    let size = pattern.largest_diagonal(entries) * max_abs(&solution);
     let residual = common::difference(&product, &right) / size;
     println!(
         "{n:3} {unknowns:9} {:6} {:9.2} {:8.2} {:8.2} {:9.2} {:8.2} {:8.2} {residual:9.0e}",

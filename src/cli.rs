@@ -8,24 +8,21 @@
 //! | 3 | reading or writing an existing place failed |
 //! | 130 | stopped by Ctrl-C; what is finished is on disk |
 
-use std::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use crate::validate::report::Case;
+use crate::validate::{self, ValidateOptions, ValidationError};
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
-use foldwell::output::summary::{
-    BranchesSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
-    to_json,
-};
-use foldwell::run::{self, Ledger, RunError, RunOptions, RunReport};
-use foldwell::validation::report::Case;
-use foldwell::validation::{self, ValidateOptions, ValidationError};
+use foldwell::output::summary::to_json;
+use foldwell::run::{self, Ledger, RunError, RunOptions};
 use miette::{Diagnostic, GraphicalReportHandler};
 
+use crate::describe::describe_run;
 use crate::parameters::{self, ParameterError};
 use crate::progress::Watch;
 
@@ -219,7 +216,7 @@ fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Res
 fn validate(options: &ValidateOptions) -> Result<u8, Failure> {
     let watch = Arc::new(Watch::new(false));
     let options = options.clone();
-    let found = watch.over(move |watch| validation::validate(&options, &|step| watch.step(step), &mut announce));
+    let found = watch.over(move |watch| validate::validate(&options, &|step| watch.step(step), &mut announce));
     watch.finish();
     let Some(report) = found.map_err(Failure::Thread)? else { return Ok(INTERRUPTED) };
     let report = report.map_err(Failure::Validation)?;
@@ -275,162 +272,6 @@ fn fancy(error: &dyn Diagnostic) -> String {
         Ok(()) => text + "\n",
         Err(_) => format!("Error: {error}\n"),
     }
-}
-
-fn describe_run(report: &RunReport) -> String {
-    let mut text = String::new();
-    for study in &report.summary.studies {
-        // writing to a string does not fail
-        let kept = if report.kept.contains(&study.name) { " (kept)" } else { "" };
-        let _ = writeln!(text, "{}{kept}", describe_study(study));
-    }
-    let _ = writeln!(text, "files in {}", report.out.display());
-    text
-}
-
-/// Energy and residuals, and what is easily overlooked: that the state is not stable, that faces pass through each other.
-fn describe_relaxation(relax: &RelaxSummary) -> String {
-    let unstable = match relax.negative_eigenvalues {
-        None | Some(0) => String::new(),
-        Some(count) => format!(", not stable ({})", counted(count, "negative eigenvalue")),
-    };
-    let crossing = if relax.self_intersecting == Some(true) { ", faces pass through each other" } else { "" };
-    let residuals = match [relax.residual_force, relax.residual_length] {
-        [force, length] if force.is_nan() && length.is_nan() => "no residuals".to_owned(),
-        [force, length] => format!("residuals {force:.1e} (force) {length:.1e} (length)"),
-    };
-    let iterations = counted(relax.iterations, "iteration");
-    let branching = match (relax.branch_point_start, relax.directions_at_start.as_deref()) {
-        (_, Some("continuum")) => {
-            ", infinitely many directions leave the start: others may lead to other equilibria".into()
-        }
-        (Some(rays), _) => {
-            format!(", the start is a branch point with {rays} rays: other branches may have other equilibria")
-        }
-        (None, Some("not-established")) => ", it is not known whether the start is a branch point".into(),
-        (None, _) => String::new(),
-    };
-    format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}{branching}", relax.energy.total)
-}
-
-/// The folding modes have their own count, by fold angles: it is not a part of that of the zero modes.
-fn describe_modes(modes: &ModesSummary) -> String {
-    format!(
-        "{}, of which {} {} rigid; {}; {}",
-        counted(modes.zero_modes, "zero mode"),
-        modes.rigid_motions,
-        if modes.rigid_motions == 1 { "is" } else { "are" },
-        if modes.self_stresses == 1 {
-            "1 self stress".into()
-        } else {
-            format!("{} self stresses", modes.self_stresses)
-        },
-        modes.folding_modes.map_or("folding modes unknown".into(), |count| counted(count, "folding mode")),
-    )
-}
-
-/// `1 well`, `2 wells`.
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
-/// Number of rays, and whether these are all directions in which the sheet folds.
-fn describe_branches(branches: &BranchesSummary) -> String {
-    let rays = match branches.directions.as_str() {
-        "continuum" => {
-            format!(
-                "{}, and infinitely many directions that fill a curve or more",
-                counted(branches.real_rays, "single real ray")
-            )
-        }
-        "not-established" => format!("{} found, others not excluded", counted(branches.real_rays, "real ray")),
-        _ => counted(branches.real_rays, "real ray"),
-    };
-    format!("{rays}, {} complex solutions of {}", branches.complex_solutions, branches.expected)
-}
-
-/// How many random starts ended in no minimum, and how many failed and why, where some did.
-fn describe_failures(found: &WellsSummary) -> String {
-    let saddles = match found.saddles {
-        0 => String::new(),
-        count => format!("; {count} of {} ended in no minimum", counted(found.starts, "start")),
-    };
-    if found.failed == 0 {
-        return saddles;
-    }
-    let reasons: Vec<String> = found.failures.iter().map(|one| format!("{}: {}", one.starts, one.reason)).collect();
-    format!("{saddles}; {} of {} failed ({})", found.failed, counted(found.starts, "start"), reasons.join("; "))
-}
-
-/// How every trajectory ended, and whether there are directions that none follows.
-fn describe_trace(traced: &TraceSummary) -> String {
-    let ends = traced.branches.iter().map(|one| match one.branch {
-        Some(_) => format!("{} at {:.6}", one.end, one.arc_length),
-        None => "no real direction to fold along".to_owned(),
-    });
-    let others = match traced.directions.as_str() {
-        "continuum" => "; infinitely many other directions are not followed",
-        "not-established" => "; other directions are not excluded",
-        _ => "",
-    };
-    ends.collect::<Vec<_>>().join(", ") + others
-}
-
-fn describe_surface(surface: &SurfaceSummary) -> String {
-    let SurfaceSummary { points, triangles, coverage, gaps, .. } = surface;
-    let established = surface.established.iter().map(|established| format!(": {established}"));
-    let gaps = (*gaps > 0).then(|| format!(", but triangles are missing beside {gaps} states"));
-    format!("{points} states, {triangles} triangles, {coverage}") + &established.chain(gaps).collect::<String>()
-}
-
-fn describe_study(study: &StudySummary) -> String {
-    let what = match &study.result {
-        Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
-        Some(StudyResult::Modes(modes)) => describe_modes(modes),
-        Some(StudyResult::Branches(branches)) => describe_branches(branches),
-        Some(StudyResult::Trace(traced)) => describe_trace(traced),
-        Some(StudyResult::Surface(surface)) => describe_surface(surface),
-        Some(StudyResult::Landscape(landscape)) => {
-            let modes = landscape.modes.iter().map(|one| {
-                let mode = match (one.wave, one.mode) {
-                    (Some(wave), _) => format!("wave {wave:?}"),
-                    (_, mode) => format!("{:?}", mode.unwrap_or([f64::NAN; 3])),
-                };
-                let exponent = one.exponent.map_or("?".into(), |exponent| format!("{exponent:.3}"));
-                let [c4, c6] = [one.predicted_coefficient, one.predicted_sixth].map(|c| c.unwrap_or(f64::NAN));
-                let below = match one.below_rounding {
-                    0 => String::new(),
-                    count => format!(" ({} below rounding left out)", counted(count, "sample")),
-                };
-                let agrees = if one.fit_agrees == Some(false) { "; THE FIT DISAGREES" } else { "" };
-                format!("{mode}: exponent {exponent}{below}, predicted {c4:.6e} a^4, {c6:.6e} a^6{agrees}")
-            });
-            modes.collect::<Vec<_>>().join("; ")
-        }
-        Some(StudyResult::Bloch(bloch)) => {
-            let [p1, p2] = bloch.polarization;
-            let lines = bloch.zero_lines.map(|count| counted(count, "zero line"));
-            let lines = lines.unwrap_or("no real determinant, so that zero lines are not looked for".to_owned());
-            let pairing = bloch.pairing_error.map_or("no root known well enough to be paired".to_owned(), |error| {
-                format!("pairing error {error:.1e}")
-            });
-            format!("{lines}, {pairing}, polarization ({p1}, {p2})")
-        }
-        Some(StudyResult::Wells(found)) => {
-            let energies = found.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");
-            let barriers = found.barriers.iter().map(|barrier| {
-                let bars = barrier.bars.map_or("rigid bars".to_owned(), |bars| format!("bars of {bars:e}"));
-                let energy =
-                    barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e} with {bars}"));
-                format!("; pass {:?} {energy}", barrier.between)
-            });
-            let count = counted(found.wells.len(), "well");
-            format!("{count} ({energies}){}{}", barriers.collect::<String>(), describe_failures(found))
-        }
-        None => String::from("no result"),
-    };
-    let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();
-    format!("{} ({}): {what}, {:.2} s{failed}", study.name, study.kind, study.seconds)
 }
 
 #[cfg(test)]

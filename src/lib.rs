@@ -1,13 +1,59 @@
 //! Energy wells of folding sheets.
 //!
-//! A triangulated origami sheet is a network of bars (its edges) and hinges (its creases). `foldwell` relaxes such a
-//! network with a Newton method that treats every stiffness alike, the exactly rigid sheet included, and compares
-//! what it finds with the theory of rigid folding. The modules stand on floors; each imports only from lower ones:
+//! A triangulated origami sheet is a network of bars (its edges) and hinges (its creases, and the diagonals of its polygons,
+//! called facets). `foldwell` finds the equilibria of such a network with a Newton method that treats every stiffness alike,
+//! the exactly rigid sheet included, and compares what it finds with the theory of rigid folding.
+//!
+//! This program relaxes nine cells of Miura-ori with rigid bars whose creases rest flat, and writes a file that ParaView opens:
+//!
+//! ```
+//! use foldwell::{Assembly, Pattern, Picture, RIGID, Rest, generate, relax, write_vtu};
+//!
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let sheet = generate(&Pattern::named("miura").ok_or("no such pattern")?)?;
+//!     let assembly = Assembly::patch(sheet, [3, 3]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+//!     let relaxed = relax(&assembly)?;
+//!     println!("energy {:.3e} after {} steps", relaxed.state.total(), relaxed.iterations);
+//!     write_vtu(&std::env::temp_dir().join("miura.vtu"), &Picture::new(&assembly, &relaxed.state))?;
+//!     Ok(())
+//! }
+//! ```
+//!
+//! Lengths are in the unit of the sheet, angles in radians, valley folds positive; a crease of stiffness `k` and length `l` has
+//! the energy `k l (angle - rest)^2 / 2`, a bar of stiffness `EA` and rest length `L` the energy `EA L strain^2 / 2`. The folder
+//! `examples` has longer programs: a relaxation, a trajectory of rigid folding until it closes, an energy landscape, a map of
+//! Bloch modes, and a custom energy.
+//!
+//! # Words
+//!
+//! One idea has one name, in code, messages and documents:
+//!
+//! | word | meaning |
+//! |---|---|
+//! | sheet, cell | one period of a triangulated surface with its two lattice vectors, or a finite piece |
+//! | tiling | the cells of a sheet that a study works on |
+//! | boundary conditions | patch (free edges), torus (periodic, lattice fixed or free), screw (one cell repeated by screw motions) |
+//! | assembly | a sheet with its boundary conditions and terms |
+//! | terms | stiffnesses and rest angles of bars, creases and facets; locks, pins, loads |
+//! | bar, crease, facet, hinge | an edge; an edge between polygons; a diagonal of a polygon; a crease or a facet |
+//! | drawn state | the positions in the file |
+//! | state | positions with the fold angle, strain, force and energy of every edge |
+//! | equilibrium, minimum, saddle point | a state without net force; with no negative eigenvalue; with at least one |
+//! | tension | force of a bar or torque of a hinge that is an unknown of its own |
+//! | rigid | a bar that keeps its length, a facet that keeps its angle: infinite stiffness |
+//! | closure | the conditions that fold angles around a vertex come back to where they began |
+//! | trajectory, branch | a curve of rigidly folded states; one of those that leave the drawn state |
+//! | well, barrier | a minimum; the lowest saddle point between two |
+//! | residual, tolerance | what is left of an equation; the bound on it at which a solver stops |
+//!
+//! # Modules
+//!
+//! The modules stand on floors; each imports only from lower ones:
 //!
 //! | floor | modules | what stands there |
 //! |---|---|---|
-//! | 6 | [`validation`] | claims about the program, checked by the program |
-//! | 5 | [`run`] | the pipeline: read a scene, build it, study it, write files |
+//! | 6 | [`run`] | the pipeline: read a scene, answer its studies, write their files |
+//! | 5 | [`study`] | the kinds of study: a question of a scene in, an answer out, nothing written |
 //! | 4 | [`scene`], [`output`] | what the user writes, what the user gets |
 //! | 3 | [`analysis`] | questions about states: equilibria, modes, spectra |
 //! | 2 | [`model`], [`kinematics`] | energies of bars and hinges; exact folding by closure of vertices |
@@ -25,4 +71,9 @@ pub mod run;
 pub mod scene;
 pub mod sheet;
 pub mod solver;
-pub mod validation;
+pub mod study;
+
+pub use analysis::relax::{Relaxed, relax};
+pub use model::{Assembly, Boundary, RIGID, Rest, Terms};
+pub use output::{picture::Picture, vtk::write_vtu};
+pub use sheet::{Pattern, Sheet, generate};

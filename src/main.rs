@@ -1,8 +1,10 @@
 //! The `foldwell` command.
 
 mod cli;
+mod describe;
 mod parameters;
 mod progress;
+mod validate;
 
 use std::process::ExitCode;
 

@@ -1,56 +1,30 @@
 //! The pipeline: read a scene, build it, study it, write files.
 
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::numerics::parallel::Threads;
 use crate::output::picture::Picture;
 use crate::output::summary::Summary;
 use crate::output::{OutputError, files, vtk};
 use crate::scene::SceneError;
-use crate::sheet::build::{self, Drawn};
+use crate::sheet::build::{self, Drawing};
 use crate::sheet::error::Defect;
 use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
+use crate::study::StudyError;
 
 mod belongings;
-mod bloch;
-mod branches;
 mod convert;
-mod draw;
 mod inputs;
-mod landscape;
-mod landscape_map;
 mod ledger;
-mod reason;
 mod resume;
 mod runner;
-mod studies;
-mod surface;
-mod trace;
-mod wells;
 
+pub use crate::study::{Observer, Progress};
 pub use ledger::Ledger;
 use runner::Runner;
-
-/// How far a study is.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
-    /// Name of the study.
-    pub study: String,
-    /// Steps taken.
-    pub step: usize,
-    /// Steps in all, where that is known.
-    pub of: Option<usize>,
-    /// The residual that has to become small; not a number where there is none.
-    pub residual: f64,
-    /// How small, where the study ends there.
-    pub target: Option<f64>,
-}
-
-/// Whoever watches a run: called after every step, it says whether to go on.
-pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
 
 /// What the command line can change about a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -128,6 +102,15 @@ pub enum RunError {
     },
 }
 
+impl From<StudyError> for RunError {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Scene(error) => Self::Scene(error),
+            StudyError::Output(error) => Self::Output(error),
+        }
+    }
+}
+
 impl RunError {
     /// The exit status of the program: 2 where the input is wrong, 3 where an existing place cannot be read or written.
     pub fn exit_status(&self) -> u8 {
@@ -180,6 +163,15 @@ pub fn run_with_ledger(
     observer: Observer,
     ledger: &Ledger,
 ) -> Result<RunReport, RunError> {
+    Threads::new(options.threads).install(|| run_on_these_threads(scene, options, observer, ledger))
+}
+
+fn run_on_these_threads(
+    scene: &Path,
+    options: &RunOptions,
+    observer: Observer,
+    ledger: &Ledger,
+) -> Result<RunReport, RunError> {
     if MeshKind::of(scene).is_some() {
         return Err(RunError::NoScene { path: scene.into() });
     }
@@ -189,8 +181,8 @@ pub fn run_with_ledger(
             "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
         return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
     }
-    let built = crate::scene::build::build(&file)?;
-    let mut runner = Runner::new(&file, &built, options, observer, ledger)?;
+    let assembly = crate::scene::build::assembly(&file)?;
+    let mut runner = Runner::new(&file, &assembly, options, observer, ledger)?;
     for study in &file.scene.studies {
         runner.study(study)?;
         if runner.interrupted() {
@@ -274,7 +266,7 @@ fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
             let mesh = vtk::read_vtu(path)?;
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let faces = mesh.triangles.iter().map(|t| t.to_vec()).collect();
-            let drawn = Drawn { title, coords: mesh.points, faces, ..Drawn::default() };
+            let drawn = Drawing { title, coords: mesh.points, faces, ..Drawing::default() };
             build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
         }
         None => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),

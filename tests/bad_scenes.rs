@@ -291,7 +291,7 @@ fn folder_of_misfits() -> tempfile::TempDir {
 /// The message of a scene that its sheet refuses, and its help; the folder is written as FOLDER.
 fn misfit_of(folder: &std::path::Path, text: &str) -> (SceneError, String, String) {
     let file = parse(text, folder.join("scene.toml")).expect("the scene alone is right");
-    let Err(error) = foldwell::scene::build::build(&file) else { panic!("the sheet should refuse:\n{text}") };
+    let Err(error) = foldwell::scene::build::assembly(&file) else { panic!("the sheet should refuse:\n{text}") };
     let plain = |text: String| text.replace(&folder.display().to_string(), "FOLDER");
     let (message, help) = (plain(error.to_string()), error.help().map(|help| help.to_string()).unwrap_or_default());
     (error, message, help)

@@ -3,9 +3,9 @@
 
 mod common;
 
-use common::Case;
+use common::{Testing, patch};
 use foldwell::kinematics::folding_modes::folding_modes;
-use foldwell::model::Gauge;
+use foldwell::model::{Gauge, Terms};
 use foldwell::solver::{Options, minimize};
 
 /// Claim: rest angles along one linear mode of `open-star`, of amplitudes 0.06, 0.01 and 0 (at rest as drawn), relax to
@@ -15,13 +15,14 @@ use foldwell::solver::{Options, minimize};
 fn bent_patches_converge() {
     let mut failed = Vec::new();
     for n in [4, 6, 8, 12, 16, 24] {
-        let case = Case::patch("open-star", [n, n]);
-        let mode = folding_modes(&case.sheet).unwrap().named([1.0, 0.0, 0.0]).unwrap();
+        let case = patch("open-star", [n, n]);
+        let mode = folding_modes(case.sheet()).unwrap().named([1.0, 0.0, 0.0]).unwrap();
         for amplitude in [0.06, 0.01, 0.0] {
-            let rest = case.tiling.edges.iter().zip(&case.angles).map(|(e, angle)| angle + amplitude * mode[e.edge]);
+            let rest =
+                case.tiling().edges.iter().zip(case.drawn_angles()).map(|(e, angle)| angle + amplitude * mode[e.edge]);
             let rest: Vec<f64> = rest.collect();
             for k in [1e2, 1e6, f64::INFINITY] {
-                let mut model = case.model(&case.recipe(k, 1.0, rest.clone()), Gauge::Held);
+                let mut model = case.model_of(&Terms::bars_and_creases(k, 1.0, rest.clone()), Gauge::Held);
                 let start = model.start();
                 let options = Options { iterations: 25, ..Options::default() };
                 let found = minimize(&mut model, start, options, &mut |_| true);

@@ -16,7 +16,7 @@ use foldwell::analysis::bloch::{
 use foldwell::kinematics::{Embedding, Shape};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
-use foldwell::sheet::build::{Drawn, build, draw};
+use foldwell::sheet::build::{Drawing, build, draw};
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Corner, EdgeKey, Pattern, Sheet, generate};
 use nalgebra::Complex;
@@ -527,14 +527,14 @@ fn random_kirigami(size: [usize; 2], pairs: usize, seed: u64) -> Option<Sheet> {
         quadrilaterals.push(quadrilateral);
     }
     let holes = quadrilaterals.split_off(pairs);
-    build(&Drawn { faces: [faces, quadrilaterals].concat(), holes, ..drawn }).ok()
+    build(&Drawing { faces: [faces, quadrilaterals].concat(), holes, ..drawn }).ok()
 }
 
 /// The sheet with its rigid polygons and its openings exchanged.
 fn exchanged(sheet: &Sheet) -> Sheet {
     let drawn = draw(sheet);
     let (blocks, triangles): (Vec<_>, Vec<_>) = drawn.faces.iter().cloned().partition(|face| face.len() > 3);
-    build(&Drawn { faces: [triangles, drawn.holes.clone()].concat(), holes: blocks, ..drawn }).unwrap()
+    build(&Drawing { faces: [triangles, drawn.holes.clone()].concat(), holes: blocks, ..drawn }).unwrap()
 }
 
 /// How often the centred determinant goes round zero along both directions, at some other wavenumber; `None` where it

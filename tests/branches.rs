@@ -3,15 +3,14 @@
 
 mod common;
 
-use common::{Numbers, mesh};
-use foldwell::analysis::branches::Question;
-use foldwell::analysis::trace;
+use common::{Numbers, mesh, on};
+use foldwell::analysis::trace::{self, TraceOptions};
 use foldwell::kinematics::{Closure, Ray, Rays, RealDirections, SecondOrder, drawn_fold_angles};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::Boundary;
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::dense::{least_squares, null_space};
 use foldwell::sheet::generate::RandomDevelopable;
-use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate, tile};
+use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate};
 use nalgebra::DVector;
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -300,18 +299,9 @@ fn no_ray_is_not_no_direction() {
         let one = Rays::new(&SecondOrder::new(&closure.with_locked(&[0]), &angles).unwrap()).unwrap();
         assert_eq!(one.directions, RealDirections::Listed, "{name}");
 
-        let tiling = tile(&sheet, [1, 1], true);
-        let recipe = Recipe::default();
-        let start = Question {
-            sheet: &sheet,
-            tiling: &tiling,
-            surroundings: Surroundings::Screw,
-            angles: &angles,
-            recipe: &recipe,
-        };
-        let question =
-            trace::Question { start, max_step: 0.1, tolerance: 1e-13, branch: None, stop: trace::Stop::default() };
-        let refused = trace::trace(&question, None, &mut |_, _| true);
+        let cell = on(sheet, [1, 1], Boundary::Screw);
+        let options = TraceOptions { max_step: 0.1, tolerance: 1e-13, branch: None, stop: trace::Stop::default() };
+        let refused = trace::trace(&cell, &options, None, &mut |_, _| true);
         assert!(matches!(refused, Err(trace::TraceError::Continuum)), "{name}: {refused:?}");
     }
 }

@@ -6,19 +6,19 @@
 mod common;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use common::{distance, mesh};
-use foldwell::analysis::branches::{self, Branches, branches};
-use foldwell::analysis::trace::{Folded, Question, Stop, Traced, trace};
+use common::{Testing, distance, mesh, on};
+use foldwell::analysis::branches::{Branches, branches};
+use foldwell::analysis::trace::{Folded, Stop, TraceOptions, Traced, trace};
 use foldwell::kinematics::metric::LatticeFrame;
 use foldwell::kinematics::{
     Closure, Displacement, Embedding, FoldingModes, Ray, Screw, SecondOrder, Shape, drawn_fold_angles, folding_modes,
 };
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Hinges, Recipe, Surroundings};
+use foldwell::model::{Assembly, Boundary, RIGID, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::dense::{null_space, symmetric_eigenvalues};
 use foldwell::sheet::generate::{Eggbox, Miura, RandomDevelopable};
-use foldwell::sheet::{EdgeKey, EdgeKind, Pattern, Sheet, generate, tile};
+use foldwell::sheet::{EdgeKey, EdgeKind, Pattern, Sheet, generate};
 use foldwell::solver::continuation::End;
 use nalgebra::{DVector, Matrix2, Matrix3x2, Vector2};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
@@ -28,24 +28,19 @@ fn edge(sheet: &Sheet, [i, j, n1, n2]: [i32; 4]) -> usize {
     sheet.edges.iter().position(|edge| edge.key == key).unwrap()
 }
 
-/// Asks something of a sheet with these edges locked; its polygons are rigid or bend.
-fn ask<A>(sheet: &Sheet, locks: &[usize], rigid: bool, ask: impl FnOnce(branches::Question<'_>) -> A) -> A {
-    let periodic = sheet.lattice.is_some();
-    let tiling = tile(sheet, [1, 1], periodic);
-    let angles = drawn_fold_angles(sheet);
-    let locks = locks.iter().map(|&edge| (edge, angles[edge])).collect();
-    let facets = rigid.then(|| Hinges { stiffness: f64::INFINITY, rest: angles.clone() });
-    let recipe = Recipe { locks, facets, ..Recipe::default() };
-    let surroundings = if periodic { Surroundings::Screw } else { Surroundings::Patch };
-    ask(branches::Question { sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &recipe })
+/// A sheet with these edges locked as drawn; its polygons are rigid or bend.
+fn locked(sheet: &Sheet, locks: &[usize], rigid: bool) -> Assembly {
+    let boundary = if sheet.lattice.is_some() { Boundary::Screw } else { Boundary::Patch };
+    let drawn = on(sheet.clone(), [1, 1], boundary);
+    let locks = locks.iter().map(|&edge| (edge, drawn.drawn_angles()[edge])).collect();
+    let facets = drawn.facets(RIGID).filter(|_| rigid);
+    drawn.with_terms(Terms { locks, facets, ..Terms::default() })
 }
 
 /// Follows every ray of a sheet with rigid polygons.
 fn follow(sheet: &Sheet, locks: &[usize], stop: Stop) -> Vec<Traced> {
-    ask(sheet, locks, true, |start| {
-        let question = Question { start, max_step: 0.1, tolerance: 3e-14, branch: None, stop };
-        trace(&question, None, &mut |_, _| true).unwrap()
-    })
+    let options = TraceOptions { max_step: 0.1, tolerance: 3e-14, branch: None, stop };
+    trace(&locked(sheet, locks, true), &options, None, &mut |_, _| true).unwrap()
 }
 
 fn to_length(length: f64) -> Stop {
@@ -127,7 +122,7 @@ fn folded_flat_cells() -> Vec<(Sheet, Traced)> {
     let mut found = Vec::new();
     for (sheet, locks) in flat_cells() {
         for lock in locks {
-            let rays = ask(&sheet, &lock, true, |start| branches(&start).unwrap()).rays.rays;
+            let rays = branches(&locked(&sheet, &lock, true)).unwrap().rays.rays;
             for one in follow(&sheet, &lock, to_length(2.0)) {
                 let ray = rays.iter().find(|ray| (ray.branch, ray.sign) == one.branch).unwrap();
                 if ray.multiplicity == 1 {
@@ -412,7 +407,7 @@ fn triangulated_miura_does_not_bend() {
         assert_eq!(values.iter().filter(|v| **v < -1e-9 * largest).count(), if miura { 2 } else { 1 }, "{values:?}");
         assert_abs_diff_eq!(scale_of_closure(&sheet) * 2.0, DVector::from_vec(values).norm(), epsilon = 1e-12);
         for lock in 0..12 {
-            let Branches { rays, signature, .. } = ask(&sheet, &[lock], false, |start| branches(&start).unwrap());
+            let Branches { rays, signature, .. } = branches(&locked(&sheet, &[lock], false)).unwrap();
             match (sheet.edges[lock].kind == EdgeKind::Facet, miura) {
                 (false, true) => {
                     assert!(signature.is_some_and(|s| s == [2, 0, 0] || s == [0, 2, 0]), "{signature:?}");

@@ -4,30 +4,21 @@
 
 mod common;
 
-use common::{Case, jacobian, linearized, mesh};
-use foldwell::analysis::branches;
+use common::{Testing, jacobian, linearized, mesh, on, patch};
 use foldwell::analysis::chart::coordinates;
-use foldwell::analysis::drive::{self, Drive, cylinder_errors, drive};
+use foldwell::analysis::drive::{Drive, Driven, cylinder_errors, drive};
 use foldwell::analysis::exact::error_to_kinematic;
-use foldwell::analysis::relax::relax;
-use foldwell::analysis::trace::{self, Stop, Traced};
-use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
-use foldwell::model::{Gauge, Model};
+use foldwell::analysis::relax::relax_from;
+use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
+use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate::Random;
-use foldwell::sheet::{EdgeKey, Pattern, Sheet, Tiling, generate, tile};
+use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate};
 use foldwell::solver::continuation::{self, Curve, End, follow};
 use foldwell::solver::{Implicit, Options, Problem};
 
 /// A sheet with a crease kept at its drawn angle, rigid or soft bars, and creases that rest as drawn.
-struct Scene {
-    sheet: Sheet,
-    tiling: Tiling,
-    surroundings: Surroundings,
-    drawn: Drawn,
-    angles: Vec<f64>,
-    recipe: Recipe,
-}
+struct Scene(Assembly);
 
 impl Scene {
     fn new(name: &str, lock: Option<EdgeKey>, bars: f64) -> Self {
@@ -36,16 +27,13 @@ impl Scene {
 
     fn of(sheet: Sheet, lock: Option<EdgeKey>, bars: f64) -> Self {
         let periodic = sheet.lattice.is_some();
-        let surroundings = if periodic { Surroundings::Screw } else { Surroundings::Patch };
-        let tiling = tile(&sheet, [1, 1], periodic);
-        let drawn = Drawn::new(&sheet, &tiling, surroundings);
-        let angles = drawn_angles(&drawn, &tiling);
-        let edge = |key| sheet.edges.iter().position(|edge| edge.key == key).unwrap();
+        let boundary = if periodic { Boundary::Screw } else { Boundary::Patch };
+        let drawn = on(sheet, [1, 1], boundary);
+        let angles = drawn.drawn_angles().to_vec();
+        let edge = |key| drawn.sheet().crease(key).unwrap();
         let locks = lock.map(edge).map(|edge| (edge, angles[edge])).into_iter().collect();
-        let creases = Some(Hinges { stiffness: 1.0, rest: angles.clone() });
-        let facets = Some(Hinges { stiffness: f64::INFINITY, rest: angles.clone() });
-        let recipe = Recipe { bars: Some(bars), creases, facets, locks, ..Recipe::default() };
-        Self { sheet, tiling, surroundings, drawn, angles, recipe }
+        let facets = drawn.facets(f64::INFINITY);
+        Self(drawn.with_terms(Terms { facets, locks, ..Terms::bars_and_creases(bars, 1.0, angles) }))
     }
 
     fn open_star(bars: f64) -> Self {
@@ -53,20 +41,12 @@ impl Scene {
     }
 
     fn traced(&self, branch: Option<usize>, stop: Stop) -> Vec<Traced> {
-        let start = branches::Question {
-            sheet: &self.sheet,
-            tiling: &self.tiling,
-            surroundings: self.surroundings,
-            angles: &self.angles,
-            recipe: &self.recipe,
-        };
-        let question = trace::Question { start, max_step: 0.25, tolerance: 3e-14, branch, stop };
-        trace::trace(&question, None, &mut |_, _| true).unwrap()
+        let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch, stop };
+        trace(&self.0, &options, None, &mut |_, _| true).unwrap()
     }
 
     fn driven(&self, traced: &Traced) -> Drive {
-        let Self { tiling, drawn, recipe, .. } = self;
-        drive(&drive::Question { tiling, drawn, recipe, options: Options::default() }, traced, &mut |_| true)
+        drive(&self.0, Options::default(), traced, &mut |_| true)
     }
 }
 
@@ -85,10 +65,10 @@ fn rigid_bars_meet_the_kinematics_on_both_loops() {
         assert_eq!(found.states.len(), traced.states.len() - 2, "{:?}", found.failure);
         println!("{:?}: {} steps, largest error {:.1e}", traced.branch, found.states.len(), found.error().unwrap());
         assert!(found.error().unwrap() <= 1e-10, "{:?}: {:e}", traced.branch, found.error().unwrap());
-        let errors = cylinder_errors(&scene.drawn, traced, &found).unwrap();
+        let errors = cylinder_errors(scene.0.drawn(), traced, &found).unwrap();
         println!("{:?}: {errors:?}", traced.branch);
         assert!(errors.curvature <= 1e-8 && errors.strain <= 1e-9 && errors.theta <= 1e-9, "{errors:?}");
-        let residual = |state: &drive::Driven| state.relaxed.residual_force.max(state.relaxed.residual_length);
+        let residual = |state: &Driven| state.relaxed.residual_force.max(state.relaxed.residual_length);
         assert!(found.states.iter().all(|state| residual(state) <= 1e-12));
     }
 }
@@ -103,7 +83,7 @@ fn rigid_bars_follow_random_cells() {
         for traced in &scene.traced(None, Stop::default()) {
             assert!(matches!(traced.end, End::Closed(_)), "{seed}: {:?}", traced.end);
             let found = scene.driven(traced);
-            let errors = cylinder_errors(&scene.drawn, traced, &found).unwrap();
+            let errors = cylinder_errors(scene.0.drawn(), traced, &found).unwrap();
             let error = found.error().unwrap();
             println!("{seed} {:?}: {} states, {error:.1e}, {errors:?}", traced.branch, found.states.len());
             assert_eq!(found.states.len(), traced.states.len() - 2, "{seed}: {:?}", found.failure);
@@ -182,8 +162,8 @@ fn laid_along_x(mut screw: Vec<f64>) -> Vec<f64> {
 fn the_chart_of_screws_is_a_third_way() {
     let scene = Scene::open_star(f64::INFINITY);
     for traced in scene.traced(None, Stop { arc_length: Some(2.0), ..Stop::default() }) {
-        let recipe = Recipe { creases: None, ..scene.recipe.clone() };
-        let mut model = assemble(&scene.drawn, &scene.tiling, &recipe, Gauge::Held);
+        let terms = Terms { creases: None, ..scene.0.terms().clone() };
+        let mut model = scene.0.with_terms(terms).model(Gauge::Held);
         let [from, to] = [3, 4].map(|step| laid_along_x(coordinates(&traced.states[step])));
         let x = model.start_from(from);
         let way: Vec<f64> = model.unknowns(&to).iter().zip(&x).map(|(to, from)| to - from).collect();
@@ -194,9 +174,7 @@ fn the_chart_of_screws_is_a_third_way() {
         let found = follow(&mut bars, x, way.iter().map(|d| d / length).collect(), &options, &mut |_| true);
         assert_eq!(found.end, End::Length);
         let last = &found.points[found.points.len() - 1];
-        let (domain, coordinates) = (scene.drawn.domain.clone(), bars.0.coordinates(&last.x));
-        let there = Drawn { domain, coordinates, held: vec![], ..scene.drawn };
-        let angles = drawn_angles(&there, &scene.tiling);
+        let angles = scene.0.fold_angles_at(&bars.0.coordinates(&last.x));
         let rates = &traced.states[traced.states.len() - 1].rates;
         let fastest = (0..12).max_by(|a, b| rates[*a].abs().total_cmp(&rates[*b].abs())).unwrap();
         let stop = Stop { crease_angle: Some((fastest, angles[fastest])), ..Stop::default() };
@@ -230,15 +208,13 @@ fn a_finite_sheet_is_driven() {
 /// over the softest stiffness, and the next term in 1/k, which is a hundredth at 1e6.
 #[test]
 fn relaxations_end_at_the_exact_equilibrium() {
-    for (case, edges) in
-        [(Case::new(mesh("open-star"), [1, 1], Surroundings::Screw), 12), (Case::patch("open-star", [3, 3]), 88)]
-    {
+    for (case, edges) in [(on(mesh("open-star"), [1, 1], Boundary::Screw), 12), (patch("open-star", [3, 3]), 88)] {
         let error = |bars: f64| {
-            let recipe = case.recipe(bars, 1.0, case.rest_per_hinge(0.1, 3));
-            let mut model = case.model(&recipe, Gauge::Held);
+            let terms = Terms::bars_and_creases(bars, 1.0, case.rest_per_hinge(0.1, 3));
+            let mut model = case.model_of(&terms, Gauge::Held);
             let start = model.start();
-            let found = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap();
-            error_to_kinematic(&case.sheet, &case.tiling, &model, &found.state.fold_angle).unwrap()
+            let found = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
+            error_to_kinematic(case.sheet(), case.tiling(), &model, &found.state.fold_angle).unwrap()
         };
         let [rigid, stiff, soft] = [f64::INFINITY, 1e8, 1e6].map(error);
         println!("{edges}: {rigid:.1e} rigid, k times distance {:.3} at 1e6, {:.3} at 1e8", soft * 1e6, stiff * 1e8);

@@ -4,11 +4,11 @@
 mod common;
 
 use assert_cmd::Command;
-use common::Case;
-use foldwell::analysis::relax::relax;
+use common::{Testing, on, patch};
+use foldwell::analysis::relax::relax_from;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings};
-use foldwell::numerics::parallel;
+use foldwell::model::{Assembly, Boundary, Terms};
+use foldwell::numerics::parallel::{FEWEST_SHARED_ELEMENTS, Threads};
 use foldwell::solver::Options;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -59,13 +59,13 @@ const SHALLOW: &str = "bars = { stiffness = 1e6 }\ncreases = { stiffness = 1.0, 
 #[test]
 fn the_same_bits_for_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    let case = Case::patch("open-star", [16, 16]);
-    assert!(case.edges() > parallel::LEAST, "the case is too small to show anything");
+    let case = patch("open-star", [16, 16]);
+    assert!(case.edges() > FEWEST_SHARED_ELEMENTS, "the case is too small to show anything");
     let sheet = "domain = \"patch\"\ncells = [16, 16]";
     let mut table = String::from("i,j,n1,n2,angle\n");
     let mut numbers = common::Numbers::new(1);
-    for edge in &case.sheet.edges {
-        let (key, angle) = (edge.key, case.sheet.drawn_angle(edge).unwrap() + numbers.within(0.1));
+    for edge in &case.sheet().edges {
+        let (key, angle) = (edge.key, case.sheet().drawn_angle(edge).unwrap() + numbers.within(0.1));
         table += &format!("{},{},{},{},{angle:e}\n", key.i, key.j, key.shift[0], key.shift[1]);
     }
     std::fs::write(folder.path().join("rest.csv"), table).unwrap();
@@ -101,50 +101,50 @@ fn nothing_is_drawn_where_nothing_is_wanted() {
 }
 
 /// Claim: a cell, and a patch below the threshold, start no threads; a large one does (so that the question is answered
-/// by something that can say yes). One test, since the pool belongs to the process.
+/// by something that can say yes).
 #[test]
 fn small_sheets_start_no_threads() {
-    parallel::set_threads(2);
-    let rigid = |case: &Case| {
-        let recipe = case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
-        let mut model = case.model(&recipe, Gauge::Held);
+    let threads = Threads::new(Some(2));
+    let rigid = |case: &Assembly| {
+        let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
+        let mut model = case.model_of(&terms, Gauge::Held);
         let start = model.start();
-        relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap();
+        threads.install(|| relax_from(&mut model, start, Options::default(), &mut |_| true)).unwrap();
     };
-    for surroundings in [Surroundings::Screw, Surroundings::FreeTorus, Surroundings::FixedTorus] {
-        rigid(&Case::new(common::mesh("open-star"), [1, 1], surroundings));
+    for boundary in [Boundary::Screw, Boundary::FreeTorus, Boundary::FixedTorus] {
+        rigid(&on(common::mesh("open-star"), [1, 1], boundary));
     }
-    rigid(&Case::patch("open-star", [12, 12]));
-    assert!(!parallel::started(), "a small sheet started threads");
-    let case = Case::patch("open-star", [14, 14]);
-    assert!(case.edges() > parallel::LEAST);
+    rigid(&patch("open-star", [12, 12]));
+    assert!(!threads.started(), "a small sheet started threads");
+    let case = patch("open-star", [14, 14]);
+    assert!(case.edges() > FEWEST_SHARED_ELEMENTS);
     rigid(&case);
-    assert!(parallel::started(), "a large sheet started none: the test shows nothing");
+    assert!(threads.started(), "a large sheet started none: the test shows nothing");
 }
 
 /// Names and sizes of a model's terms, soft and stiff.
-fn terms(case: &Case, recipe: &Recipe) -> [Vec<(&'static str, usize)>; 2] {
-    let model = case.model(recipe, Gauge::Held);
+fn terms(case: &Assembly, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
+    let model = case.model_of(terms, Gauge::Held);
     [model.soft(), model.stiff()].map(|list| list.iter().map(|term| (term.name(), term.len())).collect())
 }
 
-/// Claim: a model has the terms that its recipe asks for and no others: no hinge for bars alone, no bars for hinges
+/// Claim: a model has the terms that its terms asks for and no others: no hinge for bars alone, no bars for hinges
 /// alone, no facets where there is no polygon, locks only where something is locked.
 #[test]
 fn only_what_is_asked_for_is_built() {
-    let star = Case::patch("open-star", [3, 3]);
+    let star = patch("open-star", [3, 3]);
     let edges = star.edges();
-    let bars = Recipe { bars: Some(1.0), ..Recipe::default() };
+    let bars = Terms { bars: Some(1.0), ..Terms::default() };
     assert_eq!(terms(&star, &bars), [vec![], vec![("bars", edges)]]);
-    let creases = star.angles.iter().filter(|angle| !angle.is_nan()).count();
-    let both = star.recipe(1.0, 1.0, star.angles.clone());
+    let creases = star.drawn_angles().iter().filter(|angle| !angle.is_nan()).count();
+    let both = Terms::bars_and_creases(1.0, 1.0, star.drawn_angles().to_vec());
     assert_eq!(terms(&star, &both), [vec![("creases", creases)], vec![("bars", edges)]]);
-    let hinges = Recipe { bars: None, ..both.clone() };
+    let hinges = Terms { bars: None, ..both.clone() };
     assert_eq!(terms(&star, &hinges), [vec![("creases", creases)], vec![]]);
-    let facets = Recipe { facets: star.facets(f64::INFINITY), ..both.clone() };
+    let facets = Terms { facets: star.facets(f64::INFINITY), ..both.clone() };
     assert_eq!(terms(&star, &facets), terms(&star, &both));
-    let hinge = (0..edges).find(|&edge| !star.angles[edge].is_nan()).unwrap();
-    let locked = Recipe { locks: vec![(hinge, 0.1)], ..bars };
+    let hinge = (0..edges).find(|&edge| !star.drawn_angles()[edge].is_nan()).unwrap();
+    let locked = Terms { locks: vec![(hinge, 0.1)], ..bars };
     assert_eq!(terms(&star, &locked), [vec![], vec![("bars", edges), ("locks", 1)]]);
 }
 

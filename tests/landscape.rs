@@ -3,15 +3,14 @@
 
 mod common;
 
-use common::{Case, Numbers};
-use foldwell::analysis::branches;
+use common::{Numbers, Testing, on, patch};
 use foldwell::analysis::landscape::continuum;
 use foldwell::analysis::landscape::fit::{coefficient, exponent};
 use foldwell::analysis::landscape::samples::landscape;
 use foldwell::analysis::landscape::{Expansion, HeldSheet, Prediction};
-use foldwell::analysis::trace::{self, Stop};
+use foldwell::analysis::trace::{Stop, TraceOptions, trace};
 use foldwell::kinematics::{Closure, Rays, SecondOrder};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{EdgeKey, Pattern, generate};
@@ -21,13 +20,13 @@ const MODES: [[f64; 3]; 3] = [[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]
 /// `k11 k22 = k12^2`.
 const CYLINDERS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.25, 1.0, 0.5]];
 
-fn patch_of(case: &Case, bars: f64) -> HeldSheet {
-    let recipe = case.recipe(bars, 1.0, case.angles.clone());
-    HeldSheet::patch(&case.sheet, &case.tiling, &recipe, &case.angles).unwrap()
+fn patch_of(case: &Assembly, bars: f64) -> HeldSheet {
+    let terms = Terms::bars_and_creases(bars, 1.0, case.drawn_angles().to_vec());
+    HeldSheet::patch(&case.with_terms(terms)).unwrap()
 }
 
 fn open_star(n: usize, bars: f64) -> HeldSheet {
-    patch_of(&Case::patch("open-star", [n, n]), bars)
+    patch_of(&patch("open-star", [n, n]), bars)
 }
 
 fn predicted(patch: &HeldSheet, prediction: &Prediction, mode: [f64; 3]) -> f64 {
@@ -92,7 +91,7 @@ fn only_gaussian_curvature_counts() {
         let mut spreads = Vec::new();
         for seed in 0..20 {
             let sheet = generate(&Pattern::Random(Random { size: [2, 2], seed, ..Random::default() })).unwrap();
-            let found = spread(&patch_of(&Case::new(sheet, [4, 4], Surroundings::Patch), bars), 20, seed);
+            let found = spread(&patch_of(&on(sheet, [4, 4], Boundary::Patch), bars), 20, seed);
             assert!(found <= 1e-6, "seed {seed}: {found:e}");
             spreads.push(found);
         }
@@ -202,10 +201,10 @@ fn creases_of_random_stiffness() {
 /// Gaussian curvature of the modes there are. Tolerance as before.
 #[test]
 fn triangulated_miura() {
-    let case = Case::patch("miura", [4, 4]);
-    let mut recipe = case.recipe(f64::INFINITY, 1.0, case.angles.clone());
-    recipe.facets = case.facets(1.0);
-    let patch = HeldSheet::patch(&case.sheet, &case.tiling, &recipe, &case.angles).unwrap();
+    let case = patch("miura", [4, 4]);
+    let mut terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.drawn_angles().to_vec());
+    terms.facets = case.facets(1.0);
+    let patch = HeldSheet::patch(&case.with_terms(terms)).unwrap();
     let prediction = Prediction::new(&patch).unwrap();
     let mut numbers = Numbers::new(5);
     let mut quotients = Vec::new();
@@ -229,9 +228,9 @@ fn triangulated_miura() {
 /// coefficients on 40 modes; 2% for a hundred times the cost at a hundred times the stiffness; 1e-9 of a generic mode of the same size on rays.
 #[test]
 fn flat_vertices_cost_bars() {
-    let case = Case::patch("open-flat", [4, 4]);
-    let closure = Closure::of_cell(&case.sheet).unwrap();
-    let second = SecondOrder::new(&closure, &vec![0.0; case.sheet.edges.len()]).unwrap();
+    let case = patch("open-flat", [4, 4]);
+    let closure = Closure::of_cell(case.sheet()).unwrap();
+    let second = SecondOrder::new(&closure, &vec![0.0; case.sheet().edges.len()]).unwrap();
     let patches = [1e4, 1e6].map(|bars| patch_of(&case, bars));
     let predictions = patches.each_ref().map(|patch| Prediction::new(patch).unwrap());
     let mut numbers = Numbers::new(6);
@@ -266,7 +265,7 @@ fn flat_vertices_cost_bars() {
     assert!(off(&features) <= 1e-6 && off(&curvature) > 0.5);
 
     let locked = closure.with_locked(&[0]);
-    let rays = Rays::new(&SecondOrder::new(&locked, &vec![0.0; case.sheet.edges.len()]).unwrap()).unwrap().rays;
+    let rays = Rays::new(&SecondOrder::new(&locked, &vec![0.0; case.sheet().edges.len()]).unwrap()).unwrap().rays;
     assert!(!rays.is_empty());
     for ray in rays {
         for prediction in &predictions {
@@ -281,24 +280,17 @@ fn flat_vertices_cost_bars() {
 /// 1e-10 everywhere. Source: the kinematics, which knows no bars.
 #[test]
 fn exact_cylinders_cost_nothing() {
-    let case = Case::patch("open-star", [6, 6]);
-    let screw = Case::new(common::mesh("open-star"), [1, 1], Surroundings::Screw);
-    let lock = screw.sheet.edges.iter().position(|edge| edge.key == EdgeKey { i: 0, j: 1, shift: [0, 0] }).unwrap();
-    let recipe = Recipe { locks: vec![(lock, screw.angles[lock])], ..Recipe::default() };
-    let start = branches::Question {
-        sheet: &screw.sheet,
-        tiling: &screw.tiling,
-        surroundings: Surroundings::Screw,
-        angles: &screw.angles,
-        recipe: &recipe,
-    };
+    let case = patch("open-star", [6, 6]);
+    let screw = on(common::mesh("open-star"), [1, 1], Boundary::Screw);
+    let lock = screw.sheet().crease(EdgeKey { i: 0, j: 1, shift: [0, 0] }).unwrap();
+    let locked = Terms { locks: vec![(lock, screw.drawn_angles()[lock])], ..Terms::default() };
     let stop = Stop { arc_length: Some(1.0), ..Stop::default() };
-    let question = trace::Question { start, max_step: 0.25, tolerance: 3e-14, branch: None, stop };
-    for traced in trace::trace(&question, None, &mut |_, _| true).unwrap() {
+    let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch: None, stop };
+    for traced in trace(&screw.with_terms(locked), &options, None, &mut |_, _| true).unwrap() {
         let exact = &traced.states[traced.states.len() - 1].angles;
-        let rest: Vec<f64> = case.tiling.edges.iter().map(|edge| exact[edge.edge]).collect();
+        let rest: Vec<f64> = case.tiling().edges.iter().map(|edge| exact[edge.edge]).collect();
         for bars in [1e2, 1e6, 1e12, f64::INFINITY] {
-            let found = case.relax(&case.recipe(bars, 1.0, rest.clone())).unwrap();
+            let found = case.relax(&Terms::bars_and_creases(bars, 1.0, rest.clone())).unwrap();
             let creases = found.state.fold_angle.iter().filter(|angle| !angle.is_nan()).count();
             let each = found.state.total() / creases as f64;
             let known = found.state.fold_angle.iter().zip(&rest).filter(|(angle, _)| !angle.is_nan());
@@ -335,7 +327,7 @@ fn large_patches_tend_to_the_continuum() {
 fn five_cells_tend_to_the_continuum() {
     for seed in 0..5 {
         let sheet = generate(&Pattern::Random(Random { size: [2, 2], seed, ..Random::default() })).unwrap();
-        let patch = |n: usize| patch_of(&Case::new(sheet.clone(), [n, n], Surroundings::Patch), f64::INFINITY);
+        let patch = |n: usize| patch_of(&on(sheet.clone(), [n, n], Boundary::Patch), f64::INFINITY);
         let [low, limit] = [20, 24].map(|degree| continuum::coefficient(&sheet, &patch(2), degree).unwrap());
         let scaled = |n: usize| {
             let patch = patch(n);

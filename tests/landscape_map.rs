@@ -4,21 +4,21 @@
 mod common;
 
 use approx::assert_abs_diff_eq;
-use common::Case;
+use common::patch;
 use foldwell::analysis::landscape::cone::{Cone, distance};
 use foldwell::analysis::landscape::sphere::{Direction, Net, curvature, point, samples};
 use foldwell::analysis::landscape::{Courses, Expansion, HeldSheet, Place, Prediction, Samples};
 use foldwell::math::Vec3;
-use foldwell::model::assemble::Recipe;
-use foldwell::numerics::parallel;
+use foldwell::model::{Assembly, Terms};
+use foldwell::numerics::parallel::Threads;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-fn recipe(case: &Case) -> Recipe {
-    case.recipe(f64::INFINITY, 1.0, case.angles.clone())
+fn terms(case: &Assembly) -> Terms {
+    Terms::bars_and_creases(f64::INFINITY, 1.0, case.drawn_angles().to_vec())
 }
 
-fn held(case: &Case) -> HeldSheet {
-    HeldSheet::patch(&case.sheet, &case.tiling, &recipe(case), &case.angles).unwrap()
+fn held(case: &Assembly) -> HeldSheet {
+    HeldSheet::patch(&case.with_terms(terms(case))).unwrap()
 }
 
 /// Claim: the net covers the sphere once (area 4 pi but for its coarseness, Euler characteristic 2), its 45-degree rings are tensors of rank
@@ -47,11 +47,11 @@ fn the_net_is_a_sphere() {
 /// by more than a hundred times that.
 #[test]
 fn energy_vanishes_on_the_exact_cone() {
-    let case = Case::patch("open-star", [4, 4]);
+    let case = patch("open-star", [4, 4]);
     let mut held = held(&case);
     let courses = Courses::new(&held).unwrap();
     let modes = held.bending.clone().unwrap();
-    let cone = Cone::new(&case.sheet, &modes, &[]).unwrap();
+    let cone = Cone::new(case.sheet(), &modes, &[]).unwrap();
     for amplitude in [0.005, 0.02] {
         let (mut largest, mut linear) = (0.0f64, 0.0f64);
         for (nappe, k) in [1, -1].into_iter().flat_map(|nappe| (0..8).map(move |k| (nappe, k))) {
@@ -70,7 +70,7 @@ fn energy_vanishes_on_the_exact_cone() {
 /// the power, by the fifth.
 #[test]
 fn courses_are_forms_of_the_mode() {
-    let case = Case::patch("open-star", [4, 4]);
+    let case = patch("open-star", [4, 4]);
     let mut sheet = held(&case);
     let courses = Courses::new(&sheet).unwrap();
     for tensor in [[0.8, -0.3, 0.4], [-0.1, 0.9, -0.7]] {
@@ -101,16 +101,15 @@ fn courses_are_forms_of_the_mode() {
 /// Tolerance 1%: the next orders at this amplitude.
 #[test]
 fn samples_do_not_know_each_other() {
-    let case = Case::patch("open-star", [6, 6]);
+    let case = patch("open-star", [6, 6]);
     let sheet = held(&case);
     let (prediction, courses) = (Prediction::new(&sheet).unwrap(), Courses::new(&sheet).unwrap());
     let net = Net::new(2);
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
     let amplitude = 5e-4;
     let run = |threads: usize| -> Vec<(f64, usize)> {
-        parallel::set_threads(threads);
-        let make = || HeldSheet::patch(&case.sheet, &case.tiling, &recipe(&case), &case.angles);
-        let found = samples(&make, &courses, &points, amplitude, &|| true);
+        let make = || HeldSheet::patch(&case.with_terms(terms(&case)));
+        let found = Threads::new(Some(threads)).install(|| samples(&make, &courses, &points, amplitude, &|| true));
         found.into_iter().map(|s| s.unwrap().unwrap()).map(|s| (s.relaxed.state.total(), s.iterations)).collect()
     };
     let (one, two) = (run(1), run(2));

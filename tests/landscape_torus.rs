@@ -4,24 +4,24 @@
 mod common;
 
 use approx::abs_diff_eq;
-use common::{Case, mesh};
+use common::{mesh, on};
 use foldwell::analysis::landscape::fit::exponent;
 use foldwell::analysis::landscape::samples::{Samples, landscape};
 use foldwell::analysis::landscape::tuning::tuned;
 use foldwell::analysis::landscape::{Expansion, HeldSheet};
-use foldwell::model::assemble::Surroundings;
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Pattern, Sheet, generate};
 use std::f64::consts::TAU;
 
 /// Stiffness of the bars.
 const BARS: f64 = 1e3;
-const LATTICES: [Surroundings; 2] = [Surroundings::FixedTorus, Surroundings::FreeTorus];
+const LATTICES: [Boundary; 2] = [Boundary::FixedTorus, Boundary::FreeTorus];
 
-fn torus(sheet: &Sheet, n: usize, surroundings: Surroundings) -> (Case, HeldSheet) {
-    let case = Case::new(sheet.clone(), [n, n], surroundings);
-    let recipe = case.recipe(BARS, 1.0, case.angles.clone());
-    let held = HeldSheet::torus(&case.sheet, &case.tiling, &recipe, (surroundings, &case.angles)).unwrap();
+fn torus(sheet: &Sheet, n: usize, boundary: Boundary) -> (Assembly, HeldSheet) {
+    let case = on(sheet.clone(), [n, n], boundary);
+    let terms = Terms::bars_and_creases(BARS, 1.0, case.drawn_angles().to_vec());
+    let held = HeldSheet::torus(&case.with_terms(terms)).unwrap();
     (case, held)
 }
 
@@ -58,7 +58,7 @@ fn tuned_cells(count: usize) -> Vec<(Sheet, [i32; 2], usize)> {
         let cell = generate(&Pattern::Random(Random { size: [2, 2], seed, ..Random::default() })).unwrap();
         let one = waves.iter().find_map(|&wave| {
             let (vertex, sheet) = nearest(&cell, wave, 5)?;
-            let alone = torus(&sheet, 5, Surroundings::FreeTorus).1.basis.ncols() == 2;
+            let alone = torus(&sheet, 5, Boundary::FreeTorus).1.basis.ncols() == 2;
             alone.then_some((sheet, wave, vertex))
         });
         found.extend(one);
@@ -77,9 +77,9 @@ fn tuned_cells(count: usize) -> Vec<(Sheet, [i32; 2], usize)> {
 #[test]
 fn waves_cost_fourth_order_on_fixed_lattices_and_sixth_on_free_ones() {
     for (sheet, wave, vertex) in tuned_cells(6) {
-        let [fixed, free] = LATTICES.map(|surroundings| {
-            let (case, mut held) = torus(&sheet, 5, surroundings);
-            let rates = held.wave(&case.tiling, wave).unwrap();
+        let [fixed, free] = LATTICES.map(|boundary| {
+            let (case, mut held) = torus(&sheet, 5, boundary);
+            let rates = held.wave(case.tiling(), wave).unwrap();
             let expected = Expansion::new(&held, &rates).unwrap();
             let found = landscape(&mut held, rates, &[2e-4, 4e-4, 8e-4], &mut |_| true).unwrap();
             assert!(found.failure.is_none(), "{:?}", found.failure);
@@ -106,14 +106,15 @@ fn waves_cost_fourth_order_on_fixed_lattices_and_sixth_on_free_ones() {
 /// again for this amplitude: the amplitude, the energy, the change of height, the energy left.
 fn tuned_again(n: usize, wave: [i32; 2], amplitude: f64) -> [f64; 4] {
     let (vertex, sheet) = nearest(&mesh("open-star"), wave, n).unwrap();
-    let (case, held) = torus(&sheet, n, Surroundings::FreeTorus);
-    let rates = held.wave(&case.tiling, wave).unwrap();
+    let (case, held) = torus(&sheet, n, Boundary::FreeTorus);
+    let rates = held.wave(case.tiling(), wave).unwrap();
     let (_, course) = Expansion::with_course(&held, &rates).unwrap();
-    let recipe = case.recipe(BARS, 1.0, case.angles.clone());
+    let terms = Terms::bars_and_creases(BARS, 1.0, case.drawn_angles().to_vec());
     let energy = |height: f64| -> f64 {
         let mut moved = sheet.clone();
         moved.vertices[vertex].z += height;
-        let mut other = held.for_sheet(&moved, &recipe, Surroundings::FreeTorus, [n, n]).unwrap();
+        let moved = on(moved, [n, n], Boundary::FreeTorus).with_terms(terms.clone());
+        let mut other = held.for_sheet(&moved).unwrap();
         let sample = Samples::new(&mut other, course.clone()).at(amplitude, &mut |_| true).unwrap();
         sample.relaxed.state.total()
     };

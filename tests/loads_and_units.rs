@@ -4,25 +4,25 @@
 mod common;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::Case;
+use common::{Testing, on, patch};
 use foldwell::analysis::relax::Relaxed;
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::output::summary::{RelaxSummary, StudyResult};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::fold;
 use std::ops::ControlFlow;
 
 /// Four cells of `open-star` whose creases rest 0.1 rad from the drawn angles, with rigid bars.
-fn patch() -> (Case, Recipe) {
-    let case = Case::patch("open-star", [2, 2]);
-    let recipe = case.recipe(f64::INFINITY, 1.0, case.rest_per_cell(0.1, 3));
-    (case, recipe)
+fn four_cells() -> (Assembly, Terms) {
+    let case = patch("open-star", [2, 2]);
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_cell(0.1, 3));
+    (case, terms)
 }
 
 fn relaxed(loads: Vec<(usize, Vec3)>, pins: Vec<(usize, [bool; 3])>) -> Relaxed {
-    let (case, recipe) = patch();
-    case.relax(&Recipe { loads, pins, ..recipe }).unwrap()
+    let (case, terms) = four_cells();
+    case.relax(&Terms { loads, pins, ..terms }).unwrap()
 }
 
 /// Claim: forces that are zero, that cancel at their vertex, or that pull at what a pin holds are no forces: the same bits as without.
@@ -49,7 +49,7 @@ fn small_loads_change_little() {
     let plain = relaxed(vec![], vec![]);
     for size in [1e-9, 1e-6, 1e-3, 1e-2] {
         for pull in [Vec3::x(), -Vec3::x(), Vec3::new(0.3, -0.5, 0.8)] {
-            let far = patch().0.tiling.positions.len() - 1;
+            let far = four_cells().0.tiling().positions.len() - 1;
             let found = relaxed(vec![(0, -size * pull), (far, size * pull)], vec![]);
             assert!(found.iterations <= 30, "{size:e} {pull}: {} iterations", found.iterations);
             let off = common::distance(&found.state.fold_angle, &plain.state.fold_angle);
@@ -61,8 +61,8 @@ fn small_loads_change_little() {
 /// Claim: a sheet that hangs from one vertex turns under its load until that pulls at the pin along its own line.
 #[test]
 fn a_sheet_hangs_from_a_pin() {
-    let (case, _) = patch();
-    let last = case.tiling.positions.len() - 1;
+    let (case, _) = four_cells();
+    let last = case.tiling().positions.len() - 1;
     let found = relaxed(vec![(last, Vec3::new(0.0, 0.0, -0.01))], vec![(0, [true; 3])]);
     let place = |k: usize| Vec3::from_column_slice(&found.state.coordinates[3 * k..3 * k + 3]);
     let arm = place(last) - place(0);
@@ -75,17 +75,17 @@ fn a_sheet_hangs_from_a_pin() {
 /// of an edge, in angles within 0.1 rad.
 #[test]
 fn far_from_the_origin() {
-    for surroundings in [Surroundings::Patch, Surroundings::FixedTorus, Surroundings::FreeTorus, Surroundings::Screw] {
-        let cells = if surroundings == Surroundings::Screw { [1, 1] } else { [2, 2] };
+    for boundary in [Boundary::Patch, Boundary::FixedTorus, Boundary::FreeTorus, Boundary::Screw] {
+        let cells = if boundary == Boundary::Screw { [1, 1] } else { [2, 2] };
         let run = |far: f64| {
             let mut sheet = common::mesh("open-star");
             sheet.vertices.iter_mut().for_each(|p| *p += far * Vec3::new(1.0, -1.0, 1.0));
-            let case = Case::new(sheet, cells, surroundings);
-            case.relax(&case.recipe(1e6, 1.0, case.rest_per_cell(0.1, 3))).unwrap()
+            let case = on(sheet, cells, boundary);
+            case.relax(&Terms::bars_and_creases(1e6, 1.0, case.rest_per_cell(0.1, 3))).unwrap()
         };
         let (near, far) = (run(0.0), run(1e6));
         let off = common::distance(&near.state.fold_angle, &far.state.fold_angle);
-        assert!(off <= 1e-7 && far.iterations <= near.iterations + 2, "{surroundings:?}: {off:e}, {}", far.iterations);
+        assert!(off <= 1e-7 && far.iterations <= near.iterations + 2, "{boundary:?}: {off:e}, {}", far.iterations);
     }
 }
 

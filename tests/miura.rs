@@ -3,28 +3,28 @@
 
 mod common;
 
-use common::Case;
+use common::{Testing, on};
 use foldwell::math::fold_angle::fold_angle;
-use foldwell::model::assemble::{Recipe, Surroundings, hinge};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::generate::{MiuraPatch, Pattern};
 use foldwell::sheet::{EdgeKind, generate};
 use std::f64::consts::PI;
 
-fn miura(cells: [usize; 2]) -> Case {
+fn miura(cells: [usize; 2]) -> Assembly {
     let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, cells, ..MiuraPatch::default() });
-    Case::new(generate(&pattern).unwrap(), [1, 1], Surroundings::Patch)
+    on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
 }
 
 /// Sign and class of a crease of Miura-ori: along the zigzags (x changes) or along the straight lines.
-fn zigzag(case: &Case, edge: usize) -> bool {
-    let [a, b] = case.tiling.edges[edge].ends.map(|site| case.tiling.positions[site.vertex]);
+fn zigzag(case: &Assembly, edge: usize) -> bool {
+    let [a, b] = case.tiling().edges[edge].ends.map(|site| case.tiling().positions[site.vertex]);
     (a.x - b.x).abs() > 1e-9
 }
 
 /// Fold angle of an edge in a state, also where the model has no hinge.
-fn fold_angle_at(case: &Case, coordinates: &[f64], edge: usize) -> f64 {
-    let sites = hinge(&case.tiling, edge).unwrap();
-    fold_angle(case.drawn.domain.points(coordinates, &sites))
+fn fold_angle_at(case: &Assembly, coordinates: &[f64], edge: usize) -> f64 {
+    let sites = case.tiling().edges[edge].hinge().unwrap();
+    fold_angle(case.drawn().domain.points(coordinates, &sites))
 }
 
 /// Claim: folded by a lock on one crease, every crease of a rigid Miura-ori follows the closed form
@@ -37,18 +37,17 @@ fn fold_angle_at(case: &Case, coordinates: &[f64], edge: usize) -> f64 {
 fn miura_follows_its_closed_form() {
     let case = miura([5, 5]);
     let creases: Vec<usize> =
-        (0..case.edges()).filter(|&edge| case.tiling.edges[edge].kind == EdgeKind::Crease).collect();
+        (0..case.edges()).filter(|&edge| case.tiling().edges[edge].kind == EdgeKind::Crease).collect();
     let locks = [true, false].map(|class| *creases.iter().find(|&&edge| zigzag(&case, edge) == class).unwrap());
     let mut failed = Vec::new();
     for (angle, energy) in [0.05, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5, 3.0].map(|a| [(a, true), (a, false)]).concat() {
         for lock in locks {
-            let mut recipe =
-                Recipe { bars: Some(f64::INFINITY), facets: case.facets(f64::INFINITY), ..Recipe::default() };
-            recipe.locks = vec![(lock, case.angles[lock].signum() * angle)];
+            let mut terms = Terms { bars: Some(f64::INFINITY), facets: case.facets(f64::INFINITY), ..Terms::default() };
+            terms.locks = vec![(lock, case.drawn_angles()[lock].signum() * angle)];
             if energy {
-                recipe.creases = case.recipe(1.0, 1.0, case.angles.clone()).creases;
+                terms.creases = Terms::bars_and_creases(1.0, 1.0, case.drawn_angles().to_vec()).creases;
             }
-            let found = match case.relax(&recipe) {
+            let found = match case.relax(&terms) {
                 Ok(found) => found,
                 Err(error) => {
                     failed.push(format!("edge {lock} at {angle}, creases {energy}: {error}"));
@@ -61,7 +60,7 @@ fn miura_follows_its_closed_form() {
             let half = if zigzag(&case, lock) { half } else { half / (PI / 3.0).cos() };
             let [along, straight] = [2.0 * half.atan(), 2.0 * ((PI / 3.0).cos() * half).atan()];
             for &edge in &creases {
-                let expected = case.angles[edge].signum() * if zigzag(&case, edge) { along } else { straight };
+                let expected = case.drawn_angles()[edge].signum() * if zigzag(&case, edge) { along } else { straight };
                 let off = (fold_angle_at(&case, &found.state.coordinates, edge) - expected).abs();
                 assert!(off < 1e-9, "edge {lock} at {angle}, edge {edge}: off by {off:e}");
             }
@@ -76,8 +75,8 @@ fn miura_is_drawn_by_its_closed_form() {
     let case = miura([2, 2]);
     let of = |class: bool| {
         (0..case.edges())
-            .filter(|&e| case.tiling.edges[e].kind == EdgeKind::Crease && zigzag(&case, e) == class)
-            .map(|e| case.angles[e].abs())
+            .filter(|&e| case.tiling().edges[e].kind == EdgeKind::Crease && zigzag(&case, e) == class)
+            .map(|e| case.drawn_angles()[e].abs())
             .collect::<Vec<f64>>()
     };
     let (zigzags, straights) = (of(true), of(false));

@@ -4,12 +4,11 @@
 mod common;
 
 use approx::abs_diff_eq;
-use common::{Case, Numbers};
-use foldwell::analysis::axis::drawn_for;
+use common::{Numbers, Testing, on};
 use foldwell::analysis::exact::error_to_kinematic;
-use foldwell::analysis::relax::{RelaxError, relax};
+use foldwell::analysis::relax::{RelaxError, relax_from};
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Surroundings, assemble};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Pattern, generate};
 use foldwell::solver::Options;
@@ -18,16 +17,16 @@ use foldwell::solver::Options;
 /// stiffness to 1e-12, to a minimum, in at most 25 iterations. The generic self stresses are 0, 0 and 3.
 #[test]
 fn every_domain_at_every_stiffness() {
-    use Surroundings::{FixedTorus, FreeTorus, Screw};
+    use Boundary::{FixedTorus, FreeTorus, Screw};
     let mut failed = Vec::new();
-    for (surroundings, cells, stresses) in
+    for (boundary, cells, stresses) in
         [(Screw, [1, 1], 0), (FreeTorus, [1, 1], 0), (FreeTorus, [3, 3], 0), (FixedTorus, [3, 3], 3)]
     {
-        let case = Case::new(common::mesh("open-star"), cells, surroundings);
+        let case = on(common::mesh("open-star"), cells, boundary);
         for k in [1e2, 1e4, 1e6, 1e8, 1e12, 1e16, f64::INFINITY] {
             for seed in 1..4 {
-                let what = format!("{surroundings:?} {cells:?}, k = {k:e}, seed {seed}");
-                match case.relax(&case.recipe(k, 1.0, case.rest_per_hinge(0.1, seed))) {
+                let what = format!("{boundary:?} {cells:?}, k = {k:e}, seed {seed}");
+                match case.relax(&Terms::bars_and_creases(k, 1.0, case.rest_per_hinge(0.1, seed))) {
                     Ok(found) => {
                         let good = found.residual_force <= 1e-12
                             && found.residual_length <= 1e-12
@@ -56,8 +55,9 @@ fn every_domain_at_every_stiffness() {
 /// Claim: on a screw the distance to the rigid cell falls as 1/k, the same from 1e8 to 1e10 within 1 %.
 #[test]
 fn a_screw_goes_to_its_rigid_limit() {
-    let case = Case::new(common::mesh("open-star"), [1, 1], Surroundings::Screw);
-    let run = |k: f64| case.relax(&case.recipe(k, 1.0, case.rest_per_hinge(0.1, 1))).unwrap().state.fold_angle;
+    let case = on(common::mesh("open-star"), [1, 1], Boundary::Screw);
+    let run =
+        |k: f64| case.relax(&Terms::bars_and_creases(k, 1.0, case.rest_per_hinge(0.1, 1))).unwrap().state.fold_angle;
     let rigid = run(f64::INFINITY);
     let scaled = [1e8, 1e10].map(|k| k * common::distance(&run(k), &rigid));
     assert!(abs_diff_eq!(scaled[0] / scaled[1], 1.0, epsilon = 0.01) && scaled[1] > 1e-2, "{scaled:?}");
@@ -65,14 +65,13 @@ fn a_screw_goes_to_its_rigid_limit() {
 
 /// A screw whose creases rest within `off` of the drawn angles, relaxed from the drawn state with rigid bars, its axis laid
 /// where folding starts best: steps, fold angles, and the difference to the exact kinematics where that knows better.
-fn relaxed_screw(case: &Case, off: f64, seed: u64) -> Result<(usize, Vec<f64>, Option<f64>), Box<RelaxError>> {
-    let recipe = case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(off, seed));
-    let drawn = drawn_for(&case.sheet, &case.tiling, Surroundings::Screw, &recipe);
-    let mut model = assemble(&drawn, &case.tiling, &recipe, Gauge::Held);
+fn relaxed_screw(case: &Assembly, off: f64, seed: u64) -> Result<(usize, Vec<f64>, Option<f64>), Box<RelaxError>> {
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(off, seed));
+    let mut model = case.with_terms(terms).with_best_axis().model(Gauge::Held);
     let start = model.start();
-    let found = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true)?;
+    let found = relax_from(&mut model, start, Options::default(), &mut |_| true)?;
     let angles = found.state.fold_angle;
-    let error = error_to_kinematic(&case.sheet, &case.tiling, &model, &angles);
+    let error = error_to_kinematic(case.sheet(), case.tiling(), &model, &angles);
     Ok((found.iterations, angles, error))
 }
 
@@ -87,7 +86,7 @@ fn screws_relax_next_to_zero_curvature() {
     for seed in 0..6 {
         for size in [[2, 2], [2, 3], [3, 3]] {
             let sheet = generate(&Pattern::Random(Random { size, seed, ..Random::default() })).unwrap();
-            let case = Case::new(sheet, [1, 1], Surroundings::Screw);
+            let case = on(sheet, [1, 1], Boundary::Screw);
             for off in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
                 all += 1;
                 match relaxed_screw(&case, off, Numbers::new(seed).within(1e6).abs() as u64) {
@@ -111,7 +110,7 @@ fn screws_relax_next_to_zero_curvature() {
 fn a_screw_in_any_unit_of_length() {
     let run = |unit: f64| {
         let sheet = common::scaled(common::mesh("open-star"), unit);
-        relaxed_screw(&Case::new(sheet, [1, 1], Surroundings::Screw), 0.1, 1).unwrap()
+        relaxed_screw(&on(sheet, [1, 1], Boundary::Screw), 0.1, 1).unwrap()
     };
     let (steps, expected, _) = run(1.0);
     for power in [-60, -30, -12, -3, 3, 12, 30, 60] {

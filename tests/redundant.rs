@@ -3,11 +3,11 @@
 
 mod common;
 
-use common::{Case, Numbers, distance, eigenvalues, jacobian, linearized, mesh};
-use foldwell::analysis::relax::{Relaxed, relax};
+use common::{Numbers, Testing, distance, eigenvalues, jacobian, linearized, mesh, on, patch};
+use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate;
 use foldwell::sheet::generate::{MiuraPatch, Pattern, Random, RandomDevelopable};
@@ -15,14 +15,14 @@ use foldwell::solver::{Failure, Options, Problem};
 
 const RIGID: f64 = f64::INFINITY;
 
-fn miura(cells: [usize; 2]) -> Case {
+fn miura(cells: [usize; 2]) -> Assembly {
     let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, cells, ..MiuraPatch::default() });
-    Case::new(generate(&pattern).unwrap(), [1, 1], Surroundings::Patch)
+    on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
 }
 
 /// Rigid bars and rigid quadrilaterals, creases as given.
-fn rigid_quads(case: &Case, rest: Vec<f64>) -> Recipe {
-    Recipe { facets: case.facets(RIGID), ..case.recipe(RIGID, 1.0, rest) }
+fn rigid_quads(case: &Assembly, rest: Vec<f64>) -> Terms {
+    Terms { facets: case.facets(RIGID), ..Terms::bars_and_creases(RIGID, 1.0, rest) }
 }
 
 fn converged(found: &Relaxed) {
@@ -31,8 +31,8 @@ fn converged(found: &Relaxed) {
 
 /// Jacobian of the rigid measures at a relaxed state, with nothing held, and their tensions: angles times the unit of length and torques
 /// over it, so that all rows are of lengths and all tensions forces.
-fn forces(case: &Case, recipe: &Recipe, found: &Relaxed) -> (DenseMatrix, Vec<f64>) {
-    let mut model = case.model(recipe, Gauge::Free);
+fn forces(case: &Assembly, terms: &Terms, found: &Relaxed) -> (DenseMatrix, Vec<f64>) {
+    let mut model = case.model_of(terms, Gauge::Free);
     let x = model.start_from(found.state.coordinates.clone());
     let at = linearized(&model, &x, &found.tension);
     let mut rows = jacobian(&model, &at);
@@ -58,14 +58,14 @@ fn self_stress_part((rows, tension): &(DenseMatrix, Vec<f64>)) -> (usize, f64) {
 fn miura_with_rigid_quadrilaterals() {
     let case = miura([5, 5]);
     for seed in 1..4 {
-        let recipe = rigid_quads(&case, case.rest_per_hinge(0.1, seed));
-        let found = case.relax(&recipe).unwrap();
+        let terms = rigid_quads(&case, case.rest_per_hinge(0.1, seed));
+        let found = case.relax(&terms).unwrap();
         converged(&found);
         assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(64), 0));
-        let (count, part) = self_stress_part(&forces(&case, &recipe, &found));
+        let (count, part) = self_stress_part(&forces(&case, &terms, &found));
         assert_eq!(count, 64);
         assert!(part < 1e-8, "seed {seed}: {part:e} of the tensions is self stress");
-        assert!(distance(&found.state.coordinates, &case.drawn.coordinates) > 1e-3, "nothing moved");
+        assert!(distance(&found.state.coordinates, &case.drawn().coordinates) > 1e-3, "nothing moved");
     }
 }
 
@@ -75,12 +75,12 @@ fn miura_with_rigid_quadrilaterals() {
 fn fixed_tori() {
     for (seed, cells) in [(1, [1, 1]), (2, [1, 1]), (1, [3, 3])] {
         let sheet = generate(&Pattern::Random(Random { seed, ..Random::default() })).unwrap();
-        let case = Case::new(sheet, cells, Surroundings::FixedTorus);
-        let recipe = case.recipe(RIGID, 1.0, case.rest_per_hinge(0.1, seed));
-        let found = case.relax(&recipe).unwrap();
+        let case = on(sheet, cells, Boundary::FixedTorus);
+        let terms = Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed));
+        let found = case.relax(&terms).unwrap();
         converged(&found);
         assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(3), 0), "{cells:?}");
-        let (count, part) = self_stress_part(&forces(&case, &recipe, &found));
+        let (count, part) = self_stress_part(&forces(&case, &terms, &found));
         assert_eq!(count, 3, "{cells:?}");
         assert!(part < 1e-8, "{cells:?}: {part:e}");
     }
@@ -91,8 +91,8 @@ fn fixed_tori() {
 #[test]
 fn large_fixed_tori() {
     for n in [8, 12, 20, 28] {
-        let case = Case::new(mesh("open-star"), [n, n], Surroundings::FixedTorus);
-        let found = case.relax(&case.recipe(RIGID, 1.0, vec![0.0; case.angles.len()])).unwrap();
+        let case = on(mesh("open-star"), [n, n], Boundary::FixedTorus);
+        let found = case.relax(&Terms::bars_and_creases(RIGID, 1.0, vec![0.0; case.drawn_angles().len()])).unwrap();
         converged(&found);
         assert_eq!(found.self_stresses, Some(3), "{n} x {n}");
     }
@@ -103,8 +103,9 @@ fn large_fixed_tori() {
 fn a_developable_sheet_on_a_branch() {
     let case = miura([5, 5]);
     for seed in 1..4 {
-        let recipe = Recipe { facets: case.facets(1.0), ..case.recipe(RIGID, 1.0, case.rest_per_hinge(0.1, seed)) };
-        let found = case.relax(&recipe).unwrap();
+        let terms =
+            Terms { facets: case.facets(1.0), ..Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed)) };
+        let found = case.relax(&terms).unwrap();
         converged(&found);
         assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), 0));
     }
@@ -116,18 +117,18 @@ fn a_developable_sheet_on_a_branch() {
 fn a_random_developable_patch_on_a_branch() {
     for seed in [1, 2, 3] {
         let sheet = generate(&Pattern::RandomDevelopable(RandomDevelopable { seed, ..Default::default() })).unwrap();
-        let case = Case::new(sheet, [3, 3], Surroundings::Patch);
+        let case = on(sheet, [3, 3], Boundary::Patch);
         let rest = case.rest_per_hinge(0.8, seed);
         let stiff = {
-            let mut model = case.model(&case.recipe(1e5, 1.0, rest.clone()), Gauge::Held);
+            let mut model = case.model_of(&Terms::bars_and_creases(1e5, 1.0, rest.clone()), Gauge::Held);
             let mut numbers = Numbers::new(seed);
             let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.1)).collect();
-            relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap()
+            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap()
         };
         assert_eq!(stiff.negative_eigenvalues, 0);
-        let mut model = case.model(&case.recipe(RIGID, 1.0, rest), Gauge::Held);
+        let mut model = case.model_of(&Terms::bars_and_creases(RIGID, 1.0, rest), Gauge::Held);
         let start = model.start_from(stiff.state.coordinates.clone());
-        let found = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true)
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| true)
             .unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         converged(&found);
         assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), 0), "seed {seed}");
@@ -142,8 +143,8 @@ fn a_random_developable_patch_on_a_branch() {
 fn a_flat_rigid_start_is_singular() {
     for cells in [[2, 2], [4, 4], [6, 6]] {
         for seed in 1..4 {
-            let case = Case::patch("open-flat", cells);
-            let error = case.relax(&case.recipe(RIGID, 1.0, case.rest_per_hinge(0.1, seed))).unwrap_err();
+            let case = patch("open-flat", cells);
+            let error = case.relax(&Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed))).unwrap_err();
             assert_eq!(error.failure, Failure::SingularStart, "{cells:?}, seed {seed}: {error}");
             assert!(error.to_string().contains("leave along a branch"));
         }
@@ -152,8 +153,8 @@ fn a_flat_rigid_start_is_singular() {
 
 /// Negative eigenvalues of the Hessian of the whole energy at a relaxed state, dense, by another library; all
 /// stiffnesses finite. Rigid motions are held.
-fn negative(case: &Case, recipe: &Recipe, found: &Relaxed) -> usize {
-    let model = case.model(recipe, Gauge::Held);
+fn negative(case: &Assembly, terms: &Terms, found: &Relaxed) -> usize {
+    let model = case.model_of(terms, Gauge::Held);
     let at = linearized(&model, &found.x, &found.tension);
     let rows = jacobian(&model, &at);
     let stiff = DenseMatrix::from_diagonal(&nalgebra::DVector::from_iterator(
@@ -165,9 +166,9 @@ fn negative(case: &Case, recipe: &Recipe, found: &Relaxed) -> usize {
 }
 
 /// Rest angles whose torques balance in the flat state: along the null space of the transposed gradients.
-fn balanced(case: &Case, size: f64, seed: u64) -> Vec<f64> {
-    let recipe = Recipe { bars: None, ..case.recipe(RIGID, RIGID, case.angles.clone()) };
-    let model = case.model(&recipe, Gauge::Free);
+fn balanced(case: &Assembly, size: f64, seed: u64) -> Vec<f64> {
+    let terms = Terms { bars: None, ..Terms::bars_and_creases(RIGID, RIGID, case.drawn_angles().to_vec()) };
+    let model = case.model_of(&terms, Gauge::Free);
     let rows = jacobian(&model, &linearized(&model, &model.start(), &vec![0.0; model.layout().stiff.len()]));
     let found = nalgebra::SymmetricEigen::new(&rows * rows.transpose());
     let mut numbers = Numbers::new(seed);
@@ -180,7 +181,7 @@ fn balanced(case: &Case, size: f64, seed: u64) -> Vec<f64> {
     let term = &model.stiff()[0];
     let mut rest = vec![0.0; case.edges()];
     for k in 0..term.len() {
-        let [a, b] = case.tiling.edges[term.edge(k)].ends.map(|site| case.tiling.positions[site.vertex]);
+        let [a, b] = case.tiling().edges[term.edge(k)].ends.map(|site| case.tiling().positions[site.vertex]);
         rest[term.edge(k)] = moments[k] / (a - b).norm();
     }
     rest
@@ -191,17 +192,17 @@ fn balanced(case: &Case, size: f64, seed: u64) -> Vec<f64> {
 /// stretching that a fold relieves is cheaper than the fold), as many as a dense decomposition counts.
 #[test]
 fn a_flat_equilibrium_reports_its_negative_eigenvalues() {
-    let case = Case::patch("open-flat", [4, 4]);
+    let case = patch("open-flat", [4, 4]);
     let mut unstable = 0;
     for (size, bars, seed) in [(1e-3, 1e4, 1), (1.0, 1e2, 1), (3.0, 1e2, 2), (3.0, 10.0, 3)] {
-        let recipe = case.recipe(bars, 1.0, balanced(&case, size, seed));
-        let found = case.relax(&recipe).unwrap();
+        let terms = Terms::bars_and_creases(bars, 1.0, balanced(&case, size, seed));
+        let found = case.relax(&terms).unwrap();
         converged(&found);
         assert!(
             found.state.fold_angle.iter().all(|angle| angle.is_nan() || angle.abs() < 1e-9),
             "it left the flat state"
         );
-        let expected = negative(&case, &recipe, &found);
+        let expected = negative(&case, &terms, &found);
         println!("rest angles {size}, bars {bars}: {expected} negative eigenvalues");
         assert_eq!(found.negative_eigenvalues, expected);
         assert!(size > 0.1 || expected == 0);
@@ -215,8 +216,8 @@ fn a_flat_equilibrium_reports_its_negative_eigenvalues() {
 /// it reports none. The forces are proportional to the distance from the centre, pins hold the six rigid motions.
 #[test]
 fn a_compressed_flat_sheet_reports_buckling() {
-    let case = Case::patch("open-flat", [4, 4]);
-    let positions = &case.tiling.positions;
+    let case = patch("open-flat", [4, 4]);
+    let positions = &case.tiling().positions;
     let by = |direction: Vec3| {
         move |a: &usize, b: &usize| positions[*a].dot(&direction).total_cmp(&positions[*b].dot(&direction))
     };
@@ -227,12 +228,13 @@ fn a_compressed_flat_sheet_reports_buckling() {
     let centre = positions.iter().sum::<Vec3>() / positions.len() as f64;
     for (pressure, buckles) in [(0.05, true), (0.5, true), (-0.05, false), (-0.5, false)] {
         let loads = vertices().map(|v| (v, pressure * (centre - positions[v]))).collect();
-        let recipe = Recipe { loads, pins: pins.clone(), ..case.recipe(1e4, 0.1, case.angles.clone()) };
-        let found = case.relax(&recipe).unwrap();
+        let terms =
+            Terms { loads, pins: pins.clone(), ..Terms::bars_and_creases(1e4, 0.1, case.drawn_angles().to_vec()) };
+        let found = case.relax(&terms).unwrap();
         converged(&found);
         assert!(found.state.coordinates.chunks(3).all(|p| p[2].abs() < 1e-9), "it left the plane");
         println!("pressed by {pressure}: {} negative eigenvalues", found.negative_eigenvalues);
         assert_eq!(found.negative_eigenvalues > 0, buckles, "{}", found.negative_eigenvalues);
-        assert_eq!(found.negative_eigenvalues, negative(&case, &recipe, &found));
+        assert_eq!(found.negative_eigenvalues, negative(&case, &terms, &found));
     }
 }

@@ -4,12 +4,12 @@
 mod common;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::Case;
+use common::{Testing, patch};
 use foldwell::analysis::modes::{SPARSE_EIGENVALUES, decomposed_dense};
 use foldwell::analysis::restored;
 use foldwell::analysis::state::State;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::Recipe;
+use foldwell::model::Terms;
 use foldwell::solver::Problem;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -172,18 +172,18 @@ fn a_saddle_stays_where_it_is() {
 /// Claim: fold angles that went on beyond pi come back from a file as they were, and angles that it does not have are left alone.
 #[test]
 fn windings_come_back() {
-    let case = Case::patch("open-star", [2, 2]);
-    let recipe = case.recipe(1e3, 1.0, case.angles.clone());
-    let mut model = case.model(&recipe, Gauge::Held);
-    let hinge = case.angles.iter().position(|angle| !angle.is_nan()).unwrap();
+    let case = patch("open-star", [2, 2]);
+    let terms = Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec());
+    let mut model = case.model_of(&terms, Gauge::Held);
+    let hinge = case.drawn_angles().iter().position(|angle| !angle.is_nan()).unwrap();
     let mut given = vec![f64::NAN; case.edges()];
-    given[hinge] = case.angles[hinge] + TAU;
+    given[hinge] = case.drawn_angles()[hinge] + TAU;
     let angles = restored::angles(&model, &given);
     model.set_angles(&angles);
-    let x = model.start_from(case.drawn.coordinates.clone());
+    let x = model.start_from(case.drawn().coordinates.clone());
     let tension = vec![0.0; model.layout().stiff.len()];
-    let state = State::new(&model, &x, &tension, case.edges());
-    for (edge, angle) in case.angles.iter().enumerate().filter(|(_, angle)| !angle.is_nan()) {
+    let state = State::new(&model, &x, &tension);
+    for (edge, angle) in case.drawn_angles().iter().enumerate().filter(|(_, angle)| !angle.is_nan()) {
         let expected = if edge == hinge { angle + TAU } else { *angle };
         assert_abs_diff_eq!(state.fold_angle[edge], expected, epsilon = 1e-14);
     }
@@ -192,11 +192,11 @@ fn windings_come_back() {
 /// Claim: the energy of a state is that of all its edges. Source: each element belongs to one edge.
 #[test]
 fn all_terms_are_in_the_total() {
-    let case = Case::patch("quad-cell", [2, 2]);
-    let lock = case.angles.iter().position(|angle| !angle.is_nan()).unwrap();
-    let recipe = case.recipe(1e3, 1.0, case.rest_per_hinge(0.05, 1));
-    let recipe = Recipe { facets: case.facets(2.0), locks: vec![(lock, case.angles[lock])], ..recipe };
-    let state = case.relax(&recipe).unwrap().state;
+    let case = patch("quad-cell", [2, 2]);
+    let lock = case.drawn_angles().iter().position(|angle| !angle.is_nan()).unwrap();
+    let terms = Terms::bars_and_creases(1e3, 1.0, case.rest_per_hinge(0.05, 1));
+    let terms = Terms { facets: case.facets(2.0), locks: vec![(lock, case.drawn_angles()[lock])], ..terms };
+    let state = case.relax(&terms).unwrap().state;
     assert!(state.energy_bars > 0.0 && state.energy_creases > 0.0 && state.energy_facets > 0.0);
     assert_relative_eq!(state.total(), state.energy.iter().sum::<f64>(), max_relative = 1e-13);
 }
@@ -223,9 +223,9 @@ fn rank_zero_is_an_answer() {
 /// can give as many as are wanted the scene is refused with the bound, before anything is written.
 #[test]
 fn too_many_eigenvalues() {
-    let case = Case::patch("open-star", [10, 11]);
-    let recipe = case.recipe(f64::INFINITY, 1.0, case.angles.clone());
-    let found = case.modes(&recipe, 1000).unwrap();
+    let case = patch("open-star", [10, 11]);
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.drawn_angles().to_vec());
+    let found = case.modes_of(&terms, 1000).unwrap();
     assert_eq!(found.eigenvalues.len(), found.zero_modes);
     assert!(decomposed_dense(1320, 3000, 3000).unwrap() && !decomposed_dense(1320, 24, 1320).unwrap());
     assert!(!decomposed_dense(4800, SPARSE_EIGENVALUES, 4800).unwrap());

@@ -4,34 +4,32 @@
 mod common;
 
 use approx::abs_diff_eq;
-use common::{Case, Numbers, eigenvalues, energy_hessian, linearized, mesh};
+use common::{Numbers, Testing, eigenvalues, energy_hessian, linearized, mesh, on, patch};
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::model::{Gauge, Model};
 use foldwell::sheet::generate::{MiuraPatch, Pattern, Random};
 use foldwell::sheet::{EdgeKind, Sheet, generate};
 use foldwell::solver::Problem;
 use nalgebra::Rotation3;
 
-const DOMAINS: [Surroundings; 4] =
-    [Surroundings::Patch, Surroundings::FixedTorus, Surroundings::FreeTorus, Surroundings::Screw];
+const DOMAINS: [Boundary; 4] = [Boundary::Patch, Boundary::FixedTorus, Boundary::FreeTorus, Boundary::Screw];
 
 fn random_sheet(seed: u64) -> Sheet {
     generate(&Pattern::Random(Random { seed, ..Random::default() })).unwrap()
 }
 
 /// Bars of stiffness 1000 and creases of stiffness 1 at rest as drawn; nothing held, not even vertex 0 of a screw.
-fn free_model(sheet: Sheet, cells: [usize; 2], surroundings: Surroundings) -> Model {
-    let mut case = Case::new(sheet, cells, surroundings);
-    case.drawn.held.clear();
-    let recipe = case.recipe(1e3, 1.0, case.angles.clone());
-    case.model(&recipe, Gauge::Free)
+fn free_model(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Model {
+    let case = on(sheet, cells, boundary).with_free_coordinates();
+    let terms = Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec());
+    case.model_of(&terms, Gauge::Free)
 }
 
 /// A strained state, for a screw a curved one.
-fn strained(model: &Model, surroundings: Surroundings, numbers: &mut Numbers) -> Vec<f64> {
+fn strained(model: &Model, boundary: Boundary, numbers: &mut Numbers) -> Vec<f64> {
     let mut x: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.03)).collect();
-    if surroundings == Surroundings::Screw {
+    if boundary == Boundary::Screw {
         let kappa = x.len() - 5;
         x[kappa] = 0.2 + numbers.within(0.1);
     }
@@ -48,12 +46,12 @@ fn pull(model: &Model, x: &[f64]) -> (Vec<f64>, f64) {
     let gaps = linearized(model, x, &vec![0.0; model.layout().stiff.len()]).gaps;
     let tension: Vec<f64> = gaps.iter().zip(model.compliance()).map(|(gap, c)| gap / c).collect();
     let at = linearized(model, x, &tension);
-    (at.force(model.layout(), &tension).iter().map(|f| -f).collect(), at.largest_force)
+    (at.force(&tension).iter().map(|f| -f).collect(), at.largest_force)
 }
 
 /// The coordinates turned and moved; lattice vectors are only turned.
-fn moved(surroundings: Surroundings, x: &[f64], turn: &Rotation3<f64>, shift: Vec3) -> Vec<f64> {
-    let lattice = if surroundings == Surroundings::FreeTorus { x.len() - 6 } else { x.len() };
+fn moved(boundary: Boundary, x: &[f64], turn: &Rotation3<f64>, shift: Vec3) -> Vec<f64> {
+    let lattice = if boundary == Boundary::FreeTorus { x.len() - 6 } else { x.len() };
     let one = |(k, p): (usize, &[f64])| {
         let p = turn * Vec3::from_column_slice(p);
         <[f64; 3]>::from(if 3 * k < lattice { p + shift } else { p })
@@ -66,22 +64,22 @@ fn moved(surroundings: Surroundings, x: &[f64], turn: &Rotation3<f64>, shift: Ve
 /// the stiffness of the bars, over the energy or the largest force: 1e-15 * 10 * 1e3 / 10.
 #[test]
 fn energy_and_forces_move_with_the_sheet() {
-    for surroundings in &DOMAINS[..3] {
+    for boundary in &DOMAINS[..3] {
         for seed in 0..5 {
             let mut numbers = Numbers::new(seed);
-            let model = free_model(random_sheet(seed), [2, 2], *surroundings);
-            let x = strained(&model, *surroundings, &mut numbers);
-            let turn = match surroundings {
-                Surroundings::FixedTorus => Rotation3::identity(),
+            let model = free_model(random_sheet(seed), [2, 2], *boundary);
+            let x = strained(&model, *boundary, &mut numbers);
+            let turn = match boundary {
+                Boundary::FixedTorus => Rotation3::identity(),
                 _ => Rotation3::new(Vec3::from_column_slice(&numbers.many(3, 3.0))),
             };
-            let y = moved(*surroundings, &x, &turn, Vec3::from_column_slice(&numbers.many(3, 10.0)));
+            let y = moved(*boundary, &x, &turn, Vec3::from_column_slice(&numbers.many(3, 10.0)));
             let (before, after) = (total_energy(&model, &x), total_energy(&model, &y));
-            assert!(abs_diff_eq!(before, after, epsilon = 1e-12 * before), "{surroundings:?}: {before} {after}");
+            assert!(abs_diff_eq!(before, after, epsilon = 1e-12 * before), "{boundary:?}: {before} {after}");
             let ((at_x, largest), (at_y, _)) = (pull(&model, &x), pull(&model, &y));
-            let expected = moved(*surroundings, &at_x, &turn, Vec3::zeros());
+            let expected = moved(*boundary, &at_x, &turn, Vec3::zeros());
             let off = common::distance(&expected, &at_y) / largest;
-            assert!(off < 1e-12, "{surroundings:?}, seed {seed}: {off:e}");
+            assert!(off < 1e-12, "{boundary:?}, seed {seed}: {off:e}");
         }
     }
 }
@@ -92,8 +90,8 @@ fn energy_and_forces_move_with_the_sheet() {
 fn a_screw_keeps_its_energy() {
     for seed in 0..8 {
         let mut numbers = Numbers::new(seed);
-        let model = free_model(random_sheet(seed), [1, 1], Surroundings::Screw);
-        let x = strained(&model, Surroundings::Screw, &mut numbers);
+        let model = free_model(random_sheet(seed), [1, 1], Boundary::Screw);
+        let x = strained(&model, Boundary::Screw, &mut numbers);
         let before = total_energy(&model, &x);
         let (vertices, shared) = x.split_at(x.len() - 6);
         let (kappa, plane) = (shared[1], Rotation3::new(Vec3::z() * numbers.within(3.0)));
@@ -128,15 +126,11 @@ fn a_screw_keeps_its_energy() {
 /// total torque, on a screw no force along the axis and no torque about it. Tolerance: rounding of sums.
 #[test]
 fn forces_balance() {
-    for surroundings in DOMAINS {
-        let model = free_model(
-            random_sheet(3),
-            if surroundings == Surroundings::Screw { [1, 1] } else { [3, 2] },
-            surroundings,
-        );
-        let x = strained(&model, surroundings, &mut Numbers::new(3));
+    for boundary in DOMAINS {
+        let model = free_model(random_sheet(3), if boundary == Boundary::Screw { [1, 1] } else { [3, 2] }, boundary);
+        let x = strained(&model, boundary, &mut Numbers::new(3));
         let (force, largest) = pull(&model, &x);
-        let screw = surroundings == Surroundings::Screw;
+        let screw = boundary == Boundary::Screw;
         let vertices = x.len() - model.domain().shared();
         let sum: Vec3 = force[..vertices].chunks(3).map(Vec3::from_column_slice).sum();
         let lattice = if screw { vertices } else { x.len() };
@@ -145,15 +139,15 @@ fn forces_balance() {
         };
         let torque: Vec3 =
             (0..lattice).step_by(3).map(|k| arm(k).cross(&Vec3::from_column_slice(&force[k..k + 3]))).sum();
-        let zeros: Vec<f64> = match surroundings {
-            Surroundings::Screw => {
+        let zeros: Vec<f64> = match boundary {
+            Boundary::Screw => {
                 let way = Vec3::new(x[vertices].cos(), x[vertices].sin(), 0.0);
                 vec![sum.dot(&way), torque.dot(&way)]
             }
-            Surroundings::FixedTorus => sum.iter().copied().collect(),
+            Boundary::FixedTorus => sum.iter().copied().collect(),
             _ => sum.iter().chain(&torque).copied().collect(),
         };
-        assert!(zeros.iter().all(|z| z.abs() < 1e-12 * largest), "{surroundings:?}: {zeros:?} of {largest}");
+        assert!(zeros.iter().all(|z| z.abs() < 1e-12 * largest), "{boundary:?}: {zeros:?} of {largest}");
     }
 }
 
@@ -162,21 +156,17 @@ fn forces_balance() {
 /// Two eigenvalue solvers: nalgebra's on a matrix assembled here, and the program's.
 #[test]
 fn zeros_of_the_hessian_are_rigid_motions() {
-    for (surroundings, expected) in [(DOMAINS[0], 6), (DOMAINS[1], 3), (DOMAINS[2], 6)] {
+    for (boundary, expected) in [(DOMAINS[0], 6), (DOMAINS[1], 3), (DOMAINS[2], 6)] {
         for seed in 0..4 {
-            let case = Case::new(random_sheet(seed), [2, 2], surroundings);
-            let recipe = case.recipe(1e3, 1.0, case.angles.clone());
-            let model = case.model(&recipe, Gauge::Free);
+            let case = on(random_sheet(seed), [2, 2], boundary);
+            let terms = Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec());
+            let model = case.model_of(&terms, Gauge::Free);
             let values = eigenvalues(energy_hessian(&model, &model.start()));
             let largest = values[values.len() - 1];
             let zeros = values.iter().filter(|v| v.abs() < 1e-12 * largest).count();
-            assert_eq!(zeros, expected, "{surroundings:?}, seed {seed}: {:e}", values[expected] / largest);
-            assert!(
-                values[expected] > 1e-6 * largest,
-                "{surroundings:?}, seed {seed}: {:e}",
-                values[expected] / largest
-            );
-            let modes = case.modes(&recipe, values.len()).unwrap();
+            assert_eq!(zeros, expected, "{boundary:?}, seed {seed}: {:e}", values[expected] / largest);
+            assert!(values[expected] > 1e-6 * largest, "{boundary:?}, seed {seed}: {:e}", values[expected] / largest);
+            let modes = case.modes_of(&terms, values.len()).unwrap();
             assert_eq!(modes.rigid_motions, expected);
             let off = common::distance(&modes.eigenvalues, &values) / largest;
             assert!(off < 1e-13, "{off:e}");
@@ -190,23 +180,23 @@ fn zeros_of_the_hessian_are_rigid_motions() {
 #[test]
 fn what_is_held_is_what_costs_nothing() {
     let pinned = |vertices: &[usize]| vertices.iter().map(|v| (*v, [true; 3])).collect::<Vec<_>>();
-    for (surroundings, pins, expected) in [
-        (Surroundings::Patch, vec![], 6),
-        (Surroundings::Patch, pinned(&[5]), 3),
-        (Surroundings::Patch, pinned(&[0, 5, 10]), 0),
-        (Surroundings::FixedTorus, vec![], 3),
-        (Surroundings::FreeTorus, vec![], 6),
+    for (boundary, pins, expected) in [
+        (Boundary::Patch, vec![], 6),
+        (Boundary::Patch, pinned(&[5]), 3),
+        (Boundary::Patch, pinned(&[0, 5, 10]), 0),
+        (Boundary::FixedTorus, vec![], 3),
+        (Boundary::FreeTorus, vec![], 6),
     ] {
-        let case = Case::new(random_sheet(2), [2, 2], surroundings);
-        let recipe = Recipe { pins, ..case.recipe(1e3, 1.0, case.angles.clone()) };
-        let [free, held] = [Gauge::Free, Gauge::Held].map(|gauge| case.model(&recipe, gauge));
-        assert_eq!(free.layout().unknowns - held.layout().unknowns, expected, "{surroundings:?}");
+        let case = on(random_sheet(2), [2, 2], boundary);
+        let terms = Terms { pins, ..Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec()) };
+        let [free, held] = [Gauge::Free, Gauge::Held].map(|gauge| case.model_of(&terms, gauge));
+        assert_eq!(free.layout().unknowns - held.layout().unknowns, expected, "{boundary:?}");
         let values = eigenvalues(energy_hessian(&held, &held.start()));
-        assert!(values[0] > 1e-7 * values[values.len() - 1], "{surroundings:?}: {:e}", values[0]);
+        assert!(values[0] > 1e-7 * values[values.len() - 1], "{boundary:?}: {:e}", values[0]);
     }
-    let case = Case::new(random_sheet(2), [1, 1], Surroundings::Screw);
-    let held = case.model(&case.recipe(1e3, 1.0, case.angles.clone()), Gauge::Held);
-    assert_eq!(held.layout().unknowns, 3 * (case.sheet.vertices.len() - 1) + 5);
+    let case = on(random_sheet(2), [1, 1], Boundary::Screw);
+    let held = case.model_of(&Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec()), Gauge::Held);
+    assert_eq!(held.layout().unknowns, 3 * (case.sheet().vertices.len() - 1) + 5);
 }
 
 /// Claim: `[zero modes, self stresses, Maxwell count, rigid motions]` of the bars alone of generic random cells, with
@@ -215,17 +205,17 @@ fn what_is_held_is_what_costs_nothing() {
 #[test]
 fn modes_of_generic_periodic_bars() {
     for (seed, size) in [(1, [2, 2]), (2, [2, 3]), (3, [3, 3]), (4, [2, 2])] {
-        for (surroundings, cells, expected) in [
-            (Surroundings::FixedTorus, [1, 1], (3, 3, 0, 3)),
-            (Surroundings::FreeTorus, [1, 1], (6, 0, 6, 6)),
-            (Surroundings::Screw, [1, 1], (2, 0, 2, 0)),
+        for (boundary, cells, expected) in [
+            (Boundary::FixedTorus, [1, 1], (3, 3, 0, 3)),
+            (Boundary::FreeTorus, [1, 1], (6, 0, 6, 6)),
+            (Boundary::Screw, [1, 1], (2, 0, 2, 0)),
         ] {
             let sheet = generate(&Pattern::Random(Random { seed, size, ..Random::default() })).unwrap();
-            let case = Case::new(sheet, cells, surroundings);
-            let found = case.modes(&Recipe { bars: Some(1.0), ..Recipe::default() }, 0).unwrap();
+            let case = on(sheet, cells, boundary);
+            let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
             let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
-            assert_eq!(counts, expected, "{surroundings:?}, seed {seed}");
-            assert!(found.gap.unwrap() > 1e6, "{surroundings:?}, seed {seed}: gap {:?}", found.gap);
+            assert_eq!(counts, expected, "{boundary:?}, seed {seed}");
+            assert!(found.gap.unwrap() > 1e6, "{boundary:?}, seed {seed}: gap {:?}", found.gap);
         }
     }
 }
@@ -236,13 +226,14 @@ fn modes_of_generic_periodic_bars() {
 #[test]
 fn modes_of_patches() {
     for cells in [[2, 2], [3, 3], [4, 4], [6, 6], [7, 7], [1, 5], [2, 9]] {
-        let case = Case::patch("open-star", cells);
-        let sides =
-            |wings: usize| case.tiling.edges.iter().filter(|edge| edge.wings.iter().flatten().count() == wings).count();
+        let case = patch("open-star", cells);
+        let sides = |wings: usize| {
+            case.tiling().edges.iter().filter(|edge| edge.wings.iter().flatten().count() == wings).count()
+        };
         let (loose, rim) = (sides(0), sides(1));
-        let found = case.modes(&Recipe { bars: Some(1.0), ..Recipe::default() }, 0).unwrap();
+        let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
         assert_eq!((found.zero_modes, found.self_stresses), (rim + 3 + 2 * loose, 0), "{cells:?}, {loose} loose bars");
-        let columns = 3 * case.tiling.positions.len() as i64;
+        let columns = 3 * case.tiling().positions.len() as i64;
         assert_eq!((found.maxwell_count, found.rigid_motions), (columns - case.edges() as i64, 6));
         if loose == 0 {
             assert_eq!(found.folding_modes, Some(rim - 3), "{cells:?}");
@@ -250,20 +241,20 @@ fn modes_of_patches() {
     }
 }
 
-fn miura(fold: f64) -> Case {
+fn miura(fold: f64) -> Assembly {
     let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, fold, ..MiuraPatch::default() });
-    Case::new(generate(&pattern).unwrap(), [1, 1], Surroundings::Patch)
+    on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
 }
 
 /// Claim: Miura-ori of 5 x 5 cells, bars alone, diagonals included: V = 121, 40 vertices on its rim; folded
 /// 6 + 40 - 3 = 43 zero modes and no self stress, flat V + 3 = 124 and as many self stresses as inner vertices, 81.
 #[test]
 fn modes_of_miura_flat_and_folded() {
-    let bars = Recipe { bars: Some(1.0), ..Recipe::default() };
+    let bars = Terms { bars: Some(1.0), ..Terms::default() };
     for (fold, expected) in [(0.0, (124, 81)), (std::f64::consts::PI / 12.0, (43, 0))] {
         let case = miura(fold);
-        assert_eq!(case.tiling.positions.len(), 121);
-        let found = case.modes(&bars, 0).unwrap();
+        assert_eq!(case.tiling().positions.len(), 121);
+        let found = case.modes_of(&bars, 0).unwrap();
         assert_eq!((found.zero_modes, found.self_stresses), expected, "fold {fold}");
         assert_eq!(found.maxwell_count, 43);
     }
@@ -275,8 +266,8 @@ fn modes_of_miura_flat_and_folded() {
 fn modes_of_miura_with_rigid_quadrilaterals() {
     let case = miura(std::f64::consts::PI / 12.0);
     assert_eq!((case.edges(), case.count(EdgeKind::Facet)), (320, 100));
-    let recipe = Recipe { bars: Some(1.0), facets: case.facets(f64::INFINITY), ..Recipe::default() };
-    let found = case.modes(&recipe, 0).unwrap();
+    let terms = Terms { bars: Some(1.0), facets: case.facets(f64::INFINITY), ..Terms::default() };
+    let found = case.modes_of(&terms, 0).unwrap();
     assert_eq!((found.zero_modes, found.self_stresses, found.folding_modes), (7, 64, Some(1)));
 }
 
@@ -289,9 +280,9 @@ fn counts_are_invariant() {
     sheet.vertices.iter_mut().for_each(|p| *p = change(p));
     let lattice = sheet.lattice.unwrap().map(|l| turn * l * 1e3);
     sheet.lattice = Some(lattice);
-    for (surroundings, expected) in [(DOMAINS[1], (3, 3)), (DOMAINS[2], (6, 0)), (DOMAINS[3], (2, 0))] {
-        let case = Case::new(sheet.clone(), [1, 1], surroundings);
-        let found = case.modes(&Recipe { bars: Some(1.0), ..Recipe::default() }, 0).unwrap();
-        assert_eq!((found.zero_modes, found.self_stresses), expected, "{surroundings:?}");
+    for (boundary, expected) in [(DOMAINS[1], (3, 3)), (DOMAINS[2], (6, 0)), (DOMAINS[3], (2, 0))] {
+        let case = on(sheet.clone(), [1, 1], boundary);
+        let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+        assert_eq!((found.zero_modes, found.self_stresses), expected, "{boundary:?}");
     }
 }

@@ -1,10 +1,13 @@
 //! Sheets that go through themselves, and sheets that only touch themselves, where one can say which is which.
 #![allow(clippy::unwrap_used)] // tests, also their helpers, may fail
 
+mod common;
+
+use common::on;
 use foldwell::analysis::intersections::{Crossings, Finder, LYING, Marks, SelfIntersection, crossings, first_crossing};
 use foldwell::analysis::state::State;
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Drawn, Surroundings};
+use foldwell::model::{Boundary, Drawn};
 use foldwell::sheet::{Sheet, Tiling, fold, tile};
 use rand::{RngExt, SeedableRng};
 use std::convert::Infallible;
@@ -151,10 +154,10 @@ struct Case {
 }
 
 impl Case {
-    fn new(sheet: &Sheet, cells: [usize; 2], surroundings: Surroundings, shown: [usize; 2]) -> Self {
-        let tiling = tile(sheet, cells, surroundings != Surroundings::Patch);
-        let drawn = Drawn::new(sheet, &tiling, surroundings);
-        Self { check: SelfIntersection::new(sheet, &tiling, surroundings, shown), drawn, tiling }
+    fn new(sheet: &Sheet, cells: [usize; 2], boundary: Boundary, shown: [usize; 2]) -> Self {
+        let cells = if boundary == Boundary::Screw { shown } else { cells };
+        let drawn = on(sheet.clone(), cells, boundary);
+        Self { check: SelfIntersection::new(&drawn), drawn: drawn.drawn().clone(), tiling: drawn.tiling().clone() }
     }
 
     /// The marks of a state with these coordinates and, all over, this fold angle.
@@ -171,7 +174,7 @@ impl Case {
 fn a_hinge_beyond_pi() {
     let text = r#"{"vertices_coords": [[0, 0, 0], [0, 1, 0], [-1, 0.5, 0], [1, 0.5, 0]], "faces_vertices": [[0, 1, 2], [1, 0, 3]]}"#;
     let sheet = fold::parse(text, "hinge.fold").unwrap();
-    let mut hinge = Case::new(&sheet, [1, 1], Surroundings::Patch, [1, 1]);
+    let mut hinge = Case::new(&sheet, [1, 1], Boundary::Patch, [1, 1]);
     for (angle, crossing) in
         [(0.0, false), (3.0, false), (PI, false), (PI + 1e-12, false), (3.2, true), (-3.2, true), (6.9, true)]
     {
@@ -193,7 +196,7 @@ fn a_tube_closes_on_itself() {
     let text = std::fs::read_to_string("meshes/random-developable.fold").unwrap();
     let sheet = fold::parse(&text, "random-developable.fold").unwrap();
     for n in [6, 9, 20] {
-        let mut tube = Case::new(&sheet, [1, 1], Surroundings::Screw, [10, n]);
+        let mut tube = Case::new(&sheet, [1, 1], Boundary::Screw, [10, n]);
         for (turns, crossing) in [(0.0, false), (0.5, false), (0.999, false), (1.0 + 0.5 / n as f64, true)] {
             let mut x = tube.drawn.coordinates.clone();
             let shared = x.len() - 5;
@@ -206,8 +209,8 @@ fn a_tube_closes_on_itself() {
 }
 
 /// Cells of the star, vertex 1 of each moved on by `push` towards the next cell, laid out as a patch, periodic, or as a screw.
-fn pushed(sheet: &Sheet, cells: [usize; 2], surroundings: Surroundings, push: f64) -> Case {
-    let mut case = Case::new(sheet, cells, surroundings, [5, 5]);
+fn pushed(sheet: &Sheet, cells: [usize; 2], boundary: Boundary, push: f64) -> Case {
+    let mut case = Case::new(sheet, cells, boundary, [5, 5]);
     let [l1, l2] = sheet.lattice.unwrap();
     let way = case.drawn.frame * (l1 + 0.5 * l2 - Vec3::z()) * push;
     let vertices = case.drawn.coordinates.len() - case.drawn.domain.shared();
@@ -224,13 +227,13 @@ fn pushed(sheet: &Sheet, cells: [usize; 2], surroundings: Surroundings, push: f6
 fn cells_are_held_against_their_neighbours() {
     let sheet = fold::parse(include_str!("cases/open-star.fold"), "open-star.fold").unwrap();
     for push in [0.0, 0.2, 0.5] {
-        let marks = |cells: [usize; 2], surroundings: Surroundings| {
-            let mut case = pushed(&sheet, cells, surroundings, push);
+        let marks = |cells: [usize; 2], boundary: Boundary| {
+            let mut case = pushed(&sheet, cells, boundary, push);
             (case.marks(case.drawn.coordinates.clone(), 0.0), case.tiling)
         };
-        let (laid_out, tiling) = marks([5, 5], Surroundings::Patch);
+        let (laid_out, tiling) = marks([5, 5], Boundary::Patch);
         assert_eq!(laid_out.any, push > 0.4, "{push}");
-        let (rolled, complete) = (marks([1, 1], Surroundings::Screw).0, tile(&sheet, [5, 5], true).triangles);
+        let (rolled, complete) = (marks([1, 1], Boundary::Screw).0, tile(&sheet, [5, 5], true).triangles);
         assert_eq!((rolled.any, rolled.faces.len()), (laid_out.any, complete.len()), "{push}");
         for (t, laid_out) in
             tiling.triangles.iter().zip(&laid_out.faces).filter(|(t, _)| t.cell.map(|c| c % 4 != 0) == [true; 2])
@@ -242,9 +245,9 @@ fn cells_are_held_against_their_neighbours() {
             let at = tiling.triangles.iter().position(|t| t.triangle == triangle && t.cell == [2, 2]);
             laid_out.faces[at.unwrap()]
         };
-        for surroundings in [Surroundings::FreeTorus, Surroundings::FixedTorus] {
-            let (found, _) = marks([1, 1], surroundings);
-            assert_eq!(found.any, laid_out.any, "{surroundings:?} {push}");
+        for boundary in [Boundary::FreeTorus, Boundary::FixedTorus] {
+            let (found, _) = marks([1, 1], boundary);
+            assert_eq!(found.any, laid_out.any, "{boundary:?} {push}");
             let drawn = tile(&sheet, [1, 1], true).triangles;
             assert_eq!(found.faces, drawn.iter().map(|t| middle(t.triangle)).collect::<Vec<_>>(), "{push}");
         }

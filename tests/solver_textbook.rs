@@ -67,7 +67,7 @@ fn redundant_conditions_share_the_tension() {
     assert!(found.x.iter().all(|x| (x - 1.0).abs() < 1e-12), "{:?}", found.x);
     let settled = settle(&problem, &found);
     assert_eq!(settled.self_stresses, Some(2));
-    assert!(settled.residual_force <= 1e-12 && settled.residual_length <= 1e-12);
+    assert!(settled.residuals.force <= 1e-12 && settled.residuals.length <= 1e-12);
     for (tension, expected) in settled.tension.iter().zip([-1.0 / 6.0, -1.0 / 6.0, -1.0 / 3.0]) {
         assert!((tension - expected).abs() < 1e-12, "{:?}", settled.tension);
     }

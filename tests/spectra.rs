@@ -4,8 +4,8 @@
 mod common;
 
 use approx::abs_diff_eq;
-use common::{Case, distance};
-use foldwell::model::assemble::Surroundings;
+use common::{Testing, distance, on, patch};
+use foldwell::model::{Boundary, Terms};
 use foldwell::sheet::generate;
 use foldwell::sheet::generate::{MiuraPatch, Pattern};
 
@@ -15,10 +15,10 @@ use foldwell::sheet::generate::{MiuraPatch, Pattern};
 #[test]
 fn the_spectrum_of_a_published_program() {
     let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, ..MiuraPatch::default() });
-    let case = Case::new(generate(&pattern).unwrap(), [1, 1], Surroundings::Patch);
-    let mut recipe = case.recipe(1000.0, 0.1, case.angles.clone());
-    recipe.facets = case.facets(1.0);
-    let found = case.modes(&recipe, 363).unwrap().eigenvalues;
+    let case = on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch);
+    let mut terms = Terms::bars_and_creases(1000.0, 0.1, case.drawn_angles().to_vec());
+    terms.facets = case.facets(1.0);
+    let found = case.modes_of(&terms, 363).unwrap().eigenvalues;
     assert_eq!(found.len(), 363);
     assert!(found[..6].iter().all(|value| value.abs() < 1e-11), "{:?}", &found[..6]);
     let expected = [5.97381064e-3, 6.94778873e-3, 2.88042394e-2, 4.28524374e-2];
@@ -31,8 +31,10 @@ fn the_spectrum_of_a_published_program() {
 /// differ from those at EA = 1e5 and 1e6 by amounts that fall as 1/k.
 #[test]
 fn rigid_spectra_are_the_limit_of_stiff_ones() {
-    let case = Case::patch("open-star", [3, 3]);
-    let spectrum = |bars: f64| case.modes(&case.recipe(bars, 1.0, case.angles.clone()), 10).unwrap().eigenvalues;
+    let case = patch("open-star", [3, 3]);
+    let spectrum = |bars: f64| {
+        case.modes_of(&Terms::bars_and_creases(bars, 1.0, case.drawn_angles().to_vec()), 10).unwrap().eigenvalues
+    };
     let rigid = spectrum(f64::INFINITY);
     let off = [1e5, 1e6].map(|bars| distance(&spectrum(bars)[6..], &rigid[6..]));
     assert!(off[0] < 1e-2 * rigid[9] && abs_diff_eq!(off[0] / off[1], 10.0, epsilon = 0.5), "{off:?} of {}", rigid[9]);

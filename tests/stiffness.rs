@@ -4,20 +4,20 @@
 mod common;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use common::{Case, Numbers, distance, jacobian, linearized};
-use foldwell::analysis::relax::{Relaxed, relax};
-use foldwell::model::assemble::Surroundings;
-use foldwell::model::{Gauge, Model};
-use foldwell::solver::saddle::{Saddle, Solved};
+use common::{Numbers, Testing, distance, jacobian, linearized, on, patch};
+use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::model::Boundary;
+use foldwell::model::{Assembly, Gauge, Model, Terms};
+use foldwell::solver::kkt::{Increment, KktSystem};
 use foldwell::solver::{Linearization, Options, Problem};
 use nalgebra::DVector;
 
 const STIFFNESSES: [f64; 9] = [1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16, f64::INFINITY];
 /// Relaxed sheets of `n` x `n` cells at all stiffnesses; each within so many iterations and to 1e-12.
-fn sweep(n: usize, rest: impl Fn(&Case) -> Vec<f64>, most: usize) -> Vec<Relaxed> {
-    let case = Case::patch("open-star", [n, n]);
+fn sweep(n: usize, rest: impl Fn(&Assembly) -> Vec<f64>, most: usize) -> Vec<Relaxed> {
+    let case = patch("open-star", [n, n]);
     let rest = rest(&case);
-    let run = |k: f64| match case.relax(&case.recipe(k, 1.0, rest.clone())) {
+    let run = |k: f64| match case.relax(&Terms::bars_and_creases(k, 1.0, rest.clone())) {
         Ok(found) => {
             println!(
                 "n = {n}, k = {k:e}: {} iterations, {} factorizations, residuals {:.1e} {:.1e}, energy {:.10}, negative {}",
@@ -61,12 +61,12 @@ fn scaled_distances(n: usize, found: &[Relaxed]) -> Vec<f64> {
 /// Which minimum each stiffness found: made rigid from where it is, the sheet goes to the rigid run's state or to
 /// another one. Printed, with the energy over the rigid run's.
 fn report_minima(n: usize, rest: Vec<f64>, found: &[Relaxed]) {
-    let case = Case::patch("open-star", [n, n]);
+    let case = patch("open-star", [n, n]);
     let rigid = &found[found.len() - 1].state;
     for (k, found) in STIFFNESSES.iter().zip(found).filter(|(k, _)| **k < 1e8) {
-        let mut model = case.model(&case.recipe(f64::INFINITY, 1.0, rest.clone()), Gauge::Held);
+        let mut model = case.model_of(&Terms::bars_and_creases(f64::INFINITY, 1.0, rest.clone()), Gauge::Held);
         let start = model.start_from(found.state.coordinates.clone());
-        let made_rigid = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true);
+        let made_rigid = relax_from(&mut model, start, Options::default(), &mut |_| true);
         let which = match made_rigid.map(|made_rigid| distance(&made_rigid.state.fold_angle, &rigid.fold_angle)) {
             Ok(off) if off < 1e-6 => "the one next to the rigid sheet".to_owned(),
             Ok(off) => format!("another one: made rigid it is {off:.2e} away from the rigid sheet"),
@@ -76,9 +76,9 @@ fn report_minima(n: usize, rest: Vec<f64>, found: &[Relaxed]) {
     }
 }
 
-fn six_by_six(rest: impl Fn(&Case) -> Vec<f64>) {
+fn six_by_six(rest: impl Fn(&Assembly) -> Vec<f64>) {
     let found = sweep(6, &rest, 12);
-    report_minima(6, rest(&Case::patch("open-star", [6, 6])), &found);
+    report_minima(6, rest(&patch("open-star", [6, 6])), &found);
     let scaled = scaled_distances(6, &found);
     assert!(abs_diff_eq!(scaled[4] / scaled[5], 1.0, epsilon = 0.01), "1e10: {}, 1e12: {}", scaled[4], scaled[5]);
     assert!(scaled[5] > 1.0, "a distance that is no rounding error");
@@ -103,9 +103,9 @@ fn six_cells_a_side_per_hinge() {
 }
 
 fn large(n: usize) {
-    let rest = |case: &Case| case.rest_per_hinge(0.1, 1);
+    let rest = |case: &Assembly| case.rest_per_hinge(0.1, 1);
     let found = sweep(n, rest, 25);
-    report_minima(n, rest(&Case::patch("open-star", [n, n])), &found);
+    report_minima(n, rest(&patch("open-star", [n, n])), &found);
     scaled_distances(n, &found);
 }
 
@@ -132,10 +132,10 @@ fn forty_eight_cells_a_side() {
 /// factorizations than steps, to the same residuals, and each minimum is known as one.
 #[test]
 fn last_steps_share_a_factorization() {
-    let case = Case::patch("open-star", [12, 12]);
+    let case = patch("open-star", [12, 12]);
     let (mut iterations, mut factorizations) = (0, 0);
     for seed in 1..7 {
-        let found = case.relax(&case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(0.02, seed))).unwrap();
+        let found = case.relax(&Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.02, seed))).unwrap();
         println!("{seed}: {} steps, {} factorizations", found.iterations, found.factorizations);
         assert!(found.residual_force <= 1e-12 && found.residual_length <= 1e-12);
         assert_eq!(found.negative_eigenvalues, 0);
@@ -149,10 +149,10 @@ fn last_steps_share_a_factorization() {
 #[test]
 fn scale_does_not_matter() {
     let run = |scale: f64| {
-        let case = Case::new(common::scaled(common::mesh("open-star"), scale), [4, 4], Surroundings::Patch);
+        let case = on(common::scaled(common::mesh("open-star"), scale), [4, 4], Boundary::Patch);
         let rest = case.rest_per_hinge(0.1, 5);
         // bars EA/L0 dL^2 ~ scale, creases kc L0 drho^2 ~ scale: the same ratio at the same EA and kc L0^0
-        case.relax(&case.recipe(1e5, 1.0, rest)).unwrap()
+        case.relax(&Terms::bars_and_creases(1e5, 1.0, rest)).unwrap()
     };
     let (small, big) = (run(1.0), run(1024.0));
     assert_eq!(small.iterations, big.iterations);
@@ -162,7 +162,7 @@ fn scale_does_not_matter() {
 
 /// The residuals of both rows of the system of a step, by dense matrices and as the solver measures them: of forces over `a`, of
 /// stretches over `b` and a hundred lengths of the step.
-fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: Solved) -> [f64; 2] {
+fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: Increment) -> [f64; 2] {
     let [a, b] = [a, b].map(DVector::from_column_slice);
     let [dx, dt] = [found.dx, found.dt].map(DVector::from_vec);
     let (hessian, rows) = (at.pattern().to_dense(&at.hessian), jacobian(model, at));
@@ -176,20 +176,20 @@ fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: 
 /// matrix is that of the system. Tolerance: 1e-9 was asked for.
 #[test]
 fn steps_are_solved_at_every_stiffness() {
-    let case = Case::patch("open-star", [4, 4]);
+    let case = patch("open-star", [4, 4]);
     for k in STIFFNESSES {
-        let model = case.model(&case.recipe(k, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
+        let model = case.model_of(&Terms::bars_and_creases(k, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
         let (layout, compliance) = (model.layout(), model.compliance());
         let at = linearized(&model, &model.start(), &vec![0.0; layout.stiff.len()]);
-        let mut saddle = Saddle::new(layout, &at).unwrap();
-        saddle.factor(layout, &at, compliance, 0.0).unwrap();
+        let mut system = KktSystem::new(layout).unwrap();
+        system.factor(&at, compliance, 0.0).unwrap();
         let mut numbers = Numbers::new(3);
         let [a, b] = [layout.unknowns, layout.stiff.len()].map(|count| numbers.many(count, 1.0));
-        let found = saddle.solve(layout, &at, compliance, (&a, &b), 1e-9);
+        let found = system.solve(&at, &a, &b, 1e-9);
         let left = unsolved(&model, &at, (&a, &b), found);
-        println!("k = {k:e}: {} solves, residuals {left:?}", saddle.solves);
+        println!("k = {k:e}: {} solves, residuals {left:?}", system.solves);
         assert!(left.iter().all(|left| *left <= 2e-9), "k = {k:e}: {left:?}");
-        assert!(saddle.solves <= if k <= 1e4 { 1 } else { 10 }, "k = {k:e}: {} solves", saddle.solves);
+        assert!(system.solves <= if k <= 1e4 { 1 } else { 10 }, "k = {k:e}: {} solves", system.solves);
     }
 }
 
@@ -199,12 +199,12 @@ fn steps_are_solved_at_every_stiffness() {
 /// Tolerance: 1e-9 was asked for.
 #[test]
 fn steps_are_solved_where_the_factorization_is_wrong_for_a_few_motions() {
-    let case = Case::patch("open-star", [4, 4]);
-    let model = case.model(&case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
+    let case = patch("open-star", [4, 4]);
+    let model = case.model_of(&Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.1, 1)), Gauge::Held);
     let (layout, compliance) = (model.layout(), model.compliance());
     let mut at = linearized(&model, &model.start(), &vec![0.0; layout.stiff.len()]);
-    let mut saddle = Saddle::new(layout, &at).unwrap();
-    saddle.factor(layout, &at, compliance, 0.0).unwrap();
+    let mut system = KktSystem::new(layout).unwrap();
+    system.factor(&at, compliance, 0.0).unwrap();
     let wrong = 4;
     for unknown in (1..=wrong).map(|k| k * layout.unknowns / (wrong + 1)) {
         let diagonal: usize = (0..unknown).map(|column| at.pattern().column(column).len()).sum();
@@ -212,9 +212,9 @@ fn steps_are_solved_where_the_factorization_is_wrong_for_a_few_motions() {
     }
     let mut numbers = Numbers::new(3);
     let [a, b] = [layout.unknowns, layout.stiff.len()].map(|count| numbers.many(count, 1.0));
-    let found = saddle.solve(layout, &at, compliance, (&a, &b), 1e-9);
+    let found = system.solve(&at, &a, &b, 1e-9);
     let left = unsolved(&model, &at, (&a, &b), found);
-    println!("{} solves, residuals {left:?}", saddle.solves);
+    println!("{} solves, residuals {left:?}", system.solves);
     assert!(left.iter().all(|left| *left <= 2e-9), "{left:?}");
-    assert!(saddle.solves <= 5 + 2 * wrong, "{} solves", saddle.solves);
+    assert!(system.solves <= 5 + 2 * wrong, "{} solves", system.solves);
 }

@@ -4,14 +4,14 @@
 
 mod common;
 
-use foldwell::analysis::branches;
-use foldwell::analysis::surface::{Negative, Question, Surface, SurfaceError, SurfacePoint, surface};
+use common::on;
+use foldwell::analysis::surface::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, surface};
 use foldwell::kinematics::{Closure, drawn_fold_angles};
 use foldwell::math::Vec3;
-use foldwell::model::assemble::{Hinges, Recipe, Surroundings};
+use foldwell::model::{Boundary, Hinges, Terms};
 use foldwell::numerics::dense::null_space;
 use foldwell::sheet::generate::{Eggbox, Miura, RandomDevelopable};
-use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate, tile};
+use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate};
 use foldwell::solver::atlas::Coverage;
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
@@ -27,18 +27,16 @@ struct Extent {
     max_curvature: f64,
 }
 
-fn cover(sheet: &Sheet, recipe: &Recipe, extent: Extent, most: usize) -> Result<Surface, SurfaceError> {
-    let tiling = tile(sheet, [1, 1], true);
-    let angles = drawn_fold_angles(sheet);
-    let start =
-        branches::Question { sheet, tiling: &tiling, surroundings: Surroundings::Screw, angles: &angles, recipe };
+fn cover(sheet: &Sheet, terms: &Terms, extent: Extent, most: usize) -> Result<Surface, SurfaceError> {
+    let cell = on(sheet.clone(), [1, 1], Boundary::Screw).with_terms(terms.clone());
     let Extent { radius, max_curvature } = extent;
-    surface(&Question { start, radius, tolerance: 3e-14, max_curvature, max_points: 100_000 }, &mut |n| n < most)
+    let options = SurfaceOptions { radius, tolerance: 3e-14, max_curvature, max_points: 100_000 };
+    surface(&cell, &options, &mut |n| n < most)
 }
 
 fn star(radius: f64, max_curvature: f64) -> (Sheet, Surface) {
     let sheet = common::mesh("open-star");
-    let found = cover(&sheet, &Recipe::default(), Extent { radius, max_curvature }, usize::MAX).unwrap();
+    let found = cover(&sheet, &Terms::default(), Extent { radius, max_curvature }, usize::MAX).unwrap();
     (sheet, found)
 }
 
@@ -190,7 +188,7 @@ fn resolution_is_the_distance_of_neighbours() {
 fn flat_cells_have_nappes_in_pairs() {
     let random = RandomDevelopable { seed: 3, ..RandomDevelopable::default() };
     let sheet = generate(&Pattern::RandomDevelopable(random)).unwrap();
-    let found = cover(&sheet, &Recipe::default(), Extent { radius: 0.1, max_curvature: 0.05 }, 20_000).unwrap();
+    let found = cover(&sheet, &Terms::default(), Extent { radius: 0.1, max_curvature: 0.05 }, 20_000).unwrap();
     assert!(found.points.len() > 1000 && found.branches.len() >= 2, "{:?}", found.branches);
     let signs = |sign| found.branches.iter().filter(|branch| branch.1 == sign).count();
     assert_eq!(signs(1), signs(-1), "{:?}", found.branches);
@@ -207,18 +205,16 @@ fn what_has_no_surface() {
     let sheet = generate(&Pattern::Miura(Miura { a: 1.0, b: 1.0, sector: 1.0, fold: 0.4 })).unwrap();
     let extent = Extent { radius: 0.1, max_curvature: 1.0 };
     let facets = |stiffness| Some(Hinges { stiffness, rest: vec![0.0; sheet.edges.len()] });
-    let soft = Recipe { facets: facets(1.0), ..Recipe::default() };
+    let soft = Terms { facets: facets(1.0), ..Terms::default() };
     let none = cover(&sheet, &soft, extent, usize::MAX).unwrap();
     assert!(none.points.is_empty() && none.branches.is_empty());
     assert_eq!(none.negative, Some(Negative::OneDirection), "the quadric has the signature (0, 2, 1)");
-    let rigid = Recipe { facets: facets(f64::INFINITY), ..Recipe::default() };
+    let rigid = Terms { facets: facets(f64::INFINITY), ..Terms::default() };
     let found = cover(&sheet, &rigid, extent, usize::MAX);
     assert!(matches!(found, Err(SurfaceError::NotTwoDimensional { modes: 1, .. })), "{found:?}");
-    let (tiling, angles) = (tile(&sheet, [1, 1], false), drawn_fold_angles(&sheet));
-    let surroundings = Surroundings::Patch;
-    let start = branches::Question { sheet: &sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &soft };
-    let question = Question { start, radius: 0.1, tolerance: 1e-13, max_curvature: 1.0, max_points: 100 };
-    assert!(matches!(surface(&question, &mut |_| true), Err(SurfaceError::NotScrew)));
+    let patch = on(sheet, [1, 1], Boundary::Patch);
+    let options = SurfaceOptions { radius: 0.1, tolerance: 1e-13, max_curvature: 1.0, max_points: 100 };
+    assert!(matches!(surface(&patch, &options, &mut |_| true), Err(SurfaceError::NotScrew)));
 }
 
 fn eggbox() -> Sheet {
@@ -243,7 +239,7 @@ fn four_parallelograms() -> Sheet {
 #[test]
 fn surfaces_of_four_parallelograms() {
     for (sheet, whole) in [(eggbox(), true), (four_parallelograms(), false)] {
-        let found = cover(&sheet, &Recipe::default(), Extent { radius: TAU / 32.0, max_curvature: 0.5 }, usize::MAX);
+        let found = cover(&sheet, &Terms::default(), Extent { radius: TAU / 32.0, max_curvature: 0.5 }, usize::MAX);
         let found = found.unwrap();
         assert!(found.crossing && found.lost == 0 && found.negative.is_none());
         assert!(!whole || (found.coverage, found.branches.len()) == (Coverage::Complete, 4), "{:?}", found.coverage);
@@ -273,7 +269,7 @@ fn missing_triangles_are_counted() {
     let max_curvature = 0.5;
     for (sheet, whole) in [(common::mesh("open-star"), true), (eggbox(), false)] {
         let extent = Extent { radius: TAU / 32.0, max_curvature };
-        let found = cover(&sheet, &Recipe::default(), extent, usize::MAX).unwrap();
+        let found = cover(&sheet, &Terms::default(), extent, usize::MAX).unwrap();
         let edges: HashSet<[usize; 2]> =
             found.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
         let border: HashSet<usize> =
@@ -291,7 +287,7 @@ fn a_small_largest_curvature() {
     let sheet = common::mesh("open-star");
     for max_curvature in [0.01, 0.003, 1e-3, 1e-4] {
         let extent = Extent { radius: TAU / 32.0, max_curvature };
-        let found = cover(&sheet, &Recipe::default(), extent, usize::MAX).unwrap();
+        let found = cover(&sheet, &Terms::default(), extent, usize::MAX).unwrap();
         assert_eq!((found.coverage, found.branches.len()), (Coverage::Complete, 2));
         assert!(found.points.len() > 100 && found.points.len() < 1000, "{}", found.points.len());
         let border = border(&found);
@@ -302,7 +298,7 @@ fn a_small_largest_curvature() {
     }
     for max_curvature in [1e-6, 1e-12] {
         let extent = Extent { radius: TAU / 32.0, max_curvature };
-        let found = cover(&sheet, &Recipe::default(), extent, usize::MAX);
+        let found = cover(&sheet, &Terms::default(), extent, usize::MAX);
         assert!(matches!(found, Err(SurfaceError::NothingWithin { reach, .. }) if reach < 1e-4), "{found:?}");
     }
 }
@@ -313,7 +309,7 @@ fn a_small_largest_curvature() {
 fn a_surface_with_many_open_charts_is_given_up() {
     let sheet = common::mesh("open-flat");
     let extent = Extent { radius: TAU / 8.0, max_curvature: 1.0 };
-    let found = cover(&sheet, &Recipe::default(), extent, usize::MAX).unwrap();
+    let found = cover(&sheet, &Terms::default(), extent, usize::MAX).unwrap();
     assert!(matches!(found.coverage, Coverage::GivenUp { charts } if charts >= 512), "{:?}", found.coverage);
     assert!(found.points.len() <= 20_000, "{}", found.points.len());
 }
@@ -322,14 +318,10 @@ fn a_surface_with_many_open_charts_is_given_up() {
 /// than 4,096 states, so that it is quick.
 #[test]
 fn stopping_after_the_last_chart() {
-    let sheet = common::mesh("open-star");
-    let tiling = tile(&sheet, [1, 1], true);
-    let (angles, recipe) = (drawn_fold_angles(&sheet), Recipe::default());
-    let surroundings = Surroundings::Screw;
-    let start = branches::Question { sheet: &sheet, tiling: &tiling, surroundings, angles: &angles, recipe: &recipe };
-    let question = Question { start, radius: 0.036, tolerance: 3e-14, max_curvature: 0.5, max_points: 100_000 };
+    let cell = on(common::mesh("open-star"), [1, 1], Boundary::Screw);
+    let options = SurfaceOptions { radius: 0.036, tolerance: 3e-14, max_curvature: 0.5, max_points: 100_000 };
     let mut asked = Vec::new();
-    let whole = surface(&question, &mut |charts| {
+    let whole = surface(&cell, &options, &mut |charts| {
         asked.push(charts);
         true
     });
@@ -337,7 +329,7 @@ fn stopping_after_the_last_chart() {
     let placed = asked.iter().position(|charts| Some(charts) == asked.last()).unwrap();
     assert!(whole.points.len() > 5000 && asked.len() > placed + whole.points.len() / 256, "{} {placed}", asked.len());
     let (mut count, last) = (0, placed + 2);
-    let stopped = surface(&question, &mut |_| {
+    let stopped = surface(&cell, &options, &mut |_| {
         count += 1;
         count <= last
     });
@@ -352,7 +344,7 @@ fn stopping_after_the_last_chart() {
 fn an_interrupted_surface_is_kept() {
     let sheet = common::mesh("open-star");
     let extent = Extent { radius: 0.1, max_curvature: 1.0 };
-    let found = cover(&sheet, &Recipe::default(), extent, 1000).unwrap();
+    let found = cover(&sheet, &Terms::default(), extent, 1000).unwrap();
     assert_eq!(found.coverage, Coverage::Interrupted);
     assert!(found.points.len() > 500 && found.points.len() < 2000 && !found.triangles.is_empty());
 }

@@ -4,11 +4,11 @@
 mod common;
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
-use foldwell::analysis::branches;
-use foldwell::analysis::trace::{Question, Stop, Traced, trace};
+use common::on;
+use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use foldwell::kinematics::{Embedding, Shape, drawn_fold_angles};
-use foldwell::model::assemble::{Recipe, Surroundings};
-use foldwell::sheet::{EdgeKey, Sheet, tile};
+use foldwell::model::{Boundary, Terms};
+use foldwell::sheet::{EdgeKey, Sheet};
 use foldwell::solver::continuation::End;
 use serde_json::Value;
 
@@ -21,18 +21,10 @@ fn edge(sheet: &Sheet, [i, j, n1, n2]: [i64; 4]) -> usize {
 
 /// Follows the sheet with these edges locked.
 fn run(sheet: &Sheet, locks: &[usize], stop: Stop, branch: Option<usize>) -> Vec<Traced> {
-    let tiling = tile(sheet, [1, 1], true);
-    let angles = drawn_fold_angles(sheet);
-    let recipe = Recipe { locks: locks.iter().map(|&edge| (edge, angles[edge])).collect(), ..Recipe::default() };
-    let start = branches::Question {
-        sheet,
-        tiling: &tiling,
-        surroundings: Surroundings::Screw,
-        angles: &angles,
-        recipe: &recipe,
-    };
-    let question = Question { start, max_step: 0.25, tolerance: 3e-14, branch, stop };
-    trace(&question, None, &mut |_, _| true).unwrap()
+    let drawn = on(sheet.clone(), [1, 1], Boundary::Screw);
+    let locks = locks.iter().map(|&edge| (edge, drawn.drawn_angles()[edge])).collect();
+    let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch, stop };
+    trace(&drawn.with_terms(Terms { locks, ..Terms::default() }), &options, None, &mut |_, _| true).unwrap()
 }
 
 fn star() -> (Sheet, usize, Value) {

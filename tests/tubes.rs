@@ -4,14 +4,14 @@
 mod common;
 
 use approx::abs_diff_eq;
-use common::{Case, jacobian, linearized, mesh};
+use common::{Testing, jacobian, linearized, mesh, on};
 use foldwell::analysis::chart::coordinates;
 use foldwell::analysis::trace::Folded;
 use foldwell::kinematics::tube::{BOTH, Condition};
 use foldwell::kinematics::{Closure, Embedding, Shape, Tube};
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::numerics::dense::{least_squares, null_space};
 use foldwell::sheet::generate::Random;
@@ -67,8 +67,8 @@ fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -
     let (positions, rates) = (shape.positions.clone(), vec![]);
     let folded =
         Folded { arc_length: 0.0, angles: angles.to_vec(), rates, shape: Some(shape), positions, residual: 0.0 };
-    let case = Case::new(sheet.clone(), [1, 1], Surroundings::Screw);
-    let mut model = case.model(&Recipe { bars: Some(f64::INFINITY), ..Recipe::default() }, Gauge::Held);
+    let case = on(sheet.clone(), [1, 1], Boundary::Screw);
+    let mut model = case.model_of(&Terms { bars: Some(f64::INFINITY), ..Terms::default() }, Gauge::Held);
     let x = model.start_from(coordinates(&folded));
     let at = linearized(&model, &x, &vec![0.0; case.edges()]);
     let stretched = at.gaps.iter().fold(0.0, |most: f64, gap| most.max(gap.abs()));
@@ -138,16 +138,16 @@ fn the_seam_slips() {
 }
 
 /// Zero modes of the bars of a finite sheet, as columns.
-fn zero_modes(case: &Case) -> DenseMatrix {
-    let model = case.model(&Recipe { bars: Some(1.0), ..Recipe::default() }, Gauge::Free);
+fn zero_modes(case: &Assembly) -> DenseMatrix {
+    let model = case.model_of(&Terms { bars: Some(1.0), ..Terms::default() }, Gauge::Free);
     let at = linearized(&model, &model.start(), &vec![0.0; case.edges()]);
     null_space(&jacobian(&model, &at)).unwrap().basis
 }
 
 /// The factors by which the zero modes of a tube along z grow from a row to the next, ascending in magnitude, `next`
 /// moving a point to its copy there. All zero modes together go over into each other, which is tested to 1e-9.
-fn growth(case: &Case, turn: f64, rise: f64) -> Vec<f64> {
-    let (modes, vertices) = (zero_modes(case), &case.sheet.vertices);
+fn growth(case: &Assembly, turn: f64, rise: f64) -> Vec<f64> {
+    let (modes, vertices) = (zero_modes(case), &case.sheet().vertices);
     let rotation = Rotation3::from_axis_angle(&Vec3::z_axis(), turn);
     let next = |x: &Vec3| {
         let there = rotation * x + rise * Vec3::z();
@@ -167,9 +167,9 @@ fn growth(case: &Case, turn: f64, rise: f64) -> Vec<f64> {
 }
 
 /// Zero modes are as many as the rims have edges; no self stress; six rigid motions.
-fn check_counts(case: &Case, rim: usize) {
-    let edges = case.sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary).count();
-    let found = case.modes(&Recipe { bars: Some(1.0), ..Recipe::default() }, 0).unwrap();
+fn check_counts(case: &Assembly, rim: usize) {
+    let edges = case.sheet().edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary).count();
+    let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
     let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
     assert_eq!((edges, counts), (rim, (rim, 0, rim as i64, 6)), "gap {:?}", found.gap);
 }
@@ -191,7 +191,7 @@ fn end_modes_of_open_tubes() {
         let Shape { theta, screw, .. } = shape(&sheet, &angles);
         let mut first: Option<Vec<f64>> = None;
         for rows in [2, 3, 5] {
-            let case = Case::new(tube.cut(&angles, rows).unwrap(), [1, 1], Surroundings::Patch);
+            let case = on(tube.cut(&angles, rows).unwrap(), [1, 1], Boundary::Patch);
             check_counts(&case, rim);
             let growth = growth(&case, theta[0], screw.rise()[0]);
             let falling = growth.iter().filter(|factor| **factor < 1.0 - 1e-4).count();
@@ -215,7 +215,7 @@ fn zero_modes_of_helical_tubes() {
     for inwards in [true, false] {
         let angles = tube.rolled_up(inwards).unwrap();
         for cells in [12, 19, 30] {
-            check_counts(&Case::new(tube.cut(&angles, cells).unwrap(), [1, 1], Surroundings::Patch), 36);
+            check_counts(&on(tube.cut(&angles, cells).unwrap(), [1, 1], Boundary::Patch), 36);
         }
     }
 }

@@ -5,9 +5,8 @@
 mod common;
 
 use approx::assert_abs_diff_eq;
-use common::{Case, Numbers, mesh};
-use foldwell::analysis::relax::relax;
-use foldwell::analysis::wells::Question;
+use common::{Numbers, Testing, mesh, on, patch};
+use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::wells::barrier::{Barrier, Height, barrier, rigid_limit};
 use foldwell::analysis::wells::merge::{Translations, Well, wells};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
@@ -15,8 +14,8 @@ use foldwell::analysis::wells::settle::Settler;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings};
-use foldwell::numerics::parallel;
+use foldwell::model::{Assembly, Boundary, Terms};
+use foldwell::numerics::parallel::Threads;
 use foldwell::output::summary::{StudyResult, StudySummary, WellsSummary};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{EdgeKey, Sheet, fold};
@@ -38,29 +37,23 @@ fn fan(directions: &[f64; 4]) -> Sheet {
         format!(r#"{{"vertices_coords": {points:?}, "faces_vertices": [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]}}"#);
     fold::parse(&text, "fan.fold").unwrap()
 }
-
-fn question<'a>(case: &'a Case, recipe: &'a Recipe) -> Question<'a> {
-    Question { sheet: &case.sheet, tiling: &case.tiling, surroundings: case.surroundings, drawn: &case.drawn, recipe }
-}
-
-/// Rest angles of a case from those of the four creases of a fan.
-fn on_creases(case: &Case, rest: [f64; 4]) -> Vec<f64> {
+fn on_creases(case: &Assembly, rest: [f64; 4]) -> Vec<f64> {
     let mut all = vec![0.0; case.edges()];
     for (crease, rest) in rest.into_iter().enumerate() {
         let key = EdgeKey { i: 0, j: crease + 1, shift: [0, 0] };
-        all[case.sheet.edges.iter().position(|edge| edge.key == key).unwrap()] = rest;
+        all[case.sheet().edges.iter().position(|edge| edge.key == key).unwrap()] = rest;
     }
     all
 }
 
 /// The wells that random starts reach.
-fn reached(question: &Question<'_>, count: usize, spread: f64) -> Vec<Well> {
+fn reached(assembly: &Assembly, count: usize, spread: f64) -> Vec<Well> {
     let starts = Starts { count, seed: 1, spread, options: Options::default() };
-    let minima = relax_all(question, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
+    let minima = relax_all(assembly, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
     });
-    wells(minima, &Translations::new(question))
+    wells(minima, &Translations::new(assembly))
 }
 
 /// Fold angles along the two branches of a vertex of degree four with these sectors, from spherical trigonometry alone.
@@ -133,9 +126,9 @@ fn random_directions(numbers: &mut Numbers, least: f64) -> [f64; 4] {
 }
 
 fn rigid(directions: &[f64; 4], rest: [f64; 4]) -> RigidLandscape {
-    let case = Case::new(fan(directions), [1, 1], Surroundings::Patch);
-    let recipe = case.recipe(f64::INFINITY, 1.0, on_creases(&case, rest));
-    landscape(&question(&case, &recipe), &SAMPLING, &mut || true).unwrap()
+    let case = on(fan(directions), [1, 1], Boundary::Patch);
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, on_creases(&case, rest));
+    landscape(&case.with_terms(terms.clone()), &SAMPLING, &mut || true).unwrap()
 }
 
 /// Claim: wells of random vertices counted in fold angles by the program are those counted along the closed form of
@@ -174,15 +167,15 @@ fn a_vertex_with_five_stable_states() {
 }
 
 /// The near-cross of the scene.
-fn near_cross() -> (Case, Vec<f64>) {
-    let case = Case::patch("near-cross", [1, 1]);
+fn near_cross() -> (Assembly, Vec<f64>) {
+    let case = patch("near-cross", [1, 1]);
     let rest = on_creases(&case, [2.177, 1.917, -3.1, -3.066]);
     (case, rest)
 }
 
-fn pass_between(question: &Question<'_>, wells: &[Well], energies: [f64; 2]) -> Barrier {
+fn pass_between(assembly: &Assembly, wells: &[Well], energies: [f64; 2]) -> Barrier {
     let number = |energy: f64| wells.iter().position(|well| (well.settled.energy - energy).abs() <= 1e-8).unwrap();
-    barrier(question, wells, energies.map(number), &mut || true).unwrap()
+    barrier(assembly, wells, energies.map(number), &mut || true).unwrap()
 }
 
 /// Claim: a vertex with four stable states: rigid bars from random starts, trajectories in fold angles and the closed
@@ -190,17 +183,17 @@ fn pass_between(question: &Question<'_>, wells: &[Well], energies: [f64; 2]) -> 
 #[test]
 fn four_wells_in_three_ways() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
-    let question = question(&case, &recipe);
-    let exact = landscape(&question, &SAMPLING, &mut || true).unwrap();
-    let found = reached(&question, 200, PI);
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, rest);
+    let assembly = case.with_terms(terms.clone());
+    let exact = landscape(&assembly, &SAMPLING, &mut || true).unwrap();
+    let found = reached(&assembly, 200, PI);
     let inside = |well: &&Well| well.settled.rho.iter().all(|angle| angle.abs() <= PI);
     let energies: Vec<f64> = found.iter().filter(inside).map(|well| well.settled.energy).collect();
     println!("{energies:?} against {:?}", exact.wells.iter().map(|well| well.energy).collect::<Vec<_>>());
     assert_eq!((energies.len(), exact.wells.len(), exact.lost), (4, 4, 0));
     assert!(energies.iter().zip(&exact.wells).all(|(a, b)| (a - b.energy).abs() <= 1e-9));
     let directions: [f64; 4] = std::array::from_fn(|k| {
-        let end = case.sheet.vertices[k + 1];
+        let end = case.sheet().vertices[k + 1];
         end.y.atan2(end.x).rem_euclid(TAU)
     });
     assert_eq!(counted(sectors(&directions), [2.177, 1.917, -3.1, -3.066], 20_000), [4, 0]);
@@ -213,15 +206,16 @@ fn four_wells_in_three_ways() {
 #[test]
 fn barriers_of_a_vertex() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
-    let question = question(&case, &recipe);
-    let exact = landscape(&question, &SAMPLING, &mut || true).unwrap();
-    let found = reached(&question, 64, PI);
-    let flat = case.angles.iter().zip(&recipe.creases.as_ref().unwrap().rest).filter(|(angle, _)| !angle.is_nan());
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, rest);
+    let assembly = case.with_terms(terms.clone());
+    let exact = landscape(&assembly, &SAMPLING, &mut || true).unwrap();
+    let found = reached(&assembly, 64, PI);
+    let flat =
+        case.drawn_angles().iter().zip(&terms.creases.as_ref().unwrap().rest).filter(|(angle, _)| !angle.is_nan());
     let flat: f64 = flat.map(|(_, rest)| 0.5 * rest * rest).sum();
     for pass in &exact.passes[..2] {
         let energies = pass.joins.map(|well| exact.wells[well].energy);
-        let strung = pass_between(&question, &found, energies);
+        let strung = pass_between(&assembly, &found, energies);
         let limit = rigid_limit(&strung.heights).unwrap();
         println!("{} by string, {} rigid, limit {limit:?}", strung.pass.energy, pass.energy);
         assert!(strung.singular == pass.singular && strung.pass.negative_eigenvalues == 1);
@@ -243,21 +237,21 @@ fn barriers_of_a_vertex() {
 #[test]
 fn no_barrier_lies_below_its_wells() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
-    let question = question(&case, &recipe);
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, rest);
+    let assembly = case.with_terms(terms.clone());
     let starts = Starts { count: 64, seed: 0, spread: PI, options: Options::default() };
-    let minima = relax_all(&question, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
+    let minima = relax_all(&assembly, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
     });
-    let found = wells(minima, &Translations::new(&question));
+    let found = wells(minima, &Translations::new(&assembly));
     assert!(
         found.iter().any(|well| well.settled.rho.iter().any(|angle| angle.abs() > PI)),
         "one is folded through itself"
     );
     let mut confirmed = 0;
     for other in 1..found.len() {
-        let Ok(barrier) = barrier(&question, &found, [0, other], &mut || true) else { continue };
+        let Ok(barrier) = barrier(&assembly, &found, [0, other], &mut || true) else { continue };
         assert!(barrier.pass.energy > found[other].settled.energy && barrier.pass.negative_eigenvalues == 1);
         let ends = [barrier.path[0], barrier.path[barrier.path.len() - 1]];
         for (well, (_, soft)) in barrier.between.into_iter().zip(ends) {
@@ -275,12 +269,12 @@ fn no_barrier_lies_below_its_wells() {
 /// 1e-9 of the energies: relaxations to 1e-12.
 #[test]
 fn barrier_of_the_reference_cell() {
-    let case = Case::new(mesh("open-star"), [1, 1], Surroundings::Screw);
-    let recipe = case.recipe(f64::INFINITY, 1.0, case.rest_per_hinge(1.0, 1));
-    let question = question(&case, &recipe);
+    let case = on(mesh("open-star"), [1, 1], Boundary::Screw);
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(1.0, 1));
+    let assembly = case.with_terms(terms.clone());
     let sampling = Sampling { step: TAU / 40.0, max_curvature: 0.5 };
-    let exact = landscape(&question, &sampling, &mut || true).unwrap();
-    let found = reached(&question, 64, 1.0);
+    let exact = landscape(&assembly, &sampling, &mut || true).unwrap();
+    let found = reached(&assembly, 64, 1.0);
     let energies: Vec<f64> = found.iter().map(|well| well.settled.energy).collect();
     println!("wells {energies:?}, on the surface {:?}", exact.wells.iter().map(|well| well.energy).collect::<Vec<_>>());
     println!(
@@ -290,14 +284,14 @@ fn barrier_of_the_reference_cell() {
     );
     assert_eq!((energies.len(), exact.wells.len()), (3, 3));
     assert!(energies.iter().zip(&exact.wells).all(|(a, b)| (a - b.energy).abs() <= 1e-9));
-    let strung = pass_between(&question, &found, [energies[0], energies[1]]);
+    let strung = pass_between(&assembly, &found, [energies[0], energies[1]]);
     let (limit, pass) = (rigid_limit(&strung.heights).unwrap(), exact.between(0, 1).unwrap());
     println!("{} by string, {} on the surface, {limit:?}", strung.pass.energy, pass.energy);
     assert!(!pass.singular && !strung.singular && strung.joins.iter().all(|well| *well < 2));
     assert!((strung.pass.energy - pass.energy).abs() <= 1e-9 && (limit.exponent - 1.0).abs() <= 1e-2);
     // the third well lies on the other nappe: the way there leads through the drawn state, a regular pass in screw
     // coordinates
-    let (strung, pass) = (pass_between(&question, &found, [energies[1], energies[2]]), exact.between(1, 2).unwrap());
+    let (strung, pass) = (pass_between(&assembly, &found, [energies[1], energies[2]]), exact.between(1, 2).unwrap());
     println!("{} by string, {} at the tip", strung.pass.energy, pass.energy);
     assert!(pass.singular && !strung.singular && (strung.pass.energy - pass.energy).abs() <= 1e-9);
 }
@@ -308,18 +302,18 @@ fn barrier_of_the_reference_cell() {
 #[test]
 fn wells_stay_when_the_sheet_is_turned() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(1e4, 1.0, rest);
+    let terms = Terms::bars_and_creases(1e4, 1.0, rest);
     let starts = Starts { count: 48, seed: 2, spread: PI, options: Options::default() };
     let turn = rotation::exp(&Vec3::new(0.9, -0.5, 0.7));
     let mut seen = 0;
-    for outcome in relax_all(&question(&case, &recipe), &starts, &|| true) {
+    for outcome in relax_all(&case.with_terms(terms.clone()), &starts, &|| true) {
         let Outcome::Well(well) = outcome else { continue };
         let points = well.place.coordinates.chunks_exact(3).map(|p| turn * Vec3::new(p[0], p[1], p[2]));
         let turned = points.flat_map(<[f64; 3]>::from).collect();
-        let mut model = case.model(&recipe, Gauge::Held);
+        let mut model = case.model_of(&terms, Gauge::Held);
         model.set_angles(&well.place.angles);
         let start = model.start_from(turned);
-        let again = relax(&mut model, start, Options::default(), case.edges(), &mut |_| true).unwrap();
+        let again = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
         let moved = common::distance(&again.state.fold_angle, &well.relaxed.state.fold_angle);
         assert!(moved <= 1e-8, "{moved:e}");
         seen += 1;
@@ -332,14 +326,14 @@ fn wells_stay_when_the_sheet_is_turned() {
 #[test]
 fn a_held_well_stays() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(1e4, 1.0, rest);
-    let question = question(&case, &recipe);
-    let well = reached(&question, 16, PI).swap_remove(0).settled;
-    let held = Settler::new(&question, &recipe, 32.0).near(&well.place, &well.rho, Options::default(), &mut |_| true);
+    let terms = Terms::bars_and_creases(1e4, 1.0, rest);
+    let assembly = case.with_terms(terms.clone());
+    let well = reached(&assembly, 16, PI).swap_remove(0).settled;
+    let held = Settler::new(&assembly, 32.0).near(&well.place, &well.rho, Options::default(), &mut |_| true);
     let held = held.unwrap();
     assert!(common::distance(&held.rho, &well.rho) <= 1e-9 && (held.energy - well.energy).abs() <= 1e-9, "{held:?}");
     let aside: Vec<f64> = well.rho.iter().map(|angle| angle + 0.05).collect();
-    let moved = Settler::new(&question, &recipe, 32.0).near(&well.place, &aside, Options::default(), &mut |_| true);
+    let moved = Settler::new(&assembly, 32.0).near(&well.place, &aside, Options::default(), &mut |_| true);
     let moved = moved.unwrap();
     assert!(moved.energy > well.energy + 1e-6 && common::distance(&moved.rho, &well.rho) > 1e-3);
 }
@@ -348,20 +342,20 @@ fn a_held_well_stays() {
 /// the cell; not where they differ from cell to cell.
 #[test]
 fn translations_are_not_told_apart() {
-    let case = Case::new(mesh("open-star"), [3, 2], Surroundings::FixedTorus);
+    let case = on(mesh("open-star"), [3, 2], Boundary::FixedTorus);
     let angles = Numbers::new(4).many(case.edges(), 1.0);
     let place = |edge: usize, [c1, c2]: [usize; 2]| {
-        case.tiling.edges.iter().position(|tiled| tiled.edge == edge && tiled.cell == [c1 % 3, c2 % 2]).unwrap()
+        case.tiling().edges.iter().position(|tiled| tiled.edge == edge && tiled.cell == [c1 % 3, c2 % 2]).unwrap()
     };
     let moved: Vec<f64> = case
-        .tiling
+        .tiling()
         .edges
         .iter()
         .map(|tiled| angles[place(tiled.edge, [tiled.cell[0] + 1, tiled.cell[1] + 1])])
         .collect();
     let distance = |rest: Vec<f64>| {
-        let recipe = case.recipe(1e3, 1.0, rest);
-        Translations::new(&question(&case, &recipe)).distance(&angles, &moved)
+        let terms = Terms::bars_and_creases(1e3, 1.0, rest);
+        Translations::new(&case.with_terms(terms.clone())).distance(&angles, &moved)
     };
     assert!(common::distance(&angles, &moved) > 0.1);
     assert_eq!(distance(case.rest_per_cell(0.1, 1)), 0.0);
@@ -372,15 +366,16 @@ fn translations_are_not_told_apart() {
 #[test]
 fn starts_do_not_know_threads() {
     let (case, rest) = near_cross();
-    let recipe = case.recipe(f64::INFINITY, 1.0, rest);
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, rest);
     let run = |threads: usize| -> Vec<Option<u64>> {
-        parallel::set_threads(threads);
         let starts = Starts { count: 24, seed: 7, spread: PI, options: Options::default() };
         let energy = |outcome: Outcome| match outcome {
             Outcome::Well(well) => Some(well.energy.to_bits()),
             _ => None,
         };
-        relax_all(&question(&case, &recipe), &starts, &|| true).into_iter().map(energy).collect()
+        let assembly = case.with_terms(terms.clone());
+        let relaxed = Threads::new(Some(threads)).install(|| relax_all(&assembly, &starts, &|| true));
+        relaxed.into_iter().map(energy).collect()
     };
     assert_eq!(run(1), run(2));
 }

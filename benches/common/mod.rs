@@ -4,15 +4,18 @@
 pub mod kernels;
 
 use cpu_time::ThreadTime;
-use foldwell::analysis::relax::Relaxed;
-use foldwell::model::Model;
-use foldwell::solver::Options;
-use foldwell::validation::star;
+use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::model::{Assembly, Gauge, Model, Terms};
+use foldwell::sheet::fold;
+use foldwell::solver::{Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// The patch of the validation, with rest angles within 0.1 rad of the drawn ones.
-pub struct Star(star::Star);
+/// A patch of the reference cell with rest angles within 0.1 rad of the drawn ones, at random, the same on every machine.
+pub struct Star {
+    drawn: Assembly,
+    rest: Vec<f64>,
+}
 
 impl Star {
     /// `n x n` cells.
@@ -22,23 +25,28 @@ impl Star {
 
     /// `n1 x n2` cells.
     pub fn oblong(cells: [usize; 2]) -> Self {
-        Self(star::Star::new(cells, 0.1).expect("the mesh of the repository"))
+        let sheet = fold::parse(include_str!("../../meshes/open-star.fold"), "open-star.fold");
+        let drawn = Assembly::patch(sheet.expect("the mesh of the repository"), cells).build();
+        let (drawn, mut numbers) = (drawn.expect("a patch"), random(1));
+        let rest = drawn.drawn_angles().iter().map(|angle| angle + uniform(&mut numbers, 0.1)).collect();
+        Self { drawn, rest }
     }
 
-    /// The model with this stiffness `k` of every bar (spring constant) over that of the creases, which is 1.
+    /// The model with this stiffness `EA` of every bar, over that of the creases, which is 1 per length.
     pub fn model(&self, stiffness: f64) -> Model {
-        self.0.model(stiffness)
+        self.drawn.with_terms(Terms::bars_and_creases(stiffness, 1.0, self.rest.clone())).model(Gauge::Held)
     }
 
     /// Relaxes `model` from the drawn state; `None` where it does not converge.
     pub fn relax(&self, model: &mut Model) -> Option<Relaxed> {
-        self.0.relax(model, Options::default()).ok()
+        let start = model.start();
+        relax_from(model, start, Options::default(), &mut |_| true).ok()
     }
 }
 
 /// Unknowns and stiff measures of a model.
 pub fn size(model: &Model) -> (usize, usize) {
-    star::size(model)
+    (model.layout().unknowns, model.layout().stiff.len())
 }
 
 /// Random numbers, the same on every machine.

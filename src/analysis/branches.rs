@@ -3,8 +3,8 @@
 //! The sheet is one cell, repeated by screw motions, or a finite patch; locked edges and rigid diagonals keep their angle.
 
 use crate::kinematics::{Closure, FoldingModes, KinematicsError, Ray, Rays, SecondOrder, folding_modes, signature};
-use crate::model::assemble::{Recipe, Surroundings};
-use crate::sheet::{EdgeKind, Sheet, Tiling};
+use crate::model::{Assembly, Boundary};
+use crate::sheet::Sheet;
 use nalgebra::DVector;
 
 /// Folding edges beyond which the dense decompositions take too long.
@@ -49,31 +49,17 @@ pub struct Branches {
     pub curvature_signs: Vec<Option<i8>>,
 }
 
-/// What to look at.
-#[derive(Clone, Copy)]
-pub struct Question<'a> {
-    /// The sheet.
-    pub sheet: &'a Sheet,
-    /// Its cells.
-    pub tiling: &'a Tiling,
-    /// What surrounds them.
-    pub surroundings: Surroundings,
-    /// Fold angles of the drawn state, one for each edge of the tiling; not read where an edge does not fold.
-    pub angles: &'a [f64],
-    /// The locks and rigid diagonals are read.
-    pub recipe: &'a Recipe,
-}
-
-/// Finds the branches.
+/// Finds the branches that leave the drawn state; locks and rigid diagonals of its terms are kept. No real ray is an answer.
 ///
-/// No real ray is an answer. Fails for a torus, for sheets with openings or too many edges, and where ranks are not clear or
-/// the solutions do not add up.
-pub fn branches(question: &Question<'_>) -> Result<Branches, BranchesError> {
-    let Question { sheet, tiling, surroundings, .. } = question;
-    if matches!(surroundings, Surroundings::FixedTorus | Surroundings::FreeTorus) {
+/// # Errors
+/// [`BranchesError`] for a torus, for sheets with openings or too many edges, and where ranks are not clear or the solutions
+/// do not add up.
+pub fn branches(assembly: &Assembly) -> Result<Branches, BranchesError> {
+    let (sheet, boundary) = (assembly.sheet(), assembly.boundary());
+    if matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus) {
         return Err(BranchesError::Torus);
     }
-    let closure = Closure::of_tiling(sheet, tiling)?.with_locked(&locked(question));
+    let closure = Closure::of_tiling(sheet, assembly.tiling())?.with_locked(&assembly.locked_edges());
     match closure.unchecked_loops() {
         0 if sheet.holes.is_empty() => {}
         loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }.into()),
@@ -82,14 +68,14 @@ pub fn branches(question: &Question<'_>) -> Result<Branches, BranchesError> {
     if edges > MOST_EDGES {
         return Err(BranchesError::TooLarge { edges });
     }
-    let angles: Vec<f64> = question.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
+    let angles = assembly.drawn_angles_or_zero();
     let second_order = SecondOrder::new(&closure, &angles)?;
     let rays = Rays::new(&second_order)?;
     let signature = match &second_order.quadrics[..] {
         [quadric] => Some(signature(quadric)?),
         _ => None,
     };
-    let curvature_signs = if *surroundings == Surroundings::Screw {
+    let curvature_signs = if boundary == Boundary::Screw {
         let modes = folding_modes(sheet)?;
         rays.rays.iter().map(|ray| Some(curvature_sign(sheet, &modes, ray))).collect()
     } else {
@@ -97,14 +83,6 @@ pub fn branches(question: &Question<'_>) -> Result<Branches, BranchesError> {
     };
     let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
     Ok(Branches { modes, quadrics, signature, rays, curvature_signs })
-}
-
-/// Locked creases, and diagonals of polygons where these are rigid.
-pub fn locked(question: &Question<'_>) -> Vec<usize> {
-    let rigid = question.recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
-    let facets =
-        (0..question.tiling.edges.len()).filter(|&k| rigid && question.tiling.edges[k].kind == EdgeKind::Facet);
-    question.recipe.locks.iter().map(|(edge, _)| *edge).chain(facets).collect()
 }
 
 /// The sign of the trace of the ray's curvature tensor, which has rank one or none.

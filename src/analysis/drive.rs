@@ -9,13 +9,11 @@
 //! stay off it by what the creases pull them.
 
 use super::chart::{self, hinge_angles};
-use super::relax::{Relaxed, relax};
+use super::relax::{Relaxed, relax_from};
 use super::state::cylinder;
 use super::trace::{Folded, Traced};
-use crate::model::assemble::{Drawn, Recipe, assemble, drawn_angles};
-use crate::model::{Domain, Gauge};
+use crate::model::{Assembly, Domain, Drawn, Gauge};
 use crate::numerics::{larger, worst};
-use crate::sheet::Tiling;
 use crate::solver::continuation::End;
 use crate::solver::{Failure, Options, Step};
 use std::f64::consts::TAU;
@@ -36,18 +34,6 @@ const SHORT: f64 = 0.01;
 const SAME_STATE: f64 = 1e-6;
 /// Beside a rigid state that is interpolated it may differ by this part of the arc length.
 const INTERPOLATED: f64 = 0.05;
-
-/// What relaxes.
-pub struct Question<'a> {
-    /// One cell, or a finite sheet.
-    pub tiling: &'a Tiling,
-    /// The drawn state.
-    pub drawn: &'a Drawn,
-    /// Its parts; locks are those of the trajectory.
-    pub recipe: &'a Recipe,
-    /// When a relaxation is converged.
-    pub options: Options,
-}
 
 /// A relaxed state beside a rigid one.
 #[derive(Clone, Debug)]
@@ -123,15 +109,15 @@ pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, drive: &Drive) -> Option<
 }
 
 /// Relaxes beside every state of a trajectory. `observe` sees every accepted step and returns false to stop.
-pub fn drive(question: &Question<'_>, traced: &Traced, observe: &mut dyn FnMut(&Step) -> bool) -> Drive {
+pub fn drive(assembly: &Assembly, options: Options, traced: &Traced, observe: &mut dyn FnMut(&Step) -> bool) -> Drive {
     let mut drive = Drive { states: Vec::new(), failure: None };
-    let mut track = Track::new();
+    let mut track = Track { assembly, options, angles: Vec::new(), crease: None, known: Vec::new() };
     let closed = usize::from(matches!(traced.end, End::Closed(_)));
     let Some((drawn, rest)) = traced.states[..traced.states.len() - closed].split_first() else { return drive };
     track.angles.clone_from(&drawn.angles);
     for (state, before) in rest.iter().zip(&traced.states) {
         let halvings = if track.known.is_empty() { 0 } else { HALVINGS };
-        match track.reach(question, (before, state), halvings, observe) {
+        match track.reach((before, state), halvings, observe) {
             Ok(driven) => drive.states.push(driven),
             Err(failure) => {
                 drive.failure = Some(failure);
@@ -150,10 +136,10 @@ fn fastest(rates: &[f64], last: Option<usize>) -> usize {
 }
 
 /// The relaxed state, if its measures are all rigid only where it is the rigid one.
-fn same_state(question: &Question<'_>, driven: Driven, (from, to): (&Folded, &Folded)) -> Result<Driven, DriveFailure> {
+fn same_state(assembly: &Assembly, driven: Driven, (from, to): (&Folded, &Folded)) -> Result<Driven, DriveFailure> {
     let interpolated = if to.positions.is_empty() { INTERPOLATED * (to.arc_length - from.arc_length) } else { 0.0 };
     let most = f64::max(SAME_STATE, interpolated);
-    if question.recipe.is_rigid() && !(driven.error <= most) {
+    if assembly.terms().is_rigid() && !(driven.error <= most) {
         return Err(DriveFailure::Elsewhere { apart: driven.error });
     }
     Ok(driven)
@@ -183,29 +169,26 @@ fn between(from: &Folded, to: &Folded) -> Folded {
 
 /// The last relaxed states.
 #[derive(Clone)]
-struct Track {
+struct Track<'a> {
+    assembly: &'a Assembly,
+    options: Options,
     angles: Vec<f64>,
     crease: Option<usize>,
     /// Rigid arc length and coordinates of the last states that share a gauge, the newest last; at most two.
     known: Vec<(f64, Vec<f64>)>,
 }
 
-impl Track {
-    fn new() -> Self {
-        Self { angles: Vec::new(), crease: None, known: Vec::new() }
-    }
-
+impl Track<'_> {
     /// Relaxes beside `to`, by shorter steps from `from` where one does not lead there.
     fn reach(
         &mut self,
-        question: &Question<'_>,
         (from, to): (&Folded, &Folded),
         halvings: usize,
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Driven, DriveFailure> {
         let before = self.clone();
-        let found = self.step(question, to, fastest(&to.rates, self.crease), observe);
-        let found = found.and_then(|driven| same_state(question, driven, (from, to)));
+        let found = self.step(to, fastest(&to.rates, self.crease), observe);
+        let found = found.and_then(|driven| same_state(self.assembly, driven, (from, to)));
         let wrong = match &found {
             Ok(driven) => goes_elsewhere(&before.angles, &driven.angles, (from, to)),
             Err(failure) => *failure != DriveFailure::Relaxation(Failure::Interrupted),
@@ -215,30 +198,28 @@ impl Track {
         }
         *self = before;
         let middle = between(from, to);
-        self.reach(question, (from, &middle), halvings - 1, observe)?;
-        self.reach(question, (&middle, to), halvings - 1, observe)
+        self.reach((from, &middle), halvings - 1, observe)?;
+        self.reach((&middle, to), halvings - 1, observe)
     }
 
     fn step(
         &mut self,
-        question: &Question<'_>,
         state: &Folded,
         crease: usize,
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Driven, DriveFailure> {
-        let mut recipe = question.recipe.clone();
-        recipe.locks.push((crease, state.angles[crease]));
-        let mut model = assemble(question.drawn, question.tiling, &recipe, Gauge::Held);
+        let mut terms = self.assembly.terms().clone();
+        terms.locks.push((crease, state.angles[crease]));
+        let mut model = self.assembly.with_terms(terms).model(Gauge::Held);
         model.set_angles(&hinge_angles(&model, &self.angles));
         let last = self.known.last().map_or_else(|| chart::coordinates(state), |(_, at)| at.clone());
         let here = model.start_from(last);
         let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
-        let edges = question.tiling.edges.len();
-        let relaxed = relax(&mut model, ahead, question.options, edges, observe)
+        let relaxed = relax_from(&mut model, ahead, self.options, observe)
             .map_err(|error| DriveFailure::Relaxation(error.failure))?;
         self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());
         self.crease = Some(crease);
-        self.angles = self.continued(question, &relaxed.state.coordinates);
+        self.angles = self.continued(&relaxed.state.coordinates);
         let off = |(a, b): (&f64, &f64)| (a - b).abs();
         let error = self.angles.iter().zip(&state.angles).map(off).fold(0.0, larger);
         Ok(Driven { relaxed, angles: self.angles.clone(), crease, error })
@@ -270,11 +251,10 @@ impl Track {
     }
 
     /// Fold angles of all edges at coordinates, each next to the last one.
-    fn continued(&self, question: &Question<'_>, coordinates: &[f64]) -> Vec<f64> {
-        let drawn = question.drawn;
-        let here = Drawn { domain: drawn.domain.clone(), coordinates: coordinates.to_vec(), held: vec![], ..*drawn };
+    fn continued(&self, coordinates: &[f64]) -> Vec<f64> {
         let next = |(angle, last): (f64, &f64)| angle + TAU * ((last - angle) / TAU).round();
-        drawn_angles(&here, question.tiling)
+        self.assembly
+            .fold_angles_at(coordinates)
             .into_iter()
             .zip(&self.angles)
             .map(|(angle, last)| if angle.is_nan() { 0.0 } else { next((angle, last)) })

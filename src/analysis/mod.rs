@@ -1,7 +1,6 @@
 //! Questions about states: equilibria, modes and spectra. State in, result out; nothing here reads or writes files.
 
 mod apex;
-pub mod axis;
 pub mod bloch;
 pub mod branches;
 pub mod chart;

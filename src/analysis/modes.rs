@@ -7,16 +7,15 @@
 
 use crate::kinematics::KinematicsError;
 use crate::kinematics::closure::{Closure, HingedEdge};
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble};
-use crate::model::{Domain, Gauge, Model, gauge};
+use crate::model::{Assembly, Boundary, Domain, Drawn, Gauge, Model, RIGID, Terms, gauge};
 use crate::numerics::dense::{self, DenseError};
 use crate::numerics::eigen::{self, EigenError};
 use crate::numerics::factor::FactorError;
 use crate::numerics::sparse::{Rows, symmetric_product};
+use crate::numerics::vector::{dot, normalize};
 use crate::numerics::{DenseMatrix, rank};
-use crate::sheet::{Corner, EdgeKind, Sheet, Site, Tiling, pieces};
-use crate::solver::saddle::Saddle;
-use crate::solver::{Curvature, Linearization, Problem};
+use crate::sheet::{Corner, Site, Tiling, pieces};
+use crate::solver::{HessianKind, Linearization, Problem, Tangent};
 use thiserror::Error;
 
 /// Rigidity matrices of more rows or columns than this are not decomposed dense.
@@ -115,36 +114,22 @@ impl From<EigenError> for ModesError {
 /// Called between the parts of the work; returns false to stop.
 pub type Observer<'a> = dyn FnMut() -> bool + Send + 'a;
 
-/// What to look at.
-pub struct Question<'a> {
-    /// The sheet.
-    pub sheet: &'a Sheet,
-    /// Its cells.
-    pub tiling: &'a Tiling,
-    /// What surrounds them.
-    pub surroundings: Surroundings,
-    /// What it is made of.
-    pub recipe: &'a Recipe,
-    /// How many eigenvalues of the energy are wanted.
-    pub eigenvalues: usize,
-}
-
 /// Finds the modes. `observe` is asked before every decomposition and factorization, and before every product of the
 /// iteration for eigenpairs; between them, at most for the time of one decomposition, nothing stops the work.
-pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
-    let Question { sheet, tiling, surroundings, recipe, .. } = *question;
-    let drawn = Drawn::new(sheet, tiling, surroundings);
-    let bars = assemble(&drawn, tiling, &rigid_part(recipe), Gauge::Free);
+pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
+    let assembly = assembly.with_axis(0.0);
+    let (tiling, boundary, terms, drawn) = (assembly.tiling(), assembly.boundary(), assembly.terms(), assembly.drawn());
+    let bars = assembly.with_terms(rigid_part(terms)).model(Gauge::Free);
     let (rank, gap) = rank_of(&bars, observe)?;
     let (columns, rows) = (bars.layout().unknowns, bars.layout().stiff.len());
-    let rigid_motions = rigid_motions(&drawn, tiling, &bars);
+    let rigid_motions = rigid_motions(drawn, tiling, &bars);
     let (zero_modes, self_stresses) = (columns - rank, rows - rank);
     go_on(observe)?;
-    let folding_modes = folding_modes(question, &drawn)?;
+    let folding_modes = folding_modes(&assembly)?;
     if let Some(closure) = folding_modes {
-        let predicted = match surroundings {
-            Surroundings::Patch if recipe.pins.is_empty() => Some(zero_modes.saturating_sub(rigid_motions)),
-            Surroundings::FixedTorus if recipe.pins.is_empty() && !has_rigid_facets(recipe) => Some(self_stresses),
+        let predicted = match boundary {
+            Boundary::Patch if terms.pins.is_empty() => Some(zero_modes.saturating_sub(rigid_motions)),
+            Boundary::FixedTorus if terms.pins.is_empty() && !terms.has_rigid_facets() => Some(self_stresses),
             _ => None,
         };
         if let Some(bars) = predicted.filter(|&bars| bars != closure) {
@@ -152,9 +137,9 @@ pub fn modes(question: &Question<'_>, observe: &mut Observer<'_>) -> Result<Mode
         }
     }
     // rigid bars leave their zero modes free, and no more
-    let free = if recipe.bars.is_some_and(f64::is_infinite) { zero_modes } else { columns };
-    let (eigenvalues, vectors) = if question.eigenvalues.min(free) > 0 {
-        lowest(&assemble(&drawn, tiling, recipe, Gauge::Free), question.eigenvalues, free, observe)?
+    let free = if terms.bars.is_some_and(f64::is_infinite) { zero_modes } else { columns };
+    let (eigenvalues, vectors) = if eigenvalues.min(free) > 0 {
+        lowest(&assembly.model(Gauge::Free), eigenvalues, free, observe)?
     } else {
         (vec![], vec![])
     };
@@ -175,13 +160,9 @@ fn go_on(observe: &mut Observer<'_>) -> Result<(), ModesError> {
 }
 
 /// Bars and rigid polygons only, all rigid; pins as they are.
-fn rigid_part(recipe: &Recipe) -> Recipe {
-    let facets = recipe.facets.as_ref().filter(|hinges| hinges.stiffness.is_infinite()).cloned();
-    Recipe { bars: Some(f64::INFINITY), facets, pins: recipe.pins.clone(), ..Recipe::default() }
-}
-
-fn has_rigid_facets(recipe: &Recipe) -> bool {
-    recipe.facets.as_ref().is_some_and(|hinges: &Hinges| hinges.stiffness.is_infinite())
+fn rigid_part(terms: &Terms) -> Terms {
+    let facets = terms.facets.as_ref().filter(|hinges| hinges.stiffness.is_infinite()).cloned();
+    Terms { bars: Some(RIGID), facets, pins: terms.pins.clone(), ..Terms::default() }
 }
 
 /// Rigid motions of the sheet; where a patch has several pieces with faces, of each of them.
@@ -217,7 +198,7 @@ fn pieces_with_openings(tiling: &Tiling) -> bool {
 /// Rank of the Jacobian of a model's stiff measures at the drawn state, and the gap.
 fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, Option<f64>), ModesError> {
     let (layout, at) = (model.layout(), linearized(model));
-    let rows = at.rows(layout);
+    let rows = at.rows();
     if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
         return rank_by_counting(&rows, layout.unknowns, &layout.node, observe);
     }
@@ -270,13 +251,13 @@ fn rank_by_counting(
 
 fn linearized(model: &Model) -> Linearization {
     let mut at = Linearization::new(model.layout());
-    model.linearize(&model.start(), &vec![0.0; model.layout().stiff.len()], Curvature::Full, &mut at);
+    model.linearize(&model.start(), &vec![0.0; model.layout().stiff.len()], HessianKind::Full, &mut at);
     at
 }
 
 /// Null space of the closure conditions of the tiling, rigid facets locked.
-fn folding_modes(question: &Question<'_>, drawn: &Drawn) -> Result<Option<usize>, ModesError> {
-    let tiling = question.tiling;
+fn folding_modes(assembly: &Assembly) -> Result<Option<usize>, ModesError> {
+    let (tiling, drawn) = (assembly.tiling(), assembly.drawn());
     let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };
     let hinged: Vec<HingedEdge> = tiling
         .edges
@@ -290,13 +271,8 @@ fn folding_modes(question: &Question<'_>, drawn: &Drawn) -> Result<Option<usize>
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);
     }
-    let rigid = has_rigid_facets(question.recipe);
-    let locked: Vec<usize> =
-        (0..tiling.edges.len()).filter(|&e| rigid && tiling.edges[e].kind == EdgeKind::Facet).collect();
-    let angles: Vec<f64> = crate::model::assemble::drawn_angles(drawn, tiling)
-        .into_iter()
-        .map(|angle| if angle.is_nan() { 0.0 } else { angle })
-        .collect();
+    let locked: Vec<usize> = tiling.facets().filter(|_| assembly.terms().has_rigid_facets()).collect();
+    let angles = assembly.drawn_angles_or_zero();
     let null = dense::null_space(&closure.with_locked(&locked).jacobian(&angles))?;
     Ok(Some(null.basis.ncols()))
 }
@@ -341,10 +317,10 @@ fn lowest_dense(model: &Model, count: usize, observe: &mut Observer<'_>) -> Resu
     let compliance = model.compliance();
     let mut values = std::mem::take(&mut at.hessian);
     for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
-        at.add_outer(layout, row, 1.0 / c, &mut values);
+        at.add_outer(row, 1.0 / c, &mut values);
     }
     let hessian = at.pattern().to_dense(&values);
-    let full = dense::from_rows(&at.rows(layout), layout.unknowns);
+    let full = dense::from_rows(&at.rows(), layout.unknowns);
     let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
     let free = if rigid.is_empty() {
         DenseMatrix::identity(layout.unknowns, layout.unknowns)
@@ -360,36 +336,35 @@ fn lowest_dense(model: &Model, count: usize, observe: &mut Observer<'_>) -> Resu
 
 /// By shift and invert: the largest eigenvalues of `(H + shift)^-1` on the null space of the rigid measures.
 fn lowest_sparse(model: &Model, count: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
-    let (layout, mut at) = (model.layout(), linearized(model));
-    let compliance = model.compliance();
-    let mut saddle = Saddle::new(layout, &at)?;
-    let unit = at.pattern().largest_diagonal(&at.hessian);
+    let layout = model.layout();
+    let zero = vec![0.0; layout.stiff.len()];
+    let mut tangent = Tangent::at_state(model, &model.start(), &zero, HessianKind::Full)?;
+    let unit = tangent.at.pattern().largest_diagonal(&tangent.at.hessian);
     let (mut shift, mut powers) = (0.0, 0..SHIFTS);
     loop {
         // without a shift that makes the Hessian positive, the largest eigenvalues of its inverse are not the lowest of its own
         let power = powers.next().ok_or(FactorError::Singular { ratio: 0.0 })?;
         let next = 1e-7 * unit * 4f64.powi(power);
         go_on(observe)?;
-        at.add_identity(next - shift);
+        tangent.at.add_identity(next - shift);
         shift = next;
-        if saddle.factor(layout, &at, compliance, 0.0).is_ok_and(|inertia| inertia.negative == 0) {
+        if tangent.factor(0.0).is_ok_and(|inertia| inertia.negative == 0) {
             break;
         }
     }
-    let zero = vec![0.0; layout.stiff.len()];
-    let mut inverse = |v: &[f64]| saddle.solve(layout, &at, compliance, (v, &zero), 1e-13).dx;
+    let mut inverse = |v: &[f64]| tangent.solve(v, &zero, 1e-13).dx;
     let (_, vectors) = eigen::largest(layout.unknowns, count, |v| observe().then(|| inverse(v)))?;
     // once more, since Lanczos vectors are only as good as the largest eigenvalue of the inverse allows
     let vectors: Vec<Vec<f64>> = vectors.iter().map(|v| normalized(inverse(v))).collect();
-    at.add_identity(-shift);
-    let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (rayleigh_quotient(model, &at, &v), v)).collect();
+    tangent.at.add_identity(-shift);
+    let quotient = |v: &[f64]| rayleigh_quotient(model, &tangent.at, v);
+    let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (quotient(&v), v)).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(pairs.into_iter().unzip())
 }
 
 fn normalized(mut v: Vec<f64>) -> Vec<f64> {
-    let length = v.iter().map(|a| a * a).sum::<f64>().sqrt();
-    v.iter_mut().for_each(|a| *a /= length);
+    normalize(&mut v);
     v
 }
 
@@ -397,9 +372,8 @@ fn normalized(mut v: Vec<f64>) -> Vec<f64> {
 fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
     let mut product = vec![0.0; v.len()];
     symmetric_product(at.pattern(), &at.hessian, v, &mut product);
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut stretch = vec![0.0; model.compliance().len()];
-    at.rows(model.layout()).product(v, &mut stretch);
+    at.rows().product(v, &mut stretch);
     let finite = stretch.iter().zip(model.compliance()).filter(|(_, c)| **c > 0.0);
     (dot(v, &product) + finite.map(|(s, c)| s * s / c).sum::<f64>()) / dot(v, v)
 }
@@ -407,22 +381,16 @@ fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::assemble::drawn_angles;
+    use crate::sheet::generate;
     use crate::sheet::generate::{Pattern, Random};
-    use crate::sheet::{generate, tile};
 
     /// Asks for modes of a patch of random cells and stops at the `stop`-th question; the answer, and how many
     /// questions there were.
     fn asked(cells: usize, eigenvalues: usize, stop: usize) -> (Result<Modes, ModesError>, usize) {
         let sheet = generate(&Pattern::Random(Random::default())).unwrap();
-        let tiling = tile(&sheet, [cells; 2], false);
-        let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
-        let rest = drawn_angles(&drawn, &tiling);
-        let recipe = Recipe { bars: Some(1e3), creases: Some(Hinges { stiffness: 1.0, rest }), ..Recipe::default() };
-        let surroundings = Surroundings::Patch;
-        let question = Question { sheet: &sheet, tiling: &tiling, surroundings, recipe: &recipe, eigenvalues };
+        let assembly = Assembly::patch(sheet, [cells; 2]).bars(1e3).creases(1.0).build().unwrap();
         let mut asked = 0;
-        let found = modes(&question, &mut || {
+        let found = modes(&assembly, eigenvalues, &mut || {
             asked += 1;
             asked != stop
         });

@@ -2,11 +2,12 @@
 
 use super::apex;
 use super::state::State;
-use crate::model::{Domain, Model};
-use crate::solver::saddle::Saddle;
+use crate::model::{Assembly, Domain, Gauge, Model};
 use crate::solver::{
-    Curvature, Equilibrium, Failure, Linearization, NewtonError, Options, Problem, Start, Step, minimize, tension,
+    Equilibrium, Failure, HessianKind, Linearization, NewtonError, Options, Problem, Start, Step, Tangent, minimize,
+    tension,
 };
+use std::fmt;
 use thiserror::Error;
 
 /// Smallest step of the continuation that is tried before giving up.
@@ -52,7 +53,7 @@ pub struct Relaxed {
 }
 
 /// Relaxation failed; the last accepted state is here.
-#[derive(Debug, Error)]
+#[derive(Error)]
 #[error("{failure}")]
 pub struct RelaxError {
     /// Why.
@@ -65,15 +66,46 @@ pub struct RelaxError {
     pub history: Vec<Step>,
 }
 
-/// Relaxes from a start. `observe` sees every accepted step and returns false to stop.
+/// Says why it failed and how far it came, not the numbers of the state.
+impl fmt::Debug for RelaxError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (steps, edges) = (self.history.len(), self.state.energy.len());
+        write!(out, "{} (after {steps} steps; a sheet of {edges} edges)", self.failure)
+    }
+}
+
+/// The equilibrium that a sheet reaches from its drawn state.
+///
+/// ```
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
+///
+/// let sheet = generate(&Pattern::named("miura").expect("a known pattern"))?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// let relaxed = relax(&assembly)?;
+/// assert!(relaxed.state.total() < 1e-12 && relaxed.negative_eigenvalues == 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
+pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
+    let mut model = assembly.model(Gauge::Held);
+    let start = model.start();
+    relax_from(&mut model, start, Options::default(), &mut |_| true)
+}
+
+/// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
+/// step and returns false to stop.
 ///
 /// Where the direct way fails, all rest angles and locked angles are moved from their values at the start to their
 /// targets in steps that adapt.
-pub fn relax(
+///
+/// # Errors
+/// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
+pub fn relax_from(
     model: &mut Model,
     start: impl Into<Start>,
     options: Options,
-    edges: usize,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
     let start = start.into();
@@ -101,17 +133,17 @@ pub fn relax(
     match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
             Some(angle) if !(angle <= CERTAIN) => {
-                let state = State::new(model, &found.x, &found.tension, edges);
+                let state = State::new(model, &found.x, &found.tension);
                 let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
                 let failure = Failure::Uncertain { angle, force, tolerance: options.tolerance };
                 history.extend(found.history);
                 Err(Box::new(RelaxError { failure, state, x: found.x, history }))
             }
-            _ => Ok(finish(model, found, history, edges)),
+            _ => Ok(finish(model, found, history)),
         },
         Err(error) => {
             history.extend(error.history);
-            let state = State::new(model, &error.x, &error.tension, edges);
+            let state = State::new(model, &error.x, &error.tension);
             Err(Box::new(RelaxError { failure: error.failure, state, x: error.x, history }))
         }
     }
@@ -214,7 +246,7 @@ fn refined(
 fn rigid_over_others(model: &Model, found: &Equilibrium) -> f64 {
     let mut at = Linearization::new(model.layout());
     let mut largest = |tension: &[f64]| {
-        model.linearize(&found.x, tension, Curvature::GaussNewton, &mut at);
+        model.linearize(&found.x, tension, HessianKind::GaussNewton, &mut at);
         at.largest_force
     };
     let of_others: Vec<f64> =
@@ -239,21 +271,17 @@ fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64
     if matches!(model.domain(), Domain::Screw) && of_others() > UNBALANCED && strained() {
         return Some(f64::INFINITY);
     }
-    let (layout, compliance) = (model.layout(), model.compliance());
-    let mut at = Linearization::new(layout);
-    model.linearize(&found.x, &found.tension, Curvature::Full, &mut at);
-    model.hold(&found.tension, &mut at);
-    let mut saddle = Saddle::new(layout, &at).ok()?;
+    let mut tangent = Tangent::at_state(model, &found.x, &found.tension, HessianKind::Full).ok()?;
+    model.hold(&found.tension, &mut tangent.at);
     let unknown = || (last.residual_force > UNBALANCED && strained()).then_some(f64::INFINITY);
-    if saddle.factor(layout, &at, compliance, 0.0).is_err() {
+    if tangent.factor(0.0).is_err() {
         return unknown();
     }
-    let missing = at.missing(&found.tension, compliance);
-    let step = saddle.solve(layout, &at, compliance, (&at.force(layout, &found.tension), &missing), ROUGH);
+    let step = tangent.newton_step(&found.tension, ROUGH);
     if !(step.residual <= ROUGH) {
         return unknown();
     }
-    Some(at.largest_turn(layout, &step.dx))
+    Some(tangent.at.largest_measure_change(&step.dx))
 }
 
 /// The largest angle between a soft hinge and its rest, in radians.
@@ -264,18 +292,18 @@ fn off_rest(model: &Model, x: &[f64]) -> f64 {
     off.fold(0.0, |largest, off| largest.max(off.abs()))
 }
 
-fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>, edges: usize) -> Relaxed {
+fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed {
     let settled = tension::settle(model, &found);
     history.extend(found.history);
     Relaxed {
-        state: State::new(model, &found.x, &settled.tension, edges),
+        state: State::new(model, &found.x, &settled.tension),
         x: found.x,
         tension: settled.tension,
         iterations: history.iter().filter(|step| step.fraction > 0.0).count(),
         factorizations: history.iter().map(|step| step.factorizations).sum(),
         solves: history.iter().map(|step| step.solves).sum(),
-        residual_force: settled.residual_force,
-        residual_length: settled.residual_length,
+        residual_force: settled.residuals.force,
+        residual_length: settled.residuals.length,
         negative_eigenvalues: found.negative_eigenvalues,
         self_stresses: settled.self_stresses,
         history,

@@ -4,8 +4,7 @@
 //! of finite stiffness follow from the geometry, and those of rigid measures from the balance of forces.
 
 use crate::model::{Elements, Model};
-use crate::solver::saddle::Saddle;
-use crate::solver::{Curvature, Linearization, Problem, Start, tension};
+use crate::solver::{HessianKind, Linearization, Problem, Residuals, Start, Tangent};
 
 /// Scaled disagreement of a measure and its tension up to which the tension is taken.
 const AGREES: f64 = 1e-10;
@@ -73,27 +72,21 @@ pub fn start(model: &Model, x: Vec<f64>, mut tensions: Vec<f64>) -> Start {
 
 /// The scaled unbalanced force.
 fn unbalanced(model: &Model, x: &[f64], tensions: &[f64]) -> f64 {
-    tension::residuals(model, &linearized(model, x, tensions), tensions).0
-}
-
-fn linearized(model: &Model, x: &[f64], tensions: &[f64]) -> Linearization {
     let mut at = Linearization::new(model.layout());
-    model.linearize(x, tensions, Curvature::GaussNewton, &mut at);
-    model.hold(tensions, &mut at);
-    at
+    model.linearize(x, tensions, HessianKind::GaussNewton, &mut at);
+    Residuals::new(model, &at, tensions).force
 }
 
 /// The tensions, with those of rigid measures that leave the least unbalanced force; `None` where they cannot be found.
 fn completed(model: &Model, x: &[f64], tensions: &[f64]) -> Option<Vec<f64>> {
-    let (layout, compliance) = (model.layout(), model.compliance());
-    let at = linearized(model, x, tensions);
-    let mut saddle = Saddle::new(layout, &at).ok()?;
-    saddle.factor_shortest(layout, &at, compliance).ok()?;
+    let mut tangent = Tangent::at_state(model, x, tensions, HessianKind::GaussNewton).ok()?;
+    model.hold(tensions, &mut tangent.at);
+    tangent.factor_shortest().ok()?;
     // the shortest motion that the forces can make: what keeps it from being longer are the tensions
-    let nothing = vec![0.0; tensions.len()];
-    let more = saddle.solve(layout, &at, compliance, (&at.force(layout, tensions), &nothing), EXACT).dt;
+    let (force, nothing) = (tangent.at.force(tensions), vec![0.0; tensions.len()]);
+    let more = tangent.solve(&force, &nothing, EXACT).dt;
     let rigid = |((t, dt), c): ((&f64, &f64), &f64)| if *c == 0.0 { t + dt } else { *t };
-    Some(tensions.iter().zip(&more).zip(compliance).map(rigid).collect())
+    Some(tensions.iter().zip(&more).zip(model.compliance()).map(rigid).collect())
 }
 
 /// Tensions of finite stiffness from the gaps; zero where all gaps of a term are rounding error, and for rigid measures.

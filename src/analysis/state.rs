@@ -48,9 +48,9 @@ impl State {
         }
     }
 
-    /// Reads off a state of `edges` edges. Stiff measures have the energy of their tensions, without cancellation.
-    pub fn new(model: &Model, x: &[f64], tension: &[f64], edges: usize) -> Self {
-        let mut state = Self::empty(model.coordinates(x), edges);
+    /// The state of a model with these unknowns and tensions of the stiff measures. Stiff measures have the energy of their tensions, without cancellation.
+    pub fn new(model: &Model, x: &[f64], tension: &[f64]) -> Self {
+        let mut state = Self::empty(model.coordinates(x), model.edges());
         for term in model.soft() {
             for k in 0..term.len() {
                 let (spring, value) = (term.spring(k), term.value(k, model.domain(), &state.coordinates));

@@ -4,10 +4,10 @@
 //! [`crate::solver::continuation`] follows it. Arc length is that of the fold angles. Turning points of the curvature
 //! and of the three strains are the zeros of their rates.
 
-use super::branches::{self, BranchesError};
+use super::branches::{BranchesError, branches};
 use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, Rays, RealDirections, Shape};
 use crate::math::Vec3;
-use crate::model::assemble::Surroundings;
+use crate::model::{Assembly, Boundary};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, End, Event, Options, Point, Trajectory, follow};
@@ -25,10 +25,9 @@ const CURVATURE: usize = TURNING.len();
 const CREASE_ANGLE: usize = CURVATURE + 1;
 const INTERSECTION: usize = CURVATURE + 2;
 
-/// What to follow.
-pub struct Question<'a> {
-    /// Where the trajectories start, and what is locked.
-    pub start: branches::Question<'a>,
+/// How trajectories are followed.
+#[derive(Clone, Copy, Debug)]
+pub struct TraceOptions {
     /// Longest step in arc length.
     pub max_step: f64,
     /// Bound on the closure residual.
@@ -228,15 +227,15 @@ impl Curve for Folding<'_, '_> {
     }
 }
 
-/// Follows every ray that the question asks for; none where it is established that no direction is real. `observe` sees branch, sign and every state's
+/// Follows every ray that the options ask for; none where it is established that no direction is real. `observe` sees branch, sign and every state's
 /// arc length, and returns false to stop.
 pub fn trace(
-    question: &Question<'_>,
+    assembly: &Assembly,
+    options: &TraceOptions,
     intersects: Option<Intersects<'_>>,
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Result<Vec<Traced>, TraceError> {
-    let start = &question.start;
-    let found = branches::branches(start)?;
+    let found = branches(assembly)?;
     let rays = &found.rays.rays;
     match found.rays.directions {
         RealDirections::Continuum if rays.is_empty() => return Err(TraceError::Continuum),
@@ -244,25 +243,24 @@ pub fn trace(
         _ => {}
     }
     let count = rays.iter().map(|ray| ray.branch + 1).max().unwrap_or(0);
-    if let Some(branch) = question.branch.filter(|&branch| branch >= count && count > 0) {
+    if let Some(branch) = options.branch.filter(|&branch| branch >= count && count > 0) {
         return Err(TraceError::NoSuchBranch { branch, count });
     }
-    let closure = Closure::of_cell(start.sheet)?.with_locked(&branches::locked(start));
-    let embedding = Embedding::new(start.sheet)?;
-    let angles: Vec<f64> = start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
-    let periodic = start.surroundings == Surroundings::Screw;
-    let closing = Closing::new(&closure, angles);
-    let (known, stop) = (Vec::new(), question.stop);
+    let closure = Closure::of_cell(assembly.sheet())?.with_locked(&assembly.locked_edges());
+    let embedding = Embedding::new(assembly.sheet())?;
+    let periodic = assembly.boundary() == Boundary::Screw;
+    let closing = Closing::new(&closure, assembly.drawn_angles_or_zero());
+    let (known, stop) = (Vec::new(), options.stop);
     let crosses = false;
     let mut folding = Folding { closing, embedding: &embedding, periodic, known, stop, intersects, crosses };
-    folding.look_at_start(folding.closing.folding(start.angles));
+    folding.look_at_start(folding.closing.folding(assembly.drawn_angles()));
     if folding.crosses && stop.self_intersection {
         return Err(TraceError::CrossesAlready);
     }
-    let wanted = rays.iter().filter(|ray| question.branch.is_none_or(|branch| branch == ray.branch));
+    let wanted = rays.iter().filter(|ray| options.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
-        let one = along(&mut folding, question, ray, &found.rays, observe);
+        let one = along(&mut folding, (assembly, options), (ray, &found.rays), observe);
         let interrupted = one.end == End::Interrupted;
         traced.push(one);
         if interrupted {
@@ -275,21 +273,20 @@ pub fn trace(
 /// The trajectory along one ray.
 fn along(
     folding: &mut Folding<'_, '_>,
-    question: &Question<'_>,
-    ray: &Ray,
-    all: &Rays,
+    (assembly, options): (&Assembly, &TraceOptions),
+    (ray, all): (&Ray, &Rays),
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Traced {
     let (branch, rays) = ((ray.branch, ray.sign), &all.rays);
-    let start = folding.closing.folding(question.start.angles);
+    let start = folding.closing.folding(assembly.drawn_angles());
     let directions: Vec<Vec<f64>> = rays.iter().map(|ray| folding.closing.folding(&ray.direction)).collect();
     let leaving = folding.closing.folding(&ray.direction);
     let mut stops = vec![CURVATURE, CREASE_ANGLE];
-    stops.extend(question.stop.self_intersection.then_some(INTERSECTION));
+    stops.extend(options.stop.self_intersection.then_some(INTERSECTION));
     let options = Options {
-        tolerance: question.tolerance,
-        max_step: question.max_step,
-        length: question.stop.arc_length.unwrap_or(f64::INFINITY),
+        tolerance: options.tolerance,
+        max_step: options.max_step,
+        length: options.stop.arc_length.unwrap_or(f64::INFINITY),
         period: Some(TAU),
         stops,
         ..Options::default()

@@ -1,8 +1,7 @@
 //! Which copies of the cell a picture shows, and where they are in a state.
 
 use crate::math::Vec3;
-use crate::model::assemble::{Drawn, Surroundings};
-use crate::model::{Domain, Site};
+use crate::model::{Assembly, Domain, Drawn, Site};
 use crate::sheet::tiling::{TiledEdge, TiledTriangle};
 use crate::sheet::{Sheet, Tiling, tile};
 use std::collections::HashMap;
@@ -58,10 +57,9 @@ fn beside_a_triangle(ends: [Site; 2], sides: &[(usize, [i32; 2])]) -> [Site; 2] 
 }
 
 impl View {
-    /// The view of a tiling; of a screw `shown` cells.
-    pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, shown: [usize; 2]) -> Self {
-        let cells = if surroundings == Surroundings::Screw { shown } else { tiling.cells };
-        Self::of_cells(sheet, tiling, cells, [0, 0])
+    /// The view of the cells that pictures of an assembly show.
+    pub fn new(assembly: &Assembly) -> Self {
+        Self::of_cells(assembly.sheet(), assembly.tiling(), assembly.shown(), [0, 0])
     }
 
     /// The view of `cells`, beginning at the cell `first` of a tiling; a periodic one goes on beyond its last cell.

@@ -15,6 +15,7 @@ use super::metric::LatticeFrame;
 use super::{Closure, Displacement, Embedding, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::solve_3;
 use crate::numerics::dense::{NullSpace, null_space, singular_values};
 use crate::sheet::Sheet;
 use nalgebra::{DVector, Matrix2, Matrix3};
@@ -90,7 +91,7 @@ impl FoldingModes {
         let condition = condition(&self.curvatures)?;
         let invertible = condition <= LARGEST_CONDITION;
         let map = Matrix3::from_fn(|row, mode| self.curvatures[(row, mode)]);
-        let amplitudes = map.lu().solve(&Vec3::from(curvature)).filter(|_| invertible);
+        let amplitudes = solve_3(map, &Vec3::from(curvature)).filter(|_| invertible);
         let amplitudes = amplitudes.ok_or(KinematicsError::SingularCurvatures { condition })?;
         Ok((&self.basis * DVector::from_column_slice(amplitudes.as_slice())).as_slice().to_vec())
     }

@@ -7,8 +7,10 @@
 //! flat developable state there are `Nv + 2` modes and `Nv` quadrics, one for each vertex; the loop is their sum.
 
 use super::{Closure, KinematicsError};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::orthonormal_triangular;
 use crate::numerics::dense::{Svd, full_svd, null_space, rank_at_largest_gap, symmetric_eigenvalues};
-use crate::numerics::{DenseMatrix, largest};
+use crate::numerics::vector::max_abs;
 
 /// Largest closure residual of a state whose directions mean something.
 const CLOSED: f64 = 1e-9;
@@ -75,7 +77,7 @@ fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), Kinemat
         return Ok((Vec::new(), 1.0 / f64::EPSILON));
     }
     let columns = DenseMatrix::from_fn(entries, forms.len(), |entry, form| forms[form][entry]);
-    let Svd { singular_values, v, .. } = full_svd(&columns.qr().r())?;
+    let Svd { singular_values, v, .. } = full_svd(&orthonormal_triangular(columns)[1])?;
     let natural = singular_values.first().copied().unwrap_or(0.0).max(1.0);
     let with_natural: Vec<f64> = [natural].into_iter().chain(singular_values.iter().copied()).collect();
     let found = rank_at_largest_gap(&with_natural)?;
@@ -92,7 +94,7 @@ fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), Kinemat
 /// `[2, 0, 1]` has one, of multiplicity two. Fails on entries that are not finite.
 pub fn signature(quadric: &DenseMatrix) -> Result<[usize; 3], KinematicsError> {
     let values = symmetric_eigenvalues(quadric)?;
-    let threshold = ZERO * largest(&values);
+    let threshold = ZERO * max_abs(&values);
     let [positive, negative] = [1.0, -1.0].map(|sign| values.iter().filter(|v| sign * **v > threshold).count());
     Ok([positive, negative, values.len() - positive - negative])
 }

@@ -10,9 +10,9 @@
 //! The Hessian follows with `dN = (I - 2 n n^T/|n|^2) dn / |n|^2`. With `[p, q] = p q^T + q p^T` and
 //! `v = e/|e| + 2 |e| N x a`, and symmetric where it must be, it is on the left side
 //! `aa = [N, |e| e x N]`, `ae = N v^T - |e| |N|^2 [a]_x`, `ee = -[N, |e| ds/de + s v]/2`,
-//! on the right one the same with `M`, `b`, `r` and `-|e|` before cross products, and `ab = 0`. The lengths and angles in these
-//! formulas are those of R. Tamstorf and E. Grinspun, "Discrete bending forces and their Jacobians", Graphical Models 75 (2013)
-//! 362-370.
+//! on the right one the same with `M`, `b`, `r` and `-|e|` before cross products, and `ab = 0`. The lengths and angles
+//! in these formulas are those of R. Tamstorf and E. Grinspun, "Discrete bending forces and their Jacobians", Graphical
+//! Models 75 (2013) 362-370.
 
 use super::Vec3;
 use super::taylor::{Path, Taylor, cross, difference, dot};
@@ -20,8 +20,8 @@ use nalgebra::{Matrix3, SVector};
 
 /// Gradient over the twelve coordinates of `[i, j, left, right]`.
 pub type HingeGradient = SVector<f64, 12>;
-/// Entries of the lower triangle of the Hessian over these coordinates.
-const TRIANGLE: usize = 78;
+/// Number of entries of the lower triangle of the Hessian over these coordinates.
+const TRIANGLE_ENTRIES: usize = 78;
 
 /// Fold angle of the hinge `[i, j, left, right]`, in radians, in `(-pi, pi]`.
 ///
@@ -33,29 +33,29 @@ const TRIANGLE: usize = 78;
 ///           right
 /// ```
 ///
-/// Not a number where a point is; zero where a face has no area.
+/// The angle is not a number where a coordinate is none, and zero where a face has no area.
 pub fn fold_angle(points: [Vec3; 4]) -> f64 {
     Hinge::new(&points).angle()
 }
 
-/// Fold angle and its gradient, in radians per unit length. Infinite where a face has no area.
+/// Fold angle, in radians, and its gradient, in radians per unit length, which is infinite where a face has no area.
 pub fn fold_angle_gradient(points: &[Vec3; 4]) -> (f64, HingeGradient) {
     let hinge = Hinge::new(points);
     (hinge.angle(), hinge.gradient())
 }
 
-/// Fold angle and its gradient; puts the lower triangle of its Hessian, row by row, in the place of what is in `lower`.
+/// Fold angle and its gradient; `lower` is overwritten by the lower triangle of the Hessian, row by row.
 ///
-/// Inlined into the loop over hinges and written where it is wanted: no matrix is copied on the way.
+/// The function is inlined into the loop over hinges and writes in place: no matrix is copied on the way.
 #[inline(always)]
 pub fn fold_angle_hessian(points: &[Vec3; 4], lower: &mut Vec<f64>) -> (f64, HingeGradient) {
     let hinge = Hinge::new(points);
-    lower.resize(TRIANGLE, 0.0);
-    hinge.hessian(&mut lower[..TRIANGLE]);
+    lower.resize(TRIANGLE_ENTRIES, 0.0);
+    hinge.hessian(&mut lower[..TRIANGLE_ENTRIES]);
     (hinge.angle(), hinge.gradient())
 }
 
-/// The fold angle while its points move, to the fourth power of what they move with.
+/// Taylor series of the fold angle while its points move, to the fourth power of their parameter.
 pub fn fold_angle_along([i, j, left, right]: &[Path; 4]) -> Taylor {
     let [e, a, b] = [j, left, right].map(|point| difference(point, i));
     let (n, m) = (cross(&e, &a), cross(&b, &e));
@@ -74,7 +74,7 @@ struct Hinge {
 struct Side {
     wing: Vec3,
     normal: Vec3,
-    /// `N` or `M`: the normal over its squared length.
+    /// The inverse normal `N` or `M`: the normal divided by its squared length.
     inverse: Vec3,
     foot: f64,
 }
@@ -120,7 +120,7 @@ impl Hinge {
         spread(&left.ww, &right.ww, &left.we, &right.we, &(left.ee + right.ee), lower);
     }
 
-    /// On the left, `turn = 1`, or on the right, `turn = -1`.
+    /// Second derivatives on the left side, `turn = 1`, or on the right one, `turn = -1`.
     #[inline(always)]
     fn curvature(&self, side: &Side, turn: f64) -> Curvature {
         let Side { wing, inverse, foot, .. } = side;
@@ -135,14 +135,14 @@ impl Hinge {
     }
 }
 
-/// `p q^T + q p^T`.
+/// The symmetric product `p q^T + q p^T`.
 #[inline(always)]
 fn symmetric(p: &Vec3, q: &Vec3) -> Matrix3<f64> {
     let product = p * q.transpose();
     product + product.transpose()
 }
 
-/// From blocks in `(e, a, b)` to the twelve coordinates: `e = j - i`, `a = left - i`, `b = right - i`.
+/// Writes blocks in `(e, a, b)` by the twelve coordinates: `e = j - i`, `a = left - i`, `b = right - i`.
 #[inline(always)]
 fn spread(
     aa: &Matrix3<f64>,

@@ -1,4 +1,28 @@
-//! Small mathematics that every floor uses: points, the fold angle, rotations, the sinc family.
+//! Geometry of points and rotations.
+//!
+//! | file | what it is for |
+//! |---|---|
+//! | [`fold_angle`](mod@fold_angle) | the fold angle of a hinge, its gradient, Hessian and Taylor series |
+//! | [`rotation`] | rotation matrices and rotation vectors |
+//! | [`sinc`] | `(e^{it} - 1) / (it)` and its derivatives without a singular point |
+//! | [`taylor`] | Taylor series of the fourth degree |
+//!
+//! # Example
+//!
+//! Two triangles that share the edge from `i` to `j`, the left one turned about it by a rotation vector:
+//!
+//! ```
+//! use foldwell::math::{Vec3, fold_angle::fold_angle, rotation};
+//!
+//! let [i, j, right] = [Vec3::zeros(), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.5, -1.0, 0.0)];
+//! let flat = Vec3::new(0.5, 1.0, 0.0);
+//! assert_eq!(fold_angle([i, j, flat, right]), 0.0);
+//!
+//! let turn = rotation::exp(&Vec3::new(0.3, 0.0, 0.0));
+//! // a valley: the faces rise towards the side of their normals
+//! assert!((fold_angle([i, j, turn * flat, right]) - 0.3).abs() < 1e-15);
+//! assert!((rotation::log(&turn) - Vec3::new(0.3, 0.0, 0.0)).norm() < 1e-15);
+//! ```
 
 pub mod fold_angle;
 pub mod rotation;

@@ -17,7 +17,7 @@ pub fn exp(v: &Vec3) -> Matrix3<f64> {
 /// The rotation vector of a rotation matrix, of length at most pi; the inverse of [`exp`].
 ///
 /// All digits are kept at 0 and near pi. At pi itself the axis is one of the two opposite ones. The matrix has to be a
-/// rotation up to rounding; of any other the result means nothing (not a number where an entry is none).
+/// rotation up to rounding; for any other the result means nothing (it is not a number where an entry is none).
 pub fn log(rotation: &Matrix3<f64>) -> Vec3 {
     let (scalar, vector) = quaternion(rotation);
     let (scalar, vector) = if scalar < 0.0 { (-scalar, -vector) } else { (scalar, vector) };

@@ -5,11 +5,11 @@ use std::ops::{Add, Mul, Sub};
 /// Number of coefficients.
 pub const TERMS: usize = 5;
 
-/// `c[0] + c[1] a + c[2] a^2 + c[3] a^3 + c[4] a^4`.
+/// The series `c[0] + c[1] a + c[2] a^2 + c[3] a^3 + c[4] a^4` in a parameter `a`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Taylor(pub [f64; TERMS]);
 
-/// A point that moves.
+/// A point that moves with the parameter: the series of its three coordinates.
 pub type Path = [Taylor; 3];
 
 impl Add for Taylor {

@@ -6,6 +6,7 @@
 
 use super::domain::Domain;
 use crate::math::Vec3;
+use crate::numerics::dense::small::{reciprocal_condition, symmetric_eigen_3};
 use nalgebra::{Matrix3, Rotation3, SVector};
 
 /// Most turns towards the orientation in which loads do the most work.
@@ -84,8 +85,7 @@ pub fn separation(motions: &[Motion], held: &[bool]) -> f64 {
     let rows = nalgebra::DMatrix::from_fn(kept.len().max(had.len()), had.len(), |row, motion| {
         kept.get(row).map_or(0.0, |rates| rates[had[motion]])
     });
-    let values = rows.singular_values();
-    values.min() / values.max()
+    reciprocal_condition(&rows)
 }
 
 /// Turn about the origin of the arms after which these forces do the most work on them, by Newton's method: the nearest one. Turns that
@@ -99,11 +99,11 @@ pub fn turn_along(mut arms: Vec<(Vec3, Vec3)>) -> Option<Rotation3<f64>> {
             break;
         }
         let stiffness: Matrix3<f64> = arms.iter().map(|(arm, force)| stiffness_of(arm, force)).sum();
-        let eigen = stiffness.symmetric_eigen();
-        let stiff = (0..3).filter(|&k| eigen.eigenvalues[k].abs() > NEUTRAL * most);
+        let (values, vectors) = symmetric_eigen_3(stiffness);
+        let stiff = (0..3).filter(|&k| values[k].abs() > NEUTRAL * most);
         let about = |k: usize| {
-            let axis = eigen.eigenvectors.column(k).into_owned();
-            axis * (axis.dot(&torque) / eigen.eigenvalues[k].abs())
+            let axis = vectors.column(k).into_owned();
+            axis * (axis.dot(&torque) / values[k].abs())
         };
         let step: Vec3 = stiff.map(about).sum();
         let by = Rotation3::new(step * f64::min(1.0, 1.0 / step.norm().max(f64::MIN_POSITIVE)));

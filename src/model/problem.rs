@@ -1,11 +1,16 @@
 //! The model: terms on a domain, as the problem that the solver minimises.
 
 use super::domain::Domain;
+use super::element::{Elements, Local, Spring};
 use super::gauge;
-use super::term::{Elements, Local, Spring};
+use crate::numerics::dense::small::shortest_solution;
+use crate::numerics::parallel;
 use crate::numerics::sparse::{Cliques, FIXED};
-use crate::numerics::{largest, parallel};
-use crate::solver::{Curvature, Layout, Linearization, Problem};
+use crate::numerics::vector::max_abs;
+use crate::solver::{HessianKind, Layout, Linearization, Problem, SoftElement};
+
+use std::ops::Range;
+use std::sync::Arc;
 
 mod place;
 mod turning;
@@ -13,6 +18,9 @@ mod turning;
 /// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is
 /// closer to rest than that, residuals are relative to the force of a milliradian instead of to round-off.
 const LEAST_ANGLE: f64 = 1e-3;
+/// Places of the coordinates of a hinge's wings among those of its element.
+pub(super) const LEFT_WING: Range<u32> = 6..9;
+pub(super) const RIGHT_WING: Range<u32> = 9..12;
 
 /// Rigid motions that the held coordinates cannot tell apart, against the largest one.
 const DEPENDENT: f64 = 1e-9;
@@ -32,9 +40,10 @@ pub struct Model {
     loads: Vec<f64>,
     /// Unknowns that would have to be held to keep the sheet from turning where loads pull.
     turning: Vec<u32>,
-    layout: Layout,
+    layout: Arc<Layout>,
     compliance: Vec<f64>,
     gap_scale: Vec<f64>,
+    edges: usize,
     mean_edge: f64,
     gauge: Gauge,
     /// Sizes of the shared unknowns in units of their coordinates; empty: both are the same.
@@ -65,6 +74,8 @@ pub struct Parts {
     pub pinned: Vec<usize>,
     /// Force on each coordinate; empty: none.
     pub loads: Vec<f64>,
+    /// Number of edges that elements may name.
+    pub edges: usize,
     /// Unit of length for gaps of lengths: the mean edge.
     pub mean_edge: f64,
     /// What is done about rigid motions.
@@ -74,7 +85,7 @@ pub struct Parts {
 impl Model {
     /// Puts the parts together.
     pub fn new(parts: Parts) -> Self {
-        let Parts { domain, drawn, soft, stiff, pinned, loads, mean_edge, gauge } = parts;
+        let Parts { domain, drawn, soft, stiff, pinned, loads, edges, mean_edge, gauge } = parts;
         let springs = || stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term.is_angle(), term.spring(k))));
         let compliance = springs().map(|(_, spring)| 1.0 / spring.stiffness).collect();
         let gap_scale = springs().map(|(angle, _)| if angle { 1.0 } else { mean_edge }).collect();
@@ -91,6 +102,7 @@ impl Model {
             layout,
             compliance,
             gap_scale,
+            edges,
             mean_edge,
             gauge,
             units: vec![],
@@ -176,7 +188,7 @@ impl Model {
         let held: Vec<usize> = (0..velocity.len()).zip(self.held()).filter(|(_, held)| *held).map(|(k, _)| k).collect();
         let rows = nalgebra::DMatrix::from_fn(held.len(), 6, |row, motion| motions[held[row]][motion]);
         let right = nalgebra::DVector::from_fn(held.len(), |row, _| velocity[held[row]]);
-        let drift = rows.svd(true, true).solve(&right, DEPENDENT).unwrap_or_else(|_| nalgebra::DVector::zeros(6));
+        let drift = shortest_solution(rows, &right, DEPENDENT).unwrap_or_else(|| nalgebra::DVector::zeros(6));
         let moved = motions.iter().map(|motion| motion.iter().zip(drift.iter()).map(|(m, d)| m * d).sum::<f64>());
         velocity.iter().zip(moved).map(|(v, drift)| v - drift).collect()
     }
@@ -216,6 +228,11 @@ impl Model {
     /// Where points come from.
     pub fn domain(&self) -> &Domain {
         &self.domain
+    }
+
+    /// The number of edges of the tiling, of which elements name some.
+    pub fn edges(&self) -> usize {
+        self.edges
     }
 
     /// Terms that enter with their energy.
@@ -296,13 +313,13 @@ fn layout(
     number: &[u32],
     soft: &[Box<dyn Elements>],
     stiff: &[Box<dyn Elements>],
-) -> Layout {
+) -> Arc<Layout> {
     let collect = |terms: &[Box<dyn Elements>]| {
         let mut cliques = Cliques::new();
         for term in terms {
             for k in 0..term.len() {
                 let members = members(term.as_ref(), k, domain, number);
-                if term.is_hinge() { cliques.push_hinge(members) } else { cliques.push(members) }
+                if term.is_hinge() { cliques.push_split(members, LEFT_WING, RIGHT_WING) } else { cliques.push(members) }
             }
         }
         cliques
@@ -325,7 +342,7 @@ fn numbered(terms: &[Box<dyn Elements>]) -> impl Iterator<Item = (usize, &dyn El
 }
 
 impl Problem for Model {
-    fn layout(&self) -> &Layout {
+    fn layout(&self) -> &Arc<Layout> {
         &self.layout
     }
 
@@ -350,7 +367,7 @@ impl Problem for Model {
                 let off = term.value(k, &self.domain, &all) - spring.rest;
                 *energy = 0.5 * spring.stiffness * off * off;
             };
-            parallel::ordered(term.len(), cost, |_, value| energy += value);
+            parallel::compute_and_consume(term.len(), cost, |_, value| energy += value);
         }
         energy
     }
@@ -360,16 +377,16 @@ impl Problem for Model {
         let mut gaps = Vec::with_capacity(self.compliance.len());
         for term in &self.stiff {
             let gap = |k: usize, gap: &mut f64| *gap = term.value(k, &self.domain, &all) - term.spring(k).rest;
-            parallel::ordered(term.len(), gap, |_, gap| gaps.push(*gap));
+            parallel::compute_and_consume(term.len(), gap, |_, gap| gaps.push(*gap));
         }
         gaps
     }
 
-    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
+    fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
         let all = self.coordinates(x);
-        out.clear(curvature);
+        out.clear(kind);
         self.linearize_loads(&all, out);
-        self.linearize_soft(&all, curvature, out);
+        self.linearize_soft(&all, kind, out);
         self.linearize_stiff(&all, tension, out);
     }
 
@@ -409,19 +426,20 @@ impl Model {
         }
     }
 
-    fn linearize_soft(&self, all: &[f64], curvature: Curvature, out: &mut Linearization) {
-        let full = curvature == Curvature::Full;
+    fn linearize_soft(&self, all: &[f64], kind: HessianKind, out: &mut Linearization) {
+        let full = kind == HessianKind::Full;
         for (first, term) in numbered(&self.soft) {
             let add = |k: usize, local: &Local| {
                 let spring = term.spring(k);
                 let off = local.value - spring.rest;
                 let force = spring.stiffness * off;
                 out.energy += 0.5 * force * off;
-                let largest = largest(&local.gradient);
+                let largest = max_abs(&local.gradient);
                 out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
-                out.add_soft(&self.layout, first + k, (spring.stiffness, &local.gradient), (force, &local.hessian));
+                let (gradient, hessian) = (&local.gradient, &local.hessian);
+                out.add_soft(first + k, &SoftElement { stiffness: spring.stiffness, force, gradient, hessian });
             };
-            parallel::ordered(term.len(), self.locals(term, all, full), add);
+            parallel::compute_and_consume(term.len(), self.locals(term, all, full), add);
         }
     }
 
@@ -432,12 +450,12 @@ impl Model {
             let add = |k: usize, local: &Local| {
                 let measure = first + k;
                 out.gaps[measure] = local.value - term.spring(k).rest;
-                let largest = largest(&local.gradient);
+                let largest = max_abs(&local.gradient);
                 out.largest_force = out.largest_force.max(largest * tension[measure].abs());
                 out.jacobian[self.layout.stiff.range(measure)].copy_from_slice(&local.gradient);
                 out.add_stiff(measure, tension[measure], &local.hessian);
             };
-            parallel::ordered(term.len(), self.locals(term, all, true), add);
+            parallel::compute_and_consume(term.len(), self.locals(term, all, true), add);
         }
     }
 

@@ -6,10 +6,13 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, evd_cplx, evd_scratch, self_adjoint_evd, self_adjoint_evd_scratch};
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{ColMut, MatMut, MatRef, Par, Spec};
-use nalgebra::{Complex, DMatrix};
+use nalgebra::{Complex, DMatrix, DVector};
 
-/// A complex matrix, dense.
+/// A dense complex matrix.
 pub type ComplexMatrix = DMatrix<Complex<f64>>;
+
+/// A complex vector.
+pub type ComplexVector = DVector<Complex<f64>>;
 
 /// `matrix = u * diag(singular_values) * v^H` of a square matrix.
 #[derive(Clone, Debug)]
@@ -22,10 +25,11 @@ pub struct ComplexSvd {
     pub v: ComplexMatrix,
 }
 
-/// The determinant of a square matrix, by elimination with row pivots.
+/// The determinant of a square matrix, by elimination with row pivots of the largest modulus. (nalgebra's LU
+/// factorization chooses them by `|re| + |im|`, and its determinants differ in the last digits.)
 ///
 /// # Panics
-/// Where the matrix is not square.
+/// Panics where the matrix is not square.
 pub fn determinant(mut matrix: ComplexMatrix) -> Complex<f64> {
     assert!(matrix.is_square(), "a determinant is that of a square matrix");
     let n = matrix.nrows();
@@ -58,7 +62,25 @@ fn eliminate(entries: &mut [Complex<f64>], n: usize, k: usize) {
     }
 }
 
-/// All eigenvalues of a square matrix, in no order. Fails on an entry that is not finite.
+/// The solutions `y` of `A^H y = right` and `x` of `A x = right`, in this order, from one elimination with row pivots;
+/// `None` where the square matrix `A` is singular or a solution is not finite.
+pub fn solve_with_adjoint(matrix: ComplexMatrix, right: &ComplexVector) -> Option<[ComplexVector; 2]> {
+    let (rows, lower, upper) = matrix.lu().unpack();
+    let (mut adjoint, mut solution) = (right.clone(), right.clone());
+    rows.permute_rows(&mut solution);
+    lower.solve_lower_triangular_with_diag_mut(&mut solution, Complex::ONE);
+    let solvable = upper.solve_upper_triangular_mut(&mut solution)
+        && upper.ad_solve_upper_triangular_mut(&mut adjoint)
+        && lower.ad_solve_lower_triangular_mut(&mut adjoint);
+    rows.inv_permute_rows(&mut adjoint);
+    let finite = |vector: &ComplexVector| vector.iter().all(|x| x.norm_sqr().is_finite());
+    (solvable && finite(&adjoint) && finite(&solution)).then_some([adjoint, solution])
+}
+
+/// All eigenvalues of a square matrix, in no order.
+///
+/// # Errors
+/// [`DenseError`] where the matrix is not square, or an entry is not finite.
 pub fn eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<Complex<f64>>, DenseError> {
     let (rows, columns) = check(matrix)?;
     let mut values = vec![Complex::ZERO; rows];
@@ -74,6 +96,9 @@ pub fn eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<Complex<f64>>, DenseErr
 }
 
 /// Eigenvalues of a Hermitian matrix, ascending; only the lower triangle is read.
+///
+/// # Errors
+/// As [`eigenvalues`].
 pub fn hermitian_eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<f64>, DenseError> {
     let (rows, columns) = check(matrix)?;
     let mut values = vec![Complex::ZERO; rows];
@@ -88,7 +113,10 @@ pub fn hermitian_eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<f64>, DenseEr
     Ok(values.into_iter().map(|value| value.re).collect())
 }
 
-/// Singular values and vectors of a square matrix. Fails on an entry that is not finite.
+/// Singular values and vectors of a square matrix.
+///
+/// # Errors
+/// As [`eigenvalues`].
 pub fn complex_svd(matrix: &ComplexMatrix) -> Result<ComplexSvd, DenseError> {
     let (rows, columns) = check(matrix)?;
     let (mut u, mut v) = (ComplexMatrix::identity(rows, rows), ComplexMatrix::identity(rows, rows));

@@ -7,27 +7,28 @@
 //!
 //! An entry passes when `|found - expected| <= tolerance * max(|expected|, 1e-4 * largest) + 1e-12 * size`, where
 //! `largest` is the largest entry of the gradient, or of the same row of the Jacobian, and `size` (which only matters
-//! where a whole row is zero but for rounding) is the largest of all entries and of `|function| / |x|`. With [`TOLERANCE`]
-//! a relative fault of 1e-6 is caught in every entry that is larger than 1e-4 times `largest` (and 1e-5 times
-//! `size`). Where the differences themselves are not good enough to judge an entry, that is an error too.
+//! where a whole row is zero but for rounding) is the largest of all entries and of `|function| / |x|`. With
+//! [`TOLERANCE`] a relative fault of 1e-6 is caught in every entry that is larger than 1e-4 times `largest` (and 1e-5
+//! times `size`). Where the differences themselves are not good enough to judge an entry, that is an error too.
 
 use super::DenseMatrix;
 
-/// The usual tolerance, for gradients and for Hessians.
+/// The usual relative tolerance, for gradients and for Hessians.
 pub const TOLERANCE: f64 = 1e-7;
 
-/// Entries smaller than this part of the largest are compared with the largest.
-const NEGLIGIBLE: f64 = 1e-4;
+/// Size of an entry relative to the largest one below which its error is measured relative to the latter.
+const SMALL_ENTRY: f64 = 1e-4;
 
-/// Differences below this part of the size of the function and its derivative are rounding.
+/// Relative size, compared with the function and its derivative, below which differences are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The first step is this part of the largest coordinate; then there are `LEVELS` halvings.
+/// First step of the differences relative to the largest coordinate, and the number of steps, each half of the one
+/// before.
 const FIRST_STEP: f64 = 0.125;
 const LEVELS: usize = 16;
 const HIGHEST_ORDER: usize = 7;
 
-/// Why a derivative did not pass.
+/// The reason for which a derivative did not pass.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DerivativeError {
     /// The hand-written entry and the difference quotient disagree.
@@ -79,7 +80,8 @@ struct Estimate {
 
 /// Checks every entry of the gradient of a scalar function at a point; the tolerance is relative (see the module).
 ///
-/// A NaN anywhere fails.
+/// # Errors
+/// [`DerivativeError`] at the first entry that does not pass, one that is not a number included.
 pub fn check_gradient(
     function: impl Fn(&[f64]) -> f64,
     point: &[f64],
@@ -92,7 +94,10 @@ pub fn check_gradient(
 
 /// Checks every entry of a Jacobian (row: component of the function, column: variable) at a point.
 ///
-/// A Hessian is the Jacobian of the gradient. A NaN anywhere fails.
+/// A Hessian is the Jacobian of the gradient.
+///
+/// # Errors
+/// As [`check_gradient`].
 pub fn check_jacobian(
     function: impl Fn(&[f64]) -> Vec<f64>,
     point: &[f64],
@@ -111,7 +116,7 @@ pub fn check_jacobian(
         let in_row = largest(estimates.iter().map(|column| column[row].value));
         let size = overall.max(value.abs() / scale(point));
         for (column, estimate) in estimates.iter().map(|column| column[row]).enumerate() {
-            let allowed = tolerance * estimate.value.abs().max(NEGLIGIBLE * in_row) + ROUNDING * size;
+            let allowed = tolerance * estimate.value.abs().max(SMALL_ENTRY * in_row) + ROUNDING * size;
             judge(estimate, jacobian[(row, column)], allowed, [row, column])?;
         }
     }
@@ -274,8 +279,8 @@ mod tests {
         check_gradient(product, &[2.0, 0.0], &[1e-10, 2.0], TOLERANCE).unwrap_err();
     }
 
-    /// Claim: at a stationary point, where all derivatives are zero but for rounding, zero passes and a millionth of the
-    /// function over the coordinate does not.
+    /// Claim: at a stationary point, where all derivatives are zero but for rounding, zero passes and a millionth of
+    /// the function over the coordinate does not.
     #[test]
     fn stationary_points_are_judged() {
         let well = |x: &[f64]| (x[0] - 1.0).cos() + (x[1] - 1.0).cos();

@@ -1,7 +1,7 @@
 //! A few extreme eigenpairs of a symmetric operator, by faer's restarted Lanczos iteration.
 //!
-//! The iteration has no way out before its end. A product that asks to stop, or is not finite, leaves it by unwinding, as a panic does but
-//! without a message; where a program is built with `panic = "abort"` stopping ends the program.
+//! The iteration has no way out before its end. A product that asks to stop, or is not finite, leaves it by unwinding,
+//! as a panic does but without a message; where a program is built with `panic = "abort"` stopping ends the program.
 
 use super::factor::FactorError;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
@@ -12,10 +12,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Mutex;
 use thiserror::Error;
 
-/// Relative accuracy that is asked of every eigenpair.
-const TOLERANCE: f64 = 1e-13;
+/// Relative residual that is asked of every eigenpair.
+const RELATIVE_RESIDUAL: f64 = 1e-13;
 
-/// Why there are no eigenpairs.
+/// The reason for which no eigenpairs were found.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
 pub enum EigenError {
     /// The iteration did not find them all, or its memory is too large.
@@ -73,8 +73,9 @@ impl<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send> LinOp<f64> for Operator<F> {
 
 /// The `count` eigenvalues of largest magnitude of a symmetric operator, descending, with their vectors.
 ///
-/// A `product` of `None` stops. Fails then, where a product is not finite, where the iteration does not find them all, and where the
-/// operator is too small for its 4 count + 64 vectors.
+/// # Errors
+/// [`EigenError::Stopped`] where `product` gives `None`. [`EigenError::Factor`] where a product is not finite, where
+/// the iteration does not find all eigenpairs, and where the operator is too small for its `4 count + 64` vectors.
 pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     size: usize,
     count: usize,
@@ -91,7 +92,16 @@ pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     let start = Col::<f64>::from_fn(size, |k| 1.0 + ((k as f64) * 0.618_033_988_75).fract());
     let iterate = AssertUnwindSafe(|| {
         let (vectors, stack) = (vectors.as_mut(), MemStack::new(&mut memory));
-        partial_self_adjoint_eigen(vectors, &mut values, &operator, start.as_ref(), TOLERANCE, Par::Seq, stack, params)
+        partial_self_adjoint_eigen(
+            vectors,
+            &mut values,
+            &operator,
+            start.as_ref(),
+            RELATIVE_RESIDUAL,
+            Par::Seq,
+            stack,
+            params,
+        )
     });
     let found = match catch_unwind(iterate) {
         Ok(found) => found.n_converged_eigen,

@@ -1,13 +1,14 @@
 //! `L D L^T` factorization of symmetric matrices, with inertia, for one pattern and many sets of numbers.
 //!
-//! Sparse: faer's supernodal `L D L^T` without pivoting, on one thread. The pattern is analysed once ([`Symbolic`]). Small matrices
-//! go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia:
-//! the signs of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
+//! Sparse: faer's supernodal `L D L^T` without pivoting, on one thread. The pattern is analysed once ([`Symbolic`]).
+//! Small matrices go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia: the signs
+//! of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
 
 use super::sparse::{Cliques, Pattern};
+use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::solvers::Solve;
-use faer::perm::PermRef;
+use faer::linalg::cholesky::lblt;
+use faer::perm::{Perm, PermRef};
 use faer::prelude::{ReborrowMut, default};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
@@ -15,15 +16,15 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::{Conj, MatMut, MatRef, Par, Side};
+use faer::{Conj, Mat, MatMut, MatRef, Par, Side};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Matrices up to this size are factored dense. It is no faster (`cargo bench --bench iteration -- dense`: 1.4 times as long up to 42
-/// unknowns), but single cells are small enough to afford pivoting.
+/// Matrices up to this size are factored dense. It is no faster (`cargo bench --bench iteration -- dense`: 1.4 times as
+/// long up to 42 unknowns), but single cells are small enough to afford pivoting.
 pub const DENSE_LIMIT: usize = 64;
 
-/// Why a factorization cannot be used.
+/// The reason for which a factorization cannot be used.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
 pub enum FactorError {
     /// An entry of the matrix is infinite or not a number.
@@ -44,9 +45,9 @@ pub enum FactorError {
     /// An iteration for eigenpairs ended early.
     #[error("{found} of {wanted} eigenpairs were found")]
     Eigenpairs {
-        /// Asked for.
+        /// Number asked for.
         wanted: usize,
-        /// Found.
+        /// Number found.
         found: usize,
     },
     /// The symbolic analysis ran out of memory or indices.
@@ -66,11 +67,12 @@ pub struct Inertia {
     pub ratio: f64,
 }
 
-/// The analysis of a pattern: the order of elimination and where the factor has entries. Shared by all its factorizations.
+/// The symbolic analysis of a pattern: the order of elimination and the pattern of the factor. Shared by all its
+/// factorizations.
 #[derive(Clone, Debug)]
 pub struct Symbolic {
     size: usize,
-    /// `None`: dense.
+    /// `None` for a small matrix, which is factored dense.
     sparse: Option<Arc<SymbolicCholesky<u32>>>,
 }
 
@@ -81,7 +83,7 @@ pub struct Factor {
 }
 
 enum Kind {
-    Dense(Option<faer::linalg::solvers::Lblt<f64>>),
+    Dense(Option<Box<Dense>>),
     Sparse(Box<Sparse>),
 }
 
@@ -92,12 +94,16 @@ struct Sparse {
 }
 
 impl Factor {
-    /// Analyses a pattern and makes room, as [`Symbolic::new`].
+    /// Analyses a pattern and makes room for its factorizations. `node` groups unknowns into blocks, see
+    /// [`super::order`]; `cliques` are those of which the pattern is made.
+    ///
+    /// # Errors
+    /// [`FactorError::TooLarge`] where memory or indices run out.
     pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         Self::of(&Symbolic::new(pattern, node, cliques)?)
     }
 
-    /// Room for a factorization of a pattern that was analysed.
+    /// Makes room for a factorization of a pattern that was analysed.
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where there is not enough memory.
@@ -109,13 +115,20 @@ impl Factor {
         Ok(Self { kind, size: symbolic.size })
     }
 
-    /// Factors the matrix with these values.
+    /// Factors the matrix with these values, the entries of its lower triangle in the pattern. Returns the inertia.
+    ///
+    /// # Errors
+    /// [`FactorError::NotFinite`] and [`FactorError::Singular`].
     pub fn factor(&mut self, pattern: &Pattern, values: &[f64]) -> Result<Inertia, FactorError> {
         if values.iter().any(|v| !v.is_finite()) {
             return Err(FactorError::NotFinite);
         }
         let inertia = match &mut self.kind {
-            Kind::Dense(factor) => dense_factor(pattern, values, factor),
+            Kind::Dense(factor) => {
+                let (made, inertia) = Dense::new(pattern, values);
+                *factor = Some(Box::new(made));
+                Ok(inertia)
+            }
             Kind::Sparse(sparse) => sparse.factor(pattern, values),
         }?;
         let singular = !(inertia.ratio > f64::EPSILON * f64::EPSILON);
@@ -125,16 +138,13 @@ impl Factor {
     /// Solves with the last factorization, in place.
     pub fn solve(&mut self, x: &mut [f64]) {
         match &mut self.kind {
-            Kind::Dense(Some(factor)) => {
-                let n = self.size;
-                factor.solve_in_place(MatMut::from_column_major_slice_mut(x, n, 1));
-            }
+            Kind::Dense(Some(factor)) => factor.solve(x),
             Kind::Dense(None) => unreachable!("solve is called after factor"),
             Kind::Sparse(sparse) => sparse.solve(x),
         }
     }
 
-    /// Numbers stored in the factor.
+    /// Count of numbers stored in the factor.
     pub fn stored(&self) -> usize {
         match &self.kind {
             Kind::Dense(_) => self.size * (self.size + 1) / 2,
@@ -161,7 +171,8 @@ impl Symbolic {
         Self::sparse(pattern.symbolic(), Side::Lower, ordering)
     }
 
-    /// Analyses a pattern whose unknowns are numbered in the order of elimination: nothing is put in order at a factorization.
+    /// Analyses a pattern whose unknowns are numbered in the order of elimination: nothing is put in order at a
+    /// factorization.
     pub(super) fn in_order(pattern: &Pattern) -> Result<Self, FactorError> {
         let size = pattern.size();
         if size <= DENSE_LIMIT {
@@ -239,31 +250,65 @@ fn inertia(pivots: impl Iterator<Item = f64>) -> Inertia {
     Inertia { negative, ratio: if most > 0.0 { least / most } else { 0.0 } }
 }
 
-/// Bunch-Kaufman factorization; the eigenvalues of its 1 x 1 and 2 x 2 diagonal blocks give the inertia.
-fn dense_factor(
-    pattern: &Pattern,
-    values: &[f64],
-    factor: &mut Option<faer::linalg::solvers::Lblt<f64>>,
-) -> Result<Inertia, FactorError> {
-    let n = pattern.size();
-    let dense = pattern.to_dense(values);
-    let matrix = MatRef::from_column_major_slice(dense.as_slice(), n, n);
-    faer::set_global_parallelism(Par::Seq); // otherwise even this small matrix starts a pool of threads
-    let found = faer::linalg::solvers::Lblt::new(matrix, Side::Lower);
-    let (diagonal, below) = (found.B_diag().column_vector(), found.B_subdiag().column_vector());
-    let mut pivots = Vec::with_capacity(n);
-    let mut k = 0;
-    while k < n {
-        if k + 1 < n && below[k] != 0.0 {
-            let (mean, half) = ((diagonal[k] + diagonal[k + 1]) / 2.0, (diagonal[k] - diagonal[k + 1]) / 2.0);
-            let spread = half.hypot(below[k]);
-            pivots.extend([mean - spread, mean + spread]);
-            k += 2;
-        } else {
-            pivots.push(diagonal[k]);
-            k += 1;
-        }
+/// A Bunch-Kaufman factorization `P A P^T = L B L^T` with a diagonal `B` of 1 x 1 and 2 x 2 blocks.
+///
+/// faer's own type for it asks a setting of the process how many threads to use; this one uses the calling thread.
+struct Dense {
+    lower: Mat<f64>,
+    diagonal: Diag<f64>,
+    subdiagonal: Diag<f64>,
+    permutation: Perm<usize>,
+    memory: MemBuffer,
+}
+
+impl Dense {
+    fn new(pattern: &Pattern, values: &[f64]) -> (Self, Inertia) {
+        let n = pattern.size();
+        let dense = pattern.to_dense(values);
+        let mut lower = Mat::zeros(n, n);
+        lower.copy_from_triangular_lower(MatRef::from_column_major_slice(dense.as_slice(), n, n));
+        let (mut diagonal, mut subdiagonal) = (Diag::zeros(n), Diag::zeros(n));
+        let (mut forward, mut backward) = (vec![0; n], vec![0; n]);
+        let mut memory = MemBuffer::new(
+            lblt::factor::cholesky_in_place_scratch::<usize, f64>(n, Par::Seq, default())
+                .or(lblt::solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq)),
+        );
+        let stack = MemStack::new(&mut memory);
+        let (matrix, below) = (lower.as_mut(), subdiagonal.as_mut());
+        lblt::factor::cholesky_in_place(matrix, below, &mut forward, &mut backward, Par::Seq, stack, default());
+        diagonal.copy_from(lower.diagonal());
+        lower.diagonal_mut().fill(1.0);
+        let permutation = Perm::new_checked(forward.into(), backward.into(), n);
+        let made = Self { lower, diagonal, subdiagonal, permutation, memory };
+        let inertia = inertia(made.pivots().into_iter());
+        (made, inertia)
     }
-    *factor = Some(found);
-    Ok(inertia(pivots.into_iter()))
+
+    /// The eigenvalues of the diagonal blocks.
+    fn pivots(&self) -> Vec<f64> {
+        let (diagonal, below) = (self.diagonal.column_vector(), self.subdiagonal.column_vector());
+        let n = diagonal.nrows();
+        let mut pivots = Vec::with_capacity(n);
+        let mut k = 0;
+        while k < n {
+            if k + 1 < n && below[k] != 0.0 {
+                let (mean, half) = ((diagonal[k] + diagonal[k + 1]) / 2.0, (diagonal[k] - diagonal[k + 1]) / 2.0);
+                let spread = half.hypot(below[k]);
+                pivots.extend([mean - spread, mean + spread]);
+                k += 2;
+            } else {
+                pivots.push(diagonal[k]);
+                k += 1;
+            }
+        }
+        pivots
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        let n = x.len();
+        let (x, stack) = (MatMut::from_column_major_slice_mut(x, n, 1), MemStack::new(&mut self.memory));
+        let (lower, order) = (self.lower.as_ref(), self.permutation.as_ref());
+        let (diagonal, below) = (self.diagonal.as_ref(), self.subdiagonal.as_ref());
+        lblt::solve::solve_in_place_with_conj(lower, diagonal, below, Conj::No, order, x, Par::Seq, stack);
+    }
 }

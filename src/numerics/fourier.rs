@@ -1,17 +1,19 @@
 //! Coefficients of a Laurent polynomial in two variables from its values at roots of unity, by fast Fourier transform.
 //!
-//! Why rustfft: it is pure Rust, takes any length (the number of powers of a determinant is seldom a power of two), is
-//! what most of the ecosystem uses (31 million downloads in all, 9 million in a quarter, when 6.4.1 of September 2025
-//! was the newest), and a search of its issues found no open report of unsound code; its paths for vector instructions,
-//! where most of its `unsafe` is, are switched off here. phastft takes powers of two only, which would mean up to four
-//! times as many determinants; realfft is rustfft for real values; bindings of FFTW need a C library. At the lengths here,
-//! some tens, a direct sum would do as well: the determinants cost far more than the transform.
+//! Reasons for rustfft: it is pure Rust, takes any length (the number of powers of a determinant is seldom a power of
+//! two), is what most of the ecosystem uses (31 million downloads in all, 9 million in a quarter, when 6.4.1 of
+//! September 2025 was the newest), and a search of its issues found no open report of unsound code; its paths for
+//! vector instructions, where most of its `unsafe` is, are switched off here. phastft takes powers of two only, which
+//! would mean up to four times as many determinants; realfft is rustfft for real values; bindings of FFTW need a C
+//! library. At the lengths here, some tens, a direct sum would do as well: the determinants cost far more than the
+//! transform.
 
 use super::complex::ComplexMatrix;
 use nalgebra::Complex;
 use rustfft::FftPlanner;
 
-/// `c_mn` with `values_jk = sum c_mn exp(2 pi i (m j / n1 + n k / n2))`, of an `n1 x n2` matrix.
+/// The coefficients `c_mn` with `values_jk = sum c_mn exp(2 pi i (m j / n1 + n k / n2))`, for an `n1 x n2` matrix of
+/// values.
 ///
 /// Exponents are known modulo `n1` and `n2` only: `c_mn` stands at row `m`, column `n` for `0 <= m < n1`, `0 <= n <
 /// n2`.

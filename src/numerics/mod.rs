@@ -1,4 +1,48 @@
-//! Sparse and dense linear algebra, all solutions of quadrics, and the check of derivatives. The only module that names `faer`.
+//! Linear algebra, sparse and dense, solutions of polynomial systems, and loops over many elements. The only module
+//! that names `faer`, and the only one that decomposes matrices by nalgebra.
+//!
+//! A symmetric sparse matrix `S = sum_k B_k` is a sum of small dense blocks, one a clique of unknowns. It is factored
+//! as `P S P^T = L D L^T`, and the signs of `D` are those of its eigenvalues (Sylvester's law of inertia).
+//!
+//! | file | what it is for |
+//! |---|---|
+//! | [`vector`] | norms, products and maxima of plain vectors |
+//! | [`sparse`] | cliques, patterns, slots of blocks, rows |
+//! | [`factor`], [`order`], [`tearing`] | `L D L^T` with inertia, orders, smaller factors by open cliques |
+//! | [`rank`], [`eigen`] | ranks by counting signs; a few extreme eigenpairs |
+//! | [`dense`], [`complex`] | decompositions of dense matrices, real and complex |
+//! | [`polynomial`], [`fourier`], [`homotopy`] | roots; trigonometric polynomials; all solutions of quadrics |
+//! | [`parallel`], [`random`] | loops over the caller's threads; random numbers |
+//! | [`derivatives`] | the check of hand-written derivatives |
+//!
+//! # Example
+//!
+//! A chain of two springs of stiffness 1 and 2 between three points, the first of them held, with a force of 3 on the
+//! last:
+//!
+//! ```
+//! use foldwell::numerics::factor::{Factor, FactorError};
+//! use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, RankOne, Slots};
+//!
+//! # fn main() -> Result<(), FactorError> {
+//! let mut springs = Cliques::new();
+//! springs.push([FIXED, 0]);
+//! springs.push([0, 1]);
+//! let pattern = Pattern::new(2, &[&springs]);
+//! let slots = Slots::new(&pattern, &springs);
+//! let mut values = vec![0.0; pattern.entries()];
+//! for (spring, weight) in [1.0, 2.0].into_iter().enumerate() {
+//!     slots.add_outer(spring, RankOne { weight, gradient: &[-1.0, 1.0] }, &mut values);
+//! }
+//! let blocks = [0, 1];
+//! let mut factor = Factor::new(&pattern, &blocks, &[&springs])?;
+//! assert_eq!(factor.factor(&pattern, &values)?.negative, 0);
+//! let mut x = vec![0.0, 3.0];
+//! factor.solve(&mut x);
+//! assert!((x[0] - 3.0).abs() < 1e-14 && (x[1] - 4.5).abs() < 1e-14);
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod complex;
 pub mod dense;
@@ -14,25 +58,12 @@ pub mod random;
 pub mod rank;
 pub mod sparse;
 pub mod tearing;
+pub mod vector;
 
 #[cfg(test)]
 mod tests;
 
-/// The dense matrix that modules hand to each other.
+pub use vector::{larger, worst};
+
+/// A dense real matrix, as it is passed between modules.
 pub type DenseMatrix = nalgebra::DMatrix<f64>;
-
-/// The largest of some residuals or errors: `None` where there is none of them, since nothing was then measured, and not a number
-/// where one of them is none.
-pub fn worst(values: impl IntoIterator<Item = f64>) -> Option<f64> {
-    values.into_iter().reduce(larger)
-}
-
-/// The larger of two numbers, or not a number where one of them is none.
-pub fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
-}
-
-/// Largest magnitude of these numbers, 0 of none; a NaN is passed over.
-pub fn largest(values: &[f64]) -> f64 {
-    values.iter().map(|value| value.abs()).fold(0.0, |most, size| if size > most { size } else { most })
-}

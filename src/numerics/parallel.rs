@@ -1,81 +1,163 @@
-//! Work on many elements by several threads, with the same bits for any number of threads.
+//! Data-parallel loops with the same bits for any number of threads.
 //!
-//! Results are computed in parallel and consumed in order by the caller's thread. The pool is started by the first
-//! work that is large enough for it; small problems never start one.
+//! Results are computed in parallel and consumed in order by the calling thread. Which threads take part is decided by
+//! the caller, not by this library, and nothing about it is global to the process:
+//!
+//! - inside [`Threads::install`] the pool of those [`Threads`], which is started by the first loop that is large enough
+//!   for it;
+//! - on a thread of a rayon pool (`rayon::ThreadPool::install`) that pool;
+//! - anywhere else the calling thread alone. Rayon's own global pool is never started.
 
 use rayon::prelude::*;
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::cell::RefCell;
+use std::sync::{Arc, OnceLock};
 
-/// Fewer elements than this are worked on by the calling thread (measured: `cargo bench --bench iteration -- threads`).
-pub const LEAST: usize = 2048;
-const WAVE: usize = 1024;
-/// So many pieces of long work one after the other share a state.
-const TOGETHER: usize = 8;
+/// Number of elements below which a loop over elements stays on the calling thread (measured:
+/// `cargo bench --bench iteration -- threads`).
+pub const FEWEST_SHARED_ELEMENTS: usize = 2048;
+/// Elements whose results are kept at the same time until they are consumed.
+const ELEMENTS_PER_WAVE: usize = 1024;
+/// Fewest elements of a wave that one thread takes at once.
+const ELEMENTS_PER_TASK: usize = 64;
+/// Consecutive pieces of long work that share one worker state.
+const PIECES_PER_STATE: usize = 8;
 
-static THREADS: AtomicUsize = AtomicUsize::new(0);
-static POOL: OnceLock<Option<rayon::ThreadPool>> = OnceLock::new();
-
-/// Sets the number of threads; 0: as many as there are processors. Has an effect until the pool has started.
-pub fn set_threads(threads: usize) {
-    THREADS.store(threads, Ordering::Relaxed);
+thread_local! {
+    /// The threads installed around what this thread is doing.
+    static INSTALLED: RefCell<Option<Threads>> = const { RefCell::new(None) };
 }
 
-/// Whether a pool of threads has been started.
-pub fn started() -> bool {
-    POOL.get().is_some_and(Option::is_some)
-}
-
-/// Calls `compute(k, &mut result)` and then `consume(k, &result)` for `k` in `0..count`, the latter in this order.
+/// A number of threads, and the pool of them once a loop has needed it. Clones share the pool; it ends with the last of
+/// them.
 ///
-/// A result is a place that is used again for a later `k`: what it owns is not allocated anew.
-pub fn ordered<T: Default + Send>(
+/// ```
+/// use foldwell::numerics::parallel::{self, Threads};
+/// let threads = Threads::new(Some(2));
+/// let squares = threads.install(|| parallel::map_with_state(5, || (), |(), k| k * k));
+/// assert_eq!(squares, [0, 1, 4, 9, 16]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Threads(Arc<LazyPool>);
+
+#[derive(Debug)]
+struct LazyPool {
+    /// Number of threads; 0: as many as there are processors.
+    wanted: usize,
+    pool: OnceLock<Option<ThreadPool>>,
+}
+
+impl Threads {
+    /// A pool of `threads` threads, or of as many as there are processors; none is started yet. With one thread none
+    /// ever is.
+    pub fn new(threads: Option<usize>) -> Self {
+        Self(Arc::new(LazyPool { wanted: threads.unwrap_or(0), pool: OnceLock::new() }))
+    }
+
+    /// Does some work, on the calling thread; the loops of this module in it are shared out to these threads.
+    pub fn install<R>(&self, work: impl FnOnce() -> R) -> R {
+        let _restored_at_the_end = Restore(INSTALLED.replace(Some(self.clone())));
+        work()
+    }
+
+    /// Whether the pool has been started.
+    pub fn started(&self) -> bool {
+        self.0.pool.get().is_some_and(Option::is_some)
+    }
+
+    /// The pool, started if need be; `None` for a single thread, or where the system gives no threads.
+    fn pool(&self) -> Option<&ThreadPool> {
+        if self.0.wanted == 1 {
+            return None;
+        }
+        let name = |number| format!("pool {number}");
+        let build = || ThreadPoolBuilder::new().num_threads(self.0.wanted).thread_name(name).build().ok();
+        self.0.pool.get_or_init(build).as_ref()
+    }
+}
+
+/// Puts back what was installed before, also when the work panics.
+struct Restore(Option<Threads>);
+
+impl Drop for Restore {
+    fn drop(&mut self) {
+        INSTALLED.set(self.0.take());
+    }
+}
+
+/// Where a loop runs.
+enum Place {
+    CallingThread,
+    /// The rayon pool to which the calling thread belongs.
+    CurrentPool,
+    Pool(Threads),
+}
+
+impl Place {
+    /// The place for a loop; `worthwhile`: whether it is large enough to be shared out.
+    fn of_loop(worthwhile: bool) -> Self {
+        if !worthwhile {
+            return Self::CallingThread;
+        }
+        if let Some(threads) = INSTALLED.with_borrow(Option::clone) {
+            return if threads.pool().is_some() { Self::Pool(threads) } else { Self::CallingThread };
+        }
+        // asking for the number of threads outside of a pool would start the global one
+        let in_a_pool = rayon::current_thread_index().is_some();
+        if in_a_pool && rayon::current_num_threads() > 1 { Self::CurrentPool } else { Self::CallingThread }
+    }
+
+    /// Does parallel work in the pool of this place; `None` where that is the calling thread alone.
+    fn share<R: Send>(&self, work: impl FnOnce() -> R + Send) -> Option<R> {
+        match self {
+            Self::CallingThread => None,
+            Self::CurrentPool => Some(work()),
+            Self::Pool(threads) => threads.pool().map(|pool| pool.install(work)),
+        }
+    }
+}
+
+/// Calls `compute(k, &mut result)` and then `consume(k, &result)` for `k` in `0..count`, the latter in this order and
+/// on the calling thread. Loops of fewer than [`FEWEST_SHARED_ELEMENTS`] stay on the calling thread altogether.
+///
+/// A result is used again for a later `k`, so that what it owns is not allocated anew.
+pub fn compute_and_consume<T: Default + Send>(
     count: usize,
     compute: impl Fn(usize, &mut T) + Sync + Send,
     mut consume: impl FnMut(usize, &T),
 ) {
-    let Some(pool) = (count >= LEAST).then(pool).flatten() else {
+    let place = Place::of_loop(count >= FEWEST_SHARED_ELEMENTS);
+    if let Place::CallingThread = place {
         let mut result = T::default();
         for k in 0..count {
             compute(k, &mut result);
             consume(k, &result);
         }
         return;
-    };
-    let mut results: Vec<T> = (0..count.min(WAVE)).map(|_| T::default()).collect();
-    for start in (0..count).step_by(WAVE) {
-        let wave = &mut results[..WAVE.min(count - start)];
-        let work = wave.par_iter_mut().with_min_len(64).enumerate();
-        pool.install(|| work.for_each(|(k, result)| compute(start + k, result)));
+    }
+    let mut results: Vec<T> = (0..count.min(ELEMENTS_PER_WAVE)).map(|_| T::default()).collect();
+    for start in (0..count).step_by(ELEMENTS_PER_WAVE) {
+        let wave = &mut results[..ELEMENTS_PER_WAVE.min(count - start)];
+        let elements = wave.par_iter_mut().with_min_len(ELEMENTS_PER_TASK).enumerate();
+        place.share(|| elements.for_each(|(k, result)| compute(start + k, result)));
         wave.iter().enumerate().for_each(|(k, result)| consume(start + k, result));
     }
 }
 
-/// `compute(state, k)` for `k` in `0..count`, in this order; every worker has a state of its own, made when it begins.
+/// The results of `compute(state, k)` for `k` in `0..count`, in this order; every worker has a state of its own from
+/// `make_state`.
 ///
-/// For work that takes long: also few are shared out. The result must not depend on what the state was used for before.
-pub fn each<S, T: Send>(
+/// For pieces of work that take long: even two are shared out. The result must not depend on what the state was used
+/// for before.
+pub fn map_with_state<S, T: Send>(
     count: usize,
-    make: impl Fn() -> S + Sync + Send,
+    make_state: impl Fn() -> S + Sync + Send,
     compute: impl Fn(&mut S, usize) -> T + Sync + Send,
 ) -> Vec<T> {
-    match (count > 1).then(pool).flatten() {
-        None => {
-            let mut state = make();
-            (0..count).map(|k| compute(&mut state, k)).collect()
-        }
-        Some(pool) => {
-            pool.install(|| (0..count).into_par_iter().with_min_len(TOGETHER).map_init(make, compute).collect())
-        }
-    }
-}
-
-/// The pool; `None` where one thread is wanted or a pool cannot be had.
-fn pool() -> Option<&'static rayon::ThreadPool> {
-    let threads = THREADS.load(Ordering::Relaxed);
-    if threads == 1 {
-        return None;
-    }
-    let name = |number| format!("pool {number}");
-    POOL.get_or_init(|| rayon::ThreadPoolBuilder::new().num_threads(threads).thread_name(name).build().ok()).as_ref()
+    let pieces = || (0..count).into_par_iter().with_min_len(PIECES_PER_STATE);
+    let shared = Place::of_loop(count > 1).share(|| pieces().map_init(&make_state, &compute).collect());
+    shared.unwrap_or_else(|| {
+        let mut state = make_state();
+        (0..count).map(|k| compute(&mut state, k)).collect()
+    })
 }

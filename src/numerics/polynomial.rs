@@ -4,26 +4,29 @@ use super::complex::{ComplexMatrix, eigenvalues};
 use super::dense::DenseError;
 use nalgebra::Complex;
 
-/// Coefficients below this part of the largest are taken for zero at both ends.
-const NOTHING: f64 = 1e-14;
-/// Newton steps at most.
-const STEPS: usize = 8;
+/// Modulus of a coefficient relative to the largest one below which it counts as zero at both ends.
+const ZERO_COEFFICIENT: f64 = 1e-14;
+/// Largest number of Newton steps.
+const MOST_STEPS: usize = 8;
 
 /// The roots of a polynomial whose degree is one less than its number of coefficients.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Roots {
-    /// Those neither zero nor infinite, in no order.
+    /// The roots that are neither zero nor infinite, in no order.
     pub finite: Vec<Complex<f64>>,
-    /// How many are zero.
+    /// Number of roots that are zero.
     pub at_zero: usize,
-    /// How many are infinite: by so much the degree is smaller than it could be.
+    /// Number of roots that are infinite: the difference of the degree to the number of coefficients less one.
     pub at_infinity: usize,
 }
 
-/// The roots of `sum coefficients[k] z^k`. Fails on a coefficient that is not finite, and where all are zero.
+/// The roots of `sum coefficients[k] z^k`.
+///
+/// # Errors
+/// [`DenseError`] on a coefficient that is not finite, and where all are zero.
 pub fn roots(coefficients: &[Complex<f64>]) -> Result<Roots, DenseError> {
     let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::max);
-    let there = |c: &Complex<f64>| c.norm() > NOTHING * largest || !c.norm().is_finite();
+    let there = |c: &Complex<f64>| c.norm() > ZERO_COEFFICIENT * largest || !c.norm().is_finite();
     let (Some(first), Some(last)) = (coefficients.iter().position(there), coefficients.iter().rposition(there)) else {
         return Err(DenseError::NotFinite { row: 0, column: 0, value: f64::INFINITY });
     };
@@ -41,7 +44,7 @@ pub fn roots(coefficients: &[Complex<f64>]) -> Result<Roots, DenseError> {
 /// Newton's method for `log p` in `log z`, as long as its steps become smaller.
 fn polished(coefficients: &[Complex<f64>], mut root: Complex<f64>) -> Complex<f64> {
     let mut before = f64::INFINITY;
-    for _ in 0..STEPS {
+    for _ in 0..MOST_STEPS {
         let [value, slope] = value_and_slope(coefficients, root);
         let step = value / slope;
         if !(step.norm() < 0.5 * before && step.norm() < 0.1 * root.norm()) {
@@ -53,7 +56,7 @@ fn polished(coefficients: &[Complex<f64>], mut root: Complex<f64>) -> Complex<f6
     root
 }
 
-/// `p(z)` and `p'(z)`.
+/// The value `p(z)` and the derivative `p'(z)` of a polynomial.
 pub fn value_and_slope(coefficients: &[Complex<f64>], z: Complex<f64>) -> [Complex<f64>; 2] {
     coefficients
         .iter()

@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 
-/// Uniform in `[-1, 1)`, from the upper 53 bits of one number of the stream.
+/// A random number, uniform in `[-1, 1)`, from the upper 53 bits of one number of the stream.
 pub fn symmetric(random: &mut ChaCha8Rng) -> f64 {
     (random.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0
 }

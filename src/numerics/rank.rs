@@ -5,10 +5,14 @@
 //! and an `L D L^T` factorization counts them.
 
 use super::factor::{Factor, FactorError};
-use super::largest;
-use super::sparse::{Cliques, Pattern, Rows, Slots};
+use super::sparse::{Cliques, Pattern, RankOne, Rows, Slots};
+use super::vector::max_abs;
 
-/// Number of singular values of `rows` (a matrix of `columns` columns) above `tau`, a fraction of the largest entry.
+/// Number of singular values of `rows` (a matrix of `columns` columns) above `tau` times the largest entry. `node`
+/// groups the columns into blocks, see [`super::order`].
+///
+/// # Errors
+/// [`FactorError`] where the matrix of the count cannot be factored.
 pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> Result<usize, FactorError> {
     let count = rows.cliques.len();
     let size = columns + count;
@@ -20,7 +24,7 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
     let node: Vec<u32> = node.iter().copied().chain((0..count as u32).map(|row| blocks + row)).collect();
     let pattern = Pattern::new(size, &[&cliques]);
     let slots = Slots::new(&pattern, &cliques);
-    let scale = largest(rows.values);
+    let scale = max_abs(rows.values);
     if scale == 0.0 {
         return Ok(0);
     }
@@ -38,32 +42,37 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
     Ok(size - inertia.negative)
 }
 
-/// What makes `R^T R` regular, over its largest entry: little, so that motions that hardly stretch anything count.
-const REGULAR: f64 = 1e-13;
-/// Passes go on while each makes what is left this much smaller.
-const SLOWEST: f64 = 0.9;
+/// Multiple of the identity that makes `R^T R` regular, relative to its largest entry: so small that singular vectors
+/// of small singular values still count.
+const REGULARIZATION: f64 = 1e-13;
+/// Ratio of successive residuals above which another correction is not worth a solve.
+const SLOWEST_CONTRACTION: f64 = 0.9;
 
-/// The part of `t` that is not a self stress: the shortest vector with the same `R^T t`.
+/// The shortest vector with the same `R^T t` as `t`: its part outside of the null space of `R^T`.
 ///
-/// `R^T R y = R^T t` is solved with a factorization of `R^T R` made regular, so that zero modes of `R` do no harm, and corrected
-/// as long as that helps; then `R y` is the answer.
+/// `R^T R y = R^T t` is solved with a factorization of `R^T R` made regular, so that zero modes of `R` do no harm, and
+/// corrected as long as that helps; then `R y` is the answer.
+///
+/// # Errors
+/// [`FactorError`] where the regularised matrix cannot be factored.
 pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) -> Result<Vec<f64>, FactorError> {
     let pattern = Pattern::new(columns, &[rows.cliques]);
     let slots = Slots::new(&pattern, rows.cliques);
     let mut values = vec![0.0; pattern.entries()];
     for row in 0..rows.cliques.len() {
-        slots.add_outer(row, 1.0, &rows.values[rows.cliques.range(row)], &mut values);
+        let gradient = &rows.values[rows.cliques.range(row)];
+        slots.add_outer(row, RankOne { weight: 1.0, gradient }, &mut values);
     }
-    let scale = largest(&values);
-    pattern.add_to_diagonal(&mut values, REGULAR * scale);
+    let scale = max_abs(&values);
+    pattern.add_to_diagonal(&mut values, REGULARIZATION * scale);
     let mut factor = Factor::new(&pattern, node, &[rows.cliques])?;
     factor.factor(&pattern, &values)?;
     let (mut out, mut open, mut last) = (vec![0.0; t.len()], t.to_vec(), f64::INFINITY);
     loop {
         let mut y = vec![0.0; columns];
         rows.add_transpose_product(&open, &mut y);
-        let pull = largest(&y);
-        if !(pull < SLOWEST * last) {
+        let pull = max_abs(&y);
+        if !(pull < SLOWEST_CONTRACTION * last) {
             return Ok(out);
         }
         last = pull;

@@ -1,44 +1,56 @@
-//! Torn factorization: hinges are opened where they would widen the separators of nested dissection.
+//! Torn factorization: cliques are opened where they would widen the separators of nested dissection.
 //!
-//! The block of a hinge couples its two wings, so a line of edges does not separate the vertices on both sides of it; without
-//! these couplings it does. They come from an outer product alone: `k g g^T`, with the gradient `g = (g_e, g_l, g_r)` at the ends
-//! and the two wings. With `d = (g_e, g_l, -g_r)` the sum `k (g g^T + d d^T)` does not couple the wings. So a hinge gets an unknown
-//! `y` of its own, which costs `k (d.x - y)^2 / 2`: nothing at its best value, `y = d.x`. The matrix with these unknowns has the
-//! first one, `S`, as its Schur complement, the same solutions, and as many negative eigenvalues:
+//! The block of a *split* clique couples two blocks of its unknowns by an outer product alone, `k g g^T` with the
+//! gradient `g = (g_o, g_l, g_r)` by the other members, the left and the right block ([`Cliques::push_split`]). The
+//! hinge between two triangles is one: only its stiffness couples the two opposite vertices. Such a coupling makes
+//! separators two vertices wide.
+//!
+//! With `d = (g_o, g_l, -g_r)` the sum `k (g g^T + d d^T)` does not couple the blocks. So an open clique gets an
+//! unknown `y` of its own, which costs `k (d.x - y)^2 / 2`: nothing at its best value, `y = d.x`. The matrix with these
+//! unknowns has the first one, `S`, as its Schur complement, the same solutions, and as many negative eigenvalues:
 //!
 //! `[ S + sum k d d^T   -sum k d ]`
 //! `[ -sum k d^T         diag(k) ]`.
 //!
-//! To add an unknown that takes a coupling out is tearing (G. Kron, Diakoptics, 1963). An open hinge stands in a separator with one
-//! unknown, a second line of vertices would with three. Only hinges between two branches of the elimination tree are opened,
-//! one in ten, and a factorization takes 0.84, 0.74 and 0.66 of the time at 12, 24 and 48 cells a side
-//! (`cargo bench --bench systems`).
+//! To add an unknown that takes a coupling out is tearing (G. Kron, Diakoptics, 1963). An open clique stands in a
+//! separator with one unknown, a second line of vertices would with three. Only cliques between two branches of the
+//! elimination tree are opened, one in ten, and a factorization takes 0.84, 0.74 and 0.66 of the time for sheets of 12,
+//! 24 and 48 cells a side (`cargo bench --bench systems`).
 
 use super::factor::{DENSE_LIMIT, Factor, FactorError, Inertia, Symbolic};
 use super::order;
-use super::sparse::{Cliques, FIXED, LEFT, Pattern, RIGHT, Slots};
+use super::sparse::{Cliques, FIXED, Pattern, RankOne, Slots};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Parts with at most so many nodes are too small for an open hinge to save anything.
-const SMALL: usize = 20;
+/// Number of nodes up to which a part of the elimination tree is too small for an open clique to save anything.
+const MOST_NODES_OF_A_SMALL_PART: usize = 20;
 /// No node: the root of a tree, or one that was not found.
 const NONE: usize = usize::MAX;
 
-/// The analysis of a sum of cliques' blocks: which hinges are open, where the entries go, and the order of elimination.
+/// The analysis of a sum of cliques' blocks: which cliques are open, where the entries go, and the order of
+/// elimination.
 #[derive(Debug)]
 pub struct Tearing {
-    /// List and number of every torn clique.
-    torn: Vec<(usize, usize)>,
+    torn: Vec<Torn>,
     /// Number of every unknown of the whole matrix in the torn one, which is in the order of elimination.
     numbers: Vec<u32>,
-    /// Of the torn matrix.
+    /// Pattern of the torn matrix.
     pattern: Pattern,
     /// Where the entries of the whole matrix stand in the torn one.
     places: Vec<u32>,
     /// Where the members of every torn clique, and then its own unknown, stand in the torn matrix.
     slots: Slots,
     symbolic: Symbolic,
+}
+
+/// A clique that is open.
+#[derive(Debug)]
+struct Torn {
+    /// List in which it is, and its number there.
+    place: (usize, usize),
+    /// Places of its right block among its members.
+    right: Range<usize>,
 }
 
 /// A torn factorization, refilled with numbers as often as wanted.
@@ -50,7 +62,8 @@ pub struct TornFactor {
 }
 
 impl Tearing {
-    /// Analyses the pattern of the sum of these cliques' blocks. `node` groups unknowns into blocks, see [`super::order`].
+    /// Analyses the pattern of the sum of these cliques' blocks. `node` groups unknowns into blocks, see
+    /// [`super::order`].
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
@@ -59,16 +72,16 @@ impl Tearing {
             let as_they_are = Numbers { open: vec![], whole: (0..whole.size() as u32).collect() };
             return Self::torn(whole, node, cliques, vec![], as_they_are);
         }
-        let pair = |(list, clique): (usize, usize)| wings(cliques[list], clique, node);
-        let graph = order::neighbours(node, cliques, pair);
+        let blocks = |(list, clique): (usize, usize)| separable_blocks(cliques[list], clique, node);
+        let graph = order::neighbours(node, cliques, blocks);
         let tree = Tree::new(order::nodes(&graph), &graph);
-        let separated = |place: &(usize, usize)| pair(*place).is_some_and(|wings| tree.separates(wings));
+        let separated = |place: &(usize, usize)| blocks(*place).is_some_and(|nodes| tree.separates(nodes));
         let torn: Vec<_> = order::places(cliques).filter(separated).collect();
-        let numbers = tree.numbers(node, torn.iter().map(|&(list, clique)| cliques[list].members(clique)));
+        let numbers = tree.numbers(node, torn.iter().map(|&(list, clique)| (cliques[list], clique)));
         Self::torn(whole, node, cliques, torn, numbers)
     }
 
-    /// With these hinges open and the unknowns in this order.
+    /// The analysis with these cliques open and the unknowns in this order.
     fn torn(
         whole: &Pattern,
         node: &[u32],
@@ -78,7 +91,7 @@ impl Tearing {
     ) -> Result<Self, FactorError> {
         let (mut apart, mut more, mut extended) = (vec![Vec::new(); order::count(node)], Vec::new(), Cliques::new());
         for (&(list, clique), &y) in torn.iter().zip(&numbers.open) {
-            if let Some([left, right]) = wings(cliques[list], clique, node) {
+            if let Some([left, right]) = separable_blocks(cliques[list], clique, node) {
                 apart[left as usize].push(right);
                 apart[right as usize].push(left);
             }
@@ -94,17 +107,19 @@ impl Tearing {
         let are_apart = |row: u32, column: u32| apart[node[column as usize] as usize].contains(&node[row as usize]);
         let (pattern, places) = whole.renumbered(&numbers.whole, &more, are_apart);
         let (slots, symbolic) = (Slots::new(&pattern, &extended), Symbolic::in_order(&pattern)?);
+        let right = |(list, clique): (usize, usize)| cliques[list].split(clique).map_or(0..0, |[_, right]| right);
+        let torn = torn.into_iter().map(|place| Torn { place, right: right(place) }).collect();
         Ok(Self { torn, numbers: numbers.whole, pattern, places, slots, symbolic })
     }
 
-    /// Number of open hinges.
+    /// Number of open cliques.
     pub fn open(&self) -> usize {
         self.torn.len()
     }
 }
 
 impl TornFactor {
-    /// Room for a factorization.
+    /// Makes room for a factorization.
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where there is not enough memory.
@@ -113,8 +128,9 @@ impl TornFactor {
         Ok(Self { factor: Factor::of(&tearing.symbolic)?, tearing: tearing.clone(), values, solution })
     }
 
-    /// Factors the matrix with these values. `outer(list, clique)` is what a torn clique has in it besides a block that leaves its
-    /// wings uncoupled: the weight `k >= 0` of an outer product and the gradient `g`. The inertia is that of the matrix itself.
+    /// Factors the matrix with these values. `outer(list, clique)` is the outer product in the block of a torn clique,
+    /// of a weight `k >= 0`; the rest of that block leaves left and right uncoupled. The inertia is that of the matrix
+    /// itself.
     ///
     /// # Errors
     /// As [`Factor::factor`].
@@ -122,7 +138,7 @@ impl TornFactor {
         &mut self,
         whole: &Pattern,
         values: &[f64],
-        outer: impl Fn(usize, usize) -> (f64, &'a [f64]),
+        outer: impl Fn(usize, usize) -> RankOne<'a>,
     ) -> Result<Inertia, FactorError> {
         let Tearing { torn, pattern, places, slots, .. } = &*self.tearing;
         self.values.fill(0.0);
@@ -132,13 +148,13 @@ impl TornFactor {
         // any size of the new unknowns will do; this one leaves the range of the pivots alone
         let size = whole.largest_diagonal(values).sqrt();
         let mut scaled = Vec::new();
-        for (y, &(list, clique)) in torn.iter().enumerate() {
-            let (weight, gradient) = outer(list, clique);
+        for (y, Torn { place: (list, clique), right }) in torn.iter().enumerate() {
+            let RankOne { weight, gradient } = outer(*list, *clique);
             scaled.clear();
             scaled.extend(gradient.iter().map(|g| weight.sqrt() * g));
-            scaled[RIGHT].iter_mut().for_each(|g| *g = -*g);
+            scaled[right.clone()].iter_mut().for_each(|g| *g = -*g);
             scaled.push(-size);
-            slots.add_outer(y, 1.0, &scaled, &mut self.values);
+            slots.add_outer(y, RankOne { weight: 1.0, gradient: &scaled }, &mut self.values);
         }
         self.factor.factor(pattern, &self.values)
     }
@@ -152,36 +168,43 @@ impl TornFactor {
         x.iter_mut().zip(numbers).for_each(|(x, &number)| *x = self.solution[number as usize]);
     }
 
-    /// Numbers stored in the factor.
+    /// Count of numbers stored in the factor.
     pub fn stored(&self) -> usize {
         self.factor.stored()
     }
 }
 
-/// The nodes of a hinge's two wings, where they can be taken apart: each is one node and no other member is in it.
-fn wings(cliques: &Cliques, clique: usize, node: &[u32]) -> Option<[u32; 2]> {
-    if !cliques.is_hinge(clique) {
-        return None;
-    }
+/// The nodes of the two blocks of a split clique, where they can be taken apart: each block is one node, no other
+/// member of the clique is in these nodes, and there is another member.
+fn separable_blocks(cliques: &Cliques, clique: usize, node: &[u32]) -> Option<[u32; 2]> {
+    let blocks = cliques.split(clique)?;
     let members = cliques.members(clique);
-    let wing = |places: Range<usize>| nodes(&members[places], node);
-    let (left, right) = (wing(LEFT).next()?, wing(RIGHT).next()?);
-    let whole = wing(LEFT).all(|k| k == left) && wing(RIGHT).all(|k| k == right);
-    let joined = others(members, node).next().is_some();
-    let apart = left != right && others(members, node).all(|k| k != left && k != right);
-    (whole && joined && apart).then_some([left, right])
+    let [left, right] = blocks.map(|block| the_node(&members[block], node));
+    let (left, right) = (left?, right?);
+    let joined = other_nodes(cliques, clique, node).next().is_some();
+    let apart = left != right && other_nodes(cliques, clique, node).all(|k| k != left && k != right);
+    (joined && apart).then_some([left, right])
 }
 
-/// The nodes of all members of a hinge but its wings.
-fn others<'a>(members: &'a [u32], node: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
-    nodes(&members[..LEFT.start], node).chain(nodes(&members[RIGHT.end..], node))
+/// The node of these members, if all are in one; members that are held fixed do not count.
+fn the_node(members: &[u32], node: &[u32]) -> Option<u32> {
+    let first = nodes(members.iter(), node).next()?;
+    nodes(members.iter(), node).all(|other| other == first).then_some(first)
 }
 
-fn nodes<'a>(members: &'a [u32], node: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
-    members.iter().filter(|member| **member != FIXED).map(|&member| node[member as usize])
+/// The nodes of the members of a clique that are in neither of its two blocks.
+fn other_nodes<'a>(cliques: &'a Cliques, clique: usize, node: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+    let blocks = cliques.split(clique);
+    let in_a_block = move |place: usize| blocks.iter().flatten().any(|block| block.contains(&place));
+    let others = cliques.members(clique).iter().enumerate().filter(move |(place, _)| !in_a_block(*place));
+    nodes(others.map(|(_, member)| member), node)
 }
 
-/// The order of elimination: numbers of the unknowns of the open hinges, and of those of the whole matrix.
+fn nodes<'a>(members: impl Iterator<Item = &'a u32> + 'a, node: &'a [u32]) -> impl Iterator<Item = u32> + 'a {
+    members.filter(|member| **member != FIXED).map(|&member| node[member as usize])
+}
+
+/// The order of elimination: numbers of the unknowns of the open cliques, and of those of the whole matrix.
 struct Numbers {
     open: Vec<u32>,
     whole: Vec<u32>,
@@ -233,21 +256,21 @@ impl Tree {
                 b = self.parent[b];
             }
         }
-        a != later && self.size[a] > SMALL
+        a != later && self.size[a] > MOST_NODES_OF_A_SMALL_PART
     }
 
-    /// The order of elimination of all unknowns: those of the open hinges with these members come first in the separators.
-    fn numbers<'a>(&self, node: &[u32], torn: impl Iterator<Item = &'a [u32]>) -> Numbers {
+    /// The order of elimination of all unknowns: those of these open cliques come first in the separators.
+    fn numbers<'a>(&self, node: &[u32], torn: impl Iterator<Item = (&'a Cliques, usize)>) -> Numbers {
         let mut before = vec![Vec::new(); self.order.len()];
         let mut open = Vec::new();
-        for members in torn {
-            let first = others(members, node).map(|other| self.place[other as usize]).min();
+        for (cliques, clique) in torn {
+            let first = other_nodes(cliques, clique, node).map(|other| self.place[other as usize]).min();
             before[first.unwrap_or(0)].push(open.len());
             open.push(0);
         }
         let (unknowns, mut whole, mut next) = (order::unknowns(node), vec![0; node.len()], 0..);
-        for (hinges, &node) in before.iter().zip(&self.order) {
-            hinges.iter().zip(&mut next).for_each(|(&hinge, number)| open[hinge] = number);
+        for (torn, &node) in before.iter().zip(&self.order) {
+            torn.iter().zip(&mut next).for_each(|(&clique, number)| open[clique] = number);
             unknowns[node as usize].iter().zip(&mut next).for_each(|(&k, number)| whole[k as usize] = number);
         }
         Numbers { open, whole }

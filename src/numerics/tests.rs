@@ -3,7 +3,7 @@
 use super::DenseMatrix;
 use super::dense::{full_svd, singular_values, symmetric_eigenvalues};
 use super::factor::{DENSE_LIMIT, Factor, FactorError};
-use super::sparse::{Cliques, FIXED, LEFT, Pattern, RIGHT, Rows, Slots, symmetric_product};
+use super::sparse::{Cliques, ElementBlock, FIXED, Pattern, RankOne, Rows, Slots, symmetric_product};
 use super::tearing::{Tearing, TornFactor};
 use super::{eigen, parallel, rank};
 use rand::{RngExt, SeedableRng};
@@ -86,8 +86,12 @@ fn inertia_and_solution() {
     }
 }
 
-/// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the wings of a
-/// hinge uncoupled and random outer products besides, some of weight zero.
+/// Places of the wings of a hinge among the members of its clique.
+const LEFT: std::ops::Range<u32> = 6..9;
+const RIGHT: std::ops::Range<u32> = 9..12;
+
+/// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the
+/// wings of a hinge uncoupled and random outer products besides, some of weight zero.
 struct Hinges {
     pattern: Pattern,
     node: Vec<u32>,
@@ -125,7 +129,7 @@ fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hing
         // the first vertex is held, and one unknown belongs to all hinges
         let place = |vertex: u32, k: u32| if vertex == 0 { FIXED } else { 3 * (vertex - 1) + k };
         let members = points.iter().flat_map(|&vertex| [0, 1, 2].map(|k| place(vertex, k)));
-        cliques.push_hinge(members.chain([3 * vertices - 3]));
+        cliques.push_split(members.chain([3 * vertices - 3]), LEFT, RIGHT);
     }
     let node: Vec<u32> = (0..3 * vertices - 2).map(|k| k / 3).collect();
     let pattern = Pattern::new(node.len(), &[&cliques]);
@@ -140,15 +144,16 @@ fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hing
         let apart = |(p, q)| RIGHT.contains(&p) && LEFT.contains(&q);
         let block: Vec<f64> =
             places.map(|place| if apart(place) { 0.0 } else { numbers.random::<f64>() - 0.5 }).collect();
-        slots.add_curvature(k, (weight, &gradient), (0.5, &block), &mut values);
+        let outer = RankOne { weight, gradient: &gradient };
+        slots.add_element(k, &ElementBlock { outer, scale: 0.5, block: &block }, &mut values);
         weights.push(weight);
         gradients.extend(gradient);
     }
     Hinges { pattern, node, cliques, weights, gradients, values }
 }
 
-/// Claim: a torn factorization counts the negative eigenvalues of the matrix itself and solves with it; on sheets, and on tubes so
-/// narrow that wings meet each other or an end of their hinge. Tolerance as in [`inertia_and_solution`].
+/// Claim: a torn factorization counts the negative eigenvalues of the matrix itself and solves with it; on sheets, and
+/// on tubes so narrow that wings meet each other or an end of their hinge. Tolerance as in [`inertia_and_solution`].
 #[test]
 fn torn_inertia_and_solution() {
     for (width, height, tube, open) in [(12, 9, false, 20), (3, 80, true, 1), (2, 30, true, 0), (1, 30, true, 0)] {
@@ -158,7 +163,8 @@ fn torn_inertia_and_solution() {
             let tearing = Arc::new(Tearing::new(&pattern, &node, &[&cliques]).unwrap());
             assert!(tearing.open() >= open, "{width} x {height}: {} open", tearing.open());
             let mut factor = TornFactor::of(&tearing).unwrap();
-            let outer = |_, clique: usize| (weights[clique], &gradients[cliques.range(clique)]);
+            let outer =
+                |_, clique: usize| RankOne { weight: weights[clique], gradient: &gradients[cliques.range(clique)] };
             let inertia = factor.factor(&pattern, &values, outer).unwrap();
             let dense = pattern.to_dense(&values);
             let expected = symmetric_eigenvalues(&dense).unwrap().iter().filter(|v| **v < 0.0).count();
@@ -171,8 +177,8 @@ fn torn_inertia_and_solution() {
     }
 }
 
-/// Claim: tearing makes the factor smaller, and leaves alone what is too small for it. The bound is what a sheet of 6,400 vertices
-/// is seen to need, rounded up.
+/// Claim: tearing makes the factor smaller, and leaves alone what is too small for it. The bound is what a sheet of
+/// 6,400 vertices is seen to need, rounded up.
 #[test]
 fn tearing_saves() {
     let Hinges { pattern, node, cliques, .. } = hinges(80, 80, false, 1, 0.0);
@@ -271,9 +277,16 @@ fn eigenpairs_can_be_stopped() {
 /// Claim: results arrive in order, each once, above and below the size at which threads are used.
 #[test]
 fn work_is_consumed_in_order() {
-    for count in [0, 1, parallel::LEAST - 1, parallel::LEAST, 3 * parallel::LEAST + 7, 10_000] {
+    for count in [
+        0,
+        1,
+        parallel::FEWEST_SHARED_ELEMENTS - 1,
+        parallel::FEWEST_SHARED_ELEMENTS,
+        3 * parallel::FEWEST_SHARED_ELEMENTS + 7,
+        10_000,
+    ] {
         let mut next = 0;
-        parallel::ordered(
+        parallel::compute_and_consume(
             count,
             |k, square: &mut usize| *square = k * k,
             |k, square| {
@@ -282,15 +295,5 @@ fn work_is_consumed_in_order() {
             },
         );
         assert_eq!(next, count);
-    }
-}
-
-/// Claim: the worst of no residual is none, not zero, and one that is not a number is the worst of all, wherever it stands. By hand.
-#[test]
-fn the_worst_of_nothing_is_nothing() {
-    assert_eq!(super::worst([]), None);
-    assert_eq!(super::worst([0.5, 2.0, 1.0]), Some(2.0));
-    for values in [[f64::NAN, 1.0, 2.0], [1.0, f64::NAN, 2.0], [1.0, 2.0, f64::NAN]] {
-        assert!(super::worst(values).is_some_and(f64::is_nan), "{values:?}");
     }
 }

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::OutputError;
+use super::picture::ShapeError;
 
 /// Writes a file, with the folders it needs.
 ///
@@ -18,6 +19,14 @@ use super::OutputError;
 /// [`OutputError::Write`]; then the file is as it was before.
 pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), OutputError> {
     write_with(path, |file| file.write_all(contents.as_ref()))
+}
+
+/// Writes a figure, with the folders it needs.
+///
+/// # Errors
+/// [`OutputError::Shape`] where there is none because what it should show does not fit together, [`OutputError::Write`].
+pub fn write_figure(path: &Path, figure: Result<String, ShapeError>) -> Result<(), OutputError> {
+    write(path, figure.map_err(|fault| OutputError::Shape { path: path.into(), fault })?)
 }
 
 /// Writes what `fill` puts into a file, with the folders it needs.

@@ -2,16 +2,12 @@
 //!
 //! Every writer goes through [`files`]: a file appears whole or not at all.
 
-pub mod bloch_plot;
-pub mod chart;
+pub mod artifact;
 pub mod error;
+pub mod figure;
 pub mod files;
 pub mod picture;
-pub mod plot;
-mod projection;
 pub mod schema;
-pub mod sphere_plot;
-pub mod strain_plot;
 pub mod strain_space;
 pub mod summary;
 pub mod table;

@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::analysis::state::State;
 use crate::analysis::view::View;
 use crate::math::Vec3;
-use crate::model::assemble::Drawn;
+use crate::model::{Assembly, Drawn};
 use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
 use std::collections::HashMap;
 
@@ -43,7 +43,7 @@ pub struct Picture {
 }
 
 /// Parts of a picture that do not fit together.
-#[derive(Debug, Error, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum ShapeError {
     /// An array has the wrong length.
     #[error("array `{array}` has {found} entries, expected {expected}")]
@@ -76,6 +76,11 @@ pub enum ShapeError {
 }
 
 impl Picture {
+    /// A state of an assembly on the cells that pictures of it show.
+    pub fn new(assembly: &Assembly, state: &State) -> Self {
+        Self::of_state(&View::new(assembly), assembly.drawn(), state)
+    }
+
     /// A state on the cells of a view.
     pub fn of_state(view: &View, drawn: &Drawn, state: &State) -> Self {
         let on_lines = |values: &[f64]| view.edges.iter().map(|&edge| values[edge]).collect();

@@ -15,14 +15,15 @@ use crate::sheet::EdgeKey;
 ///
 /// # Errors
 /// [`OutputError::Read`].
-pub fn read_columns<const N: usize>(path: &Path, names: [&str; N]) -> Result<Vec<[f64; N]>, OutputError> {
+pub fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
     let text = std::fs::read_to_string(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let places = names.map(|name| header.iter().position(|column| *column == name));
+    let places: Vec<_> = names.iter().map(|name| header.iter().position(|column| column == name)).collect();
     let row = |line: &str| {
         let fields: Vec<&str> = line.split(',').collect();
-        places.map(|place| place.and_then(|k| fields.get(k)?.parse().ok()).unwrap_or(f64::NAN))
+        let number = |place: &Option<usize>| place.and_then(|k| fields.get(k)?.parse().ok()).unwrap_or(f64::NAN);
+        places.iter().map(number).collect()
     };
     Ok(lines.map(row).collect())
 }

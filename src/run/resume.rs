@@ -7,36 +7,29 @@
 
 use super::RunError;
 use super::belongings::Belongings;
-use crate::output::files;
+use crate::math::Vec3;
+use crate::numerics::larger;
+use crate::output::figure::surface::PathPoint;
 use crate::output::summary::StudySummary;
+use crate::output::table::read_columns;
+use crate::output::{OutputError, files};
 use crate::scene::SceneFile;
 use crate::scene::forms::Start;
 use crate::scene::spec::{BlochSpec, RelaxSpec, StudyKind, StudySpec};
-use serde::{Deserialize, Serialize};
+use crate::study::SavedState;
+use serde::Deserialize;
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
-/// A state that later studies may start from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Kept {
-    /// All coordinates.
-    pub coordinates: Vec<f64>,
-    /// Angles from which angles continue, see [`crate::model::Model::angles`].
-    pub angles: Vec<f64>,
-    /// Tensions of the stiff measures; `None` where the study knows none.
-    #[serde(default)]
-    pub tension: Option<Vec<f64>>,
-}
-
 /// The parts of an earlier `summary.json` that matter here.
 #[derive(Default, Deserialize)]
-pub struct Earlier {
+pub struct PreviousRun {
     digest: String,
     /// One by one: what cannot be read of one study, such as a number that is none, costs no other.
     studies: Vec<Box<RawValue>>,
 }
 
-impl Earlier {
+impl PreviousRun {
     /// The earlier run into this folder, where it was of the scene with this digest; otherwise nothing.
     pub fn read(out: &Path, digest: &str) -> Self {
         let text = std::fs::read_to_string(out.join("summary.json")).unwrap_or_default();
@@ -56,7 +49,7 @@ impl Earlier {
         file: &SceneFile,
         (out, files): (&Path, &Belongings),
         study: &StudySpec,
-    ) -> Option<(StudySummary, Option<Kept>)> {
+    ) -> Option<(StudySummary, Option<SavedState>)> {
         let name = &study.name.0;
         let mut readable =
             self.studies.iter().filter_map(|study| serde_json::from_str::<StudySummary>(study.get()).ok());
@@ -79,16 +72,36 @@ pub fn is_start(file: &SceneFile, name: &str) -> bool {
     })
 }
 
+/// The trajectories that a study of an earlier run followed, in the space of lattice strains, from its table; `None` of studies
+/// that follow none.
+///
+/// # Errors
+/// [`OutputError`] where the table cannot be read.
+pub fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<PathPoint>>>, OutputError> {
+    const COLUMNS: [&str; 8] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12", "theta1", "theta2"];
+    if !matches!(*study.kind, StudyKind::Trace(_)) {
+        return Ok(None);
+    }
+    let rows = read_columns(&out.join(format!("{}.csv", study.name.0)), &COLUMNS)?;
+    let of_one_ray = |a: &Vec<f64>, b: &Vec<f64>| a[..2] == b[..2];
+    let point = |row: &Vec<f64>| PathPoint {
+        curvature: row[2],
+        strain: Vec3::new(row[3], row[4], row[5]),
+        turn: larger(row[6].abs(), row[7].abs()),
+    };
+    Ok(Some(rows.chunk_by(of_one_ray).map(|rows| rows.iter().map(point).collect()).collect()))
+}
+
 fn state_path(out: &Path, name: &str) -> PathBuf {
     out.join(format!("{name}.state.json"))
 }
 
-fn read_state(out: &Path, name: &str) -> Option<Kept> {
+fn read_state(out: &Path, name: &str) -> Option<SavedState> {
     serde_json::from_str(&std::fs::read_to_string(state_path(out, name)).ok()?).ok()
 }
 
 /// Writes the state of a study if a later one starts from it.
-pub fn write_state(file: &SceneFile, out: &Path, name: &str, state: &Kept) -> Result<(), RunError> {
+pub fn write_state(file: &SceneFile, out: &Path, name: &str, state: &SavedState) -> Result<(), RunError> {
     if !is_start(file, name) {
         return Ok(());
     }
@@ -108,14 +121,14 @@ mod tests {
         let scene = "[sheet]\nmesh = \"a.fold\"\n[[study]]\nname = \"a\"\nkind = \"relax\"\n[[study]]\nname = \"b\"\n\
                      kind = \"relax\"\nstart = \"a\"\n";
         let file = crate::scene::parse(scene, "s.toml").unwrap();
-        let state = Kept {
+        let state = SavedState {
             coordinates: vec![0.1 + 0.2, -0.0, 5e-324, 1e300 / 3.0],
             angles: vec![-std::f64::consts::PI],
             tension: Some(vec![1.0 / 3.0, -0.0]),
         };
         write_state(&file, folder.path(), "a", &state).unwrap();
         let back = read_state(folder.path(), "a").unwrap();
-        let bits = |state: &Kept| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let bits = |state: &SavedState| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!((bits(&back), &back.angles, &back.tension), (bits(&state), &state.angles, &state.tension));
         write_state(&file, folder.path(), "b", &state).unwrap();
         assert!(!state_path(folder.path(), "b").exists(), "nothing starts from it");

@@ -1,37 +1,34 @@
-//! What the studies of one run share: the built scene, the folder, the summary, and the states already found.
+//! The loop of a run: studies are checked, computed, timed, written, and kept for those that start from them.
 
 use super::belongings::Belongings;
 use super::ledger::{INTERRUPTED, Ledger};
-use super::resume::{Earlier, Kept, is_start, write_state};
-use super::{
-    Observer, Progress, RunError, RunOptions, RunReport, bloch, branches, inputs, landscape, studies, surface, trace,
-    wells,
-};
+use super::resume::{self, PreviousRun};
+use super::{RunError, RunOptions, RunReport, inputs};
 use crate::analysis::view::View;
-use crate::numerics::parallel;
-use crate::output::files;
+use crate::model::Assembly;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
-use crate::scene::build::Built;
-use crate::scene::spec::{StudyKind, StudySpec};
+use crate::output::table::{Table, read_columns};
+use crate::output::{OutputError, files};
+use crate::scene::build::notes;
+use crate::scene::spec::StudySpec;
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
+use crate::study::{self, Answer, Checkpoints, Context, Earlier, Observer, SavedState};
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
 
 /// One run.
 pub struct Runner<'a> {
-    /// The scene as written.
-    pub file: &'a SceneFile,
-    /// The scene as built.
-    pub built: &'a Built,
-    /// What pictures show.
-    pub view: View,
+    file: &'a SceneFile,
+    assembly: &'a Assembly,
+    view: View,
     /// Where files go.
-    pub out: PathBuf,
+    out: PathBuf,
     resumed: bool,
-    states: HashMap<String, Kept>,
+    earlier: Earlier,
     kept: Vec<String>,
     /// Places of studies in the scene.
     order: HashMap<&'a str, usize>,
@@ -50,28 +47,20 @@ impl<'a> Runner<'a> {
     /// earlier scene.
     pub fn new(
         file: &'a SceneFile,
-        built: &'a Built,
+        assembly: &'a Assembly,
         options: &RunOptions,
         observer: Observer<'a>,
         ledger: &Ledger,
     ) -> Result<Self, RunError> {
-        parallel::set_threads(options.threads.unwrap_or(0));
         let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
         let out = options.out.clone().unwrap_or_else(stem);
-        let view = View::new(&built.sheet, &built.tiling, built.surroundings, built.shown);
-        for study in &file.scene.studies {
-            studies::check(file, built, &view, study)?;
-        }
-        inputs::check(file, &out)?;
-        let digest = digest(file)?;
-        let earlier = if options.resume { Earlier::read(&out, &digest) } else { Earlier::default() };
-        let resumed = earlier.is_of_this_scene();
+        let view = View::new(assembly);
         let mut runner = Self {
             file,
-            built,
+            assembly,
             view,
-            resumed,
-            states: HashMap::new(),
+            resumed: false,
+            earlier: Earlier::default(),
             kept: Vec::new(),
             order: file.scene.studies.iter().enumerate().map(|(k, study)| (study.name.0.as_str(), k)).collect(),
             belongings: Belongings::new(file, &out),
@@ -81,23 +70,31 @@ impl<'a> Runner<'a> {
             interrupted: AtomicBool::new(false),
             ledger: ledger.clone(),
         };
-        runner.keep(summary(file, built, digest), &earlier)?;
+        for study in &file.scene.studies {
+            study::check(&runner.context(study))?;
+        }
+        inputs::check(file, &runner.out)?;
+        let digest = digest(file)?;
+        let previous = if options.resume { PreviousRun::read(&runner.out, &digest) } else { PreviousRun::default() };
+        runner.resumed = previous.is_of_this_scene();
+        runner.take_over(summary(file, assembly, digest), &previous)?;
         Ok(runner)
     }
 
     /// Takes over what an earlier run finished, and removes what it left half-written.
-    fn keep(&mut self, mut summary: Summary, earlier: &Earlier) -> Result<(), RunError> {
+    fn take_over(&mut self, mut summary: Summary, previous: &PreviousRun) -> Result<(), RunError> {
         files::remove_drafts(&self.out);
         for study in &self.file.scene.studies {
             files::remove_drafts(&self.out.join(&study.name.0));
-            if let Some((found, state)) = earlier.study(self.file, (&self.out, &self.belongings), study) {
-                self.states.extend(state.map(|state| (found.name.clone(), state)));
+            if let Some((found, state)) = previous.study(self.file, (&self.out, &self.belongings), study) {
+                self.earlier.states.extend(state.map(|state| (found.name.clone(), state)));
+                self.earlier.paths.extend(resume::paths(&self.out, study)?.map(|paths| (found.name.clone(), paths)));
                 self.kept.push(found.name.clone());
                 summary.studies.push(found);
             }
         }
         let places = summary.studies.iter().map(|study| self.order[study.name.as_str()]).collect();
-        let (out, kept, notes) = (self.out.clone(), self.kept.clone(), self.built.notes.clone());
+        let (out, kept, notes) = (self.out.clone(), self.kept.clone(), notes(self.file, self.assembly));
         self.ledger.open(RunReport { summary, out, kept, interrupted: false, notes }, places)
     }
 
@@ -116,16 +113,22 @@ impl<'a> Runner<'a> {
     }
 
     fn compute(&mut self, study: &StudySpec) -> Result<StudySummary, RunError> {
-        match &*study.kind {
-            StudyKind::Relax(spec) => studies::relax(self, study, spec),
-            StudyKind::Modes(spec) => studies::modes(self, study, spec),
-            StudyKind::Branches(_) => branches::study(self, study),
-            StudyKind::Trace(spec) => trace::study(self, study, spec),
-            StudyKind::Surface(spec) => surface::study(self, study, spec),
-            StudyKind::Landscape(spec) => landscape::study(self, study, spec),
-            StudyKind::Bloch(spec) => bloch::study(self, study, spec),
-            StudyKind::Wells(spec) => wells::study(self, study, spec),
+        let clock = Instant::now();
+        let Answer { mut summary, files, state, paths } = study::compute(&self.context(study))?;
+        summary.seconds = clock.elapsed().as_secs_f64();
+        for (name, artifact) in &files {
+            artifact.write(&self.path(name))?;
         }
+        self.earlier.paths.insert(summary.name.clone(), paths);
+        if let Some(state) = state {
+            self.keep_state(study, state)?;
+        }
+        Ok(summary)
+    }
+
+    fn context<'b>(&'b self, study: &'b StudySpec) -> Context<'b> {
+        let Self { file, assembly, view, earlier, observer, interrupted, .. } = self;
+        Context { file, assembly, view, study, earlier, checkpoints: self, observer: *observer, interrupted }
     }
 
     /// Takes in what a study found. A run that was stopped removes nothing: what it would have written is not there.
@@ -144,30 +147,13 @@ impl<'a> Runner<'a> {
     }
 
     /// Keeps the state in which a study ended for those that start from it.
-    pub fn keep_state(&mut self, study: &StudySpec, state: Kept) -> Result<(), RunError> {
-        if is_start(self.file, &study.name.0) {
+    fn keep_state(&mut self, study: &StudySpec, state: SavedState) -> Result<(), RunError> {
+        if resume::is_start(self.file, &study.name.0) {
             self.path(format!("{}.state.json", study.name.0));
         }
-        write_state(self.file, &self.out, &study.name.0, &state)?;
-        self.states.insert(study.name.0.clone(), state);
+        resume::write_state(self.file, &self.out, &study.name.0, &state)?;
+        self.earlier.states.insert(study.name.0.clone(), state);
         Ok(())
-    }
-
-    /// Whether the run goes on where an earlier one of the same scene ended.
-    pub fn resumed(&self) -> bool {
-        self.resumed
-    }
-
-    /// The state in which a study ended.
-    pub fn state(&self, name: &str) -> Option<&Kept> {
-        self.states.get(name)
-    }
-
-    /// Tells the observer of a step; false: stop.
-    pub fn watch(&self, progress: &Progress) -> bool {
-        let go_on = (self.observer)(progress).is_continue();
-        self.interrupted.fetch_or(!go_on, Ordering::Relaxed);
-        go_on
     }
 
     /// Whether the observer asked to stop.
@@ -176,7 +162,7 @@ impl<'a> Runner<'a> {
     }
 
     /// A file in the folder that the present study writes.
-    pub fn path(&self, name: impl AsRef<Path>) -> PathBuf {
+    fn path(&self, name: impl AsRef<Path>) -> PathBuf {
         let path = self.out.join(name);
         self.written.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
         path
@@ -188,11 +174,22 @@ impl<'a> Runner<'a> {
     }
 }
 
-fn summary(file: &SceneFile, built: &Built, digest: String) -> Summary {
-    let info = Info::new(&built.sheet);
-    let (terms, mut left_out) = built.terms();
-    left_out.extend(file.scene.studies.iter().filter_map(|study| surface::left_out(built, study)));
-    let held = built.drawn.held.len() + built.recipe.pins.iter().flat_map(|(_, axes)| axes).filter(|a| **a).count();
+impl Checkpoints for Runner<'_> {
+    fn rows(&self, file: &str, columns: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
+        let path = self.path(file);
+        if self.resumed && path.exists() { read_columns(&path, columns) } else { Ok(Vec::new()) }
+    }
+
+    fn keep(&self, file: &str, table: &Table) -> Result<(), OutputError> {
+        table.write(&self.path(file))
+    }
+}
+
+fn summary(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
+    let info = Info::new(assembly.sheet());
+    let (terms, mut left_out) = built_terms(assembly);
+    left_out.extend(file.scene.studies.iter().filter_map(|study| study::left_out(assembly, study)));
+    let held = assembly.drawn().held.len() + assembly.terms().pinned();
     Summary {
         version: env!("CARGO_PKG_VERSION"),
         scene: file.path().display().to_string(),
@@ -203,11 +200,28 @@ fn summary(file: &SceneFile, built: &Built, digest: String) -> Summary {
             faces: info.faces,
             polygons: info.polygons,
             developable: info.developable,
-            cells: built.tiling.cells,
-            degrees_of_freedom: built.drawn.coordinates.len() - held,
+            cells: assembly.tiling().cells,
+            degrees_of_freedom: assembly.drawn().coordinates.len() - held,
         },
         terms,
         left_out,
         studies: vec![],
     }
+}
+
+/// The terms that are built, and those that this scene made unnecessary, each with its reason.
+fn built_terms(assembly: &Assembly) -> (Vec<String>, Vec<String>) {
+    let terms = assembly.terms();
+    let no_facets = if assembly.tiling().facets().next().is_some() { "" } else { "facets: every face is a triangle" };
+    let table = [
+        ("bars", terms.bars.is_some(), "bars: not in [energy]"),
+        ("creases", terms.creases.is_some(), "creases: not in [energy]"),
+        ("facets", terms.facets.is_some(), no_facets),
+        ("locks", !terms.locks.is_empty(), "locks: none given"),
+        ("pins", !terms.pins.is_empty(), "pins: none given"),
+        ("loads", !terms.loads.is_empty(), "loads: none given"),
+    ];
+    let (there, missing): (Vec<_>, Vec<_>) = table.into_iter().partition(|(_, there, _)| *there);
+    let terms = there.into_iter().map(|(term, ..)| term.to_owned()).collect();
+    (terms, missing.into_iter().map(|(_, _, why)| why.to_owned()).collect())
 }

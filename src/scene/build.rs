@@ -6,54 +6,39 @@ use super::forms::{Mode, ModeRest, RatesFile, Rest};
 use super::spec::{Domain, Lattice};
 use super::values::{CellIndex, EdgeName};
 use super::{Located, SceneError, SceneFile};
-use crate::analysis::axis::drawn_for;
 use crate::kinematics::folding_modes_with_locked;
 use crate::math::Vec3;
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, drawn_angles};
-use crate::sheet::{EdgeKey, EdgeKind, Sheet, Tiling, fold, generate, tile};
-use std::collections::{HashMap, HashSet};
+use crate::model::{Assembly, AssemblyError, Boundary, Hinges, Terms};
+use crate::sheet::{EdgeKey, EdgeKind, Sheet, Tiling, fold, generate};
+use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
 
-/// A scene made ready.
-pub struct Built {
-    /// The sheet.
-    pub sheet: Sheet,
-    /// Its cells as the studies see them.
-    pub tiling: Tiling,
-    /// What surrounds them.
-    pub surroundings: Surroundings,
-    /// The drawn state.
-    pub drawn: Drawn,
-    /// What the sheet is made of and what acts on it.
-    pub recipe: Recipe,
-    /// How many cells pictures of a screw show.
-    pub shown: [usize; 2],
-    /// What is to be said about the scene before its studies.
-    pub notes: Vec<String>,
+/// Reads the mesh of a scene and puts together what its studies are about.
+///
+/// # Errors
+/// [`SceneError`] where the mesh cannot be read, or the scene says something about the sheet that does not hold.
+pub fn assembly(file: &SceneFile) -> Result<Assembly, SceneError> {
+    let sheet = sheet(file)?;
+    let boundary = boundary(file, &sheet)?;
+    super::memory::check(file, &sheet)?;
+    let bare = Assembly::without_terms(sheet, file.scene.sheet.cells(), boundary);
+    let bare = bare.map_err(|error| file.error_at(0..0, error.to_string(), "see [sheet]"))?;
+    let terms = Reader::new(file, &bare).terms()?;
+    Ok(bare.with_terms(terms).with_best_axis())
 }
 
-/// Reads the mesh of a scene and builds what its studies need.
-pub fn build(file: &SceneFile) -> Result<Built, SceneError> {
-    let sheet = sheet(file)?;
-    let spec = &file.scene.sheet;
-    let surroundings = surroundings(file, &sheet)?;
-    let screw = surroundings == Surroundings::Screw;
-    let cells = if screw || sheet.lattice.is_none() { [1, 1] } else { spec.cells() };
-    super::memory::check(file, &sheet)?;
-    let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
-    let drawn = Drawn::new(&sheet, &tiling, surroundings);
-    let builder = Builder::new(file, &sheet, &tiling, drawn_angles(&drawn, &tiling));
-    let recipe = builder.recipe()?;
-    let drawn = drawn_for(&sheet, &tiling, surroundings, &recipe);
-    let notes = super::turns::notes(file, &recipe);
-    Ok(Built { surroundings, drawn, recipe, shown: spec.cells(), notes, tiling, sheet })
+/// What is to be said about a scene before its studies.
+pub fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
+    super::turns::notes(file, assembly.terms())
 }
 
 /// Rates of a mode from its table, for every edge of the tiling; NaN where the table has none.
-pub fn rates(file: &SceneFile, built: &Built, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
-    let angles = drawn_angles(&built.drawn, &built.tiling);
-    Builder::new(file, &built.sheet, &built.tiling, angles).rates(name)
+///
+/// # Errors
+/// [`SceneError`] where the table cannot be read, names an edge that does not fold, or lacks a crease.
+pub fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
+    Reader::new(file, assembly).rates(name)
 }
 
 /// The sheet of a scene, from its mesh or its generator.
@@ -71,13 +56,13 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     generate::generate(&pattern).map_err(|error| wrong(error.to_string()))
 }
 
-fn surroundings(file: &SceneFile, sheet: &Sheet) -> Result<Surroundings, SceneError> {
+fn boundary(file: &SceneFile, sheet: &Sheet) -> Result<Boundary, SceneError> {
     let spec = &file.scene.sheet;
     let periodic = match spec.domain() {
-        Domain::Patch => return Ok(Surroundings::Patch),
-        Domain::Torus if spec.lattice() == Lattice::Fixed => Surroundings::FixedTorus,
-        Domain::Torus => Surroundings::FreeTorus,
-        Domain::Screw => Surroundings::Screw,
+        Domain::Patch => return Ok(Boundary::Patch),
+        Domain::Torus if spec.lattice() == Lattice::Fixed => Boundary::FixedTorus,
+        Domain::Torus => Boundary::FreeTorus,
+        Domain::Screw => Boundary::Screw,
     };
     if sheet.lattice.is_some() {
         return Ok(periodic);
@@ -91,32 +76,33 @@ fn names(sheet: &Sheet) -> HashMap<EdgeKey, usize> {
     sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect()
 }
 
-/// What the parts of the energy are built from.
-struct Builder<'a> {
+/// Reads the terms of a scene about its sheet.
+struct Reader<'a> {
     file: &'a SceneFile,
     sheet: &'a Sheet,
     tiling: &'a Tiling,
     /// Number of each edge of the cell.
     names: HashMap<EdgeKey, usize>,
     /// Drawn fold angle of every edge of the tiling; NaN where there is no hinge.
-    angles: Vec<f64>,
+    angles: &'a [f64],
 }
 
-impl<'a> Builder<'a> {
-    fn new(file: &'a SceneFile, sheet: &'a Sheet, tiling: &'a Tiling, angles: Vec<f64>) -> Self {
+impl<'a> Reader<'a> {
+    fn new(file: &'a SceneFile, assembly: &'a Assembly) -> Self {
+        let (sheet, tiling, angles) = (assembly.sheet(), assembly.tiling(), assembly.drawn_angles());
         Self { file, sheet, tiling, names: names(sheet), angles }
     }
 
-    fn recipe(&self) -> Result<Recipe, SceneError> {
+    fn terms(&self) -> Result<Terms, SceneError> {
         let energy = &self.file.scene.energy;
         let creases = match &energy.creases {
             Some(spec) => Some(Hinges { stiffness: spec.stiffness.0, rest: self.rest(spec.rest.as_ref())? }),
             None => None,
         };
         let stiffness = self.facet_stiffness();
-        let has_facets = self.tiling.edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
-        let facets = has_facets.then(|| Hinges { stiffness, rest: self.angles.clone() });
-        let recipe = Recipe {
+        let has_facets = self.tiling.facets().next().is_some();
+        let facets = has_facets.then(|| Hinges { stiffness, rest: self.angles.to_vec() });
+        let terms = Terms {
             bars: energy.bars.as_ref().map(|spec| spec.stiffness.0),
             creases,
             facets,
@@ -124,8 +110,8 @@ impl<'a> Builder<'a> {
             pins: self.pins()?,
             loads: self.loads()?,
         };
-        self.balance(&recipe)?;
-        Ok(recipe)
+        self.balance(&terms)?;
+        Ok(terms)
     }
 
     /// Left out, polygons are rigid.
@@ -136,15 +122,14 @@ impl<'a> Builder<'a> {
     /// Diagonals of the cell's polygons where these are rigid.
     fn rigid_facets(&self) -> Vec<usize> {
         let rigid = self.facet_stiffness().is_infinite();
-        let edges = &self.sheet.edges;
-        (0..edges.len()).filter(|&edge| rigid && edges[edge].kind == EdgeKind::Facet).collect()
+        self.sheet.facets().filter(|_| rigid).collect()
     }
 
     /// Rest angle of every edge of the tiling.
     fn rest(&self, rest: Option<&Located<Rest>>) -> Result<Vec<f64>, SceneError> {
-        let Some(rest) = rest else { return Ok(self.angles.clone()) };
+        let Some(rest) = rest else { return Ok(self.angles.to_vec()) };
         match &**rest {
-            Rest::Drawn => Ok(self.angles.clone()),
+            Rest::Drawn => Ok(self.angles.to_vec()),
             Rest::Flat => Ok(vec![0.0; self.angles.len()]),
             Rest::Angle(angle) => Ok(vec![*angle; self.angles.len()]),
             Rest::Mode(mode) => self.along_mode(mode),
@@ -278,43 +263,16 @@ impl<'a> Builder<'a> {
     }
 
     /// Loads must balance along every axis on which no vertex is pinned: otherwise there is no equilibrium.
-    fn balance(&self, recipe: &Recipe) -> Result<(), SceneError> {
-        let total: Vec3 = recipe.loads.iter().map(|(_, force)| force).sum();
-        let largest = recipe.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max);
-        for (axis, letter) in ["x", "y", "z"].iter().enumerate() {
-            let pinned = recipe.pins.iter().any(|(_, axes)| axes[axis]);
-            if !pinned && total[axis].abs() > 1e-12 * largest {
-                let span = self.file.scene.loads[0].force.span();
-                let message = format!("the loads push the whole sheet along {letter} with a force of {}", total[axis]);
-                let help = "balance the loads, or pin a vertex along that axis; a sheet with fewer than three pinned vertices \
-                            still turns as a whole, until its loads pull straight";
-                return Err(self.file.error_at(span, message, help));
-            }
-        }
-        Ok(())
+    fn balance(&self, terms: &Terms) -> Result<(), SceneError> {
+        let Some((axis, force)) = terms.unbalanced_axis() else { return Ok(()) };
+        let span = self.file.scene.loads[0].force.span();
+        let message = AssemblyError::Unbalanced { axis, force }.to_string();
+        let help = "balance the loads, or pin a vertex along that axis; a sheet with fewer than three pinned vertices \
+                    still turns as a whole, until its loads pull straight";
+        Err(self.file.error_at(span, message, help))
     }
 }
 
 fn name(key: EdgeKey) -> String {
     format!("[{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1])
-}
-
-impl Built {
-    /// Terms that are built, and what this scene made unnecessary, each with its reason.
-    pub fn terms(&self) -> (Vec<String>, Vec<String>) {
-        let recipe = &self.recipe;
-        let kinds: HashSet<EdgeKind> = self.tiling.edges.iter().map(|edge| edge.kind).collect();
-        let no_facets = if kinds.contains(&EdgeKind::Facet) { "" } else { "facets: every face is a triangle" };
-        let table = [
-            ("bars", recipe.bars.is_some(), "bars: not in [energy]"),
-            ("creases", recipe.creases.is_some(), "creases: not in [energy]"),
-            ("facets", recipe.facets.is_some(), no_facets),
-            ("locks", !recipe.locks.is_empty(), "locks: none given"),
-            ("pins", !recipe.pins.is_empty(), "pins: none given"),
-            ("loads", !recipe.loads.is_empty(), "loads: none given"),
-        ];
-        let (there, missing): (Vec<_>, Vec<_>) = table.into_iter().partition(|(_, there, _)| *there);
-        let terms = there.into_iter().map(|(term, ..)| term.to_owned()).collect();
-        (terms, missing.into_iter().map(|(_, _, why)| why.to_owned()).collect())
-    }
 }

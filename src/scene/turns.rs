@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::forms::Rest;
 use super::spec::{StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
-use crate::model::assemble::Recipe;
+use crate::model::Terms;
 
 /// What is wrong with an angle of more than a turn, and what would be right.
 pub(super) fn fault(angle: f64) -> Option<[String; 2]> {
@@ -43,12 +43,12 @@ fn stop_angle(study: &StudySpec) -> Option<&Located<super::values::Finite>> {
 }
 
 /// What is to be said about rest angles and locks beyond pi, which are allowed.
-pub(super) fn notes(file: &SceneFile, recipe: &Recipe) -> Vec<String> {
+pub(super) fn notes(file: &SceneFile, terms: &Terms) -> Vec<String> {
     let beyond = |angle: &f64| angle.abs() > PI;
     let through = "beyond pi (angles are radians), where the faces of a crease have passed through each other";
     let mut notes = Vec::new();
     let drawn = file.scene.energy.creases.as_ref().is_none_or(|creases| creases.rest.is_none());
-    let rest = recipe.creases.iter().flat_map(|creases| &creases.rest).filter(|angle| beyond(angle)).count();
+    let rest = terms.creases.iter().flat_map(|creases| &creases.rest).filter(|angle| beyond(angle)).count();
     if rest > 0 && !drawn {
         notes.push(format!("{rest} rest angles are {through}"));
     }

@@ -5,7 +5,7 @@ use std::fmt;
 use super::cell::{Edge, EdgeKind, Sheet};
 use super::error::DrawnEdge;
 
-/// Drawn fold angles below this many degrees count as flat.
+/// Drawing fold angles below this many degrees count as flat.
 pub const FLAT: f64 = 1e-9;
 
 /// What an edge is meant to be, as FOLD 1.2 assigns it.

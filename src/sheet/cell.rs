@@ -162,6 +162,18 @@ impl Sheet {
         Corner { vertex, ..corner }
     }
 
+    /// The number of the crease of this name, in either direction; `None` where there is no such crease.
+    pub fn crease(&self, key: EdgeKey) -> Option<usize> {
+        let [a, b] = key.ends();
+        let (key, _) = EdgeKey::new(a, b);
+        self.edges.iter().position(|edge| edge.key == key && edge.kind == EdgeKind::Crease)
+    }
+
+    /// The edges that are diagonals of polygons.
+    pub fn facets(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.edges.len()).filter(|&edge| self.edges[edge].kind == EdgeKind::Facet)
+    }
+
     /// Fold angle of an edge in the drawn state, in radians, valley positive; `None` on a boundary.
     pub fn drawn_angle(&self, edge: &Edge) -> Option<f64> {
         let [left, right] = [edge.wings[0]?, edge.wings[1]?];

@@ -16,7 +16,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::assignment::Assignment;
-use super::build::{Drawn, build, draw};
+use super::build::{Drawing, build, draw};
 use super::cell::Sheet;
 use super::error::{Defect, Place, Problem, SheetError};
 use super::text;
@@ -39,7 +39,7 @@ pub fn read(path: &Path) -> Result<Sheet, SheetError> {
 /// [`SheetError::Bad`] with the line, and the vertex, face or edge that is wrong.
 pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     let stem = Path::new(name).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let mut reader = Reader { drawn: Drawn { title: stem, first: 1, ..Drawn::default() }, ..Reader::default() };
+    let mut reader = Reader { drawn: Drawing { title: stem, first: 1, ..Drawing::default() }, ..Reader::default() };
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     for (number, line) in joined_lines(text) {
         reader.line = number;
@@ -77,7 +77,7 @@ fn bad(name: &str, line: usize, problem: Problem) -> SheetError {
 #[derive(Default)]
 struct Reader {
     line: usize,
-    drawn: Drawn,
+    drawn: Drawing,
     lattice_vectors: Vec<Vec3>,
     vertex_lines: Vec<usize>,
     face_lines: Vec<usize>,

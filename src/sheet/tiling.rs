@@ -27,6 +27,14 @@ pub struct TiledEdge {
     pub wings: [Option<Site>; 2],
 }
 
+impl TiledEdge {
+    /// The sites of its hinge: its ends, then the opposite vertices of the left and of the right triangle. `None` where a
+    /// triangle is missing.
+    pub fn hinge(&self) -> Option<[Site; 4]> {
+        Some([self.ends[0], self.ends[1], self.wings[0]?, self.wings[1]?])
+    }
+}
+
 /// A triangle of a [`Tiling`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TiledTriangle {
@@ -50,7 +58,7 @@ pub struct Tiling {
     pub cells: [usize; 2],
     /// A torus, not a patch.
     pub periodic: bool,
-    /// Drawn positions; vertex `v` of cell `(c1, c2)` has number `(c2 n1 + c1) Nv + v`.
+    /// Drawing positions; vertex `v` of cell `(c1, c2)` has number `(c2 n1 + c1) Nv + v`.
     pub positions: Vec<Vec3>,
     /// Edges, cell by cell (`c1` runs faster), in each cell in the order of the sheet.
     pub edges: Vec<TiledEdge>,
@@ -69,6 +77,13 @@ pub fn tile(sheet: &Sheet, cells: [usize; 2], periodic: bool) -> Tiling {
     };
     let (edges, triangles) = if grid.cells.contains(&0) { Default::default() } else { grid.elements(sheet) };
     Tiling { cells: grid.cells, periodic: grid.periodic, positions: grid.positions(sheet), edges, triangles }
+}
+
+impl Tiling {
+    /// The edges that are diagonals of polygons.
+    pub fn facets(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.edges.len()).filter(|&edge| self.edges[edge].kind == EdgeKind::Facet)
+    }
 }
 
 /// The polygon on one side of an edge, seen from the edge's first vertex.

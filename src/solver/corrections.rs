@@ -1,15 +1,15 @@
-//! Corrections of the solution of a linear system, with a solver that nearly solves it.
+//! Iterative refinement of the solution of a linear system, with a solver that nearly solves it.
 //!
-//! They are generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20, 345, 1983): what each
-//! changes of the residual is orthogonal to what those before changed. So the few motions of a large sheet that are softer
-//! than the rounding errors of a factorization cost a few corrections and do not hold up the rest.
+//! The corrections are generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20, 345,
+//! 1983): what each changes of the residual is orthogonal to what those before changed. So the few motions of a large
+//! system that are softer than the rounding errors of a factorization cost a few corrections and do not hold up the
+//! rest.
 
-use crate::numerics::larger;
-use nalgebra::DVectorView;
+use crate::numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
 
-/// Corrections go on while each makes the residual at least this much smaller, and are at most so many.
-const SLOWEST: f64 = 0.95;
-const MOST: usize = 30;
+/// Ratio of successive residuals above which another correction is not worth a solve.
+const SLOWEST_CONTRACTION: f64 = 0.95;
+const MOST_CORRECTIONS: usize = 30;
 
 /// A vector of a system with two block rows: unknowns and tensions, or forces and stretches.
 #[derive(Clone, Debug)]
@@ -19,22 +19,23 @@ pub struct Pair(pub Vec<f64>, pub Vec<f64>);
 pub trait NearlySolved {
     /// The system's matrix times a vector.
     fn product(&self, found: &Pair) -> Pair;
-    /// Very nearly the solution for this right-hand side.
+    /// An approximate solution for this right-hand side.
     fn solve(&mut self, right: &Pair) -> Pair;
 }
 
-/// What corrections reach.
+/// The result of corrections.
 pub struct Corrected {
     /// The solution.
     pub found: Pair,
-    /// Its residual as corrections follow it, the larger one of the two block rows in their units. Rounding errors of the
-    /// solution are not in it.
+    /// Residual as the corrections update it: the larger one of the two block rows, in their units. Rounding errors of
+    /// the solution are not part of it.
     pub residual: f64,
-    /// Corrections made.
+    /// Number of corrections made.
     pub corrections: usize,
 }
 
-/// Corrects `found` until the residual of each block row is at most `tolerance` of its unit, or until that no longer helps.
+/// Corrects `found` until the residual of each block row is at most `tolerance` of its unit, or until that no longer
+/// helps.
 pub fn correct(
     system: &mut dyn NearlySolved,
     right: &Pair,
@@ -42,31 +43,31 @@ pub fn correct(
     units: [f64; 2],
     tolerance: f64,
 ) -> Corrected {
-    let per_unit = units.map(per);
-    let mut left = right.less(&system.product(&found)).times(per_unit);
+    let per_unit = units.map(reciprocal);
+    let mut left = right.minus(&system.product(&found)).scaled(per_unit);
     let (mut before, mut last): (Vec<Correction>, f64) = (vec![], f64::INFINITY);
     loop {
-        let residual = larger(norm(&left.0), norm(&left.1));
-        if residual <= tolerance || !(residual < SLOWEST * last) || before.len() == MOST {
+        let residual = larger(norm_blocked(&left.0), norm_blocked(&left.1));
+        if residual <= tolerance || !(residual < SLOWEST_CONTRACTION * last) || before.len() == MOST_CORRECTIONS {
             return Corrected { found, residual, corrections: before.len() };
         }
         last = residual;
-        let mut motion = system.solve(&left.clone().times(units));
-        let mut change = system.product(&motion).times(per_unit);
+        let mut motion = system.solve(&left.clone().scaled(units));
+        let mut change = system.product(&motion).scaled(per_unit);
         for earlier in &before {
-            let part = earlier.part_of(&change);
+            let part = earlier.projection(&change);
             change.add(-part, &earlier.change);
             motion.add(-part, &earlier.motion);
         }
-        let correction = Correction { per_square: per(change.dot(&change)), motion, change };
-        let part = correction.part_of(&left);
+        let correction = Correction { per_square: reciprocal(change.dot(&change)), motion, change };
+        let part = correction.projection(&left);
         left.add(-part, &correction.change);
         found.add(part, &correction.motion);
         before.push(correction);
     }
 }
 
-/// A motion, what it changes of the residual, and one over the square of that.
+/// A motion, what it changes of the residual, and the reciprocal of the square of that change.
 struct Correction {
     motion: Pair,
     change: Pair,
@@ -74,49 +75,40 @@ struct Correction {
 }
 
 impl Correction {
-    /// How often its change is in another one.
-    fn part_of(&self, residual: &Pair) -> f64 {
+    /// Projection coefficient of `residual` on this correction's change.
+    fn projection(&self, residual: &Pair) -> f64 {
         residual.dot(&self.change) * self.per_square
     }
 }
 
 impl Pair {
-    /// Adds a multiple of another one.
+    /// Adds `part` times another vector.
     pub fn add(&mut self, part: f64, other: &Self) {
-        self.0.iter_mut().zip(&other.0).for_each(|(v, w)| *v += part * w);
-        self.1.iter_mut().zip(&other.1).for_each(|(v, w)| *v += part * w);
+        add_scaled(&mut self.0, part, &other.0);
+        add_scaled(&mut self.1, part, &other.1);
     }
 
-    /// This one less another one.
-    pub fn less(&self, other: &Self) -> Self {
-        let less = |v: &[f64], w: &[f64]| v.iter().zip(w).map(|(v, w)| v - w).collect();
-        Self(less(&self.0, &other.0), less(&self.1, &other.1))
+    /// The difference to another vector.
+    pub fn minus(&self, other: &Self) -> Self {
+        let minus = |v: &[f64], w: &[f64]| v.iter().zip(w).map(|(v, w)| v - w).collect();
+        Self(minus(&self.0, &other.0), minus(&self.1, &other.1))
     }
 
-    /// With its block rows times these factors.
-    fn times(mut self, factors: [f64; 2]) -> Self {
+    /// The vector with its two block rows multiplied by these factors.
+    fn scaled(mut self, factors: [f64; 2]) -> Self {
         self.0.iter_mut().for_each(|v| *v *= factors[0]);
         self.1.iter_mut().for_each(|v| *v *= factors[1]);
         self
     }
 
     fn dot(&self, other: &Self) -> f64 {
-        dot(&self.0, &other.0) + dot(&self.1, &other.1)
+        dot_blocked(&self.0, &other.0) + dot_blocked(&self.1, &other.1)
     }
 }
 
-/// One over a size; of what is zero, no unit makes anything else.
-fn per(size: f64) -> f64 {
+/// Reciprocal of a size, guarded against division by zero.
+fn reciprocal(size: f64) -> f64 {
     size.max(f64::MIN_POSITIVE).recip()
-}
-
-/// Euclidean norm.
-pub fn norm(v: &[f64]) -> f64 {
-    dot(v, v).sqrt()
-}
-
-fn dot(v: &[f64], w: &[f64]) -> f64 {
-    DVectorView::from_slice(v, v.len()).dot(&DVectorView::from_slice(w, w.len()))
 }
 
 #[cfg(test)]
@@ -136,8 +128,8 @@ mod tests {
         }
     }
 
-    /// Claim: a residual that is no number is none, also where that of the other block row is zero or there is no such row: it is never
-    /// within a tolerance. Source: the larger of two numbers is not known where one is not.
+    /// Claim: a residual that is no number is none, also where that of the other block row is zero or there is no such
+    /// row: it is never within a tolerance. Source: the larger of two numbers is not known where one is not.
     #[test]
     fn what_is_no_number_is_not_solved() {
         for stretches in [0, 2] {

@@ -5,41 +5,42 @@
 //! -J^T F`. They lose digits of `d`, not of the point, since `F` is evaluated anew; and redundant rows of `J` do no
 //! harm. The tangents solve `(J^T J + T T^T) U = T`, once refined, and are then made orthonormal.
 
-use crate::numerics::DenseMatrix;
-use nalgebra::{Cholesky, DVector, Dyn};
+use crate::numerics::dense::small::{CholeskyFactor, cholesky};
+use crate::numerics::{DenseMatrix, vector};
+use nalgebra::DVector;
 
-/// Corrections allowed.
-const CORRECTIONS: usize = 6;
+/// Largest number of corrections.
+const MOST_CORRECTIONS: usize = 6;
 
-/// Equations `F(x) = 0`, of which some may be redundant.
+/// Equations `F(x) = 0`, some of which may be redundant.
 pub trait Implicit {
     /// Number of unknowns.
     fn unknowns(&self) -> usize;
     /// Number of equations, redundant ones included.
     fn equations(&self) -> usize;
-    /// `F(x)` and its Jacobian, equations by unknowns.
+    /// Fills in `F(x)` and its Jacobian, equations by unknowns.
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix);
 }
 
 /// Workspace of the corrections.
-pub struct Corrector {
+pub(super) struct Corrector {
     residual: DVector<f64>,
     jacobian: DenseMatrix,
 }
 
-/// What a correction found.
+/// The result of correcting a predicted point.
 #[derive(Clone, Copy, Debug)]
-pub struct Corrected {
-    /// Largest component of `F`.
+pub(super) struct Corrected {
+    /// Largest component of `F` at the corrected point.
     pub residual: f64,
-    /// Corrections made.
+    /// Number of corrections made.
     pub corrections: usize,
-    /// How far the point is from where it was predicted.
+    /// Distance of the corrected point from the predicted one.
     pub distance: f64,
 }
 
 impl Corrector {
-    /// For equations of this size.
+    /// Makes room for equations of this size.
     pub fn new(equations: &impl Implicit) -> Self {
         let (rows, unknowns) = (equations.equations(), equations.unknowns());
         Self { residual: DVector::zeros(rows), jacobian: DenseMatrix::zeros(rows, unknowns) }
@@ -57,12 +58,12 @@ impl Corrector {
         let across = columns(frame, x.len());
         let predicted = x.to_vec();
         let mut last = f64::INFINITY;
-        for corrections in 0..=CORRECTIONS {
+        for corrections in 0..=MOST_CORRECTIONS {
             equations.linearize(x, self.residual.as_mut_slice(), &mut self.jacobian);
             let residual = self.residual.amax();
             if residual <= tolerance {
                 frame.copy_from_slice(self.tangents(&across)?.as_slice());
-                let distance = x.iter().zip(&predicted).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+                let distance = vector::distance(x, &predicted);
                 return Some(Corrected { residual, corrections, distance });
             }
             if !(residual < last) {
@@ -91,10 +92,10 @@ impl Corrector {
         Some(())
     }
 
-    fn normal(&self, across: &DenseMatrix) -> Option<Cholesky<f64, Dyn>> {
+    fn normal(&self, across: &DenseMatrix) -> Option<CholeskyFactor> {
         let mut normal = self.jacobian.tr_mul(&self.jacobian);
         across.column_iter().for_each(|tangent| normal.ger(1.0, &tangent, &tangent, 1.0));
-        Cholesky::new(normal)
+        cholesky(normal)
     }
 
     /// Orthonormal null vectors of the Jacobian along the frame.

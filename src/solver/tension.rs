@@ -1,81 +1,67 @@
-//! Tensions of a converged state: least norm where they are not unique, and the residuals that hold with them.
+//! Tensions of a converged state without self stress, and the residuals that hold with them.
 
+use super::linearization::{HessianKind, Linearization};
 use super::newton::Equilibrium;
-use super::problem::{Curvature, Linearization, Problem};
+use super::problem::{Problem, Residuals};
+use super::self_stress::self_stresses;
+use crate::numerics::rank;
 use crate::numerics::sparse::Rows;
-use crate::numerics::{larger, rank};
 
-/// Singular values of the stiff Jacobian below this, relative to its largest entry, count as zero.
-const NULL: f64 = 1e-6;
-/// Tensions without self stress are taken where forces balance at most this much worse with them, or but for rounding.
-const WORSE: f64 = 10.0;
-const ROUNDING: f64 = 1e-13;
+/// Tensions without self stress are taken where the scaled residual force with them is at most this many times the one
+/// before.
+const MOST_FORCE_RATIO: f64 = 10.0;
+/// Scaled residual force below which it may be rounding error alone.
+const ROUNDING_FORCE: f64 = 1e-13;
 
 /// A converged state's tensions.
 #[derive(Clone, Debug)]
 pub struct Settled {
-    /// Tensions, without self stress where rigid measures leave one free.
+    /// Tensions, of least norm where rigid measures leave a self stress free.
     pub tension: Vec<f64>,
-    /// Self stresses of the rigid measures; `None` where no measure is rigid or they could not be counted.
+    /// Number of self stresses of the rigid measures; `None` where no measure is rigid or they could not be counted.
     pub self_stresses: Option<usize>,
-    /// Largest unbalanced force over the largest force of an element.
-    pub residual_force: f64,
-    /// Largest scaled gap.
-    pub residual_length: f64,
+    /// Residuals with these tensions.
+    pub residuals: Residuals,
 }
 
-/// Takes self stresses out of the tensions of an equilibrium; where its measures were seen to be independent there is none.
+/// Takes self stresses out of the tensions of an equilibrium. Where its measures were seen to be independent there are
+/// none.
 pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> Settled {
     if let (true, Some(last)) = (found.independent, found.history.last()) {
         return Settled {
             tension: found.tension.clone(),
             self_stresses: problem.compliance().contains(&0.0).then_some(0),
-            residual_force: last.residual_force,
-            residual_length: last.residual_length,
+            residuals: Residuals { force: last.residual_force, length: last.residual_length },
         };
     }
     let layout = problem.layout();
     let mut at = Linearization::new(layout);
-    problem.linearize(&found.x, &found.tension, Curvature::GaussNewton, &mut at);
+    problem.linearize(&found.x, &found.tension, HessianKind::GaussNewton, &mut at);
     let self_stresses = self_stresses(problem, &at);
-    let even = at.even_jacobian(layout);
-    let rows = Rows { cliques: &layout.stiff, values: &even };
-    let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
     let settled = |at: &Linearization, tension: Vec<f64>| {
-        let (residual_force, residual_length) = residuals(problem, at, &tension);
-        Settled { tension, self_stresses, residual_force, residual_length }
+        let residuals = Residuals::new(problem, at, &tension);
+        Settled { tension, self_stresses, residuals }
     };
     let before = settled(&at, found.tension.clone());
+    let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
     if !all_rigid || self_stresses.unwrap_or(0) == 0 {
         return before;
     }
-    let forces: Vec<f64> = found.tension.iter().zip(&at.sizes).map(|(t, size)| t * size).collect();
-    let Ok(least) = rank::without_null(&rows, layout.unknowns, &layout.node, &forces) else { return before };
-    let least: Vec<f64> = least.iter().zip(&at.sizes).map(|(t, size)| t / size).collect();
+    let Some(least) = without_self_stress(problem, &at, &found.tension) else { return before };
     // the unit of forces is smaller without those that only hold each other
-    problem.linearize(&found.x, &least, Curvature::GaussNewton, &mut at);
+    problem.linearize(&found.x, &least, HessianKind::GaussNewton, &mut at);
     let least = settled(&at, least);
-    // what is taken out next to a singular state is only nearly a self stress: forces that balance are worth more
-    if least.residual_force <= WORSE * before.residual_force.max(ROUNDING) { least } else { before }
+    // next to a singular state what is taken out is only nearly a self stress: balanced forces are worth more
+    let allowed = MOST_FORCE_RATIO * before.residuals.force.max(ROUNDING_FORCE);
+    if least.residuals.force <= allowed { least } else { before }
 }
 
-/// Number of self stresses where measures are rigid; `None` where none is, or they could not be counted.
-pub fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Option<usize> {
+/// The tensions of least norm that make the same forces.
+fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
     let layout = problem.layout();
-    if !problem.compliance().contains(&0.0) {
-        return None;
-    }
-    let even = at.even_jacobian(layout);
-    let rows = Rows { cliques: &layout.stiff, values: &even };
-    let rank = rank::count_above(&rows, layout.unknowns, &layout.node, NULL).ok()?;
-    Some(layout.stiff.len() - rank)
-}
-
-/// Scaled residuals of force and length.
-pub fn residuals<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> (f64, f64) {
-    let force = at.force(problem.layout(), tension);
-    let unbalanced = force.iter().fold(0.0f64, |m, f| larger(m, f.abs()));
-    let open = at.gaps.iter().zip(tension).zip(problem.compliance()).map(|((m, t), c)| m - c * t);
-    let gap = open.zip(problem.gap_scale()).fold(0.0, |m, (o, s)| larger(m, o.abs() / s));
-    (if unbalanced == 0.0 { 0.0 } else { unbalanced / at.largest_force }, gap)
+    let scaled = at.scaled_jacobian();
+    let rows = Rows { cliques: &layout.stiff, values: &scaled };
+    let forces: Vec<f64> = tension.iter().zip(&at.sizes).map(|(t, size)| t * size).collect();
+    let least = rank::without_null(&rows, layout.unknowns, &layout.node, &forces).ok()?;
+    Some(least.iter().zip(&at.sizes).map(|(t, size)| t / size).collect())
 }

@@ -1,14 +1,13 @@
-//! What the tests of the engine share: sheets on domains, recipes with random rest angles, and dense matrices.
+//! What the tests of the engine share: sheets on domains, terms with random rest angles, and dense matrices.
 #![allow(dead_code)] // each test file uses a part
 
-use foldwell::analysis::modes::{Modes, ModesError, Question, modes};
-use foldwell::analysis::relax::{RelaxError, Relaxed, relax};
-use foldwell::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
-use foldwell::model::{Gauge, Model};
+use foldwell::analysis::modes::{Modes, ModesError, modes};
+use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
+use foldwell::model::{Assembly, Boundary, Gauge, Hinges, Model, Terms};
 use foldwell::numerics::{DenseMatrix, dense};
 use foldwell::run::{RunOptions, run_scene};
-use foldwell::sheet::{EdgeKind, Sheet, Tiling, fold, tile};
-use foldwell::solver::{Curvature, Linearization, Options, Problem};
+use foldwell::sheet::{EdgeKind, Sheet, fold};
+use foldwell::solver::{HessianKind, Linearization, Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::ops::ControlFlow;
@@ -44,84 +43,74 @@ pub fn scaled(mut sheet: Sheet, by: f64) -> Sheet {
     sheet
 }
 
-/// A sheet on a domain.
-pub struct Case {
-    pub sheet: Sheet,
-    pub tiling: Tiling,
-    pub surroundings: Surroundings,
-    pub drawn: Drawn,
-    /// Drawn fold angle of every edge; NaN where there is no hinge.
-    pub angles: Vec<f64>,
+/// A sheet with boundary conditions, without terms.
+pub fn on(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Assembly {
+    Assembly::without_terms(sheet, cells, boundary).expect("a sheet that can have these boundary conditions")
 }
 
-impl Case {
-    pub fn new(sheet: Sheet, cells: [usize; 2], surroundings: Surroundings) -> Self {
-        let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
-        let drawn = Drawn::new(&sheet, &tiling, surroundings);
-        let angles = drawn_angles(&drawn, &tiling);
-        Self { sheet, tiling, surroundings, drawn, angles }
-    }
+/// Cells of a mesh of the repository as a patch, without terms.
+pub fn patch(name: &str, cells: [usize; 2]) -> Assembly {
+    on(mesh(name), cells, Boundary::Patch)
+}
 
-    pub fn patch(name: &str, cells: [usize; 2]) -> Self {
-        Self::new(mesh(name), cells, Surroundings::Patch)
-    }
-
-    pub fn edges(&self) -> usize {
-        self.tiling.edges.len()
-    }
-
-    pub fn count(&self, kind: EdgeKind) -> usize {
-        self.tiling.edges.iter().filter(|edge| edge.kind == kind).count()
-    }
-
+/// What tests ask of a sheet with boundary conditions.
+pub trait Testing {
+    fn count(&self, kind: EdgeKind) -> usize;
     /// Rest angles within `size` of the drawn ones, one random number for each hinge.
-    pub fn rest_per_hinge(&self, size: f64, seed: u64) -> Vec<f64> {
-        let mut numbers = Numbers::new(seed);
-        self.angles.iter().map(|angle| angle + numbers.within(size)).collect()
-    }
-
+    fn rest_per_hinge(&self, size: f64, seed: u64) -> Vec<f64>;
     /// The same, one random number for each crease of the cell.
-    pub fn rest_per_cell(&self, size: f64, seed: u64) -> Vec<f64> {
-        let off = Numbers::new(seed).many(self.sheet.edges.len(), size);
-        self.tiling.edges.iter().zip(&self.angles).map(|(edge, angle)| angle + off[edge.edge]).collect()
-    }
-
-    /// Bars and creases.
-    pub fn recipe(&self, bars: f64, creases: f64, rest: Vec<f64>) -> Recipe {
-        Recipe { bars: Some(bars), creases: Some(Hinges { stiffness: creases, rest }), ..Recipe::default() }
-    }
-
-    /// Rigid or bending facets, at rest as drawn.
-    pub fn facets(&self, stiffness: f64) -> Option<Hinges> {
-        Some(Hinges { stiffness, rest: self.angles.clone() })
-    }
-
-    pub fn model(&self, recipe: &Recipe, gauge: Gauge) -> Model {
-        assemble(&self.drawn, &self.tiling, recipe, gauge)
-    }
-
-    pub fn modes(&self, recipe: &Recipe, eigenvalues: usize) -> Result<Modes, ModesError> {
-        let (sheet, tiling, surroundings) = (&self.sheet, &self.tiling, self.surroundings);
-        modes(&Question { sheet, tiling, surroundings, recipe, eigenvalues }, &mut || true)
-    }
-
+    fn rest_per_cell(&self, size: f64, seed: u64) -> Vec<f64>;
+    /// Facets of this stiffness, at rest as drawn.
+    fn facets(&self, stiffness: f64) -> Option<Hinges>;
+    fn model_of(&self, terms: &Terms, gauge: Gauge) -> Model;
+    fn modes_of(&self, terms: &Terms, eigenvalues: usize) -> Result<Modes, ModesError>;
     /// Relaxes from the drawn state.
-    pub fn relax(&self, recipe: &Recipe) -> Result<Relaxed, Box<RelaxError>> {
-        let mut model = self.model(recipe, Gauge::Held);
+    fn relax(&self, terms: &Terms) -> Result<Relaxed, Box<RelaxError>>;
+}
+
+impl Testing for Assembly {
+    fn count(&self, kind: EdgeKind) -> usize {
+        self.tiling().edges.iter().filter(|edge| edge.kind == kind).count()
+    }
+
+    fn rest_per_hinge(&self, size: f64, seed: u64) -> Vec<f64> {
+        let mut numbers = Numbers::new(seed);
+        self.drawn_angles().iter().map(|angle| angle + numbers.within(size)).collect()
+    }
+
+    fn rest_per_cell(&self, size: f64, seed: u64) -> Vec<f64> {
+        let off = Numbers::new(seed).many(self.sheet().edges.len(), size);
+        self.tiling().edges.iter().zip(self.drawn_angles()).map(|(edge, angle)| angle + off[edge.edge]).collect()
+    }
+
+    fn facets(&self, stiffness: f64) -> Option<Hinges> {
+        Some(Hinges { stiffness, rest: self.drawn_angles().to_vec() })
+    }
+
+    fn model_of(&self, terms: &Terms, gauge: Gauge) -> Model {
+        self.with_terms(terms.clone()).model(gauge)
+    }
+
+    fn modes_of(&self, terms: &Terms, eigenvalues: usize) -> Result<Modes, ModesError> {
+        modes(&self.with_terms(terms.clone()), eigenvalues, &mut || true)
+    }
+
+    fn relax(&self, terms: &Terms) -> Result<Relaxed, Box<RelaxError>> {
+        let mut model = self.model_of(terms, Gauge::Held);
         let start = model.start();
-        relax(&mut model, start, Options::default(), self.edges(), &mut |_| true)
+        relax_from(&mut model, start, Options::default(), &mut |_| true)
     }
 }
 
 pub fn linearized(model: &Model, x: &[f64], tension: &[f64]) -> Linearization {
     let mut at = Linearization::new(model.layout());
-    model.linearize(x, tension, Curvature::Full, &mut at);
+    model.linearize(x, tension, HessianKind::Full, &mut at);
     at
 }
 
 /// Jacobian of the stiff measures.
 pub fn jacobian(model: &Model, at: &Linearization) -> DenseMatrix {
-    dense::from_rows(&at.rows(model.layout()), model.layout().unknowns)
+    dense::from_rows(&at.rows(), model.layout().unknowns)
 }
 
 /// Hessian of the whole energy, `H + R^T k R`, at a state without tensions. All stiffnesses must be finite.

@@ -2,14 +2,17 @@
 #![allow(dead_code)] // each test file uses a part
 
 use foldwell::numerics::sparse::Cliques;
-use foldwell::solver::{Curvature, Equilibrium, Layout, Linearization, NewtonError, Options, Problem, minimize};
+use foldwell::solver::{
+    Equilibrium, HessianKind, Layout, Linearization, NewtonError, Options, Problem, SoftElement, minimize,
+};
+use std::sync::Arc;
 
 /// A scalar with gradient and lower triangle (row by row) of its Hessian, in its own variables.
 pub type Measure = Box<dyn Fn(&[f64]) -> (f64, Vec<f64>, Vec<f64>)>;
 
 /// `E = sum w m^2 / 2 - load . x` under stiff measures `m = c t`.
 pub struct Textbook {
-    layout: Layout,
+    layout: Arc<Layout>,
     soft: Vec<(f64, Measure)>,
     stiff: Vec<Measure>,
     load: Vec<f64>,
@@ -24,13 +27,17 @@ impl Textbook {
     }
 
     pub fn soft(mut self, members: &[u32], weight: f64, measure: Measure) -> Self {
-        self.layout.soft.push(members.iter().copied());
+        let mut soft = self.layout.soft.clone();
+        soft.push(members.iter().copied());
+        self.layout = Layout::new(self.layout.node.clone(), soft, self.layout.stiff.clone());
         self.soft.push((weight, measure));
         self
     }
 
     pub fn stiff(mut self, members: &[u32], compliance: f64, measure: Measure) -> Self {
-        self.layout.stiff.push(members.iter().copied());
+        let mut stiff = self.layout.stiff.clone();
+        stiff.push(members.iter().copied());
+        self.layout = Layout::new(self.layout.node.clone(), self.layout.soft.clone(), stiff);
         self.stiff.push(measure);
         self.compliance.push(compliance);
         self.scale.push(1.0);
@@ -52,7 +59,7 @@ impl Textbook {
 }
 
 impl Problem for Textbook {
-    fn layout(&self) -> &Layout {
+    fn layout(&self) -> &Arc<Layout> {
         &self.layout
     }
 
@@ -76,8 +83,8 @@ impl Problem for Textbook {
         self.soft.iter().enumerate().map(cost).sum::<f64>() - loads
     }
 
-    fn linearize(&self, x: &[f64], tension: &[f64], curvature: Curvature, out: &mut Linearization) {
-        out.clear(curvature);
+    fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
+        out.clear(kind);
         out.energy = self.energy(x);
         out.largest_force = self.load.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
         out.gradient.iter_mut().zip(&self.load).for_each(|(g, f)| *g = -f);
@@ -86,10 +93,11 @@ impl Problem for Textbook {
             for g in &gradient {
                 out.largest_force = out.largest_force.max(weight * g.abs() * value.abs().max(1e-3));
             }
-            if curvature == Curvature::GaussNewton {
+            if kind == HessianKind::GaussNewton {
                 hessian.clear();
             }
-            out.add_soft(&self.layout, k, (*weight, &gradient), (weight * value, &hessian));
+            let (stiffness, force) = (*weight, weight * value);
+            out.add_soft(k, &SoftElement { stiffness, force, gradient: &gradient, hessian: &hessian });
         }
         for (k, measure) in self.stiff.iter().enumerate() {
             let (value, gradient, hessian) = measure(&Self::at(&self.layout.stiff, k, x));

@@ -1,16 +1,15 @@
 //! Exact folding, against relaxations along the same trajectories, surfaces that contain them, and landscapes.
 
-use crate::common::{Case, Numbers};
+use crate::common::{Numbers, Testing, on};
 use crate::report::Report;
 use crate::trial::Trial;
-use foldwell::analysis::branches;
-use foldwell::analysis::drive::{self, cylinder_errors, drive};
+use foldwell::analysis::drive::{cylinder_errors, drive};
 use foldwell::analysis::landscape::fit::{agrees, coefficient};
 use foldwell::analysis::landscape::samples::landscape;
 use foldwell::analysis::landscape::{Expansion, HeldSheet, Prediction};
-use foldwell::analysis::surface::{self, Surface, surface};
-use foldwell::analysis::trace::{self, Stop, Traced};
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::analysis::surface::{Surface, SurfaceOptions, surface};
+use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
+use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::EdgeKind;
 use foldwell::solver::Options;
 use foldwell::solver::atlas::Coverage;
@@ -31,40 +30,33 @@ const CERTAIN: f64 = 1e-7;
 pub fn examine(seed: u64, report: &mut Report) {
     let trial = Trial::new(seed);
     let what = format!("seed {seed}, {}, folded", trial.sheet.title);
-    let case = Case::new(trial.sheet.clone(), [1, 1], Surroundings::Screw);
-    let creases: Vec<usize> = (0..case.edges()).filter(|&k| case.tiling.edges[k].kind == EdgeKind::Crease).collect();
+    let case = on(trial.sheet.clone(), [1, 1], Boundary::Screw);
+    let creases: Vec<usize> = (0..case.edges()).filter(|&k| case.tiling().edges[k].kind == EdgeKind::Crease).collect();
     let locked = creases[seed as usize % creases.len()];
-    let recipe = Recipe {
+    let terms = Terms {
         facets: case.facets(f64::INFINITY).filter(|_| case.count(EdgeKind::Facet) > 0),
-        locks: vec![(locked, case.angles[locked])],
-        ..case.recipe(f64::INFINITY, 1.0, case.angles.clone())
+        locks: vec![(locked, case.drawn_angles()[locked])],
+        ..Terms::bars_and_creases(f64::INFINITY, 1.0, case.drawn_angles().to_vec())
     };
-    let start = question(&case, &recipe);
+    let cell = case.with_terms(terms);
     let stop = Stop { arc_length: Some(LENGTH), curvature: Some(CURVATURE), ..Stop::default() };
-    let question = trace::Question { start, max_step: 0.1, tolerance: 3e-14, branch: None, stop };
-    match trace::trace(&question, None, &mut |_, _| true) {
+    let options = TraceOptions { max_step: 0.1, tolerance: 3e-14, branch: None, stop };
+    match trace(&cell, &options, None, &mut |_, _| true) {
         Ok(traced) => {
-            traced.iter().take(RAYS).for_each(|traced| driven(&case, &recipe, traced, report, &what));
-            covered(&case, &recipe, &traced, report, &what);
+            traced.iter().take(RAYS).for_each(|traced| driven(&cell, traced, report, &what));
+            covered(&cell, &traced, report, &what);
         }
         Err(error) => report.unanswered("trajectories", &error.to_string()),
     }
     costs(&trial, seed, report, &what);
 }
 
-fn question<'a>(case: &'a Case, recipe: &'a Recipe) -> branches::Question<'a> {
-    let Case { sheet, tiling, surroundings, angles, .. } = case;
-    branches::Question { sheet, tiling, surroundings: *surroundings, angles, recipe }
-}
-
 /// Relaxations follow the trajectory to its end, with cylinders as near to its own as relaxations know them.
-fn driven(case: &Case, recipe: &Recipe, traced: &Traced, report: &mut Report, what: &str) {
+fn driven(cell: &Assembly, traced: &Traced, report: &mut Report, what: &str) {
     if traced.end == End::Failed || traced.states.len() < 2 {
         return report.unanswered("driven", "the trajectory fails");
     }
-    let Case { tiling, drawn, .. } = case;
-    let question = drive::Question { tiling, drawn, recipe, options: Options::default() };
-    let found = drive(&question, traced, &mut |_| true);
+    let found = drive(cell, Options::default(), traced, &mut |_| true);
     let closed = usize::from(matches!(traced.end, End::Closed(_)));
     let what = || format!("{what}, ray {:?}", traced.branch);
     if let Some(failure) = &found.failure {
@@ -73,18 +65,16 @@ fn driven(case: &Case, recipe: &Recipe, traced: &Traced, report: &mut Report, wh
     report.judge("driven", found.states.len() + 1 + closed == traced.states.len(), || format!("{}: states", what()));
     let error = found.error();
     report.judge("driven angles", error.is_some_and(|error| error <= CERTAIN), || format!("{}: {error:?}", what()));
-    let cylinders = cylinder_errors(drawn, traced, &found);
+    let cylinders = cylinder_errors(cell.drawn(), traced, &found);
     let ok = cylinders.is_some_and(|e| [e.curvature, e.strain, e.theta].iter().all(|error| *error <= CERTAIN));
     report.judge("driven cylinders", ok, || format!("{}: {cylinders:?}", what()));
 }
 
 /// Every state of a trajectory lies on the surface of the cell without the lock.
-fn covered(case: &Case, recipe: &Recipe, traced: &[Traced], report: &mut Report, what: &str) {
-    let free = Recipe { locks: vec![], ..recipe.clone() };
-    let start = question(case, &free);
-    let asked =
-        surface::Question { start, radius: RADIUS, tolerance: 3e-14, max_curvature: CURVATURE, max_points: 5_000 };
-    let surface = match surface(&asked, &mut |count| count < 5_000) {
+fn covered(cell: &Assembly, traced: &[Traced], report: &mut Report, what: &str) {
+    let free = cell.with_terms(Terms { locks: vec![], ..cell.terms().clone() });
+    let options = SurfaceOptions { radius: RADIUS, tolerance: 3e-14, max_curvature: CURVATURE, max_points: 5_000 };
+    let surface = match surface(&free, &options, &mut |count| count < 5_000) {
         Ok(found) => found,
         Err(error) => return report.unanswered("surface", &error.to_string()),
     };
@@ -114,12 +104,12 @@ fn nearest(surface: &Surface, angles: &[f64]) -> f64 {
 
 /// A patch bent along a mode costs what the quartic form says.
 fn costs(trial: &Trial, seed: u64, report: &mut Report, what: &str) {
-    let case = Case::new(trial.sheet.clone(), [3, 3], Surroundings::Patch);
-    let recipe = Recipe {
+    let case = on(trial.sheet.clone(), [3, 3], Boundary::Patch);
+    let terms = Terms {
         facets: case.facets(trial.facets).filter(|_| case.count(EdgeKind::Facet) > 0),
-        ..case.recipe(trial.bars, 1.0, case.angles.clone())
+        ..Terms::bars_and_creases(trial.bars, 1.0, case.drawn_angles().to_vec())
     };
-    let mut held = match HeldSheet::patch(&case.sheet, &case.tiling, &recipe, &case.angles) {
+    let mut held = match HeldSheet::patch(&case.with_terms(terms)) {
         Ok(held) => held,
         Err(error) => return report.unanswered("landscape", &error.to_string()),
     };

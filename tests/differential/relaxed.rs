@@ -1,11 +1,11 @@
 //! One relaxation, asked in two ways.
 
-use crate::common::{self, Numbers};
+use crate::common::{self, Numbers, Testing};
 use crate::report::{ELSEWHERE, Report, SAME};
 use crate::trial::{Answer, Trial};
 use foldwell::math::Vec3;
 use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings};
+use foldwell::model::{Boundary, Terms};
 use foldwell::solver::Options;
 use nalgebra::Rotation3;
 
@@ -57,7 +57,7 @@ fn moved(trial: &Trial, answer: &Answer, seed: u64, report: &mut Report, what: &
     report.compare("elsewhere", (trial, answer), &trial.mapped(|p| p + far, |l| l, 1.0).answer(), 1.0, what);
     let turn = Rotation3::new(Vec3::from_iterator(numbers.many(3, 2.0)));
     report.compare("turned", (trial, answer), &trial.mapped(|p| turn * p, |l| turn * l, 1.0).answer(), 1.0, what);
-    if trial.surroundings == Surroundings::Patch {
+    if trial.boundary == Boundary::Patch {
         return;
     }
     for (kind, basis) in
@@ -73,11 +73,11 @@ fn moved(trial: &Trial, answer: &Answer, seed: u64, report: &mut Report, what: &
 /// A sheet on a domain that leaves it more freedom costs no more: a patch of a screw, a screw of a torus, a free torus of a fixed one.
 /// More cells of a torus cost no more than so many times one.
 fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
-    use Surroundings::{FixedTorus, FreeTorus, Patch, Screw};
+    use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
     if !trial.loads.is_empty() || answer.negative > 0 {
         return;
     }
-    let wider = match (trial.surroundings, trial.cells) {
+    let wider = match (trial.boundary, trial.cells) {
         (Screw, _) => vec![(Patch, [2, 2]), (Patch, [1, 1])],
         (FreeTorus, [1, 1]) => vec![(Screw, [1, 1]), (FreeTorus, [2, 1])],
         (FixedTorus, [1, 1]) => vec![(FreeTorus, [1, 1]), (FixedTorus, [1, 2])],
@@ -85,9 +85,9 @@ fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
         _ => return,
     };
     let one = answer.energy / (trial.cells[0] * trial.cells[1]) as f64;
-    for (surroundings, cells) in wider {
+    for (boundary, cells) in wider {
         let bound = one * (cells[0] * cells[1]) as f64;
-        let trial = Trial { surroundings, cells, ..trial.clone() };
+        let trial = Trial { boundary, cells, ..trial.clone() };
         match trial.answer() {
             Ok(freer) => {
                 let ok = freer.energy <= bound * (1.0 + SAME) + 1e-13;
@@ -95,7 +95,7 @@ fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
                     report.count(ELSEWHERE, true);
                 } else {
                     report.judge("more freedom", ok, || {
-                        format!("{what}, {surroundings:?} {cells:?}: {:e} above {bound:e}", freer.energy)
+                        format!("{what}, {boundary:?} {cells:?}: {:e} above {bound:e}", freer.energy)
                     });
                 }
             }
@@ -155,11 +155,11 @@ fn eigenvalues(trial: &Trial, report: &mut Report, what: &str) {
         return;
     }
     let case = trial.case();
-    let recipe = Recipe { loads: vec![], ..case.recipe(trial.bars, 1.0, case.angles.clone()) };
-    let recipe = Recipe { facets: trial.recipe(&case).facets, ..recipe };
-    let model = case.model(&recipe, Gauge::Free);
+    let terms = Terms { loads: vec![], ..Terms::bars_and_creases(trial.bars, 1.0, case.drawn_angles().to_vec()) };
+    let terms = Terms { facets: trial.terms(&case).facets, ..terms };
+    let model = case.model_of(&terms, Gauge::Free);
     let expected = common::eigenvalues(common::energy_hessian(&model, &model.start()));
-    let Ok(found) = case.modes(&recipe, 10) else { return report.count("eigenvalues", false) };
+    let Ok(found) = case.modes_of(&terms, 10) else { return report.count("eigenvalues", false) };
     let largest = expected.last().copied().unwrap_or(1.0);
     let off = found.eigenvalues.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     report.judge("eigenvalues", off <= 1e-12 * largest, || format!("{what}: off by {off:e} of {largest:e}"));

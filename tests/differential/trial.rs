@@ -1,17 +1,14 @@
 //! One random sheet, and its answers.
 
-use crate::common::{Case, Numbers};
-use foldwell::analysis::axis::drawn_for;
+use crate::common::{Numbers, Testing, on};
 use foldwell::analysis::exact::error_to_kinematic;
-use foldwell::analysis::relax::relax;
+use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::view::View;
-use foldwell::analysis::wells::Question;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
-use foldwell::model::Gauge;
-use foldwell::model::assemble::{Recipe, Surroundings, assemble};
+use foldwell::model::{Assembly, Boundary, Gauge, Terms};
 use foldwell::output::picture::Picture;
-use foldwell::sheet::build::{Drawn as Drawing, build};
+use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::{Eggbox, Miura, Random, RandomDevelopable};
 use foldwell::sheet::{Corner, EdgeKind, Pattern, Sheet, generate};
 use foldwell::solver::{Options, Problem, Start};
@@ -25,7 +22,7 @@ const STARTS: usize = 150;
 #[derive(Clone)]
 pub struct Trial {
     pub sheet: Sheet,
-    pub surroundings: Surroundings,
+    pub boundary: Boundary,
     pub cells: [usize; 2],
     pub bars: f64,
     pub facets: f64,
@@ -79,9 +76,9 @@ impl Trial {
             _ => Pattern::Random(Random { size, seed, ..Random::default() }),
         })
         .unwrap();
-        use Surroundings::{FixedTorus, FreeTorus, Patch, Screw};
-        let surroundings = [Patch, FixedTorus, FreeTorus, Screw, Screw][pick(5)];
-        let cells = if surroundings == Screw { [1, 1] } else { [[1, 1], [2, 2]][pick(2)] };
+        use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
+        let boundary = [Patch, FixedTorus, FreeTorus, Screw, Screw][pick(5)];
+        let cells = if boundary == Screw { [1, 1] } else { [[1, 1], [2, 2]][pick(2)] };
         let bars = [1e2, 1e4, 1e6, f64::INFINITY, f64::INFINITY][pick(5)];
         let facets = [1.0, 10.0, f64::INFINITY][pick(3)];
         let (with_lock, with_loads, pinned) = (pick(3) == 0, pick(2) == 0, pick(4));
@@ -89,8 +86,8 @@ impl Trial {
         let locked = hinges[pick(hinges.len())];
         let off = numbers.many(sheet.edges.len(), 0.05);
         let lock = with_lock.then(|| (locked, numbers.within(0.05)));
-        let mut trial = Self { sheet, surroundings, cells, bars, facets, off, lock, loads: vec![], pins: vec![] };
-        if surroundings == Patch && with_loads {
+        let mut trial = Self { sheet, boundary, cells, bars, facets, off, lock, loads: vec![], pins: vec![] };
+        if boundary == Patch && with_loads {
             trial.load(&mut numbers, pinned);
         }
         trial
@@ -106,47 +103,45 @@ impl Trial {
     }
 
     pub fn describe(&self) -> String {
-        let Self { surroundings, cells, bars, facets, lock, loads, pins, sheet, .. } = self;
+        let Self { boundary, cells, bars, facets, lock, loads, pins, sheet, .. } = self;
         let (lock, pins) = (lock.is_some(), pins.len());
         let force = loads.first().map_or(0.0, |(_, f)| f.norm());
         let title = &sheet.title;
-        format!(
-            "{title} {surroundings:?} {cells:?} bars {bars:e} facets {facets} lock {lock} load {force:.0e} pins {pins}"
-        )
+        format!("{title} {boundary:?} {cells:?} bars {bars:e} facets {facets} lock {lock} load {force:.0e} pins {pins}")
     }
 
-    pub fn recipe(&self, case: &Case) -> Recipe {
-        let rest = case.tiling.edges.iter().zip(&case.angles).map(|(e, angle)| angle + self.off[e.edge]).collect();
-        let hinge = |k: &usize| !case.angles[*k].is_nan();
+    pub fn terms(&self, case: &Assembly) -> Terms {
+        let rest =
+            case.tiling().edges.iter().zip(case.drawn_angles()).map(|(e, angle)| angle + self.off[e.edge]).collect();
+        let hinge = |k: &usize| !case.drawn_angles()[*k].is_nan();
         let mut locks = vec![];
         if let Some((edge, off)) = self.lock {
-            let copies = (0..case.edges()).filter(|&k| case.tiling.edges[k].edge == edge).filter(hinge);
-            locks.extend(copies.map(|k| (k, case.angles[k] + off)));
+            let copies = (0..case.edges()).filter(|&k| case.tiling().edges[k].edge == edge).filter(hinge);
+            locks.extend(copies.map(|k| (k, case.drawn_angles()[k] + off)));
         }
         let facets = if case.count(EdgeKind::Facet) > 0 { case.facets(self.facets) } else { None };
         let (loads, pins) = (self.loads.clone(), self.pins.clone());
-        Recipe { facets, locks, loads, pins, ..case.recipe(self.bars, 1.0, rest) }
+        Terms { facets, locks, loads, pins, ..Terms::bars_and_creases(self.bars, 1.0, rest) }
     }
 
-    pub fn case(&self) -> Case {
-        Case::new(self.sheet.clone(), self.cells, self.surroundings)
+    pub fn case(&self) -> Assembly {
+        on(self.sheet.clone(), self.cells, self.boundary)
     }
 
     pub fn answer(&self) -> Result<Answer, String> {
         let case = self.case();
-        let recipe = self.recipe(&case);
-        let drawn = drawn_for(&case.sheet, &case.tiling, self.surroundings, &recipe);
-        let mut model = assemble(&drawn, &case.tiling, &recipe, Gauge::Held);
+        let terms = self.terms(&case);
+        let assembly = case.with_terms(terms).with_best_axis();
+        let mut model = assembly.model(Gauge::Held);
         let start = model.start();
-        let edges = case.edges();
-        let found = relax(&mut model, start, Options::default(), edges, &mut |_| true).map_err(|e| e.to_string())?;
-        let exact = error_to_kinematic(&case.sheet, &case.tiling, &model, &found.state.fold_angle);
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| true).map_err(|e| e.to_string())?;
+        let exact = error_to_kinematic(case.sheet(), case.tiling(), &model, &found.state.fold_angle);
         let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
-        let again = relax(&mut model, start, Options::default(), edges, &mut |_| true);
+        let again = relax_from(&mut model, start, Options::default(), &mut |_| true);
         let again = again.map(|again| (again.state.total(), again.iterations)).map_err(|e| e.to_string());
         let negative = found.negative_eigenvalues;
-        let view = View::new(&case.sheet, &case.tiling, self.surroundings, [1, 1]);
-        let pictured = Picture::of_state(&view, &drawn, &found.state).energy.iter().sum();
+        let view = View::new(&assembly);
+        let pictured = Picture::of_state(&view, assembly.drawn(), &found.state).energy.iter().sum();
         let (halves, compliance) = (halves(&found.tension), model.compliance().to_vec());
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);
         Ok(Answer { energy, angles, negative, again, residual, halves, compliance, exact, pictured })
@@ -155,12 +150,11 @@ impl Trial {
     /// Whether random starts reach an equilibrium of such an energy; told beside it are `t^2 / 2` of every stiff measure.
     pub fn has_equilibrium(&self, such: impl Fn(f64, &[f64]) -> bool) -> bool {
         let case = self.case();
-        let recipe = self.recipe(&case);
-        let Case { sheet, tiling, surroundings, drawn, .. } = &case;
-        let question = Question { sheet, tiling, surroundings: *surroundings, drawn, recipe: &recipe };
+        let terms = self.terms(&case);
+        let assembly = case.with_terms(terms);
         [0.05, 0.1, 0.3, 1.0].into_iter().any(|spread| {
             let starts = Starts { count: STARTS, seed: 1, spread, options: Options::default() };
-            relax_all(&question, &starts, &|| true).into_iter().any(|outcome| match outcome {
+            relax_all(&assembly, &starts, &|| true).into_iter().any(|outcome| match outcome {
                 Outcome::Well(found) => such(found.energy, &halves(&found.relaxed.tension)),
                 _ => false,
             })

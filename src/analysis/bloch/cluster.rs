@@ -10,6 +10,7 @@
 use super::Rigidity;
 use super::decay::Root;
 use crate::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
+use crate::numerics::dense::small::inverse;
 use nalgebra::Complex;
 
 /// Newton steps at most.
@@ -86,7 +87,7 @@ impl Steps {
         let value = |k: usize| Complex::new(singular_values[first + k], 0.0);
         let diagonal = ComplexMatrix::from_fn(count, count, |i, j| if i == j { value(i) } else { Complex::ZERO });
         let least = *complex_svd(&slope).ok()?.singular_values.last()?;
-        let all = eigenvalues(&(-slope.try_inverse()? * diagonal)).ok()?;
+        let all = eigenvalues(&(-inverse(slope)? * diagonal)).ok()?;
         let condition = singular_values[0] / least;
         (condition.is_finite() && all.iter().all(|step| step.norm() <= FARTHEST)).then_some(Self { all, condition })
     }

@@ -18,7 +18,7 @@ const FARTHEST: f64 = 2.0;
 /// Extrema nearer to each other than this are one.
 const SAME: f64 = 1e-8;
 
-/// An extremum of the other sign than its surroundings.
+/// An extremum of the other sign than its boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hidden {
     /// Its wavenumbers.

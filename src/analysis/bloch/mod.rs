@@ -18,6 +18,7 @@ pub mod polarization;
 pub mod rigidity;
 pub mod singular;
 pub mod strain_form;
+mod survey;
 pub mod zero_lines;
 pub mod zone;
 
@@ -27,6 +28,7 @@ pub use laurent::Laurent;
 pub use mode_shape::ModeShape;
 pub use polarization::Polarization;
 pub use rigidity::Rigidity;
+pub use survey::{STEPS, Survey, SurveyOptions, survey};
 pub use zero_lines::ZeroLines;
 pub use zone::Zone;
 

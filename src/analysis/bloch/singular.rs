@@ -13,9 +13,8 @@
 use super::decay::Root;
 use super::rigidity::Pairing;
 use super::{Rigidity, extended};
-use nalgebra::{Complex, DMatrix, DVector};
-
-type ComplexVector = DVector<Complex<f64>>;
+use crate::numerics::complex::{ComplexVector, solve_with_adjoint};
+use nalgebra::{Complex, DMatrix};
 
 /// Factorizations at most.
 const ROUNDS: usize = 8;
@@ -128,18 +127,10 @@ fn solved(matrix: &DMatrix<Complex<f64>>, [b, c]: &[ComplexVector; 2]) -> Option
     bordered.view_mut((0, 0), (n, n)).copy_from(matrix);
     bordered.view_mut((0, n), (n, 1)).copy_from(b);
     bordered.view_mut((n, 0), (1, n)).copy_from(&c.adjoint());
-    let (rows, lower, upper) = bordered.lu().unpack();
     let mut right = ComplexVector::zeros(n + 1);
     right[n] = Complex::ONE;
-    let mut left = right.clone();
-    rows.permute_rows(&mut right);
-    lower.solve_lower_triangular_with_diag_mut(&mut right, Complex::ONE);
-    let solvable = upper.solve_upper_triangular_mut(&mut right)
-        && upper.ad_solve_upper_triangular_mut(&mut left)
-        && lower.ad_solve_lower_triangular_mut(&mut left);
-    rows.inv_permute_rows(&mut left);
-    let finite = |vector: &ComplexVector| vector.iter().all(|x| x.norm_sqr().is_finite());
-    (solvable && finite(&left) && finite(&right)).then(|| [left, right].map(|vector| vector.rows(0, n).into_owned()))
+    let pair = solve_with_adjoint(bordered, &right)?;
+    Some(pair.map(|vector| vector.rows(0, n).into_owned()))
 }
 
 #[cfg(test)]

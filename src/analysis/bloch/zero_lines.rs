@@ -10,12 +10,18 @@
 //! Where the determinant is so flat that its rounding moves a point by more than 1e-12, the point is corrected on the
 //! rigidity matrix itself (see [`singular`](super::singular)).
 
+mod arc;
+mod region;
+
 use super::extrema::{Hidden, hidden};
 use super::laurent::wavenumber;
 use super::singular::Search;
 use super::zone::{Zone, reduced};
 use super::{BlochError, Rigidity};
 use crate::numerics::larger;
+use arc::{Arc, joined, line};
+pub use region::Region;
+use region::regions;
 use std::f64::consts::{PI, TAU};
 
 /// Grid points along each direction.
@@ -55,15 +61,6 @@ pub struct ZeroLine {
     /// Largest distance of a point from the zero of the determinant, estimated by its last correction; of
     /// [refined](ZeroLines::refined) lines also by the rounding of the determinant.
     pub residual: f64,
-}
-
-/// A part of the zone in which the determinant has one sign.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Region {
-    /// The sign.
-    pub positive: bool,
-    /// Its part of the zone.
-    pub fraction: f64,
 }
 
 /// All lines and what they enclose.
@@ -118,12 +115,6 @@ impl ZeroLines {
     pub fn through_origin(&self) -> usize {
         self.lines.iter().map(|line| line.passes).sum()
     }
-}
-
-/// A piece of a line: all of one that closes, or from a ray at `q = 0` to another.
-struct Arc {
-    points: Vec<[f64; 2]>,
-    residual: f64,
 }
 
 /// Where a piece ends.
@@ -410,69 +401,4 @@ fn arrives(q: [f64; 2], zone: &Zone) -> bool {
     let near = q.map(reduced);
     let along = tangent(zone.at(q).1);
     norm(near) <= 1.25 * START && near[0] * along[0] + near[1] * along[1] < 0.0
-}
-
-fn line(points: Vec<[f64; 2]>, passes: usize, residual: f64) -> ZeroLine {
-    let (first, last) = (points[0], points[points.len() - 1]);
-    let winding = [0, 1].map(|a| ((last[a] - first[a]) / TAU).round() as i32);
-    ZeroLine { points, winding, passes, residual }
-}
-
-/// Pieces joined at `q = 0`: a line that arrives along one ray leaves along the opposite one.
-fn joined(arcs: Vec<([usize; 2], Arc)>) -> Vec<ZeroLine> {
-    let mut left: Vec<Option<([usize; 2], Arc)>> = arcs.into_iter().map(Some).collect();
-    let mut lines = Vec::new();
-    while let Some(([first, mut ray], arc)) = left.iter_mut().find_map(Option::take) {
-        let (mut points, mut residual, mut passes) = (vec![[0.0; 2]], arc.residual, 1);
-        append(&mut points, arc.points);
-        while ray ^ 1 != first {
-            let leaves =
-                |piece: &Option<([usize; 2], Arc)>| piece.as_ref().is_some_and(|(ends, _)| ends.contains(&(ray ^ 1)));
-            let Some((ends, mut arc)) = left.iter_mut().find(|piece| leaves(piece)).and_then(Option::take) else {
-                break;
-            };
-            if ends[0] != ray ^ 1 {
-                arc.points.reverse();
-            }
-            ray = if ends[0] == ray ^ 1 { ends[1] } else { ends[0] };
-            append(&mut points, arc.points);
-            (residual, passes) = (residual.max(arc.residual), passes + 1);
-        }
-        lines.push(line(points, passes, residual));
-    }
-    lines
-}
-
-/// Continues a curve that has come to a copy of `q = 0` with a piece from there to the next, and ends it on that copy.
-fn append(points: &mut Vec<[f64; 2]>, piece: Vec<[f64; 2]>) {
-    let here = points[points.len() - 1];
-    let home = piece[0].map(|q| TAU * (q / TAU).round());
-    let moved = |q: [f64; 2]| [0, 1].map(|a| q[a] - home[a] + here[a]);
-    points.extend(piece.into_iter().map(moved));
-    let last = points[points.len() - 1];
-    points.push(last.map(|q| TAU * (q / TAU).round()));
-}
-
-/// Connected parts of the grid of equal sign, the largest first.
-fn regions(positive: &[bool]) -> Vec<Region> {
-    let mut seen = vec![false; positive.len()];
-    let mut regions = Vec::new();
-    for first in 0..positive.len() {
-        let (mut stack, mut count) = (vec![first], 0usize);
-        while let Some(k) = stack.pop() {
-            if std::mem::replace(&mut seen[k], true) {
-                continue;
-            }
-            count += 1;
-            let (column, row) = (k % GRID, k / GRID);
-            let back = [row * GRID + (column + GRID - 1) % GRID, (row + GRID - 1) % GRID * GRID + column];
-            let neighbours = [next(0, k), next(1, k), back[0], back[1]];
-            stack.extend(neighbours.into_iter().filter(|&other| !seen[other] && positive[other] == positive[k]));
-        }
-        if count > 0 {
-            regions.push(Region { positive: positive[first], fraction: count as f64 / positive.len() as f64 });
-        }
-    }
-    regions.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
-    regions
 }

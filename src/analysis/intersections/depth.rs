@@ -68,9 +68,9 @@ mod tests {
     /// less along any direction they do. Source: the definition. Directions: 2000 at random.
     #[test]
     fn the_depth_is_the_shortest_way_out() {
-        use rand::{RngExt, SeedableRng};
+        use rand_chacha::rand_core::SeedableRng;
         let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(3);
-        let mut point = || Vec3::from([0; 3].map(|_| 2.0 * numbers.random::<f64>() - 1.0));
+        let mut point = || Vec3::from([0; 3].map(|_| crate::numerics::random::symmetric(&mut numbers)));
         let mut crossing = 0;
         while crossing < 20 {
             let (a, b) = ([point(), point(), point()], [point(), point(), point()]);

@@ -17,7 +17,7 @@
 use super::Finder;
 use crate::analysis::state::State;
 use crate::analysis::view::View;
-use crate::model::assemble::{Drawn, Surroundings};
+use crate::model::{Assembly, Boundary, Drawn};
 use crate::sheet::{Sheet, Tiling};
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -49,10 +49,11 @@ pub struct SelfIntersection {
 }
 
 impl SelfIntersection {
-    /// For the states of a tiling; of a screw `shown` cells are drawn.
-    pub fn new(sheet: &Sheet, tiling: &Tiling, surroundings: Surroundings, shown: [usize; 2]) -> Self {
-        let drawn = View::new(sheet, tiling, surroundings, shown);
-        let around = if is_torus(surroundings) { NEIGHBOURS } else { 0 };
+    /// For the states of an assembly.
+    pub fn new(assembly: &Assembly) -> Self {
+        let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
+        let drawn = View::new(assembly);
+        let around = if is_torus(assembly.boundary()) { NEIGHBOURS } else { 0 };
         let view = View::of_cells(sheet, tiling, drawn.patch.cells.map(|n| n + 2 * around), [-(around as i32); 2]);
         let numbers: HashMap<(usize, [i32; 2]), usize> =
             view.patch.triangles.iter().enumerate().map(|(k, t)| ((t.triangle, t.cell), k)).collect();
@@ -81,8 +82,8 @@ impl SelfIntersection {
     }
 }
 
-fn is_torus(surroundings: Surroundings) -> bool {
-    matches!(surroundings, Surroundings::FixedTorus | Surroundings::FreeTorus)
+fn is_torus(boundary: Boundary) -> bool {
+    matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus)
 }
 
 fn hinges(view: &View) -> Vec<(usize, [usize; 2])> {

@@ -16,6 +16,7 @@ use crate::kinematics::metric::LatticeFrame;
 use crate::kinematics::{Displacement, Embedding, KinematicsError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
+use crate::numerics::dense::small::{cholesky_3, inverse_3};
 use crate::sheet::{Corner, Sheet};
 use nalgebra::{DVector, Matrix2, Matrix3};
 
@@ -89,10 +90,10 @@ impl Cell {
             .collect();
         let weighed = DenseMatrix::from_diagonal(&DVector::from_vec(patch.stiffness())) * &modes.basis;
         let stiffness = modes.basis.tr_mul(&weighed).fixed_view::<3, 3>(0, 0).into_owned();
-        let root = stiffness.cholesky().map(|factor| factor.l().transpose());
+        let root = cholesky_3(stiffness).map(|factor| factor.transpose());
         Ok(Self {
             frame,
-            modes: curvatures.try_inverse().ok_or(singular.clone())?,
+            modes: inverse_3(curvatures).ok_or(singular.clone())?,
             strain: Matrix3::from_fn(|component, mode| 0.5 * strains[mode][component]),
             stiffness_root: root.ok_or(singular)?,
         })

@@ -1,5 +1,6 @@
 //! Where a sheet goes along a mode, to third order: the start of a relaxation.
 
+use crate::numerics::vector::add_scaled;
 use nalgebra::DVector;
 
 /// Orders that are known.
@@ -19,15 +20,10 @@ pub struct Place {
 impl Place {
     /// Adds another one times a factor.
     pub fn add(&mut self, factor: f64, other: &Self) {
-        add(&mut self.x, factor, &other.x);
-        add(&mut self.tension, factor, &other.tension);
-        add(self.rest.as_mut_slice(), factor, other.rest.as_slice());
+        add_scaled(&mut self.x, factor, &other.x);
+        add_scaled(&mut self.tension, factor, &other.tension);
+        add_scaled(self.rest.as_mut_slice(), factor, other.rest.as_slice());
     }
-}
-
-/// Adds a list times a factor.
-pub(super) fn add(to: &mut [f64], factor: f64, other: &[f64]) {
-    to.iter_mut().zip(other).for_each(|(to, v)| *to += factor * v);
 }
 
 /// Rest angles move by `a rates` along the modes; all else by the sum of `a^d orders[d - 1]`.

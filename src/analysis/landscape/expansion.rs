@@ -15,6 +15,7 @@ use super::prediction::{curvature_forces, drawn};
 use super::settling::{Both, Settling};
 use super::{Course, HeldSheet, LandscapeError};
 use crate::model::Model;
+use crate::numerics::vector::dot;
 
 /// Coefficients of the powers of the amplitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,8 +76,4 @@ fn powers(model: &Model, path: &[&[f64]; 3]) -> [Both; 3] {
         elements.map(|(term, k)| term.along(k, model.domain(), path).0[power]).collect()
     };
     [2, 3, 4].map(|power| (of(power, model.soft()), of(power, model.stiff())))
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

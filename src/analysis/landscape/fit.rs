@@ -2,6 +2,7 @@
 
 use super::Expansion;
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::inverse;
 
 /// The samples that the exponent is taken from, at most: those of smallest amplitude.
 const SMALLEST: usize = 3;
@@ -56,7 +57,7 @@ fn first(rows: &[(Vec<f64>, f64)], unknowns: usize) -> Option<Estimate> {
     }
     let matrix = DenseMatrix::from_fn(rows.len(), unknowns, |row, column| rows[row].0[column]);
     let right = DenseMatrix::from_fn(rows.len(), 1, |row, _| rows[row].1);
-    let normal = (matrix.transpose() * &matrix).try_inverse()?;
+    let normal = inverse(matrix.transpose() * &matrix)?;
     let solution = &normal * matrix.transpose() * &right;
     let left = (&matrix * &solution - right).norm_squared();
     let spare = rows.len() - unknowns;

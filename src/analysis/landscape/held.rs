@@ -2,7 +2,7 @@
 
 use super::{LandscapeError, Place};
 use crate::kinematics::FoldingModes;
-use crate::model::Model;
+use crate::model::{Assembly, Boundary, Model};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{least_squares, null_space};
 use crate::solver::Problem;
@@ -36,9 +36,21 @@ pub struct HeldSheet {
 }
 
 impl HeldSheet {
+    /// The sheet of an assembly held along its folding modes, at rest as drawn: those of a cell on a patch, all that stretch no bar
+    /// on a torus.
+    ///
+    /// # Errors
+    /// [`LandscapeError`] where the modes are not known.
+    pub fn new(assembly: &Assembly) -> Result<Self, LandscapeError> {
+        match assembly.boundary() {
+            Boundary::Patch => Self::patch(assembly),
+            _ => Self::torus(assembly),
+        }
+    }
+
     /// A model held along these modes, `locked` being the edges of the repeating piece that are rigid. `repeating` gives the
     /// edge of the repeating piece of every edge of the tiling.
-    pub(super) fn new(
+    pub(super) fn of_model(
         model: Model,
         (basis, motions): (DenseMatrix, Vec<Vec<f64>>),
         locked: &[usize],

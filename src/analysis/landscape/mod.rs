@@ -25,7 +25,6 @@ pub use course::{Course, Place};
 pub use courses::Courses;
 pub use expansion::Expansion;
 pub use held::HeldSheet;
-pub use patch::rigid_facets;
 pub use prediction::Prediction;
 pub use samples::{Sample, Samples};
 

@@ -2,39 +2,24 @@
 
 use super::{HeldSheet, LandscapeError};
 use crate::kinematics::{Displacement, Embedding, FoldingModes, KinematicsError, folding_modes_with_locked};
-use crate::model::Gauge;
-use crate::model::assemble::{Drawn, Recipe, Surroundings, assemble};
-use crate::sheet::{Corner, EdgeKind, Sheet, Tiling};
+use crate::model::{Assembly, Gauge};
+use crate::sheet::{Corner, Sheet};
 
 impl HeldSheet {
-    /// The patch of a recipe; its rest angles are not read, those drawn take their place.
+    /// A patch; the rest angles of its terms are not read, those drawn take their place.
     ///
-    /// Fails where the modes are not known.
-    pub fn patch(sheet: &Sheet, tiling: &Tiling, recipe: &Recipe, drawn: &[f64]) -> Result<Self, LandscapeError> {
-        let locked = rigid_facets(sheet, recipe);
+    /// # Errors
+    /// [`LandscapeError`] where the modes are not known.
+    pub fn patch(assembly: &Assembly) -> Result<Self, LandscapeError> {
+        let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
+        let locked = assembly.rigid_facets_of_cell();
         let modes = folding_modes_with_locked(sheet, &locked)?;
-        let recipe = at_rest_as_drawn(recipe, drawn);
-        let model = assemble(&Drawn::new(sheet, tiling, Surroundings::Patch), tiling, &recipe, Gauge::Held);
+        let model = assembly.with_terms(assembly.terms().resting_at(assembly.drawn_angles())).model(Gauge::Held);
         let moving = (modes.basis.clone(), motions(sheet, tiling.cells, &modes)?);
-        let mut held = Self::new(model, moving, &locked, |edge| tiling.edges[edge].edge)?;
+        let mut held = Self::of_model(model, moving, &locked, |edge| tiling.edges[edge].edge)?;
         held.bending = Some(modes);
         Ok(held)
     }
-}
-
-/// Diagonals of the cell's polygons where these are rigid.
-pub fn rigid_facets(sheet: &Sheet, recipe: &Recipe) -> Vec<usize> {
-    let rigid = recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
-    (0..sheet.edges.len()).filter(|&edge| rigid && sheet.edges[edge].kind == EdgeKind::Facet).collect()
-}
-
-/// The recipe with all hinges at rest as drawn.
-pub(super) fn at_rest_as_drawn(recipe: &Recipe, drawn: &[f64]) -> Recipe {
-    let mut recipe = recipe.clone();
-    for hinges in [&mut recipe.creases, &mut recipe.facets].into_iter().flatten() {
-        hinges.rest = drawn.to_vec();
-    }
-    recipe
 }
 
 /// Velocities of all coordinates of the patch, for every mode.

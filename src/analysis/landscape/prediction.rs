@@ -14,7 +14,7 @@ use super::settling::{self, Both, Settling};
 use super::{HeldSheet, LandscapeError};
 use crate::model::{Elements, Model};
 use crate::numerics::DenseMatrix;
-use crate::solver::{Curvature, Problem};
+use crate::solver::{HessianKind, Problem};
 use nalgebra::DVector;
 
 /// The landscape's leading coefficient, for every mode of a sheet.
@@ -64,7 +64,7 @@ impl Prediction {
 pub(super) fn drawn(held: &HeldSheet) -> Result<Settling<'_>, LandscapeError> {
     let model = &held.model;
     let still = vec![0.0; model.compliance().len()];
-    Settling::new(held, (&model.start(), &still), Curvature::GaussNewton, settling::FINE)
+    Settling::new(held, (&model.start(), &still), HessianKind::GaussNewton, settling::FINE)
 }
 
 /// Pairs of modes, each once.

@@ -8,9 +8,9 @@
 use super::course::Place;
 use super::settling::{Both, Settling};
 use super::{Course, Expansion, HeldSheet, LandscapeError};
-use crate::analysis::relax::{Relaxed, relax};
+use crate::analysis::relax::{Relaxed, relax_from};
 use crate::numerics::larger;
-use crate::solver::{Curvature, Failure, Options, Problem, Start, Step};
+use crate::solver::{Failure, HessianKind, Options, Start, Step};
 use nalgebra::DVector;
 use thiserror::Error;
 
@@ -109,9 +109,8 @@ impl<'a> Samples<'a> {
             }
             let rest = self.rest(&place, amplitude);
             self.held.set_rest(rest.as_slice());
-            let edges = self.held.model.layout().soft.len() + self.held.model.layout().stiff.len();
             let start = Start { x: place.x, tension: Some(place.tension) };
-            let relaxed = relax(&mut self.held.model, start, OPTIONS, edges, observe)
+            let relaxed = relax_from(&mut self.held.model, start, OPTIONS, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
             place = Place { x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: place.rest };
@@ -138,7 +137,7 @@ impl<'a> Samples<'a> {
         for steps in 1..=JOINT {
             self.held.set_rest(self.rest(place, amplitude).as_slice());
             let at = (place.x.as_slice(), place.tension.as_slice());
-            let step = Settling::new(self.held, at, Curvature::Full, ROUGH)?.joint(at, LONGEST)?;
+            let step = Settling::new(self.held, at, HessianKind::Full, ROUGH)?.joint(at, LONGEST)?;
             place.add(1.0, &step);
             if step.rest.amax() <= CLOSE * place.rest.amax() {
                 return Ok(steps);

@@ -1,12 +1,13 @@
 //! How a held sheet settles, to first order, when its hinges and bars are off: the sheet and the rest angles across its modes.
 
-use super::course::{self, Place};
+use super::course::Place;
 use super::{HeldSheet, LandscapeError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
+use crate::numerics::dense::small::cholesky;
 use crate::numerics::factor::FactorError;
-use crate::solver::saddle::Saddle;
-use crate::solver::{Curvature, Linearization, Problem};
+use crate::numerics::vector::add_scaled;
+use crate::solver::{HessianKind, Problem, Tangent};
 use nalgebra::DVector;
 
 /// Accuracy of the linear solves where the response itself is wanted.
@@ -36,16 +37,15 @@ impl Response {
 
     fn add(&mut self, factor: f64, other: &Self) {
         self.place.add(factor, &other.place);
-        course::add(&mut self.off, factor, &other.off);
-        course::add(&mut self.open, factor, &other.open);
+        add_scaled(&mut self.off, factor, &other.off);
+        add_scaled(&mut self.open, factor, &other.open);
     }
 }
 
 /// A held sheet linearized at a state, factored once.
 pub struct Settling<'a> {
     held: &'a HeldSheet,
-    at: Linearization,
-    saddle: Saddle,
+    tangent: Tangent,
     /// Directions of the rest angles across the modes.
     directions: Vec<Both>,
     /// Responses to them.
@@ -63,20 +63,17 @@ impl<'a> Settling<'a> {
     pub fn new(
         held: &'a HeldSheet,
         (x, tension): (&[f64], &[f64]),
-        curvature: Curvature,
+        kind: HessianKind,
         accuracy: f64,
     ) -> Result<Self, LandscapeError> {
-        let model = &held.model;
-        let mut at = Linearization::new(model.layout());
-        model.linearize(x, tension, curvature, &mut at);
-        let mut saddle = Saddle::new(model.layout(), &at)?;
-        let inertia = saddle.factor(model.layout(), &at, model.compliance(), 0.0)?;
+        let mut tangent = Tangent::at_state(&held.model, x, tension, kind)?;
+        let inertia = tangent.factor(0.0)?;
         if inertia.negative > 0 {
             return Err(FactorError::Singular { ratio: inertia.ratio }.into());
         }
         let directions = held.directions();
         let (free, hessian) = (Vec::new(), DenseMatrix::zeros(0, 0));
-        let mut settling = Self { held, at, saddle, directions, free, hessian, accuracy };
+        let mut settling = Self { held, tangent, directions, free, hessian, accuracy };
         settling.free = (0..settling.directions.len())
             .map(|j| {
                 let (soft, stiff) = &settling.directions[j];
@@ -94,21 +91,18 @@ impl<'a> Settling<'a> {
     /// the unknowns, at given rest angles.
     fn respond(&mut self, (off, stretch): (&[f64], &[f64]), force: Option<&[f64]>) -> Result<Response, LandscapeError> {
         let model = &self.held.model;
-        let layout = model.layout();
         let forces: Vec<f64> = self.stiffness().iter().zip(off).map(|(stiffness, off)| -stiffness * off).collect();
-        let rows = self.at.soft_rows(layout);
-        let mut force = force.map_or_else(|| vec![0.0; layout.unknowns], <[f64]>::to_vec);
-        rows.add_transpose_product(&forces, &mut force);
-        let missing = negative(stretch);
-        let found = self.saddle.solve(layout, &self.at, model.compliance(), (&force, &missing), self.accuracy);
+        let mut force = force.map_or_else(|| vec![0.0; model.layout().unknowns], <[f64]>::to_vec);
+        self.tangent.at.soft_rows().add_transpose_product(&forces, &mut force);
+        let found = self.tangent.solve(&force, &negative(stretch), self.accuracy);
         if !(found.residual <= INACCURATE) {
             return Err(FactorError::Inaccurate { residual: found.residual }.into());
         }
         let mut turned = vec![0.0; off.len()];
-        rows.product(&found.dx, &mut turned);
+        self.tangent.at.soft_rows().product(&found.dx, &mut turned);
         let off = off.iter().zip(turned).map(|(off, turned)| off + turned).collect();
         let mut open = vec![0.0; stretch.len()];
-        self.at.rows(layout).product(&found.dx, &mut open);
+        self.tangent.at.rows().product(&found.dx, &mut open);
         for (((open, stretch), t), c) in open.iter_mut().zip(stretch).zip(&found.dt).zip(model.compliance()) {
             *open += stretch - c * t;
         }
@@ -142,18 +136,15 @@ impl<'a> Settling<'a> {
     /// Fails where the energy is not convex in the rest angles.
     pub fn joint(&mut self, (x, tension): (&[f64], &[f64]), longest: f64) -> Result<Place, LandscapeError> {
         let model = &self.held.model;
-        let (layout, compliance) = (model.layout(), model.compliance());
-        let open = self.at.missing(tension, compliance);
-        let force = self.at.force(layout, tension);
-        let found = self.saddle.solve(layout, &self.at, compliance, (&force, &open), self.accuracy);
-        let mut off = vec![0.0; layout.soft.len()];
-        self.at.soft_rows(layout).product(&found.dx, &mut off);
+        let found = self.tangent.newton_step(tension, self.accuracy);
+        let mut off = vec![0.0; model.layout().soft.len()];
+        self.tangent.at.soft_rows().product(&found.dx, &mut off);
         for ((off, value), rest) in off.iter_mut().zip(model.values(x)).zip(model.rests()) {
             *off += value - rest;
         }
         let pull: Vec<f64> = tension.iter().zip(&found.dt).map(|(t, dt)| t + dt).collect();
         let torques = DVector::from_fn(self.free.len(), |j, _| self.torque((&off, &pull), j));
-        let factor = nalgebra::Cholesky::new(self.hessian.clone()).ok_or(FactorError::Singular { ratio: 0.0 })?;
+        let factor = cholesky(self.hessian.clone()).ok_or(FactorError::Singular { ratio: 0.0 })?;
         let rest = factor.solve(&torques);
         let rest = &rest * (longest / rest.amax()).min(1.0);
         let mut step = Place { x: found.dx, tension: found.dt, ..self.held.still() };
@@ -181,7 +172,7 @@ impl<'a> Settling<'a> {
 
     /// Stiffness of every soft hinge.
     pub fn stiffness(&self) -> &[f64] {
-        &self.at.soft_stiffness
+        &self.tangent.at.soft_stiffness
     }
 }
 

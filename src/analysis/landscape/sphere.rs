@@ -106,7 +106,7 @@ pub fn samples(
     amplitude: f64,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Option<Result<Sample, SampleError>>> {
-    parallel::each(points.len(), make, |held, k| {
+    parallel::map_with_state(points.len(), make, |held, k| {
         go_on().then(|| match held {
             Ok(held) => sample(held, courses, &points[k], amplitude),
             Err(_) => {

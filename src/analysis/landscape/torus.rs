@@ -4,15 +4,14 @@
 //! wavenumbers modes come as pairs of waves, a quarter of a wavelength apart; all of them are held, so that the one that
 //! was asked for neither turns into its partner nor is hindered by the creases.
 
-use super::patch::at_rest_as_drawn;
 use super::{HeldSheet, LandscapeError};
 use crate::math::fold_angle::fold_angle_gradient;
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles, hinge};
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, Drawn, Gauge, Hinges, Model, RIGID, Terms};
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::{orthonormal_triangular, solve_square};
 use crate::numerics::dense::{from_rows, null_space, rank_at_largest_gap, singular_values, symmetric_eigen};
-use crate::sheet::{EdgeKind, Sheet, Tiling, tile};
-use crate::solver::{Curvature, Linearization, Problem};
+use crate::sheet::{TiledEdge, Tiling};
+use crate::solver::{HessianKind, Linearization, Problem};
 use nalgebra::{Complex, DVector};
 use std::f64::consts::TAU;
 
@@ -22,46 +21,33 @@ const MOST_UNKNOWNS: usize = 1500;
 const IMPURE: f64 = 1e-6;
 
 impl HeldSheet {
-    /// The torus of a recipe; its rest angles are not read, those drawn take their place.
+    /// A torus; the rest angles of its terms are not read, those drawn take their place.
     ///
-    /// Fails where no motion but the rigid ones leaves all bars as they are, and where the torus is too large to tell.
-    pub fn torus(
-        sheet: &Sheet,
-        tiling: &Tiling,
-        recipe: &Recipe,
-        (surroundings, angles): (Surroundings, &[f64]),
-    ) -> Result<Self, LandscapeError> {
-        let drawn = Drawn::new(sheet, tiling, surroundings);
-        let rigid = recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
-        let locked = rigid_facets(tiling, rigid);
-        let facets = Hinges { stiffness: f64::INFINITY, rest: angles.to_vec() };
-        let bars = Recipe { bars: Some(f64::INFINITY), facets: rigid.then_some(facets), ..Recipe::default() };
-        let motions = zero_modes(&assemble(&drawn, tiling, &bars, Gauge::Held))?;
-        let rates = DenseMatrix::from_columns(
-            &motions.iter().map(|motion| fold_rates(&drawn, tiling, motion)).collect::<Vec<_>>(),
-        );
-        let modes = orthonormal(rates, &motions)?;
-        let model = assemble(&drawn, tiling, &at_rest_as_drawn(recipe, angles), Gauge::Held);
-        Self::new(model, modes, &locked, |edge| edge)
+    /// # Errors
+    /// [`LandscapeError`] where no motion but the rigid ones leaves all bars as they are, and where the torus is too large to
+    /// tell.
+    pub fn torus(assembly: &Assembly) -> Result<Self, LandscapeError> {
+        let (locked, angles) = (rigid_facets(assembly), assembly.drawn_angles());
+        let facets = Hinges { stiffness: RIGID, rest: angles.to_vec() };
+        let facets = assembly.terms().has_rigid_facets().then_some(facets);
+        let bars = assembly.with_terms(Terms { bars: Some(RIGID), facets, ..Terms::default() });
+        let motions = zero_modes(&bars.model(Gauge::Held))?;
+        let rates: Vec<_> = motions.iter().map(|motion| fold_rates(assembly, motion)).collect();
+        let modes = orthonormal(DenseMatrix::from_columns(&rates), &motions)?;
+        let model = assembly.with_terms(assembly.terms().resting_at(angles)).model(Gauge::Held);
+        Self::of_model(model, modes, &locked, |edge| edge)
     }
 
     /// Another sheet of the same topology on the same torus, held along the modes of this one, which cost it energy.
     ///
     /// Its rest angles are those drawn.
-    pub fn for_sheet(
-        &self,
-        sheet: &Sheet,
-        recipe: &Recipe,
-        surroundings: Surroundings,
-        cells: [usize; 2],
-    ) -> Result<Self, LandscapeError> {
-        let tiling = tile(sheet, cells, true);
-        let drawn = Drawn::new(sheet, &tiling, surroundings);
-        let recipe = at_rest_as_drawn(recipe, &drawn_angles(&drawn, &tiling));
-        let rigid = recipe.facets.as_ref().is_some_and(|hinges| hinges.stiffness.is_infinite());
-        let locked = rigid_facets(&tiling, rigid);
-        let model = assemble(&drawn, &tiling, &recipe, Gauge::Held);
-        Self::new(model, (self.basis.clone(), self.motions.clone()), &locked, |edge| edge)
+    ///
+    /// # Errors
+    /// [`LandscapeError`] where the linear algebra fails.
+    pub fn for_sheet(&self, assembly: &Assembly) -> Result<Self, LandscapeError> {
+        let locked = rigid_facets(assembly);
+        let model = assembly.with_terms(assembly.terms().resting_at(assembly.drawn_angles())).model(Gauge::Held);
+        Self::of_model(model, (self.basis.clone(), self.motions.clone()), &locked, |edge| edge)
     }
 
     /// Rates of the mode of a torus that goes as `cos(2 pi (m1 c1 / n1 + m2 c2 / n2) + phase)` from cell to cell: the mean
@@ -92,9 +78,9 @@ impl HeldSheet {
     }
 }
 
-/// Diagonals of polygons where these are rigid.
-fn rigid_facets(tiling: &Tiling, rigid: bool) -> Vec<usize> {
-    (0..tiling.edges.len()).filter(|&edge| rigid && tiling.edges[edge].kind == EdgeKind::Facet).collect()
+/// Diagonals of polygons of the tiling where these are rigid.
+fn rigid_facets(assembly: &Assembly) -> Vec<usize> {
+    assembly.tiling().facets().filter(|_| assembly.terms().has_rigid_facets()).collect()
 }
 
 /// Velocities of all coordinates that stretch nothing, rigid motions left out.
@@ -104,8 +90,8 @@ fn zero_modes(bars: &Model) -> Result<Vec<Vec<f64>>, LandscapeError> {
         return Err(LandscapeError::TooLarge { unknowns, most: MOST_UNKNOWNS });
     }
     let mut at = Linearization::new(bars.layout());
-    bars.linearize(&bars.start(), &vec![0.0; bars.layout().stiff.len()], Curvature::GaussNewton, &mut at);
-    let null = null_space(&from_rows(&at.rows(bars.layout()), unknowns))?.basis;
+    bars.linearize(&bars.start(), &vec![0.0; bars.layout().stiff.len()], HessianKind::GaussNewton, &mut at);
+    let null = null_space(&from_rows(&at.rows(), unknowns))?.basis;
     if null.ncols() == 0 {
         return Err(LandscapeError::NoZeroModes);
     }
@@ -113,15 +99,15 @@ fn zero_modes(bars: &Model) -> Result<Vec<Vec<f64>>, LandscapeError> {
 }
 
 /// Rates of the fold angles of all edges.
-fn fold_rates(drawn: &Drawn, tiling: &Tiling, motion: &[f64]) -> DVector<f64> {
-    let rate = |edge: usize| {
-        let Some(sites) = hinge(tiling, edge) else { return 0.0 };
-        let gradient = fold_angle_gradient(&drawn.domain.points(&drawn.coordinates, &sites)).1;
-        let velocities =
-            sites.iter().flat_map(|site| <[f64; 3]>::from(drawn.domain.velocity(&drawn.coordinates, *site, motion)));
+fn fold_rates(assembly: &Assembly, motion: &[f64]) -> DVector<f64> {
+    let (Drawn { domain, coordinates, .. }, edges) = (assembly.drawn(), &assembly.tiling().edges);
+    let rate = |edge: &TiledEdge| {
+        let Some(sites) = edge.hinge() else { return 0.0 };
+        let gradient = fold_angle_gradient(&domain.points(coordinates, &sites)).1;
+        let velocities = sites.iter().flat_map(|site| <[f64; 3]>::from(domain.velocity(coordinates, *site, motion)));
         gradient.iter().zip(velocities).map(|(g, v)| g * v).sum()
     };
-    DVector::from_iterator(tiling.edges.len(), (0..tiling.edges.len()).map(rate))
+    DVector::from_iterator(edges.len(), edges.iter().map(rate))
 }
 
 /// Orthonormal rates with the same span, and the motions that go with them. Fails where a motion has no rates of its own.
@@ -131,10 +117,10 @@ fn orthonormal(rates: DenseMatrix, motions: &[Vec<f64>]) -> Result<(DenseMatrix,
     if rank < motions.len() {
         return Err(LandscapeError::Unfolding { motions: motions.len() - rank });
     }
-    let qr = rates.qr();
-    let turned = qr.r().transpose().lu().solve(&moving.transpose());
+    let [q, r] = orthonormal_triangular(rates);
+    let turned = solve_square(r.transpose(), &moving.transpose());
     let turned = turned.ok_or(LandscapeError::Unfolding { motions: 1 })?.transpose();
-    Ok((qr.q(), turned.column_iter().map(|motion| motion.as_slice().to_vec()).collect()))
+    Ok((q, turned.column_iter().map(|motion| motion.as_slice().to_vec()).collect()))
 }
 
 /// Fourier amplitudes of the basis at a wavenumber: a row for each edge of the cell.

@@ -8,9 +8,9 @@
 use super::folding::Folding;
 use super::starts::starts;
 use super::tip::periodic_near;
-use super::{Question, Surface, SurfacePoint};
-use crate::analysis::branches;
+use super::{Surface, SurfaceOptions, SurfacePoint};
 use crate::kinematics::{Closure, Embedding, SecondOrder};
+use crate::model::Assembly;
 use crate::numerics::dense::{full_svd, null_space, rank_at_largest_gap};
 use std::collections::BTreeSet;
 
@@ -68,19 +68,20 @@ impl Surface {
     /// Where a quadratic energy is lowest along the curve on which two surfaces cross, near a state of it; `None` where that
     /// is not found.
     pub fn lowest_on_crossing(
-        question: &Question<'_>,
+        assembly: &Assembly,
+        options: &SurfaceOptions,
         angles: &[f64],
         energy: &dyn Fn(&[f64]) -> f64,
     ) -> Option<Lowest> {
-        let closure = Closure::of_cell(question.start.sheet).ok()?.with_locked(&branches::locked(&question.start));
-        let embedding = Embedding::new(question.start.sheet).ok()?;
-        let folding = Folding::new(&closure, &embedding, question.max_curvature);
+        let closure = Closure::of_cell(assembly.sheet()).ok()?.with_locked(&assembly.locked_edges());
+        let embedding = Embedding::new(assembly.sheet()).ok()?;
+        let folding = Folding::new(&closure, &embedding, options.max_curvature);
         let x = descend(&folding, folding.folding(angles), &|x| energy(&folding.all(x)))?;
         let angles = folding.all(&x);
         let singular = full_svd(&folding.periodic(&x).1).ok()?.singular_values;
         let least = singular[rank_at_largest_gap(&singular).ok()?.rank - 1];
         let residual = folding.residual(&x);
-        let well = rises(question, (&closure, &embedding), &angles, energy)?;
+        let well = rises(options, (&closure, &embedding), &angles, energy)?;
         Some(Lowest { residual, error: residual / least, well, angles })
     }
 }
@@ -115,14 +116,14 @@ fn descend(folding: &Folding<'_>, start: Vec<f64>, energy: &dyn Fn(&[f64]) -> f6
 
 /// Whether an energy is higher a little away along each of the four ways that leave the curve at a state of it.
 fn rises(
-    question: &Question<'_>,
+    options: &SurfaceOptions,
     (closure, embedding): (&Closure, &Embedding),
     angles: &[f64],
     energy: &dyn Fn(&[f64]) -> f64,
 ) -> Option<bool> {
     let second_order = SecondOrder::new(closure, angles).ok()?;
     let mut folding = Folding::at(closure, embedding, (angles, f64::INFINITY));
-    let near = Question { radius: ASIDE, max_curvature: f64::INFINITY, ..*question };
+    let near = SurfaceOptions { radius: ASIDE, max_curvature: f64::INFINITY, ..*options };
     let found = starts(&mut folding, &second_order, &near).ok()?.ok()?;
     let here = energy(angles);
     (found.crossing && found.lost == 0).then(|| found.list.iter().all(|way| energy(&folding.all(&way.x)) > here))

@@ -15,9 +15,9 @@ mod sign;
 mod starts;
 mod tip;
 
-use super::branches::{self, BranchesError};
+use super::branches::BranchesError;
 use crate::kinematics::{Closure, Embedding, KinematicsError, SecondOrder, Shape};
-use crate::model::assemble::Surroundings;
+use crate::model::{Assembly, Boundary};
 use crate::solver::atlas::{self, Atlas, AtlasError, Coverage};
 pub use crossing::{Lowest, Seam};
 use folding::Folding;
@@ -31,11 +31,9 @@ const OBSERVED: usize = 256;
 /// Charts are no larger than this part of the way at which half of the largest curvature is met.
 const REACH: f64 = 2.0;
 
-/// What to cover.
-#[derive(Clone, Copy)]
-pub struct Question<'a> {
-    /// The drawn state; what is locked stays so.
-    pub start: branches::Question<'a>,
+/// How a surface is covered.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceOptions {
     /// Largest radius of a chart, in fold angles: neighbouring states are one to two radii apart, fewer where the
     /// surface bends.
     pub radius: f64,
@@ -82,7 +80,7 @@ pub struct Surface {
     /// Branch and sign of the nappes from which it was begun. One number is shared by nappes that lie opposite each
     /// other at the drawn state, and by those that hang together elsewhere.
     pub branches: Vec<(usize, i8)>,
-    /// Largest radius of a chart: that of the question, or less where the largest curvature is met close to the drawn state.
+    /// Largest radius of a chart: that of the options, or less where the largest curvature is met close to the drawn state.
     pub radius: f64,
     /// Ways away from the drawn state along which no state was found, or that are not known: what lies there may be missing.
     pub lost: usize,
@@ -187,40 +185,44 @@ pub enum SurfaceError {
 
 /// Covers the surface; no points where no direction is real. `observe` is told the number of charts and returns false
 /// to stop.
-pub fn surface(question: &Question<'_>, observe: &mut dyn FnMut(usize) -> bool) -> Result<Surface, SurfaceError> {
-    let start = &question.start;
-    if start.surroundings != Surroundings::Screw {
+pub fn surface(
+    assembly: &Assembly,
+    options: &SurfaceOptions,
+    observe: &mut dyn FnMut(usize) -> bool,
+) -> Result<Surface, SurfaceError> {
+    let sheet = assembly.sheet();
+    if assembly.boundary() != Boundary::Screw {
         return Err(SurfaceError::NotScrew);
     }
-    let closure = Closure::of_cell(start.sheet)?.with_locked(&branches::locked(start));
-    if closure.unchecked_loops() > 0 || !start.sheet.holes.is_empty() {
-        let loops = closure.unchecked_loops().max(start.sheet.holes.len());
+    let closure = Closure::of_cell(sheet)?.with_locked(&assembly.locked_edges());
+    if closure.unchecked_loops() > 0 || !sheet.holes.is_empty() {
+        let loops = closure.unchecked_loops().max(sheet.holes.len());
         return Err(KinematicsError::Openings { loops }.into());
     }
-    let embedding = Embedding::new(start.sheet)?;
+    let embedding = Embedding::new(sheet)?;
     let second_order = SecondOrder::new(&closure, embedding.drawn_angles())?;
     let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
     if modes != quadrics + 2 {
         let left = modes as i64 - quadrics as i64;
         return Err(SurfaceError::NotTwoDimensional { modes, quadrics, left });
     }
-    let mut folding = Folding::new(&closure, &embedding, question.max_curvature);
-    let starts = match starts::starts(&mut folding, &second_order, question)? {
+    let mut folding = Folding::new(&closure, &embedding, options.max_curvature);
+    let starts = match starts::starts(&mut folding, &second_order, options)? {
         Ok(starts) => starts,
-        Err(negative) => return Ok(Surface::nothing(negative, question.radius)),
+        Err(negative) => return Ok(Surface::nothing(negative, options.radius)),
     };
     let states: Vec<Vec<f64>> = starts.list.iter().map(|start| start.x.clone()).collect();
-    let options = atlas::Options {
-        tolerance: question.tolerance,
-        radius: question.radius.min(REACH * starts.reach),
+    let charts = atlas::Options {
+        tolerance: options.tolerance,
+        radius: options.radius.min(REACH * starts.reach),
         max_turn: MAX_TURN,
-        max_charts: question.max_points,
+        max_charts: options.max_points,
     };
-    let atlas = atlas::cover(&mut folding, &states, options, observe)?;
-    let radius = options.radius;
+    let atlas = atlas::cover(&mut folding, &states, charts, observe)?;
+    let radius = charts.radius;
     let found = Surface { radius, ..put_together(&folding, atlas, &starts, observe)? };
     if found.points.is_empty() && found.coverage != Coverage::Interrupted {
-        return Err(SurfaceError::NothingWithin { max_curvature: question.max_curvature, reach: starts.reach });
+        return Err(SurfaceError::NothingWithin { max_curvature: options.max_curvature, reach: starts.reach });
     }
     Ok(found)
 }

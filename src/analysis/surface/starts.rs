@@ -9,7 +9,7 @@
 //! none. On such a hyperplane the surface is a curve, followed from the drawn state along its ray.
 
 use super::folding::{Folding, Section};
-use super::{Negative, Question, SurfaceError};
+use super::{Negative, SurfaceError, SurfaceOptions};
 use crate::kinematics::{KinematicsError, Rays, RealDirections, SecondOrder};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{null_space, symmetric_eigen};
@@ -58,7 +58,7 @@ struct Direction {
 pub(super) fn starts(
     folding: &mut Folding<'_>,
     second_order: &SecondOrder,
-    question: &Question<'_>,
+    settings: &SurfaceOptions,
 ) -> Result<Result<Starts, Negative>, SurfaceError> {
     let (directions, unknown) = match &second_order.quadrics[..] {
         [] => {
@@ -77,7 +77,7 @@ pub(super) fn starts(
         let [along, normal] = [along, normal].map(|v| folding.folding((&second_order.modes * v).as_slice()));
         for sign in [1.0, -1.0] {
             let tangent = along.iter().map(|entry| sign * entry).collect();
-            match follow_out(folding, question, tangent, &normal) {
+            match follow_out(folding, settings, tangent, &normal) {
                 Some(Point { x, arc_length, .. }) => {
                     let sign = if folding.shape(&x)?.curvature < 0.0 { -1 } else { 1 };
                     // beyond the limit: half of it is met so near that it could not be located
@@ -91,15 +91,20 @@ pub(super) fn starts(
     }
     match found.reach {
         _ if found.list.is_empty() => Err(SurfaceError::NoStart { rays: 2 * directions.len() }),
-        reach if reach < NEAREST => Err(SurfaceError::NothingWithin { max_curvature: question.max_curvature, reach }),
+        reach if reach < NEAREST => Err(SurfaceError::NothingWithin { max_curvature: settings.max_curvature, reach }),
         _ => Ok(Ok(found)),
     }
 }
 
 /// The state a chart's radius away on the hyperplane, or where half of the largest curvature is met.
-fn follow_out(folding: &mut Folding<'_>, question: &Question<'_>, tangent: Vec<f64>, normal: &[f64]) -> Option<Point> {
+fn follow_out(
+    folding: &mut Folding<'_>,
+    settings: &SurfaceOptions,
+    tangent: Vec<f64>,
+    normal: &[f64],
+) -> Option<Point> {
     let options =
-        Options { tolerance: question.tolerance, length: question.radius, stops: vec![0], ..Options::default() };
+        Options { tolerance: settings.tolerance, length: settings.radius, stops: vec![0], ..Options::default() };
     let drawn = folding.drawn();
     let mut section = Section::new(folding, drawn.clone(), normal.to_vec());
     let found = follow(&mut section, drawn, tangent, &options, &mut |_| true);

@@ -8,6 +8,7 @@
 use super::folding::Folding;
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
+use crate::numerics::vector::distance;
 use crate::solver::atlas::{Atlas, Chart};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -64,9 +65,8 @@ fn tip(folding: &Folding<'_>, charts: &[Chart], rim: &[usize]) -> Option<Chart> 
     let places: Vec<Vec<f64>> = rim.iter().map(|&k| charts[k].x.iter().zip(&beside.x).map(image).collect()).collect();
     let mut x = vec![0.0; beside.x.len()];
     places.iter().for_each(|place| x.iter_mut().zip(place).for_each(|(x, p)| *x += p / rim.len() as f64));
-    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
-    let size = places.iter().map(|place| apart(place, &beside.x)).fold(0.0, f64::max);
-    let near = |x: &[f64]| apart(x, &beside.x) <= NEAR * size;
+    let size = places.iter().map(|place| distance(place, &beside.x)).fold(0.0, f64::max);
+    let near = |x: &[f64]| distance(x, &beside.x) <= NEAR * size;
     let chart = |x: Vec<f64>| Chart {
         residual: folding.residual(&x),
         frame: vec![0.0; 2 * x.len()],

@@ -9,11 +9,11 @@
 //! sought, and the sheet descends from it into two different wells: those, or others on the way, which are reported
 //! then.
 
-use super::Question;
 use super::merge::{Translations, Well, which};
 use super::pass::{Pass, equilibrium, sides};
 use super::settle::{Settled, Settler};
 use super::string::{self, string};
+use crate::model::Assembly;
 use crate::solver::{Failure, Options};
 use thiserror::Error;
 
@@ -119,19 +119,19 @@ pub struct Barrier {
 
 /// The barrier between two of the wells. `go_on` returns false to stop.
 pub fn barrier(
-    question: &Question<'_>,
+    assembly: &Assembly,
     wells: &[Well],
     between: [usize; 2],
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
-    let creases = question.recipe.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
-    let own = question.stiffness();
+    let creases = assembly.crease_stiffness();
+    let own = assembly.bar_stiffness();
     let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
     let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
     let (mut failed, mut by_the_way): (_, Option<Barrier>) = (BarrierError::LeadsElsewhere, None);
     for stiffness in tried {
         for bend in 0..=BENDS {
-            match from_softness(question, wells, between, (stiffness, bend), go_on) {
+            match from_softness(assembly, wells, between, (stiffness, bend), go_on) {
                 Ok(found) if found.joins.iter().all(|well| between.contains(well)) => return Ok(found),
                 // over other wells: the way through softer bars may have been the shorter one only there
                 Ok(found) => match by_the_way.take() {
@@ -160,14 +160,14 @@ fn lower(found: Barrier, other: Option<Barrier>) -> Barrier {
 
 /// The barrier by way of bars of this stiffness, on a path that begins with this bend.
 fn from_softness(
-    question: &Question<'_>,
+    assembly: &Assembly,
     wells: &[Well],
     between: [usize; 2],
     (stiffness, bend): (f64, u64),
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
     let failed = |failure| BarrierError::Path { stiffness, failure };
-    let mut settler = Settler::new(question, &question.with_bars(stiffness), string::STRENGTH);
+    let mut settler = Settler::new(&assembly.with_bars(stiffness), string::STRENGTH);
     let mut soft = Vec::new();
     for well in between {
         let place = &wells[well].settled.place;
@@ -185,11 +185,12 @@ fn from_softness(
         string::stations(&settler, &row).into_iter().zip(&row).map(|(at, settled)| (at, settled.energy)).collect();
     let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
     let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
-    let first = index_one(question, stiffness, [top, top - 1, top + 1].map(|at| &row[at]))?;
-    let Followed { pass, heights, singular } = followed(question, first, stiffness)?;
-    let own = if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { question.stiffness() };
-    let ends = sides(question, &question.with_bars(own), &pass, &along, OPTIONS).map_err(failed)?;
-    let translations = Translations::new(question);
+    let first = index_one(assembly, stiffness, [top, top - 1, top + 1].map(|at| &row[at]))?;
+    let Followed { pass, heights, singular } = followed(assembly, first, stiffness)?;
+    let own =
+        if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { assembly.bar_stiffness() };
+    let ends = sides(&assembly.with_bars(own), &pass, &along, OPTIONS).map_err(failed)?;
+    let translations = Translations::new(assembly);
     let number = |end: &Settled| which(wells, &end.relaxed.state.fold_angle, &translations);
     let higher = between.iter().map(|well| wells[*well].settled.energy).fold(f64::NEG_INFINITY, f64::max);
     if !(pass.energy > higher) {
@@ -204,10 +205,10 @@ fn from_softness(
 }
 
 /// The pass next to the first of these states at which there is one.
-fn index_one(question: &Question<'_>, stiffness: f64, near: [&Settled; 3]) -> Result<Pass, BarrierError> {
+fn index_one(assembly: &Assembly, stiffness: f64, near: [&Settled; 3]) -> Result<Pass, BarrierError> {
     let mut why = None;
     for state in near {
-        let reason = match equilibrium(question, stiffness, &state.place, OPTIONS) {
+        let reason = match equilibrium(&assembly.with_bars(stiffness), &state.place, OPTIONS) {
             Ok(pass) if pass.negative_eigenvalues == 1 => return Ok(pass),
             Ok(pass) => BarrierError::Index { stiffness, found: pass.negative_eigenvalues },
             Err(failure) => BarrierError::NoPass { stiffness, failure },
@@ -225,14 +226,14 @@ struct Followed {
 }
 
 /// The pass with ever stiffer bars, up to those of the sheet.
-fn followed(question: &Question<'_>, first: Pass, stiffness: f64) -> Result<Followed, BarrierError> {
-    let goal = question.stiffness();
-    let creases = question.recipe.creases.as_ref().map_or(1.0, |creases| creases.stiffness);
+fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<Followed, BarrierError> {
+    let goal = assembly.bar_stiffness();
+    let creases = assembly.crease_stiffness();
     let mut heights = vec![Height { stiffness, energy: first.energy }];
     let (mut pass, mut at, mut factor) = (first, stiffness, STIFFER);
     while at < goal {
         let next = if at >= ALMOST_RIGID * creases { goal } else { (at * factor).min(goal) };
-        match equilibrium(question, next, &pass.place, OPTIONS) {
+        match equilibrium(&assembly.with_bars(next), &pass.place, OPTIONS) {
             Ok(found) if found.negative_eigenvalues == 1 && (next.is_finite() || near(&found, &pass)) => {
                 heights.push(Height { stiffness: next, energy: found.energy });
                 (pass, at, factor) = (found, next, (factor * factor).min(STIFFER));

@@ -4,8 +4,8 @@
 //! A translation counts where it leaves rest angles and locked angles as they are. Angles are not taken modulo whole
 //! turns, because the energy is not: a crease wound once more is another well, and passes through itself.
 
-use super::Question;
 use super::settle::Settled;
+use crate::model::Assembly;
 use std::collections::HashMap;
 
 /// Largest difference of a fold angle between two finds of one well, in radians.
@@ -30,8 +30,8 @@ pub struct Translations(Vec<Vec<usize>>);
 
 impl Translations {
     /// Of a sheet.
-    pub fn new(question: &Question<'_>) -> Self {
-        let tiling = question.tiling;
+    pub fn new(assembly: &Assembly) -> Self {
+        let tiling = assembly.tiling();
         if !tiling.periodic {
             return Self(vec![(0..tiling.edges.len()).collect()]);
         }
@@ -43,7 +43,7 @@ impl Translations {
             let to = |[c1, c2]: [usize; 2]| [(c1 + m1) % n1, (c2 + m2) % n2];
             tiling.edges.iter().map(|edge| number[&(edge.edge, to(edge.cell))]).collect()
         };
-        Self(shifts.map(moved).filter(|moved| unfelt(question, moved)).collect())
+        Self(shifts.map(moved).filter(|moved| unfelt(assembly, moved)).collect())
     }
 
     /// Smallest over the translations of the largest difference of two lists of fold angles of all edges.
@@ -57,20 +57,20 @@ impl Translations {
 }
 
 /// Whether rest angles and locks go over into themselves.
-fn unfelt(question: &Question<'_>, moved: &[usize]) -> bool {
-    let recipe = question.recipe;
+fn unfelt(assembly: &Assembly, moved: &[usize]) -> bool {
+    let terms = assembly.terms();
     let same = |rest: &[f64]| {
-        let pairs = rest.iter().zip(moved).map(|(rest, &to)| [*rest, rest_of(question, to)]);
+        let pairs = rest.iter().zip(moved).map(|(rest, &to)| [*rest, rest_of(assembly, to)]);
         pairs.into_iter().all(|[a, b]| (a - b).abs() <= ROUNDING || (a.is_nan() && b.is_nan()))
     };
-    let locks: HashMap<usize, f64> = recipe.locks.iter().copied().collect();
+    let locks: HashMap<usize, f64> = terms.locks.iter().copied().collect();
     let locked = |edge: usize, angle: f64| locks.get(&edge).is_some_and(|other| (other - angle).abs() <= ROUNDING);
-    recipe.creases.as_ref().is_none_or(|hinges| same(&hinges.rest))
+    terms.creases.as_ref().is_none_or(|hinges| same(&hinges.rest))
         && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
 }
 
-fn rest_of(question: &Question<'_>, edge: usize) -> f64 {
-    question.recipe.creases.as_ref().map_or(f64::NAN, |hinges| hinges.rest[edge])
+fn rest_of(assembly: &Assembly, edge: usize) -> f64 {
+    assembly.terms().creases.as_ref().map_or(f64::NAN, |hinges| hinges.rest[edge])
 }
 
 /// The wells among these states, sorted by energy.

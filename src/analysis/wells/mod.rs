@@ -13,33 +13,3 @@ pub mod rigid;
 pub mod settle;
 pub mod starts;
 pub mod string;
-
-use crate::model::assemble::{Drawn, Recipe, Surroundings};
-use crate::sheet::{Sheet, Tiling};
-
-/// A sheet and its energy.
-#[derive(Clone, Copy)]
-pub struct Question<'a> {
-    /// The sheet.
-    pub sheet: &'a Sheet,
-    /// Its cells.
-    pub tiling: &'a Tiling,
-    /// What surrounds them.
-    pub surroundings: Surroundings,
-    /// The drawn state.
-    pub drawn: &'a Drawn,
-    /// Bars, creases, and what holds or pulls.
-    pub recipe: &'a Recipe,
-}
-
-impl Question<'_> {
-    /// Stiffness `EA` of the bars; infinite where there are none to stretch.
-    pub fn stiffness(&self) -> f64 {
-        self.recipe.bars.unwrap_or(f64::INFINITY)
-    }
-
-    /// The parts with bars of another stiffness.
-    pub fn with_bars(&self, stiffness: f64) -> Recipe {
-        Recipe { bars: Some(stiffness), ..self.recipe.clone() }
-    }
-}

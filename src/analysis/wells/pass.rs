@@ -4,22 +4,15 @@
 //! converges to whatever equilibrium is near, so the inertia is counted afterwards. What a pass joins is found by
 //! descending from it on both sides.
 
-use super::Question;
 use super::merge::SAME;
 use super::settle::{Place, Settled, Settler};
 use super::string::STRENGTH;
 use crate::analysis::state::State;
-use crate::model::assemble::{Recipe, assemble};
-use crate::model::{Gauge, Model};
-use crate::numerics::factor::FactorError;
-use crate::solver::saddle::Saddle;
-use crate::solver::{Curvature, Failure, Linearization, Options, Problem, tension};
+use crate::model::{Assembly, Gauge, Model};
+use crate::solver::{Failure, Options, Problem, Start, StationaryPoint, stationary_point};
 
 /// Largest change of a fold angle in a step.
 const LONGEST: f64 = 0.2;
-/// Relative residual of a step's linear system that is asked for, and the one that is refused.
-const ACCURACY: f64 = 1e-9;
-const INACCURATE: f64 = 0.1;
 
 /// Steps of the descent from a pass before the sheet is set free, and their tolerance.
 const DESCENT: usize = 12;
@@ -50,71 +43,31 @@ pub struct Pass {
     pub iterations: usize,
 }
 
-/// The equilibrium near a place, with bars of this stiffness.
-pub fn equilibrium(question: &Question<'_>, stiffness: f64, from: &Place, options: Options) -> Result<Pass, Failure> {
-    let mut model = assemble(question.drawn, question.tiling, &question.with_bars(stiffness), Gauge::Held);
+/// The equilibrium near a place.
+///
+/// # Errors
+/// [`Failure`] where Newton's method does not converge, or its linear systems cannot be solved.
+pub fn equilibrium(assembly: &Assembly, from: &Place, options: Options) -> Result<Pass, Failure> {
+    let mut model = assembly.model(Gauge::Held);
     model.set_angles(&from.angles);
-    let mut x = model.hold_anew(from.coordinates.clone());
-    let mut t = from.tension.clone();
-    let mut at = Linearization::new(model.layout());
-    let mut saddle = Saddle::new(model.layout(), &at)?;
-    for iterations in 0.. {
-        model.linearize(&x, &t, Curvature::Full, &mut at);
-        let (force, length) = tension::residuals(&model, &at, &t);
-        if force <= options.tolerance && length <= options.tolerance {
-            let negative_eigenvalues = saddle.inertia(model.layout(), &at, model.compliance())?.negative;
-            let found = Found { negative_eigenvalues, residual_force: force, residual_length: length, iterations };
-            return Ok(found.pass(&model, &x, t, question.tiling.edges.len()));
-        }
-        if iterations == options.iterations || !(force.is_finite() && length.is_finite()) {
-            return Err(Failure::TooManySteps { iterations, force, length });
-        }
-        let (dx, dt) = step(&model, &mut saddle, &at, &t)?;
-        x.iter_mut().zip(&dx).for_each(|(x, d)| *x += d);
-        t.iter_mut().zip(&dt).for_each(|(t, d)| *t += d);
-        model.accept(&mut x);
-    }
-    Err(Failure::TooManySteps { iterations: options.iterations, force: f64::NAN, length: f64::NAN })
+    let start = Start { x: model.hold_anew(from.coordinates.clone()), tension: Some(from.tension.clone()) };
+    let found = stationary_point(&mut model, start, LONGEST, options)?;
+    Ok(pass(&model, found))
 }
 
-/// Newton's step in unknowns and tensions, shortened where it would fold too far.
-fn step(model: &Model, saddle: &mut Saddle, at: &Linearization, t: &[f64]) -> Result<(Vec<f64>, Vec<f64>), Failure> {
-    let (layout, compliance) = (model.layout(), model.compliance());
-    saddle.factor(layout, at, compliance, 0.0)?;
-    let missing = at.missing(t, compliance);
-    let step = saddle.solve(layout, at, compliance, (&at.force(layout, t), &missing), ACCURACY);
-    if !(step.residual <= INACCURATE) {
-        return Err(FactorError::Inaccurate { residual: step.residual }.into());
-    }
-    let part = (LONGEST / at.largest_turn(layout, &step.dx)).min(1.0);
-    let scaled = |list: Vec<f64>| list.into_iter().map(|value| part * value).collect();
-    Ok((scaled(step.dx), scaled(step.dt)))
-}
-
-/// What is known of an equilibrium beside where it is.
-struct Found {
-    negative_eigenvalues: usize,
-    residual_force: f64,
-    residual_length: f64,
-    iterations: usize,
-}
-
-impl Found {
-    fn pass(self, model: &Model, x: &[f64], tension: Vec<f64>, edges: usize) -> Pass {
-        let state = State::new(model, x, &tension, edges);
-        let mut rho = model.values(x);
-        rho.truncate(model.layout().soft.len());
-        let Self { negative_eigenvalues, residual_force, residual_length, iterations } = self;
-        Pass {
-            place: Place { coordinates: state.coordinates.clone(), angles: model.angles(), tension },
-            rho,
-            energy: state.total(),
-            state,
-            negative_eigenvalues,
-            residual_force,
-            residual_length,
-            iterations,
-        }
+fn pass(model: &Model, found: StationaryPoint) -> Pass {
+    let state = State::new(model, &found.x, &found.tension);
+    let mut rho = model.values(&found.x);
+    rho.truncate(model.layout().soft.len());
+    Pass {
+        place: Place { coordinates: state.coordinates.clone(), angles: model.angles(), tension: found.tension },
+        rho,
+        energy: state.total(),
+        state,
+        negative_eigenvalues: found.negative_eigenvalues,
+        residual_force: found.residuals.force,
+        residual_length: found.residuals.length,
+        iterations: found.iterations,
     }
 }
 
@@ -122,19 +75,13 @@ impl Found {
 ///
 /// A descent that is held too weakly steps across a steep pass: where one side leads over to the other, or both end in
 /// one state, both are held more strongly.
-pub fn sides(
-    question: &Question<'_>,
-    recipe: &Recipe,
-    pass: &Pass,
-    along: &[f64],
-    options: Options,
-) -> Result<[Settled; 2], Failure> {
+pub fn sides(assembly: &Assembly, pass: &Pass, along: &[f64], options: Options) -> Result<[Settled; 2], Failure> {
     let mut last = Err(Failure::SingularStart);
     for stronger in 0..STRONGER {
         let strength = STRENGTH * 100f64.powi(stronger);
         let side = |sign: f64| -> Result<(Settled, bool), Failure> {
             let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
-            descent(question, recipe, pass, &push, strength, options)
+            descent(assembly, pass, &push, strength, options)
         };
         let ends = side(1.0).and_then(|one| Ok((one, side(-1.0)?)));
         let sound = matches!(&ends, Ok(((a, true), (b, true))) if !same(a, b));
@@ -154,8 +101,7 @@ fn same(a: &Settled, b: &Settled) -> bool {
 /// Descends from a pass to the side of a push, first held with this strength and then ever less; whether the first step
 /// went to that side.
 fn descent(
-    question: &Question<'_>,
-    recipe: &Recipe,
+    assembly: &Assembly,
     pass: &Pass,
     push: &[f64],
     strength: f64,
@@ -163,7 +109,7 @@ fn descent(
 ) -> Result<(Settled, bool), Failure> {
     let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + turn).collect();
     let (mut place, mut strength, mut to_its_side) = (pass.place.clone(), strength, None);
-    let mut settler = Settler::new(question, recipe, strength);
+    let mut settler = Settler::new(assembly, strength);
     let mut weak = 0;
     while weak < DESCENT {
         let found = settler.near(&place, &target, LOOSE, &mut |_| true).map_err(|error| error.failure)?;
@@ -172,7 +118,7 @@ fn descent(
         (place, target) = (found.place, found.rho);
         if strength > STRENGTH {
             strength = (strength / WEAKER).max(STRENGTH);
-            settler = Settler::new(question, recipe, strength);
+            settler = Settler::new(assembly, strength);
         } else {
             weak += 1;
         }

@@ -4,11 +4,9 @@
 //! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
 //! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
 
-use super::Question;
-use crate::analysis::relax::{RelaxError, Relaxed, relax};
+use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
 use crate::analysis::state::State;
-use crate::model::assemble::{Recipe, assemble};
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, Gauge, Model};
 use crate::solver::{Options, Problem, Start, Step};
 
 /// A state from which relaxations begin.
@@ -43,20 +41,17 @@ pub struct Settler {
     strength: f64,
     rest: Vec<f64>,
     stiffness: Vec<f64>,
-    edges: usize,
 }
 
 impl Settler {
-    /// Of a sheet with these parts.
-    pub fn new(question: &Question<'_>, recipe: &Recipe, strength: f64) -> Self {
-        let model = || assemble(question.drawn, question.tiling, recipe, Gauge::Held);
-        let (free, mut held) = (model(), model());
+    /// The settler of an assembly; what holds it near fold angles is `strength` times as stiff as its creases.
+    pub fn new(assembly: &Assembly, strength: f64) -> Self {
+        let (free, mut held) = (assembly.model(Gauge::Held), assembly.model(Gauge::Held));
         let count = free.layout().soft.len();
         held.scale_soft(&vec![1.0 + strength; count]);
         let springs = free.soft().iter().flat_map(|term| (0..term.len()).map(move |k| term.spring(k)));
         let (rest, stiffness) = springs.map(|spring| (spring.rest, spring.stiffness)).unzip();
-        let edges = question.tiling.edges.len();
-        Self { free, held, strength, rest, stiffness, edges }
+        Self { free, held, strength, rest, stiffness }
     }
 
     /// The drawn state.
@@ -78,7 +73,7 @@ impl Settler {
         options: Options,
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Settled, Box<RelaxError>> {
-        let relaxed = go(&mut self.free, from, warm, options, self.edges, observe)?;
+        let relaxed = go(&mut self.free, from, warm, options, observe)?;
         Ok(self.settled(relaxed, false))
     }
 
@@ -95,7 +90,7 @@ impl Settler {
             rests[at] = (self.rest[at] + self.strength * target) / (1.0 + self.strength);
         }
         self.held.set_rests(&rests, &rests, 1.0);
-        let relaxed = go(&mut self.held, from, false, options, self.edges, observe)?;
+        let relaxed = go(&mut self.held, from, false, options, observe)?;
         Ok(self.settled(relaxed, true))
     }
 
@@ -122,10 +117,9 @@ fn go(
     from: &Place,
     warm: bool,
     options: Options,
-    edges: usize,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
     model.set_angles(&from.angles);
     let x = model.start_from(from.coordinates.clone());
-    relax(model, Start { x, tension: warm.then(|| from.tension.clone()) }, options, edges, observe)
+    relax_from(model, Start { x, tension: warm.then(|| from.tension.clone()) }, options, observe)
 }

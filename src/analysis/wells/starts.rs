@@ -6,12 +6,12 @@
 //! and rest angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the
 //! seed and its own number alone.
 
-use super::Question;
 use super::settle::{Place, Settled, Settler};
-use crate::model::assemble::{Drawn, Recipe, Surroundings, drawn_angles};
+use crate::model::{Assembly, Boundary};
 use crate::numerics::parallel;
+use crate::numerics::random::symmetric;
 use crate::solver::{Failure, Options};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
@@ -51,15 +51,15 @@ pub enum Outcome {
 }
 
 /// Relaxes from all starts, in their order. `go_on` is asked after each and returns false to stop.
-pub fn relax_all(question: &Question<'_>, starts: &Starts, go_on: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
-    parallel::each(
+pub fn relax_all(assembly: &Assembly, starts: &Starts, go_on: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
+    parallel::map_with_state(
         starts.count,
         || true,
         |going, number| {
             if !*going {
                 return Outcome::Interrupted;
             }
-            let found = one(question, starts, number);
+            let found = one(assembly, starts, number);
             *going = go_on();
             found
         },
@@ -93,20 +93,18 @@ fn reason_of(failure: &Failure) -> &'static str {
     }
 }
 
-fn one(question: &Question<'_>, starts: &Starts, number: usize) -> Outcome {
+fn one(assembly: &Assembly, starts: &Starts, number: usize) -> Outcome {
     let mut numbers = ChaCha8Rng::seed_from_u64(starts.seed);
     numbers.set_stream(number as u64);
-    let mut within = |size: f64| size * (2.0 * numbers.random::<f64>() - 1.0);
-    let turned;
-    let mut question = *question;
-    if question.surroundings == Surroundings::Screw {
-        turned = Drawn::turned(question.sheet, question.tiling, question.surroundings, within(0.5 * PI));
-        question.drawn = &turned;
+    let mut within = |size: f64| size * symmetric(&mut numbers);
+    let mut assembly = assembly.clone();
+    if assembly.boundary() == Boundary::Screw {
+        assembly = assembly.with_axis(within(0.5 * PI));
     }
     let mut last = Outcome::Saddle;
     for _ in 0..TRIES {
-        last = match crumpled(&question, starts.spread, &mut within) {
-            Ok(place) => released(&question, &place, starts.options),
+        last = match crumpled(&assembly, starts.spread, &mut within) {
+            Ok(place) => released(&assembly, &place, starts.options),
             Err(failure) => Outcome::Failed(failure),
         };
         if matches!(last, Outcome::Well(_)) {
@@ -117,8 +115,8 @@ fn one(question: &Question<'_>, starts: &Starts, number: usize) -> Outcome {
 }
 
 /// What the sheet does with its own bars and rest angles.
-fn released(question: &Question<'_>, from: &Place, options: Options) -> Outcome {
-    match Settler::new(question, question.recipe, 1.0).free(from, false, options, &mut |_| true) {
+fn released(assembly: &Assembly, from: &Place, options: Options) -> Outcome {
+    match Settler::new(assembly, 1.0).free(from, false, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),
         Ok(found) if found.relaxed.negative_eigenvalues > 0 => Outcome::Saddle,
         Ok(found) => Outcome::Well(Box::new(found)),
@@ -126,16 +124,15 @@ fn released(question: &Question<'_>, from: &Place, options: Options) -> Outcome 
 }
 
 /// A state near random fold angles. One in which the relaxation did not converge is as good a start as any, where it is a state.
-fn crumpled(question: &Question<'_>, spread: f64, within: &mut dyn FnMut(f64) -> f64) -> Result<Place, Failure> {
-    let mut recipe: Recipe = question.recipe.clone();
-    if let Some(creases) = &mut recipe.creases {
-        let drawn = drawn_angles(question.drawn, question.tiling);
-        creases.rest = drawn.iter().map(|angle| angle + within(spread)).collect();
-        recipe.bars = recipe.bars.map(|bars| bars.min(SOFT * creases.stiffness));
+fn crumpled(assembly: &Assembly, spread: f64, within: &mut dyn FnMut(f64) -> f64) -> Result<Place, Failure> {
+    let mut terms = assembly.terms().clone();
+    if let Some(creases) = &mut terms.creases {
+        creases.rest = assembly.drawn_angles().iter().map(|angle| angle + within(spread)).collect();
+        terms.bars = terms.bars.map(|bars| bars.min(SOFT * creases.stiffness));
     }
-    let mut settler = Settler::new(question, &recipe, 1.0);
+    let mut settler = Settler::new(&assembly.with_terms(terms), 1.0);
     let mut from = settler.drawn();
-    shake(question, &mut from.coordinates, within);
+    shake(assembly, &mut from.coordinates, within);
     match settler.free(&from, false, CRUMPLED, &mut |_| true) {
         Ok(found) => Ok(found.place),
         Err(error) => match error.failure {
@@ -151,8 +148,8 @@ fn crumpled(question: &Question<'_>, spread: f64, within: &mut dyn FnMut(f64) ->
 
 /// Moves every coordinate at random; those that are no lengths by what moves points as far. The axis of a screw has its direction by chance
 /// already.
-fn shake(question: &Question<'_>, coordinates: &mut [f64], within: &mut dyn FnMut(f64) -> f64) {
-    let (domain, edge) = (&question.drawn.domain, mean_edge(question));
+fn shake(assembly: &Assembly, coordinates: &mut [f64], within: &mut dyn FnMut(f64) -> f64) {
+    let (domain, edge) = (&assembly.drawn().domain, assembly.mean_edge());
     let units = domain.units(coordinates, edge);
     let points = coordinates.len() - units.len();
     let direction = domain.turns(coordinates).map(|turns| turns.direction);
@@ -162,14 +159,4 @@ fn shake(question: &Question<'_>, coordinates: &mut [f64], within: &mut dyn FnMu
     if let Some(direction) = direction {
         domain.point_axis(coordinates, direction);
     }
-}
-
-fn mean_edge(question: &Question<'_>) -> f64 {
-    let Drawn { domain, coordinates, .. } = question.drawn;
-    let length = |ends| {
-        let [a, b] = domain.points(coordinates, ends);
-        (b - a).norm()
-    };
-    let edges = &question.tiling.edges;
-    edges.iter().map(|edge| length(&edge.ends)).sum::<f64>() / edges.len() as f64
 }

@@ -7,8 +7,9 @@
 //! it belongs.
 
 use super::settle::{Settled, Settler};
+use crate::numerics::random::symmetric;
 use crate::solver::{Failure, Options, Step};
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
@@ -50,7 +51,7 @@ fn sideways(settler: &Settler, [from, to]: [&Settled; 2], bend: u64) -> Vec<f64>
         return nothing;
     }
     let mut numbers = ChaCha8Rng::seed_from_u64(bend);
-    let random: Vec<f64> = nothing.iter().map(|_| 2.0 * numbers.random::<f64>() - 1.0).collect();
+    let random: Vec<f64> = nothing.iter().map(|_| symmetric(&mut numbers)).collect();
     let size = BENT * distance(settler, &from.rho, &to.rho) / distance(settler, &random, &nothing);
     random.into_iter().map(|turn| size * turn).collect()
 }

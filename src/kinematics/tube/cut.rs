@@ -7,7 +7,7 @@
 use super::Tube;
 use crate::kinematics::{Motion, Shape};
 use crate::math::Vec3;
-use crate::sheet::build::{Drawn, build};
+use crate::sheet::build::{Drawing, build};
 use crate::sheet::error::Defect;
 use crate::sheet::{Corner, Sheet};
 use nalgebra::Matrix3;
@@ -59,7 +59,7 @@ impl Tube<'_> {
     /// Where `angles` has another length than the edges.
     pub fn cut(&self, angles: &[f64], rows: usize) -> Result<Sheet, Defect> {
         let (count, rows) = (Rows::new(self.seam), rows as i32);
-        let mut drawn = Drawn { title: "tube".to_owned(), description: self.described(rows), ..Drawn::default() };
+        let mut drawn = Drawing { title: "tube".to_owned(), description: self.described(rows), ..Drawing::default() };
         let mut numbers: HashMap<Corner, usize> = HashMap::new();
         let place = self.placing(angles);
         for cell in (0..rows).flat_map(|row| (0..count.strands).map(move |strand| count.cell(strand, row))) {

@@ -7,8 +7,8 @@ use super::{Gauge, Model};
 use crate::math::Vec3;
 use crate::model::domain::Domain;
 use crate::model::gauge;
-use crate::numerics::largest;
 use crate::numerics::sparse::FIXED;
+use crate::numerics::vector::max_abs;
 use crate::solver::Linearization;
 
 /// What turning the whole sheet costs in a Newton step: so many times the unbalanced force, which may favour a turn, and at least this
@@ -39,7 +39,7 @@ impl Model {
             return;
         }
         let unit = out.pattern().largest_diagonal(&out.hessian);
-        let unbalanced = largest(&out.force(&self.layout, tension));
+        let unbalanced = max_abs(&out.force(tension));
         let amount = f64::max(TURNING * unbalanced / self.mean_edge, LEAST_TURNING * unit);
         self.turning.iter().for_each(|&k| out.add_to_diagonal(k as usize, amount));
     }

@@ -3,9 +3,9 @@
 use super::{Numbers, symmetric};
 use crate::math::Vec3;
 use crate::model::measure::{FoldAngle, Length, Measure};
+use crate::model::problem::{LEFT_WING, RIGHT_WING};
 use crate::model::{Domain, Site};
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
-use crate::numerics::sparse::{LEFT, RIGHT};
 use std::f64::consts::TAU;
 
 /// Vertices of a cell and, after them, shared coordinates.
@@ -48,7 +48,8 @@ fn check<M: Measure<N, D>, const N: usize, const D: usize>(domain: &Domain, x: &
     domain.pull_gradient(x, &sites, &g, &mut in_place);
     let hessian = symmetric(local.len(), &lower);
     if M::HINGE {
-        let wings = hessian.view((RIGHT.start, LEFT.start), (RIGHT.len(), LEFT.len()));
+        let wings =
+            hessian.view((RIGHT_WING.start as usize, LEFT_WING.start as usize), (RIGHT_WING.len(), LEFT_WING.len()));
         assert!(
             wings.iter().all(|entry| *entry == 0.0),
             "{what}: torn factorizations leave out what couples the wings"

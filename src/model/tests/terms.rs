@@ -1,7 +1,7 @@
 //! Terms: angles go on from the last accepted state.
 
+use crate::model::element::{Element, Elements, Local, Spring, Term, TermKind};
 use crate::model::measure::FoldAngle;
-use crate::model::term::{Element, Elements, Local, Spring, Term, TermKind};
 use crate::model::{Domain, Site};
 use std::f64::consts::{PI, TAU};
 

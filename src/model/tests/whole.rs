@@ -2,34 +2,32 @@
 
 use super::Numbers;
 use crate::math::Vec3;
-use crate::model::assemble::{Drawn, Hinges, Recipe, Surroundings, assemble, drawn_angles};
-use crate::model::{Gauge, Model};
+use crate::model::{Assembly, Boundary, Gauge, Hinges, Model, RIGID, Terms};
 use crate::numerics::dense;
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
 use crate::sheet::generate::{Miura, MiuraPatch, Pattern};
-use crate::sheet::{EdgeKind, Tiling, generate, tile};
-use crate::solver::{Curvature, Linearization, Problem};
+use crate::sheet::{EdgeKind, generate};
+use crate::solver::{HessianKind, Linearization, Problem};
 
 /// Miura-ori on a domain: the smallest tiling that has creases and facets there.
-fn sheet(surroundings: Surroundings) -> (Drawn, Tiling) {
-    let pattern = match surroundings {
-        Surroundings::Patch => Pattern::MiuraPatch(MiuraPatch { cells: [1, 1], fold: 0.4, ..MiuraPatch::default() }),
+fn sheet(boundary: Boundary) -> Assembly {
+    let pattern = match boundary {
+        Boundary::Patch => Pattern::MiuraPatch(MiuraPatch { cells: [1, 1], fold: 0.4, ..MiuraPatch::default() }),
         _ => Pattern::Miura(Miura { fold: 0.4, ..Miura::default() }),
     };
     let sheet = generate(&pattern).unwrap();
-    let cells = if surroundings == Surroundings::FreeTorus { [2, 1] } else { [1, 1] };
-    let tiling = tile(&sheet, cells, surroundings != Surroundings::Patch);
-    (Drawn::new(&sheet, &tiling, surroundings), tiling)
+    let cells = if boundary == Boundary::FreeTorus { [2, 1] } else { [1, 1] };
+    Assembly::without_terms(sheet, cells, boundary).unwrap()
 }
 
 /// Bars, creases, facets, two locks, and on a patch a pin and loads.
-fn recipe(drawn: &Drawn, tiling: &Tiling, numbers: &mut Numbers, creases: f64, facets: f64) -> Recipe {
-    let angles = drawn_angles(drawn, tiling);
+fn terms(assembly: &Assembly, numbers: &mut Numbers, creases: f64, facets: f64) -> Terms {
+    let (tiling, angles) = (assembly.tiling(), assembly.drawn_angles());
     let rest: Vec<f64> = angles.iter().map(|angle| angle + numbers.within(0.2)).collect();
     let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
     let folding = (0..tiling.edges.len()).filter(|&e| tiling.edges[e].kind == EdgeKind::Crease);
     let patch = !tiling.periodic;
-    Recipe {
+    Terms {
         bars: Some(30.0),
         creases: hinges(creases),
         facets: hinges(facets),
@@ -39,9 +37,9 @@ fn recipe(drawn: &Drawn, tiling: &Tiling, numbers: &mut Numbers, creases: f64, f
     }
 }
 
-fn linearized(model: &Model, x: &[f64], tension: &[f64], curvature: Curvature) -> Linearization {
+fn linearized(model: &Model, x: &[f64], tension: &[f64], kind: HessianKind) -> Linearization {
     let mut at = Linearization::new(model.layout());
-    model.linearize(x, tension, curvature, &mut at);
+    model.linearize(x, tension, kind, &mut at);
     at
 }
 
@@ -52,17 +50,17 @@ fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
     let model = &*model;
     let rows = model.layout().stiff.len();
     let tension = numbers.many(rows, 1.0);
-    let at = linearized(model, &x, &tension, Curvature::Full);
+    let at = linearized(model, &x, &tension, HessianKind::Full);
     let energy = |x: &[f64]| model.energy(x);
     assert!((at.energy - energy(&x)).abs() <= 1e-14 * at.energy.abs(), "{what}: two functions, one energy");
     check_gradient(energy, &x, &at.gradient, TOLERANCE).unwrap_or_else(|e| panic!("{what}, gradient: {e}"));
     let gaps = |x: &[f64]| model.gaps(x);
     assert_eq!(at.gaps, gaps(&x), "{what}: two functions, one gap");
-    let jacobian = dense::from_rows(&at.rows(model.layout()), model.layout().unknowns);
+    let jacobian = dense::from_rows(&at.rows(), model.layout().unknowns);
     check_jacobian(gaps, &x, &jacobian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Jacobian: {e}"));
     let pull = |x: &[f64]| {
-        let at = linearized(model, x, &tension, Curvature::Full);
-        at.force(model.layout(), &tension).iter().map(|f| -f).collect()
+        let at = linearized(model, x, &tension, HessianKind::Full);
+        at.force(&tension).iter().map(|f| -f).collect()
     };
     let hessian = at.pattern().to_dense(&at.hessian);
     check_jacobian(pull, &x, &hessian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Hessian: {e}"));
@@ -72,15 +70,15 @@ fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
 /// derivative of the energy, the Jacobian that of the gaps, and the Hessian that of gradient plus tensions.
 #[test]
 fn derivatives_on_every_domain() {
-    use Surroundings::{FixedTorus, FreeTorus, Patch, Screw};
-    for surroundings in [Patch, FixedTorus, FreeTorus, Screw] {
-        let (drawn, tiling) = sheet(surroundings);
+    use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
+    for boundary in [Patch, FixedTorus, FreeTorus, Screw] {
+        let assembly = sheet(boundary);
         for (creases, facets) in [(1.0, 3.0), (1.0, f64::INFINITY), (1e7, 1.0)] {
             for gauge in [Gauge::Held, Gauge::Free] {
                 let mut numbers = Numbers::new(7);
-                let recipe = recipe(&drawn, &tiling, &mut numbers, creases, facets);
-                let mut model = assemble(&drawn, &tiling, &recipe, gauge);
-                let what = format!("{surroundings:?}, {gauge:?}, creases {creases:e}, facets {facets:e}");
+                let terms = terms(&assembly, &mut numbers, creases, facets);
+                let mut model = assembly.with_terms(terms).model(gauge);
+                let what = format!("{boundary:?}, {gauge:?}, creases {creases:e}, facets {facets:e}");
                 check(&mut model, &mut numbers, &what);
             }
         }
@@ -90,13 +88,16 @@ fn derivatives_on_every_domain() {
 /// Claim: a curved screw: kappa among the unknowns is moved away from the drawn 0 by a step at which cells turn.
 #[test]
 fn derivatives_on_a_curved_screw() {
-    let (mut drawn, tiling) = sheet(Surroundings::Screw);
+    let assembly = sheet(Boundary::Screw);
     for kappa in [1e-9, 0.2, -0.6] {
-        let shared = drawn.coordinates.len() - 5;
-        drawn.coordinates[shared] = kappa;
+        let mut curved = assembly.drawn().coordinates.clone();
+        let shared = curved.len() - 5;
+        curved[shared] = kappa;
         let mut numbers = Numbers::new(8);
-        let recipe = recipe(&drawn, &tiling, &mut numbers, 1.0, 3.0);
-        check(&mut assemble(&drawn, &tiling, &recipe, Gauge::Held), &mut numbers, &format!("kappa {kappa:e}"));
+        let terms = terms(&assembly, &mut numbers, 1.0, 3.0);
+        let mut model = assembly.with_terms(terms).model(Gauge::Held);
+        model.hold_anew(curved);
+        check(&mut model, &mut numbers, &format!("kappa {kappa:e}"));
     }
 }
 
@@ -104,17 +105,16 @@ fn derivatives_on_a_curved_screw() {
 /// with rest angles at the state itself it is the full Hessian. Tolerance: rounding.
 #[test]
 fn gauss_newton_is_exact_at_rest() {
-    let (drawn, tiling) = sheet(Surroundings::FreeTorus);
-    let rest = drawn_angles(&drawn, &tiling);
-    let recipe = Recipe { bars: Some(1.0), creases: Some(Hinges { stiffness: 2.0, rest }), ..Recipe::default() };
-    let model = assemble(&drawn, &tiling, &recipe, Gauge::Free);
+    let assembly = sheet(Boundary::FreeTorus);
+    let terms = Terms::bars_and_creases(1.0, 2.0, assembly.drawn_angles().to_vec());
+    let model = assembly.with_terms(terms).model(Gauge::Free);
     let none = vec![0.0; model.layout().stiff.len()];
-    let full = linearized(&model, &model.start(), &none, Curvature::Full);
-    let half = linearized(&model, &model.start(), &none, Curvature::GaussNewton);
+    let full = linearized(&model, &model.start(), &none, HessianKind::Full);
+    let half = linearized(&model, &model.start(), &none, HessianKind::GaussNewton);
     assert!(full.hessian.iter().zip(&half.hessian).all(|(a, b)| (a - b).abs() < 1e-13));
     assert!(full.hessian.iter().any(|h| *h > 1.0));
     let mut metric = vec![0.0; half.hessian.len()];
-    half.add_metric(model.layout(), 1.0, &mut metric);
+    half.add_metric(1.0, &mut metric);
     assert_eq!(metric, half.hessian);
 }
 
@@ -126,18 +126,18 @@ fn gauss_newton_is_exact_at_rest() {
 fn residuals_have_their_units() {
     let oblong = MiuraPatch { cells: [1, 1], fold: 0.4, a: 1.5, ..MiuraPatch::default() };
     let sheet = generate(&Pattern::MiuraPatch(oblong)).unwrap();
-    let tiling = tile(&sheet, [1, 1], false);
-    let drawn = Drawn::new(&sheet, &tiling, Surroundings::Patch);
+    let assembly = Assembly::without_terms(sheet, [1, 1], Boundary::Patch).unwrap();
+    let tiling = assembly.tiling();
     let model_with_rest = |off: f64| {
-        let rest: Vec<f64> = drawn_angles(&drawn, &tiling).iter().map(|angle| angle + off).collect();
+        let rest: Vec<f64> = assembly.drawn_angles().iter().map(|angle| angle + off).collect();
         let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
-        let (creases, facets) = (hinges(2.0), hinges(f64::INFINITY));
-        let recipe = Recipe { bars: Some(f64::INFINITY), creases, facets, ..Recipe::default() };
-        assemble(&drawn, &tiling, &recipe, Gauge::Held)
+        let (creases, facets) = (hinges(2.0), hinges(RIGID));
+        let terms = Terms { bars: Some(RIGID), creases, facets, ..Terms::default() };
+        assembly.with_terms(terms).model(Gauge::Held)
     };
     let unit = |off: f64| {
         let model = model_with_rest(off);
-        linearized(&model, &model.start(), &vec![0.0; model.layout().stiff.len()], Curvature::Full).largest_force
+        linearized(&model, &model.start(), &vec![0.0; model.layout().stiff.len()], HessianKind::Full).largest_force
     };
     let least = unit(0.0);
     assert!(least > 1e-4);

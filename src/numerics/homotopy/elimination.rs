@@ -1,4 +1,7 @@
-//! Gaussian elimination of small complex matrices: solutions, and ranks by complete pivoting.
+//! Gaussian elimination of small complex matrices: solutions, determinants, and ranks by complete pivoting.
+//!
+//! Matrices are stored by rows and overwritten, in memory that a path uses again at every step; nalgebra's
+//! factorizations are stored by columns and own their memory.
 
 use super::system::C;
 
@@ -100,7 +103,8 @@ mod tests {
         (0..count).map(|_| C::new(number(), number())).collect()
     }
 
-    /// Claim: solutions satisfy their equations to rounding; a matrix of rank one is refused or gives no finite numbers.
+    /// Claim: solutions satisfy their equations to rounding; a matrix of rank one is refused or gives no finite
+    /// numbers.
     #[test]
     fn solutions_satisfy_their_equations() {
         for n in [1, 2, 5, 9] {

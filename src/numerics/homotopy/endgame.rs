@@ -1,34 +1,36 @@
 //! The end of a path, at `t = 0`: simple solutions by Newton's method, multiple ones by Cauchy's integral.
 //!
-//! Near `t = 0` a path is a power series in `t^(1/c)` with a winding number `c`. Led `c` times round the circle `|t| = r` it comes
-//! back to where it began, and the mean over these rounds is its end (A. P. Morgan, A. J. Sommese and C. W. Wampler,
-//! "Computing singular solutions to polynomial systems", Advances in Applied Mathematics 13, 305, 1992). The mean of equally
-//! spaced points converges geometrically. A circle that holds more than the one singular point gives a mean that is no
-//! solution; then the path goes on to a smaller circle.
+//! Near `t = 0` a path is a power series in `t^(1/c)` with a winding number `c`. Led `c` times round the circle
+//! `|t| = r` it comes back to where it began, and the mean over these rounds is its end (A. P. Morgan, A. J. Sommese
+//! and C. W. Wampler, "Computing singular solutions to polynomial systems", Advances in Applied Mathematics 13, 305,
+//! 1992). The mean of equally spaced points converges geometrically. A circle that holds more than the one singular
+//! point gives a mean that is no solution; then the path goes on to a smaller circle.
 
 use super::elimination;
 use super::system::{C, Homotopy, Quadrics, distance, in_patch, norm, normalize};
 use super::track::{Lost, Tracker};
 
-/// Where paths are taken over.
+/// Parameter at which the endgame takes paths over.
 pub(super) const START: f64 = 0.02;
-/// Quotient of the radii of one circle and the next.
-const SHRINK: f64 = 0.25;
-const CIRCLES: usize = 24;
-/// Points on a round; every second one gives the estimate of the error.
-const POINTS: usize = 16;
+/// Ratio of the radius of a circle to that of the one before.
+const RADIUS_RATIO: f64 = 0.25;
+/// Largest number of circles.
+const MOST_CIRCLES: usize = 24;
+/// Number of points on a round; every second one gives the estimate of the error.
+const POINTS_PER_ROUND: usize = 16;
 const MOST_ROUNDS: usize = 64;
-/// A round is closed where what is missing is below this part of the circle's size.
-const CLOSED: f64 = 1e-4;
+/// Distance of the end of a round from its beginning, relative to the size of the circle, below which the round is
+/// closed.
+const CLOSED_DISTANCE: f64 = 1e-4;
 /// Largest residual of a mean that is a solution.
-const RESIDUAL: f64 = 3e-13;
-/// Largest difference between the means of all points and of every second one.
-const AGREEMENT: f64 = 1e-9;
-/// Largest product of a correction and the curvature bound at which a solution counts as simple. Smale's theorem needs 0.157
-/// (M. Shub and S. Smale, "Complexity of Bezout's theorem I", J. AMS 6, 459, 1993).
+const SOLUTION_RESIDUAL: f64 = 3e-13;
+/// Largest distance between the means of all points and of every second one.
+const MEANS_DISTANCE: f64 = 1e-9;
+/// Largest product of a correction and the curvature bound at which a solution counts as simple. Smale's theorem needs
+/// 0.157 (M. Shub and S. Smale, "Complexity of Bezout's theorem I", J. AMS 6, 459, 1993).
 const APPROXIMATE_ZERO: f64 = 0.1;
 
-/// Where a path ends.
+/// The end of a path.
 #[derive(Clone, Debug)]
 pub(super) enum End {
     Simple(Simple),
@@ -38,7 +40,7 @@ pub(super) enum End {
 /// A simple solution, proved to exist near the point.
 #[derive(Clone, Debug)]
 pub(super) struct Simple {
-    /// Of norm 1.
+    /// The solution, a vector of norm 1.
     pub point: Vec<C>,
     /// The last correction of Newton's method.
     pub error: f64,
@@ -67,7 +69,7 @@ impl Target for Quadrics {
 /// Follows a path from [`START`] to its end.
 pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<End, Lost> {
     let (mut x, mut radius) = (x, START);
-    for circle in 0..CIRCLES {
+    for circle in 0..MOST_CIRCLES {
         let t = C::new(radius, 0.0);
         let leapt = tracker.leap(&x, t, C::default());
         if let Some(simple) = leapt.and_then(|point| target.simple(&point)) {
@@ -78,8 +80,8 @@ pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target
         {
             return Ok(end);
         }
-        x = tracker.track(&x, t, t * SHRINK, 0.3)?;
-        radius *= SHRINK;
+        x = tracker.track(&x, t, t * RADIUS_RATIO, 0.3)?;
+        radius *= RADIUS_RATIO;
     }
     Err(Lost)
 }
@@ -95,7 +97,7 @@ fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: &
     normalize(&mut point);
     normalize(&mut coarse);
     let error = distance(&point, &coarse);
-    let solved = error <= AGREEMENT && target.residual(&point) <= RESIDUAL;
+    let solved = error <= MEANS_DISTANCE && target.residual(&point) <= SOLUTION_RESIDUAL;
     if !solved {
         return None;
     }
@@ -107,17 +109,19 @@ fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: &
 
 /// The points of a path on a circle, in the patch of the first, until it closes; and how many rounds that takes.
 fn rounds<H: Homotopy>(tracker: &mut Tracker<H>, x: &[C], radius: f64) -> Option<(Vec<Vec<C>>, usize)> {
-    let on_circle = |k: usize| C::from_polar(radius, std::f64::consts::TAU * (k % POINTS) as f64 / POINTS as f64);
+    let on_circle = |k: usize| {
+        C::from_polar(radius, std::f64::consts::TAU * (k % POINTS_PER_ROUND) as f64 / POINTS_PER_ROUND as f64)
+    };
     let first = tracker.polished(x, on_circle(0));
     let (mut points, mut at, mut size) = (Vec::new(), first.clone(), 0.0f64);
     for winding in 1..=MOST_ROUNDS {
-        for k in 0..POINTS {
+        for k in 0..POINTS_PER_ROUND {
             points.push(in_patch(&first, &at));
             size = size.max(distance(&first, &at));
             at = tracker.track(&at, on_circle(k), on_circle(k + 1), 1.0).ok()?;
             at = tracker.polished(&at, on_circle(k + 1));
         }
-        if distance(&first, &at) <= CLOSED * size + 1e-13 {
+        if distance(&first, &at) <= CLOSED_DISTANCE * size + 1e-13 {
             return Some((points, winding));
         }
     }
@@ -126,9 +130,9 @@ fn rounds<H: Homotopy>(tracker: &mut Tracker<H>, x: &[C], radius: f64) -> Option
 
 /// Newton's method at the target; `Some` where Smale's criterion proves a simple solution.
 ///
-/// With `b` a bound of the correction and `g >= |DF^-1 D^2F / 2|`, `b g` small proves a solution within `2 b` and no other
-/// within `0.2 / g`. The quadrics have norm 1, so `|D^2F / 2| <= sqrt(m)`; and as they are known to rounding only, the correction
-/// is never less than `|DF^-1|` times that.
+/// With `b` a bound of the correction and `g >= |DF^-1 D^2F / 2|`, `b g` small proves a solution within `2 b` and no
+/// other within `0.2 / g`. The quadrics have norm 1, so `|D^2F / 2| <= sqrt(m)`; and as they are known to rounding
+/// only, the correction is never less than `|DF^-1|` times that.
 fn proved_simple(quadrics: &Quadrics, x: &[C]) -> Option<Simple> {
     let mut point = x.to_vec();
     let (mut error, mut bound, mut curvature) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);

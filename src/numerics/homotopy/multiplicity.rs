@@ -1,13 +1,14 @@
 //! The multiplicity of a solution from the equations around it alone; no path is asked.
 //!
-//! In an affine patch the solution is the origin. Where the Jacobian has rank `r`, `r` of the equations give `r` unknowns as
-//! power series of the other `z`; what is left are series `g(z)` without linear terms. The multiplicity is the dimension of
-//! power series modulo the `g`: of monomials up to degree `k` less the rank of all products `z^a g_j` cut off there, as soon
-//! as this number stays the same from one `k` to the next (F. S. Macaulay, "The algebraic theory of modular systems",
-//! 1916; B. H. Dayton and Z. Zeng, "Computing the multiplicity structure in solving polynomial systems", ISSAC 2005).
-//! Around a solution that is not isolated it never stays the same. There it grows beyond any number of paths, and a solution
-//! where it is larger than the number of paths that end there is not isolated (D. J. Bates, J. D. Hauenstein, C. Peterson and
-//! A. J. Sommese, "A numerical local dimension test", SIAM J. Numer. Anal. 47, 3608, 2009).
+//! In an affine patch the solution is the origin. Where the Jacobian has rank `r`, `r` of the equations give `r`
+//! unknowns as power series of the other `z`; what is left are series `g(z)` without linear terms. The multiplicity is
+//! the dimension of power series modulo the `g`: of monomials up to degree `k` less the rank of all products `z^a g_j`
+//! cut off there, as soon as this number stays the same from one `k` to the next (F. S. Macaulay, "The algebraic theory
+//! of modular systems", 1916; B. H. Dayton and Z. Zeng, "Computing the multiplicity structure in solving polynomial
+//! systems", ISSAC 2005). Around a solution that is not isolated it never stays the same. There it grows beyond any
+//! number of paths, and a solution where it is larger than the number of paths that end there is not isolated (D. J.
+//! Bates, J. D. Hauenstein, C. Peterson and A. J. Sommese, "A numerical local dimension test", SIAM J. Numer. Anal. 47,
+//! 3608, 2009).
 
 use super::elimination;
 use super::series::{Monomials, Series};
@@ -21,13 +22,13 @@ const ZERO: f64 = 1e-6;
 /// More monomials than these are not looked at.
 const MOST_MONOMIALS: usize = 500;
 
-/// What the equations say about one of their solutions.
+/// The multiplicity of a solution, by the equations around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Multiplicity {
     Isolated(usize),
     /// Larger than the limit that was given.
     Larger,
-    /// It takes more monomials than are looked at.
+    /// The multiplicity needs more monomials than are looked at.
     Unknown,
 }
 

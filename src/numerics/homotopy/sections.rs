@@ -1,13 +1,15 @@
 //! Quadrics of any number: more than determine points, or fewer.
 //!
 //! With fewer the solutions are curves, surfaces and so on. A random linear space of the right dimension meets them in
-//! points, as many as their degree says (witness points; A. J. Sommese and C. W. Wampler, "The numerical solution of systems
-//! of polynomials", 2005, chapter 13). With more, random combinations of the quadrics are solved, and of their solutions those
-//! are kept that satisfy all quadrics.
+//! points, as many as their degree says (witness points; A. J. Sommese and C. W. Wampler, "The numerical solution of
+//! systems of polynomials", 2005, chapter 13). With more, random combinations of the quadrics are solved, and of their
+//! solutions those are kept that satisfy all quadrics.
 
+use super::error::HomotopyError;
 use super::multiplicity::{Multiplicity, multiplicity};
+use super::solutions::{Group, Solutions, grouped, multiple, turned};
+use super::square::solve_square;
 use super::system::{C, Quadrics};
-use super::{Group, HomotopyError, Solutions, grouped, multiple, solve_square, turned};
 use crate::numerics::DenseMatrix;
 use crate::numerics::random::symmetric;
 use nalgebra::DVector;
@@ -15,14 +17,15 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 /// Largest residual, for quadrics of norm 1, of a solution of combinations that is one of all quadrics.
-const RESIDUAL: f64 = 1e-8;
+const SOLUTION_RESIDUAL: f64 = 1e-8;
 
 /// The solutions of quadrics of any number, or where there are infinitely many, those on a random linear space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// Dimension of the solutions in projective space: unknowns less one less quadrics, and 0 with more quadrics.
     pub dimension: usize,
-    /// Bezout's number: the sum of all multiplicities, of the paths that ended on continua and of the extraneous solutions.
+    /// Bezout's number: the sum of all multiplicities, of the paths that ended on continua and of the extraneous
+    /// solutions.
     pub expected: usize,
     /// The solutions, of the random linear space where `dimension` is not 0.
     pub solutions: Solutions,
@@ -32,7 +35,10 @@ pub struct Section {
 
 /// Solves quadrics `x^T A_k x = 0` of any number in `unknowns` homogeneous unknowns.
 ///
-/// Fails as [`solve`](super::solve). The quadrics should be linearly independent.
+/// The quadrics should be linearly independent.
+///
+/// # Errors
+/// Those of [`solve`](super::solve).
 pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, HomotopyError> {
     if unknowns == 0 {
         return Ok(Section::default());
@@ -53,8 +59,9 @@ pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, H
     Ok(Section { dimension, expected, solutions, extraneous: expected.saturating_sub(found) })
 }
 
-/// Whether one of some random real linear spaces meets the solutions of fewer quadrics than determine points in a real point. The solutions
-/// then have infinitely many real points; where none of the spaces does, nothing is said about them.
+/// Whether one of some random real linear spaces meets the solutions of fewer quadrics than determine points in a real
+/// point. The solutions then have infinitely many real points; where none of the spaces does, nothing is said about
+/// them.
 ///
 /// # Errors
 /// Those of [`solve`](super::solve).
@@ -88,7 +95,7 @@ pub(super) fn on_linear_space(all: &Quadrics, frame: &DenseMatrix) -> Result<Sol
     Ok(solutions)
 }
 
-/// As many random combinations of the quadrics as determine points.
+/// Random combinations of the quadrics, as many as determine points.
 fn combined(all: &Quadrics, random: &mut ChaCha8Rng) -> Result<Quadrics, HomotopyError> {
     let weights = random_frame(all.count(), all.unknowns - 1, random);
     let combinations: Vec<DenseMatrix> = weights
@@ -98,18 +105,18 @@ fn combined(all: &Quadrics, random: &mut ChaCha8Rng) -> Result<Quadrics, Homotop
     Quadrics::new(&combinations, all.unknowns)
 }
 
-/// Of the solutions of combinations those of all quadrics, with their multiplicity there.
+/// The solutions of combinations that are solutions of all quadrics, with their multiplicity there.
 fn kept(all: &Quadrics, combined: Solutions) -> Solutions {
     let Solutions { isolated, on_continua, paths, repeated } = combined;
     let mut kept = Solutions { paths, repeated, ..Solutions::default() };
-    for mut solution in isolated.into_iter().filter(|solution| all.residual(&solution.point) <= RESIDUAL) {
+    for mut solution in isolated.into_iter().filter(|solution| all.residual(&solution.point) <= SOLUTION_RESIDUAL) {
         if let Multiplicity::Isolated(multiplicity) = multiplicity(all, &solution.point, solution.multiplicity) {
             solution.multiplicity = multiplicity;
         }
         kept.isolated.push(solution);
     }
     // what combinations have in common along a curve, all quadrics may have at a point
-    let common = on_continua.into_iter().filter(|point| all.residual(point) <= RESIDUAL);
+    let common = on_continua.into_iter().filter(|point| all.residual(point) <= SOLUTION_RESIDUAL);
     for Group { point, error, members } in grouped(common.map(|point| (point, 0.0))) {
         match multiplicity(all, &point, members.len()) {
             Multiplicity::Isolated(found) => kept.isolated.push(multiple(point, found, error)),

@@ -34,7 +34,7 @@ impl Monomials {
         Self { degrees: exponents.iter().map(|powers| powers.iter().sum()).collect(), products }
     }
 
-    /// How many monomials of `unknowns` unknowns have at most a degree: `(unknowns + degree)! / (unknowns! degree!)`.
+    /// Number of monomials of `unknowns` unknowns of at most a degree: `(unknowns + degree)! / (unknowns! degree!)`.
     pub fn count(unknowns: usize, degree: usize) -> usize {
         (1..=unknowns).fold(1, |count, k| count * (degree + k) / k)
     }

@@ -1,29 +1,34 @@
 //! The singular points of a curve of solutions: `m` quadrics in `m + 2` homogeneous unknowns.
 //!
-//! A random linear space misses them, and an isolated real point of a curve is always one of them. With a random frame `N` of
-//! `m` columns the points where `D(x) = det(dF/dx N)` vanishes are those where the projection of the curve along `N` to a line is
-//! ramified, and its singular points, whatever `N` is. `D` has degree `m`, so there are `m 2^m` such points, and the homotopy
+//! A random linear space misses them, and an isolated real point of a curve is always one of them. With a random frame
+//! `N` of `m` columns the points where `D(x) = det(dF/dx N)` vanishes are those where the projection of the curve along
+//! `N` to a line is ramified, and its singular points, whatever `N` is. `D` has degree `m`, so there are `m 2^m` such
+//! points, and the homotopy
 //!
 //! `F(x) = 0, (1 - t) D(x) + t g l_1(x) ... l_m(x) = 0`
 //!
 //! begins at the points of the curve on `m` random planes `l_k = 0` (regeneration: J. D. Hauenstein, A. J. Sommese and
-//! C. W. Wampler, "Regeneration homotopies for solving systems of polynomials", Mathematics of Computation 80, 345, 2011).
-//! Singular points are those ends where the Jacobian of `F` has not its full rank. A second choice of `N` confirms them.
+//! C. W. Wampler, "Regeneration homotopies for solving systems of polynomials", Mathematics of Computation 80, 345,
+//! 2011). Singular points are those ends where the Jacobian of `F` has not its full rank. A second choice of `N`
+//! confirms them.
 
 use super::elimination::determinant;
 use super::endgame::{self, End, Simple, Target};
+use super::error::HomotopyError;
+use super::sections::on_linear_space;
 use super::sections::random_frame;
-use super::system::{C, Homotopy, Local, Quadrics, unit};
-use super::track::Tracker;
-use super::{HomotopyError, SAME, careful, conjugate, grouped, turned};
+use super::solutions::{SAME, conjugate, grouped, turned};
+use super::system::{C, Homotopy, Local, Quadrics, distance, unit};
+use super::track::{Care, Tracker};
 use crate::numerics::dense::{full_svd, symmetric_eigenvalues};
 use crate::numerics::{DenseMatrix, parallel};
 use nalgebra::{Complex, DVector};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// Singular values of the Jacobian below this are zero.
+/// Singular value of the Jacobian below which it counts as zero.
 const ZERO: f64 = 1e-6;
+/// Number of attempts, each with smaller steps and other random numbers than the one before.
 const ATTEMPTS: u32 = 4;
 
 /// A point, and the estimated distance to the exact one.
@@ -42,8 +47,11 @@ pub struct SingularPoint {
 
 /// The real singular points of the curve of solutions of `m` quadrics in `m + 2` homogeneous unknowns.
 ///
-/// `None` where some of the curve is counted twice or more: all of that is singular. Points where more than two branches meet
-/// are not called isolated. Fails as [`solve`](super::solve).
+/// `None` where some of the curve is counted twice or more: all of that is singular. Points where more than two
+/// branches meet are not called isolated.
+///
+/// # Errors
+/// Those of [`solve`](super::solve).
 pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<SingularPoint>>, HomotopyError> {
     let count = quadrics.len();
     let quadrics = Quadrics::new(quadrics, count + 2)?;
@@ -61,7 +69,7 @@ pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<Singu
 fn confirmed(quadrics: &Quadrics, attempt: u32) -> Result<Option<Vec<Estimate>>, HomotopyError> {
     let [first, second] = [0, 1].map(|choice| singular_points(quadrics, attempt, choice));
     let (Some(first), Some(second)) = (first?, second?) else { return Ok(None) };
-    let near = |a: &[C], b: &[C]| super::distance(a, b) <= SAME;
+    let near = |a: &[C], b: &[C]| distance(a, b) <= SAME;
     let real = first.into_iter().filter(|(point, _)| near(point, &conjugate(point)));
     Ok(Some(real.filter(|(point, _)| second.iter().any(|(other, _)| near(point, other))).collect()))
 }
@@ -74,7 +82,7 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
     for _ in 0..quadrics.count() {
         let frame = random_frame(quadrics.unknowns, quadrics.unknowns, &mut random);
         let (plane, inside) = (frame.column(0).into_owned(), frame.columns(1, quadrics.unknowns - 1).into_owned());
-        let solutions = super::sections::on_linear_space(quadrics, &inside)?;
+        let solutions = on_linear_space(quadrics, &inside)?;
         if solutions.isolated.len() < solutions.paths {
             return Ok(None);
         }
@@ -84,13 +92,15 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
     let frame = random_frame(quadrics.unknowns, quadrics.count(), &mut random);
     let polar = Polar { quadrics, frame, planes, factor: unit(&mut random) };
     let path = |start: &Vec<C>| {
-        let mut tracker = Tracker::new(&polar, careful(attempt));
+        let mut tracker = Tracker::new(&polar, Care::of_attempt(attempt));
         let [begin, end] = [1.0, endgame::START].map(|t| C::new(t, 0.0));
         let x = tracker.track(start, begin, end, 0.05)?;
         endgame::finish(&mut tracker, &polar, x)
     };
-    let ends: Vec<End> =
-        parallel::each(starts.len(), || (), |(), k| path(&starts[k])).into_iter().filter_map(Result::ok).collect();
+    let ends: Vec<End> = parallel::map_with_state(starts.len(), || (), |(), k| path(&starts[k]))
+        .into_iter()
+        .filter_map(Result::ok)
+        .collect();
     if ends.len() < starts.len() {
         return Err(HomotopyError::Lost { paths: starts.len() - ends.len() });
     }

@@ -1,6 +1,6 @@
 //! Systems of homogeneous quadrics, and the homotopy that deforms one with known solutions into them.
 
-use super::HomotopyError;
+use super::error::HomotopyError;
 use crate::numerics::DenseMatrix;
 use crate::numerics::random::symmetric;
 use nalgebra::Complex;
@@ -33,9 +33,9 @@ pub(super) trait Homotopy {
 
 /// `H(x, t) = (1 - t) F(x) + t G(x)`, `G_k = g_k (x_k^2 - b_k x_0^2)`, with random `g_k` and `b_k` of modulus 1.
 ///
-/// At `t = 1` the `2^m` solutions are known. For almost all `g` the paths from them are smooth down to every `t > 0`, and their
-/// ends are all isolated solutions of `F`, each as often as its multiplicity says (A. J. Sommese and C. W. Wampler, "The
-/// numerical solution of systems of polynomials", 2005, theorem 8.4.1).
+/// At `t = 1` the `2^m` solutions are known. For almost all `g` the paths from them are smooth down to every `t > 0`,
+/// and their ends are all isolated solutions of `F`, each as often as its multiplicity says (A. J. Sommese and C. W.
+/// Wampler, "The numerical solution of systems of polynomials", 2005, theorem 8.4.1).
 pub(super) struct TotalDegree<'a> {
     quadrics: &'a Quadrics,
     factors: Vec<C>,
@@ -158,7 +158,8 @@ pub(super) fn in_patch(x: &[C], y: &[C]) -> Vec<C> {
     y.iter().map(|entry| entry / scale).collect()
 }
 
-/// Distance of two points of projective space in the affine patch of the first, which has norm 1: the tangent of their angle.
+/// Distance of two points of projective space in the affine patch of the first, which has norm 1: the tangent of their
+/// angle.
 pub(super) fn distance(x: &[C], y: &[C]) -> f64 {
     in_patch(x, y).iter().zip(x).map(|(a, b)| (a - b).norm_sqr()).sum::<f64>().sqrt()
 }

@@ -1,9 +1,12 @@
 //! Systems whose solutions are known beforehand.
 
-use super::system::{C, Quadrics};
+use super::system::{C, Quadrics, distance, normalize};
 use super::*;
+use crate::numerics::DenseMatrix;
 use crate::numerics::random::symmetric;
 use nalgebra::DVector;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 
 fn random(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(1000 + seed)
@@ -57,8 +60,8 @@ fn at(solutions: &Solutions, point: &[f64]) -> Solution {
     solutions.isolated.iter().find(near).unwrap_or_else(|| panic!("{point:?} of {solutions:?}")).clone()
 }
 
-/// Claim (Bezout): m random quadrics have 2^m simple solutions, with their conjugates, each satisfied to rounding. Tolerance:
-/// rounding of Newton's method, the worst of 64 Jacobians has a condition number of some 100.
+/// Claim (Bezout): m random quadrics have 2^m simple solutions, with their conjugates, each satisfied to rounding.
+/// Tolerance: rounding of Newton's method, the worst of 64 Jacobians has a condition number of some 100.
 #[test]
 fn random_quadrics_have_all_their_solutions() {
     for (count, seed) in (0..=6).zip(0..).chain([(4, 10), (4, 11), (4, 12), (5, 13)]) {
@@ -95,8 +98,8 @@ fn products_of_linear_forms() {
     }
 }
 
-/// Claim: squares of linear forms double the solutions: with k squares among four quadrics every solution has multiplicity
-/// 2^k, up to one of multiplicity 16. Tolerance of the place 1e-8, as asked of the mean of a circle.
+/// Claim: squares of linear forms double the solutions: with k squares among four quadrics every solution has
+/// multiplicity 2^k, up to one of multiplicity 16. Tolerance of the place 1e-8, as asked of the mean of a circle.
 #[test]
 fn squares_of_linear_forms() {
     for squares in 1..=4 {
@@ -114,8 +117,8 @@ fn squares_of_linear_forms() {
     }
 }
 
-/// Claim: two conics that touch have there a solution of multiplicity 2, that osculate 3, that hyperosculate 4: a circle of
-/// curvature 1 and parabolas; and two conics of the same axis touch twice.
+/// Claim: two conics that touch have there a solution of multiplicity 2, that osculate 3, that hyperosculate 4: a
+/// circle of curvature 1 and parabolas; and two conics of the same axis touch twice.
 #[test]
 fn tangency_and_osculation() {
     // y - x^2/2 + terms of a conic through the origin with the same tangent and curvature
@@ -136,8 +139,8 @@ fn tangency_and_osculation() {
     assert!(at(&found, &[1.0, 0.0, 1.0]).real && at(&found, &[1.0, 0.0, -1.0]).real);
 }
 
-/// Claim: solutions 1e-5 apart are told apart, real ones from a conjugate pair too: x^2 = +-d^2/4 with y z fixed. Tolerance of
-/// the place: rounding over the distance, 1e-16 / 1e-5.
+/// Claim: solutions 1e-5 apart are told apart, real ones from a conjugate pair too: x^2 = +-d^2/4 with y z fixed.
+/// Tolerance of the place: rounding over the distance, 1e-16 / 1e-5.
 #[test]
 fn clusters_are_resolved() {
     for (sign, distance) in [(1.0, 1e-2), (1.0, 1e-5), (-1.0, 1e-5)] {
@@ -175,8 +178,8 @@ fn continua_are_recognised() {
     assert_eq!((cubic.count(), cubic.on_continua.len()), (0, 8));
 }
 
-/// Claim: two quadrics in four unknowns are a curve of degree 4; with four quadrics in four unknowns, all through two points
-/// and otherwise random, only these two remain of eight.
+/// Claim: two quadrics in four unknowns are a curve of degree 4; with four quadrics in four unknowns, all through two
+/// points and otherwise random, only these two remain of eight.
 #[test]
 fn fewer_and_more_quadrics() {
     let mut random = random(6);
@@ -210,9 +213,9 @@ fn refusals() {
     assert_eq!(solve(&many).unwrap_err(), HomotopyError::TooMany { quadrics: 17 });
 }
 
-/// Claim: a random curve of two quadrics has no singular point. Two quadrics that touch one plane in one point have one there: the
-/// difference of their second-order parts in the plane is definite, and the point isolated, or indefinite, and a crossing.
-/// A curve that is counted twice is singular all along.
+/// Claim: a random curve of two quadrics has no singular point. Two quadrics that touch one plane in one point have one
+/// there: the difference of their second-order parts in the plane is definite, and the point isolated, or indefinite,
+/// and a crossing. A curve that is counted twice is singular all along.
 #[test]
 fn singular_points_of_curves() {
     let mut random = random(51);

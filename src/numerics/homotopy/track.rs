@@ -2,8 +2,8 @@
 //!
 //! Points are vectors of norm 1; each step works in the affine patch of the point where it begins. The predictor is the
 //! classical Runge-Kutta method on `H_x x' = -H_t`, the corrector Newton's method. A step is accepted where the first
-//! correction is small and the corrections then fall as they do for a simple solution: their quotient measures distance over
-//! distance to the next solution, so that paths near each other are not confused.
+//! correction is small and the corrections then fall as they do for a simple solution: their quotient measures distance
+//! over distance to the next solution, so that paths near each other are not confused.
 
 use super::elimination;
 use super::system::{C, Homotopy, Local, norm, normalize};
@@ -15,13 +15,20 @@ const CORRECTED: f64 = 1e-9;
 const MOST_STEPS: usize = 20_000;
 const SHORTEST_STEP: f64 = 1e-10;
 
-/// How careful the steps are.
+/// Bounds of the corrections of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Care {
     /// Largest first correction.
     pub correction: f64,
     /// Largest quotient of the second correction and the first.
     pub contraction: f64,
+}
+
+impl Care {
+    /// Care at the first attempt (0), and more at each repetition.
+    pub fn of_attempt(repeated: u32) -> Self {
+        Self { correction: 0.01 * 0.1f64.powi(repeated as i32), contraction: 0.1 * 0.3f64.powi(repeated as i32) }
+    }
 }
 
 /// A path could not be followed: its steps became too short, or too many.
@@ -48,8 +55,8 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
         Self { homotopy, care, local: Local::new(n), matrix: vec![C::default(); n * n] }
     }
 
-    /// Follows the solution `x` along the straight line between two parameters; `first` is the part of the line that the
-    /// first step tries.
+    /// Follows the solution `x` along the straight line between two parameters; `first` is the part of the line that
+    /// the first step tries.
     pub fn track(&mut self, x: &[C], from: C, to: C, first: f64) -> Result<Vec<C>, Lost> {
         let (mut x, mut done, mut length) = (x.to_vec(), 0.0, first);
         for _ in 0..MOST_STEPS {

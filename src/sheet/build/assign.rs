@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Defect, Drawn, Identified, Place, Problem};
+use super::{Defect, Drawing, Identified, Place, Problem};
 use crate::sheet::assignment::{Assignment, AssignmentFault};
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet};
 
@@ -11,7 +11,7 @@ const SIDE_TOLERANCE: f64 = 1e-3;
 
 /// Gives every edge of `sheet` what the file assigns to it: joined parts of a polygon become facets, what contradicts
 /// the mesh is refused, and letters that the drawing alone would not give are kept.
-pub(super) fn assign(drawn: &Drawn, identified: &Identified, sheet: &mut Sheet) -> Result<(), Defect> {
+pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) -> Result<(), Defect> {
     if drawn.assignments.is_empty() {
         return Ok(());
     }
@@ -83,7 +83,7 @@ fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
 }
 
 /// How many drawn faces every drawn edge has.
-fn drawn_rim(drawn: &Drawn) -> BTreeMap<[usize; 2], usize> {
+fn drawn_rim(drawn: &Drawing) -> BTreeMap<[usize; 2], usize> {
     let mut faces = BTreeMap::new();
     for face in &drawn.faces {
         for (k, &a) in face.iter().enumerate() {

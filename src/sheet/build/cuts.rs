@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Defect, Drawn, Identified, Place, Problem};
+use super::{Defect, Drawing, Identified, Place, Problem};
 use crate::sheet::assignment::{Assignment, AssignmentFault};
 use crate::sheet::cell::{Corner, EdgeKey};
 
@@ -18,7 +18,7 @@ type Wedge = (usize, usize);
 
 /// Parts the polygons along the cuts of `drawn`; for every new vertex, the one that it was before.
 pub(super) fn cut(
-    drawn: &Drawn,
+    drawn: &Drawing,
     identified: &mut Identified,
     polygons: &mut [Vec<Corner>],
 ) -> Result<Vec<usize>, Defect> {
@@ -43,7 +43,7 @@ pub(super) fn cut(
 }
 
 /// The cuts between two faces; a cut along the rim is a rim.
-fn inner_cuts(drawn: &Drawn, identified: &Identified, polygons: &[Vec<Corner>]) -> Result<Cuts, Defect> {
+fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]) -> Result<Cuts, Defect> {
     let mut cuts = Cuts::new();
     for (e, (ends, assignment)) in drawn.assignments.iter().enumerate() {
         if *assignment == Assignment::Cut {
@@ -119,7 +119,7 @@ fn fans(polygons: &[Vec<Corner>], wedges: &[Wedge], cuts: &Cuts) -> Vec<Vec<Wedg
 
 /// The two sides of every cut have become two edges.
 fn check_open(
-    drawn: &Drawn,
+    drawn: &Drawing,
     identified: &Identified,
     polygons: &[Vec<Corner>],
     cuts: &Cuts,

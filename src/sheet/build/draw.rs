@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Drawn;
+use super::Drawing;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
 
 /// The mesh that draws `sheet`: its vertices in their order, then the copies that faces and openings need, by first
 /// appearance. [`build`](super::build) makes the same sheet of it.
-pub fn draw(sheet: &Sheet) -> Drawn {
+pub fn draw(sheet: &Sheet) -> Drawing {
     let drawn_count = sheet.vertices.len() - sheet.cut_from.len();
     let mut numbers: BTreeMap<Corner, usize> = (0..drawn_count).map(|v| (Corner::home(v), v)).collect();
     let mut coords = sheet.vertices[..drawn_count].to_vec();
@@ -24,7 +24,7 @@ pub fn draw(sheet: &Sheet) -> Drawn {
     };
     let (faces, holes) = (lists(&sheet.polygons), lists(&sheet.holes));
     let assignments = assignments(sheet, &faces);
-    Drawn {
+    Drawing {
         title: sheet.title.clone(),
         description: sheet.description.clone(),
         planar: false,

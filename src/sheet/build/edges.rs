@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::split::Part;
-use super::{Defect, Drawn, Place, Problem};
+use super::{Defect, Drawing, Place, Problem};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, TriangleSide};
 
 /// An edge along the polygons: its name, and where it is a side.
@@ -17,7 +17,7 @@ pub(super) struct Side {
 
 /// Sides of polygons in order of first appearance, each of one polygon or of two that run along it in opposite
 /// directions.
-pub(super) fn sides(drawn: &Drawn, polygons: &[Vec<Corner>]) -> Result<Vec<Side>, Defect> {
+pub(super) fn sides(drawn: &Drawing, polygons: &[Vec<Corner>]) -> Result<Vec<Side>, Defect> {
     let mut numbers: BTreeMap<EdgeKey, usize> = BTreeMap::new();
     let mut sides: Vec<Side> = Vec::new();
     for (f, polygon) in polygons.iter().enumerate() {
@@ -36,7 +36,7 @@ pub(super) fn sides(drawn: &Drawn, polygons: &[Vec<Corner>]) -> Result<Vec<Side>
     Ok(sides)
 }
 
-fn check_uses(drawn: &Drawn, side: &Side) -> Result<(), Defect> {
+fn check_uses(drawn: &Drawing, side: &Side) -> Result<(), Defect> {
     let edge = drawn.edge_name(side.drawn);
     let faces: Vec<_> = side.uses.iter().map(|u| drawn.name(u.0)).collect();
     match side.uses[..] {
@@ -50,7 +50,7 @@ fn check_uses(drawn: &Drawn, side: &Side) -> Result<(), Defect> {
 }
 
 /// In a periodic sheet, the edges of one face are exactly the sides of the listed openings.
-pub(super) fn check_rims(drawn: &Drawn, sides: &[Side], holes: &[Vec<Corner>]) -> Result<(), Defect> {
+pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>]) -> Result<(), Defect> {
     if drawn.lattice.is_none() {
         return Ok(());
     }
@@ -76,7 +76,7 @@ pub(super) fn check_rims(drawn: &Drawn, sides: &[Side], holes: &[Vec<Corner>]) -
 }
 
 /// The edges of the cell: sides first, then diagonals, with the opposite vertices of their triangles.
-pub(super) fn with_wings(drawn: &Drawn, sides: Vec<Side>, parts: &[Part]) -> Result<Vec<Edge>, Defect> {
+pub(super) fn with_wings(drawn: &Drawing, sides: Vec<Side>, parts: &[Part]) -> Result<Vec<Edge>, Defect> {
     let mut edges: Vec<Edge> = sides.iter().map(bare).collect();
     let mut numbers: BTreeMap<EdgeKey, usize> = edges.iter().enumerate().map(|(e, edge)| (edge.key, e)).collect();
     for part in parts {

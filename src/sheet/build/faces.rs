@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::planar::PlacedSide;
-use super::{Defect, Drawn, Identified, Place, Problem};
+use super::{Defect, Drawing, Identified, Place, Problem};
 use crate::sheet::cell::{Corner, Sheet};
 
 /// Corners exist, no vertex twice in a face, no face twice in the cell, every vertex in a face.
-pub(super) fn check(drawn: &Drawn, identified: &Identified) -> Result<(), Defect> {
+pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defect> {
     for (h, hole) in drawn.holes.iter().enumerate() {
         check_indices(drawn, hole, Place::Hole(h), || format!("opening {h}"))?;
         if hole.len() < 3 {
@@ -36,7 +36,7 @@ pub(super) fn check(drawn: &Drawn, identified: &Identified) -> Result<(), Defect
     }
 }
 
-fn check_indices(drawn: &Drawn, list: &[usize], place: Place, what: impl Fn() -> String) -> Result<(), Defect> {
+fn check_indices(drawn: &Drawing, list: &[usize], place: Place, what: impl Fn() -> String) -> Result<(), Defect> {
     match list.iter().find(|&&v| v >= drawn.coords.len()) {
         Some(&v) => {
             let problem = Problem::Index {
@@ -51,7 +51,7 @@ fn check_indices(drawn: &Drawn, list: &[usize], place: Place, what: impl Fn() ->
     }
 }
 
-fn check_corners(drawn: &Drawn, f: usize, face: &[usize]) -> Result<(), Defect> {
+fn check_corners(drawn: &Drawing, f: usize, face: &[usize]) -> Result<(), Defect> {
     if face.len() < 3 {
         let problem = Problem::FewCorners { face: drawn.name(f), corners: face.len() };
         return Err(Defect::new(Place::Face(f), problem));
@@ -79,8 +79,8 @@ fn canonical(corners: &[Corner]) -> (Vec<Corner>, [i32; 2]) {
     candidates.min().unwrap_or_default()
 }
 
-/// Drawn sides of all faces, each once, in file order.
-pub(crate) fn sides(drawn: &Drawn) -> Vec<PlacedSide> {
+/// Drawing sides of all faces, each once, in file order.
+pub(crate) fn sides(drawn: &Drawing) -> Vec<PlacedSide> {
     let mut seen = BTreeSet::new();
     let mut sides = Vec::new();
     for (f, face) in drawn.faces.iter().enumerate() {
@@ -95,7 +95,7 @@ pub(crate) fn sides(drawn: &Drawn) -> Vec<PlacedSide> {
 }
 
 /// The triangles round every vertex form one fan, open at a rim and closed elsewhere.
-pub(super) fn check_fans(drawn: &Drawn, identified: &Identified, sheet: &Sheet) -> Result<(), Defect> {
+pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, sheet: &Sheet) -> Result<(), Defect> {
     for (v, steps) in fans(sheet).iter().enumerate() {
         let ends: BTreeSet<_> = steps.values().collect();
         let start = steps.keys().find(|c| !ends.contains(c)).or(steps.keys().next());

@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::{Defect, Drawn, Place, Problem};
+use super::{Defect, Drawing, Place, Problem};
 use crate::math::Vec3;
 use crate::sheet::cell::Corner;
 
@@ -18,7 +18,7 @@ const FARTHEST: f64 = 1e6;
 pub(crate) struct Identified {
     /// Corner in which a drawn vertex stands.
     pub corner: Vec<Corner>,
-    /// Drawn vertex that is the first appearance of a vertex of the cell.
+    /// Drawing vertex that is the first appearance of a vertex of the cell.
     pub homes: Vec<usize>,
 }
 
@@ -30,7 +30,7 @@ impl Identified {
 }
 
 /// Identifies the vertices of `drawn`.
-pub(super) fn identify(drawn: &Drawn) -> Result<Identified, Defect> {
+pub(super) fn identify(drawn: &Drawing) -> Result<Identified, Defect> {
     let metric = Metric::new(drawn);
     let mut buckets: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
     let mut taken: HashMap<Corner, usize> = HashMap::new();
@@ -57,7 +57,7 @@ pub(super) fn identify(drawn: &Drawn) -> Result<Identified, Defect> {
 }
 
 /// The corner of drawn vertex `v`, a copy of vertex `c` of the cell, which first appears as drawn vertex `home`.
-fn copy_corner(drawn: &Drawn, metric: &Metric, v: usize, c: usize, home: usize) -> Result<Corner, Defect> {
+fn copy_corner(drawn: &Drawing, metric: &Metric, v: usize, c: usize, home: usize) -> Result<Corner, Defect> {
     let [n1, n2] = metric.shift(drawn, drawn.coords[v], home).unwrap_or([0.0, 0.0]);
     if n1.abs() > FARTHEST || n2.abs() > FARTHEST {
         let problem = Problem::FarAway { vertex: drawn.name(v), other: drawn.name(home), n1, n2 };
@@ -78,7 +78,7 @@ struct Metric {
 }
 
 impl Metric {
-    fn new(drawn: &Drawn) -> Self {
+    fn new(drawn: &Drawing) -> Self {
         match drawn.lattice {
             Some(lattice) => Self::periodic(lattice),
             None => Self::finite(&drawn.coords),
@@ -126,7 +126,7 @@ impl Metric {
     }
 
     /// Whole numbers of lattice vectors from the drawn vertex `home` to `x`, if `x` is a copy of it.
-    fn shift(&self, drawn: &Drawn, x: Vec3, home: usize) -> Option<[f64; 2]> {
+    fn shift(&self, drawn: &Drawing, x: Vec3, home: usize) -> Option<[f64; 2]> {
         let d = x - drawn.coords[home];
         let n: [f64; 2] = match drawn.lattice {
             Some(_) => [self.axes[0].dot(&d).round(), self.axes[1].dot(&d).round()],
@@ -141,11 +141,11 @@ impl Metric {
 mod tests {
     use super::*;
 
-    fn drawn(coords: &[[f64; 3]], lattice: Option<[[f64; 3]; 2]>) -> Drawn {
-        Drawn {
+    fn drawn(coords: &[[f64; 3]], lattice: Option<[[f64; 3]; 2]>) -> Drawing {
+        Drawing {
             coords: coords.iter().map(|&c| c.into()).collect(),
             lattice: lattice.map(|l| l.map(Into::into)),
-            ..Drawn::default()
+            ..Drawing::default()
         }
     }
 

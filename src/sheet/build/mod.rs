@@ -23,7 +23,7 @@ pub(crate) use identify::Identified;
 
 /// A mesh as a file draws it.
 #[derive(Clone, Debug, Default)]
-pub struct Drawn {
+pub struct Drawing {
     /// Name of the sheet.
     pub title: String,
     /// Source and units.
@@ -44,7 +44,7 @@ pub struct Drawn {
     pub first: usize,
 }
 
-impl Drawn {
+impl Drawing {
     pub(crate) fn name(&self, number: usize) -> usize {
         number + self.first
     }
@@ -58,12 +58,12 @@ impl Drawn {
 ///
 /// # Errors
 /// A [`Defect`] with the vertex, face, edge or opening that is wrong: see [`Problem`] for all of them.
-pub fn build(drawn: &Drawn) -> Result<Sheet, Defect> {
+pub fn build(drawn: &Drawing) -> Result<Sheet, Defect> {
     build_identified(drawn).map(|(sheet, _)| sheet)
 }
 
 /// As [`build`], together with the corner of the cell in which every drawn vertex stands.
-pub(crate) fn build_identified(drawn: &Drawn) -> Result<(Sheet, Identified), Defect> {
+pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), Defect> {
     check_numbers(drawn)?;
     let mut identified = identify::identify(drawn)?;
     faces::check(drawn, &identified)?;
@@ -96,7 +96,7 @@ pub(crate) fn build_identified(drawn: &Drawn) -> Result<(Sheet, Identified), Def
 }
 
 /// Everything is there, finite, and the lattice spans an area.
-fn check_numbers(drawn: &Drawn) -> Result<(), Defect> {
+fn check_numbers(drawn: &Drawing) -> Result<(), Defect> {
     if drawn.coords.is_empty() {
         return Err(Defect::new(Place::Mesh, Problem::Empty { what: "vertices" }));
     }

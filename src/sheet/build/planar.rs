@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::{Defect, Drawn, Place, Problem};
+use super::{Defect, Drawing, Place, Problem};
 use crate::math::Vec3;
 
 /// Sine of the angle below which three points count as lying on one line.
@@ -13,7 +13,7 @@ const ALIGNED: f64 = 1e-12;
 pub(crate) type PlacedSide = ([usize; 2], Place);
 
 /// No two edges meet in the plane other than at common ends.
-pub(crate) fn check_crossings(drawn: &Drawn, sides: &[PlacedSide]) -> Result<(), Defect> {
+pub(crate) fn check_crossings(drawn: &Drawing, sides: &[PlacedSide]) -> Result<(), Defect> {
     let span = |s: &PlacedSide, k: usize| {
         let [a, b] = s.0.map(|v| drawn.coords[v][k]);
         (a.min(b), a.max(b))
@@ -64,7 +64,7 @@ fn meet(x: &[Vec3], p: [usize; 2], q: [usize; 2]) -> bool {
 ///
 /// # Errors
 /// A [`Defect`] that names the edge.
-pub(crate) fn faces_of(drawn: &Drawn, edges: &[[usize; 2]]) -> Result<Vec<Vec<usize>>, Defect> {
+pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<usize>>, Defect> {
     let x = &drawn.coords;
     let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, Place::Edge(e))).collect();
     if let Some(&([a, b], place)) = placed.iter().find(|([a, b], _)| (x[*a] - x[*b]).xy().norm() == 0.0) {
@@ -142,8 +142,8 @@ fn area(x: &[Vec3], walk: &[usize]) -> f64 {
 mod tests {
     use super::*;
 
-    fn drawn(xy: &[[f64; 2]]) -> Drawn {
-        Drawn { coords: xy.iter().map(|p| Vec3::new(p[0], p[1], 0.0)).collect(), ..Drawn::default() }
+    fn drawn(xy: &[[f64; 2]]) -> Drawing {
+        Drawing { coords: xy.iter().map(|p| Vec3::new(p[0], p[1], 0.0)).collect(), ..Drawing::default() }
     }
 
     /// Claim: the two triangles and nothing else, counter-clockwise, although one edge is listed against its direction.

@@ -4,7 +4,7 @@
 //! vertex listed first. Larger polygons lose, again and again, the ear with the shortest diagonal, by the same tie
 //! rule. An ear is a corner that turns left seen along the polygon's normal and whose triangle holds no other corner.
 
-use super::{Defect, Drawn, Identified, Place, Problem};
+use super::{Defect, Drawing, Identified, Place, Problem};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Triangle};
 
@@ -19,7 +19,7 @@ pub(super) struct Part {
 }
 
 /// All triangles of all polygons, in file order.
-pub(super) fn triangles(drawn: &Drawn, cell: &Identified, polygons: &[Vec<Corner>]) -> Result<Vec<Part>, Defect> {
+pub(super) fn triangles(drawn: &Drawing, cell: &Identified, polygons: &[Vec<Corner>]) -> Result<Vec<Part>, Defect> {
     let mut parts = Vec::new();
     for (f, polygon) in polygons.iter().enumerate() {
         // The positions of the cell, not those of the drawn copies, so that a file and its copy split alike.
@@ -37,12 +37,12 @@ pub(super) fn triangles(drawn: &Drawn, cell: &Identified, polygons: &[Vec<Corner
     Ok(parts)
 }
 
-fn position(drawn: &Drawn, cell: &Identified, corner: Corner) -> Vec3 {
+fn position(drawn: &Drawing, cell: &Identified, corner: Corner) -> Vec3 {
     let [l1, l2] = drawn.lattice.unwrap_or_default();
     drawn.coords[cell.homes[corner.vertex]] + l1 * f64::from(corner.shift[0]) + l2 * f64::from(corner.shift[1])
 }
 
-fn check_area(drawn: &Drawn, f: usize, points: &[Vec3], corners: [usize; 3]) -> Result<(), Defect> {
+fn check_area(drawn: &Drawing, f: usize, points: &[Vec3], corners: [usize; 3]) -> Result<(), Defect> {
     let [a, b, c] = corners.map(|k| points[k]);
     let area = (b - a).cross(&(c - a)).norm() / 2.0;
     let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());

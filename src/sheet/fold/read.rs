@@ -11,7 +11,7 @@ use super::locate::Source;
 use super::record;
 use crate::math::Vec3;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::build::{Drawn, build_identified, planar};
+use crate::sheet::build::{Drawing, build_identified, planar};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, Place, Problem, SheetError};
 use crate::sheet::text;
@@ -84,16 +84,16 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     Ok(sheet)
 }
 
-fn head(source: &Source, keys: &Keys) -> Result<Drawn, SheetError> {
+fn head(source: &Source, keys: &Keys) -> Result<Drawing, SheetError> {
     let string = |value: Option<&RawValue>, key: &str| -> Result<Option<String>, SheetError> {
         value.map(|v| source.typed(v, || format!("`{key}`"), "a text in quotes")).transpose()
     };
     let stem = || Path::new(source.name).file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    Ok(Drawn {
+    Ok(Drawing {
         title: string(keys.file_title, "file_title")?.unwrap_or_else(stem),
         description: string(keys.file_description, "file_description")?.unwrap_or_default(),
         lattice: keys.lattice.map(|value| lattice(source, value)).transpose()?,
-        ..Drawn::default()
+        ..Drawing::default()
     })
 }
 
@@ -106,7 +106,7 @@ fn lattice(source: &Source, value: &RawValue) -> Result<[Vec3; 2], SheetError> {
 fn read_vertices<'a>(
     source: &Source<'a>,
     keys: &Keys<'a>,
-    drawn: &mut Drawn,
+    drawn: &mut Drawing,
     rows: &mut Rows<'a>,
 ) -> Result<(), SheetError> {
     let right = "a list of points, [[x, y, z], ...]";
@@ -133,7 +133,7 @@ fn read_vertices<'a>(
 fn read_faces<'a>(
     source: &Source<'a>,
     keys: &Keys<'a>,
-    drawn: &mut Drawn,
+    drawn: &mut Drawing,
     rows: &mut Rows<'a>,
     edges: &Edges<'a>,
 ) -> Result<(), SheetError> {
@@ -157,7 +157,7 @@ fn read_faces<'a>(
 fn read_holes<'a>(
     source: &Source<'a>,
     keys: &Keys<'a>,
-    drawn: &mut Drawn,
+    drawn: &mut Drawing,
     rows: &mut Rows<'a>,
 ) -> Result<(), SheetError> {
     let Some(value) = keys.holes else { return Ok(()) };
@@ -169,7 +169,7 @@ fn read_holes<'a>(
 }
 
 /// Takes away rebuilt faces that are listed as openings.
-fn drop_openings(drawn: &mut Drawn) {
+fn drop_openings(drawn: &mut Drawing) {
     let sorted = |list: &Vec<usize>| {
         let mut list = list.clone();
         list.sort_unstable();
@@ -181,7 +181,7 @@ fn drop_openings(drawn: &mut Drawn) {
 
 /// Takes away rebuilt faces that the file shows to be holes: all their sides are boundaries, and every one has a face
 /// on its other side.
-fn drop_holes(drawn: &mut Drawn) {
+fn drop_holes(drawn: &mut Drawing) {
     let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
     let boundary = drawn.assignments.iter().filter(|(_, assignment)| *assignment == Assignment::Boundary);
     let boundary: BTreeSet<[usize; 2]> = boundary.map(|(ends, _)| sorted(*ends)).collect();

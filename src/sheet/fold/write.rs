@@ -4,7 +4,7 @@ use std::fmt::{Display, Write};
 
 use super::record::{ATTRIBUTES, CLASSES};
 use crate::sheet::assignment::{Assignment, FLAT};
-use crate::sheet::build::{Drawn, draw, drawn_sides, edges_by_drawn_name};
+use crate::sheet::build::{Drawing, draw, drawn_sides, edges_by_drawn_name};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
 
 /// `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with assignment and
@@ -40,7 +40,7 @@ pub fn write(sheet: &Sheet) -> String {
     text
 }
 
-fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawn) {
+fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
     let known = edges_by_drawn_name(sheet);
     let corners = corners(sheet, drawn);
     let sides = drawn_sides(drawn);
@@ -59,7 +59,7 @@ fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawn) {
 }
 
 /// The corner in which every drawn vertex stands.
-fn corners(sheet: &Sheet, drawn: &Drawn) -> Vec<Corner> {
+fn corners(sheet: &Sheet, drawn: &Drawing) -> Vec<Corner> {
     let mut corners: Vec<_> = (0..drawn.coords.len()).map(Corner::home).collect();
     let lists = drawn.faces.iter().chain(&drawn.holes).zip(sheet.polygons.iter().chain(&sheet.holes));
     for (numbers, there) in lists {
@@ -68,7 +68,7 @@ fn corners(sheet: &Sheet, drawn: &Drawn) -> Vec<Corner> {
     corners
 }
 
-/// Drawn fold angle to 9 decimals, which is more than the reader compares and less than mathematical libraries differ
+/// Drawing fold angle to 9 decimals, which is more than the reader compares and less than mathematical libraries differ
 /// in.
 fn degrees(sheet: &Sheet, edge: &Edge) -> Option<f64> {
     let angle = sheet.drawn_angle(edge).filter(|_| edge.kind != EdgeKind::Boundary)?.to_degrees();

@@ -18,7 +18,7 @@ mod tests;
 use serde::de::IntoDeserializer;
 use serde::{Deserialize, Serialize};
 
-use super::build::{Drawn, build, draw};
+use super::build::{Drawing, build, draw};
 use super::cell::{Corner, Sheet};
 use super::error::Defect;
 use crate::math::Vec3;
@@ -174,7 +174,7 @@ impl Parts {
             polygons,
             ..Sheet::default()
         };
-        let drawn: Drawn = draw(&bare);
+        let drawn: Drawing = draw(&bare);
         Ok(build(&drawn)?)
     }
 }

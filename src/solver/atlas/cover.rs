@@ -2,37 +2,39 @@
 
 use super::grid::Grid;
 use super::polygon::Polygon;
-use super::{AtlasError, Chart, Coverage, KEPT, Options, Surface, add, dot, norm};
+use super::surface::{AtlasError, Chart, Coverage, KEPT, Options, Surface};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
+use crate::numerics::vector::{add_scaled, dot, norm};
 use crate::solver::implicit::{Corrected, Corrector};
 use std::collections::{HashSet, VecDeque};
 
-/// Smallest radius over the largest.
-const SMALLEST: f64 = 0.01;
-/// Changes of the radius: after a refusal, and at most from a chart to the next.
-const SHRINK: f64 = 0.7;
-const GROWTH: f64 = 1.2;
-/// Part of the largest turn that radii aim at.
-const GENTLE: f64 = 0.7;
-/// How far from a chart its turning is measured, as a part of its radius.
-const ASIDE: f64 = 0.1;
-/// Two charts are neighbours when their distance is at most this times the sum of their radii,
-const TOUCH: f64 = 1.1;
-/// the way between them leaves the tangent plane by at most this part of it,
-const RISE: f64 = 0.5;
-/// and the determinant of their frames is at least this.
-const OVERLAP: f64 = 0.5;
-/// Charts beyond the limit that are followed further: those next to the inner ones.
-const BEYOND: usize = 1;
-/// The observer is asked every so many charts.
-pub(super) const OBSERVED: usize = 256;
-/// Charts at which the surface cannot be followed, beyond which it is given up: smallest charts would be placed for long
-/// along singular curves, and the covering stays open all the same.
-const MOST_OPEN: usize = 512;
+/// Smallest radius of a chart relative to the largest.
+const LEAST_RADIUS_RATIO: f64 = 0.01;
+/// Factor of the radius after a refusal, and the largest factor from a chart to the next.
+const RADIUS_AFTER_REFUSAL: f64 = 0.7;
+const MOST_RADIUS_GROWTH: f64 = 1.2;
+/// Part of the largest turn of the tangent plane that radii aim at.
+const WANTED_TURN_PART: f64 = 0.7;
+/// Distance from a chart at which the turning of its tangent plane is measured, relative to its radius.
+const PROBE_PER_RADIUS: f64 = 0.1;
+/// Largest distance of neighbours relative to the sum of their radii.
+const MOST_DISTANCE_PER_RADII: f64 = 1.1;
+/// Largest part of the way between neighbours that is across the tangent plane.
+const MOST_PART_ACROSS: f64 = 0.5;
+/// Least determinant of the frames of neighbours.
+const LEAST_FRAME_DETERMINANT: f64 = 0.5;
+/// Number of charts in a row beyond the limit that are followed further: those next to the inner ones.
+const CHARTS_BEYOND_LIMIT: usize = 1;
+/// Number of charts from one question of the observer to the next.
+pub(super) const CHARTS_PER_QUESTION: usize = 256;
+/// Number of charts at which the surface cannot be followed beyond which it is given up: smallest charts would be
+/// placed for long along singular curves, and the covering stays open all the same.
+const MOST_OPEN_CHARTS: usize = 512;
 
-/// Charts placed around one, beyond which it counts as one that cannot be surrounded: around a regular one there are a dozen, and as
-/// many again for every time that it is made smaller. Where the surface is singular new ones would be placed without end.
+/// Number of charts placed around one beyond which it counts as one that cannot be surrounded: around a regular one
+/// there are a dozen, and as many again for every time that it is made smaller. Where the surface is singular new ones
+/// would be placed without end.
 const MOST_NEIGHBOURS: usize = 256;
 
 pub(super) struct Cover<'a, S: Surface> {
@@ -41,7 +43,7 @@ pub(super) struct Cover<'a, S: Surface> {
     corrector: Corrector,
     periods: Vec<Option<f64>>,
     pub charts: Vec<Chart>,
-    /// How many charts beyond the limit lie between each and the inner ones, itself included.
+    /// Number of charts beyond the limit between each chart and the inner ones, itself included.
     beyond: Vec<usize>,
     grid: Grid,
     /// Charts that may be open.
@@ -55,12 +57,12 @@ pub(super) struct Cover<'a, S: Surface> {
 
 /// A chart seen from another.
 struct Neighbour {
-    /// Its place in the other's tangent plane, at its distance.
+    /// Place in the other's tangent plane, at the distance of both.
     at: [f64; 2],
     radius: f64,
 }
 
-/// What is known of a point before its chart.
+/// A point before its chart.
 struct Place {
     residual: f64,
     start: usize,
@@ -71,7 +73,7 @@ impl<'a, S: Surface> Cover<'a, S> {
         let periods: Vec<Option<f64>> = (0..surface.unknowns()).map(|unknown| surface.period(unknown)).collect();
         Self {
             corrector: Corrector::new(surface),
-            grid: Grid::new(2.0 * TOUCH * options.radius, periods.clone()),
+            grid: Grid::new(2.0 * MOST_DISTANCE_PER_RADII * options.radius, periods.clone()),
             way: vec![0.0; periods.len()],
             periods,
             charts: vec![],
@@ -113,7 +115,7 @@ impl<'a, S: Surface> Cover<'a, S> {
         while let Some(number) = self.waiting.pop_front() {
             self.queued[number] = false;
             taken += 1;
-            if taken % OBSERVED == 0 || self.charts.len() >= seen + OBSERVED {
+            if taken % CHARTS_PER_QUESTION == 0 || self.charts.len() >= seen + CHARTS_PER_QUESTION {
                 seen = self.charts.len();
                 if !observe(seen) {
                     return Coverage::Interrupted;
@@ -122,9 +124,9 @@ impl<'a, S: Surface> Cover<'a, S> {
             if self.charts.len() >= self.options.max_charts {
                 return Coverage::TooManyCharts;
             }
-            if self.beyond[number] <= BEYOND && !open.contains(&number) && !self.surround(number) {
+            if self.beyond[number] <= CHARTS_BEYOND_LIMIT && !open.contains(&number) && !self.surround(number) {
                 open.insert(number);
-                if open.len() >= MOST_OPEN {
+                if open.len() >= MOST_OPEN_CHARTS {
                     return Coverage::GivenUp { charts: open.len() };
                 }
             }
@@ -151,7 +153,7 @@ impl<'a, S: Surface> Cover<'a, S> {
                     }
                 }
                 None => {
-                    if self.charts[number].radius * SHRINK < SMALLEST * self.options.radius {
+                    if self.charts[number].radius * RADIUS_AFTER_REFUSAL < LEAST_RADIUS_RATIO * self.options.radius {
                         return false;
                     }
                     self.shrink(number);
@@ -172,13 +174,13 @@ impl<'a, S: Surface> Cover<'a, S> {
         let from = &self.charts[number];
         let (n, radius, start) = (from.x.len(), from.radius, from.start);
         let (mut x, mut frame) = (from.x.clone(), from.frame.clone());
-        add(&mut x, at[0], &from.frame[..n]);
-        add(&mut x, at[1], &from.frame[n..]);
+        add_scaled(&mut x, at[0], &from.frame[..n]);
+        add_scaled(&mut x, at[1], &from.frame[n..]);
         let found = self.correct(&mut x, &mut frame, self.options.max_turn * radius)?;
         if !(turn(&self.charts[number].frame, &frame) <= self.options.max_turn) {
             return None;
         }
-        self.chart(x, frame, GROWTH * radius, Place { residual: found.residual, start })
+        self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Place { residual: found.residual, start })
     }
 
     /// A chart at a point of the surface, its radius at most `largest` and such that the tangent plane turns gently
@@ -187,17 +189,17 @@ impl<'a, S: Surface> Cover<'a, S> {
     /// `None` where that is less than the smallest radius. The turning is measured at two points beside, in the tangent
     /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does.
     fn chart(&mut self, x: Vec<f64>, frame: Vec<f64>, largest: f64, place: Place) -> Option<Chart> {
-        let aside = ASIDE * largest;
+        let aside = PROBE_PER_RADIUS * largest;
         let mut square = 0.0;
         for tangent in frame.chunks_exact(x.len()) {
             self.way.copy_from_slice(&x);
-            add(&mut self.way, aside, tangent);
+            add_scaled(&mut self.way, aside, tangent);
             let mut turned = frame.clone();
             self.corrector.turn(self.surface, &self.way, &mut turned)?;
             square += (turn(&frame, &turned) / aside).powi(2);
         }
-        let gentle = GENTLE * self.options.max_turn / square.sqrt();
-        if !(gentle >= SMALLEST * self.options.radius) {
+        let gentle = WANTED_TURN_PART * self.options.max_turn / square.sqrt();
+        if !(gentle >= LEAST_RADIUS_RATIO * self.options.radius) {
             return None;
         }
         let (limit, radius) = (self.surface.limit(&x), gentle.min(largest).min(self.options.radius));
@@ -228,7 +230,7 @@ impl<'a, S: Surface> Cover<'a, S> {
             }
         }
         self.near = near;
-        self.charts[number].radius *= SHRINK;
+        self.charts[number].radius *= RADIUS_AFTER_REFUSAL;
         self.shape(number);
     }
 
@@ -247,7 +249,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     fn find_near(&mut self, number: usize) -> Vec<usize> {
         let mut near = std::mem::take(&mut self.near);
         let chart = &self.charts[number];
-        self.grid.near(&chart.x, TOUCH * (chart.radius + self.options.radius), &mut near);
+        self.grid.near(&chart.x, MOST_DISTANCE_PER_RADII * (chart.radius + self.options.radius), &mut near);
         near
     }
 
@@ -261,7 +263,7 @@ impl<'a, S: Surface> Cover<'a, S> {
 
     fn covered(&mut self, chart: &Chart) -> bool {
         let mut near = std::mem::take(&mut self.near);
-        self.grid.near(&chart.x, TOUCH * (chart.radius + self.options.radius), &mut near);
+        self.grid.near(&chart.x, MOST_DISTANCE_PER_RADII * (chart.radius + self.options.radius), &mut near);
         let covers = |other: &usize, way: &mut [f64]| {
             let other = &self.charts[*other];
             see(other, chart, &self.periods, way)
@@ -290,7 +292,7 @@ impl<'a, S: Surface> Cover<'a, S> {
             if stopped && number >= KEPT {
                 break;
             }
-            if !stopped && number % OBSERVED == 0 && !observe(self.charts.len()) {
+            if !stopped && number % CHARTS_PER_QUESTION == 0 && !observe(self.charts.len()) {
                 *coverage = Coverage::Interrupted;
             }
             rings.push(self.ring(number));
@@ -320,7 +322,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     pub fn between(&mut self, a: usize, b: usize, part: f64) -> Option<Chart> {
         separate(&self.charts[a].x, &self.charts[b].x, &self.periods, &mut self.way);
         let mut chart = self.charts[a].clone();
-        add(&mut chart.x, part, &self.way);
+        add_scaled(&mut chart.x, part, &self.way);
         chart.residual = self.correct(&mut chart.x, &mut chart.frame, self.charts[a].radius)?.residual;
         chart.limit = self.surface.limit(&chart.x);
         Some(chart)
@@ -338,19 +340,19 @@ fn separate(a: &[f64], b: &[f64], periods: &[Option<f64>], way: &mut [f64]) {
     }
 }
 
-/// How `b` is seen from `a` if they are neighbours, and the determinant of their frames.
+/// The chart `b` seen from `a` if they are neighbours, and the determinant of their frames.
 fn see(a: &Chart, b: &Chart, periods: &[Option<f64>], way: &mut [f64]) -> Option<(Neighbour, f64)> {
     let n = a.x.len();
     separate(&a.x, &b.x, periods, way);
     let square = dot(way, way);
-    let reach = TOUCH * (a.radius + b.radius);
+    let reach = MOST_DISTANCE_PER_RADII * (a.radius + b.radius);
     if !(square > 0.0 && square < reach * reach) {
         return None;
     }
     let at = [dot(&a.frame[..n], way), dot(&a.frame[n..], way)];
     let flat = at[0] * at[0] + at[1] * at[1];
     let determinant = determinant(&overlap(&a.frame, &b.frame));
-    if square - flat > RISE * RISE * square || determinant.abs() < OVERLAP {
+    if square - flat > MOST_PART_ACROSS * MOST_PART_ACROSS * square || determinant.abs() < LEAST_FRAME_DETERMINANT {
         return None;
     }
     let stretch = (square / flat).sqrt();

@@ -1,14 +1,14 @@
 //! The border of a surface at its limit: triangles cut where the limit is zero.
 
-use super::cover::{Cover, OBSERVED};
-use super::{Chart, Coverage, Surface};
+use super::cover::{CHARTS_PER_QUESTION, Cover};
+use super::surface::{Chart, Coverage, Surface};
 use std::collections::HashMap;
 
-/// A chart nearer to the border than this part of an edge is moved onto it, so that no thin triangle is left.
-const SNAP: f64 = 0.25;
-/// Most evaluations for a point of the border, and its accuracy as a part of the edge.
-const EVALUATIONS: usize = 40;
-const ACCURACY: f64 = 1e-13;
+/// Part of an edge below which a chart at its end is moved onto the border, so that no thin triangle is left.
+const SNAPPED_PART: f64 = 0.25;
+/// Largest number of evaluations for a point of the border, and its accuracy relative to the edge.
+const MOST_EVALUATIONS: usize = 40;
+const ACCURACY_PER_EDGE: f64 = 1e-13;
 
 /// Charts within the limit and on it, and their triangles.
 pub(super) fn at_limit<S: Surface>(
@@ -53,7 +53,7 @@ impl Border {
         let mut nearest: HashMap<usize, (f64, (usize, usize))> = HashMap::new();
         let (mut whole, mut asked) = (true, 0);
         for [a, b, c] in triangles {
-            if self.points.len() >= asked + OBSERVED / 8 {
+            if self.points.len() >= asked + CHARTS_PER_QUESTION / 8 {
                 asked = self.points.len();
                 if !go_on() {
                     whole = false;
@@ -77,14 +77,14 @@ impl Border {
             }
         }
         for (chart, (part, edge)) in nearest {
-            if part < SNAP {
+            if part < SNAPPED_PART {
                 self.snapped.extend(self.points.get(&edge).map(|point| (chart, point.clone())));
             }
         }
         whole
     }
 
-    /// What of a triangle is inside, counter-clockwise, as triangles.
+    /// The part of a triangle that is inside, as triangles, counter-clockwise.
     fn cut<S: Surface>(&self, cover: &Cover<S>, triangle: [usize; 3], pieces: &mut Vec<[Corner; 3]>) {
         let moved = |chart: usize| self.snapped.contains_key(&chart);
         let inner = |chart: usize| inside(cover, chart) && !moved(chart);
@@ -150,19 +150,19 @@ fn inside<S: Surface>(cover: &Cover<S>, chart: usize) -> bool {
     cover.charts[chart].limit <= 0.0
 }
 
-/// Where on the way from an inner to an outer chart the limit is zero: the part of the way, and the point on the
-/// surface. False position with halved values, and bisection in between.
+/// The zero of the limit on the way from an inner to an outer chart: the part of the way, and the point on the surface.
+/// Found by false position with halved values, and bisection in between.
 fn crossing<S: Surface>(cover: &mut Cover<S>, from: usize, to: usize) -> Option<(f64, Chart)> {
     let [mut a, mut b] = [0.0, 1.0];
     let [mut fa, mut fb] = [from, to].map(|chart| cover.charts[chart].limit);
     let mut found = None;
-    for evaluation in 0..EVALUATIONS {
+    for evaluation in 0..MOST_EVALUATIONS {
         let straight = (a * fb - b * fa) / (fb - fa);
         let part = if evaluation % 4 == 3 || !straight.is_finite() { 0.5 * (a + b) } else { straight };
         let point = cover.between(from, to, part)?;
         let value = point.limit;
         found = Some((part, point));
-        if value == 0.0 || b - a <= ACCURACY {
+        if value == 0.0 || b - a <= ACCURACY_PER_EDGE {
             break;
         }
         if value < 0.0 {

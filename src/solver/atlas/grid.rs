@@ -5,27 +5,27 @@
 //! distances, so all points within the side of a cube are in the 27 cubes around, and those whose projections are
 //! further apart are not near.
 
-use super::{add, dot, norm};
+use crate::numerics::vector::{add_scaled, dot, norm};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-/// Directions of the projection, and those of them that make the cubes.
+/// Number of directions of the projection, and of those of them that make the cubes.
 const DIRECTIONS: usize = 6;
 const CUBE: usize = 3;
 
-/// Numbered points in cubes.
+/// Numbered points, sorted into cubes.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
     side: f64,
     periods: Vec<Option<f64>>,
-    /// Orthonormal, one behind the other; fewer for few coordinates.
+    /// Orthonormal directions, one behind the other; fewer for few coordinates.
     directions: Vec<f64>,
     cubes: HashMap<[i32; CUBE], Vec<(usize, [f64; DIRECTIONS])>>,
     seen: Vec<f64>,
 }
 
 impl Grid {
-    /// Cubes of this side, for points with these periods.
+    /// A grid of cubes of this side, for points with these periods.
     pub fn new(side: f64, periods: Vec<Option<f64>>) -> Self {
         let coordinates: usize = periods.iter().map(|period| if period.is_some() { 2 } else { 1 }).sum();
         let directions = directions(coordinates);
@@ -87,7 +87,7 @@ fn directions(coordinates: usize) -> Vec<f64> {
         let direction = &mut rest[..coordinates];
         for other in before.chunks_exact(coordinates) {
             let part = dot(other, direction);
-            add(direction, -part, other);
+            add_scaled(direction, -part, other);
         }
         let length = norm(direction);
         direction.iter_mut().for_each(|d| *d /= length);

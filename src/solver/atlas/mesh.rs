@@ -8,8 +8,8 @@
 
 use std::collections::HashSet;
 
-/// Holes with longer rims are left open.
-const LONGEST_RIM: usize = 12;
+/// Largest number of edges of the rim of a hole that is closed.
+const MOST_RIM_EDGES: usize = 12;
 
 /// Neighbours around every chart; `None` where it is open.
 pub(super) type Rings = [Vec<Option<usize>>];
@@ -75,8 +75,8 @@ fn rims(rings: &Rings, edges: &HashSet<[usize; 2]>) -> Vec<Vec<usize>> {
     rims
 }
 
-/// Where the rim goes on from `at[1]`: clockwise from the neighbour it comes from to the next one with a triangle on
-/// the far side; and whether the ring is closed in between.
+/// The next chart of the rim after `at[1]`: clockwise from the neighbour it comes from to the next one with a triangle
+/// on the far side; and whether the ring is closed in between.
 fn next_on_rim(ring: &[Option<usize>], at: [usize; 2], edges: &HashSet<[usize; 2]>) -> Option<(usize, bool)> {
     let count = ring.len();
     let from = ring.iter().position(|neighbour| *neighbour == Some(at[0]))?;
@@ -98,7 +98,7 @@ fn fill(
     edges: &mut HashSet<[usize; 2]>,
     found: &mut Vec<[usize; 3]>,
 ) {
-    if rim.len() > LONGEST_RIM {
+    if rim.len() > MOST_RIM_EDGES {
         return;
     }
     while rim.len() >= 3 {

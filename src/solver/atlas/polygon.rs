@@ -5,10 +5,11 @@
 //! disc's rim is covered by no other (M. E. Henderson, International Journal of Bifurcation and Chaos 12 (2002)
 //! 451-476, section 3).
 
-/// Half the side of the square over the radius.
-const SQUARE: f64 = 1.1;
-/// Corners outside the disc get a chart, and those further out than this part of the radius unless a neighbour is
-/// within the other part: so that no triangle with an angle near 120 degrees is left.
+/// Half the side of the square relative to the radius of the disc.
+const SQUARE_PER_RADIUS: f64 = 1.1;
+/// Distance of a corner from the centre, relative to the radius, beyond which it gets a chart though it is within the
+/// disc, unless a neighbour is within the second part of the radius. So no triangle with an angle near 120 degrees is
+/// left.
 const COVERED: f64 = 0.9;
 const CROWDED: f64 = 0.7;
 
@@ -25,7 +26,7 @@ pub(super) struct Polygon {
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     at: [f64; 2],
-    /// The neighbour behind the side; none for the square.
+    /// The neighbour behind the side; `None` for a side of the square.
     beyond: Option<usize>,
 }
 
@@ -34,16 +35,17 @@ impl Polygon {
         Self { radius: 0.0, corners: Vec::new(), clipped: Vec::new(), neighbours: Vec::new() }
     }
 
-    /// Begins anew around a disc.
+    /// Starts from the square around a disc.
     pub fn reset(&mut self, radius: f64) {
         self.radius = radius;
         self.neighbours.clear();
         self.corners.clear();
         let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        self.corners.extend(signs.map(|at| Corner { at: at.map(|s: f64| s * SQUARE * radius), beyond: None }));
+        self.corners
+            .extend(signs.map(|at| Corner { at: at.map(|s: f64| s * SQUARE_PER_RADIUS * radius), beyond: None }));
     }
 
-    /// Takes away what neighbour `number` at `u`, of this radius, covers better.
+    /// Cuts off the part that neighbour `number` at `u`, of this radius, covers better.
     pub fn clip(&mut self, u: [f64; 2], radius: f64, number: usize) {
         self.neighbours.push(u);
         let limit = 0.5 * (u[0] * u[0] + u[1] * u[1] + self.radius * self.radius - radius * radius);
@@ -70,8 +72,8 @@ impl Polygon {
 
     /// A place for a new chart where the disc is not covered well; `None` where it is.
     ///
-    /// On the rim of the disc and of a neighbour where that can be: discs placed there are one radius apart. A corner
-    /// within the disc but close to its rim is itself the place.
+    /// It is on the rim of the disc and of a neighbour where that can be: discs placed there are one radius apart. A
+    /// corner within the disc but close to its rim is itself the place.
     pub fn uncovered(&self) -> Option<[f64; 2]> {
         let count = self.corners.len();
         let apart = |a: [f64; 2], b: [f64; 2]| length([a[0] - b[0], a[1] - b[1]]);
@@ -108,7 +110,7 @@ fn length(at: [f64; 2]) -> f64 {
     at[0].hypot(at[1])
 }
 
-/// Where the way from a point outside a circle to another first meets it.
+/// The part of the way from a point outside a circle to another at which it first meets the circle.
 fn rim(from: [f64; 2], to: [f64; 2], radius: f64) -> Option<[f64; 2]> {
     let way = [to[0] - from[0], to[1] - from[1]];
     let (a, b) = (way[0] * way[0] + way[1] * way[1], from[0] * way[0] + from[1] * way[1]);

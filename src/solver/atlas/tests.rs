@@ -1,6 +1,8 @@
 use super::*;
 use crate::numerics::DenseMatrix;
 use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
+use crate::numerics::vector::{dot, norm};
+use crate::solver::Implicit;
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::{PI, TAU};
 

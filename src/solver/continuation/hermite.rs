@@ -1,8 +1,9 @@
 //! Hermite interpolation of a curve: the polynomial through points with their tangents, by divided differences.
 
-use super::Point;
+use super::curve::Point;
+use crate::numerics::vector::norm;
 
-/// Most points of an interpolant.
+/// Largest number of points of an interpolant.
 pub const MOST: usize = 4;
 /// Nodes and weights of the Gauss-Legendre rule of five points on [-1, 1].
 const GAUSS: [(f64, f64); 5] = [
@@ -68,7 +69,7 @@ impl Hermite {
         let half = 0.5 * (to - from);
         let speed = |&(node, weight): &(f64, f64)| {
             self.at(from + half * (1.0 + node), x, slope);
-            weight * slope.iter().map(|v| v * v).sum::<f64>().sqrt()
+            weight * norm(slope)
         };
         half * GAUSS.iter().map(speed).sum::<f64>()
     }

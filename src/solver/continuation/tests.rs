@@ -3,6 +3,7 @@
 use super::*;
 use crate::numerics::DenseMatrix;
 use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
+use crate::solver::Implicit;
 use std::f64::consts::{PI, TAU};
 
 /// `F` and its Jacobian, row by row.
@@ -87,8 +88,8 @@ fn jacobians() {
     }
 }
 
-/// Claim: a circle given three times over closes after its circumference, smoothly, in tens of steps of two corrections.
-/// Tolerance: the interpolant of degree five over steps that turn by less than half a radian.
+/// Claim: a circle given three times over closes after its circumference, smoothly, in tens of steps of two
+/// corrections. Tolerance: the interpolant of degree five over steps that turn by less than half a radian.
 #[test]
 fn circle_closes() {
     let mut curve = Textbook { unknowns: 2, equations: circle, indicator: no_indicator };

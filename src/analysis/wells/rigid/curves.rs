@@ -2,8 +2,8 @@
 //! folded by `pi`.
 
 use super::{Net, RigidError, Sampling};
-use crate::analysis::branches;
 use crate::kinematics::{Closing, Closure, KinematicsError, Rays, RealDirections, SecondOrder};
+use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, End, Options, Point, follow};
@@ -37,16 +37,17 @@ impl Curve for Folding<'_> {
 
 /// Samples the trajectories; they hang together in the drawn state.
 pub(super) fn net(
-    start: &branches::Question<'_>,
+    assembly: &Assembly,
     sampling: &Sampling,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Net, RigidError> {
-    let closure = Closure::of_tiling(start.sheet, start.tiling)?.with_locked(&branches::locked(start));
+    let holes = assembly.sheet().holes.len();
+    let closure = Closure::of_tiling(assembly.sheet(), assembly.tiling())?.with_locked(&assembly.locked_edges());
     match closure.unchecked_loops() {
-        0 if start.sheet.holes.is_empty() => {}
-        loops => return Err(KinematicsError::Openings { loops: loops.max(start.sheet.holes.len()) }.into()),
+        0 if holes == 0 => {}
+        loops => return Err(KinematicsError::Openings { loops: loops.max(holes) }.into()),
     }
-    let drawn: Vec<f64> = start.angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
+    let drawn = assembly.drawn_angles_or_zero();
     let second_order = SecondOrder::new(&closure, &drawn)?;
     let dimension = second_order.count() as i64 - second_order.quadrics.len() as i64;
     if dimension != 1 {

@@ -13,13 +13,12 @@ mod curves;
 mod flood;
 mod surface;
 
-use super::Question;
-use crate::analysis::branches::{self, BranchesError};
+use crate::analysis::branches::BranchesError;
 use crate::analysis::exact::{Springs, Stationary};
 use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
-use crate::model::Gauge;
-use crate::model::assemble::{Surroundings, assemble, drawn_angles};
+use crate::model::{Assembly, Boundary, Gauge};
+use crate::numerics::vector::distance;
 use flood::Merge;
 use std::f64::consts::PI;
 use thiserror::Error;
@@ -126,21 +125,20 @@ pub enum RigidError {
 
 /// The landscape of a sheet. `go_on` returns false to stop.
 pub fn landscape(
-    question: &Question<'_>,
+    assembly: &Assembly,
     sampling: &Sampling,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<RigidLandscape, RigidError> {
-    let Question { sheet, tiling, surroundings, drawn, recipe } = *question;
-    let angles = drawn_angles(drawn, tiling);
-    let model = assemble(drawn, tiling, recipe, Gauge::Held);
-    let springs = Springs::new(sheet, tiling, &model, &angles).ok_or(RigidError::NotOfHinges)?;
-    let start = branches::Question { sheet, tiling, surroundings, angles: &angles, recipe };
-    let net = match surroundings {
-        Surroundings::Screw => surface::net(start, sampling, go_on)?,
-        _ => curves::net(&start, sampling, go_on)?,
+    let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
+    let model = assembly.model(Gauge::Held);
+    let springs = Springs::new(sheet, tiling, &model, assembly.drawn_angles()).ok_or(RigidError::NotOfHinges)?;
+    let net = match assembly.boundary() {
+        Boundary::Screw => surface::net(assembly, sampling, go_on)?,
+        _ => curves::net(assembly, sampling, go_on)?,
     };
-    let crossing = surface::question(start, sampling);
-    let lowest = |angles: &[f64]| Surface::lowest_on_crossing(&crossing, angles, &|angles| springs.energy(angles));
+    let options = surface::options(sampling);
+    let energy = |angles: &[f64]| springs.energy(angles);
+    let lowest = |angles: &[f64]| Surface::lowest_on_crossing(assembly, &options, angles, &energy);
     Ok(polished(&springs, &net, (sampling.step, &lowest)))
 }
 
@@ -197,7 +195,7 @@ impl Net {
     fn well_on_seam(&self, springs: &Springs, at: usize, (reach, lowest): (f64, OnCrossing<'_>)) -> Option<Stationary> {
         let mut on = [at].into_iter().chain(self.beside(at)).filter(|&at| at >= self.seam);
         let Lowest { angles, residual, error, well } = lowest(&self.angles[on.next()?])?;
-        let apart = angles.iter().zip(&self.angles[at]).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        let apart = distance(&angles, &self.angles[at]);
         let inside = angles.iter().all(|angle| angle.abs() <= PI);
         let energy = springs.energy(&angles);
         (well && inside && apart <= reach).then_some(Stationary {
@@ -218,11 +216,10 @@ impl Net {
 
 /// The well between two neighbours, the first of which has no tangents or lies on the border.
 fn between(springs: &Springs, net: &Net, [at, other]: [usize; 2]) -> Option<Stationary> {
-    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     let [here, there] = [at, other].map(|state| &net.angles[state]);
-    let length = apart(here, there);
+    let length = distance(here, there);
     let found = springs.stationary(there)?;
-    let inside = [here, there].iter().all(|end| apart(&found.angles, end) <= (1.0 + SAME) * length)
+    let inside = [here, there].iter().all(|end| distance(&found.angles, end) <= (1.0 + SAME) * length)
         && found.angles.iter().all(|angle| angle.abs() <= PI);
     (found.negative_eigenvalues == 0 && inside).then_some(found)
 }
@@ -230,7 +227,7 @@ fn between(springs: &Springs, net: &Net, [at, other]: [usize; 2]) -> Option<Stat
 /// The stationary state of this index next to a sampled one.
 fn exact(springs: &Springs, angles: &[f64], (index, reach): (usize, f64)) -> Option<Stationary> {
     let found = springs.stationary(angles)?;
-    let apart = found.angles.iter().zip(angles).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    let apart = distance(&found.angles, angles);
     (found.negative_eigenvalues == index && apart <= reach).then_some(found)
 }
 

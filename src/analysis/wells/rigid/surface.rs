@@ -1,8 +1,8 @@
 //! Folded states that are a surface: one periodic cell, repeated by screw motions.
 
 use super::{Net, RigidError, Sampling};
-use crate::analysis::branches;
-use crate::analysis::surface::{Question, Seam, Surface, SurfacePoint, surface};
+use crate::analysis::surface::{Seam, Surface, SurfaceOptions, SurfacePoint, surface};
+use crate::model::Assembly;
 use crate::solver::atlas::Coverage;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
@@ -20,10 +20,9 @@ const AT_LIMIT: f64 = 1e-6;
 /// Largest difference of an angle between two tips in one state.
 const ONE: f64 = 1e-9;
 
-/// The surface that is sampled.
-pub(super) fn question<'a>(start: branches::Question<'a>, sampling: &Sampling) -> Question<'a> {
-    Question {
-        start,
+/// How the surface is covered that is sampled.
+pub(super) fn options(sampling: &Sampling) -> SurfaceOptions {
+    SurfaceOptions {
         radius: sampling.step,
         tolerance: TOLERANCE,
         max_curvature: sampling.max_curvature,
@@ -54,12 +53,12 @@ fn sew(net: &mut Net, seam: Vec<Seam>, step: f64) {
 
 /// Samples the surface.
 pub(super) fn net(
-    start: branches::Question<'_>,
+    assembly: &Assembly,
     sampling: &Sampling,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Net, RigidError> {
-    let question = question(start, sampling);
-    let Surface { points, triangles, coverage, negative, seam, lost, .. } = surface(&question, &mut |_| go_on())?;
+    let found = surface(assembly, &options(sampling), &mut |_| go_on())?;
+    let Surface { points, triangles, coverage, negative, seam, lost, .. } = found;
     if let Some(negative) = negative {
         return Err(RigidError::NoSurface(negative));
     }
@@ -77,7 +76,7 @@ pub(super) fn net(
             *count.entry([a.min(b), a.max(b)]).or_default() += 1;
         }
     }
-    let at_limit = |at: usize| !(points[at].shape.curvature.abs() < (1.0 - AT_LIMIT) * question.max_curvature);
+    let at_limit = |at: usize| !(points[at].shape.curvature.abs() < (1.0 - AT_LIMIT) * sampling.max_curvature);
     let mut border: Vec<bool> = inside.iter().map(|inside| !inside).collect();
     let mut rim = BTreeSet::new();
     for (&[a, b], triangles) in &count {

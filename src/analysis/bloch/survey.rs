@@ -1,0 +1,102 @@
+//! All that is asked of the spatially varying modes of one state: decay rates, polarization, lines of zero modes, a map.
+
+use super::laurent::wavenumber;
+use super::{BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, Root, ZeroLines, Zone};
+use nalgebra::Complex;
+
+/// Steps of a survey, after each of which its observer is asked.
+pub const STEPS: usize = 4;
+
+/// What is looked at.
+#[derive(Clone, Debug)]
+pub struct SurveyOptions {
+    /// Wavenumbers `q1`, in radians per cell, at which decay rates along the second lattice vector are wanted.
+    pub wavenumbers: Vec<f64>,
+    /// Number of wavenumbers over which the polarization is averaged.
+    pub averaged: usize,
+    /// Number of wavenumbers of the map along each direction.
+    pub grid: [usize; 2],
+    /// Wavenumber `q1` and decay rate of the modes whose displacements are wanted; the nearest root is taken.
+    pub modes: Vec<[f64; 2]>,
+}
+
+/// Thirty-two decay rates, sixty-four wavenumbers for the polarization, a map of 256 x 256, and no displacements.
+impl Default for SurveyOptions {
+    fn default() -> Self {
+        let wavenumbers = (0..32).map(|k| wavenumber(k, 32)).collect();
+        Self { wavenumbers, averaged: 64, grid: [256, 256], modes: Vec::new() }
+    }
+}
+
+/// The spatially varying modes of a state.
+pub struct Survey {
+    /// The determinant of the rigidity matrix as a polynomial of the Bloch factors.
+    pub determinant: Determinant,
+    /// Decay rates at each wavenumber.
+    pub decays: Vec<Decay>,
+    /// Numbers of modes that decay to either side.
+    pub polarization: Polarization,
+    /// The zone of real determinants and the lines on which it vanishes; `None` where the determinant is not real.
+    pub real: Option<(Zone, ZeroLines)>,
+    /// Real and imaginary parts of the determinant on the grid, the first wavenumber running faster.
+    pub map: [Vec<f64>; 2],
+    /// Displacements of the modes that were named.
+    pub modes: Vec<ModeShape>,
+}
+
+/// Surveys the spatially varying modes of bars; `None` where `go_on`, which is told the number of each finished step, asks to stop.
+///
+/// ```
+/// use foldwell::analysis::bloch::{Rigidity, SurveyOptions, survey};
+/// use foldwell::sheet::generate::{Pattern, Random, generate};
+///
+/// let sheet = generate(&Pattern::Random(Random::default()))?;
+/// let found = survey(&Rigidity::of_sheet(&sheet, false)?, &SurveyOptions::default(), &mut |_| true)?;
+/// let survey = found.expect("nobody asked to stop");
+/// assert!(survey.determinant.error < 1e-8 && survey.map[0].len() == 256 * 256);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`BlochError`] where there is no determinant, where its zeros cannot be followed, and where a decomposition fails.
+pub fn survey(
+    rigidity: &Rigidity,
+    options: &SurveyOptions,
+    go_on: &mut dyn FnMut(usize) -> bool,
+) -> Result<Option<Survey>, BlochError> {
+    let determinant = Determinant::new(rigidity)?;
+    if !go_on(1) {
+        return Ok(None);
+    }
+    let decay = |q1: &f64| Decay::new(&determinant, 0, *q1).map(|decay| decay.refined(rigidity));
+    let decays = options.wavenumbers.iter().map(decay).collect::<Result<_, _>>()?;
+    if !go_on(2) {
+        return Ok(None);
+    }
+    let polarization = Polarization::new(&determinant, options.averaged)?;
+    if !go_on(3) {
+        return Ok(None);
+    }
+    let real = match Zone::new(&determinant) {
+        Ok(zone) => Some((zone.clone(), ZeroLines::new(&zone)?.refined(&zone, rigidity))),
+        Err(BlochError::NotSymmetric { .. }) => None,
+        Err(error) => return Err(error),
+    };
+    let values = determinant.polynomial.map(options.grid);
+    let map = [values.iter().map(|value| value.re).collect(), values.iter().map(|value| value.im).collect()];
+    let modes = shapes(rigidity, &options.modes, &determinant)?;
+    Ok(go_on(STEPS).then_some(Survey { determinant, decays, polarization, real, map, modes }))
+}
+
+/// The modes at these wavenumbers, each of the root nearest to its decay rate.
+fn shapes(rigidity: &Rigidity, named: &[[f64; 2]], determinant: &Determinant) -> Result<Vec<ModeShape>, BlochError> {
+    let mut found = Vec::new();
+    for [q1, kappa2] in named {
+        let decay = Decay::new(determinant, 0, *q1)?.refined(rigidity);
+        let away = |root: &Root| (root.kappa() - kappa2).abs();
+        if let Some(root) = decay.roots.iter().min_by(|a, b| away(a).total_cmp(&away(b))) {
+            found.push(ModeShape::new(rigidity, [Complex::from_polar(1.0, *q1), root.z])?);
+        }
+    }
+    Ok(found)
+}

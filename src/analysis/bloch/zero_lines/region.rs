@@ -1,0 +1,36 @@
+//! Parts of the zone in which the determinant has one sign.
+
+use super::{GRID, next};
+
+/// A part of the zone in which the determinant has one sign.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// The sign.
+    pub positive: bool,
+    /// Its part of the zone.
+    pub fraction: f64,
+}
+
+/// Connected parts of the grid of equal sign, the largest first.
+pub fn regions(positive: &[bool]) -> Vec<Region> {
+    let mut seen = vec![false; positive.len()];
+    let mut regions = Vec::new();
+    for first in 0..positive.len() {
+        let (mut stack, mut count) = (vec![first], 0usize);
+        while let Some(k) = stack.pop() {
+            if std::mem::replace(&mut seen[k], true) {
+                continue;
+            }
+            count += 1;
+            let (column, row) = (k % GRID, k / GRID);
+            let back = [row * GRID + (column + GRID - 1) % GRID, (row + GRID - 1) % GRID * GRID + column];
+            let neighbours = [next(0, k), next(1, k), back[0], back[1]];
+            stack.extend(neighbours.into_iter().filter(|&other| !seen[other] && positive[other] == positive[k]));
+        }
+        if count > 0 {
+            regions.push(Region { positive: positive[first], fraction: count as f64 / positive.len() as f64 });
+        }
+    }
+    regions.sort_by(|a, b| b.fraction.total_cmp(&a.fraction));
+    regions
+}

@@ -1,0 +1,72 @@
+//! Which way a flat state rolls up: the direction of the axis of a screw before there is any curvature.
+//!
+//! At zero curvature the axis of a screw has a direction but no meaning: turning it is turning the sheet. Folding then
+//! starts about whatever axis the chart was given, and from a bad one Newton's method may end in a poor minimum. So
+//! the axis is laid where the first Newton step promises the largest fall of the energy: the best of some directions, then
+//! the maximum next to it. Near zero curvature the direction and the curvature are polar coordinates; Newton's method
+//! does not correct the direction there, so it has to be right from the start.
+
+use super::assembly::Assembly;
+use super::boundary::Boundary;
+use super::problem::Gauge;
+use crate::solver::{HessianKind, Problem, Tangent};
+use std::f64::consts::PI;
+
+/// Directions that are tried, evenly over half a turn.
+const DIRECTIONS: usize = 24;
+/// Shift that keeps the step finite along motions that cost nothing: of the first look, and of the search for the maximum.
+const SHIFT: f64 = 1e-2;
+const LEAST_SHIFT: f64 = 1e-9;
+/// Reductions of the interval in which the maximum is, each by the golden section: from a quarter of a radian to 1e-8.
+const REDUCTIONS: usize = 36;
+
+/// The assembly with the axis of its screw where folding starts best; itself where it is no screw.
+pub(super) fn with_best_axis(assembly: &Assembly) -> Assembly {
+    if assembly.boundary() != Boundary::Screw {
+        return assembly.clone();
+    }
+    let fall = |angle: f64, shift: f64| promised_fall(&assembly.with_axis(angle), shift).unwrap_or(0.0);
+    let step = PI / DIRECTIONS as f64;
+    let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
+    for angle in (0..DIRECTIONS).map(|k| step * k as f64) {
+        let found = fall(angle, SHIFT);
+        if found > most * (1.0 + 1e-6) || angle == 0.0 {
+            (best, most) = (angle, found);
+        }
+    }
+    if !(most > 0.0) {
+        return assembly.with_axis(0.0);
+    }
+    assembly.with_axis(maximum([best - step, best + step], |angle| fall(angle, LEAST_SHIFT)))
+}
+
+/// Where a function with one maximum between two places has it, by the golden section.
+fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let inner = |low: f64, high: f64| [high - golden * (high - low), low + golden * (high - low)];
+    let mut places = inner(low, high);
+    let mut values = places.map(&function);
+    for _ in 0..REDUCTIONS {
+        if values[0] >= values[1] {
+            high = places[1];
+            places = [inner(low, high)[0], places[0]];
+            values = [function(places[0]), values[0]];
+        } else {
+            low = places[0];
+            places = [places[1], inner(low, high)[1]];
+            values = [values[1], function(places[1])];
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Fall of the energy along the first Newton step, to second order.
+fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
+    let model = assembly.model(Gauge::Held);
+    let tension = vec![0.0; model.layout().stiff.len()];
+    let mut tangent = Tangent::at_state(&model, &model.start(), &tension, HessianKind::GaussNewton).ok()?;
+    tangent.factor(shift).ok()?;
+    let force = tangent.at.force(&tension);
+    let step = tangent.solve(&force, &tension, 1e-8);
+    Some(force.iter().zip(&step.dx).map(|(f, d)| f * d).sum::<f64>() / 2.0)
+}

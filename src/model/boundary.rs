@@ -1,0 +1,124 @@
+//! Boundary conditions of the cells, and the drawn state in the coordinates that they give.
+
+use super::domain::Domain;
+use crate::math::{Vec3, fold_angle::fold_angle};
+use crate::sheet::tiling::{Site, Tiling};
+use crate::sheet::{Corner, Sheet};
+use nalgebra::Matrix3;
+
+/// Distance of the first vertex from the file's origin, in sizes of the sheet, beyond which that vertex is made the origin.
+const FAR: f64 = 4.0;
+
+/// The boundary conditions of a tiling.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Boundary {
+    /// A finite piece with free edges.
+    Patch,
+    /// Periodic with the lattice vectors held as drawn.
+    FixedTorus,
+    /// Periodic with free lattice vectors.
+    FreeTorus,
+    /// One cell repeated by two screw motions about a common axis: a cylinder of any curvature.
+    Screw,
+}
+
+impl Boundary {
+    /// Whether opposite sides of the tiling are joined.
+    pub fn is_periodic(self) -> bool {
+        self != Self::Patch
+    }
+}
+
+/// The drawn state in the coordinates of its domain.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The map from coordinates to points.
+    pub domain: Domain,
+    /// All coordinates.
+    pub coordinates: Vec<f64>,
+    /// Coordinates that the domain itself holds: vertex 0 of a screw, and y of its first lattice vector.
+    pub held: Vec<usize>,
+    /// Rotation from the file's frame to the domain's, about `origin`.
+    pub frame: Matrix3<f64>,
+    /// The point of the file at the origin of the domain's frame: vertex 0 of a screw; elsewhere the file's origin, or the
+    /// sheet's first vertex where the sheet is far from that.
+    pub origin: Vec3,
+}
+
+impl Drawn {
+    /// The drawn state of a tiling; the axis of a screw makes the angle `axis` (radians) with the first lattice vector.
+    /// A sheet without lattice must be a patch.
+    pub(super) fn new(sheet: &Sheet, tiling: &Tiling, boundary: Boundary, axis: f64) -> Self {
+        let flat = |points: &[Vec3]| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
+        let lattice = sheet.lattice.map(|[l1, l2]| [l1 * tiling.cells[0] as f64, l2 * tiling.cells[1] as f64]);
+        let frame = Matrix3::identity();
+        let (positions, origin) = near_origin(sheet, tiling);
+        let (domain, coordinates) = match (boundary, lattice) {
+            (Boundary::FixedTorus, Some(lattice)) => (Domain::FixedTorus(lattice), flat(&positions)),
+            (Boundary::FreeTorus, Some(lattice)) => (Domain::FreeTorus, [flat(&positions), flat(&lattice)].concat()),
+            (Boundary::Screw, Some(lattice)) => return Self::screw(sheet, lattice, axis),
+            _ => (Domain::Patch, flat(&positions)),
+        };
+        Self { domain, coordinates, held: vec![], frame, origin }
+    }
+
+    /// Vertex 0 at the origin, the first lattice vector along x, face normals along +z, no curvature.
+    fn screw(sheet: &Sheet, [l1, l2]: [Vec3; 2], axis: f64) -> Self {
+        let along = l1.normalize();
+        let across = l1.cross(&l2);
+        let z = if across.dot(&area_vector(sheet)) < 0.0 { -across.normalize() } else { across.normalize() };
+        let frame = Matrix3::from_rows(&[along.transpose(), z.cross(&along).transpose(), z.transpose()]);
+        let origin = sheet.vertices[0];
+        let mut coordinates: Vec<f64> =
+            sheet.vertices.iter().flat_map(|p| <[f64; 3]>::from(frame * (p - origin))).collect();
+        let (l1, l2) = (frame * l1, frame * l2);
+        let held = vec![0, 1, 2, coordinates.len() + 2];
+        coordinates.extend([axis, 0.0, l1.y, l2.y, l1.x, l2.x]);
+        Self { domain: Domain::Screw, coordinates, held, frame, origin }
+    }
+
+    /// Distance of two sites.
+    pub(super) fn distance(&self, ends: &[Site; 2]) -> f64 {
+        let [a, b] = self.domain.points(&self.coordinates, ends);
+        (b - a).norm()
+    }
+
+    /// Mean length of the edges of the tiling.
+    pub(super) fn mean_edge(&self, tiling: &Tiling) -> f64 {
+        let total: f64 = tiling.edges.iter().map(|edge| self.distance(&edge.ends)).sum();
+        total / tiling.edges.len() as f64
+    }
+
+    /// Fold angle of every edge of the tiling, in radians; NaN where there is no hinge.
+    pub(super) fn fold_angles(&self, tiling: &Tiling) -> Vec<f64> {
+        let angle = |sites| fold_angle(self.domain.points(&self.coordinates, &sites));
+        tiling.edges.iter().map(|edge| edge.hinge().map_or(f64::NAN, angle)).collect()
+    }
+}
+
+/// Positions of a tiling's vertices, and the point of the file at their origin. Where the first vertex is far off, as
+/// measured by the sheet, it is made the origin: then rounding errors are those of the sheet's size and of the file's own
+/// numbers.
+fn near_origin(sheet: &Sheet, tiling: &Tiling) -> (Vec<Vec3>, Vec3) {
+    let Some(&first) = sheet.vertices.first() else { return (tiling.positions.clone(), Vec3::zeros()) };
+    let size = tiling.positions.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
+    if first.norm() <= FAR * size {
+        return (tiling.positions.clone(), Vec3::zeros());
+    }
+    let [l1, l2] = sheet.lattice.unwrap_or_default();
+    let place = |k: usize| {
+        let (vertex, cell) = (k % sheet.vertices.len(), k / sheet.vertices.len());
+        let [c1, c2] = [cell % tiling.cells[0], cell / tiling.cells[0]].map(|c| c as f64);
+        (sheet.vertices[vertex] - first) + c1 * l1 + c2 * l2
+    };
+    ((0..tiling.positions.len()).map(place).collect(), first)
+}
+
+/// Sum of the area vectors of the triangles: points to the side of the face normals.
+fn area_vector(sheet: &Sheet) -> Vec3 {
+    let area = |corners: [Corner; 3]| {
+        let [a, b, c] = corners.map(|corner| sheet.position(corner));
+        (b - a).cross(&(c - a))
+    };
+    sheet.triangles.iter().map(|t| area(t.corners)).sum()
+}

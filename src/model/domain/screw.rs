@@ -1,0 +1,139 @@
+//! The screw motion of one cell and its derivatives.
+
+use super::{Pulled, SharedMatrix, Site};
+use crate::math::{Vec3, sinc};
+use nalgebra::{Complex, Matrix3};
+
+/// The screw motion of one cell, seen along the axis: complex numbers are places across it, imaginary is z.
+pub(super) struct Screw {
+    kappa: f64,
+    /// Shift of the cell: across the axis and along it.
+    b: f64,
+    h: f64,
+    n: [f64; 2],
+    /// Direction of the axis.
+    e: [f64; 2],
+    /// The same shift in the plane of x and y.
+    l: [f64; 2],
+    turn: Complex<f64>,
+    phi: sinc::Phi,
+}
+
+/// A point of the cell `(0, 0)` and the screw motion that it takes part in.
+pub(super) struct Screwed {
+    screw: Screw,
+    v: Vec3,
+    /// Its place along the axis and across.
+    along: f64,
+    w: Complex<f64>,
+}
+
+pub(super) const I: Complex<f64> = Complex::new(0.0, 1.0);
+
+impl Screw {
+    pub(super) fn new(shared: &[f64], site: Site) -> Self {
+        let n = site.shift.map(f64::from);
+        let l = [n[0] * shared[4] + n[1] * shared[5], n[0] * shared[2] + n[1] * shared[3]];
+        let (sine, cosine) = shared[0].sin_cos();
+        let (h, b, kappa) = (cosine * l[0] + sine * l[1], cosine * l[1] - sine * l[0], shared[1]);
+        let (sin, cos) = (kappa * b).sin_cos();
+        Self { kappa, b, h, n, e: [cosine, sine], l, turn: Complex::new(cos, sin), phi: sinc::phi(kappa * b) }
+    }
+
+    pub(super) fn at(self, v: &Vec3) -> Screwed {
+        let [cosine, sine] = self.e;
+        let w = Complex::new(cosine * v.y - sine * v.x, v.z);
+        Screwed { along: cosine * v.x + sine * v.y, v: *v, screw: self, w }
+    }
+}
+
+/// Derivatives of the bend `d` of a point: by its place across the axis (times `i`: by z), by `kappa`, by `b`.
+struct Bend {
+    value: Complex<f64>,
+    by_w: Complex<f64>,
+    by_kappa: Complex<f64>,
+    by_b: Complex<f64>,
+}
+
+impl Screwed {
+    fn bend(&self) -> Bend {
+        let (Screw { kappa, b, turn, phi, .. }, w) = (&self.screw, self.w);
+        let psi = phi.value + I * phi.first;
+        Bend {
+            value: I * *kappa * *b * (phi.value * w + psi * *b),
+            by_w: I * *kappa * *b * phi.value,
+            by_kappa: I * *b * turn * w + *b * *b * phi.first,
+            by_b: I * *kappa * (turn * w + phi.value * *b),
+        }
+    }
+
+    /// Derivative of the bend by the direction: places across the axis change by minus those along it.
+    fn bend_by_direction(&self, bend: &Bend) -> Complex<f64> {
+        -(bend.by_w * self.along + bend.by_b * self.screw.h)
+    }
+
+    /// A place across the axis as a vector.
+    fn across(&self, w: Complex<f64>) -> Vec3 {
+        let [cosine, sine] = self.screw.e;
+        Vec3::new(-sine * w.re, cosine * w.re, w.im)
+    }
+
+    pub(super) fn point(&self) -> Vec3 {
+        self.v + Vec3::new(self.screw.l[0], self.screw.l[1], 0.0) + self.across(self.bend().value)
+    }
+
+    pub(super) fn vertex_derivative(&self) -> Matrix3<f64> {
+        let ([cosine, sine], by_w) = (self.screw.e, self.bend().by_w);
+        let (by_across, by_z) = (self.across(by_w), self.across(I * by_w));
+        Matrix3::identity() + Matrix3::from_columns(&[-sine * by_across, cosine * by_across, by_z])
+    }
+
+    pub(super) fn shared_derivative(&self) -> SharedMatrix {
+        let (bend, [cosine, sine], n) = (self.bend(), self.screw.e, self.screw.n);
+        let turned = self.across(self.bend_by_direction(&bend)) - bend.value.re * Vec3::new(cosine, sine, 0.0);
+        let by_across = self.across(bend.by_b);
+        let (by_y, by_x) = (Vec3::y() + cosine * by_across, Vec3::x() - sine * by_across);
+        let columns = [turned, self.across(bend.by_kappa), n[0] * by_y, n[1] * by_y, n[0] * by_x, n[1] * by_x];
+        SharedMatrix::from_columns(&columns)
+    }
+
+    /// Adds `force . d^2 P` to the lower triangle: the block of this point's vertex (at `at`) and of the shared coordinates
+    /// (at `shared`, behind it).
+    pub(super) fn add_curvature(&self, force: &Vec3, at: usize, shared: usize, hessian: &mut Pulled) {
+        let (Screw { kappa, b, h, n, e: [cosine, sine], turn, phi, .. }, w) = (&self.screw, self.w);
+        let (m, e) = ([-sine, *cosine], [*cosine, *sine]);
+        let (pull, along) = (m[0] * force.x + m[1] * force.y, e[0] * force.x + e[1] * force.y);
+        let across = |z: Complex<f64>| pull * z.re + force.z * z.im;
+        let bend = self.bend();
+        let by_w_kappa = I * *b * turn;
+        let by_w_b = I * *kappa * turn;
+        let by_b_b = by_w_b * (I * *kappa * w + 1.0);
+        let by_kappa_b = turn * (I * *b * (I * *kappa * w + 1.0) + I * w);
+        let by_kappa_kappa = (phi.second * *b - turn * w) * (*b * *b);
+        let [by_x, by_y, by_z] = [Complex::from(m[0]), Complex::from(m[1]), I];
+        let mut add = |row: usize, column: usize, value: f64| hessian[(row, column)] += value;
+        // the vertex with direction, curvature and lattice
+        let lattice = [n[0] * m[1], n[1] * m[1], n[0] * m[0], n[1] * m[0]];
+        for (axis, place) in [by_x, by_y, by_z].into_iter().enumerate() {
+            let turned = if axis < 2 { e[axis] * across(bend.by_w) } else { 0.0 };
+            add(shared, at + axis, -turned - h * across(place * by_w_b) - along * (place * bend.by_w).re);
+            add(shared + 1, at + axis, across(place * by_w_kappa));
+            (0..4).for_each(|k| add(shared + 2 + k, at + axis, lattice[k] * across(place * by_w_b)));
+        }
+        // direction and curvature
+        let by_direction = self.bend_by_direction(&bend);
+        let x = self.along;
+        let twice = by_w_b * (2.0 * x * h) + by_b_b * (h * h) - bend.by_w * w.re - bend.by_b * *b;
+        add(shared, shared, across(twice) - 2.0 * along * by_direction.re - pull * bend.value.re);
+        add(shared + 1, shared, -across(by_w_kappa * x + by_kappa_b * *h) - along * bend.by_kappa.re);
+        add(shared + 1, shared + 1, across(by_kappa_kappa));
+        // the lattice with all shared coordinates
+        let turned = -across(by_w_b * x + by_b_b * *h) - along * bend.by_b.re;
+        let lengthwise = [n[0] * e[1], n[1] * e[1], n[0] * e[0], n[1] * e[0]];
+        for k in 0..4 {
+            add(shared + 2 + k, shared, lattice[k] * turned - lengthwise[k] * across(bend.by_b));
+            add(shared + 2 + k, shared + 1, lattice[k] * across(by_kappa_b));
+            (0..=k).for_each(|j| add(shared + 2 + k, shared + 2 + j, lattice[k] * lattice[j] * across(by_b_b)));
+        }
+    }
+}

@@ -1,0 +1,477 @@
+//! The canvas: elements of an SVG, the words on it and where they stand.
+//!
+//! Places are `[right, down]` in units of the paper, 1,200 of which are its width in every figure, so that letters and
+//! lines have the same size in all of them.
+
+use std::fmt::{self, Display, Write};
+
+use super::palette::{Colour, GREY, INK, PAPER, Ramp};
+
+/// Width of the paper.
+pub const WIDTH: f64 = 1200.0;
+/// Left margin of the words at the top.
+pub const MARGIN: f64 = 48.0;
+/// Height of the room for the words at the top.
+pub const HEAD: f64 = 84.0;
+/// Widths of letters over their height, at most on average: of plain and of bold ones.
+const LETTER: [f64; 2] = [0.58, 0.64];
+
+/// A place on the paper.
+pub type Place = [f64; 2];
+
+/// Left, top, right and bottom of a rectangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Area {
+    /// Smallest coordinates.
+    pub low: Place,
+    /// Largest coordinates.
+    pub high: Place,
+}
+
+/// What stands at the top of a figure.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Caption {
+    /// The title of the scene.
+    pub title: String,
+    /// Which state or which result is shown.
+    pub state: String,
+}
+
+/// How lines and areas are drawn; everything is off in the default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Style {
+    fill: Option<Colour>,
+    stroke: Option<(Colour, f64)>,
+    dash: Option<[f64; 2]>,
+    opacity: Option<f64>,
+}
+
+/// How words are set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Font {
+    /// Height.
+    pub size: f64,
+    bold: bool,
+    colour: Colour,
+    anchor: Anchor,
+    turned: bool,
+}
+
+/// Which part of the words is at their place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// What stands before words of a legend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mark {
+    /// A line.
+    Line(Style),
+    /// A disc or a ring of this radius.
+    Circle(f64, Style),
+    /// Nothing.
+    None,
+}
+
+/// A figure that is drawn.
+pub struct Canvas {
+    height: f64,
+    text: String,
+    /// Where words stand, and what else they must not cover.
+    taken: Vec<Area>,
+    /// How many of those are words that stand on others.
+    #[cfg(test)]
+    crowded: usize,
+}
+
+/// Appends formatted text; writing to a string does not fail.
+macro_rules! put {
+    ($text:expr, $($format:tt)*) => {{ let _ = write!($text, $($format)*); }};
+}
+
+impl Style {
+    /// A line.
+    pub fn line(colour: Colour, width: f64) -> Self {
+        Self { stroke: Some((colour, width)), ..Self::default() }
+    }
+
+    /// An area without outline.
+    pub fn area(colour: Colour) -> Self {
+        Self { fill: Some(colour), ..Self::default() }
+    }
+
+    /// An area with an outline as wide as the group says in its own colour, so that no gap shows beside its neighbours.
+    pub fn tile(colour: Colour) -> Self {
+        Self { fill: Some(colour), stroke: Some((colour, 0.0)), ..Self::default() }
+    }
+
+    /// The same with an outline.
+    pub fn outlined(self, colour: Colour, width: f64) -> Self {
+        Self { stroke: Some((colour, width)), ..self }
+    }
+
+    /// The same with dashes and gaps of these lengths.
+    pub fn dashed(self, dash: f64, gap: f64) -> Self {
+        Self { dash: Some([dash, gap]), ..self }
+    }
+
+    /// The same, so that what is below shows through.
+    pub fn opacity(self, opacity: f64) -> Self {
+        Self { opacity: Some(opacity), ..self }
+    }
+}
+
+impl Display for Style {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.fill {
+            Some(colour) => write!(f, " fill=\"{colour}\"")?,
+            None => f.write_str(" fill=\"none\"")?,
+        }
+        if let Some((colour, width)) = self.stroke {
+            write!(f, " stroke=\"{colour}\"")?;
+            if width > 0.0 {
+                write!(f, " stroke-width=\"{}\"", Short(width, 2))?;
+            }
+        }
+        if let Some([dash, gap]) = self.dash {
+            write!(f, " stroke-dasharray=\"{} {}\"", Short(dash, 1), Short(gap, 1))?;
+        }
+        self.opacity.map_or(Ok(()), |opacity| write!(f, " opacity=\"{opacity}\""))
+    }
+}
+
+impl Font {
+    /// Words beside axes and in legends.
+    pub const LABEL: Self = Self { size: 19.0, bold: false, colour: INK, anchor: Anchor::Start, turned: false };
+    /// Smaller words beside points.
+    pub const SMALL: Self = Self { size: 16.0, ..Self::LABEL };
+    const TITLE: Self = Self { size: 23.0, bold: true, ..Self::LABEL };
+    const STATE: Self = Self { size: 18.0, colour: GREY, ..Self::LABEL };
+
+    /// The same in heavy letters.
+    pub fn bold(self) -> Self {
+        Self { bold: true, ..self }
+    }
+
+    /// The same in another colour.
+    pub fn colour(self, colour: Colour) -> Self {
+        Self { colour, ..self }
+    }
+
+    /// The same with the middle of the words at their place.
+    pub fn middle(self) -> Self {
+        Self { anchor: Anchor::Middle, ..self }
+    }
+
+    /// The same with the end of the words at their place.
+    pub fn end(self) -> Self {
+        Self { anchor: Anchor::End, ..self }
+    }
+
+    /// The same, read from below to above.
+    pub fn turned(self) -> Self {
+        Self { turned: true, ..self }
+    }
+
+    /// Width of words, at most.
+    pub fn width(&self, words: &str) -> f64 {
+        words.chars().count() as f64 * self.size * LETTER[usize::from(self.bold)]
+    }
+
+    /// Where words are whose foot is at a place.
+    fn area(&self, [x, y]: Place, words: &str) -> Area {
+        let width = self.width(words);
+        let before = match self.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5 * width,
+            Anchor::End => width,
+        };
+        let (up, down) = (0.76 * self.size, 0.22 * self.size);
+        if self.turned {
+            return Area { low: [x - up, y - width + before], high: [x + down, y + before] };
+        }
+        Area { low: [x - before, y - up], high: [x - before + width, y + down] }
+    }
+}
+
+impl Area {
+    /// The rectangle around a place.
+    pub fn around([x, y]: Place, radius: f64) -> Self {
+        Self { low: [x - radius, y - radius], high: [x + radius, y + radius] }
+    }
+
+    /// Common part of two rectangles.
+    fn common(&self, other: &Self) -> f64 {
+        let side = |k: usize| (self.high[k].min(other.high[k]) - self.low[k].max(other.low[k])).max(0.0);
+        side(0) * side(1)
+    }
+}
+
+impl Canvas {
+    /// Paper of a height, with its caption at the top in letters small enough to end on it.
+    pub fn new(height: f64, caption: &Caption) -> Self {
+        let title = escaped(&caption.title);
+        let text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" width=\"{WIDTH}\" \
+             height=\"{height:.0}\" font-family=\"Helvetica, Arial, sans-serif\" fill=\"{INK}\">\n\
+             <title>{title}</title>\n\
+             <defs><filter id=\"soft\"><feGaussianBlur stdDeviation=\"7\"/></filter></defs>\n\
+             <rect width=\"{WIDTH}\" height=\"{height:.0}\" rx=\"14\" fill=\"{PAPER}\"/>\n"
+        );
+        let mut canvas = Self {
+            height,
+            text,
+            taken: Vec::new(),
+            #[cfg(test)]
+            crowded: 0,
+        };
+        for (words, font, foot) in [(&caption.title, Font::TITLE, 42.0), (&caption.state, Font::STATE, 70.0)] {
+            let room = (WIDTH - 2.0 * MARGIN) / font.width(words).max(1.0);
+            canvas.text([MARGIN, foot], words, Font { size: font.size * room.min(1.0), ..font });
+        }
+        canvas
+    }
+
+    /// The text of the figure.
+    pub fn finish(mut self) -> String {
+        self.text.push_str("</svg>\n");
+        self.text
+    }
+
+    /// A group in which lines without a width are this wide, with round joints and ends.
+    pub fn group(&mut self, width: f64) {
+        put!(self.text, "<g stroke-width=\"{width}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n");
+    }
+
+    /// A group of which words tell more where the pointer rests on it.
+    pub fn told(&mut self, words: &str) {
+        put!(self.text, "<g><title>{}</title>", escaped(words));
+    }
+
+    /// Ends the last group.
+    pub fn end(&mut self) {
+        self.text.push_str("</g>\n");
+    }
+
+    /// A line through places.
+    pub fn line(&mut self, places: &[Place], style: Style) {
+        self.path(&[places], false, style, "");
+    }
+
+    /// A polygon.
+    pub fn polygon(&mut self, corners: &[Place], style: Style) {
+        self.path(&[corners], true, style, "");
+    }
+
+    /// Polygons as one element: where they overlap they are one area when all go round the same way.
+    pub fn polygons(&mut self, polygons: &[impl AsRef<[Place]>], style: Style) {
+        self.path(polygons, true, style, "");
+    }
+
+    /// Polygons as one element with soft rims.
+    pub fn shadow(&mut self, polygons: &[impl AsRef<[Place]>], colour: Colour) {
+        self.path(polygons, true, Style::tile(colour), " filter=\"url(#soft)\"");
+    }
+
+    fn path(&mut self, parts: &[impl AsRef<[Place]>], closed: bool, style: Style, more: &str) {
+        self.text.push_str("<path d=\"");
+        for part in parts {
+            for (k, [x, y]) in part.as_ref().iter().enumerate() {
+                put!(self.text, "{}{} {}", if k == 0 { "M" } else { " " }, Short(*x, 1), Short(*y, 1));
+            }
+            self.text.push_str(if closed { "Z" } else { "" });
+        }
+        put!(self.text, "\"{style}{more}/>\n");
+    }
+
+    /// A circle.
+    pub fn circle(&mut self, [x, y]: Place, radius: f64, style: Style) {
+        put!(self.text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{}\"{style}/>\n", Short(radius, 1));
+    }
+
+    /// Words whose foot is at a place.
+    pub fn text(&mut self, place: Place, words: &str, font: Font) {
+        let area = font.area(place, words);
+        #[cfg(test)]
+        {
+            let others = self.taken.iter().filter(|other| area.common(other) > 0.0).count();
+            let [x, y] = area.high;
+            let beyond = area.low.iter().any(|low| *low < 0.0) || x > WIDTH || y > self.height;
+            self.crowded += usize::from(!words.is_empty() && (others > 0 || beyond));
+        }
+        if !words.is_empty() {
+            self.taken.push(area);
+        }
+        let [x, y] = place.map(|x| Short(x, 1));
+        match font.turned {
+            true => put!(self.text, "<text transform=\"translate({x} {y}) rotate(-90)\""),
+            false => put!(self.text, "<text x=\"{x}\" y=\"{y}\""),
+        }
+        put!(self.text, " font-size=\"{}\"", Short(font.size, 1));
+        match font.anchor {
+            Anchor::Start => {}
+            Anchor::Middle => self.text.push_str(" text-anchor=\"middle\""),
+            Anchor::End => self.text.push_str(" text-anchor=\"end\""),
+        }
+        self.text.push_str(if font.bold { " font-weight=\"bold\"" } else { "" });
+        if font.colour != INK {
+            put!(self.text, " fill=\"{}\"", font.colour);
+        }
+        put!(self.text, ">{}</text>\n", escaped(words));
+    }
+
+    /// Keeps words away from an area.
+    pub fn take(&mut self, area: Area) {
+        self.taken.push(area);
+    }
+
+    /// Words at the first of some places where they cover nothing and are within an area; `false`: there is none, and nothing
+    /// was set.
+    pub fn text_within(&mut self, room: Area, places: impl IntoIterator<Item = (Place, Font)>, words: &str) -> bool {
+        let found = places.into_iter().find(|(place, font)| {
+            let area = font.area(*place, words);
+            let within = (0..2).all(|k| area.low[k] >= room.low[k] && area.high[k] <= room.high[k]);
+            within && self.taken.iter().all(|other| area.common(other) == 0.0)
+        });
+        found.map(|(place, font)| self.text(place, words, font)).is_some()
+    }
+
+    /// The paper without its rim.
+    pub fn paper(&self) -> Area {
+        Area { low: [6.0, 6.0], high: [WIDTH - 6.0, self.height - 6.0] }
+    }
+
+    /// Marks and what they mean, in a row from a place on, and in another one below where the paper ends.
+    pub fn legend(&mut self, [left, top]: Place, entries: &[(Mark, &str)]) {
+        let ([mut x, mut y], font) = ([left, top], Font::SMALL);
+        for &(mark, words) in entries {
+            let sign = match mark {
+                Mark::Line(_) => 48.0,
+                Mark::Circle(radius, _) => 2.0 * radius + 8.0,
+                Mark::None => 0.0,
+            };
+            let width = sign + font.width(words);
+            if x > left && x + width > WIDTH - 12.0 {
+                (x, y) = (left, y + 26.0);
+            }
+            match mark {
+                Mark::Line(style) => self.line(&[[x, y - 5.5], [x + 38.0, y - 5.5]], style),
+                Mark::Circle(radius, style) => self.circle([x + radius, y - 5.5], radius, style),
+                Mark::None => {}
+            }
+            self.text([x + sign, y], words, font);
+            x += width + 30.0;
+        }
+    }
+
+    /// The scale of colours in an upright rectangle: its name above it, and at parts from 0 (bottom) to 1 (top) numbers on
+    /// its right.
+    pub fn colour_bar(&mut self, area: Area, ramp: Ramp, name: &str, ticks: &[(f64, String)]) {
+        let ([left, top], [right, bottom]) = (area.low, area.high);
+        self.text.push_str("<defs><linearGradient id=\"colours\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
+        for (part, colour) in ramp.stops() {
+            put!(self.text, "<stop offset=\"{}\" stop-color=\"{colour}\"/>", Short(part, 3));
+        }
+        self.text.push_str("</linearGradient></defs>\n");
+        let (width, height) = (right - left, bottom - top);
+        put!(
+            self.text,
+            "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"url(#colours)\"/>\n"
+        );
+        for (part, words) in ticks {
+            let y = bottom - part * height;
+            self.line(&[[right, y], [right + 5.0, y]], Style::line(INK, 1.0));
+            self.text([right + 10.0, y + 6.0], words, Font::SMALL);
+        }
+        let middle = (0.5 * (left + right)).min(WIDTH - 12.0 - 0.5 * Font::LABEL.bold().width(name));
+        self.text([middle, top - 22.0], name, Font::LABEL.bold().middle());
+    }
+}
+
+/// Text as it stands in XML and HTML, without the characters that neither allows.
+pub fn escaped(text: &str) -> String {
+    let allowed = text.chars().filter(|c| !c.is_control() || matches!(c, '\t' | '\n' | '\r'));
+    let allowed: String = allowed.filter(|c| !matches!(c, '\u{fffe}' | '\u{ffff}')).collect();
+    allowed.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A number with at most some decimals, without zeros at its end.
+struct Short(f64, usize);
+
+impl Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = format!("{:.*}", self.1, self.0);
+        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        f.write_str(if text == "-0" { "0" } else { text })
+    }
+}
+
+#[cfg(test)]
+impl Canvas {
+    /// How many words stand on others or end beyond the paper.
+    pub fn crowded(&self) -> usize {
+        self.crowded
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn canvas(title: &str) -> Canvas {
+        Canvas::new(300.0, &Caption { title: title.into(), state: "state".into() })
+    }
+
+    /// Claim: what means something in XML is escaped in titles, words and notes, and what XML forbids is left out.
+    #[test]
+    fn escapes() {
+        assert_eq!(escaped("a < \"b\" & c > d\u{1}\u{ffff}"), "a &lt; &quot;b&quot; &amp; c &gt; d");
+        let mut canvas = canvas("t & u");
+        canvas.told("x < y");
+        canvas.text([10.0, 200.0], "p & q", Font::LABEL);
+        canvas.end();
+        let text = canvas.finish();
+        for words in ["<title>t &amp; u</title>", "x &lt; y", "p &amp; q"] {
+            assert!(text.contains(words), "{words}");
+        }
+    }
+
+    /// Claim: a title of any length ends on the paper; one that is short has the size of titles.
+    #[test]
+    fn long_titles() {
+        for letters in [0, 10, 300] {
+            let canvas = canvas(&"x".repeat(letters));
+            assert_eq!(canvas.crowded(), 0, "{letters}");
+            assert_eq!(canvas.finish().contains("font-size=\"23\""), letters < 300);
+        }
+    }
+
+    /// Claim: words that would stand on others, on what was taken or beyond the paper move to the next place, and stay away where
+    /// there is none; words that are set on others are counted.
+    #[test]
+    fn words_stay_apart() {
+        let mut canvas = canvas("");
+        let places = |canvas: &mut Canvas, places: &[Place]| {
+            let before = canvas.text.len();
+            let set = canvas.text_within(canvas.paper(), places.iter().map(|place| (*place, Font::LABEL)), "abc");
+            set.then(|| canvas.text[before..].to_owned())
+        };
+        assert!(places(&mut canvas, &[[100.0, 200.0]]).unwrap().contains("x=\"100\""));
+        assert!(places(&mut canvas, &[[110.0, 205.0], [1199.0, 200.0], [100.0, 230.0]]).unwrap().contains("y=\"230\""));
+        canvas.take(Area::around([310.0, 250.0], 4.0));
+        assert_eq!(places(&mut canvas, &[[300.0, 255.0]]), None);
+        assert_eq!(canvas.crowded(), 0);
+        canvas.text([105.0, 204.0], "on another", Font::LABEL);
+        assert_eq!(canvas.crowded(), 1);
+    }
+
+    /// Claim: numbers are as short as they can be.
+    #[test]
+    fn short_numbers() {
+        let short = [(1.0, 1), (-0.04, 1), (12.25, 1), (100.0, 0), (0.5, 2)].map(|(x, n)| Short(x, n).to_string());
+        assert_eq!(short, ["1", "0", "12.2", "100", "0.5"]);
+    }
+}

@@ -1,0 +1,106 @@
+//! Regions of the plane in which a function is at least so large: the function is known at points and linear on triangles
+//! between them. Their rims are few long polygons, so that a map is smooth at every size and small as a file.
+
+use std::collections::{HashMap, HashSet};
+
+use super::canvas::Place;
+
+/// A side of a triangle, or the way from a point on the rim to what is beyond it.
+type Crossing = [usize; 2];
+/// The number of what is beyond the rim, where the function is small.
+const BEYOND: usize = usize::MAX;
+
+/// Polygons around the regions in which the function is at least `level`; holes go round the other way. Triangles with a
+/// corner where the function is not a number are left out.
+pub fn regions(points: &[Place], triangles: &[[usize; 3]], values: &[f64], level: f64) -> Vec<Vec<Place>> {
+    let known = |triangle: &&[usize; 3]| triangle.iter().all(|&corner| !values[corner].is_nan());
+    let mut rim: HashSet<Crossing> = HashSet::new();
+    let mut next: HashMap<Crossing, Crossing> = HashMap::new();
+    let mut order = Vec::new();
+    let inside = |corner: usize| corner != BEYOND && values[corner] >= level;
+    let mut step = |triangle: [usize; 3]| {
+        let side = |k: usize| [triangle[k], triangle[(k + 1) % 3]];
+        let leaves = (0..3).map(side).find(|[a, b]| inside(*a) && !inside(*b));
+        let enters = (0..3).map(side).find(|[a, b]| !inside(*a) && inside(*b));
+        if let (Some([a, b]), Some([c, d])) = (leaves, enters) {
+            let (from, to) = ([a.min(b), a.max(b)], [c.min(d), c.max(d)]);
+            next.insert(from, to);
+            order.push(from);
+        }
+    };
+    for &[a, b, c] in triangles.iter().filter(known) {
+        step([a, b, c]);
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            if !rim.remove(&[to, from]) {
+                rim.insert([from, to]);
+            }
+        }
+    }
+    let mut sides: Vec<Crossing> = rim.into_iter().collect();
+    sides.sort_unstable();
+    sides.into_iter().for_each(|[from, to]| step([to, from, BEYOND]));
+    let place = |[a, b]: Crossing| {
+        let (p, q) = (points[a], if b == BEYOND { points[a] } else { points[b] });
+        let part = if b == BEYOND { 0.0 } else { (level - values[a]) / (values[b] - values[a]) };
+        [0, 1].map(|k| p[k] + part * (q[k] - p[k]))
+    };
+    let mut found = Vec::new();
+    for start in order {
+        let (mut polygon, mut at) = (Vec::new(), start);
+        while let Some(after) = next.remove(&at) {
+            polygon.push(place(at));
+            at = after;
+        }
+        if polygon.len() > 2 {
+            found.push(polygon);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points and triangles of a square of side 2 around the origin, all triangles counter-clockwise.
+    fn square(n: usize) -> (Vec<Place>, Vec<[usize; 3]>) {
+        let place = |k: usize| 2.0 * k as f64 / n as f64 - 1.0;
+        let points = (0..=n).flat_map(|j| (0..=n).map(move |i| [place(i), place(j)])).collect();
+        let corners = (0..n).flat_map(|j| (0..n).map(move |i| j * (n + 1) + i));
+        (points, corners.flat_map(|k| [[k, k + 1, k + n + 2], [k, k + n + 2, k + n + 1]]).collect())
+    }
+
+    fn area(polygons: &[Vec<Place>]) -> f64 {
+        let turn = |p: &[Place], k: usize| {
+            let [a, b] = [p[k], p[(k + 1) % p.len()]];
+            a[0] * b[1] - b[0] * a[1]
+        };
+        polygons.iter().map(|p| (0..p.len()).map(|k| 0.5 * turn(p, k)).sum::<f64>()).sum()
+    }
+
+    /// Claim: the area of a ring, a disc and the whole square come out, with the right number of rims. Tolerance: that of
+    /// straight lines on 40 x 40 squares.
+    #[test]
+    fn rings_and_discs() {
+        let (points, triangles) = square(40);
+        let values: Vec<f64> = points.iter().map(|[x, y]| -(x.hypot(*y) - 0.5).abs()).collect();
+        let ring = regions(&points, &triangles, &values, -0.2);
+        let exact = std::f64::consts::PI * (0.49 - 0.09);
+        assert!(ring.len() == 2 && (area(&ring).abs() - exact).abs() <= 0.01, "{} {}", ring.len(), area(&ring));
+        let all = regions(&points, &triangles, &values, -9.0);
+        assert!(all.len() == 1 && (area(&all).abs() - 4.0).abs() <= 1e-12);
+        let outside = regions(&points, &triangles, &values.iter().map(|v| -v).collect::<Vec<_>>(), 0.2);
+        assert!((area(&outside).abs() - (4.0 - exact)).abs() <= 0.01, "{}", area(&outside));
+        assert_eq!(regions(&points, &triangles, &values, 1.0), Vec::<Vec<Place>>::new());
+    }
+
+    /// Claim: a corner that is not a number leaves out its triangles alone.
+    #[test]
+    fn gaps() {
+        let (points, triangles) = square(4);
+        let mut values = vec![1.0; points.len()];
+        values[12] = f64::NAN;
+        let all = regions(&points, &triangles, &values, 0.0);
+        assert!(all.len() == 2 && (area(&all).abs() - (4.0 - 6.0 * 0.125)).abs() <= 1e-12, "{all:?}");
+    }
+}

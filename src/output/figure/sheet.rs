@@ -1,0 +1,313 @@
+//! A state of a sheet: seen obliquely, faces shaded, creases drawn by their fold angles, with a scale bar.
+//!
+//! Mountains (negative fold angles) are red and valleys blue, the wider the sharper they are folded. Every face has an
+//! outline in the colour of its filling, otherwise hairlines show between them.
+
+use super::axes::{number, round_step};
+use super::canvas::{Canvas, Caption, Font, HEAD, MARGIN, Place, Style, WIDTH};
+use super::hidden::{Piece, back_to_front};
+use super::palette::{Colour, GREY, INK, MOUNTAIN, SHADOW, VALLEY};
+use super::view::View;
+use crate::math::Vec3;
+use crate::output::Picture;
+use crate::output::picture::ShapeError;
+use crate::sheet::EdgeKind;
+
+/// Room beside the sheet, and for the legend below it.
+const ROOM: f64 = 60.0;
+const LEGEND: f64 = 64.0;
+/// Creases folded by less are drawn as flat ones, in radians.
+const FLAT: f64 = 1e-6;
+/// Length of the widest wedge of the legend.
+const WEDGE: f64 = 150.0;
+
+/// Colours of a side of the sheet in full light and away from it.
+struct Side {
+    light: Colour,
+    dark: Colour,
+}
+
+const FRONT: Side = Side { light: Colour(255, 251, 240), dark: Colour(124, 136, 164) };
+const BACK: Side = Side { light: Colour(240, 214, 168), dark: Colour(150, 118, 92) };
+const CROSSING: Side = Side { light: Colour(246, 154, 138), dark: Colour(158, 72, 66) };
+
+/// The figure of a state.
+///
+/// # Errors
+/// The first array or index of the picture that does not fit.
+pub fn svg(picture: &Picture, caption: &Caption) -> Result<String, ShapeError> {
+    picture.check()?;
+    Ok(drawn(picture, caption).finish())
+}
+
+fn drawn(picture: &Picture, caption: &Caption) -> Canvas {
+    let view = View::of(&picture.points, &picture.triangles);
+    let place = |point: &Vec3| Vec3::from(view.place(point));
+    let sheet: Vec<Vec3> = picture.points.iter().map(place).collect();
+    let shadow: Vec<Vec3> = shadow_on_floor(picture, &view).iter().map(place).collect();
+    let frame = Frame::around(sheet.iter().chain(&shadow));
+    let mut canvas = Canvas::new(frame.height + LEGEND, caption);
+    paint_shadow(&mut canvas, picture, &frame, &shadow);
+    paint_sheet(&mut canvas, picture, &frame, &view, &sheet);
+    scale_bar(&mut canvas, &frame);
+    legend(&mut canvas, picture, &frame);
+    canvas
+}
+
+/// The part of the paper that the sheet takes.
+struct Frame {
+    left: f64,
+    top: f64,
+    scale: f64,
+    height: f64,
+    /// Whether anything is there.
+    filled: bool,
+}
+
+impl Frame {
+    /// Fits the places into the width of the paper and at most three quarters of it in height.
+    fn around<'a>(places: impl Iterator<Item = &'a Vec3>) -> Self {
+        let finite = places.filter(|place| is_finite(place));
+        let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        let (low, high) = finite.fold(none, |(low, high), place| (low.inf(place), high.sup(place)));
+        let extent = (high - low).map(|length| length.max(f64::MIN_POSITIVE));
+        let room = WIDTH - 2.0 * ROOM;
+        let scale = (room / extent.x).min(0.75 * room / extent.y).min(f64::MAX);
+        let left = 0.5 * (low.x + high.x) - 0.5 * WIDTH / scale;
+        let filled = low.x <= high.x;
+        Self { left, top: high.y + HEAD / scale, scale, height: extent.y * scale + HEAD + ROOM, filled }
+    }
+
+    fn on_paper(&self, place: &Vec3) -> Place {
+        [(place.x - self.left) * self.scale, (self.top - place.y) * self.scale]
+    }
+}
+
+fn is_finite(place: &Vec3) -> bool {
+    place.iter().all(|x| x.is_finite())
+}
+
+/// Where the light comes from: from the upper left, a little in front of the sheet.
+fn light(view: &View) -> Vec3 {
+    (view.toward * 0.45 + view.up * 0.75 - view.right * 0.62).normalize()
+}
+
+/// The points moved along the light onto a floor just below the sheet.
+fn shadow_on_floor(picture: &Picture, view: &View) -> Vec<Vec3> {
+    let light = light(view);
+    let heights = picture.points.iter().map(|point| point.dot(&view.normal)).filter(|height| height.is_finite());
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
+    let floor = low - 0.15 * (high - low);
+    let drop = |point: &Vec3| point - light * ((point.dot(&view.normal) - floor) / light.dot(&view.normal));
+    picture.points.iter().map(drop).collect()
+}
+
+fn paint_shadow(canvas: &mut Canvas, picture: &Picture, frame: &Frame, shadow: &[Vec3]) {
+    let finite = picture.triangles.iter().filter(|triangle| triangle.iter().all(|&point| is_finite(&shadow[point])));
+    let alike = |triangle: &[usize; 3]| {
+        let [a, b, c] = triangle.map(|point| frame.on_paper(&shadow[point]));
+        // all the same way round, so that overlaps are filled
+        let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if turn < 0.0 { [a, c, b] } else { [a, b, c] }
+    };
+    canvas.shadow(&finite.map(alike).collect::<Vec<_>>(), SHADOW);
+}
+
+fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &Frame, view: &View, sheet: &[Vec3]) {
+    let corners = |points: &[usize]| points.iter().map(|&point| sheet[point]).collect();
+    let faces = picture.triangles.iter().map(|triangle| corners(triangle));
+    let lines = picture.lines.iter().map(|line| corners(line));
+    let pieces = faces.chain(lines).enumerate().map(|(item, corners)| Piece::new(corners, item));
+    let pen = Pen::new(picture, frame, sheet);
+    canvas.group(0.7);
+    for Piece { corners, item, .. } in back_to_front(pieces.collect()) {
+        let places: Vec<Place> = corners.iter().map(|corner| frame.on_paper(corner)).collect();
+        match item.checked_sub(picture.triangles.len()) {
+            None => canvas.polygon(&places, Style::tile(shade(picture, view, item))),
+            Some(line) => canvas.line(&places, pen.style(picture, line)),
+        }
+    }
+    canvas.end();
+}
+
+/// The colour of a face: its side towards the eye, between dark and light.
+fn shade(picture: &Picture, view: &View, face: usize) -> Colour {
+    let [a, b, c] = picture.triangles[face].map(|point| picture.points[point]);
+    let normal = (b - a).cross(&(c - a)).normalize();
+    let front = normal.dot(&view.toward) >= 0.0;
+    let side = match (picture.self_intersecting[face], front) {
+        (1.., _) => &CROSSING,
+        (0, true) => &FRONT,
+        (0, false) => &BACK,
+    };
+    let facing = if front { normal } else { -normal };
+    let lit = ((facing.dot(&light(view)) + 0.25) / 1.25).clamp(0.0, 1.0);
+    side.dark.towards(side.light, lit)
+}
+
+/// How edges are drawn: widths in proportion to the sharpest fold, and to the size of the faces on the paper.
+struct Pen {
+    sharpest: f64,
+    unit: f64,
+}
+
+impl Pen {
+    fn new(picture: &Picture, frame: &Frame, sheet: &[Vec3]) -> Self {
+        let length = |&[a, b]: &[usize; 2]| (sheet[a] - sheet[b]).xy().norm();
+        let lengths = picture.lines.iter().map(length).filter(|length| length.is_finite());
+        let mean = lengths.sum::<f64>() / picture.lines.len().max(1) as f64;
+        let [mountain, valley] = fold_range(picture);
+        Self { sharpest: valley.max(-mountain), unit: (0.022 * mean * frame.scale).clamp(0.25, 2.0) }
+    }
+
+    fn style(&self, picture: &Picture, line: usize) -> Style {
+        let angle = picture.fold_angle[line];
+        let solid = |colour: Colour, width: f64| Style::line(colour, width * self.unit);
+        match picture.line_kinds[line] {
+            EdgeKind::Boundary => solid(INK, 1.0),
+            EdgeKind::Facet => solid(GREY, 0.45).dashed(3.0 * self.unit, 3.0 * self.unit).opacity(0.55),
+            EdgeKind::Crease if angle.abs() > FLAT => {
+                let colour = if angle < 0.0 { MOUNTAIN } else { VALLEY };
+                solid(colour, 0.5 + 1.3 * (angle.abs() / self.sharpest).min(1.0))
+            }
+            EdgeKind::Crease => solid(GREY, 0.5),
+        }
+    }
+}
+
+/// Sharpest mountain and sharpest valley; 0 where there is none.
+fn fold_range(picture: &Picture) -> [f64; 2] {
+    let creases = picture.line_kinds.iter().zip(&picture.fold_angle).filter(|(kind, _)| **kind == EdgeKind::Crease);
+    let angles = creases.map(|(_, &angle)| angle).filter(|angle| angle.is_finite());
+    angles.fold([0.0, 0.0], |[low, high], angle| [f64::min(low, angle), f64::max(high, angle)])
+}
+
+/// A round length: lines parallel to the paper have it everywhere, as the view is a parallel projection.
+fn scale_bar(canvas: &mut Canvas, frame: &Frame) {
+    if !frame.filled {
+        return;
+    }
+    let length = round_step(0.7 * WIDTH / frame.scale);
+    let (level, right) = (frame.height + LEGEND / 2.0 - 14.0, MARGIN + length * frame.scale);
+    let ends = [[MARGIN, level - 6.0], [MARGIN, level + 6.0], [MARGIN, level], [right, level]];
+    canvas.line(&ends, Style::line(INK, 1.6));
+    canvas.line(&[[right, level - 6.0], [right, level + 6.0]], Style::line(INK, 1.6));
+    canvas.text([right + 12.0, level + 6.5], &number(length, length), Font::LABEL);
+}
+
+/// The scale of fold angles: from the sharpest mountain over flat to the sharpest valley, as wide as the lines.
+fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
+    let [mountain, valley] = fold_range(picture);
+    let sharpest = valley.max(-mountain);
+    let level = frame.height + LEGEND / 2.0 - 14.0;
+    let mut sides = vec![(mountain, MOUNTAIN, "mountain", '\u{2212}'), (valley, VALLEY, "valley", '+')];
+    sides.retain(|(angle, ..)| angle.abs() > FLAT);
+    let words = |angle: f64, word: &str, sign: char| format!("{word} {sign}{:.2} rad", angle.abs());
+    let width = |&(angle, _, word, sign): &(f64, Colour, &str, char)| {
+        WEDGE * angle.abs() / sharpest + 14.0 + Font::LABEL.width(&words(angle, word, sign))
+    };
+    // words included, it ends at the margin
+    let after = sides.last().filter(|(angle, ..)| *angle > 0.0).map_or(0.0, width);
+    let zero = WIDTH - MARGIN - after;
+    for (angle, colour, word, sign) in sides {
+        let share = angle / sharpest;
+        let (end, thick) = (zero + WEDGE * share, 0.8 + 3.7 * share.abs());
+        let wedge = [[zero, level - 0.8], [zero, level + 0.8], [end, level + thick], [end, level - thick]];
+        canvas.polygon(&wedge, Style::area(colour));
+        let font = if angle < 0.0 { Font::LABEL.end() } else { Font::LABEL };
+        canvas.text([end + 14.0 * angle.signum(), level + 6.5], &words(angle, word, sign), font);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::picture::samples;
+
+    fn caption(title: &str) -> Caption {
+        Caption { title: title.into(), state: "relaxed".into() }
+    }
+
+    fn drawing(picture: &Picture) -> String {
+        svg(picture, &caption("")).unwrap()
+    }
+
+    fn paths(text: &str) -> Vec<&str> {
+        text.lines().filter(|line| line.starts_with("<path")).collect()
+    }
+
+    /// Claim: there are a shadow, each face and edge once, two pieces of the scale bar and one wedge of the legend; title and state
+    /// stand above; the same picture gives the same bytes.
+    #[test]
+    fn everything_is_drawn_once() {
+        let text = svg(&samples::hinge(0.8), &caption("a & b < c")).unwrap();
+        assert!(text.contains("<title>a &amp; b &lt; c</title>") && text.contains(">relaxed<"));
+        assert_eq!(paths(&text).len(), 1 + 2 + 5 + 2 + 1);
+        assert_eq!(text, svg(&samples::hinge(0.8), &caption("a & b < c")).unwrap());
+        assert_eq!(drawn(&samples::hinge(0.8), &caption("a")).crowded(), 0);
+    }
+
+    /// Claim: valleys (positive fold angles) are blue and mountains red, on the sheet and in the legend, which gives the angle.
+    #[test]
+    fn the_sign_of_a_fold_is_its_colour() {
+        let [mountain_red, valley_blue] = [MOUNTAIN, VALLEY].map(|colour| colour.to_string());
+        let valley = drawing(&samples::hinge(0.8));
+        assert!(
+            valley.contains(&valley_blue) && !valley.contains(&mountain_red) && valley.contains("valley +0.80 rad")
+        );
+        let mountain = drawing(&samples::hinge(-0.8));
+        assert!(mountain.contains(&mountain_red) && !mountain.contains(&valley_blue));
+        assert!(mountain.contains("mountain \u{2212}0.80 rad"));
+        let flat = drawing(&samples::hinge(0.0));
+        assert!(!flat.contains(&mountain_red) && !flat.contains(&valley_blue));
+    }
+
+    /// Claim: the face nearer to the eye is painted later, and the crease between the two faces after both.
+    #[test]
+    fn near_faces_cover_far_ones() {
+        let mut picture = samples::hinge(2.5);
+        picture.self_intersecting = vec![0, 0];
+        let view = View::of(&picture.points, &picture.triangles);
+        let depth =
+            |face: usize| picture.triangles[face].map(|p| picture.points[p].dot(&view.toward)).iter().sum::<f64>();
+        let near = if depth(0) > depth(1) { 0 } else { 1 };
+        let text = drawing(&picture);
+        let drawn = paths(&text);
+        let place = |face: usize| {
+            let colour = format!("fill=\"{}\"", shade(&picture, &view, face));
+            drawn.iter().position(|path| path.contains(&colour)).unwrap()
+        };
+        let crease = drawn.iter().position(|path| path.contains(&VALLEY.to_string())).unwrap();
+        assert!(place(1 - near) < place(near) && place(near) < crease, "{text}");
+    }
+
+    /// Claim: the scale bar is as long as a side of that length parallel to the paper.
+    #[test]
+    fn scale() {
+        let places = [Vec3::zeros(), Vec3::new(8.0, 4.0, 0.0)];
+        let frame = Frame::around(places.iter());
+        let mut canvas = Canvas::new(100.0, &Caption::default());
+        scale_bar(&mut canvas, &frame);
+        let [a, b] = places.map(|place| frame.on_paper(&place));
+        assert!(((b[0] - a[0]) / 8.0 - frame.scale).abs() <= 1e-9);
+        let text = canvas.finish();
+        assert!(text.contains(">2<") && text.contains(&format!("{:.0} ", MARGIN + 2.0 * frame.scale)), "{text}");
+    }
+
+    /// Claim: points that are not finite leave their faces out and spoil nothing else; arrays that do not fit are refused.
+    #[test]
+    fn states_that_are_not_finite() {
+        let mut picture = samples::hinge(0.8);
+        picture.points[3].x = f64::NAN;
+        let text = drawing(&picture);
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        assert_eq!(paths(&text).len(), 1 + 1 + 3 + 2 + 1);
+        picture.points = vec![Vec3::repeat(f64::INFINITY); 4];
+        for picture in [&picture, &Picture::default()] {
+            let text = drawing(picture);
+            assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        }
+        picture.strain.pop();
+        assert!(svg(&picture, &caption("")).is_err());
+    }
+}

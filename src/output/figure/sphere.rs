@@ -1,0 +1,163 @@
+//! Energies over the sphere of curvature tensors: two discs, one for each sign of the mean curvature.
+//!
+//! A disc is its half of the sphere in Lambert's projection, which keeps areas: in the middle bending alike in all directions, at
+//! the rim saddles of opposite curvatures, in between the cone of cylinders. The colour is the square root of the energy over
+//! the largest, which is as smooth as the curvature that the energy comes from.
+
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
+
+use super::axes::{rounded, unit};
+use super::canvas::{Area, Canvas, Caption, Font, Mark, Place, Style};
+use super::contour::regions;
+use super::palette::{Colour, ENERGY, INK, VALLEY};
+use crate::math::Vec3;
+
+const HEIGHT: f64 = 712.0;
+const RADIUS: f64 = 222.0;
+/// Middles of the discs: positive and negative mean curvature.
+const MIDDLES: [Place; 2] = [[298.0, 386.0], [816.0, 386.0]];
+const BAR: Area = Area { low: [1096.0, 200.0], high: [1116.0, 572.0] };
+/// What belongs to both discs may be this much beyond the rim.
+const RIM: f64 = 1e-9;
+/// Shades of the map.
+const SHADES: usize = 32;
+/// Where the energy is not known.
+const UNKNOWN: Colour = Colour(200, 200, 200);
+/// The lines of the exact cone, and those of the cone of small amplitudes.
+const EXACT: (Colour, f64) = (VALLEY, 2.6);
+
+/// Energies on a sphere, its points given by `(k11 + k22, k11 - k22, 2 k12) / sqrt(2)`.
+pub struct Sphere<'a> {
+    /// Points of norm 1.
+    pub points: &'a [Vec3],
+    /// Triangles of them.
+    pub triangles: &'a [[usize; 3]],
+    /// Energies at the points; not a number where not found.
+    pub energies: &'a [f64],
+    /// Closed curves on which the energy vanishes.
+    pub cone: &'a [Vec<Vec3>],
+}
+
+/// The figure of energies on a sphere.
+pub fn svg(sphere: &Sphere<'_>, caption: &Caption) -> String {
+    drawn(sphere, caption).finish()
+}
+
+fn drawn(sphere: &Sphere<'_>, caption: &Caption) -> Canvas {
+    let mut canvas = Canvas::new(HEIGHT, caption);
+    let largest = sphere.energies.iter().copied().filter(|e| e.is_finite()).fold(f64::MIN_POSITIVE, f64::max);
+    for (disc, name) in ["positive mean curvature", "negative mean curvature"].into_iter().enumerate() {
+        paint(&mut canvas, sphere, disc, largest);
+        frame(&mut canvas, disc, name);
+        curves(&mut canvas, sphere, disc);
+    }
+    let (colour, width) = EXACT;
+    let entries = [
+        (Mark::Line(Style::line(colour, width)), "exact cylinders (kinematics)"),
+        (Mark::Line(linear()), "k\u{2081}\u{2081}k\u{2082}\u{2082} = k\u{2081}\u{2082}\u{b2} (small amplitudes)"),
+        (Mark::None, "colour: square root of the energy"),
+    ];
+    canvas.legend([80.0, HEIGHT - 26.0], &entries);
+    let (unit, words) = unit(largest);
+    let ticks = [0.0, 0.25, 0.5, 0.75, 1.0].map(|part| (part, rounded(part * part * largest / unit, 3)));
+    canvas.colour_bar(BAR, ENERGY, &format!("energy{words}"), &ticks);
+    canvas
+}
+
+/// The cone of small amplitudes, a circle on both discs.
+fn linear() -> Style {
+    Style::line(INK, 1.8).dashed(7.0, 5.0)
+}
+
+/// Place of a point on a disc; `None` on the other half of the sphere.
+fn place(point: &Vec3, disc: usize) -> Option<Place> {
+    let sign = if disc == 0 { 1.0 } else { -1.0 };
+    if !(sign * point.x >= -RIM) {
+        return None;
+    }
+    let across = point.y.hypot(point.z);
+    let polar = across.atan2(sign * point.x);
+    let part = if across > 0.0 { radius(polar) / across } else { 0.0 };
+    let [x, y] = MIDDLES[disc];
+    Some([x + part * point.y, y - part * point.z])
+}
+
+/// Distance from the middle of a disc at a polar angle.
+fn radius(polar: f64) -> f64 {
+    RADIUS * (0.5 * polar).sin() / FRAC_1_SQRT_2
+}
+
+/// The map on a disc, grey where the energy is not known.
+fn paint(canvas: &mut Canvas, sphere: &Sphere<'_>, disc: usize, largest: f64) {
+    let places: Vec<Option<Place>> = sphere.points.iter().map(|point| place(point, disc)).collect();
+    let here = |triangle: &&[usize; 3]| triangle.iter().all(|&point| places[point].is_some());
+    let triangles: Vec<[usize; 3]> = sphere.triangles.iter().filter(here).copied().collect();
+    let points: Vec<Place> = places.iter().map(|place| place.unwrap_or_default()).collect();
+    let roots: Vec<f64> = sphere.energies.iter().map(|energy| (energy / largest).max(0.0).sqrt()).collect();
+    let roots: Vec<f64> = roots.iter().zip(sphere.energies).map(|(r, e)| if e.is_nan() { *e } else { *r }).collect();
+    canvas.group(0.8);
+    if sphere.energies.iter().any(|energy| energy.is_nan()) {
+        canvas.circle(MIDDLES[disc], RADIUS, Style::area(UNKNOWN));
+    }
+    for shade in 0..SHADES {
+        let level = if shade == 0 { f64::NEG_INFINITY } else { shade as f64 / SHADES as f64 };
+        let areas = regions(&points, &triangles, &roots, level);
+        if !areas.is_empty() {
+            canvas.polygons(&areas, Style::tile(ENERGY.at((shade as f64 + 0.5) / SHADES as f64)));
+        }
+    }
+    canvas.end();
+}
+
+/// The rim, the cone of small amplitudes, and what is where.
+fn frame(canvas: &mut Canvas, disc: usize, name: &str) {
+    let middle @ [x, y] = MIDDLES[disc];
+    canvas.circle(middle, RADIUS, Style::line(INK, 1.6));
+    canvas.circle(middle, radius(FRAC_PI_4), linear());
+    canvas.text([x, y - RADIUS - 40.0], name, Font::LABEL.bold().middle());
+    let small = Font::SMALL.middle();
+    canvas.text([x, y - RADIUS - 12.0], "k\u{2081}\u{2082} > 0", small);
+    canvas.text([x, y + RADIUS + 24.0], "k\u{2081}\u{2082} < 0", small);
+    canvas.text([x - RADIUS - 14.0, y], "k\u{2081}\u{2081} < k\u{2082}\u{2082}", small.turned());
+    canvas.text([x + RADIUS + 24.0, y], "k\u{2081}\u{2081} > k\u{2082}\u{2082}", small.turned());
+}
+
+fn curves(canvas: &mut Canvas, sphere: &Sphere<'_>, disc: usize) {
+    let (colour, width) = EXACT;
+    for curve in sphere.cone {
+        let places: Vec<Place> = curve.iter().filter_map(|point| place(point, disc)).collect();
+        if places.len() == curve.len() && !places.is_empty() {
+            canvas.polygon(&places, Style::line(colour, width));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: the map is painted on the half it belongs to, each curve once, the rim is at the radius of the disc, and the same map
+    /// gives the same bytes; a missing energy is grey and spoils nothing; no words stand on others.
+    #[test]
+    fn two_halves() {
+        let points = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]].map(Vec3::from);
+        let cone = [points[..3].to_vec()];
+        let triangles = [[0, 1, 2], [3, 2, 1]];
+        let sphere = |energies| Sphere { points: &points, triangles: &triangles, energies, cone: &cone };
+        let caption = Caption { title: "a < b".into(), state: "amplitude 0.02".into() };
+        let text = svg(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption);
+        assert!(text.contains("a &lt; b") && !text.contains("NaN") && !text.contains(&UNKNOWN.to_string()), "{text}");
+        assert_eq!(text.matches("stroke-width=\"2.6\"").count(), 1 + 1, "the curve, and the legend");
+        let lowest = format!("Z\" fill=\"{0}\" stroke=\"{0}\"", ENERGY.at(0.5 / SHADES as f64));
+        assert_eq!(text.matches(&lowest).count(), 2);
+        assert_eq!(text, svg(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption));
+        assert_eq!(drawn(&sphere(&[1.0, 0.25, 0.0, 0.5]), &caption).crowded(), 0);
+        let missing = svg(&sphere(&[1.0, f64::NAN, 0.0, 0.5]), &caption);
+        assert!(
+            missing.contains(&UNKNOWN.to_string()) && !missing.contains("NaN") && missing.matches(&lowest).count() == 0
+        );
+        let [x, y] = place(&points[1], 0).unwrap_or_default();
+        assert!((x - MIDDLES[0][0] - RADIUS).abs() <= 1e-9 && (y - MIDDLES[0][1]).abs() <= 1e-9);
+        assert_eq!(place(&points[0], 1), None);
+    }
+}

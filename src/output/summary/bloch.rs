@@ -1,0 +1,81 @@
+//! What a study of kind `bloch` says in the summary.
+
+use super::keys;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Spatially varying modes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BlochSummary {
+    /// `[m, n, c]` of the centred determinant `sum c z1^m z2^n`.
+    pub determinant: Vec<[f64; 3]>,
+    /// Largest `|c_mn - c_-m,-n|` over the largest coefficient.
+    pub symmetry_error: f64,
+    /// Largest imaginary part on the zone over the largest magnitude.
+    pub imaginary_part: f64,
+    /// At every given `q1`.
+    pub decay: Vec<DecaySummary>,
+    /// Largest `|kappa2 + kappa2'|` of a pair; null where no pair is known well enough to be compared.
+    pub pairing_error: Option<f64>,
+    /// Largest condition number of the roots of these pairs; null where there are none.
+    pub pairing_condition: Option<f64>,
+    /// Roots left out of the pairing, whose condition is larger.
+    pub ill_conditioned: usize,
+    /// Half the difference of the numbers of roots `z1`, `z2` inside and outside the unit circle, averaged.
+    pub polarization: [f64; 2],
+    /// Mean numbers of roots on the unit circle.
+    pub on_circle: [f64; 2],
+    /// Part of the zone in which the determinant is positive; null where it is not real.
+    pub positive_fraction: Option<f64>,
+    /// Number of lines of zeros in the zone; null where the determinant is not real, and none were looked for.
+    pub zero_lines: Option<usize>,
+    /// The lines.
+    pub lines: Vec<ZeroLineSummary>,
+    /// Parts of the zone of one sign, the largest first.
+    pub regions: Vec<RegionSummary>,
+    /// Order to which the determinant vanishes at `q = 0`; null where it is not real.
+    pub order_at_origin: Option<usize>,
+    /// Angles in the plane of `(q1, q2)` at which zero lines pass `q = 0`.
+    pub directions: Vec<f64>,
+    /// Rotation angles from a cell to the next of the state that was asked about: wavenumbers of its rotations about
+    /// directions across the axis. Null of the drawn state.
+    pub theta: Option<[f64; 2]>,
+    /// Distance of these wavenumbers from a zero of the determinant, its value there over its gradient; null of the drawn state.
+    pub theta_to_zero: Option<f64>,
+}
+
+/// Roots at one wavenumber.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DecaySummary {
+    /// The wavenumber.
+    pub q1: f64,
+    /// `log|z2|` of every root, ascending.
+    pub kappa2: Vec<f64>,
+    /// Condition number of every root.
+    pub condition: Vec<f64>,
+    /// How many roots coincide with every root, itself among them, as far as the rigidity matrix tells.
+    pub multiplicity: Vec<usize>,
+}
+
+/// A line of zeros of the determinant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ZeroLineSummary {
+    /// How often it goes round the zone along both wavenumbers.
+    pub winding: [i32; 2],
+    /// How often it passes `q = 0`.
+    pub passes: usize,
+    /// Length in the plane of `(q1, q2)`.
+    pub length: f64,
+    /// Largest error of a point.
+    pub residual: f64,
+}
+
+/// A part of the zone in which the determinant has one sign.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RegionSummary {
+    /// The sign, +1 or -1.
+    #[schemars(schema_with = "keys::sign")]
+    pub sign: i8,
+    /// Its part of the zone.
+    pub fraction: f64,
+}

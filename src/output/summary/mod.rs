@@ -1,0 +1,265 @@
+//! The summary of a run (`summary.json`) and of a sheet (`foldwell info`).
+//!
+//! Numbers that were not computed, NaN and infinity are `null`. The docs of the keys are the descriptions of the JSON schema
+//! ([`super::schema::schema`]); a key that can be `null` says when.
+
+mod bloch;
+mod branches;
+mod keys;
+mod kinds;
+mod landscape;
+mod modes;
+mod relax;
+mod surface;
+mod trace;
+mod wells;
+
+pub use bloch::{BlochSummary, DecaySummary, RegionSummary, ZeroLineSummary};
+pub use branches::{BranchesSummary, RaySummary};
+pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
+pub use modes::ModesSummary;
+pub use relax::{EnergySummary, IterationSummary, RelaxSummary};
+pub use surface::{PieceSummary, SurfaceSummary};
+pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
+pub use wells::{
+    BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, WellSummary, WellsSummary,
+};
+
+use super::OutputError;
+use super::files;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// What a run of `foldwell` found: `summary.json`. Angles are radians; lengths and energies have the units of the scene.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "foldwell summary")]
+pub struct Summary {
+    /// Version of the program.
+    pub version: &'static str,
+    /// The scene file, as it was named.
+    pub scene: String,
+    /// A fingerprint of the scene and of every file that it names.
+    pub digest: String,
+    /// The sheet.
+    pub sheet: SheetSummary,
+    /// The terms of the energy, and the locks, that were built.
+    pub terms: Vec<String>,
+    /// What the scene made unnecessary.
+    pub left_out: Vec<String>,
+    /// The studies, in the order of the scene.
+    pub studies: Vec<StudySummary>,
+}
+
+/// Counts of one cell, and of the model.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct SheetSummary {
+    /// Vertices of a cell.
+    pub vertices: usize,
+    /// Edges of a cell, diagonals of polygons included.
+    pub edges: usize,
+    /// Triangles of a cell.
+    pub faces: usize,
+    /// Polygons of a cell, as the mesh has them.
+    pub polygons: usize,
+    /// Whether the sheet can be laid flat: no angle defect at any vertex.
+    pub developable: bool,
+    /// Cells of the model.
+    pub cells: [usize; 2],
+    /// Unknowns of the model.
+    pub degrees_of_freedom: usize,
+}
+
+/// What came out of a study.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StudySummary {
+    /// Its name.
+    pub name: String,
+    /// Its kind; the other keys depend on it.
+    #[schemars(schema_with = "kinds::kind")]
+    pub kind: String,
+    /// Whether it gave its answer.
+    pub converged: bool,
+    /// Time in seconds, drawing and writing excluded.
+    pub seconds: f64,
+    /// The study's own error estimate; null where it gave no answer.
+    pub error: Option<f64>,
+    /// Why it did not converge; absent where it did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "String")]
+    pub reason: Option<String>,
+    /// What it wrote, by which a resumed run sees whether that is still there; absent while it is not finished.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Files")]
+    pub files: Option<Files>,
+    /// The keys of its kind; null where it did not get so far.
+    #[serde(flatten)]
+    #[schemars(schema_with = "kinds::answers")]
+    pub result: Option<StudyResult>,
+}
+
+/// The files of a study, taken together.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct Files {
+    /// How many there are.
+    pub count: usize,
+    /// Their bytes in all.
+    pub bytes: u64,
+    /// Sixteen hexadecimal digits that change with any name and any byte of theirs.
+    pub digest: String,
+}
+
+/// The keys of each kind of study.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum StudyResult {
+    /// `kind = "relax"`.
+    Relax(RelaxSummary),
+    /// `kind = "modes"`.
+    Modes(ModesSummary),
+    /// `kind = "branches"`.
+    Branches(BranchesSummary),
+    /// `kind = "surface"`.
+    Surface(SurfaceSummary),
+    /// `kind = "landscape"`.
+    Landscape(LandscapeSummary),
+    /// `kind = "bloch"`.
+    Bloch(BlochSummary),
+    /// `kind = "wells"`.
+    Wells(WellsSummary),
+    /// Of `trace`.
+    Trace(TraceSummary),
+}
+
+impl StudySummary {
+    /// The summary of a study that has given no answer yet.
+    pub fn unanswered(name: &str, kind: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            kind: kind.to_owned(),
+            converged: false,
+            seconds: 0.0,
+            error: None,
+            reason: None,
+            files: None,
+            result: None,
+        }
+    }
+}
+
+impl Summary {
+    /// Whether every study gave its answer.
+    pub fn converged(&self) -> bool {
+        self.studies.iter().all(|study| study.converged)
+    }
+
+    /// The text of `summary.json`.
+    pub fn to_json(&self) -> String {
+        to_json(self)
+    }
+
+    /// Writes `summary.json`.
+    ///
+    /// # Errors
+    /// [`OutputError::Write`].
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+        files::write(path, self.to_json())
+    }
+}
+
+/// Pretty JSON with a newline at its end.
+pub fn to_json(value: &impl Serialize) -> String {
+    // the types above have string keys and no own serializers: nothing in them can fail
+    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn sample() -> Summary {
+        let study = |name: &str, kind: &str, result| StudySummary {
+            name: name.into(),
+            kind: kind.into(),
+            converged: true,
+            seconds: 0.25,
+            error: Some(1e-13),
+            reason: None,
+            files: None,
+            result,
+        };
+        let relax = RelaxSummary { residual_force: f64::NAN, history: vec![<_>::default()], ..<_>::default() };
+        let branches = BranchesSummary { rays: vec![<_>::default()], ..<_>::default() };
+        let modes = ModesSummary { gap: Some(f64::INFINITY), eigenvalues: vec![0.1, 1e-300], ..<_>::default() };
+        Summary {
+            version: "0",
+            scene: "scene.toml".into(),
+            digest: "0".into(),
+            sheet: SheetSummary {
+                vertices: 4,
+                edges: 12,
+                faces: 8,
+                polygons: 8,
+                developable: false,
+                cells: [6, 6],
+                degrees_of_freedom: 432,
+            },
+            terms: vec!["bars".into()],
+            left_out: vec!["facets".into()],
+            studies: vec![
+                study("a", "relax", Some(StudyResult::Relax(relax))),
+                study("b", "modes", Some(StudyResult::Modes(modes))),
+                study("d", "branches", Some(StudyResult::Branches(branches))),
+                StudySummary { converged: false, reason: Some("why".into()), ..study("c", "relax", None) },
+            ],
+        }
+    }
+
+    fn keys(value: &Value) -> Vec<&str> {
+        value.as_object().unwrap().keys().map(String::as_str).collect()
+    }
+
+    /// The keys that readers of summaries rely on.
+    #[test]
+    fn the_summary_has_its_keys() {
+        let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
+        assert_eq!(keys(&json), ["digest", "left_out", "scene", "sheet", "studies", "terms", "version"]);
+        let sheet = ["cells", "degrees_of_freedom", "developable", "edges", "faces", "polygons", "vertices"];
+        assert_eq!(keys(&json["sheet"]), sheet);
+        for key in ["name", "kind", "converged", "seconds", "error", "energy", "iterations", "factorizations"] {
+            assert!(json["studies"][0].get(key).is_some(), "{key}");
+        }
+        for key in ["residual_force", "residual_length", "negative_eigenvalues", "error_to_kinematic", "history"] {
+            assert!(json["studies"][0].get(key).is_some(), "{key}");
+        }
+        for key in ["zero_modes", "self_stresses", "rigid_motions", "folding_modes", "maxwell_count", "gap"] {
+            assert!(json["studies"][1].get(key).is_some(), "{key}");
+        }
+        assert_eq!(keys(&json["studies"][0]["energy"]), ["bars", "creases", "facets", "total"]);
+        for key in ["complex_solutions", "distinct", "expected", "real_rays", "rays"] {
+            assert!(json["studies"][2].get(key).is_some(), "{key}");
+        }
+        let ray = ["branch", "curvature_sign", "direction", "multiplicity", "sign"];
+        assert_eq!(keys(&json["studies"][2]["rays"][0]), ray);
+        assert_eq!(keys(&json["studies"][3]), ["converged", "error", "kind", "name", "reason", "seconds"]);
+    }
+
+    /// Not a number and infinity are null; finite numbers read back exactly.
+    #[test]
+    fn numbers_that_json_lacks_are_null() {
+        let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
+        assert!(json["studies"][0]["residual_force"].is_null());
+        assert!(json["studies"][1]["gap"].is_null());
+        assert_eq!(json["studies"][1]["eigenvalues"], json!([0.1, 1e-300]));
+    }
+
+    /// A run gave its answer when all its studies did.
+    #[test]
+    fn one_failed_study_fails_the_run() {
+        let mut summary = sample();
+        assert!(!summary.converged());
+        summary.studies.pop();
+        assert!(summary.converged());
+    }
+}

@@ -1,0 +1,75 @@
+//! What a study of kind `relax` says in the summary.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Energy by terms; null where the term is not there, or not finite after a relaxation that failed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct EnergySummary {
+    /// Stretching.
+    pub bars: Option<f64>,
+    /// Folding.
+    pub creases: Option<f64>,
+    /// Bending of polygons.
+    pub facets: Option<f64>,
+    /// Their sum: the elastic energy.
+    #[schemars(with = "Option<f64>")]
+    pub total: f64,
+}
+
+/// An equilibrium.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RelaxSummary {
+    /// Energy of the last state.
+    pub energy: EnergySummary,
+    /// Accepted Newton steps.
+    pub iterations: usize,
+    /// Factorizations.
+    pub factorizations: usize,
+    /// Solves with a factorization that was there already.
+    pub chord_solves: usize,
+    /// Largest unbalanced force over the largest force of any term; null where a relaxation failed before it was known.
+    #[schemars(with = "Option<f64>")]
+    pub residual_force: f64,
+    /// Largest error of a length over the mean edge; null where a relaxation failed before it was known.
+    #[schemars(with = "Option<f64>")]
+    pub residual_length: f64,
+    /// Negative eigenvalues of the energy's Hessian on what the rigid terms leave free; null where it did not converge.
+    pub negative_eigenvalues: Option<usize>,
+    /// Redundant rigid terms; null where they were not counted.
+    pub self_stresses: Option<usize>,
+    /// Whether faces of the last state pass through each other; null where that was not asked.
+    pub self_intersecting: Option<bool>,
+    /// Largest difference of a fold angle to the exact solver; null where that says nothing.
+    pub error_to_kinematic: Option<f64>,
+    /// Number of rays of rigid folding that leave the drawn state from which a rigid cell with locks was relaxed, where that is a branch
+    /// point: other branches may end in other equilibria. Null elsewhere, and where these rays are not known.
+    pub branch_point_start: Option<usize>,
+    /// What is established about the directions of rigid folding there, in the words of `branches`; null where they were not looked for:
+    /// other starts, bars that are not rigid, no locks.
+    #[serde(default)]
+    #[schemars(extend("enum" = ["listed", "continuum", "not-established", null]))]
+    pub directions_at_start: Option<String>,
+    /// A row per iteration.
+    pub history: Vec<IterationSummary>,
+}
+
+/// One iteration of a relaxation; null: not finite, before a relaxation failed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct IterationSummary {
+    /// Number of the iteration; 0 is the start.
+    pub iteration: usize,
+    /// The merit: the energy, with the stiff terms through their tensions.
+    #[schemars(with = "Option<f64>")]
+    pub energy: f64,
+    /// Largest unbalanced force over the largest force of any term.
+    #[schemars(with = "Option<f64>")]
+    pub residual_force: f64,
+    /// Largest error of a length over the mean edge.
+    #[schemars(with = "Option<f64>")]
+    pub residual_length: f64,
+    /// Fraction of the Newton step that was taken.
+    pub step: f64,
+    /// Shift added to the Hessian, over its largest diagonal entry.
+    pub shift: f64,
+}

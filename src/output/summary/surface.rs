@@ -1,0 +1,50 @@
+//! What a study of kind `surface` says in the summary.
+
+use super::keys;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The surface of folded states.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SurfaceSummary {
+    /// States.
+    pub points: usize,
+    /// Triangles of states.
+    pub triangles: usize,
+    /// How the covering ended.
+    #[schemars(extend("enum" = ["complete", "open", "given-up", "too-many-points", "interrupted", "no-real-branch"]))]
+    pub coverage: String,
+    /// Where no surface leaves the drawn state: what establishes it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub established: Option<String>,
+    /// Of a complete covering: states within the largest curvature beside which triangles are missing, as where two surfaces cross
+    /// at a small angle. No state is missing there.
+    #[serde(default)]
+    pub gaps: usize,
+    /// Whether the surface has no border: it closes modulo 2 pi without meeting the largest curvature.
+    pub closed: bool,
+    /// Whether neighbouring triangles go the same way round everywhere.
+    pub oriented: bool,
+    /// Spatially periodic states on the surface, once for each nappe that ends there.
+    pub tips: usize,
+    /// The curvature at which the surface ends.
+    pub max_curvature: f64,
+    /// Largest radius of a chart in fold angles.
+    pub radius: f64,
+    /// Largest closure residual; null where there is no state.
+    pub max_residual: Option<f64>,
+    /// The nappes from which the surface was begun, with the states that were reached from each.
+    pub branches: Vec<PieceSummary>,
+}
+
+/// The states that were reached from one nappe.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PieceSummary {
+    /// Number of the branch: the same for nappes opposite each other, and for those on one piece of the surface.
+    pub branch: usize,
+    /// Sign of the curvature with which it leaves the drawn state.
+    #[schemars(schema_with = "keys::sign")]
+    pub sign: i8,
+    /// States.
+    pub points: usize,
+}

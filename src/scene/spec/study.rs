@@ -1,0 +1,240 @@
+//! `[[study]]` and the keys of each kind of study.
+
+use crate::scene::Located;
+use crate::scene::forms::{BranchChoice, Mode, Start};
+use crate::scene::values::{Cells, Count, EdgeName, Finite, Name, Pair, Positive, WellPair};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// `[[study]]`: a question about the sheet. Every kind has these keys and its own.
+///
+/// In the file `kind` is a word and the keys of the kind stand beside it; [`crate::scene::parse`] moves them into a
+/// table `kind = { relax = { .. } }` before the types see them.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudySpec {
+    /// Names its files: letters, digits, `_` and `-`, different for each study.
+    pub name: Located<Name>,
+    /// What is asked, with the keys that belong to it.
+    #[schemars(flatten)]
+    pub kind: Located<StudyKind>,
+    /// What is checked at every state.
+    #[serde(default)]
+    pub check: Vec<Check>,
+    /// The pictures: left out, all of them; empty, tables only.
+    #[serde(default = "every_picture")]
+    pub draw: Vec<Draw>,
+}
+
+fn every_picture() -> Vec<Draw> {
+    vec![Draw::Vtk, Draw::Svg]
+}
+
+/// A check at every state of a study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Check {
+    /// Whether faces pass through each other.
+    SelfIntersection,
+}
+
+/// A kind of picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Draw {
+    /// Files for ParaView.
+    Vtk,
+    /// One SVG.
+    Svg,
+}
+
+/// The kinds of studies.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(tag = "kind")]
+pub enum StudyKind {
+    /// An equilibrium of the energy.
+    Relax(RelaxSpec),
+    /// The trajectories along which the sheet folds.
+    Trace(TraceSpec),
+    /// The surface of folded states.
+    Surface(SurfaceSpec),
+    /// Zero modes, self stresses and the lowest eigenvalues.
+    Modes(ModesSpec),
+    /// The directions in which folding leaves a state.
+    Branches(BranchesSpec),
+    /// Energy along modes.
+    Landscape(LandscapeSpec),
+    /// Modes of nonzero wavenumber.
+    Bloch(BlochSpec),
+    /// Stable states and the barriers between them.
+    Wells(WellsSpec),
+}
+
+/// `kind = "relax"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RelaxSpec {
+    /// Where it starts; left out: as drawn.
+    pub start: Option<Located<Start>>,
+    /// Bound on both scaled residuals.
+    pub tolerance: Option<Located<Positive>>,
+}
+
+/// `kind = "trace"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TraceSpec {
+    /// What is solved at every step; left out: `kinematic`.
+    #[serde(default)]
+    pub engine: Engine,
+    /// Which branches are followed; left out: all.
+    pub branch: Option<Located<BranchChoice>>,
+    /// Longest step in arc length.
+    pub max_step: Option<Located<Positive>>,
+    /// Bound on the residual.
+    pub tolerance: Option<Located<Positive>>,
+    /// The first of these that is met ends a trajectory.
+    pub stop: Option<Located<StopSpec>>,
+}
+
+/// What a trace solves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Engine {
+    /// Closure of the fold angles round the vertices.
+    #[default]
+    Kinematic,
+    /// The relaxation.
+    Energy,
+    /// Both, compared at every step.
+    Both,
+}
+
+/// `stop = { .. }`, with at least one condition.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StopSpec {
+    /// Length of the trajectory in fold angles.
+    pub arc_length: Option<Located<Positive>>,
+    /// Magnitude of the curvature.
+    pub curvature: Option<Located<Positive>>,
+    /// A crease and the angle at which to stop.
+    pub crease_angle: Option<CreaseAngle>,
+    /// Whether to stop when faces first pass through each other.
+    pub self_intersection: Option<bool>,
+}
+
+/// `{ crease, angle }`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CreaseAngle {
+    /// The crease `[i, j, n1, n2]`.
+    pub crease: Located<EdgeName>,
+    /// Its fold angle in radians.
+    pub angle: Located<Finite>,
+}
+
+/// `kind = "surface"`: all states without locks; `[[lock]]` does not apply to it.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSpec {
+    /// Number of states along each direction over a whole turn of fold angles: discs of radius 2 pi / resolution around
+    /// the states, smaller ones where the surface bends, cover it. Left out: 32.
+    pub resolution: Option<Located<Count>>,
+    /// Magnitude of the curvature at which the surface ends, 1/length. Left out: one over the square root of the cell's
+    /// area, the curvature of a cylinder as large as the cell.
+    pub max_curvature: Option<Located<Positive>>,
+}
+
+/// `kind = "modes"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModesSpec {
+    /// How many of the lowest eigenvalues of the energy's Hessian; left out: none.
+    pub eigenvalues: Option<Located<usize>>,
+}
+
+/// `kind = "branches"`: no keys of its own.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BranchesSpec {}
+
+/// `kind = "landscape"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LandscapeSpec {
+    /// The modes, each `[k11, k22, k12]` or `{ rates = "file.csv" }`.
+    pub modes: Located<Vec<Located<Mode>>>,
+    /// The amplitudes along each.
+    pub amplitudes: Located<Vec<Positive>>,
+    /// Energies in all directions; left out: none.
+    pub map: Option<Located<MapSpec>>,
+}
+
+/// `map = { amplitude, rings }`: energies over the sphere of curvature tensors of one norm.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MapSpec {
+    /// The norm of the tensors, `sqrt(k11^2 + k22^2 + 2 k12^2)`, 1/length.
+    pub amplitude: Located<Positive>,
+    /// Rings of samples from a pole (`k11 = k22`) to the equator, with four times as many samples on each; left out: 8.
+    pub rings: Option<Located<Count>>,
+}
+
+/// `kind = "bloch"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlochSpec {
+    /// The state of which modes are wanted: an earlier study of one cell. Left out: as drawn.
+    pub start: Option<Located<Start>>,
+    /// Wavenumbers sampled along each direction; left out: [256, 256].
+    pub grid: Option<Located<Cells>>,
+    /// First wavenumbers at which decay rates are wanted, in radians per cell; left out: 32 that divide the zone evenly.
+    pub q1: Option<Located<Vec<Finite>>>,
+    /// Modes of which the displacement is written, each `[q1, kappa2]`: of the roots at `q1` the one of nearest decay rate.
+    pub modes: Option<Located<Vec<Pair>>>,
+    /// Corners `[q1, q2]` of a path through the zone along which the bands of the energy are wanted.
+    pub path: Option<Located<Vec<Pair>>>,
+}
+
+/// `kind = "wells"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WellsSpec {
+    /// Number of random starts; left out: 64.
+    pub starts: Option<Located<Count>>,
+    /// Seed of their random numbers; left out: 0.
+    #[serde(default)]
+    pub seed: u64,
+    /// Largest distance of the random fold angles towards which the sheet is crumpled from the drawn ones, in radians; left out: pi.
+    pub spread: Option<Located<Positive>>,
+    /// Pairs of wells between which the barrier is wanted, each `[a, b]`: wells are numbered by rising energy, from 0. Left out: none.
+    #[serde(default)]
+    pub barriers: Vec<Located<WellPair>>,
+    /// Whether wells and passes are also sought in fold angles alone, on the rigidly folded states: of a screw, or of a sheet that folds
+    /// along curves.
+    #[serde(default)]
+    pub rigid: bool,
+    /// With `rigid`, states over a whole turn of fold angles; left out: 64.
+    pub resolution: Option<Located<Count>>,
+    /// With `rigid`, magnitude of the curvature up to which the states of a screw are sought, 1/length. Left out: one over the square root
+    /// of the cell's area.
+    pub max_curvature: Option<Located<Positive>>,
+}
+
+impl StudyKind {
+    /// The word in the scene.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Relax(_) => "relax",
+            Self::Trace(_) => "trace",
+            Self::Surface(_) => "surface",
+            Self::Modes(_) => "modes",
+            Self::Branches(_) => "branches",
+            Self::Landscape(_) => "landscape",
+            Self::Bloch(_) => "bloch",
+            Self::Wells(_) => "wells",
+        }
+    }
+}

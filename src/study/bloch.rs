@@ -1,0 +1,346 @@
+//! `kind = "bloch"`: spatially varying modes of the drawn state, or of one that an earlier study found.
+
+use super::answer::{Answer, SavedState};
+use super::context::Context;
+use super::error::StudyError;
+use super::{relax, states};
+use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
+use crate::analysis::bloch::laurent::wavenumber;
+use crate::analysis::bloch::rigidity::cell_rotation;
+use crate::analysis::bloch::{self, BlochError, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone};
+use crate::analysis::state::cylinder;
+use crate::math::Vec3;
+use crate::model::{Assembly, Domain, Drawn};
+use crate::numerics::worst;
+use crate::output::Picture;
+use crate::output::artifact::Artifact;
+use crate::output::figure::bloch::{self as figure, BlochPlot};
+use crate::output::figure::rounded;
+use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, ZeroLineSummary};
+use crate::output::table::{Table, Value};
+use crate::scene::forms::Start;
+use crate::scene::spec::{BlochSpec, Draw};
+use crate::scene::{Located, SceneFile};
+use crate::sheet::EdgeKind;
+use std::f64::consts::TAU;
+
+/// Wavenumbers along each direction where the scene says nothing.
+const GRID: [usize; 2] = [256, 256];
+/// Wavenumbers of decay rates where the scene says nothing.
+const DECAYS: usize = 32;
+/// Wavenumbers over which the polarization is averaged.
+const AVERAGED: usize = 64;
+/// Wavenumbers from each corner of a path to the next.
+const STEPS: usize = 50;
+/// Wavenumbers of decay rates in the picture.
+const DRAWN: usize = 240;
+
+/// Spatially varying modes need a lattice, and as many conditions as coordinates.
+pub fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> {
+    let (file, assembly) = (context.file, context.assembly);
+    if let Some(start) = &spec.start {
+        check_start(context, spec, start)?;
+    }
+    if let (Some(path), None) = (&spec.path, stiffnesses(file, assembly)) {
+        let help = "give bars a finite stiffness and facets too, or leave out `path`";
+        return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
+    }
+    let refused = rigidity(file, assembly).and_then(|rigidity| rigidity.require_square());
+    let help = match &refused {
+        Ok(()) => return Ok(()),
+        Err(BlochError::NoLattice) => "a periodic sheet has the key `foldwell:lattice` in its mesh",
+        Err(_) => "give facets a stiffness, so that polygons bend: bars alone make as many conditions as coordinates",
+    };
+    match refused {
+        Err(error) => Err(context.refuse(error.to_string(), help).into()),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// A state of one cell that an earlier study found.
+fn check_start(context: &Context<'_>, spec: &BlochSpec, start: &Located<Start>) -> Result<(), StudyError> {
+    let wrong = |message: &str, help: &str| Err(context.file.error_at(start.span(), message, help).into());
+    let assembly = context.assembly;
+    match &**start {
+        Start::Drawn => Ok(()),
+        Start::Study(_) if matches!(assembly.drawn().domain, Domain::Patch) || assembly.tiling().cells != [1, 1] => {
+            let help = "give domain = \"screw\", or \"torus\" with cells = [1, 1]";
+            wrong("spatially varying modes are those of a state of one cell", help)
+        }
+        Start::Study(_) if spec.path.is_some() => {
+            wrong("bands are those of the drawn state, which is at rest", "leave out `path` or `start`")
+        }
+        Start::Study(_) => Ok(()),
+        Start::Random(_) | Start::File(_) => {
+            wrong("spatially varying modes need a state that an earlier study found", "give the name of that study")
+        }
+    }
+}
+
+/// The state of which modes are wanted.
+struct Ground {
+    /// Bars, and the locks of polygons that are rigid.
+    rigidity: Rigidity,
+    /// All coordinates of the state of an earlier study; `None`: as drawn.
+    folded: Option<Vec<f64>>,
+}
+
+/// The state that the scene names; `None` where the study that should have found it did not.
+fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<Ground>, BlochError> {
+    let assembly = context.assembly;
+    let Some(Start::Study(name)) = spec.start.as_deref() else {
+        return Ok(Some(Ground { rigidity: rigidity(context.file, assembly)?, folded: None }));
+    };
+    let (sheet, drawn) = (assembly.sheet(), assembly.drawn());
+    let fits = |saved: &&SavedState| saved.coordinates.len() == drawn.coordinates.len();
+    let Some(saved) = context.earlier.states.get(name).filter(fits) else { return Ok(None) };
+    let rigid = facet_stiffness(context.file).is_infinite();
+    let rigidity = Rigidity::of_state(sheet, rigid, &drawn.domain, &saved.coordinates)?;
+    Ok(Some(Ground { rigidity, folded: Some(saved.coordinates.clone()) }))
+}
+
+/// Stiffness of the diagonals of polygons, which are rigid where the scene says nothing. The model of a patch does not
+/// have those that its rim cuts.
+fn facet_stiffness(file: &SceneFile) -> f64 {
+    file.scene.energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0)
+}
+
+/// Bars of the drawn state, and the locks of polygons that are rigid.
+fn rigidity(file: &SceneFile, assembly: &Assembly) -> Result<Rigidity, BlochError> {
+    Rigidity::of_sheet(assembly.sheet(), facet_stiffness(file).is_infinite())
+}
+
+/// Stiffnesses of the energy; `None` where it has no bars, or a term is rigid.
+fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
+    let creases = assembly.terms().creases.as_ref().map_or(0.0, |creases| creases.stiffness);
+    let has_facets = assembly.sheet().edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
+    let facets = if has_facets { facet_stiffness(file) } else { 0.0 };
+    let found = Stiffnesses { bars: assembly.terms().bars?, creases, facets };
+    [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
+}
+
+/// What the analysis found.
+struct Found {
+    ground: Ground,
+    survey: Survey,
+    grid: [usize; 2],
+    bands: Vec<Bands>,
+}
+
+/// The bands at a wavenumber of the path.
+struct Bands {
+    q: [f64; 2],
+    values: Vec<f64>,
+}
+
+/// Surveys the modes of the state that the scene names.
+pub fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
+    let found = match ground(context, spec) {
+        Ok(Some(ground)) => find(context, spec, ground),
+        Ok(None) => return relax::start_unavailable(context),
+        Err(error) => Err(error),
+    };
+    let found = match found {
+        Ok(Some(found)) => found,
+        Ok(None) => return Answer::failed(context.study, "interrupted"),
+        Err(error) => return Answer::failed(context.study, error),
+    };
+    let (name, mut answer) = (context.name(), Answer::empty(context.study));
+    answer.add(format!("{name}.csv"), table(&found.survey.decays));
+    if !found.bands.is_empty() {
+        answer.add(format!("{name}_bands.csv"), band_table(&found.bands));
+    }
+    add_maps(&mut answer, context, &found);
+    add_figure(&mut answer, context, &found);
+    let result = summary(context.assembly, &found);
+    answer.conclude(StudyResult::Bloch(result), Some(found.survey.determinant.error), None);
+    answer
+}
+
+/// All answers; `None` where the observer asked to stop.
+fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Option<Found>, BlochError> {
+    let options = SurveyOptions {
+        wavenumbers: wavenumbers(spec),
+        averaged: AVERAGED,
+        grid: spec.grid.as_ref().map_or(GRID, |grid| grid.0),
+        modes: spec.modes.iter().flat_map(|modes| modes.iter()).map(|pair| pair.0).collect(),
+    };
+    let mut go_on = |step: usize| context.step(step, Some(bloch::STEPS));
+    let Some(survey) = bloch::survey(&ground.rigidity, &options, &mut go_on)? else { return Ok(None) };
+    Ok(Some(Found { ground, survey, grid: options.grid, bands: bands(context, spec)? }))
+}
+
+/// The bands along the path of the scene.
+fn bands(context: &Context<'_>, spec: &BlochSpec) -> Result<Vec<Bands>, BlochError> {
+    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(context.file, context.assembly)) else {
+        return Ok(Vec::new());
+    };
+    let matrix = DynamicalMatrix::new(context.assembly.sheet(), stiffnesses)?;
+    let corners: Vec<[f64; 2]> = path.iter().map(|corner| corner.0).collect();
+    along_path(&corners, STEPS).into_iter().map(|q| Ok(Bands { q, values: matrix.bands(q)? })).collect()
+}
+
+fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
+    match &spec.q1 {
+        Some(list) => list.iter().map(|q1| q1.0).collect(),
+        None => (0..DECAYS).map(|k| wavenumber(k, DECAYS)).collect(),
+    }
+}
+
+/// A row for every root at every wavenumber.
+fn table(decays: &[Decay]) -> Table {
+    let names = ["q1", "root", "kappa2", "q2", "condition", "on_circle", "multiplicity"];
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    for decay in decays {
+        for (k, root) in decay.roots.iter().enumerate() {
+            let numbers = [root.kappa(), root.wavenumber(), root.condition].map(Value::Number);
+            let first = [Value::Number(decay.q), Value::Whole(k as i64)];
+            let last = [root.on_circle().into(), root.multiplicity as i64].map(Value::Whole);
+            table.push(first.into_iter().chain(numbers).chain(last).collect());
+        }
+    }
+    table
+}
+
+/// A row for every wavenumber of the path: its length so far, the wavenumber, and the bands.
+fn band_table(bands: &[Bands]) -> Table {
+    let count = bands.iter().map(|at| at.values.len()).max().unwrap_or(0);
+    let names = ["length", "q1", "q2"].map(str::to_owned);
+    let mut table = Table::new(names.into_iter().chain((0..count).map(|k| format!("band_{k}"))).collect());
+    let mut length = 0.0;
+    for (k, Bands { q, values }) in bands.iter().enumerate() {
+        let before = bands[k.saturating_sub(1)].q;
+        length += (q[0] - before[0]).hypot(q[1] - before[1]);
+        table.push([length, q[0], q[1]].iter().chain(values).map(|number| Value::Number(*number)).collect());
+    }
+    table
+}
+
+/// Adds the map, the lines of zero modes and the displacements of modes, where the study asks for them.
+fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &Found) {
+    if !context.draws(Draw::Vtk) {
+        return;
+    }
+    let (name, survey, mut files) = (context.name(), &found.survey, Vec::new());
+    let mut add = |file: String, artifact: Artifact| {
+        files.push((files.len() as f64, file.clone()));
+        answer.add(file, artifact);
+    };
+    let [real, imaginary] = survey.map.clone();
+    let map = Artifact::Grid {
+        size: found.grid,
+        origin: found.grid.map(|n| wavenumber(0, n)),
+        spacing: found.grid.map(|n| TAU / n as f64),
+        arrays: vec![("determinant", real), ("imaginary_part", imaginary)],
+    };
+    add(format!("{name}/{name}_determinant.vti"), map);
+    if let Some((_, lines)) = &survey.real {
+        let winding = |a: usize| lines.lines.iter().map(|line| line.winding[a]).collect();
+        let passes = lines.lines.iter().map(|line| line.passes as i32).collect();
+        let lines = Artifact::Curves {
+            curves: lines.lines.iter().map(|line| line.points.clone()).collect(),
+            arrays: vec![("winding1", winding(0)), ("winding2", winding(1)), ("passes", passes)],
+        };
+        add(format!("{name}/{name}_zero_lines.vtp"), lines);
+    }
+    for (k, mode) in survey.modes.iter().enumerate() {
+        let picture = moving_picture(context, found.ground.folded.as_ref(), mode);
+        add(format!("{name}/{name}_mode_{k:04}.vtu"), picture.into());
+    }
+    answer.add(format!("{name}.pvd"), Artifact::Series(files));
+}
+
+/// Adds the picture of determinant and decay rates, where the study asks for it.
+fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &Found) {
+    if !context.draws(Draw::Svg) {
+        return;
+    }
+    let survey = &found.survey;
+    let lines = survey.real.iter().flat_map(|(_, lines)| &lines.lines).map(|line| line.points.clone()).collect();
+    let theta = theta(context.assembly, &found.ground);
+    let marks = theta.map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
+    let state = theta.map_or("modes of the drawn state".to_owned(), |[theta1, theta2]| {
+        format!("modes of a cylinder with rotations of {} and {} rad per cell", rounded(theta1, 4), rounded(theta2, 4))
+    });
+    let (rates, polynomial) = (rates(&survey.determinant), &survey.determinant.polynomial);
+    let plot = BlochPlot { rates, polynomial, lines, marks };
+    answer.add(format!("{}.svg", context.name()), figure::svg(&plot, &context.caption(state)));
+}
+
+/// A mode on the cells that are shown, in the frame of the mesh file, as velocities of the state of which it is.
+fn moving_picture(context: &Context<'_>, folded: Option<&Vec<f64>>, mode: &ModeShape) -> Picture {
+    let (drawn, places) = (context.assembly.drawn(), &context.view.places);
+    let displacement = mode.at(places);
+    let Some(x) = folded else {
+        return Picture { displacement, ..states::picture_at(context, drawn.coordinates.clone()) };
+    };
+    let Drawn { domain, frame, .. } = drawn;
+    let turned = |((_, cell), u): (&(usize, [i32; 2]), Vec3)| frame.transpose() * cell_rotation(domain, x, *cell) * u;
+    let displacement = places.iter().zip(displacement).map(turned).collect();
+    Picture { displacement, ..states::picture_at(context, x.clone()) }
+}
+
+/// Rotation angles from a cell of the state to the next; `None` of the drawn state.
+fn theta(assembly: &Assembly, ground: &Ground) -> Option<[f64; 2]> {
+    let x = ground.folded.as_ref()?;
+    cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, x).map(|cylinder| cylinder.theta)
+}
+
+/// `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers; those at which the determinant vanishes for
+/// all `z2` are left out.
+fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
+    let decays = (0..DRAWN).filter_map(|k| Decay::new(determinant, 0, wavenumber(k, DRAWN)).ok());
+    decays
+        .flat_map(|decay| decay.roots.into_iter().map(move |root| (decay.q, root.kappa(), root.on_circle())))
+        .collect()
+}
+
+fn summary(assembly: &Assembly, found: &Found) -> BlochSummary {
+    let Survey { determinant, decays, polarization, real, map, .. } = &found.survey;
+    let pairings: Vec<_> = decays.iter().map(Decay::pairing).collect();
+    let decay = |decay: &Decay| DecaySummary {
+        q1: decay.q,
+        kappa2: decay.roots.iter().map(|root| root.kappa()).collect(),
+        condition: decay.roots.iter().map(|root| root.condition.min(f64::MAX)).collect(),
+        multiplicity: decay.roots.iter().map(|root| root.multiplicity).collect(),
+    };
+    let positive = map[0].iter().filter(|value| **value > 0.0).count() as f64 / map[0].len() as f64;
+    let lines = real.as_ref().map_or(&[][..], |(_, lines)| &lines.lines);
+    let theta = theta(assembly, &found.ground);
+    let to_zero = |(zone, q): (&Zone, [f64; 2])| {
+        let (value, gradient) = zone.at(q);
+        value.abs() / gradient[0].hypot(gradient[1])
+    };
+    let length = |points: &[[f64; 2]]| points.windows(2).map(|q| (q[1][0] - q[0][0]).hypot(q[1][1] - q[0][1])).sum();
+    let region = |region: &crate::analysis::bloch::zero_lines::Region| RegionSummary {
+        sign: if region.positive { 1 } else { -1 },
+        fraction: region.fraction,
+    };
+    BlochSummary {
+        determinant: determinant.polynomial.terms().map(|(m, n, c)| [m, n, c]).collect(),
+        symmetry_error: determinant.symmetry_error,
+        imaginary_part: determinant.imaginary_part,
+        decay: decays.iter().map(decay).collect(),
+        pairing_error: worst(pairings.iter().filter_map(|pairing| pairing.error)),
+        pairing_condition: worst(pairings.iter().filter_map(|pairing| pairing.condition)),
+        ill_conditioned: pairings.iter().map(|pairing| pairing.left_out).sum(),
+        polarization: polarization.polarization,
+        on_circle: polarization.on_circle,
+        positive_fraction: real.as_ref().map(|_| positive),
+        zero_lines: real.as_ref().map(|(_, lines)| lines.lines.len()),
+        lines: lines
+            .iter()
+            .map(|line| ZeroLineSummary {
+                winding: line.winding,
+                passes: line.passes,
+                length: length(&line.points),
+                residual: line.residual,
+            })
+            .collect(),
+        regions: real.iter().flat_map(|(_, lines)| lines.regions.iter().map(region)).collect(),
+        order_at_origin: real.as_ref().map(|(zone, _)| zone.order),
+        directions: real.iter().flat_map(|(zone, _)| zone.directions().unwrap_or_default()).collect(),
+        theta,
+        theta_to_zero: real.as_ref().map(|(zone, _)| zone).zip(theta).map(to_zero),
+    }
+}

@@ -1,0 +1,119 @@
+//! `kind = "branches"`: the rays along which rigid folding leaves the drawn state.
+
+use super::answer::Answer;
+use super::context::Context;
+use super::error::StudyError;
+use crate::analysis::branches::{Branches, branches};
+use crate::kinematics::{Rays, RealDirections};
+use crate::model::{Assembly, Boundary};
+use crate::output::summary::{BranchesSummary, RaySummary, StudyResult};
+use crate::output::table::{Table, Value};
+
+/// A lock within this of the drawn angle keeps the drawn state.
+const AS_DRAWN: f64 = 1e-9;
+
+/// Branches leave the drawn state of a screw or a patch: refuses a torus, and locks at other angles.
+pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
+    let assembly = context.assembly;
+    if matches!(assembly.boundary(), Boundary::FixedTorus | Boundary::FreeTorus) {
+        let message = "branches of a torus are not known: its lattice has conditions of its own";
+        return Err(context.refuse(message, "use domain = \"screw\" or \"patch\"").into());
+    }
+    let angles = assembly.drawn_angles();
+    let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
+    match assembly.terms().locks.iter().find(moved) {
+        None => Ok(()),
+        Some((edge, angle)) => {
+            let message = format!("a lock holds a crease at {angle} that is drawn at {}", angles[*edge]);
+            let help = "branches leave the drawn state: leave out the angle of the lock";
+            Err(context.refuse(message, help).into())
+        }
+    }
+}
+
+/// Number of rays that leave the drawn state of a rigid cell with locks, where more than one motion passes through it: what is relaxed
+/// from there may end in other equilibria.
+///
+/// Beside it what is established about these directions; `None` where they were not looked for.
+pub fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDirections>) {
+    let rigid = assembly.terms().bars.is_some_and(f64::is_infinite);
+    if !rigid || assembly.boundary() != Boundary::Screw || assembly.terms().locks.is_empty() {
+        return (None, None);
+    }
+    match branches(assembly) {
+        Ok(Branches { rays: Rays { rays, directions, .. }, .. }) => {
+            (Some(rays.len()).filter(|count| *count > 2), Some(directions))
+        }
+        Err(_) => (None, Some(RealDirections::NotEstablished)),
+    }
+}
+
+/// The word of the summary for what is established about directions.
+pub fn word(directions: RealDirections) -> String {
+    let word = match directions {
+        RealDirections::Listed => "listed",
+        RealDirections::Continuum => "continuum",
+        RealDirections::NotEstablished => "not-established",
+    };
+    word.to_owned()
+}
+
+/// Finds the branches.
+pub fn compute(context: &Context<'_>) -> Answer {
+    let mut answer = Answer::empty(context.study);
+    context.step(0, None);
+    match branches(context.assembly) {
+        Ok(branches) => {
+            answer.add(format!("{}.csv", context.name()), table(context.assembly, &branches));
+            let error = branches.rays.rays.iter().map(|ray| ray.error).max_by(f64::total_cmp);
+            answer.conclude(StudyResult::Branches(summary(&branches)), error, None);
+            answer
+        }
+        Err(error) => Answer::failed(context.study, error),
+    }
+}
+
+/// A row for each ray, with the rate of every fold angle. On a patch of several cells columns also name the cell.
+fn table(assembly: &Assembly, branches: &Branches) -> Table {
+    let several = assembly.tiling().cells != [1, 1];
+    let rate = assembly.tiling().edges.iter().map(|edge| {
+        let key = assembly.sheet().edges[edge.edge].key;
+        let cell = if several { format!("_{}_{}", edge.cell[0], edge.cell[1]) } else { String::new() };
+        format!("rate_{}_{}_{}_{}{cell}", key.i, key.j, key.shift[0], key.shift[1])
+    });
+    let first = ["branch", "sign", "multiplicity", "curvature_sign", "error"].map(str::to_owned);
+    let mut table = Table::new(first.into_iter().chain(rate).collect());
+    for (ray, curvature) in branches.rays.rays.iter().zip(&branches.curvature_signs) {
+        let curvature = Value::from(curvature.map(i64::from));
+        let counts = [ray.branch as i64, i64::from(ray.sign), ray.multiplicity as i64].map(Value::Whole);
+        let rates = ray.direction.iter().map(|rate| Value::Number(*rate));
+        table.push(counts.into_iter().chain([curvature, Value::Number(ray.error)]).chain(rates).collect());
+    }
+    table
+}
+
+fn summary(branches: &Branches) -> BranchesSummary {
+    let Branches { modes, quadrics, signature, rays, curvature_signs } = branches;
+    let listed = rays.rays.iter().zip(curvature_signs).map(|(ray, curvature_sign)| RaySummary {
+        branch: ray.branch,
+        sign: ray.sign,
+        multiplicity: ray.multiplicity,
+        direction: ray.direction.clone(),
+        curvature_sign: *curvature_sign,
+    });
+    BranchesSummary {
+        modes: *modes,
+        quadrics: *quadrics,
+        signature: *signature,
+        dimension: rays.dimension,
+        complex_solutions: rays.complex_solutions,
+        distinct: rays.distinct,
+        expected: rays.expected,
+        on_continua: rays.on_continua,
+        extraneous: rays.extraneous,
+        singular: rays.singular,
+        directions: word(rays.directions),
+        real_rays: rays.rays.len(),
+        rays: listed.collect(),
+    }
+}

@@ -1,0 +1,290 @@
+//! `kind = "landscape"`: the energy of a patch or a torus along folding modes, fitted and compared with the prediction.
+
+use super::answer::Answer;
+use super::context::Context;
+use super::error::StudyError;
+use super::{map, relax};
+use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
+use crate::analysis::landscape::{HeldSheet, LandscapeError, fit};
+use crate::model::{Assembly, Boundary};
+use crate::numerics::{larger, worst};
+use crate::output::figure::chart::{self, Chart, Point, Series};
+use crate::output::figure::rounded;
+use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult};
+use crate::output::table::{Table, Value};
+use crate::scene::Located;
+use crate::scene::build;
+use crate::scene::forms::Mode;
+use crate::scene::spec::{Draw, LandscapeSpec};
+use crate::sheet::EdgeKey;
+
+/// Landscapes are those of patches and tori of periodic sheets, with bars and creases and nothing that holds or pulls.
+pub fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), StudyError> {
+    let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
+    let (file, assembly, terms) = (context.file, context.assembly, context.assembly.terms());
+    let torus = match assembly.boundary() {
+        Boundary::Patch => false,
+        Boundary::FixedTorus | Boundary::FreeTorus => true,
+        Boundary::Screw => return refuse("a landscape needs cells around its own", "use domain = \"patch\""),
+    };
+    if assembly.sheet().lattice.is_none() {
+        return refuse("a finite sheet has no uniform modes", "give the mesh a lattice");
+    }
+    if terms.bars.is_none() || terms.creases.is_none() {
+        let help = "give bars (inf: rigid) and creases a stiffness";
+        return refuse("a landscape is the energy of bars and creases", help);
+    }
+    if torus && terms.bars.is_some_and(f64::is_infinite) {
+        let help = "give bars a finite stiffness";
+        return refuse("modes of a torus stretch bars beyond linear order, rigid bars forbid them", help);
+    }
+    if !(terms.locks.is_empty() && terms.pins.is_empty() && terms.loads.is_empty()) {
+        let help = "leave out [[lock]], [[pin]] and [[load]]";
+        return refuse("a landscape holds nothing but the amplitude of a mode", help);
+    }
+    let held = HeldSheet::new(assembly).map_err(|error| context.refuse(error.to_string(), MODES))?;
+    if let Some(map) = &spec.map {
+        held.named([1.0, 0.0, 0.0]).map_err(|error| file.error_at(map.span(), error.to_string(), NO_MAP))?;
+    }
+    spec.modes.iter().try_for_each(|mode| rates(context, &held, mode).map(|_| ()))
+}
+
+/// Samples above rounding that a fit needs where others are below.
+const FITTED: usize = 2;
+
+/// What to do where there is no map.
+const NO_MAP: &str = "maps are of patches with three modes that curvatures name; leave out `map`";
+
+/// What to do where modes are missing.
+const MODES: &str = "patches have modes named by curvatures, tori those of wavenumbers on zero lines";
+
+/// Rates of the rest angles of a mode.
+fn rates(context: &Context<'_>, held: &HeldSheet, mode: &Located<Mode>) -> Result<Vec<f64>, StudyError> {
+    let (file, assembly) = (context.file, context.assembly);
+    let found = match &**mode {
+        Mode::Curvature(curvature) => held.named(*curvature),
+        Mode::Wave(wave) if assembly.tiling().periodic => held.wave(assembly.tiling(), *wave.wave),
+        Mode::Wave(_) => Err(LandscapeError::NoWaves),
+        Mode::Rates(name) => held.with_rates(&uniform(context, mode, &build::rates(file, assembly, name)?)?),
+    };
+    Ok(found.map_err(|error| file.error_at(mode.span(), error.to_string(), MODES))?)
+}
+
+/// From all edges to those of the piece of sheet that repeats: a patch has the same rates in every cell.
+fn uniform(context: &Context<'_>, mode: &Located<Mode>, all: &[f64]) -> Result<Vec<f64>, StudyError> {
+    let assembly = context.assembly;
+    if assembly.tiling().periodic {
+        return Ok(all.to_vec());
+    }
+    let mut cell = vec![f64::NAN; assembly.sheet().edges.len()];
+    for (tiled, rate) in assembly.tiling().edges.iter().zip(all) {
+        if !cell[tiled.edge].is_nan() && !rate.is_nan() && cell[tiled.edge] != *rate {
+            let help = "give one row for each crease of the cell, without cell1 and cell2";
+            return Err(context.file.error_at(mode.span(), "the rates differ from cell to cell", help).into());
+        }
+        if !rate.is_nan() {
+            cell[tiled.edge] = *rate;
+        }
+    }
+    Ok(cell)
+}
+
+/// Samples every mode, and the map where the scene asks for one.
+pub fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Answer, StudyError> {
+    let found: Vec<Along> = spec.modes.iter().map(|mode| along(context, spec, mode)).collect::<Result<_, _>>()?;
+    let mut answer = Answer::empty(context.study);
+    answer.add(format!("{}.csv", context.name()), table(context.assembly, &found));
+    if context.draws(Draw::Svg) {
+        answer.add(format!("{}.svg", context.name()), chart::svg(&energies(&context.file.title(), &found)));
+    }
+    let map = spec.map.as_ref().map(|map| map::compute(context, map, &mut answer)).transpose()?;
+    let of_map = map.as_ref().and_then(|map| map.reason.clone());
+    let reason = found.iter().find_map(Along::failure).or(of_map);
+    let error = worst(found.iter().filter_map(Along::residual));
+    let modes = found.iter().map(|along| along.summarized(&amplitudes(spec))).collect();
+    let result = LandscapeSummary { modes, map: map.map(|map| map.summary) };
+    answer.conclude(StudyResult::Landscape(result), error, reason);
+    Ok(answer)
+}
+
+/// The landscape along one mode.
+struct Along {
+    /// As the scene names it.
+    mode: Mode,
+    curvature: Option<[f64; 3]>,
+    landscape: Result<Landscape, LandscapeError>,
+}
+
+/// The landscape along one mode, by rising amplitude.
+fn along(context: &Context<'_>, spec: &LandscapeSpec, mode: &Located<Mode>) -> Result<Along, StudyError> {
+    let refuse = |error: LandscapeError| context.file.error_at(mode.span(), error.to_string(), MODES);
+    let mut held = HeldSheet::new(context.assembly).map_err(refuse)?;
+    let rates = rates(context, &held, mode)?;
+    let curvature = match &**mode {
+        Mode::Curvature(curvature) => Some(*curvature),
+        _ => held.curvature(&rates),
+    };
+    let landscape = landscape(&mut held, rates, &amplitudes(spec), &mut relax::watcher(context));
+    Ok(Along { mode: (**mode).clone(), curvature, landscape })
+}
+
+fn amplitudes(spec: &LandscapeSpec) -> Vec<f64> {
+    let mut amplitudes: Vec<f64> = spec.amplitudes.iter().map(|amplitude| amplitude.0).collect();
+    amplitudes.sort_by(f64::total_cmp);
+    amplitudes
+}
+
+impl Along {
+    fn samples(&self) -> &[Sample] {
+        self.landscape.as_ref().map_or(&[], |landscape| &landscape.samples)
+    }
+
+    /// Why samples are missing, or say nothing.
+    fn failure(&self) -> Option<String> {
+        let why = match &self.landscape {
+            Ok(landscape) => landscape.failure.as_ref().map(ToString::to_string).or_else(|| self.rounded())?,
+            Err(error) => error.to_string(),
+        };
+        Some(format!("mode {}: {why}", self.name()))
+    }
+
+    fn name(&self) -> String {
+        match (&self.mode, self.curvature) {
+            (Mode::Wave(wave), _) => format!("{{ wave = {:?} }}", *wave.wave),
+            (Mode::Rates(name), _) => format!("{{ rates = {:?} }}", *name.rates),
+            (Mode::Curvature(curvature), _) => format!("{curvature:?}"),
+        }
+    }
+
+    /// The mode in the words of a legend.
+    fn legend(&self) -> String {
+        match (&self.mode, self.curvature) {
+            (Mode::Wave(wave), _) => format!("wave ({}, {})", wave.wave[0], wave.wave[1]),
+            (Mode::Rates(name), _) => format!("rates of {:?}", *name.rates),
+            (Mode::Curvature([k11, k22, k12]), _) => {
+                format!("k\u{2081}\u{2081}, k\u{2082}\u{2082}, k\u{2081}\u{2082} = {k11}, {k22}, {k12}")
+                    .replace('-', "\u{2212}")
+            }
+        }
+    }
+
+    /// That too few samples are above rounding for a fit, where some are not.
+    fn rounded(&self) -> Option<String> {
+        let (below, all) = (self.below_rounding(), self.samples().len());
+        let least = self.samples().iter().map(|sample| sample.rounding).fold(0.0, f64::max);
+        (below > 0 && all - below < FITTED).then(|| {
+            format!(
+                "the energies of {below} of {all} samples may be rounding (which makes {least:.1e} of energy), too few are \
+                 left to fit: give larger amplitudes"
+            )
+        })
+    }
+
+    fn below_rounding(&self) -> usize {
+        self.samples().iter().filter(|sample| sample.below_rounding()).count()
+    }
+
+    /// Amplitudes and energies of the samples that are fitted: those above rounding, if they are enough.
+    fn fitted(&self) -> Vec<(f64, f64)> {
+        if self.rounded().is_some() {
+            return Vec::new();
+        }
+        let above = self.samples().iter().filter(|sample| !sample.below_rounding());
+        above.map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
+    }
+
+    fn residual(&self) -> Option<f64> {
+        let of = |sample: &Sample| larger(sample.relaxed.residual_force, sample.relaxed.residual_length);
+        worst(self.samples().iter().map(of))
+    }
+
+    /// Amplitudes and energies.
+    fn energies(&self) -> Vec<(f64, f64)> {
+        self.samples().iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
+    }
+
+    fn summarized(&self, amplitudes: &[f64]) -> ModeLandscape {
+        let energies = self.energies();
+        let sample = |(k, amplitude): (usize, &f64)| SampleSummary {
+            amplitude: *amplitude,
+            energy: energies.get(k).map(|(_, energy)| *energy),
+            below_rounding: self.samples().get(k).is_some_and(Sample::below_rounding),
+            converged: k < energies.len(),
+        };
+        let fitted = self.fitted();
+        let (exponent, coefficient) = (fit::exponent(&fitted), fit::coefficient(&fitted));
+        let predicted = self.landscape.as_ref().ok().map(|landscape| landscape.predicted);
+        ModeLandscape {
+            mode: self.curvature,
+            wave: if let Mode::Wave(wave) = &self.mode { Some(*wave.wave) } else { None },
+            samples: amplitudes.iter().enumerate().map(sample).collect(),
+            exponent: exponent.map(|estimate| estimate.value),
+            exponent_error: exponent.and_then(|estimate| estimate.error),
+            coefficient: coefficient.map(|estimate| estimate.value),
+            coefficient_error: coefficient.and_then(|estimate| estimate.error),
+            predicted_coefficient: predicted.map(|expansion| expansion.fourth),
+            predicted_fifth: predicted.map(|expansion| expansion.fifth),
+            predicted_sixth: predicted.map(|expansion| expansion.sixth),
+            below_rounding: self.below_rounding(),
+            fit_agrees: coefficient.zip(predicted).map(|(fit, predicted)| fit::agrees(&fitted, fit, predicted)),
+            defect: self.curvature.map(|[k11, k22, k12]| k11 * k22 - k12 * k12),
+        }
+    }
+}
+
+/// Energies against amplitudes, a line for each mode, with the slope of those that have one.
+fn energies(title: &str, found: &[Along]) -> Chart {
+    let point = |sample: &Sample| Point { x: sample.amplitude, y: sample.relaxed.state.total(), label: String::new() };
+    let series = |along: &Along| {
+        let above = along.samples().iter().filter(|sample| !sample.below_rounding());
+        let slope = fit::exponent(&along.fitted()).map(|slope| format!(", slope {}", rounded(slope.value, 4)));
+        Series { name: along.legend() + &slope.unwrap_or_default(), points: above.map(point).collect() }
+    };
+    let below = found.iter().flat_map(Along::samples).filter(|sample| sample.below_rounding());
+    Chart {
+        title: title.to_owned(),
+        x: "amplitude of the mode".to_owned(),
+        y: "energy (unit of the scene)".to_owned(),
+        series: found.iter().map(series).collect(),
+        rounding: below.map(point).collect(),
+        ..Chart::default()
+    }
+}
+
+/// A row for each sample: the mode, the amplitude, the energies, and on patches the rest angles less those drawn.
+fn table(assembly: &Assembly, found: &[Along]) -> Table {
+    let names = [
+        "mode",
+        "k11",
+        "k22",
+        "k12",
+        "amplitude",
+        "energy_bars",
+        "energy_creases",
+        "energy_facets",
+        "energy_total",
+        "residual_force",
+        "residual_length",
+        "iterations",
+        "rounds",
+    ];
+    let rest = |key: &EdgeKey| format!("rest_{}_{}_{}_{}", key.i, key.j, key.shift[0], key.shift[1]);
+    let uniform = if assembly.tiling().periodic { &[] } else { assembly.sheet().edges.as_slice() };
+    let rests = uniform.iter().map(|edge| rest(&edge.key));
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).chain(rests).collect());
+    for (number, along) in found.iter().enumerate() {
+        for sample in along.samples() {
+            let (relaxed, state) = (&sample.relaxed, &sample.relaxed.state);
+            let facets = assembly.terms().facets.as_ref().map(|_| state.energy_facets);
+            let mut row = vec![Value::Whole(number as i64)];
+            row.extend((0..3).map(|k| Value::from(along.curvature.map(|curvature| curvature[k]))));
+            row.extend([sample.amplitude, state.energy_bars, state.energy_creases].map(Value::Number));
+            row.push(Value::from(facets));
+            row.extend([state.total(), relaxed.residual_force, relaxed.residual_length].map(Value::Number));
+            row.extend([sample.iterations, sample.rounds].map(|count| Value::Whole(count as i64)));
+            row.extend(uniform.iter().zip(&sample.rest).map(|(_, angle)| Value::Number(*angle)));
+            table.push(row);
+        }
+    }
+    table
+}

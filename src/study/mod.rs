@@ -1,0 +1,70 @@
+//! The kinds of study: a question of a scene in, an [`Answer`] out. Nothing here writes a file.
+//!
+//! | kind | module | what is asked |
+//! |---|---|---|
+//! | `relax` | [`relax`] | the equilibrium that is reached from a start |
+//! | `modes` | [`modes`] | motions and stresses of the bars, the spectrum of the energy |
+//! | `branches` | [`branches`] | the rays along which rigid folding leaves the drawn state |
+//! | `trace` | [`trace`] | trajectories of rigid folding, and relaxations along them |
+//! | `surface` | [`surface`] | the two-dimensional surface of folded states of one cell |
+//! | `landscape` | [`landscape`] | the energy along folding modes, and a map over all of them |
+//! | `bloch` | [`bloch`] | spatially varying modes |
+//! | `wells` | [`wells`] | minima, and the barriers between them |
+//!
+//! [`check`] refuses what a scene asks wrongly before anything is computed; [`compute`] answers.
+
+pub mod answer;
+mod bloch;
+mod branches;
+pub mod context;
+mod energies;
+mod error;
+mod landscape;
+mod map;
+mod modes;
+mod reason;
+mod relax;
+mod states;
+mod surface;
+mod trace;
+mod wells;
+
+use crate::scene::spec::StudyKind;
+pub use answer::{Answer, SavedState};
+pub use context::{Checkpoints, Context, Earlier, Observer, Progress};
+pub use error::StudyError;
+pub use surface::left_out;
+
+/// Checks what a study says about its sheet.
+///
+/// # Errors
+/// [`StudyError`] with the place in the scene and what would be right.
+pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
+    match &*context.study.kind {
+        StudyKind::Relax(spec) => relax::check(context, spec),
+        StudyKind::Modes(spec) => modes::check(context, spec),
+        StudyKind::Branches(_) => branches::check(context),
+        StudyKind::Trace(spec) => trace::check(context, spec),
+        StudyKind::Surface(spec) => surface::check(context, spec),
+        StudyKind::Landscape(spec) => landscape::check(context, spec),
+        StudyKind::Bloch(spec) => bloch::check(context, spec),
+        StudyKind::Wells(spec) => wells::check(context, spec),
+    }
+}
+
+/// Answers a study. An answer that was not found says why in its summary; it is no error.
+///
+/// # Errors
+/// [`StudyError`] where the scene is wrong in a way that [`check`] does not see, and where files cannot be read or kept.
+pub fn compute(context: &Context<'_>) -> Result<Answer, StudyError> {
+    match &*context.study.kind {
+        StudyKind::Relax(spec) => relax::compute(context, spec),
+        StudyKind::Modes(spec) => Ok(modes::compute(context, spec)),
+        StudyKind::Branches(_) => Ok(branches::compute(context)),
+        StudyKind::Trace(spec) => trace::compute(context, spec),
+        StudyKind::Surface(spec) => Ok(surface::compute(context, spec)),
+        StudyKind::Landscape(spec) => landscape::compute(context, spec),
+        StudyKind::Bloch(spec) => Ok(bloch::compute(context, spec)),
+        StudyKind::Wells(spec) => Ok(wells::compute(context, spec)),
+    }
+}

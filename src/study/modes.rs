@@ -1,0 +1,82 @@
+//! `kind = "modes"`: motions and stresses of the bars, linear foldings, the spectrum of the energy.
+
+use super::answer::Answer;
+use super::context::Context;
+use super::error::StudyError;
+use super::states;
+use crate::analysis::modes::{Modes, SPARSE_EIGENVALUES, decomposed_dense, modes};
+use crate::output::figure::rounded;
+use crate::output::picture::Picture;
+use crate::output::summary::{ModesSummary, StudyResult};
+use crate::output::table::{Table, Value};
+use crate::scene::spec::ModesSpec;
+
+/// A model has so many eigenvalues that the study can find.
+pub fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {
+    let Some(count) = &spec.eigenvalues else { return Ok(()) };
+    let (drawn, terms) = (context.assembly.drawn(), context.assembly.terms());
+    let unknowns = drawn.coordinates.len().saturating_sub(drawn.held.len() + terms.pinned());
+    let wanted = (**count).min(unknowns);
+    match decomposed_dense(unknowns, wanted, unknowns) {
+        Ok(_) => Ok(()),
+        Err(error) => {
+            let help = format!("ask for at most {SPARSE_EIGENVALUES}, or take fewer cells");
+            Err(context.file.error_at(count.span(), error.to_string(), help).into())
+        }
+    }
+}
+
+/// Finds the modes of the drawn state.
+pub fn compute(context: &Context<'_>, spec: &ModesSpec) -> Answer {
+    let (mut step, mut answer) = (0, Answer::empty(context.study));
+    let eigenvalues = spec.eigenvalues.as_ref().map_or(0, |n| **n);
+    let found = modes(context.assembly, eigenvalues, &mut || {
+        step += 1;
+        context.step(step, None)
+    });
+    match found {
+        Ok(modes) => {
+            add_files(&mut answer, context, &modes);
+            answer.conclude(StudyResult::Modes(summary(&modes)), modes.gap.map(f64::recip), None);
+            answer
+        }
+        Err(error) => Answer::failed(context.study, error),
+    }
+}
+
+fn summary(modes: &Modes) -> ModesSummary {
+    ModesSummary {
+        zero_modes: modes.zero_modes,
+        self_stresses: modes.self_stresses,
+        rigid_motions: modes.rigid_motions,
+        folding_modes: modes.folding_modes,
+        maxwell_count: modes.maxwell_count,
+        gap: modes.gap,
+        eigenvalues: modes.eigenvalues.clone(),
+    }
+}
+
+/// Adds a table of the eigenvalues, the drawn state with each mode as displacement, and a picture of the softest mode that is no
+/// rigid motion, drawn at a tenth of the sheet's size.
+fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes) {
+    let mut table = Table::new(vec!["mode".into(), "eigenvalue".into()]);
+    for (k, value) in modes.eigenvalues.iter().enumerate() {
+        table.push(vec![Value::Whole(k as i64), Value::Number(*value)]);
+    }
+    answer.add(format!("{}.csv", context.name()), table);
+    if modes.vectors.is_empty() || context.study.draw.is_empty() {
+        return;
+    }
+    let drawn = states::picture_at(context, context.assembly.drawn().coordinates.clone());
+    let moving = |rates: &Vec<f64>| {
+        let displacement = context.view.velocities(context.assembly.drawn(), rates);
+        Picture { displacement, ..drawn.clone() }
+    };
+    let pictures: Vec<Picture> = modes.vectors.iter().map(moving).collect();
+    let softest = modes.rigid_motions.min(pictures.len() - 1);
+    let shown = pictures[softest].displaced(0.1);
+    states::add_series(answer, context, pictures);
+    let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
+    let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
+    states::add_figure(answer, context, &shown, &state);
+}

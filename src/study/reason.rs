@@ -1,0 +1,44 @@
+//! Why a relaxation did not converge, in the words of its scene.
+
+use crate::analysis::state::State;
+use crate::model::Assembly;
+use crate::sheet::Info;
+use crate::solver::Failure;
+
+/// Quality of a triangle below which rounding errors of its shape can matter.
+const THIN: f64 = 1e-2;
+/// Largest difference, in radians, between a locked angle and its lock that is rounding.
+const MET: f64 = 1e-9;
+
+/// The failure, with the lock that is not met or the thin triangle that may be its cause.
+pub fn reason(assembly: &Assembly, failure: Failure, state: &State) -> String {
+    let cause = match failure {
+        Failure::Infeasible { .. } => unmet_lock(assembly, state),
+        Failure::Uncertain { force, tolerance, .. } if !(force <= tolerance) => thin_triangle(assembly),
+        Failure::Stuck { .. } | Failure::TooManySteps { .. } => thin_triangle(assembly),
+        _ => None,
+    };
+    match cause {
+        Some(cause) => format!("{failure}; {cause}"),
+        None => failure.to_string(),
+    }
+}
+
+/// The lock that is farthest from its angle in the last state.
+fn unmet_lock(assembly: &Assembly, state: &State) -> Option<String> {
+    let off = |&(edge, angle): &(usize, f64)| {
+        let here = *state.fold_angle.get(edge)?;
+        Some((edge, angle, here)).filter(|_| (angle - here).abs() > MET)
+    };
+    let farther = |a: &(usize, f64, f64), b: &(usize, f64, f64)| (a.1 - a.2).abs().total_cmp(&(b.1 - b.2).abs());
+    let (edge, angle, here) = assembly.terms().locks.iter().filter_map(off).max_by(farther)?;
+    let key = assembly.sheet().edges[assembly.tiling().edges[edge].edge].key;
+    let [n1, n2] = key.shift;
+    Some(format!("the lock of crease [{}, {}, {n1}, {n2}] at {angle} rad stays at {here:.6} rad", key.i, key.j))
+}
+
+fn thin_triangle(assembly: &Assembly) -> Option<String> {
+    let quality = Info::new(assembly.sheet()).worst_triangle_quality;
+    (quality < THIN)
+        .then(|| format!("the worst triangle of the sheet is thin, of quality {quality:.1e} (1: equilateral)"))
+}

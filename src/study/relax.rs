@@ -1,0 +1,229 @@
+//! `kind = "relax"`: the equilibrium that is reached from a start.
+
+use super::answer::{Answer, SavedState};
+use super::context::Context;
+use super::error::StudyError;
+use super::reason::reason;
+use super::states::{self, Shown};
+use super::{branches, energies};
+use crate::analysis::exact::error_to_kinematic;
+use crate::analysis::intersections::LYING;
+use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
+use crate::analysis::restored::{self, Forces};
+use crate::analysis::state::State;
+use crate::model::{Gauge, Model};
+use crate::numerics::larger;
+use crate::numerics::random::symmetric;
+use crate::output::figure::rounded;
+use crate::output::summary::{IterationSummary, RelaxSummary, StudyResult};
+use crate::output::vtk::{self, VtuMesh};
+use crate::scene::Located;
+use crate::scene::forms::{RandomStart, Start};
+use crate::scene::spec::RelaxSpec;
+use crate::solver::{Options, Step};
+use rand::SeedableRng;
+
+/// A relaxation needs an energy, and a start file that fits the sheet.
+pub fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
+    if !context.assembly.terms().has_energy() {
+        return Err(context.refuse("there is no energy to relax", "give bars, creases or facets a stiffness").into());
+    }
+    match &spec.start {
+        Some(start) => start_file(context, start).map(|_| ()),
+        None => Ok(()),
+    }
+}
+
+/// Relaxes from the start that the scene names.
+pub fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer, StudyError> {
+    let mut model = context.assembly.model(Gauge::Held);
+    let Some((x, forces)) = start(context, spec, &mut model)? else { return Ok(start_unavailable(context)) };
+    let tensions = restored::tensions(&model, &x, &forces);
+    let known = spec.start.as_deref().is_some_and(|start| matches!(start, Start::Study(_) | Start::File(_)));
+    let start = if known { restored::start(&model, x, tensions.clone()) } else { x.into() };
+    let first = State::new(&model, &start.x, start.tension.as_ref().unwrap_or(&tensions));
+    let mut options = Options::default();
+    if let Some(tolerance) = &spec.tolerance {
+        options.tolerance = tolerance.0;
+    }
+    match relax_from(&mut model, start, options, &mut watcher(context)) {
+        Ok(relaxed) => Ok(found(context, spec, &model, &first, relaxed)),
+        Err(error) => Ok(not_found(context, &first, &error)),
+    }
+}
+
+/// The answer of a relaxation that converged.
+fn found(context: &Context<'_>, spec: &RelaxSpec, model: &Model, first: &State, relaxed: Relaxed) -> Answer {
+    let (assembly, mut answer) = (context.assembly, Answer::empty(context.study));
+    let residuals = Some([relaxed.residual_force, relaxed.residual_length]);
+    let shown = format!("equilibrium, energy {}", rounded(relaxed.state.total(), 5));
+    let self_intersecting = add_states(&mut answer, context, [first, &relaxed.state], residuals, &shown);
+    let angles = states::with_all_angles(context, &relaxed.state).fold_angle;
+    let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, Start::Drawn));
+    let (branch_point_start, directions) = if drawn { branches::branch_point(assembly) } else { (None, None) };
+    let result = RelaxSummary {
+        self_intersecting,
+        error_to_kinematic: error_to_kinematic(assembly.sheet(), assembly.tiling(), model, &angles),
+        branch_point_start,
+        directions_at_start: directions.map(branches::word),
+        ..result_of(context, &relaxed)
+    };
+    let error = larger(result.residual_force, result.residual_length);
+    answer.conclude(StudyResult::Relax(result), Some(error), None);
+    let Relaxed { state, tension, .. } = relaxed;
+    answer.state = Some(SavedState { coordinates: state.coordinates, angles: model.angles(), tension: Some(tension) });
+    answer
+}
+
+/// The answer of one that did not, with its last state.
+fn not_found(context: &Context<'_>, first: &State, error: &RelaxError) -> Answer {
+    let mut answer = Answer::empty(context.study);
+    let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
+    let shown = "last state of a relaxation without end";
+    let self_intersecting = add_states(&mut answer, context, [first, &error.state], residuals, shown);
+    let result = RelaxSummary { self_intersecting, ..last_of(context, error) };
+    let why = reason(context.assembly, error.failure, &error.state);
+    answer.conclude(StudyResult::Relax(result), None, Some(why));
+    answer
+}
+
+/// Shows the steps of a relaxation.
+pub fn watcher<'a>(context: &'a Context<'_>) -> impl FnMut(&Step) -> bool + 'a {
+    let mut step = 0;
+    move |last| {
+        step += 1;
+        context.step_with_residual(step, None, last.residual_force.max(last.residual_length))
+    }
+}
+
+/// Adds table and pictures of the start and the end of a relaxation, with the residuals at its end; gives whether that passes
+/// through itself, where it is asked.
+fn add_states(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    ends: [&State; 2],
+    residuals: Option<[f64; 2]>,
+    shown: &str,
+) -> Option<bool> {
+    let mut check = context.self_intersection();
+    let [first, last] = ends.map(|state| {
+        let state = states::with_all_angles(context, state);
+        let marks = check.as_mut().map(|check| check.marks(context.assembly.drawn(), &state, LYING));
+        Shown { state, residuals: None, marks }
+    });
+    let both = [first, Shown { residuals, ..last }];
+    answer.add(format!("{}.csv", context.name()), states::table(context, &both));
+    states::add(answer, context, &both, Some((1, shown)));
+    both[1].marks.as_ref().map(|marks| marks.any)
+}
+
+/// The unknowns from which a relaxation starts, and what is known of their forces; `None` where the study to start from ended
+/// in no state.
+fn start(context: &Context<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Option<(Vec<f64>, Forces)>, StudyError> {
+    let Some(start) = &spec.start else { return Ok(Some((model.start(), Forces::Unknown))) };
+    match &**start {
+        Start::Drawn => Ok(Some((model.start(), Forces::Unknown))),
+        Start::Random(random) => Ok(Some((random_start(random, model), Forces::Unknown))),
+        Start::File(_) => {
+            let found = start_file(context, start)?;
+            Ok(found.map(|(coordinates, mesh)| from_mesh(context, model, coordinates, &mesh)))
+        }
+        Start::Study(name) => {
+            let fits = |saved: &&SavedState| {
+                saved.coordinates.len() == context.assembly.drawn().coordinates.len()
+                    && saved.angles.len() == model.angles().len()
+            };
+            let Some(saved) = context.earlier.states.get(name).filter(fits) else { return Ok(None) };
+            model.set_angles(&saved.angles);
+            let forces = saved.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
+            Ok(Some((model.start_from(saved.coordinates.clone()), forces)))
+        }
+    }
+}
+
+/// The unknowns of a state that a VTU file gives, its angles continued from those of the file, and the forces that the file
+/// has.
+fn from_mesh(context: &Context<'_>, model: &mut Model, coordinates: Vec<f64>, mesh: &VtuMesh) -> (Vec<f64>, Forces) {
+    let edges = context.assembly.edges();
+    let on_edges = |values: &Option<Vec<f64>>| match values {
+        Some(values) => context.view.on_edges(edges, &mesh.lines, values),
+        None => vec![f64::NAN; edges],
+    };
+    let angles = restored::angles(model, &on_edges(&mesh.fold_angle));
+    model.set_angles(&angles);
+    let forces = Forces::OfEdges { tension: on_edges(&mesh.tension), torque: on_edges(&mesh.torque) };
+    (model.start_from(coordinates), forces)
+}
+
+/// The coordinates that a VTU file gives, and the file; `None` where the start is no file.
+fn start_file(context: &Context<'_>, start: &Located<Start>) -> Result<Option<(Vec<f64>, VtuMesh)>, StudyError> {
+    let Start::File(path) = &**start else { return Ok(None) };
+    let mesh = vtk::read_vtu(&context.file.resolve(path))?;
+    let found = context.view.coordinates(context.assembly.drawn(), &mesh.points);
+    found.map(|found| Some((found, mesh))).ok_or_else(|| {
+        let count = context.assembly.drawn().coordinates.len() / 3;
+        let message = format!("{} does not say where this sheet is", path.display());
+        let help = format!("a start file has the {count} points of a patch or of a torus with fixed lattice");
+        context.file.error_at(start.span(), message, help).into()
+    })
+}
+
+/// The drawn state with every unknown moved by a random amount up to the amplitude; the axis of a screw keeps its direction.
+fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
+    let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(random.seed);
+    let amplitude = random.random.0;
+    let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * symmetric(&mut numbers)).collect();
+    let mut coordinates = model.coordinates(&x);
+    if let Some(drawn) = model.domain().turns(&model.coordinates(&model.start())) {
+        model.domain().point_axis(&mut coordinates, drawn.direction);
+    }
+    model.start_from(coordinates)
+}
+
+/// The answer of a study whose start study ended in no state.
+pub fn start_unavailable(context: &Context<'_>) -> Answer {
+    Answer::failed(context.study, "the study from which it starts did not converge")
+}
+
+/// What a relaxation found; what is asked of the state besides is left open.
+fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
+    RelaxSummary {
+        energy: energies::summary(context.assembly.terms(), &relaxed.state),
+        iterations: relaxed.iterations,
+        factorizations: relaxed.factorizations,
+        chord_solves: relaxed.solves,
+        residual_force: relaxed.residual_force,
+        residual_length: relaxed.residual_length,
+        negative_eigenvalues: Some(relaxed.negative_eigenvalues),
+        self_stresses: relaxed.self_stresses,
+        history: history(&relaxed.history),
+        ..RelaxSummary::default()
+    }
+}
+
+/// Where a relaxation that failed ended, likewise.
+fn last_of(context: &Context<'_>, error: &RelaxError) -> RelaxSummary {
+    let last = error.history.last();
+    RelaxSummary {
+        energy: energies::summary(context.assembly.terms(), &error.state),
+        iterations: error.history.iter().filter(|step| step.fraction > 0.0).count(),
+        factorizations: error.history.iter().map(|step| step.factorizations).sum(),
+        chord_solves: error.history.iter().map(|step| step.solves).sum(),
+        residual_force: last.map_or(f64::NAN, |step| step.residual_force),
+        residual_length: last.map_or(f64::NAN, |step| step.residual_length),
+        history: history(&error.history),
+        ..RelaxSummary::default()
+    }
+}
+
+fn history(steps: &[Step]) -> Vec<IterationSummary> {
+    let row = |(iteration, step): (usize, &Step)| IterationSummary {
+        iteration,
+        energy: step.energy,
+        residual_force: step.residual_force,
+        residual_length: step.residual_length,
+        step: step.fraction,
+        shift: step.shift,
+    };
+    steps.iter().enumerate().map(row).collect()
+}

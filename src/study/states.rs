@@ -1,0 +1,120 @@
+//! Tables, VTK series and pictures of states.
+
+use super::answer::Answer;
+use super::context::Context;
+use super::energies;
+use crate::analysis::intersections::{LYING, Marks};
+use crate::analysis::state::{Cylinder, State, cylinder};
+use crate::output::artifact::Artifact;
+use crate::output::figure::sheet;
+use crate::output::picture::Picture;
+use crate::output::table::{StateRow, Table};
+use crate::scene::spec::Draw;
+
+/// A state with what else is known of it.
+pub struct Shown {
+    /// The state, with the fold angles of all edges.
+    pub state: State,
+    /// Scaled residuals of force and length; `None` where they were not computed.
+    pub residuals: Option<[f64; 2]>,
+    /// What passes through itself; `None` where that was not asked.
+    pub marks: Option<Marks>,
+}
+
+/// The state with the fold angle of every edge between two faces, also of those that are no hinge of the model: these from
+/// its coordinates, in (-pi, pi].
+pub fn with_all_angles(context: &Context<'_>, state: &State) -> State {
+    let angles = context.assembly.fold_angles_at(&state.coordinates);
+    let known = |(known, other): (&f64, f64)| if known.is_nan() { other } else { *known };
+    State { fold_angle: state.fold_angle.iter().zip(angles).map(known).collect(), ..state.clone() }
+}
+
+/// The table of states: one row each.
+pub fn table(context: &Context<'_>, states: &[Shown]) -> Table {
+    let rows: Vec<StateRow> = states.iter().enumerate().map(|(step, shown)| row(context, step, shown)).collect();
+    table_of_rows(context, &rows)
+}
+
+/// The table with these rows.
+pub fn table_of_rows(context: &Context<'_>, rows: &[StateRow]) -> Table {
+    let keys: Vec<_> = context.assembly.sheet().edges.iter().map(|edge| edge.key).collect();
+    Table::of_states(&keys, rows)
+}
+
+fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
+    let (assembly, state) = (context.assembly, &shown.state);
+    let shape = cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, &state.coordinates);
+    let of = |get: fn(&Cylinder) -> f64| shape.as_ref().map(get);
+    StateRow {
+        step: Some(step as i64),
+        curvature: of(|c| c.curvature),
+        theta: [of(|c| c.theta[0]), of(|c| c.theta[1])],
+        strain: [of(|c| c.strain[0]), of(|c| c.strain[1]), of(|c| c.strain[2])],
+        energy: energies::columns(assembly.terms(), state),
+        residual_force: shown.residuals.map(|r| r[0]),
+        residual_length: shown.residuals.map(|r| r[1]),
+        self_intersecting: shown.marks.as_ref().map(|marks| marks.any),
+        fold: cell_angles(context, state),
+        ..StateRow::default()
+    }
+}
+
+/// Fold angles of the edges of the cell: of a patch or a torus, those of the cell in its middle.
+fn cell_angles(context: &Context<'_>, state: &State) -> Vec<f64> {
+    let tiling = context.assembly.tiling();
+    let middle = tiling.cells.map(|n| (n - 1) / 2);
+    let mut angles = vec![f64::NAN; context.assembly.sheet().edges.len()];
+    for (edge, &angle) in tiling.edges.iter().zip(&state.fold_angle) {
+        if edge.cell == middle {
+            angles[edge.edge] = angle;
+        }
+    }
+    angles
+}
+
+/// The picture of a state, with what passes through itself.
+pub fn picture(context: &Context<'_>, shown: &Shown) -> Picture {
+    let picture = Picture::of_state(context.view, context.assembly.drawn(), &shown.state);
+    shown.marks.iter().fold(picture, |picture, marks| picture.with_crossing(&marks.faces))
+}
+
+/// A state of which modes are velocities, from all its coordinates.
+pub fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Picture {
+    let (assembly, edges) = (context.assembly, context.assembly.edges());
+    let state = State { energy: vec![f64::NAN; edges], ..State::empty(coordinates, edges) };
+    let state = with_all_angles(context, &state);
+    let marks = context.self_intersection().map(|mut check| check.marks(assembly.drawn(), &state, LYING));
+    picture(context, &Shown { state, residuals: None, marks })
+}
+
+/// Adds the VTK series of states, and the picture of one of them with what it is, as the study asks.
+pub fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], shown: Option<(usize, &str)>) {
+    let pictures: Vec<Picture> = states.iter().map(|shown| picture(context, shown)).collect();
+    let drawn = shown.and_then(|(number, state)| Some((pictures.get(number)?.clone(), state)));
+    add_series(answer, context, pictures);
+    if let Some((picture, state)) = drawn {
+        add_figure(answer, context, &picture, state);
+    }
+}
+
+/// Adds pictures as a VTK series, time being their number, where the study asks for it.
+pub fn add_series(answer: &mut Answer, context: &Context<'_>, pictures: Vec<Picture>) {
+    if !context.draws(Draw::Vtk) {
+        return;
+    }
+    let name = context.name();
+    let mut entries = Vec::new();
+    for (k, picture) in pictures.into_iter().enumerate() {
+        let file = format!("{name}/{name}_{k:04}.vtu");
+        answer.add(&file, picture);
+        entries.push((k as f64, file));
+    }
+    answer.add(format!("{name}.pvd"), Artifact::Series(entries));
+}
+
+/// Adds one picture as SVG, with what state it is, where the study asks for it.
+pub fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
+    if context.draws(Draw::Svg) {
+        answer.add(format!("{}.svg", context.name()), sheet::svg(picture, &context.caption(state)));
+    }
+}

@@ -1,0 +1,254 @@
+//! `kind = "surface"`: the two-dimensional surface of folded states of one cell.
+
+use super::answer::{Answer, SavedState};
+use super::context::Context;
+use super::error::StudyError;
+use super::trace::state_at;
+use super::{energies, states};
+use crate::analysis::chart::{hinge_angles, screw_coordinates};
+use crate::analysis::intersections::LYING;
+use crate::analysis::state::State;
+use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
+use crate::math::Vec3;
+use crate::model::{Assembly, Boundary, Gauge, Terms};
+use crate::numerics::worst;
+use crate::output::artifact::Artifact;
+use crate::output::figure::surface::{self as figure, PathPoint};
+use crate::output::strain_space::StrainSurface;
+use crate::output::summary::{PieceSummary, StudyResult, SurfaceSummary};
+use crate::output::table::{StateRow, Table};
+use crate::scene::spec::{Draw, StudyKind, StudySpec, SurfaceSpec};
+use crate::scene::values::Count;
+use crate::scene::{Located, SceneFile};
+use crate::sheet::Edge;
+use crate::solver::atlas::{Coverage, KEPT};
+use std::f64::consts::TAU;
+
+/// States along each direction over a whole turn where the scene says nothing.
+const RESOLUTION: u32 = 32;
+/// Finest resolution that is accepted: discs of 6e-5 rad.
+const MOST_RESOLUTION: u32 = 100_000;
+/// Bound on the closure residual.
+const TOLERANCE: f64 = 3e-14;
+/// States beyond which a surface is given up.
+const MOST_POINTS: usize = 300_000;
+/// The observer is asked after so many states.
+const OBSERVED: usize = 256;
+
+/// Surfaces are drawn in the space of lattice strains: refuses other domains than the screw.
+pub fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), StudyError> {
+    if let Some(resolution) = &spec.resolution {
+        check_resolution(context.file, resolution)?;
+    }
+    if context.assembly.boundary() == Boundary::Screw {
+        return Ok(());
+    }
+    let message = "a surface of folded states is drawn in the space of lattice strains";
+    Err(context.refuse(message, "use domain = \"screw\"").into())
+}
+
+/// Refuses a resolution at which states could not be told from each other.
+pub fn check_resolution(file: &SceneFile, resolution: &Located<Count>) -> Result<(), StudyError> {
+    if resolution.0 <= MOST_RESOLUTION {
+        return Ok(());
+    }
+    let message = format!("a resolution of {} is finer than closure is solved", resolution.0);
+    let help = format!("choose at most {MOST_RESOLUTION}; 32 states over a whole turn are usual");
+    Err(file.error_at(resolution.span(), &message, &help).into())
+}
+
+/// What this study does not use of the scene.
+pub fn left_out(assembly: &Assembly, study: &StudySpec) -> Option<String> {
+    let surface = matches!(*study.kind, StudyKind::Surface(_));
+    let name = &study.name.0;
+    (surface && !assembly.terms().locks.is_empty())
+        .then(|| format!("locks in study `{name}`: the surface is what folds without them"))
+}
+
+/// Covers the surface, whatever is locked.
+pub fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
+    let assembly = context.assembly;
+    let unlocked = assembly.with_terms(Terms { locks: Vec::new(), ..assembly.terms().clone() });
+    let options = SurfaceOptions {
+        radius: TAU / f64::from(spec.resolution.as_ref().map_or(RESOLUTION, |count| count.0)),
+        tolerance: TOLERANCE,
+        max_curvature: spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(assembly), |most| most.0),
+        max_points: MOST_POINTS,
+    };
+    let mut surface = match surface(&unlocked, &options, &mut |step| context.step(step, None)) {
+        Ok(surface) => surface,
+        Err(error) => return Answer::failed(context.study, error),
+    };
+    let mut answer = Answer::empty(context.study);
+    add_files(&mut answer, context, &unlocked, (&mut surface, options.max_curvature));
+    let result = summary(&surface, &options);
+    answer.conclude(StudyResult::Surface(result.clone()), result.max_residual, reason(&surface));
+    answer
+}
+
+/// One over the square root of the area of the cell.
+pub fn curvature_of_cell(assembly: &Assembly) -> f64 {
+    assembly.sheet().lattice.map_or(1.0, |[first, second]| first.cross(&second).norm().sqrt().recip())
+}
+
+/// Why a surface is not whole; `None` where it is.
+fn reason(surface: &Surface) -> Option<String> {
+    match surface.coverage {
+        Coverage::Complete if surface.lost > 0 => Some(format!(
+            "along {} of the ways away from the drawn state no folded state was found: what lies there may be missing",
+            surface.lost
+        )),
+        Coverage::Complete => None,
+        Coverage::GivenUp { charts } => Some(format!(
+            "the surface was given up before all of it was covered: it could not be followed beyond {charts} of its states, \
+             as where several branches come close to each other; choose a smaller max_curvature"
+        )),
+        Coverage::Open { charts } => Some(format!("the surface could not be followed beyond {charts} of its states")),
+        Coverage::TooManyCharts => Some(format!(
+            "the surface has more than {MOST_POINTS} states: choose a smaller resolution or max_curvature"
+        )),
+        Coverage::Interrupted => Some("interrupted".to_owned()),
+    }
+}
+
+/// The states of a surface as the model sees them.
+struct States {
+    states: Vec<State>,
+    /// Whether each passes through itself; `None` where that was not asked, or not answered for all.
+    crossing: Option<Vec<bool>>,
+}
+
+/// The states of a surface. Where the observer asks to stop, the surface is cut down to those it has by then, or to the
+/// first few.
+fn states_of(context: &Context<'_>, unlocked: &Assembly, surface: &mut Surface) -> States {
+    let mut model = unlocked.model(Gauge::Held);
+    let mut finder = context.self_intersection();
+    let (mut states, mut crossing) = (Vec::new(), Vec::new());
+    for (k, point) in surface.points.iter().enumerate() {
+        if k % OBSERVED == 0 && !context.step(surface.points.len() + k, None) {
+            surface.coverage = Coverage::Interrupted;
+            finder = None;
+        }
+        if k >= KEPT && surface.coverage == Coverage::Interrupted {
+            break;
+        }
+        let coordinates = screw_coordinates(&point.shape);
+        model.set_angles(&hinge_angles(&model, &point.angles));
+        model.start_from(coordinates.clone());
+        let state = state_at(&model, coordinates, &point.angles);
+        crossing.extend(finder.as_mut().map(|finder| finder.marks(unlocked.drawn(), &state, LYING).any));
+        states.push(state);
+    }
+    surface.truncate(states.len());
+    let crossing = (finder.is_some() && crossing.len() == states.len()).then_some(crossing);
+    States { states, crossing }
+}
+
+/// Adds the table of the states, the surface in the space of lattice strains and its picture; leaves the last state for studies
+/// that start from it.
+fn add_files(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    unlocked: &Assembly,
+    (surface, max_curvature): (&mut Surface, f64),
+) {
+    let found = states_of(context, unlocked, surface);
+    let surface = &*surface;
+    let row = |k: usize| row(unlocked.terms(), k, &surface.points[k], &found);
+    let rows: Vec<StateRow> = (0..surface.points.len()).map(row).collect();
+    answer.add(format!("{}.csv", context.name()), states::table_of_rows(context, &rows));
+    if let Some((last, state)) = surface.points.iter().zip(&found.states).next_back() {
+        add_mesh(answer, context, mesh(context.assembly, surface, &rows), max_curvature);
+        let angles = hinge_angles(&context.assembly.model(Gauge::Held), &last.angles);
+        answer.state = Some(SavedState { coordinates: state.coordinates.clone(), angles, tension: None });
+    }
+}
+
+fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRow {
+    let (shape, state) = (&point.shape, &found.states[k]);
+    StateRow {
+        branch: Some(point.branch.0 as i64),
+        sign: Some(i64::from(point.branch.1)),
+        step: Some(k as i64),
+        arc_length: None,
+        curvature: Some(shape.curvature),
+        theta: shape.theta.map(Some),
+        strain: shape.strain.map(Some),
+        energy: energies::columns_if_any(terms, state),
+        residual_force: None,
+        residual_length: None,
+        self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
+        error_to_kinematic: None,
+        fold: point.angles.clone(),
+    }
+}
+
+/// The rows of the table as a surface.
+fn mesh(assembly: &Assembly, surface: &Surface, rows: &[StateRow]) -> StrainSurface {
+    let shapes = || surface.points.iter().map(|point| &point.shape);
+    let fold = |(number, edge): (usize, &Edge)| {
+        (Table::fold_column(&edge.key), surface.points.iter().map(|point| point.angles[number]).collect())
+    };
+    StrainSurface {
+        points: shapes().map(|shape| Vec3::from(shape.strain)).collect(),
+        triangles: surface.triangles.clone(),
+        curvature: shapes().map(|shape| shape.curvature).collect(),
+        theta: shapes().map(|shape| shape.theta).collect(),
+        folds: assembly.sheet().edges.iter().enumerate().map(fold).collect(),
+        energy: rows.iter().map(|row| row.energy[3]).collect(),
+        self_intersecting: rows.iter().map(|row| row.self_intersecting.map(u8::from)).collect(),
+    }
+}
+
+/// Adds the surface as triangles, and its picture with the trajectories of the studies before this one, as far as it goes.
+fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max_curvature: f64) {
+    let name = context.name();
+    if context.draws(Draw::Svg) {
+        let studies = context.file.scene.studies.iter().map(|study| &study.name.0);
+        let before = studies.take_while(|study| *study != name).filter_map(|study| context.earlier.paths.get(study));
+        let paths: Vec<_> = before.flatten().flat_map(|path| within(path, max_curvature)).collect();
+        let caption = context.caption(format!("all folded states up to a curvature of {max_curvature}"));
+        answer.add(format!("{name}.svg"), figure::svg(&mesh, &paths, &caption));
+    }
+    if context.draws(Draw::Vtk) {
+        let file = format!("{name}/{name}_0000.vtp");
+        answer.add(&file, Artifact::Surface(mesh));
+        answer.add(format!("{name}.pvd"), Artifact::Series(vec![(0.0, file)]));
+    }
+}
+
+/// The pieces of a trajectory whose curvature is at most this.
+fn within(path: &[PathPoint], max_curvature: f64) -> Vec<Vec<PathPoint>> {
+    let outside = |point: &PathPoint| !(point.curvature.abs() <= max_curvature);
+    let pieces = path.split(outside).filter(|piece| piece.len() > 1);
+    pieces.map(<[PathPoint]>::to_vec).collect()
+}
+
+fn summary(surface: &Surface, options: &SurfaceOptions) -> SurfaceSummary {
+    let coverage = match surface.coverage {
+        _ if surface.negative.is_some() => "no-real-branch",
+        Coverage::Complete => "complete",
+        Coverage::Open { .. } => "open",
+        Coverage::GivenUp { .. } => "given-up",
+        Coverage::TooManyCharts => "too-many-points",
+        Coverage::Interrupted => "interrupted",
+    };
+    let piece = |&(branch, sign): &(usize, i8)| {
+        let points = surface.points.iter().filter(|point| point.branch == (branch, sign)).count();
+        PieceSummary { branch, sign, points }
+    };
+    SurfaceSummary {
+        points: surface.points.len(),
+        triangles: surface.triangles.len(),
+        coverage: coverage.to_owned(),
+        established: surface.negative.map(|negative| negative.to_string()),
+        gaps: surface.gaps,
+        closed: surface.closed && !surface.points.is_empty(),
+        oriented: surface.oriented,
+        tips: surface.points.iter().filter(|point| point.radius == 0.0).count(),
+        max_curvature: options.max_curvature,
+        radius: surface.radius,
+        max_residual: worst(surface.points.iter().map(|point| point.residual)),
+        branches: surface.branches.iter().map(piece).collect(),
+    }
+}

@@ -1,0 +1,375 @@
+//! `kind = "trace"`: trajectories of rigid folding from the drawn state, and relaxations along them.
+
+use super::answer::{Answer, SavedState};
+use super::context::Context;
+use super::error::StudyError;
+use super::states::{self, Shown};
+use super::{branches, energies, relax};
+use crate::analysis::chart::{coordinates, hinge_angles};
+use crate::analysis::drive::{self, Drive, DriveFailure, Driven};
+use crate::analysis::intersections::{LYING, SelfIntersection};
+use crate::analysis::relax::Relaxed;
+use crate::analysis::state::{State, cylinder};
+use crate::analysis::trace::{Folded, Intersects, Stop, TURNING, TraceError, TraceOptions, Traced, trace};
+use crate::kinematics::RealDirections;
+use crate::math::Vec3;
+use crate::model::{Assembly, Boundary, Gauge, Model};
+use crate::numerics::{larger, worst};
+use crate::output::figure::rounded;
+use crate::output::figure::surface::{self, PathPoint};
+use crate::output::strain_space::StrainSurface;
+use crate::output::summary::{ArcLength, RayName, StudyResult, TraceSummary, TrajectorySummary, TurningPoint};
+use crate::output::table::StateRow;
+use crate::scene::forms::BranchChoice;
+use crate::scene::spec::{Draw, Engine, TraceSpec};
+use crate::sheet::EdgeKey;
+use crate::solver::continuation::{self, End};
+use crate::solver::{Failure, Options, Problem};
+
+/// Longest step and bound on the residual where the scene says nothing.
+const MAX_STEP: f64 = 0.25;
+const TOLERANCE: f64 = 3e-14;
+/// States looked at for crossing faces between two questions whether to go on.
+const OBSERVED: usize = 64;
+/// Most pictures of a trajectory.
+const PICTURES: usize = 40;
+
+/// Trajectories start from the drawn state of one cell, or of a finite sheet.
+pub fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
+    branches::check(context)?;
+    let assembly = context.assembly;
+    if assembly.boundary() == Boundary::Patch && assembly.sheet().lattice.is_some() {
+        let message = "trajectories of a patch of a periodic sheet are not known";
+        return Err(context.refuse(message, "use domain = \"screw\", or a mesh without lattice").into());
+    }
+    if spec.engine != Engine::Kinematic && assembly.terms().bars.is_none() {
+        let message = "the energy engine relaxes bars, and this scene has none";
+        let help = "give `bars` in [energy] a stiffness (inf: rigid), or leave `engine` out";
+        return Err(context.refuse(message, help).into());
+    }
+    stop(context, spec).map(|_| ())
+}
+
+fn stop(context: &Context<'_>, spec: &TraceSpec) -> Result<Stop, StudyError> {
+    let Some(said) = &spec.stop else { return Ok(Stop::default()) };
+    let crease_angle = match &said.crease_angle {
+        None => None,
+        Some(wanted) => {
+            let key = wanted.crease.0;
+            let found = context.assembly.sheet().edges.iter().position(|edge| edge.key == key);
+            let edge = found.ok_or_else(|| {
+                let EdgeKey { i, j, shift: [n1, n2] } = key;
+                let message = format!("the sheet has no crease [{i}, {j}, {n1}, {n2}]");
+                context.file.error_at(wanted.crease.span(), message, "name an edge as [i, j, n1, n2]")
+            })?;
+            Some((edge, wanted.angle.0))
+        }
+    };
+    Ok(Stop {
+        arc_length: said.arc_length.as_ref().map(|length| length.0),
+        curvature: said.curvature.as_ref().map(|curvature| curvature.0),
+        crease_angle,
+        self_intersection: said.self_intersection == Some(true),
+    })
+}
+
+/// Follows the trajectories that the scene asks for.
+pub fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer, StudyError> {
+    let options = TraceOptions {
+        max_step: spec.max_step.as_ref().map_or(MAX_STEP, |step| step.0),
+        tolerance: spec.tolerance.as_ref().map_or(TOLERANCE, |tolerance| tolerance.0),
+        branch: match spec.branch.as_deref() {
+            Some(BranchChoice::Number(branch)) => Some(*branch),
+            _ => None,
+        },
+        stop: stop(context, spec)?,
+    };
+    let traced = match follow(context, &options) {
+        Ok(traced) => traced,
+        Err(error) => return Ok(Answer::failed(context.study, error)),
+    };
+    let drives = relaxed(context, spec.engine, &traced);
+    let paths: Vec<Path<'_>> =
+        traced.iter().enumerate().map(|(k, traced)| Path { traced, drive: drives.get(k) }).collect();
+    let mut answer = Answer::empty(context.study);
+    add_files(&mut answer, context, spec.engine, &paths);
+    // stopped while crossings were looked for, the table lacks them
+    let stopped = context.interrupted().then(|| "interrupted".to_owned());
+    let reason = paths.iter().find_map(Path::failure).or(stopped);
+    let error = worst(paths.iter().filter_map(Path::residual));
+    let result = summary(context, &paths, spec.engine, is_asked(context, &options));
+    answer.conclude(StudyResult::Trace(result), error, reason);
+    Ok(answer)
+}
+
+/// Whether self-intersection is looked for.
+fn is_asked(context: &Context<'_>, options: &TraceOptions) -> bool {
+    options.stop.self_intersection || !context.study.check.is_empty()
+}
+
+/// Follows the trajectories, watched for self-intersection where the study or a stop asks for it.
+fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, TraceError> {
+    let (assembly, asked) = (context.assembly, is_asked(context, options));
+    let mut finder = asked.then(|| SelfIntersection::new(assembly));
+    let model = assembly.model(Gauge::Held);
+    let mut crosses = |state: &Folded| {
+        let shown = state_at(&model, coordinates(state), &state.angles);
+        finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown, LYING).any)
+    };
+    let mut step = 0;
+    let mut observe = |_: (usize, i8), point: &continuation::Point| {
+        step += 1;
+        context.step_with_residual(step, None, point.residual)
+    };
+    let crosses = asked.then_some(&mut crosses as Intersects<'_>);
+    trace(assembly, options, crosses, &mut observe)
+}
+
+/// The state of a model at coordinates, with the fold angles of all edges.
+pub fn state_at(model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
+    let tension = vec![0.0; model.layout().stiff.len()];
+    let state = State::new(model, &model.unknowns(&coordinates), &tension);
+    State { coordinates, fold_angle: angles.to_vec(), ..state }
+}
+
+/// Relaxations beside every trajectory; none where the engine is kinematic.
+fn relaxed(context: &Context<'_>, engine: Engine, traced: &[Traced]) -> Vec<Drive> {
+    if engine == Engine::Kinematic {
+        return Vec::new();
+    }
+    let mut watch = relax::watcher(context);
+    traced.iter().map(|one| drive::drive(context.assembly, Options::default(), one, &mut watch)).collect()
+}
+
+/// A trajectory, with the relaxations beside it where there are.
+struct Path<'a> {
+    traced: &'a Traced,
+    drive: Option<&'a Drive>,
+}
+
+impl Path<'_> {
+    /// Why it did not come to its end.
+    fn failure(&self) -> Option<String> {
+        let relaxation = self.drive.and_then(|drive| drive.failure);
+        let (branch, sign) = self.traced.branch;
+        let why = match (relaxation, &self.traced.end) {
+            (Some(DriveFailure::Relaxation(Failure::Interrupted)), _) | (None, End::Interrupted) => {
+                "interrupted".to_owned()
+            }
+            (Some(failure), _) => format!("a relaxation failed: {failure}"),
+            (None, End::Failed) => "the trajectory did not come to its end: no step leads on".to_owned(),
+            (None, End::Steps) => {
+                let most = continuation::Options::default().steps;
+                format!("the trajectory has not come to its end after {most} steps: raise max_step, or give a stop")
+            }
+            _ => return None,
+        };
+        Some(format!("branch {branch}, sign {sign}: {why}"))
+    }
+
+    /// Whether the observer asked to stop.
+    fn interrupted(&self) -> bool {
+        let relaxation = self.drive.and_then(|drive| drive.failure);
+        self.traced.end == End::Interrupted || relaxation == Some(DriveFailure::Relaxation(Failure::Interrupted))
+    }
+
+    /// Number of states: up to where a relaxation failed.
+    fn len(&self) -> usize {
+        let failed = self.drive.filter(|drive| drive.failure.is_some());
+        failed.map_or(self.traced.states.len(), |drive| drive.states.len() + 1)
+    }
+
+    /// The state of which there is a picture, and what it is: the last one, of a closed trajectory that half way along.
+    fn shown(&self) -> (usize, String) {
+        let (states, (branch, sign)) = (&self.traced.states[..self.len()], self.traced.branch);
+        let all = states.last().map_or(0.0, |state| state.arc_length);
+        let closed = matches!(self.traced.end, End::Closed(_)) && self.failure().is_none();
+        let half = states.partition_point(|state| state.arc_length < 0.5 * all);
+        let step = if closed { half / self.every() * self.every() } else { states.len() - 1 };
+        let at = rounded(states[step].arc_length, 4);
+        let which = if closed {
+            format!("half way along a closed trajectory of {}", rounded(all, 4))
+        } else {
+            "its end".into()
+        };
+        (step, format!("branch {branch}, sign {}1, arc length {at}: {which}", if sign < 0 { '\u{2212}' } else { '+' }))
+    }
+
+    /// One of how many states has a picture.
+    fn every(&self) -> usize {
+        self.len().div_ceil(PICTURES)
+    }
+
+    /// The relaxation beside a state; none beside the drawn state, where trajectories begin and close.
+    fn driven(&self, step: usize) -> Option<&Driven> {
+        self.drive?.states.get(step.checked_sub(1)?)
+    }
+
+    /// Largest residual: of closure, or scaled, of relaxations; `None` where there is no relaxation.
+    fn residual(&self) -> Option<f64> {
+        let of = |relaxed: &Relaxed| larger(relaxed.residual_force, relaxed.residual_length);
+        match self.drive {
+            Some(drive) => worst(drive.states.iter().map(|driven| of(&driven.relaxed))),
+            None => worst(self.traced.states.iter().map(|state| state.residual)),
+        }
+    }
+}
+
+/// Adds the table of all states, pictures of some, and the trajectories in the space of lattice strains; leaves the last state
+/// of the first trajectory for studies that start from it.
+fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: &[Path<'_>]) {
+    let assembly = context.assembly;
+    let mut model = assembly.model(Gauge::Held);
+    let mut finder = context.self_intersection();
+    let (mut rows, mut pictures, mut shown) = (Vec::new(), Vec::new(), (0, String::new()));
+    for path in paths {
+        let first = pictures.len();
+        for step in 0..path.len() {
+            let (folded, driven) = (&path.traced.states[step], path.driven(step));
+            let pause = rows.len() % OBSERVED == OBSERVED - 1 && finder.is_some();
+            if pause && !context.step_with_residual(rows.len(), None, 0.0) {
+                finder = None;
+            }
+            model.set_angles(&hinge_angles(&model, &folded.angles));
+            model.start_from(coordinates(folded));
+            let state = driven.map_or_else(|| state_at(&model, coordinates(folded), &folded.angles), relaxed_state);
+            let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, LYING));
+            let row = row(assembly, (path, step), (folded, driven), &state, marks.as_ref().map(|marks| marks.any));
+            let compared = driven.filter(|_| engine == Engine::Both);
+            rows.push(StateRow { error_to_kinematic: compared.map(|driven| driven.error), ..row });
+            if step % path.every() == 0 || step + 1 == path.len() {
+                pictures.push(Shown { state, residuals: None, marks });
+            }
+        }
+        let (step, words) = path.shown();
+        let within = if step + 1 < path.len() { step / path.every() } else { pictures.len() - first - 1 };
+        shown = (first + within, words);
+    }
+    answer.add(format!("{}.csv", context.name()), states::table_of_rows(context, &rows));
+    states::add(answer, context, &pictures, Some((shown.0, &shown.1)));
+    add_paths(answer, context, paths, &rows);
+    answer.state = saved_state(&model, paths);
+}
+
+/// Adds the trajectories in the space of lattice strains, for a picture and for surfaces that show them.
+fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut rows: &[StateRow]) {
+    let mut lines = Vec::new();
+    for path in paths {
+        let (own, rest) = rows.split_at(path.len());
+        lines.push(own.iter().filter_map(path_point).collect::<Vec<PathPoint>>());
+        rows = rest;
+    }
+    if context.draws(Draw::Svg) && !lines.iter().all(Vec::is_empty) {
+        let rays = if lines.len() == 1 { "one trajectory".to_owned() } else { format!("{} trajectories", lines.len()) };
+        let caption = context.caption(format!("{rays}, coloured by curvature"));
+        let file = format!("{}-strain.svg", context.name());
+        answer.add(file, surface::svg(&StrainSurface::default(), &lines, &caption));
+    }
+    answer.paths = lines;
+}
+
+/// The place of a state in the space of lattice strains; `None` where it has none.
+pub fn path_point(row: &StateRow) -> Option<PathPoint> {
+    let ([a, b, c], [theta1, theta2]) = (row.strain, row.theta);
+    let turn = larger(theta1?.abs(), theta2?.abs());
+    Some(PathPoint { strain: Vec3::new(a?, b?, c?), curvature: row.curvature?, turn })
+}
+
+/// The last state of the first trajectory.
+fn saved_state(model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
+    let path = paths.first()?;
+    let driven = path.drive.and_then(|drive| drive.states.last());
+    let (coordinates, angles) = match (driven, path.traced.states.last()) {
+        (Some(driven), _) => (driven.relaxed.state.coordinates.clone(), &driven.angles),
+        (None, Some(folded)) => (coordinates(folded), &folded.angles),
+        (None, None) => return None,
+    };
+    Some(SavedState { coordinates, angles: hinge_angles(model, angles), tension: None })
+}
+
+/// A relaxed state with the fold angles of all edges.
+fn relaxed_state(driven: &Driven) -> State {
+    State { fold_angle: driven.angles.clone(), ..driven.relaxed.state.clone() }
+}
+
+fn row(
+    assembly: &Assembly,
+    (path, step): (&Path<'_>, usize),
+    (folded, driven): (&Folded, Option<&Driven>),
+    state: &State,
+    self_intersecting: Option<bool>,
+) -> StateRow {
+    let shape = match driven {
+        None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
+        Some(_) => cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, &state.coordinates)
+            .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
+    };
+    let branch = path.traced.branch;
+    StateRow {
+        branch: Some(branch.0 as i64),
+        sign: Some(i64::from(branch.1)),
+        step: Some(step as i64),
+        arc_length: Some(folded.arc_length),
+        curvature: shape.map(|(curvature, ..)| curvature),
+        theta: [0, 1].map(|k| shape.map(|(_, theta, _)| theta[k])),
+        strain: [0, 1, 2].map(|k| shape.map(|(.., strain)| strain[k])),
+        energy: energies::columns_if_any(assembly.terms(), state),
+        residual_length: driven.map(|driven| driven.relaxed.residual_length),
+        residual_force: driven.map(|driven| driven.relaxed.residual_force),
+        self_intersecting,
+        error_to_kinematic: None,
+        fold: state.fold_angle.clone(),
+    }
+}
+
+fn summary(context: &Context<'_>, paths: &[Path<'_>], engine: Engine, asked: bool) -> TraceSummary {
+    let Some(first) = paths.first() else {
+        let (directions, end) = (branches::word(RealDirections::Listed), "no-real-branch".to_owned());
+        return TraceSummary { directions, branches: vec![TrajectorySummary { end, ..TrajectorySummary::default() }] };
+    };
+    let one = |path: &Path<'_>| TrajectorySummary {
+        self_intersecting: asked.then_some(path.traced.first_self_intersection.is_some()),
+        ..trajectory(context.assembly, path, engine)
+    };
+    TraceSummary { directions: branches::word(first.traced.directions), branches: paths.iter().map(one).collect() }
+}
+
+fn trajectory(assembly: &Assembly, path: &Path<'_>, engine: Engine) -> TrajectorySummary {
+    let one = path.traced;
+    let end = match one.end {
+        _ if path.interrupted() => "interrupted",
+        _ if path.failure().is_some() => "failed",
+        End::Closed(_) => "closed",
+        End::Stopped { .. } | End::Length => "stop",
+        End::Steps | End::Failed | End::Interrupted => "failed",
+    };
+    let last = path.len().checked_sub(1).map(|last| &one.states[last]);
+    let compared = path.drive.filter(|_| engine == Engine::Both);
+    let errors = compared.and_then(|drive| drive::cylinder_errors(assembly.drawn(), one, drive));
+    let newton = |drive: &Drive| drive.states.iter().map(|driven| driven.relaxed.iterations).sum();
+    TrajectorySummary {
+        branch: Some(one.branch.0),
+        sign: Some(one.branch.1),
+        closed: end == "closed",
+        arc_length: last.map_or(0.0, |state| state.arc_length),
+        steps: path.len() - 1,
+        iterations: path.drive.map_or(one.corrections, newton),
+        max_residual: path.residual(),
+        ends_at: one.ends_at.map(|(branch, sign)| RayName { branch, sign }),
+        end: end.to_owned(),
+        self_intersecting: None,
+        first_self_intersection: one.first_self_intersection.map(|arc_length| ArcLength { arc_length }),
+        error_to_kinematic: compared.and_then(Drive::error),
+        error_of_curvature: errors.map(|errors| errors.curvature),
+        error_of_strain: errors.map(|errors| errors.strain),
+        error_of_theta: errors.map(|errors| errors.theta),
+        turning_points: one.turning_points.iter().map(turning_point).collect(),
+    }
+}
+
+fn turning_point((quantity, state): &(usize, Folded)) -> TurningPoint {
+    let shape = state.shape.as_ref();
+    let value =
+        shape.map_or(f64::NAN, |shape| if *quantity == 0 { shape.curvature } else { shape.strain[quantity - 1] });
+    TurningPoint { of: TURNING[*quantity].to_owned(), arc_length: state.arc_length, value }
+}

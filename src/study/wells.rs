@@ -1,0 +1,352 @@
+//! `kind = "wells"`: minima from random starts, the barriers between them, and both in fold angles alone.
+
+use super::answer::Answer;
+use super::context::Context;
+use super::error::StudyError;
+use super::states::{self, Shown};
+use super::surface::{check_resolution, curvature_of_cell};
+use crate::analysis::intersections::{LYING, SelfIntersection};
+use crate::analysis::state::State;
+use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limit};
+use crate::analysis::wells::merge::{SAME, Translations, Well, wells};
+use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
+use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_all};
+use crate::model::Assembly;
+use crate::numerics::{larger, worst};
+use crate::output::figure::chart::{self, Chart, Point, Series};
+use crate::output::figure::rounded;
+use crate::output::summary::{
+    BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, StudyResult, WellSummary,
+    WellsSummary,
+};
+use crate::output::table::{Table, Value};
+use crate::scene::spec::{Draw, WellsSpec};
+use crate::solver::Options;
+use std::f64::consts::{PI, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Starts, and states over a whole turn, where the scene says nothing.
+const STARTS: u32 = 64;
+const RESOLUTION: u32 = 64;
+
+/// Wells are those of bars and creases, with nothing that holds or pulls.
+pub fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), StudyError> {
+    let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
+    if let Some(resolution) = &spec.resolution {
+        check_resolution(context.file, resolution)?;
+    }
+    let terms = context.assembly.terms();
+    if terms.bars.is_none() || terms.creases.as_ref().is_none_or(|creases| creases.stiffness.is_infinite()) {
+        let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite";
+        return refuse("wells are those of the energy of bars and creases", help);
+    }
+    if !(terms.pins.is_empty() && terms.loads.is_empty()) {
+        return refuse("wells are those of a sheet that nothing holds or pulls", "leave out [[pin]] and [[load]]");
+    }
+    Ok(())
+}
+
+/// Why a pass that was found has no energy.
+const NO_LIMIT: &str = "the pass is singular in rigid bars, and its energies in stiff ones do not tell their limit";
+
+/// What came of the random starts.
+struct Tally {
+    starts: usize,
+    failed: usize,
+    saddles: usize,
+    failures: Vec<(&'static str, usize)>,
+}
+
+impl Tally {
+    fn of(outcomes: &[Outcome]) -> Self {
+        let failures = failures(outcomes);
+        Self {
+            starts: outcomes.len(),
+            failed: failures.iter().map(|(_, count)| count).sum(),
+            saddles: outcomes.iter().filter(|outcome| matches!(outcome, Outcome::Saddle)).count(),
+            failures,
+        }
+    }
+
+    /// How many of the starts failed and why.
+    fn failed(&self) -> String {
+        let reasons: Vec<String> = self.failures.iter().map(|(reason, count)| format!("{count}: {reason}")).collect();
+        format!("{} of {} starts failed ({})", self.failed, self.starts, reasons.join("; "))
+    }
+}
+
+/// What a study found.
+struct Found {
+    tally: Tally,
+    /// Stiffness of the sheet's own bars.
+    stiffness: f64,
+    wells: Vec<Well>,
+    crossing: Vec<bool>,
+    barriers: Vec<([usize; 2], Result<Barrier, BarrierError>)>,
+    rigid: Option<Result<RigidLandscape, RigidError>>,
+}
+
+/// Finds the wells and the barriers that the scene asks for.
+pub fn compute(context: &Context<'_>, spec: &WellsSpec) -> Answer {
+    let assembly = context.assembly;
+    let step = AtomicUsize::new(0);
+    let watch = |of: Option<usize>| context.step(step.fetch_add(1, Ordering::Relaxed) + 1, of);
+    let count = spec.starts.as_ref().map_or(STARTS, |count| count.0) as usize;
+    let spread = spec.spread.as_ref().map_or(PI, |spread| spread.0);
+    let starts = Starts { count, seed: spec.seed, spread, options: Options::default() };
+    let outcomes = relax_all(assembly, &starts, &|| watch(Some(count)));
+    let tally = Tally::of(&outcomes);
+    let minima = outcomes.into_iter().filter_map(|outcome| match outcome {
+        Outcome::Well(settled) => Some(*settled),
+        _ => None,
+    });
+    let wells = wells(minima, &Translations::new(assembly));
+    let rigid = spec.rigid.then(|| landscape(assembly, &sampling(assembly, spec), &mut || watch(None)));
+    let mut barriers = Vec::new();
+    for &between in spec.barriers.iter().map(|pair| &pair.0) {
+        if between.iter().all(|well| *well < wells.len()) && !context.interrupted() {
+            barriers.push((between, barrier(assembly, &wells, between, &mut || watch(None))));
+        }
+    }
+    let crossing = crossing(assembly, &wells);
+    let found = Found { tally, stiffness: assembly.bar_stiffness(), wells, crossing, barriers, rigid };
+    let mut answer = Answer::empty(context.study);
+    add_files(&mut answer, context, &found);
+    let interrupted = context.interrupted().then(|| "interrupted".to_owned());
+    let result = found.summary();
+    let largest = error(&result);
+    answer.conclude(StudyResult::Wells(result), largest, interrupted.or_else(|| found.missing(spec)));
+    answer
+}
+
+fn sampling(assembly: &Assembly, spec: &WellsSpec) -> Sampling {
+    let resolution = spec.resolution.as_ref().map_or(RESOLUTION, |count| count.0);
+    let max_curvature = spec.max_curvature.as_ref().map_or_else(|| curvature_of_cell(assembly), |most| most.0);
+    Sampling { step: TAU / f64::from(resolution), max_curvature }
+}
+
+/// Whether faces of each well pass through each other.
+fn crossing(assembly: &Assembly, wells: &[Well]) -> Vec<bool> {
+    let mut finder = SelfIntersection::new(assembly);
+    wells.iter().map(|well| finder.marks(assembly.drawn(), &well.settled.relaxed.state, LYING).any).collect()
+}
+
+/// The largest residual; `None` where nothing was found.
+fn error(result: &WellsSummary) -> Option<f64> {
+    let wells = result.wells.iter().map(|well| larger(well.residual_force, well.residual_length));
+    worst(wells.chain(result.barriers.iter().filter_map(|barrier| barrier.residual)))
+}
+
+impl Found {
+    /// Why the answer is not whole.
+    fn missing(&self, spec: &WellsSpec) -> Option<String> {
+        let count = self.wells.len();
+        if count == 0 {
+            let Tally { saddles, .. } = self.tally;
+            return Some(format!("no well was found: {}, {saddles} ended in no minimum", self.tally.failed()));
+        }
+        if 2 * self.tally.failed > self.tally.starts {
+            return Some(format!("{}: there may be other wells", self.tally.failed()));
+        }
+        if let Some(pair) = spec.barriers.iter().find(|pair| pair.0.iter().any(|well| *well >= count)) {
+            return Some(format!("a barrier is wanted between wells {:?}, but there are {count}", pair.0));
+        }
+        if let Some(Err(error)) = &self.rigid {
+            return Some(error.to_string());
+        }
+        if let Some(Ok(RigidLandscape { wells, contacts, states, lost, .. })) = &self.rigid
+            && wells.is_empty()
+            && contacts.is_empty()
+        {
+            return Some(format!("no rigid well was found on {states} states, and {lost} could not be made exact"));
+        }
+        let barriers = self.barriers.iter().map(|(between, found)| self.barrier(*between, found.as_ref()));
+        let failed = barriers.into_iter().find_map(|found| Some((found.between, found.reason?)));
+        failed.map(|(between, why)| format!("barrier {between:?}: {why}")).or_else(|| self.not_sampled())
+    }
+
+    /// What of the rigid landscape is not there.
+    fn not_sampled(&self) -> Option<String> {
+        let RigidLandscape { lost, open, .. } = self.rigid.as_ref()?.as_ref().ok()?;
+        let what = match (*lost, *open) {
+            (0, 0) => return None,
+            (lost, 0) => format!("{lost} wells or passes of the sampled rigid states could not be made exact"),
+            (0, open) => format!("the rigid states could not be followed at {open} places"),
+            (lost, open) => {
+                format!(
+                    "{lost} wells or passes of the rigid states could not be made exact, and these not followed at {open} places"
+                )
+            }
+        };
+        Some(format!("{what}: the rigid sheet may have other wells and passes"))
+    }
+
+    /// The number of a well among those of the rigid sheet.
+    fn among_rigid(&self, well: &Well) -> Option<usize> {
+        let rigid = self.rigid.as_ref()?.as_ref().ok()?;
+        let angles = &well.settled.relaxed.state.fold_angle;
+        let apart = |other: &[f64]| worst(other.iter().zip(angles).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan()));
+        rigid.wells.iter().position(|other| apart(&other.angles).is_some_and(|apart| apart <= SAME))
+    }
+
+    fn summary(&self) -> WellsSummary {
+        let Tally { starts, failed, saddles, ref failures } = self.tally;
+        let failures = failures.iter().map(|&(reason, starts)| FailedStartsSummary { reason: reason.into(), starts });
+        let well = |(well, crossing): (&Well, &bool)| WellSummary {
+            energy: well.settled.energy,
+            reached: well.reached,
+            self_intersecting: *crossing,
+            residual_force: well.settled.relaxed.residual_force,
+            residual_length: well.settled.relaxed.residual_length,
+            rigid: self.among_rigid(well),
+        };
+        WellsSummary {
+            starts,
+            failed,
+            failures: failures.collect(),
+            saddles,
+            wells: self.wells.iter().zip(&self.crossing).map(well).collect(),
+            barriers: self.barriers.iter().map(|(between, found)| self.barrier(*between, found.as_ref())).collect(),
+            rigid: self.rigid.as_ref().and_then(|found| found.as_ref().ok()).map(rigid),
+        }
+    }
+
+    fn barrier(&self, between: [usize; 2], found: Result<&Barrier, &BarrierError>) -> BarrierSummary {
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => {
+                return BarrierSummary { between, reason: Some(error.to_string()), ..BarrierSummary::default() };
+            }
+        };
+        let limit = rigid_limit(&found.heights);
+        let energy = if found.singular { limit.map(|limit| limit.energy) } else { Some(found.pass.energy) };
+        let above = |energy: f64| found.joins.map(|well| energy - self.wells[well].settled.energy);
+        let height = |height: &crate::analysis::wells::barrier::Height| HeightSummary {
+            bars: height.stiffness.is_finite().then_some(height.stiffness),
+            energy: height.energy,
+        };
+        BarrierSummary {
+            between,
+            confirmed: true,
+            joins: Some(found.joins),
+            energy,
+            bars: if found.singular { None } else { Some(self.stiffness).filter(|bars| bars.is_finite()) },
+            path_bars: Some(found.stiffness),
+            height: energy.map(above),
+            singular: found.singular,
+            exponent: limit.map(|limit| limit.exponent),
+            limit: limit.map(|limit| limit.energy),
+            rigid: self.rigid_between(found.joins),
+            residual: Some(larger(found.pass.residual_force, found.pass.residual_length)),
+            heights: found.heights.iter().map(height).collect(),
+            reason: energy.is_none().then(|| NO_LIMIT.to_owned()),
+        }
+    }
+
+    /// Energy of the lowest pass of the rigid sheet between two wells.
+    fn rigid_between(&self, wells: [usize; 2]) -> Option<f64> {
+        let [a, b] = wells.map(|well| self.among_rigid(&self.wells[well]));
+        Some(self.rigid.as_ref()?.as_ref().ok()?.between(a?, b?)?.energy)
+    }
+}
+
+fn rigid(found: &RigidLandscape) -> RigidSummary {
+    let pass = |pass: &crate::analysis::wells::rigid::RigidPass| RigidPassSummary {
+        joins: pass.joins,
+        energy: pass.energy,
+        singular: pass.singular,
+    };
+    RigidSummary {
+        dimension: found.dimension,
+        states: found.states,
+        wells: found.wells.iter().map(|well| well.energy).collect(),
+        contacts: found.contacts.clone(),
+        passes: found.passes.iter().map(pass).collect(),
+        lost: found.lost,
+        open: found.open,
+    }
+}
+
+/// Adds the wells and then the passes, as a table and as pictures; the energies of passes against stiffness; energies along
+/// the paths.
+fn add_files(answer: &mut Answer, context: &Context<'_>, found: &Found) {
+    let name = context.name();
+    let passes: Vec<&Barrier> = found.barriers.iter().filter_map(|(_, found)| found.as_ref().ok()).collect();
+    let mut finder = SelfIntersection::new(context.assembly);
+    let mut shown = |state: &State, residuals: [f64; 2]| {
+        let state = states::with_all_angles(context, state);
+        let marks = finder.marks(context.assembly.drawn(), &state, LYING);
+        Shown { state, residuals: Some(residuals), marks: Some(marks) }
+    };
+    let mut all = Vec::new();
+    for relaxed in found.wells.iter().map(|well| &well.settled.relaxed) {
+        all.push(shown(&relaxed.state, [relaxed.residual_force, relaxed.residual_length]));
+    }
+    for pass in passes.iter().map(|barrier| &barrier.pass) {
+        all.push(shown(&pass.state, [pass.residual_force, pass.residual_length]));
+    }
+    answer.add(format!("{name}.csv"), states::table(context, &all));
+    answer.add(format!("{name}-barriers.csv"), heights(&passes));
+    states::add(answer, context, &all, None);
+    if !context.draws(Draw::Svg) {
+        return;
+    }
+    if !passes.is_empty() {
+        let state =
+            "energies along the paths between wells; a dashed line marks the pass at the stiffness of the sheet";
+        let charts: Vec<Chart> = passes.iter().map(|barrier| path_chart(found, barrier)).collect();
+        answer.add(format!("{name}.svg"), chart::panels(&charts, &context.caption(state)));
+    } else if let Some(lowest) = all.first() {
+        let state = format!("well 0, energy {}", rounded(found.wells[0].settled.energy, 5));
+        states::add_figure(answer, context, &states::picture(context, lowest), &state);
+    }
+}
+
+/// A row for each pass and stiffness on its way; rigid bars have the stiffness `inf`.
+fn heights(passes: &[&Barrier]) -> Table {
+    let names = ["from", "to", "joins_a", "joins_b", "bars", "energy"];
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    for barrier in passes {
+        for height in &barrier.heights {
+            let wells = barrier.between.iter().chain(&barrier.joins).map(|well| Value::Whole(*well as i64));
+            table.push(wells.chain([Value::Number(height.stiffness), Value::Number(height.energy)]).collect());
+        }
+    }
+    table
+}
+
+/// Energies along the path on which a pass was found, which may be one in softer bars, with the pass itself.
+fn path_chart(found: &Found, barrier: &Barrier) -> Chart {
+    let ([from, to], last) = (barrier.between, barrier.path.len() - 1);
+    let label = |at: usize| match at {
+        0 => format!("well {from}"),
+        at if at == last => format!("well {to}"),
+        _ => String::new(),
+    };
+    let point = |(at, &(x, y)): (usize, &(f64, f64))| Point { x, y, label: label(at) };
+    let points: Vec<Point> = barrier.path.iter().enumerate().map(point).collect();
+    let top = points.iter().max_by(|a, b| a.y.total_cmp(&b.y)).map_or(0.0, |top| top.x);
+    let summary = found.barrier(barrier.between, Ok(barrier));
+    let level = |energy: f64| {
+        let above = energy - found.wells[from].settled.energy;
+        Point {
+            x: top,
+            y: energy,
+            label: format!("pass at {}, {} above well {from}", rounded(energy, 5), rounded(above, 5)),
+        }
+    };
+    let [a, b] = barrier.joins;
+    let joins = if barrier.joins == barrier.between || [b, a] == barrier.between {
+        String::new()
+    } else {
+        format!(" (the pass joins {a} and {b})")
+    };
+    Chart {
+        title: format!("well {from} to well {to}{joins}"),
+        x: format!("length of the path in bars of {}", rounded(barrier.stiffness, 3)),
+        y: "energy (unit of the scene)".to_owned(),
+        series: vec![Series { name: String::new(), points }],
+        levels: summary.energy.map(level).into_iter().collect(),
+        ..Chart::default()
+    }
+}

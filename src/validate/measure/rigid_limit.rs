@@ -1,0 +1,179 @@
+//! How a sheet with stiff bars comes to the rigid one: distance and energy, against what first order in `1/k` predicts.
+//!
+//! Let `t` be the tensions of the rigid state, `H` its Hessian, `R` the Jacobian of its lengths and `c/k` their compliances. To
+//! first order in `1/k` the state moves by `dx / k`, where `H dx + R^T dt = 0` and `R dx = c t`, and its energy falls by
+//! `sum(c t^2) / 2k`, which is also what the bars then store. One linear solve at the rigid state, no stiffness in it.
+
+use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
+use super::super::report::figure;
+use super::super::star::Star;
+use super::trial::distance;
+use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::model::Model;
+use foldwell::output::figure::chart::{Chart, Point, Series};
+use foldwell::solver::{HessianKind, Options, Problem, Start, Tangent};
+use serde_json::json;
+use std::ops::RangeInclusive;
+
+const CELLS: [usize; 3] = [6, 12, 24];
+/// One more size where there is time.
+const MORE: usize = 48;
+/// Decades of the stiffness, from stiff to soft.
+const DECADES: RangeInclusive<i32> = 2..=16;
+/// From this stiffness on each sheet is relaxed from the drawn state: within the tolerance, the rigid state and the state of
+/// the next stiffness are solutions too, and a start from there would say nothing.
+const ALIKE: f64 = 1e9;
+/// Largest deviation of a rest angle from the drawn one, in radians.
+const OFF: f64 = 0.1;
+/// The law has set in where what it predicts is met to this.
+const SETTLED: f64 = 0.01;
+/// Up to this stiffness the fall of the total energy is well above its rounding error.
+const ENERGY_SEEN: f64 = 1e10;
+
+/// First order in `1/k`.
+struct Law {
+    /// Stiffness times the largest change of a fold angle.
+    distance: f64,
+    /// Stiffness times what the energy falls by.
+    energy: f64,
+}
+
+/// A state at a finite stiffness, each number over what the law says.
+struct Reached {
+    stiffness: f64,
+    distance: f64,
+    /// What the energy is below that of the rigid state.
+    fall: f64,
+    /// What the bars store.
+    bars: f64,
+}
+
+/// A patch at all stiffnesses.
+struct Size {
+    cells: usize,
+    law: Law,
+    reached: Vec<Reached>,
+}
+
+/// Patches of the reference cell, every hinge with a rest angle of its own within 0.1 rad of the drawn one, from rigid down to a
+/// stiffness of 100; below [`ALIKE`] each state starts from the one before, so that it is the same minimum.
+pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+    let cells: Vec<usize> = CELLS.into_iter().chain((!bench.quick).then_some(MORE)).collect();
+    let mut sizes = Vec::new();
+    for (step, &n) in cells.iter().enumerate() {
+        bench.step(step, cells.len())?;
+        sizes.push(size(n)?);
+    }
+    let all = |of: fn(&Reached) -> f64, within: [f64; 2]| -> Vec<f64> {
+        let reached = sizes.iter().flat_map(|size| &size.reached);
+        reached.filter(|r| (within[0]..=within[1]).contains(&r.stiffness)).map(|r| (of(r) - 1.0).abs()).collect()
+    };
+    let values = json!({
+        "distance off law": all(|r| r.distance, [ALIKE, 1e14]),
+        "distance off law at 1e16": all(|r| r.distance, [1e16, 1e16]),
+        "fall of energy off law": all(|r| r.fall, [ALIKE, ENERGY_SEEN]),
+        "energy of bars off law": all(|r| r.bars, [ALIKE, 1e16]),
+    });
+    let tables = vec![laws(&sizes), distances(&sizes)];
+    Ok(Findings { values, tables, charts: vec![chart(&sizes)], ..Findings::default() })
+}
+
+fn size(n: usize) -> Result<Size, ExperimentError> {
+    let star = Star::new([n, n], OFF)?;
+    let mut model = star.model(f64::INFINITY);
+    let rigid = star.relax(&mut model, Options::default())?;
+    let law = law(&model, &star.model(1.0), &rigid)?;
+    let (mut reached, mut last) = (Vec::new(), Start::from(rigid.x.clone()));
+    for stiffness in DECADES.rev().map(|decade| 10f64.powi(decade)) {
+        let mut model = star.model(stiffness);
+        let start = if stiffness >= ALIKE { model.start().into() } else { last };
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| true)?;
+        reached.push(Reached {
+            stiffness,
+            distance: stiffness * distance(&found.state.fold_angle, &rigid.state.fold_angle) / law.distance,
+            fall: stiffness * (rigid.state.total() - found.state.total()) / law.energy,
+            bars: stiffness * found.state.energy_bars / law.energy,
+        });
+        last = Start { x: found.x, tension: Some(found.tension) };
+    }
+    Ok(Size { cells: n, law, reached })
+}
+
+/// From the rigid state and, for the compliances of the bars, the model with stiffness 1.
+fn law(model: &Model, unit: &Model, rigid: &Relaxed) -> Result<Law, ExperimentError> {
+    let failed = |_| ExperimentError::Other("the rigid state has no inverse".into());
+    let mut tangent = Tangent::at_state(model, &rigid.x, &rigid.tension, HessianKind::Full).map_err(failed)?;
+    tangent.factor(0.0).map_err(failed)?;
+    let stretch: Vec<f64> = unit.compliance().iter().zip(&rigid.tension).map(|(c, t)| c * t).collect();
+    let step = tangent.solve(&vec![0.0; rigid.x.len()], &stretch, 1e-12);
+    Ok(Law {
+        distance: tangent.at.largest_measure_change(&step.dx),
+        energy: stretch.iter().zip(&rigid.tension).map(|(s, t)| 0.5 * s * t).sum(),
+    })
+}
+
+/// The least stiffness from which on, up to [`ENERGY_SEEN`], a number stays within [`SETTLED`] of the law.
+fn sets_in(reached: &[Reached], of: fn(&Reached) -> f64) -> f64 {
+    let seen = reached.iter().skip_while(|r| r.stiffness > ENERGY_SEEN);
+    let met = seen.take_while(|r| (of(r) - 1.0).abs() <= SETTLED);
+    met.last().map_or(f64::NAN, |last| last.stiffness)
+}
+
+fn laws(sizes: &[Size]) -> Grid {
+    let row = |size: &Size| {
+        let Law { distance, energy } = size.law;
+        let ways: [fn(&Reached) -> f64; 3] = [|r| r.distance, |r| r.fall, |r| r.bars];
+        let from = ways.map(|of| sets_in(&size.reached, of));
+        let numbers = [distance, from[0], energy, from[1], from[2]];
+        [format!("{0} x {0}", size.cells)].into_iter().chain(numbers.map(figure)).collect()
+    };
+    let names = [
+        "cells",
+        "distance times k (rad)",
+        "met to 1% from k =",
+        "fall of energy times k",
+        "met to 1% from k =",
+        "bars' energy met from k =",
+    ];
+    Grid {
+        title: "First order in 1/k, from one linear solve at the rigid state, and from where on it is met".into(),
+        header: names.map(str::to_owned).to_vec(),
+        rows: sizes.iter().map(row).collect(),
+    }
+}
+
+fn distances(sizes: &[Size]) -> Grid {
+    let number = |size: &Size, k: usize| {
+        let Reached { distance, fall, bars, stiffness } = &size.reached[k];
+        let fall = if *stiffness <= ENERGY_SEEN { format!("{fall:.4}") } else { "-".into() };
+        format!("{distance:.4}, {fall}, {bars:.4}")
+    };
+    let row = |k: usize| {
+        let stiffness = format!("{:e}", sizes[0].reached[k].stiffness);
+        [stiffness].into_iter().chain(sizes.iter().map(|size| number(size, k))).collect()
+    };
+    let cells = sizes.iter().map(|size| format!("{0} x {0}", size.cells));
+    Grid {
+        title: "Distance, fall of energy and energy of the bars over what first order says".into(),
+        header: ["k".to_owned()].into_iter().chain(cells).collect(),
+        rows: (0..sizes.first().map_or(0, |size| size.reached.len())).map(row).collect(),
+    }
+}
+
+fn chart(sizes: &[Size]) -> Chart {
+    let series = |size: &Size| {
+        let point = |r: &Reached| Point {
+            x: r.stiffness,
+            y: r.distance * size.law.distance / r.stiffness,
+            label: String::new(),
+        };
+        Series { name: format!("{0} x {0} cells", size.cells), points: size.reached.iter().map(point).collect() }
+    };
+    Chart {
+        title: "Largest difference of a fold angle to the rigid sheet".into(),
+        x: "stiffness of the bars".into(),
+        y: "distance (rad)".into(),
+        series: sizes.iter().map(series).collect(),
+        ..Chart::default()
+    }
+}

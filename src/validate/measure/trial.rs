@@ -1,0 +1,226 @@
+//! One relaxation far from the ordinary, and a verdict on it: right, refused for a reason, or wrong.
+
+use super::super::forms::{self, Form};
+use foldwell::analysis::exact::error_to_kinematic;
+use foldwell::analysis::relax::relax_from;
+use foldwell::analysis::state::State;
+use foldwell::model::{Assembly, AssemblyError, Boundary, Gauge, Hinges, Model, RIGID, Terms};
+use foldwell::numerics::random::symmetric;
+use foldwell::numerics::{larger, worst};
+use foldwell::sheet::{Edge, Sheet, TiledEdge};
+use foldwell::solver::Options;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
+
+/// A relaxation that takes longer is taken for one that hangs.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Largest relative change of the length of a rigid bar.
+const KEPT: f64 = 1e-9;
+/// Largest residual, scaled, of an equilibrium of the augmented form.
+const BALANCED: f64 = 1e-9;
+/// Weight of the augmented form over the stiffness of the creases, and the difference in fold angles up to which it agrees.
+const WEIGHT: f64 = 1e4;
+const AGREES: f64 = 1e-6;
+
+/// What came of a trial.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// As an independent computation says, to this error in fold angles.
+    Right(f64),
+    /// Converged, where nothing independent is at hand.
+    Unjudged,
+    /// Refused, for this reason.
+    Refused(String),
+    /// Anything else: a wrong number, a panic, no end.
+    Wrong(String),
+}
+
+/// A sheet with bars and creases, whose creases want other angles.
+pub struct Trial {
+    /// The cell, or the finite sheet.
+    pub sheet: Sheet,
+    /// Its cells.
+    pub cells: [usize; 2],
+    /// What surrounds them.
+    pub boundary: Boundary,
+    /// Stiffness of bars and creases; facets are rigid.
+    pub stiffness: [f64; 2],
+    /// Rest angles of the creases.
+    pub rest: Rest,
+    /// An edge with the angle that it has to have.
+    pub lock: Option<(usize, f64)>,
+}
+
+/// Rest angles, in radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rest {
+    /// The drawn ones and at most this much more or less, at random with this seed.
+    Random(f64, u64),
+    /// The drawn ones and this much times the sine of ten times the edge's length over the mean: the same however the sheet
+    /// is turned, cut or numbered.
+    ByLength(f64),
+}
+
+/// Where a trial ended.
+pub struct Found {
+    /// Fold angle of every edge; NaN where there is no hinge.
+    pub angles: Vec<f64>,
+    /// Largest difference of a fold angle to the exact kinematics; `None` where there is nothing to compare with.
+    pub to_kinematic: Option<f64>,
+    /// Largest difference of a fold angle to the augmented form's equilibrium; `None` where that finds none.
+    pub to_augmented: Option<f64>,
+    /// Largest relative change of the length of a bar.
+    pub stretch: f64,
+    /// Energy.
+    pub energy: f64,
+}
+
+impl Trial {
+    /// A patch with rigid bars and creases of 1.
+    pub fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
+        let stiffness = [f64::INFINITY, 1.0];
+        let rest = Rest::Random(off, 1);
+        Self { sheet, cells, boundary: Boundary::Patch, stiffness, rest, lock: None }
+    }
+
+    /// What it is, in a few words.
+    pub fn description(&self) -> String {
+        let Self { sheet, cells: [n1, n2], boundary, stiffness: [bars, _], rest, .. } = self;
+        let (vertices, off) = (
+            sheet.vertices.len(),
+            match rest {
+                Rest::Random(off, seed) => format!("{off:.1e} off, seed {seed}"),
+                Rest::ByLength(off) => format!("{off:.1e} off by length"),
+            },
+        );
+        format!("{boundary:?} of {n1} x {n2} cells of {vertices}, bars {bars:.1e}, rest {off}")
+    }
+
+    /// The sheet with its bars, creases, rigid polygons and lock.
+    fn assembly(&self) -> Result<Assembly, AssemblyError> {
+        let drawn = Assembly::without_terms(self.sheet.clone(), self.cells, self.boundary)?;
+        let [bars, creases] = self.stiffness;
+        let polygons = drawn.tiling().facets().next().is_some();
+        let terms = Terms {
+            facets: polygons.then(|| Hinges { stiffness: RIGID, rest: drawn.drawn_angles().to_vec() }),
+            locks: self.lock.into_iter().collect(),
+            ..Terms::bars_and_creases(bars, creases, self.rest_angles(&drawn))
+        };
+        Ok(drawn.with_terms(terms).with_best_axis())
+    }
+
+    /// Relaxes from the drawn state. `Err`: why not.
+    pub fn run(&self) -> Result<Found, String> {
+        let [bars, creases] = self.stiffness;
+        let assembly = self.assembly().map_err(|error| error.to_string())?;
+        let mut model = assembly.model(Gauge::Held);
+        let (start, clock) = (model.start(), Instant::now());
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| clock.elapsed() < PATIENCE);
+        let found = found.map_err(|error| error.failure.to_string())?;
+        let state = State::new(&model, &found.x, &found.tension);
+        let (rigid, angles) = (bars.is_infinite(), state.fold_angle);
+        Ok(Found {
+            to_kinematic: rigid
+                .then(|| error_to_kinematic(assembly.sheet(), assembly.tiling(), &model, &angles))
+                .flatten(),
+            to_augmented: if rigid { None } else { augmented(&mut model, creases) }.map(|a| distance(&angles, &a)),
+            stretch: stretch(&model, &found.x),
+            energy: found.state.total(),
+            angles,
+        })
+    }
+
+    fn rest_angles(&self, assembly: &Assembly) -> Vec<f64> {
+        let drawn = assembly.drawn_angles();
+        match self.rest {
+            Rest::Random(most, seed) => {
+                let mut numbers = ChaCha8Rng::seed_from_u64(seed);
+                drawn.iter().map(|angle| angle + most * symmetric(&mut numbers)).collect()
+            }
+            Rest::ByLength(most) => {
+                let ends = |edge: &Edge| edge.key.ends().map(|end| self.sheet.position(end));
+                let lengths: Vec<f64> = self.sheet.edges.iter().map(ends).map(|[a, b]| (b - a).norm()).collect();
+                let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
+                let off = |edge: &TiledEdge| most * (10.0 * lengths[edge.edge] / mean).sin();
+                drawn.iter().zip(&assembly.tiling().edges).map(|(angle, edge)| angle + off(edge)).collect()
+            }
+        }
+    }
+
+    /// Whether rigid bars end at the exact kinematics to `allowed` radians; where that cannot be asked, whether they kept
+    /// their lengths. Whether soft ones end where the augmented form does, if it finds the same minimum.
+    pub fn judged(&self, allowed: f64) -> Outcome {
+        judge(|found| match (found.to_kinematic, found.to_augmented) {
+            (Some(error), _) => within(error, allowed),
+            (None, Some(error)) if error <= AGREES => Outcome::Right(error),
+            (None, _) if self.stiffness[0].is_finite() || found.stretch <= KEPT => Outcome::Unjudged,
+            (None, _) => Outcome::Wrong(format!("a rigid bar changed its length by {:.1e}", found.stretch)),
+        })(self)
+    }
+
+    /// Whether the fold angles are these to `allowed` radians.
+    pub fn against(&self, expected: &[f64], allowed: f64) -> Outcome {
+        judge(|found| within(distance(&found.angles, expected), allowed))(self)
+    }
+}
+
+/// The verdict on a trial; a panic is wrong, and so is one that was cut short.
+pub fn judge(verdict: impl Fn(&Found) -> Outcome) -> impl Fn(&Trial) -> Outcome {
+    move |trial| match catch_unwind(AssertUnwindSafe(|| trial.run())) {
+        Ok(Ok(found)) => verdict(&found),
+        Ok(Err(reason)) if reason.contains("stopped on request") => {
+            Outcome::Wrong(format!("no end after {} s", PATIENCE.as_secs()))
+        }
+        Ok(Err(reason)) => Outcome::Refused(reason),
+        Err(_) => Outcome::Wrong("panic".into()),
+    }
+}
+
+/// Right where an error is at most `allowed`.
+pub fn within(error: f64, allowed: f64) -> Outcome {
+    if error <= allowed { Outcome::Right(error) } else { Outcome::Wrong(format!("off by {error:.1e}")) }
+}
+
+/// Largest difference where a number is expected; NaN where there is none, where none is expected, and of lists of other lengths.
+pub fn distance(angles: &[f64], expected: &[f64]) -> f64 {
+    let known = angles.iter().zip(expected).filter(|(_, expected)| !expected.is_nan());
+    let worst = worst(known.map(|(a, b)| (a - b).abs()));
+    worst.filter(|_| angles.len() == expected.len()).unwrap_or(f64::NAN)
+}
+
+/// Fold angles of the augmented form's equilibrium.
+fn augmented(model: &mut Model, creases: f64) -> Option<Vec<f64>> {
+    let found = forms::minimize(model, Form::Augmented(WEIGHT * creases)).ok()?;
+    let balanced = found.residuals.iter().all(|residual| *residual <= BALANCED);
+    balanced.then(|| State::new(model, &found.x, &found.tension).fold_angle)
+}
+
+/// Largest relative change of the length of a bar, from the points themselves.
+fn stretch(model: &Model, x: &[f64]) -> f64 {
+    let coordinates = model.coordinates(x);
+    let bars = model.stiff().iter().filter(|term| !term.is_angle());
+    let each = bars.flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+    let change = each.map(|(term, k)| term.value(k, model.domain(), &coordinates) / term.spring(k).rest - 1.0);
+    change.fold(0.0, |most, change| larger(most, change.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: a fold angle that is missing fails a trial wherever it stands, and so does a comparison of nothing with nothing.
+    #[test]
+    fn what_is_missing_is_not_right() {
+        let nan = f64::NAN;
+        assert_eq!(distance(&[1.0, nan, 2.5], &[1.0, nan, 2.0]), 0.5);
+        for (angles, expected) in
+            [(&[nan, 2.0][..], &[1.0, 2.0][..]), (&[1.0], &[nan]), (&[], &[]), (&[1.0, 2.0], &[1.0])]
+        {
+            let off = distance(angles, expected);
+            assert!(off.is_nan(), "{angles:?} {expected:?}: {off}");
+            assert!(matches!(within(off, 1.0), Outcome::Wrong(_)));
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Error against run time: settings of one method with what they reach and what they cost.
+
+use foldwell::output::figure::chart::{Chart, Point, Series};
+use serde::Serialize;
+use std::time::Instant;
+
+/// The errors for which the cheapest setting is named.
+const WANTED: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
+
+/// A setting, what it reached and what it cost.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Setting {
+    /// The setting: `"k = 1e6"`.
+    pub label: String,
+    /// Error of its result; NaN where there is none.
+    pub error: f64,
+    /// What it took.
+    pub seconds: f64,
+}
+
+/// A method at several settings.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Method {
+    /// Its name.
+    pub name: String,
+    /// Its settings.
+    pub settings: Vec<Setting>,
+}
+
+/// A diagram of error against run time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Diagram {
+    /// What is varied.
+    pub title: String,
+    /// Which error, and against what.
+    pub error: String,
+    /// The methods.
+    pub methods: Vec<Method>,
+}
+
+impl Diagram {
+    /// As a chart.
+    pub fn chart(&self) -> Chart {
+        let point = |s: &Setting| Point { x: s.error, y: s.seconds, label: s.label.clone() };
+        let series = |m: &Method| Series { name: m.name.clone(), points: m.settings.iter().map(point).collect() };
+        Chart {
+            title: self.title.clone(),
+            x: self.error.clone(),
+            y: "seconds".into(),
+            series: self.methods.iter().map(series).collect(),
+            ..Chart::default()
+        }
+    }
+
+    /// For errors that one may want, the method and setting that reach them in the shortest time; `None`: none does.
+    pub fn cheapest(&self) -> Vec<(f64, Option<(&str, &Setting)>)> {
+        let all = || self.methods.iter().flat_map(|m| m.settings.iter().map(move |s| (m.name.as_str(), s)));
+        let best = |wanted: f64| {
+            let good = all().filter(|(_, setting)| setting.error <= wanted);
+            good.min_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds))
+        };
+        WANTED.iter().map(|&wanted| (wanted, best(wanted))).collect()
+    }
+}
+
+/// Does several pieces of work in turns, so that other load on the machine hits all alike; the shortest time of each.
+pub fn shortest(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
+    let mut times = vec![f64::INFINITY; work.len()];
+    for _ in 0..rounds {
+        for (time, work) in times.iter_mut().zip(work.iter_mut()) {
+            let clock = Instant::now();
+            work();
+            *time = time.min(clock.elapsed().as_secs_f64());
+        }
+    }
+    times
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Claim: the cheapest setting is the fastest of those that are good enough, of all methods; one without a result is
+    /// none.
+    #[test]
+    fn the_cheapest_setting_is_named() {
+        let setting = |label: &str, error, seconds| Setting { label: label.into(), error, seconds };
+        let method = |name: &str, settings| Method { name: name.into(), settings };
+        let methods = vec![
+            method("a", vec![setting("1", 1e-3, 1.0), setting("2", 1e-7, 3.0), setting("3", f64::NAN, 0.1)]),
+            method("b", vec![setting("4", 1e-5, 2.0)]),
+        ];
+        let diagram = Diagram { title: String::new(), error: String::new(), methods };
+        let found: Vec<_> = diagram.cheapest().into_iter().map(|(_, best)| best.map(|(m, s)| (m, &*s.label))).collect();
+        assert_eq!(found, [Some(("a", "1")), Some(("b", "4")), Some(("a", "2")), None, None]);
+        assert_eq!(diagram.chart().series[0].points.len(), 3);
+    }
+}

@@ -1,0 +1,102 @@
+//! Patches of the reference cell whose creases all want another angle: what costs are measured on.
+
+use super::experiment::ExperimentError;
+use super::library;
+use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
+use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
+use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
+use foldwell::numerics::random::symmetric;
+use foldwell::sheet::{Sheet, SheetError, fold};
+use foldwell::solver::{Options, Problem};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+/// A patch of `meshes/open-star.fold` with rest angles.
+pub struct Star {
+    /// The patch, without terms.
+    pub assembly: Assembly,
+    /// Rest angle of every edge, in radians; NaN where there is no hinge.
+    pub rest: Vec<f64>,
+}
+
+/// The reference cell.
+///
+/// # Errors
+/// None that the repository's own mesh could cause.
+pub fn cell() -> Result<Sheet, SheetError> {
+    fold::parse(library::mesh("open-star.fold").unwrap_or_default(), "open-star.fold")
+}
+
+impl Star {
+    /// `n1 x n2` cells; the rest angle of every hinge is the drawn one and at most `most` radians more or less, at random,
+    /// the same on every machine.
+    ///
+    /// # Errors
+    /// None that the repository's own mesh could cause.
+    pub fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
+        let mut star = Self::drawn(cells)?;
+        let mut numbers = ChaCha8Rng::seed_from_u64(1);
+        let off = |angle: &mut f64| *angle += most * symmetric(&mut numbers);
+        star.rest.iter_mut().for_each(off);
+        Ok(star)
+    }
+
+    /// `n1 x n2` cells whose creases rest with the same angle in every cell, one for each edge of the cell.
+    ///
+    /// # Errors
+    /// None that the repository's own mesh could cause.
+    pub fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, ExperimentError> {
+        let mut star = Self::drawn(cells)?;
+        for (rest, edge) in star.rest.iter_mut().zip(&star.assembly.tiling().edges).filter(|(rest, _)| !rest.is_nan()) {
+            *rest = angles[edge.edge];
+        }
+        Ok(star)
+    }
+
+    fn drawn(cells: [usize; 2]) -> Result<Self, ExperimentError> {
+        let assembly = Assembly::without_terms(cell()?, cells, Boundary::Patch)?;
+        let rest = assembly.drawn_angles().to_vec();
+        Ok(Self { assembly, rest })
+    }
+
+    /// The trajectories of the cell with its first edge, (0, 1, 0, 0), locked, followed with steps of at most this length.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Trace`] where there are none.
+    pub fn traced(max_step: f64, stop: Stop) -> Result<Vec<Traced>, ExperimentError> {
+        let drawn = Assembly::without_terms(cell()?, [1, 1], Boundary::Screw)?;
+        let locked = Terms { locks: vec![(0, drawn.drawn_angles()[0])], ..Terms::default() };
+        let options = TraceOptions { max_step, tolerance: 3e-14, branch: None, stop };
+        Ok(trace(&drawn.with_terms(locked), &options, None, &mut |_, _| true)?)
+    }
+
+    /// Fold angles of the edges of the cell, folded along its first ray over this arc length: an exact cylinder.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Trace`] where there is none.
+    pub fn cylinder(arc_length: f64) -> Result<Vec<f64>, ExperimentError> {
+        let all = Self::traced(0.25, Stop { arc_length: Some(arc_length), ..Stop::default() })?;
+        let last = all.first().and_then(|traced| traced.states.last());
+        Ok(last.ok_or(ExperimentError::Other("there is no ray".into()))?.angles.clone())
+    }
+
+    /// The model with this stiffness of every bar, `EA`, over that of the creases, which is 1 per length.
+    pub fn model(&self, stiffness: f64) -> Model {
+        let terms = Terms::bars_and_creases(stiffness, 1.0, self.rest.clone());
+        self.assembly.with_terms(terms).model(Gauge::Held)
+    }
+
+    /// Relaxes `model` from the drawn state.
+    ///
+    /// # Errors
+    /// [`RelaxError`] where it does not converge.
+    pub fn relax(&self, model: &mut Model, options: Options) -> Result<Relaxed, Box<RelaxError>> {
+        let start = model.start();
+        relax_from(model, start, options, &mut |_| true)
+    }
+}
+
+/// Unknowns and stiff measures of a model.
+pub fn size(model: &Model) -> (usize, usize) {
+    (model.layout().unknowns, model.layout().stiff.len())
+}

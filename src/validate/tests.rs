@@ -1,0 +1,92 @@
+//! The driver: what holds passes, what does not fails and says by how much, and nothing is lost half-way.
+
+use super::claim::Numbers;
+use super::*;
+use foldwell::run::Progress;
+use serde_json::Value;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+const GO_ON: Observer = &|_| ControlFlow::Continue(());
+
+fn claims(texts: &[(&str, &str)]) -> Vec<Claim> {
+    texts.iter().map(|(name, text)| Claim::parse(name, text).unwrap()).collect()
+}
+
+fn options(folder: &Path) -> ValidateOptions {
+    ValidateOptions { out: Some(folder.into()), ..ValidateOptions::default() }
+}
+
+fn about_rays(wanted: &str) -> String {
+    format!(
+        "claim = \"rays & more\"\nsource = \"s\"\nquick = true\nscene = \"flat-branches.toml\"\n\
+         value = \"studies.branches.real_rays\"\n{wanted}\nreason = \"r\""
+    )
+}
+
+/// Claim: a planted wrong value fails with the size of the miss in all three reports, beside a right one that passes;
+/// a value that is not there fails as well.
+#[test]
+fn a_wrong_claim_fails_by_what_it_is_off() {
+    let folder = tempfile::tempdir().unwrap();
+    let right = about_rays("expected = 28\ntolerance = 0");
+    let wrong = about_rays("expected = 30.5\ntolerance = 1.0");
+    let none = right.replace("real_rays", "imaginary_rays");
+    let claims = claims(&[("right", &right), ("wrong", &wrong), ("none", &none)]);
+    let mut seen = Vec::new();
+    let report = check(claims, &options(folder.path()), GO_ON, &mut |case| seen.push(case.name.clone())).unwrap();
+    assert_eq!(seen, ["right", "wrong", "none"]);
+    assert_eq!((report.passed, report.all_passed(), report.interrupted), (1, false, false));
+    assert_eq!(report.cases[1].miss, Some(2.5));
+    assert_eq!(report.cases[1].found, Some(Numbers::One(28.0)));
+    let json: Value = serde_json::from_slice(&std::fs::read(folder.path().join("report.json")).unwrap()).unwrap();
+    for key in ["name", "claim", "expected", "found", "tolerance", "passed", "seconds"] {
+        assert!(json["cases"][1].get(key).is_some(), "{key}");
+    }
+    assert_eq!((&json["cases"][1]["miss"], &json["cases"][2]["passed"]), (&Value::from(2.5), &Value::from(false)));
+    for file in ["report.md", "report.html"] {
+        let text = std::fs::read_to_string(folder.path().join(file)).unwrap();
+        for part in ["1 of 3 claims hold, 2 fail", "off by 2.5, allowed 1", "no value"] {
+            assert!(text.contains(part), "{file}: {part}\n{text}");
+        }
+    }
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(page.contains("rays &amp; more") && !page.contains("http://www.w3.org/1999") && !page.contains("<script"));
+}
+
+/// Claim: an experiment is performed once for all claims that need it, and a stopped validation leaves what it found.
+#[test]
+fn an_interrupt_leaves_what_is_finished() {
+    let folder = tempfile::tempdir().unwrap();
+    let right = about_rays("expected = 28\ntolerance = 0");
+    let trace = right.replace("flat-branches", "star-trace");
+    let claims = claims(&[("a", &right), ("b", &right), ("c", &trace)]);
+    let stop_at_traces = |progress: &Progress| match progress.study.as_str() {
+        "loops" => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    let report = check(claims, &options(folder.path()), &stop_at_traces, &mut |_| ()).unwrap();
+    assert_eq!((report.interrupted, report.passed, report.all_passed()), (true, 2, false));
+    assert_eq!(report.cases[0].seconds, report.cases[1].seconds);
+    assert_eq!(report.seconds, report.cases[0].seconds);
+    let json: Value = serde_json::from_slice(&std::fs::read(folder.path().join("report.json")).unwrap()).unwrap();
+    assert_eq!(json["cases"].as_array().unwrap().len(), 2);
+}
+
+/// Claim: names choose claims, `quick` leaves the long ones out, and an unknown name is wrong input.
+#[test]
+fn claims_are_chosen() {
+    let quick = about_rays("at_most = 30");
+    let long = quick.replace("quick = true", "quick = false");
+    let all = claims(&[("a", &quick), ("b", &long)]);
+    let names = |quick: bool, only: &[&str]| {
+        let only = only.iter().map(|name| (*name).to_owned()).collect();
+        let options = ValidateOptions { quick, only, ..ValidateOptions::default() };
+        chosen(all.clone(), &options).map(|claims| claims.into_iter().map(|c| c.name).collect::<Vec<_>>())
+    };
+    assert_eq!(names(false, &[]).unwrap(), ["a", "b"]);
+    assert_eq!(names(true, &[]).unwrap(), ["a"]);
+    assert_eq!(names(true, &["b"]).unwrap(), ["b"]);
+    let error = names(false, &["c"]).unwrap_err();
+    assert_eq!((error.exit_status(), error.to_string().as_str()), (2, "there is no claim `c`"));
+}
