@@ -8,7 +8,7 @@ use foldwell::{Assembly, Pattern, Picture, RIGID, Rest, generate, relax, write_v
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let sheet = generate(&Pattern::named("miura").ok_or("no such pattern")?)?;
+    let sheet = generate(&Pattern::named("miura")?)?;
     // creases that want to be folded half as far as they are drawn; polygons bend, but not easily
     let drawn = Assembly::patch(sheet.clone(), [4, 4]).build()?;
     let rest: Vec<f64> = drawn.drawn_angles().iter().map(|angle| 0.5 * angle).collect();

@@ -10,7 +10,7 @@
 //! use foldwell::{Assembly, Pattern, Picture, RIGID, Rest, generate, relax, write_vtu};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
-//!     let sheet = generate(&Pattern::named("miura").ok_or("no such pattern")?)?;
+//!     let sheet = generate(&Pattern::named("miura")?)?;
 //!     let assembly = Assembly::patch(sheet, [3, 3]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
 //!     let relaxed = relax(&assembly)?;
 //!     println!("energy {:.3e} after {} steps", relaxed.state.total(), relaxed.iterations);

@@ -79,7 +79,7 @@ impl fmt::Debug for RelaxError {
 /// ```
 /// use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
 ///
-/// let sheet = generate(&Pattern::named("miura").expect("a known pattern"))?;
+/// let sheet = generate(&Pattern::named("miura")?)?;
 /// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
 /// let relaxed = relax(&assembly)?;
 /// assert!(relaxed.state.total() < 1e-12 && relaxed.negative_eigenvalues == 0);

@@ -70,19 +70,28 @@ impl Pattern {
         ]
     }
 
-    /// The pattern of this name with the default of every parameter; `None` where there is no such pattern.
-    pub fn named(name: &str) -> Option<Self> {
+    /// The pattern of this name with the default of every parameter.
+    ///
+    /// # Errors
+    /// [`GenerateError::Unknown`] where no pattern has this name.
+    pub fn named(name: &str) -> Result<Self, GenerateError> {
         let pair = [("pattern", name)].into_iter();
         Self::deserialize(IntoDeserializer::<serde::de::value::Error>::into_deserializer(
             pair.collect::<std::collections::BTreeMap<_, _>>(),
         ))
-        .ok()
+        .map_err(|_| GenerateError::Unknown { name: name.to_owned() })
     }
 }
 
 /// Why a pattern has no sheet for its parameters.
 #[derive(Debug, thiserror::Error)]
 pub enum GenerateError {
+    /// A name that no pattern has.
+    #[error("there is no pattern `{name}`; there are {}", Pattern::names().join(", "))]
+    Unknown {
+        /// The name.
+        name: String,
+    },
     /// A number out of its range.
     #[error("`{name}` is {value}; it should be {} {low} and below {high}", if *closed { "at least" } else { "above" })]
     Number {

@@ -108,7 +108,8 @@ fn names() {
         let json = serde_json::to_value(Pattern::named(name).unwrap()).unwrap();
         assert_eq!(json["pattern"], *name);
     }
-    assert!(Pattern::named("no-such-pattern").is_none());
+    let unknown = Pattern::named("no-such-pattern").unwrap_err().to_string();
+    assert!(unknown.starts_with("there is no pattern `no-such-pattern`; there are miura, "), "{unknown}");
     assert!(serde_json::from_str::<Pattern>(r#"{"pattern": "miura", "angle": 1}"#).is_err());
 }
 

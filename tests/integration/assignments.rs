@@ -1,0 +1,170 @@
+//! Letters of `edges_assignment` mean what FOLD 1.2 says, are refused by name where they contradict the mesh, and are
+//! kept by `convert` together with what a file says about itself.
+
+use std::path::Path;
+use std::process::Command;
+
+use foldwell::sheet::{Assignment, EdgeKind, Info, Sheet, fold, obj};
+
+/// Four unit squares round vertex 4; the ends of edges from line 4, their letters below.
+///
+/// ```text
+/// 6 7 8
+/// 3 4 5
+/// 0 1 2
+/// ```
+fn squares(edges: &[([usize; 2], &str)], more: &str) -> String {
+    let ends: Vec<_> = edges.iter().map(|(ends, _)| format!("{ends:?}")).collect();
+    let letters: Vec<_> = edges.iter().map(|(_, letter)| format!("\"{letter}\"")).collect();
+    let (ends, letters) = (ends.join(",\n"), letters.join(", "));
+    format!(
+        "{{\"vertices_coords\": [[0,0],[1,0],[2,0],[0,1],[1,1],[2,1],[0,2],[1,2],[2,2]],{more}\n\
+         \"faces_vertices\": [[0,1,4,3],[1,2,5,4],[3,4,7,6],[4,5,8,7]],\n\"edges_vertices\": [\n{ends}],\n\
+         \"edges_assignment\": [{letters}]}}"
+    )
+}
+
+fn count(sheet: &Sheet, kind: EdgeKind) -> usize {
+    sheet.edges.iter().filter(|edge| edge.kind == kind).count()
+}
+
+/// Claim (FOLD 1.2, `edges_assignment`): the two sides of C are separate boundaries. A cut from the rim to the middle
+/// makes one vertex more and leaves a disc of one crease less; one right through makes two pieces. Counted by hand.
+#[test]
+fn a_cut_parts_the_sheet() {
+    let whole = fold::parse(&squares(&[], ""), "a.fold").unwrap();
+    assert_eq!((whole.vertices.len(), count(&whole, EdgeKind::Crease), count(&whole, EdgeKind::Boundary)), (9, 4, 8));
+    let slit = fold::parse(&squares(&[([1, 4], "C")], ""), "a.fold").unwrap();
+    assert_eq!((slit.vertices.len(), count(&slit, EdgeKind::Crease), count(&slit, EdgeKind::Boundary)), (10, 3, 10));
+    assert_eq!(
+        (slit.cut_from.as_slice(), Info::new(&slit).euler_characteristic, Info::new(&slit).cut),
+        (&[1][..], 1, 2)
+    );
+    let halves = fold::parse(&squares(&[([1, 4], "C"), ([7, 4], "C")], ""), "a.fold").unwrap();
+    assert_eq!((halves.vertices.len(), count(&halves, EdgeKind::Crease)), (12, 2));
+    assert_eq!(Info::new(&halves).euler_characteristic, 2);
+    // the second face, on the right, has the new vertices
+    assert!(halves.polygons[1].iter().any(|corner| corner.vertex >= 9));
+    assert!(halves.polygons[0].iter().all(|corner| corner.vertex < 9));
+}
+
+/// Claim (FOLD 1.2): J is no crease, its faces are parts of one polygon; U and F are creases; all are kept as assigned.
+#[test]
+fn joined_faces_have_no_crease() {
+    let edges = [([1, 4], "J"), ([4, 7], "U"), ([3, 4], "F"), ([4, 5], "M")];
+    let sheet = fold::parse(&squares(&edges, ""), "a.fold").unwrap();
+    // four diagonals and the joined edge
+    assert_eq!((count(&sheet, EdgeKind::Crease), count(&sheet, EdgeKind::Facet)), (3, 5));
+    let letter = |i, j| {
+        let edge = sheet.edges.iter().find(|edge| (edge.key.i, edge.key.j) == (i, j)).unwrap();
+        (edge.kind, sheet.assignment(edge))
+    };
+    assert_eq!(letter(1, 4), (EdgeKind::Facet, Assignment::Join));
+    assert_eq!(letter(4, 7), (EdgeKind::Crease, Assignment::Unassigned));
+    assert_eq!(letter(3, 4), (EdgeKind::Crease, Assignment::Flat));
+    assert_eq!(letter(4, 5), (EdgeKind::Crease, Assignment::Mountain));
+    assert_eq!(letter(0, 1), (EdgeKind::Boundary, Assignment::Boundary));
+}
+
+/// Claim: letters that contradict the mesh are refused with the line of their edge and its number.
+#[test]
+fn contradictions_are_refused() {
+    let lattice = "\"foldwell:lattice\": [[2,0,0],[0,2,0]],";
+    let cases = [
+        (squares(&[([0, 1], "B"), ([1, 4], "B")], ""), 5, "edge 1 of the list, [1, 4], is assigned B, a boundary, but"),
+        (squares(&[([0, 1], "J")], ""), 4, "edge 0 of the list, [0, 1], is assigned J, which joins two faces"),
+        (squares(&[([1, 4], "C")], lattice), 4, "a periodic sheet cannot be cut along an edge"),
+        (valley("M"), 4, "is assigned M, but the vertices draw a fold angle of 45 degrees"),
+        (inner_slit(), 4, "the sheet stays joined at both of its ends"),
+    ];
+    for (text, line, words) in cases {
+        let message = fold::parse(&text, "a.fold").unwrap_err().to_string();
+        assert!(message.starts_with(&format!("a.fold:{line}:")) && message.contains(words), "{message}\n{text}");
+    }
+    for letter in ["V", "U", "F"] {
+        fold::parse(&valley(letter), "a.fold").unwrap();
+    }
+    // the outline of a drawn cell is no contradiction
+    fold::parse(&squares(&[([0, 1], "B"), ([7, 6], "B")], lattice), "a.fold").unwrap();
+}
+
+/// Two triangles that fold up by 45 degrees; the edge between them is on line 4.
+fn valley(letter: &str) -> String {
+    format!(
+        "{{\"vertices_coords\": [[0,0,0],[1,0,0],[0,1,0],[0,-1,1]],\n\"faces_vertices\": [[0,1,2],[1,0,3]],\n\
+         \"edges_vertices\": [\n[0,1]], \"edges_assignment\": [\"{letter}\"]}}"
+    )
+}
+
+/// A cut of one edge between two vertices inside: a triangle fan round each.
+fn inner_slit() -> String {
+    String::from(
+        "{\"vertices_coords\": [[0,0],[3,0],[3,3],[0,3],[1,1],[2,2]],\n\
+         \"faces_vertices\": [[0,1,4],[1,5,4],[1,2,5],[2,3,5],[3,4,5],[3,0,4]],\n\"edges_vertices\": [\n[4,5]],\n\
+         \"edges_assignment\": [\"C\"]}",
+    )
+}
+
+/// Claim: a hole that is drawn with B edges stays a hole where the faces are rebuilt from the edges: a ring, whose
+/// Euler characteristic is 0, of four polygons.
+#[test]
+fn holes_are_not_filled() {
+    let text = "{\"vertices_coords\": [[0,0],[3,0],[3,3],[0,3],[1,1],[2,1],[2,2],[1,2]],\n\
+        \"edges_vertices\": [[0,1],[1,2],[2,3],[3,0],[4,5],[5,6],[6,7],[7,4],[0,4],[1,5],[2,6],[3,7]],\n\
+        \"edges_assignment\": [\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"B\",\"M\",\"V\",\"M\",\"V\"]}";
+    let ring = fold::parse(text, "ring.fold").unwrap();
+    assert_eq!((ring.polygons.len(), count(&ring, EdgeKind::Boundary)), (4, 8));
+    assert_eq!(Info::new(&ring).euler_characteristic, 0);
+}
+
+/// Claim: what is written reads as the same sheet, cuts, joins and letters included, in FOLD and in OBJ.
+#[test]
+fn letters_come_back() {
+    let edges = [([1, 4], "C"), ([4, 7], "J"), ([3, 4], "M"), ([4, 5], "V"), ([0, 1], "C")];
+    let metadata = "\"file_title\": \"t\", \"file_author\": \"A. B.\", \"frame_unit\": \"mm\", ";
+    for edges in [&edges[..], &[([1, 4], "C"), ([7, 4], "C")]] {
+        let sheet = fold::parse(&squares(edges, metadata), "a.fold").unwrap();
+        assert_eq!(fold::parse(&fold::write(&sheet), "b.fold").unwrap(), sheet);
+        assert_eq!(obj::parse(&obj::write(&sheet), "b.obj").unwrap(), sheet);
+    }
+}
+
+fn convert(from: &Path, to: &Path) -> (String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_foldwell")).arg("convert").args([from, to]).output().unwrap();
+    assert!(output.status.success());
+    (String::from_utf8(output.stderr).unwrap(), String::from_utf8_lossy(&std::fs::read(to).unwrap()).into_owned())
+}
+
+/// Claim: `convert` keeps the mountains and valleys of a flat pattern, its author and its frame's metadata, and says
+/// on standard error which frames and keys it does not keep.
+#[test]
+fn convert_keeps_letters_and_says_what_it_drops() {
+    let folder = tempfile::tempdir().unwrap();
+    let [from, to, to_vtu] = ["a.fold", "b.fold", "b.vtu"].map(|name| folder.path().join(name));
+    let edges = [([1, 4], "M"), ([4, 7], "V"), ([3, 4], "U"), ([4, 5], "M")];
+    let more = "\"file_author\": \"A. B.\", \"frame_title\": \"f\", \"faceOrders\": [], \"file_frames\": [{}, {}], ";
+    std::fs::write(&from, squares(&edges, more)).unwrap();
+    let (said, text) = convert(&from, &to);
+    let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let letters: Vec<_> = value["edges_assignment"].as_array().unwrap().iter().map(|l| l.as_str().unwrap()).collect();
+    let of = |letter: &str| letters.iter().filter(|l| **l == letter).count();
+    assert_eq!((of("M"), of("V"), of("U"), of("B"), of("F")), (2, 1, 1, 8, 0));
+    assert_eq!((&value["file_author"], &value["frame_title"]), (&"A. B.".into(), &"f".into()));
+    assert!(said.contains("2 further frames") && said.contains("`faceOrders`") && !said.contains("author"), "{said}");
+    let (said, _) = convert(&from, &to_vtu);
+    assert!(said.contains("`file_author`"), "{said}");
+    let info = Info::new(&fold::read(&from).unwrap());
+    assert_eq!(info.further_frames, 2);
+    assert!(info.to_string().contains("2 more in the file"));
+}
+
+/// Claim: a file that this program has written is converted without a word.
+#[test]
+fn nothing_is_said_where_nothing_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let [to, again] = ["b.fold", "c.fold"].map(|name| folder.path().join(name));
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/kirigami-polarized.fold");
+    let (said, text) = convert(&mesh, &to);
+    assert_eq!(said, "");
+    assert_eq!(convert(&to, &again), (String::new(), text));
+}

@@ -1,0 +1,163 @@
+//! Answers of which nothing was measured: they say so, and no maximum over nothing stands in them as a zero.
+
+use foldwell::run::{RunOptions, run_scene};
+use serde_json::Value;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// The studies in the summary of a scene with the star cell on a screw.
+fn studies(locks: &str, studies: &str) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
+    std::fs::copy(mesh, folder.path().join("cell.fold")).unwrap();
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, format!("[sheet]\nmesh = \"cell.fold\"\ndomain = \"screw\"\n{locks}{studies}")).unwrap();
+    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
+    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
+    serde_json::from_str::<Value>(&report.summary.to_json()).unwrap()["studies"].take()
+}
+
+const BRANCHES: &str = "[[study]]\nname = \"b\"\nkind = \"branches\"\n";
+const BOTH: &str = "[[study]]\nname = \"b\"\nkind = \"branches\"\n[[study]]\nname = \"t\"\nkind = \"trace\"\n";
+
+/// Claim: where a lock leaves no direction of folding, that is established (all complex solutions are counted and none is real), and the
+/// residuals and errors of the rays and trajectories that do not exist are null. Source: with some edges locked the star cell has no
+/// real branch (theory of the trajectories of one lock), of 2 complex solutions.
+#[test]
+fn residuals_of_nothing_are_null() {
+    let edges = foldwell::sheet::fold::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold"));
+    let keys: Vec<_> = edges.unwrap().edges.iter().map(|edge| edge.key).collect();
+    let lock = |k: usize| {
+        let key = &keys[k];
+        format!("[[lock]]\ncrease = [{}, {}, {}, {}]\n", key.i, key.j, key.shift[0], key.shift[1])
+    };
+    let unfoldable = (0..keys.len()).find(|&k| studies(&lock(k), BRANCHES)[0]["real_rays"] == 0).unwrap();
+    let found = studies(&lock(unfoldable), BOTH);
+    let (branches, trace) = (&found[0], &found[1]);
+    assert_eq!((&branches["directions"], &branches["complex_solutions"]), (&"listed".into(), &2.into()));
+    let entry = &trace["branches"][0];
+    assert_eq!((&trace["converged"], &entry["end"]), (&true.into(), &"no-real-branch".into()));
+    for value in [&branches["error"], &trace["error"], &entry["max_residual"], &entry["error_to_kinematic"]] {
+        assert!(value.is_null(), "{found}");
+    }
+}
+
+/// Claim: a trace of a cell that folds along infinitely many directions fails and says why; it is not called unfoldable.
+#[test]
+fn a_continuum_is_not_called_absent() {
+    let found = studies("", BOTH);
+    assert_eq!((&found[0]["directions"], &found[1]["converged"]), (&"continuum".into(), &false.into()));
+    assert!(found[1]["reason"].as_str().unwrap().contains("infinitely many directions"), "{found}");
+}
+
+/// The summary of a scene beside a mesh of its own.
+fn run(mesh: &str, text: &str) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cell.fold"), mesh).unwrap();
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, text).unwrap();
+    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
+    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
+    serde_json::from_str::<Value>(&report.summary.to_json()).unwrap()["studies"].take()
+}
+
+fn mesh(name: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes").join(name)).unwrap()
+}
+
+/// Four faces round a vertex, the third of which is folded through the first.
+const THROUGH: &str = r#"{"file_spec": 1.2, "vertices_coords": [[0, 0, 0], [1, 0, 0], [0.17364818, 0.98480775, 0],
+    [0.76604444, 0.64278761, -0.3], [0.5, -0.2, 1]],
+    "faces_vertices": [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]}"#;
+
+/// Claim: where faces pass through each other from the beginning, a trajectory says so at arc length 0, and does not call the place
+/// where they come free the first crossing; nothing can end where they first cross. Where it was not asked, `self_intersecting` is
+/// null, and not a no. Source: the drawn face goes through another one by construction.
+#[test]
+fn a_drawn_state_that_passes_through_itself() {
+    let text =
+        |study: &str| format!("[sheet]\nmesh = \"cell.fold\"\n[[study]]\nname = \"t\"\nkind = \"trace\"\n{study}");
+    let stop = "stop = { arc_length = 0.05 }\n";
+    let found = run(THROUGH, &text(&format!("{stop}check = [\"self-intersection\"]\n")));
+    let branches = found[0]["branches"].as_array().unwrap();
+    assert!(!branches.is_empty() && found[0]["directions"] == "listed", "{found}");
+    for branch in branches {
+        assert_eq!(branch["first_self_intersection"]["arc_length"], 0.0, "{found}");
+        assert_eq!(branch["self_intersecting"], true);
+    }
+    let unasked = run(THROUGH, &text(stop));
+    assert!(unasked[0]["branches"][0]["self_intersecting"].is_null(), "{unasked}");
+    let refused = run(THROUGH, &text("stop = { self_intersection = true }\n"));
+    assert!(
+        refused[0]["converged"] == false && refused[0]["reason"].as_str().unwrap().contains("already"),
+        "{refused}"
+    );
+}
+
+/// Claim: rigid wells of a surface that could not be followed everywhere, or of which some could not be made exact, are no whole
+/// answer, however many wells there are. Source: `surface` says of this cell that its surface is open, and random cells have many
+/// such places; the wells themselves are found.
+#[test]
+fn wells_of_a_part_of_the_rigid_states() {
+    let cell = foldwell::sheet::generate::Random { size: [2, 2], seed: 6, ..Default::default() };
+    let cell = foldwell::sheet::generate(&foldwell::sheet::Pattern::Random(cell)).unwrap();
+    let text = "[sheet]\nmesh = \"cell.fold\"\ndomain = \"screw\"\n[energy]\nbars = { stiffness = inf }\n\
+        creases = { stiffness = 1.0, rest = \"flat\" }\n[[study]]\nname = \"w\"\nkind = \"wells\"\nstarts = 4\nrigid = true\ndraw = []\n";
+    let found = run(&foldwell::sheet::fold::write(&cell), text);
+    let rigid = &found[0]["rigid"];
+    assert!(
+        !found[0]["wells"].as_array().unwrap().is_empty() && !rigid["wells"].as_array().unwrap().is_empty(),
+        "{found}"
+    );
+    assert!(rigid["lost"].as_u64().unwrap() + rigid["open"].as_u64().unwrap() > 0, "{rigid}");
+    assert!(found[0]["converged"] == false, "{found}");
+    assert!(found[0]["reason"].as_str().unwrap().contains("may have other wells and passes"), "{found}");
+}
+
+/// Claim: lines of zeros that were not looked for, since the determinant is not real, are not counted as none. Source: an opening makes
+/// the coefficients of opposite powers differ.
+#[test]
+fn zero_lines_that_were_not_looked_for() {
+    let text = "[sheet]\nmesh = \"cell.fold\"\n[[study]]\nname = \"b\"\nkind = \"bloch\"\ndraw = []\n";
+    let found = run(&mesh("kirigami.fold"), text);
+    assert!(found[0]["converged"] == true && found[0]["zero_lines"].is_null(), "{found}");
+    let closed = run(&mesh("open-star.fold"), text);
+    assert_eq!(closed[0]["zero_lines"], 1, "{closed}");
+}
+
+/// Claim: a fit of as many numbers as there are samples has no error that anything tells: it is null, and not zero.
+#[test]
+fn errors_of_fits_without_spare_samples() {
+    let landscape = |amplitudes: &str| {
+        let text = format!(
+            "[sheet]\nmesh = \"cell.fold\"\ndomain = \"patch\"\ncells = [2, 2]\n[energy]\nbars = {{ stiffness = inf }}\n\
+             creases = {{ stiffness = 1.0 }}\n[[study]]\nname = \"l\"\nkind = \"landscape\"\nmodes = [[1.0, 1.0, 0.0]]\n\
+             amplitudes = {amplitudes}\ndraw = []\n"
+        );
+        run(&mesh("open-star.fold"), &text)[0]["modes"][0].take()
+    };
+    let two = landscape("[0.001, 0.002]");
+    assert!(two["exponent"].is_number() && two["coefficient"].is_number(), "{two}");
+    assert!(two["exponent_error"].is_null() && two["coefficient_error"].is_null(), "{two}");
+    let four = landscape("[0.001, 0.0015, 0.002, 0.003]");
+    assert!(four["exponent_error"].is_number() && four["coefficient_error"].is_number(), "{four}");
+}
+
+/// Claim: a torus whose pieces hang together at no edge has motions that turn no crease; a landscape, which names motions by fold
+/// rates, says that, and takes none of them for a mode. Source: a pair of triangles in every cell can turn as it likes.
+#[test]
+fn motions_that_no_fold_rate_names() {
+    let islands = r#"{"file_spec": 1.2, "vertices_coords": [[0, 0, 0], [0.5, 0, 0.1], [0.5, 0.5, 0], [0, 0.5, 0.1]],
+        "faces_vertices": [[0, 1, 2], [0, 2, 3]], "foldwell:lattice": [[1, 0, 0], [0, 1, 0]],
+        "foldwell:holes": [[0, 1, 2, 3]]}"#;
+    let text = "[sheet]\nmesh = \"cell.fold\"\ndomain = \"torus\"\ncells = [2, 1]\n[energy]\nbars = { stiffness = 1e4 }\n\
+        creases = { stiffness = 1.0 }\n[[study]]\nname = \"l\"\nkind = \"landscape\"\nmodes = [{ wave = [1, 0] }]\n\
+        amplitudes = [0.01]\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cell.fold"), islands).unwrap();
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, text).unwrap();
+    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
+    let refused = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap_err().to_string();
+    assert!(refused.contains("turn no crease"), "{refused}");
+}

@@ -1,0 +1,161 @@
+//! Nothing depends on the number of threads, and nothing is done that a scene does not need.
+
+use crate::common::{self, Testing, on, patch};
+use assert_cmd::Command;
+use foldwell::analysis::relax::relax_from;
+use foldwell::model::Gauge;
+use foldwell::model::{Assembly, Boundary, Terms};
+use foldwell::numerics::parallel::{FEWEST_SHARED_ELEMENTS, Threads};
+use foldwell::solver::Options;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Runs a scene over `open-star` and returns what it wrote: path below the folder, bytes.
+fn run(folder: &Path, sheet: &str, energy: &str, studies: &str, words: &[&str]) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
+    std::fs::copy(mesh, folder.join("star.fold")).unwrap();
+    let text = format!("[sheet]\nmesh = \"star.fold\"\n{sheet}\n[energy]\n{energy}\n{studies}");
+    std::fs::write(folder.join("scene.toml"), text).unwrap();
+    let out = folder.join("out");
+    let mut command = Command::cargo_bin("foldwell").unwrap();
+    command.current_dir(folder).args(["run", "scene.toml", "--out", "out", "--quiet"]).args(words).assert().success();
+    let mut files = BTreeMap::new();
+    collect(&out, &out, &mut files);
+    std::fs::remove_dir_all(&out).unwrap();
+    files
+}
+
+fn collect(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
+    for entry in std::fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        let path = entry.path();
+        if path.is_dir() {
+            collect(root, &path, files);
+        } else {
+            files.insert(path.strip_prefix(root).unwrap().to_owned(), std::fs::read(&path).unwrap());
+        }
+    }
+}
+
+/// The summary without its times.
+fn summary(files: &BTreeMap<PathBuf, Vec<u8>>) -> serde_json::Value {
+    let mut summary: serde_json::Value = serde_json::from_slice(&files[Path::new("summary.json")]).unwrap();
+    for study in summary["studies"].as_array_mut().unwrap() {
+        assert!(study["seconds"].take().as_f64().unwrap() >= 0.0);
+    }
+    summary
+}
+
+const RELAX: &str = "[[study]]\nname = \"a\"\nkind = \"relax\"";
+const BENT: &str =
+    "bars = { stiffness = 1e6 }\ncreases = { stiffness = 1.0, rest = { mode = [0.06, 0.0, 0.0], amplitude = 1.0 } }";
+
+const SHALLOW: &str = "bars = { stiffness = 1e6 }\ncreases = { stiffness = 1.0, rest = { file = \"rest.csv\" } }";
+
+/// Claim: 16 x 16 cells, enough that elements are worked on in parallel, rest angles off the drawn ones by up to 0.1 rad, relaxed and their modes found with 1, 2 and 3
+/// threads: every file has the same bytes, the summary but for its times.
+#[test]
+fn the_same_bits_for_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = patch("open-star", [16, 16]);
+    assert!(case.edges() > FEWEST_SHARED_ELEMENTS, "the case is too small to show anything");
+    let sheet = "domain = \"patch\"\ncells = [16, 16]";
+    let mut table = String::from("i,j,n1,n2,angle\n");
+    let mut numbers = common::Numbers::new(1);
+    for edge in &case.sheet().edges {
+        let (key, angle) = (edge.key, case.sheet().drawn_angle(edge).unwrap() + numbers.within(0.1));
+        table += &format!("{},{},{},{},{angle:e}\n", key.i, key.j, key.shift[0], key.shift[1]);
+    }
+    std::fs::write(folder.path().join("rest.csv"), table).unwrap();
+    let studies = format!("{RELAX}\n[[study]]\nname = \"b\"\nkind = \"modes\"\neigenvalues = 8\n");
+    let runs: Vec<_> = ["1", "2", "3"].map(|n| run(folder.path(), sheet, SHALLOW, &studies, &["--threads", n])).into();
+    let names: Vec<String> = runs[0].keys().map(|path| path.display().to_string()).collect();
+    for wanted in ["a.csv", "a.pvd", "a.svg", "b.csv", "b.pvd", "b.svg", "summary.json"] {
+        assert!(names.iter().any(|name| name == wanted), "{wanted} is not among {names:?}");
+    }
+    assert!(names.iter().filter(|name| name.ends_with(".vtu")).count() >= 10, "{names:?}");
+    for other in &runs[1..] {
+        assert_eq!(summary(&runs[0]), summary(other));
+        assert!(runs[0].keys().eq(other.keys()));
+        for (path, bytes) in &runs[0] {
+            assert!(path.ends_with("summary.json") || bytes == &other[path], "{} differs", path.display());
+        }
+    }
+}
+
+/// Claim: `draw = []` writes tables only, and neither the relaxation nor its table changes by it.
+#[test]
+fn nothing_is_drawn_where_nothing_is_wanted() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = "domain = \"patch\"\ncells = [3, 3]";
+    let drawn = run(folder.path(), sheet, BENT, RELAX, &[]);
+    let bare = run(folder.path(), sheet, BENT, &format!("{RELAX}\ndraw = []"), &[]);
+    let names: Vec<_> = bare.keys().map(|path| path.to_str().unwrap()).collect();
+    assert_eq!(names, ["a.csv", "summary.json"]);
+    assert!(drawn.len() > 4);
+    assert_eq!(bare[Path::new("a.csv")], drawn[Path::new("a.csv")]);
+    let only = run(folder.path(), sheet, BENT, &format!("{RELAX}\ndraw = [\"svg\"]"), &[]);
+    assert!(only.keys().all(|path| ["csv", "json", "svg"].contains(&path.extension().unwrap().to_str().unwrap())));
+}
+
+/// Claim: a cell, and a patch below the threshold, start no threads; a large one does (so that the question is answered
+/// by something that can say yes).
+#[test]
+fn small_sheets_start_no_threads() {
+    let threads = Threads::new(Some(2));
+    let rigid = |case: &Assembly| {
+        let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(0.05, 1));
+        let mut model = case.model_of(&terms, Gauge::Held);
+        let start = model.start();
+        threads.install(|| relax_from(&mut model, start, Options::default(), &mut |_| true)).unwrap();
+    };
+    for boundary in [Boundary::Screw, Boundary::FreeTorus, Boundary::FixedTorus] {
+        rigid(&on(common::mesh("open-star"), [1, 1], boundary));
+    }
+    rigid(&patch("open-star", [12, 12]));
+    assert!(!threads.started(), "a small sheet started threads");
+    let case = patch("open-star", [14, 14]);
+    assert!(case.edges() > FEWEST_SHARED_ELEMENTS);
+    rigid(&case);
+    assert!(threads.started(), "a large sheet started none: the test shows nothing");
+}
+
+/// Names and sizes of a model's terms, soft and stiff.
+fn terms(case: &Assembly, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
+    let model = case.model_of(terms, Gauge::Held);
+    [model.soft(), model.stiff()].map(|list| list.iter().map(|term| (term.name(), term.len())).collect())
+}
+
+/// Claim: a model has the terms that its terms asks for and no others: no hinge for bars alone, no bars for hinges
+/// alone, no facets where there is no polygon, locks only where something is locked.
+#[test]
+fn only_what_is_asked_for_is_built() {
+    let star = patch("open-star", [3, 3]);
+    let edges = star.edges();
+    let bars = Terms { bars: Some(1.0), ..Terms::default() };
+    assert_eq!(terms(&star, &bars), [vec![], vec![("bars", edges)]]);
+    let creases = star.drawn_angles().iter().filter(|angle| !angle.is_nan()).count();
+    let both = Terms::bars_and_creases(1.0, 1.0, star.drawn_angles().to_vec());
+    assert_eq!(terms(&star, &both), [vec![("creases", creases)], vec![("bars", edges)]]);
+    let hinges = Terms { bars: None, ..both.clone() };
+    assert_eq!(terms(&star, &hinges), [vec![("creases", creases)], vec![]]);
+    let facets = Terms { facets: star.facets(f64::INFINITY), ..both.clone() };
+    assert_eq!(terms(&star, &facets), terms(&star, &both));
+    let hinge = (0..edges).find(|&edge| !star.drawn_angles()[edge].is_nan()).unwrap();
+    let locked = Terms { locks: vec![(hinge, 0.1)], ..bars };
+    assert_eq!(terms(&star, &locked), [vec![], vec![("bars", edges), ("locks", 1)]]);
+}
+
+/// Claim: what a scene leaves out is said, each with its reason, and what is built as well.
+#[test]
+fn what_is_left_out_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = "domain = \"torus\"\ncells = [2, 2]";
+    let files =
+        run(folder.path(), sheet, "bars = { stiffness = 1e3 }", "[[study]]\nname = \"m\"\nkind = \"modes\"", &[]);
+    let found = summary(&files);
+    assert_eq!(found["terms"], serde_json::json!(["bars"]));
+    let left_out: Vec<&str> = found["left_out"].as_array().unwrap().iter().map(|text| text.as_str().unwrap()).collect();
+    for part in ["creases: not in [energy]", "facets: every face is a triangle", "locks", "pins", "loads"] {
+        assert!(left_out.iter().any(|text| text.contains(part)), "{part} is not among {left_out:?}");
+    }
+}

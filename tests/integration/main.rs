@@ -1,0 +1,54 @@
+//! The library and the program seen from outside: results against theory, independent paths and closed forms; files, messages and
+//! exit statuses of the program. One file a subject; `cargo test --release --test integration surface` runs those of one.
+#![allow(clippy::unwrap_used)] // tests, also their helpers, may fail
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/textbook.rs"]
+mod textbook;
+
+mod assignments;
+mod bad_meshes;
+mod bad_scenes;
+mod barriers;
+mod bent;
+mod bloch;
+mod bloch_runs;
+mod branches;
+mod command_line;
+mod empty_answers;
+mod engines;
+mod files;
+mod floors;
+mod folding_theory;
+mod hanging_chain;
+mod intersections;
+mod invariance;
+mod kinematics;
+mod landscape;
+mod landscape_map;
+mod landscape_runs;
+mod landscape_torus;
+mod loads_and_units;
+mod miura;
+mod periodic;
+mod reasons;
+mod redundant;
+mod refused_scenes;
+mod restarts;
+mod rigid_motions;
+mod runs;
+mod schema;
+mod self_intersection;
+mod solver_limits;
+mod solver_textbook;
+mod sparse_spectra;
+mod spectra;
+mod stiffness;
+mod stopping;
+mod surface;
+mod trace;
+mod tubes;
+mod unstressed;
+mod validate;
+mod wells;

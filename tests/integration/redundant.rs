@@ -1,0 +1,237 @@
+//! Rigid measures that depend on each other: rigid quadrilaterals, fixed tori, flat vertices.
+
+use crate::common::{Numbers, Testing, distance, eigenvalues, jacobian, linearized, mesh, on, patch};
+use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::math::Vec3;
+use foldwell::model::Gauge;
+use foldwell::model::{Assembly, Boundary, Terms};
+use foldwell::numerics::DenseMatrix;
+use foldwell::sheet::generate;
+use foldwell::sheet::generate::{MiuraPatch, Pattern, Random, RandomDevelopable};
+use foldwell::solver::{Failure, Options, Problem};
+
+const RIGID: f64 = f64::INFINITY;
+
+fn miura(cells: [usize; 2]) -> Assembly {
+    let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, cells, ..MiuraPatch::default() });
+    on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
+}
+
+/// Rigid bars and rigid quadrilaterals, creases as given.
+fn rigid_quads(case: &Assembly, rest: Vec<f64>) -> Terms {
+    Terms { facets: case.facets(RIGID), ..Terms::bars_and_creases(RIGID, 1.0, rest) }
+}
+
+fn converged(found: &Relaxed) {
+    assert!(found.residual_force <= 1e-12 && found.residual_length <= 1e-12, "{:?}", found.history.last());
+}
+
+/// Jacobian of the rigid measures at a relaxed state, with nothing held, and their tensions: angles times the unit of length and torques
+/// over it, so that all rows are of lengths and all tensions forces.
+fn forces(case: &Assembly, terms: &Terms, found: &Relaxed) -> (DenseMatrix, Vec<f64>) {
+    let mut model = case.model_of(terms, Gauge::Free);
+    let x = model.start_from(found.state.coordinates.clone());
+    let at = linearized(&model, &x, &found.tension);
+    let mut rows = jacobian(&model, &at);
+    rows.row_iter_mut().zip(&at.sizes).for_each(|(mut row, size)| row /= *size);
+    (rows, found.tension.iter().zip(&at.sizes).map(|(tension, size)| tension * size).collect())
+}
+
+/// Number of self stresses by a dense decomposition (nalgebra's), and the part of the tensions along them over all.
+fn self_stress_part((rows, tension): &(DenseMatrix, Vec<f64>)) -> (usize, f64) {
+    let gram = rows * rows.transpose();
+    let found = nalgebra::SymmetricEigen::new(gram);
+    let largest = found.eigenvalues.amax();
+    let t = nalgebra::DVector::from_column_slice(tension);
+    let null: Vec<usize> = (0..tension.len()).filter(|&k| found.eigenvalues[k] < 1e-12 * largest).collect();
+    let part: f64 = null.iter().map(|&k| found.eigenvectors.column(k).dot(&t).powi(2)).sum();
+    (null.len(), part.sqrt() / t.norm())
+}
+
+/// Claim: Miura-ori of 5 x 5 cells with rigid quadrilaterals and rigid bars, rest angles within 0.1 rad of the drawn
+/// ones: converged, 64 self stresses, and tensions of least norm. Tolerance of the last: the eigenvalues of `R R^T`
+/// separate null vectors to 1e-16 over 1e-3.
+#[test]
+fn miura_with_rigid_quadrilaterals() {
+    let case = miura([5, 5]);
+    for seed in 1..4 {
+        let terms = rigid_quads(&case, case.rest_per_hinge(0.1, seed));
+        let found = case.relax(&terms).unwrap();
+        converged(&found);
+        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(64), 0));
+        let (count, part) = self_stress_part(&forces(&case, &terms, &found));
+        assert_eq!(count, 64);
+        assert!(part < 1e-8, "seed {seed}: {part:e} of the tensions is self stress");
+        assert!(distance(&found.state.coordinates, &case.drawn().coordinates) > 1e-3, "nothing moved");
+    }
+}
+
+/// Claim: on a torus with fixed lattice a generic rigid sheet has 3 self stresses and cannot move: tensions alone carry
+/// the creases' torques, with least norm. One cell and 3 x 3 of them (generic: no finite wavenumber of these folds).
+#[test]
+fn fixed_tori() {
+    for (seed, cells) in [(1, [1, 1]), (2, [1, 1]), (1, [3, 3])] {
+        let sheet = generate(&Pattern::Random(Random { seed, ..Random::default() })).unwrap();
+        let case = on(sheet, cells, Boundary::FixedTorus);
+        let terms = Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed));
+        let found = case.relax(&terms).unwrap();
+        converged(&found);
+        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(3), 0), "{cells:?}");
+        let (count, part) = self_stress_part(&forces(&case, &terms, &found));
+        assert_eq!(count, 3, "{cells:?}");
+        assert!(part < 1e-8, "{cells:?}: {part:e}");
+    }
+}
+
+/// Claim: the self stresses of a torus with fixed lattice are three however large it is, though they are but a hundredth of a
+/// random stretch, and taken out of the tensions, though some motions of large tori stretch next to nothing.
+#[test]
+fn large_fixed_tori() {
+    for n in [8, 12, 20, 28] {
+        let case = on(mesh("open-star"), [n, n], Boundary::FixedTorus);
+        let found = case.relax(&Terms::bars_and_creases(RIGID, 1.0, vec![0.0; case.drawn_angles().len()])).unwrap();
+        converged(&found);
+        assert_eq!(found.self_stresses, Some(3), "{n} x {n}");
+    }
+}
+
+/// Claim: folded Miura-ori with bending facets, a developable sheet on one of its branches: no self stress.
+#[test]
+fn a_developable_sheet_on_a_branch() {
+    let case = miura([5, 5]);
+    for seed in 1..4 {
+        let terms =
+            Terms { facets: case.facets(1.0), ..Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed)) };
+        let found = case.relax(&terms).unwrap();
+        converged(&found);
+        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), 0));
+    }
+}
+
+/// Claim: a random developable patch, folded at finite stiffness from a randomly moved start, is on a branch: from there
+/// the exactly rigid sheet converges, without self stress, next to the stiff one.
+#[test]
+fn a_random_developable_patch_on_a_branch() {
+    for seed in [1, 2, 3] {
+        let sheet = generate(&Pattern::RandomDevelopable(RandomDevelopable { seed, ..Default::default() })).unwrap();
+        let case = on(sheet, [3, 3], Boundary::Patch);
+        let rest = case.rest_per_hinge(0.8, seed);
+        let stiff = {
+            let mut model = case.model_of(&Terms::bars_and_creases(1e5, 1.0, rest.clone()), Gauge::Held);
+            let mut numbers = Numbers::new(seed);
+            let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.1)).collect();
+            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap()
+        };
+        assert_eq!(stiff.negative_eigenvalues, 0);
+        let mut model = case.model_of(&Terms::bars_and_creases(RIGID, 1.0, rest), Gauge::Held);
+        let start = model.start_from(stiff.state.coordinates.clone());
+        let found = relax_from(&mut model, start, Options::default(), &mut |_| true)
+            .unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        converged(&found);
+        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), 0), "seed {seed}");
+        let off = distance(&found.state.fold_angle, &stiff.state.fold_angle);
+        assert!(off < 0.1, "seed {seed}: off by {off}");
+    }
+}
+
+/// Claim: an exactly flat rigid patch whose creases want to fold is a singular start, said as such, at every size and
+/// for any rest angles.
+#[test]
+fn a_flat_rigid_start_is_singular() {
+    for cells in [[2, 2], [4, 4], [6, 6]] {
+        for seed in 1..4 {
+            let case = patch("open-flat", cells);
+            let error = case.relax(&Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed))).unwrap_err();
+            assert_eq!(error.failure, Failure::SingularStart, "{cells:?}, seed {seed}: {error}");
+            assert!(error.to_string().contains("leave along a branch"));
+        }
+    }
+}
+
+/// Negative eigenvalues of the Hessian of the whole energy at a relaxed state, dense, by another library; all
+/// stiffnesses finite. Rigid motions are held.
+fn negative(case: &Assembly, terms: &Terms, found: &Relaxed) -> usize {
+    let model = case.model_of(terms, Gauge::Held);
+    let at = linearized(&model, &found.x, &found.tension);
+    let rows = jacobian(&model, &at);
+    let stiff = DenseMatrix::from_diagonal(&nalgebra::DVector::from_iterator(
+        rows.nrows(),
+        model.compliance().iter().map(|c| 1.0 / c),
+    ));
+    let hessian = at.pattern().to_dense(&at.hessian) + rows.tr_mul(&stiff) * &rows;
+    eigenvalues(hessian).iter().filter(|value| **value < 0.0).count()
+}
+
+/// Rest angles whose torques balance in the flat state: along the null space of the transposed gradients.
+fn balanced(case: &Assembly, size: f64, seed: u64) -> Vec<f64> {
+    let terms = Terms { bars: None, ..Terms::bars_and_creases(RIGID, RIGID, case.drawn_angles().to_vec()) };
+    let model = case.model_of(&terms, Gauge::Free);
+    let rows = jacobian(&model, &linearized(&model, &model.start(), &vec![0.0; model.layout().stiff.len()]));
+    let found = nalgebra::SymmetricEigen::new(&rows * rows.transpose());
+    let mut numbers = Numbers::new(seed);
+    let null: Vec<usize> =
+        (0..rows.nrows()).filter(|&k| found.eigenvalues[k] < 1e-12 * found.eigenvalues.amax()).collect();
+    let sum = null.iter().fold(nalgebra::DVector::zeros(rows.nrows()), |sum, &k| {
+        sum + numbers.within(1.0) * found.eigenvectors.column(k)
+    });
+    let moments = size / sum.amax() * sum;
+    let term = &model.stiff()[0];
+    let mut rest = vec![0.0; case.edges()];
+    for k in 0..term.len() {
+        let [a, b] = case.tiling().edges[term.edge(k)].ends.map(|site| case.tiling().positions[site.vertex]);
+        rest[term.edge(k)] = moments[k] / (a - b).norm();
+    }
+    rest
+}
+
+/// Claim: a flat patch whose rest angles balance is an equilibrium in the flat state at finite stiffness, found as
+/// such, with its negative eigenvalues: none for small rest angles, some for large ones on soft bars (there the
+/// stretching that a fold relieves is cheaper than the fold), as many as a dense decomposition counts.
+#[test]
+fn a_flat_equilibrium_reports_its_negative_eigenvalues() {
+    let case = patch("open-flat", [4, 4]);
+    let mut unstable = 0;
+    for (size, bars, seed) in [(1e-3, 1e4, 1), (1.0, 1e2, 1), (3.0, 1e2, 2), (3.0, 10.0, 3)] {
+        let terms = Terms::bars_and_creases(bars, 1.0, balanced(&case, size, seed));
+        let found = case.relax(&terms).unwrap();
+        converged(&found);
+        assert!(
+            found.state.fold_angle.iter().all(|angle| angle.is_nan() || angle.abs() < 1e-9),
+            "it left the flat state"
+        );
+        let expected = negative(&case, &terms, &found);
+        println!("rest angles {size}, bars {bars}: {expected} negative eigenvalues");
+        assert_eq!(found.negative_eigenvalues, expected);
+        assert!(size > 0.1 || expected == 0);
+        unstable += usize::from(expected > 0);
+    }
+    assert!(unstable > 0, "no case was unstable: the test shows nothing");
+}
+
+/// Claim: a flat patch pressed together in its plane beyond buckling stays flat, since nothing pushes it out, and reports
+/// the modes along which it would buckle, as many as a dense decomposition counts; pulled apart by the same forces
+/// it reports none. The forces are proportional to the distance from the centre, pins hold the six rigid motions.
+#[test]
+fn a_compressed_flat_sheet_reports_buckling() {
+    let case = patch("open-flat", [4, 4]);
+    let positions = &case.tiling().positions;
+    let by = |direction: Vec3| {
+        move |a: &usize, b: &usize| positions[*a].dot(&direction).total_cmp(&positions[*b].dot(&direction))
+    };
+    let vertices = || 0..positions.len();
+    let [left, right] = [Vec3::x(), -Vec3::x()].map(|d| vertices().min_by(by(d)).unwrap());
+    let top = vertices().max_by(by(Vec3::y())).unwrap();
+    let pins = vec![(left, [true; 3]), (right, [false, true, true]), (top, [false, false, true])];
+    let centre = positions.iter().sum::<Vec3>() / positions.len() as f64;
+    for (pressure, buckles) in [(0.05, true), (0.5, true), (-0.05, false), (-0.5, false)] {
+        let loads = vertices().map(|v| (v, pressure * (centre - positions[v]))).collect();
+        let terms =
+            Terms { loads, pins: pins.clone(), ..Terms::bars_and_creases(1e4, 0.1, case.drawn_angles().to_vec()) };
+        let found = case.relax(&terms).unwrap();
+        converged(&found);
+        assert!(found.state.coordinates.chunks(3).all(|p| p[2].abs() < 1e-9), "it left the plane");
+        println!("pressed by {pressure}: {} negative eigenvalues", found.negative_eigenvalues);
+        assert_eq!(found.negative_eigenvalues > 0, buckles, "{}", found.negative_eigenvalues);
+        assert_eq!(found.negative_eigenvalues, negative(&case, &terms, &found));
+    }
+}

@@ -1,0 +1,92 @@
+//! Scenes that cannot be meant end with status 2 and write nothing: no study, degrees for radians, sizes beyond the memory.
+
+use std::path::Path;
+use std::process::Command;
+
+const ENERGY: &str = "[energy]\nbars = { stiffness = 1e4 }\ncreases = { stiffness = 1.0 }\n";
+
+/// Exit status and standard error of `foldwell run`, for a scene of the open star cell with these lines.
+fn run(sheet: &str, more: &str) -> (i32, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let star = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
+    std::fs::copy(star, folder.path().join("star.fold")).unwrap();
+    std::fs::write(folder.path().join("t.csv"), "i,j,n1,n2,angle\n0,1,0,0,30\n").unwrap();
+    std::fs::write(folder.path().join("s.toml"), format!("[sheet]\nmesh = \"star.fold\"\n{sheet}\n{more}\n")).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_foldwell"));
+    let output = command.args(["run", "s.toml", "--out", "out"]).current_dir(folder.path()).output().unwrap();
+    let status = output.status.code().unwrap();
+    assert_eq!(folder.path().join("out").exists(), status != 2, "nothing is written where the input is wrong");
+    (status, String::from_utf8(output.stderr).unwrap())
+}
+
+fn study(keys: &str) -> String {
+    format!("{ENERGY}[[study]]\nname = \"a\"\n{keys}")
+}
+
+/// Claim: a scene that asks nothing gives no answer.
+#[test]
+fn no_study() {
+    let (status, said) = run("", ENERGY);
+    assert!(status == 2 && said.contains("there is nothing to compute"), "{said}");
+}
+
+/// Claim: numbers beyond any memory are refused by one estimate, with the key to make smaller, before anything is built.
+/// Studies may ask for 24 GiB, and models for what is free: the two large ones need over 260 GB. Each number is accepted by
+/// the type of its key.
+#[test]
+fn sizes_beyond_the_memory() {
+    let wells = study("kind = \"wells\"\nstarts = 4294967295");
+    let map = study(
+        "kind = \"landscape\"\nmodes = [[1,1,0]]\namplitudes = [0.001]\nmap = { amplitude = 0.02, rings = 4000000000 }",
+    );
+    let relax = study("kind = \"relax\"");
+    let cases = [
+        ("", study("kind = \"bloch\"\ngrid = [46340, 46340]"), "2147395600 wavenumbers", "`grid`"),
+        ("domain = \"screw\"", wells, "4294967295 starts", "`starts`"),
+        ("cells = [2, 2]", map, "samples", "`rings`"),
+        ("domain = \"torus\"\ncells = [2700, 2700]", relax.clone(), "29160000 vertices", "`cells`"),
+        ("cells = [1, 7000000]", relax.clone(), "28000000 vertices", "`cells`"),
+        ("domain = \"screw\"\ncells = [40000, 40000]", relax, "the pictures have 6400000000 vertices", "at most"),
+    ];
+    for (sheet, more, what, key) in cases {
+        let (status, said) = run(sheet, &more);
+        assert!(status == 2 && said.contains(what) && said.contains(key), "{status}: {said}");
+    }
+}
+
+/// Claim: angles of more than a turn are degrees, and are refused with their value in radians: 60 degrees are 1.047198.
+#[test]
+fn degrees_are_refused() {
+    let relax = "[[study]]\nname = \"a\"\nkind = \"relax\"";
+    let rest = |rest: &str| {
+        format!("[energy]\nbars = {{ stiffness = 1e4 }}\ncreases = {{ stiffness = 1.0, rest = {rest} }}\n{relax}")
+    };
+    let lock =
+        |angle: f64| format!("{}\n[[lock]]\ncrease = [0, 1, 0, 0]\nangle = {angle:?}", study("kind = \"relax\""));
+    let stop = "kind = \"trace\"\nstop = { crease_angle = { crease = [0, 1, 0, 0], angle = 90 } }";
+    let cases = [
+        (rest("60"), "60 degrees are 1.047198 rad"),
+        (rest("{ file = \"t.csv\" }"), "t.csv:2: the angle 30 is more than a whole turn"),
+        (lock(-10.0), "-10 degrees are -0.174533 rad"),
+        (study(stop), "90 degrees are 1.570796 rad"),
+    ];
+    for (more, words) in cases {
+        let (status, said) = run("domain = \"screw\"", &more);
+        assert!(status == 2 && said.contains(words), "{status}: {said}");
+    }
+    let (_, said) = run("domain = \"screw\"", &rest("3.2"));
+    assert!(said.contains("note: ") && said.contains("rest angles are beyond pi"), "{said}");
+    let (status, said) = run("domain = \"screw\"", &rest("0.1"));
+    assert!(status != 2 && !said.contains("note: "), "{said}");
+}
+
+/// Claim: a fault on a line of 100 kB is shown without the line, at its own place; formulas are no numbers.
+#[test]
+fn messages_are_short() {
+    let long = format!("# {}\n[[lock]]\ncrease = [0, 1, 0, 0]\nangle = np.float64(0.1)", "x".repeat(100_000));
+    let (status, said) = run("", &long);
+    assert!(status == 2 && said.contains("this is no number") && said.len() < 2000, "{}", said.len());
+    let list = format!("x = [{}]", "1, ".repeat(40_000));
+    let (status, said) = run("", &list);
+    assert!(status == 2 && said.contains("unknown key `x`") && said.len() < 3000, "{}", said.len());
+}

@@ -1,0 +1,265 @@
+//! Relaxations that start from what an earlier one found, and modes at the ends of what can be asked.
+
+use crate::common::{Testing, patch};
+use approx::{assert_abs_diff_eq, assert_relative_eq};
+use foldwell::analysis::modes::{SPARSE_EIGENVALUES, decomposed_dense};
+use foldwell::analysis::restored;
+use foldwell::analysis::state::State;
+use foldwell::model::Gauge;
+use foldwell::model::Terms;
+use foldwell::solver::Problem;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn run(folder: &Path, words: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
+}
+
+/// Runs a scene; its studies.
+fn studies(folder: &Path, name: &str, scene: &str) -> Vec<Value> {
+    fs::write(folder.join(format!("{name}.toml")), scene).unwrap();
+    let said = run(folder, &["run", &format!("{name}.toml")]);
+    assert_eq!(
+        said.status.code(),
+        Some(0),
+        "{scene}: {}",
+        String::from_utf8_lossy(&[said.stdout, said.stderr].concat())
+    );
+    let summary = fs::read_to_string(folder.join(name).join("summary.json")).unwrap();
+    serde_json::from_str::<Value>(&summary).unwrap()["studies"].as_array().unwrap().clone()
+}
+
+/// The first row of a table of states, by its columns.
+fn first_row(path: &Path) -> BTreeMap<String, f64> {
+    let text = fs::read_to_string(path).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let values = lines[1].split(',').map(|field| field.parse().unwrap_or(f64::NAN));
+    lines[0].split(',').map(str::to_owned).zip(values).collect()
+}
+
+fn relaxation(name: &str, start: &str) -> String {
+    format!("[[study]]\nname = \"{name}\"\nkind = \"relax\"\ndraw = [\"vtk\"]\nstart = {start}\n")
+}
+
+/// A scene on a mesh of the repository.
+fn scene(mesh: &str, sheet: &str, rest: &str, study: &str) -> String {
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join(mesh);
+    format!("[sheet]\nmesh = {:?}\n{sheet}\n{rest}\n{study}", mesh.display().to_string())
+}
+
+/// Whether the second relaxation is the first one again, without a step, and its table begins with it.
+fn stands_still(folder: &Path, name: &str, (first, second): (&Value, &Value)) {
+    assert!(first["iterations"].as_u64().unwrap() > 0, "{name}: there was nothing to relax");
+    assert_eq!(second["iterations"], 0, "{name}: {second}");
+    assert_eq!(second["negative_eigenvalues"], first["negative_eigenvalues"], "{name}");
+    assert_eq!(second["history"].as_array().unwrap().len(), 1, "{name}");
+    let row = first_row(&folder.join(format!("{name}/{}.csv", second["name"].as_str().unwrap())));
+    for term in ["bars", "creases", "facets", "total"] {
+        let Some(energy) = first["energy"][term].as_f64() else { continue };
+        let scale = first["energy"]["total"].as_f64().unwrap();
+        let again = second["energy"][term].as_f64().unwrap();
+        assert_abs_diff_eq!(again, energy, epsilon = 1e-11 * scale);
+        assert_abs_diff_eq!(row[&format!("energy_{term}")], energy, epsilon = 1e-11 * scale);
+    }
+    let [force, length] = ["residual_force", "residual_length"].map(|key| second[key].as_f64().unwrap());
+    assert!(force <= 1e-12 && length <= 1e-12, "{name}: {force:e} {length:e}");
+}
+
+/// What is relaxed: mesh, domain and what the sheet is made of.
+fn cases() -> Vec<(&'static str, &'static str, String)> {
+    let star = "meshes/open-star.fold";
+    let energy = |bars: &str, creases: &str, more: &str| {
+        format!(
+            "[energy]\nbars = {{ stiffness = {bars} }}\n\
+             creases = {{ stiffness = {creases}, rest = {{ mode = [0, 0.06, 0], amplitude = 1 }} }}\n{more}"
+        )
+    };
+    let held = "[[pin]]\nvertex = 0\n[[pin]]\nvertex = 1\n[[pin]]\nvertex = 2\n[[load]]\nvertex = 3\ncell = [1, 1]\nforce = [0.0, 0.0, 0.01]\n";
+    let lock = "[[lock]]\ncrease = [0, 1, 0, 0]\n";
+    let patch = "cells = [2, 2]";
+    let free = "domain = \"torus\"\ncells = [2, 2]\nlattice = \"free\"";
+    let fixed = "domain = \"torus\"\ncells = [2, 2]\nlattice = \"fixed\"";
+    vec![
+        (star, patch, energy("1e3", "1.0", "")),
+        (star, patch, energy("inf", "1.0", "")),
+        (star, patch, energy("1e3", "1.0", held)),
+        (star, patch, energy("inf", "1.0", held)),
+        (star, patch, energy("1e3", "1.0", lock)),
+        // creases so stiff that they carry tensions
+        (star, patch, energy("1.0", "2e4", "")),
+        (star, free, energy("1e3", "1.0", "")),
+        (star, fixed, energy("1e3", "1.0", "")),
+        (star, "domain = \"screw\"", energy("inf", "1.0", "")),
+        (star, "domain = \"screw\"", energy("1e3", "1.0", "")),
+        // polygons that are rigid, of finite and of rigid bars
+        (
+            "meshes/quad-cell.fold",
+            patch,
+            energy("1e3", "1.0", "").replace("{ mode = [0, 0.06, 0], amplitude = 1 }", "0.2"),
+        ),
+        (
+            "meshes/quad-cell.fold",
+            patch,
+            energy("inf", "1.0", "").replace("{ mode = [0, 0.06, 0], amplitude = 1 }", "0.2"),
+        ),
+    ]
+}
+
+/// Claim: a relaxation that starts from an equilibrium that an earlier study found takes no step, finds the same energies and
+/// the same stability, and its table begins with them: on all domains, for finite and rigid bars, with pins, loads, locks and rigid
+/// polygons. Tolerance: energies to 1e-11 of the total: the residuals allow 1e-12 of the forces.
+#[test]
+fn a_restarted_equilibrium_takes_no_step() {
+    let folder = tempfile::tempdir().unwrap();
+    for (k, (mesh, sheet, rest)) in cases().iter().enumerate() {
+        let both = relaxation("a", "\"drawn\"") + &relaxation("b", "\"a\"");
+        let found = studies(folder.path(), &format!("s{k}"), &scene(mesh, sheet, rest, &both));
+        stands_still(folder.path(), &format!("s{k}"), (&found[0], &found[1]));
+    }
+}
+
+/// Claim: the same from a VTU file of the earlier run, where points say all: on patches.
+#[test]
+fn a_restart_from_a_file_takes_no_step() {
+    let folder = tempfile::tempdir().unwrap();
+    for (k, (mesh, sheet, rest)) in cases().iter().enumerate().filter(|(_, case)| case.1.starts_with("cells")) {
+        let first = studies(folder.path(), &format!("v{k}"), &scene(mesh, sheet, rest, &relaxation("a", "\"drawn\"")));
+        let file = format!("\"v{k}/a/a_0001.vtu\"");
+        let second = studies(folder.path(), &format!("w{k}"), &scene(mesh, sheet, rest, &relaxation("b", &file)));
+        stands_still(folder.path(), &format!("w{k}"), (&first[0], &second[0]));
+    }
+}
+
+/// Claim: a resumed run begins a later study where the whole run would have: its table is the same to the last byte.
+#[test]
+fn a_resumed_restart_is_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mesh, sheet, rest) = &cases()[2];
+    let both = relaxation("a", "\"drawn\"") + &relaxation("b", "\"a\"");
+    studies(folder.path(), "r", &scene(mesh, sheet, rest, &both));
+    let table = folder.path().join("r/b.csv");
+    let whole = fs::read(&table).unwrap();
+    fs::remove_file(&table).unwrap();
+    let said = run(folder.path(), &["run", "r.toml", "--resume"]);
+    let said = String::from_utf8_lossy(&said.stdout).into_owned();
+    assert_eq!(said.matches("(kept)").count(), 1, "{said}");
+    assert!(said.contains("0 iterations"), "{said}");
+    assert!(fs::read(&table).unwrap() == whole, "another table");
+}
+
+/// Claim: a saddle that a file without forces gives is the saddle it was: no step, one negative eigenvalue, and the energy of its bars in
+/// the first row. Source: `drum-pass.vtu`, the pass between the two states of a drum, whose bars have 8.085e-5 by their lengths alone.
+#[test]
+fn a_saddle_stays_where_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/drum-pass.vtu");
+    let energy = "[energy]\nbars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-6 }";
+    let study = relaxation("r", &format!("{:?}", start.display().to_string()));
+    let found = &studies(folder.path(), "p", &scene("tests/cases/drum.fold", "", energy, &study))[0];
+    assert_eq!((&found["iterations"], &found["negative_eigenvalues"]), (&0.into(), &1.into()), "{found}");
+    let row = first_row(&folder.path().join("p/r.csv"));
+    assert_relative_eq!(row["energy_bars"], 8.085e-5, max_relative = 1e-4);
+    assert_relative_eq!(row["energy_total"], found["energy"]["total"].as_f64().unwrap(), max_relative = 1e-12);
+}
+
+/// Claim: fold angles that went on beyond pi come back from a file as they were, and angles that it does not have are left alone.
+#[test]
+fn windings_come_back() {
+    let case = patch("open-star", [2, 2]);
+    let terms = Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec());
+    let mut model = case.model_of(&terms, Gauge::Held);
+    let hinge = case.drawn_angles().iter().position(|angle| !angle.is_nan()).unwrap();
+    let mut given = vec![f64::NAN; case.edges()];
+    given[hinge] = case.drawn_angles()[hinge] + TAU;
+    let angles = restored::angles(&model, &given);
+    model.set_angles(&angles);
+    let x = model.start_from(case.drawn().coordinates.clone());
+    let tension = vec![0.0; model.layout().stiff.len()];
+    let state = State::new(&model, &x, &tension);
+    for (edge, angle) in case.drawn_angles().iter().enumerate().filter(|(_, angle)| !angle.is_nan()) {
+        let expected = if edge == hinge { angle + TAU } else { *angle };
+        assert_abs_diff_eq!(state.fold_angle[edge], expected, epsilon = 1e-14);
+    }
+}
+
+/// Claim: the energy of a state is that of all its edges. Source: each element belongs to one edge.
+#[test]
+fn all_terms_are_in_the_total() {
+    let case = patch("quad-cell", [2, 2]);
+    let lock = case.drawn_angles().iter().position(|angle| !angle.is_nan()).unwrap();
+    let terms = Terms::bars_and_creases(1e3, 1.0, case.rest_per_hinge(0.05, 1));
+    let terms = Terms { facets: case.facets(2.0), locks: vec![(lock, case.drawn_angles()[lock])], ..terms };
+    let state = case.relax(&terms).unwrap().state;
+    assert!(state.energy_bars > 0.0 && state.energy_creases > 0.0 && state.energy_facets > 0.0);
+    assert_relative_eq!(state.total(), state.energy.iter().sum::<f64>(), max_relative = 1e-13);
+}
+
+/// Claim: a rigidity matrix of rank 0 is an answer, without a gap. Source: all vertices pinned, there are no columns; one vertex on a torus
+/// with fixed lattice, all bars go from it to its copies and cannot change: 3 motions, and every one of its 3 bars a self stress.
+#[test]
+fn rank_zero_is_an_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let modes = "[[study]]\nname = \"m\"\nkind = \"modes\"\neigenvalues = 2\n";
+    let pins: String = (0..4).map(|vertex| format!("[[pin]]\nvertex = {vertex}\n")).collect();
+    let energy = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1 }";
+    let held = scene("meshes/open-star.fold", "", &format!("{energy}\n{pins}"), modes);
+    let found = &studies(folder.path(), "held", &held)[0];
+    assert_eq!((&found["zero_modes"], &found["rigid_motions"]), (&0.into(), &0.into()));
+    assert!(found["gap"].is_null() && found["error"].is_null() && found["converged"] == true, "{found}");
+    let one = "[sheet]\ngenerate = { pattern = \"random\", size = [1, 1], seed = 4 }\ndomain = \"torus\"\nlattice = \"fixed\"\n";
+    let found = &studies(folder.path(), "one", &format!("{one}{energy}\n{modes}"))[0];
+    assert_eq!((&found["zero_modes"], &found["self_stresses"]), (&3.into(), &3.into()));
+    assert!(found["gap"].is_null() && found["converged"] == true, "{found}");
+}
+
+/// Claim: more eigenvalues than there are give those that there are, just above the size that is always decomposed dense; where neither way
+/// can give as many as are wanted the scene is refused with the bound, before anything is written.
+#[test]
+fn too_many_eigenvalues() {
+    let case = patch("open-star", [10, 11]);
+    let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.drawn_angles().to_vec());
+    let found = case.modes_of(&terms, 1000).unwrap();
+    assert_eq!(found.eigenvalues.len(), found.zero_modes);
+    assert!(decomposed_dense(1320, 3000, 3000).unwrap() && !decomposed_dense(1320, 24, 1320).unwrap());
+    assert!(!decomposed_dense(4800, SPARSE_EIGENVALUES, 4800).unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let modes = "[[study]]\nname = \"m\"\nkind = \"modes\"\neigenvalues = 1000\n";
+    let energy = "[energy]\nbars = { stiffness = 1e3 }\ncreases = { stiffness = 1 }";
+    fs::write(folder.path().join("a.toml"), scene("meshes/open-star.fold", "cells = [20, 20]", energy, modes)).unwrap();
+    let said = run(folder.path(), &["run", "a.toml"]);
+    let message = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert_eq!(said.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("1000 eigenvalues") && message.contains("256") && message.contains("a.toml:"),
+        "{message}"
+    );
+    assert!(!folder.path().join("a").exists());
+}
+
+/// Claim: a sheet in two pieces has the rigid motions of both, and its bars and its vertices agree about the rest.
+/// Source: two copies of a pair of triangles, far apart: each has 6 rigid motions and one fold.
+#[test]
+fn a_sheet_in_two_pieces() {
+    let folder = tempfile::tempdir().unwrap();
+    let square = |x: f64| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1.0, 0.0], [x, 1.0, 0.1]];
+    let coordinates = [square(0.0), square(5.0)].concat();
+    let mesh = serde_json::json!({
+        "file_spec": 1.2, "vertices_coords": coordinates,
+        "faces_vertices": [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]],
+    });
+    fs::write(folder.path().join("two.fold"), mesh.to_string()).unwrap();
+    let scene = "[sheet]\nmesh = \"two.fold\"\n[[study]]\nname = \"m\"\nkind = \"modes\"\n";
+    let found = &studies(folder.path(), "two", scene)[0];
+    let counts =
+        ["zero_modes", "rigid_motions", "folding_modes", "self_stresses"].map(|key| found[key].as_u64().unwrap());
+    assert_eq!(counts, [14, 12, 2, 0]);
+    let said = run(folder.path(), &["run", "two.toml"]);
+    let said = String::from_utf8_lossy(&said.stdout).into_owned();
+    let info = run(folder.path(), &["info", "two.fold"]);
+    assert!(String::from_utf8_lossy(&info.stdout).contains("pieces                 2\n"), "info counts the pieces");
+    assert!(said.contains("14 zero modes, of which 12 are rigid; 0 self stresses; 2 folding modes"), "{said}");
+}

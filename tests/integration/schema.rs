@@ -1,0 +1,75 @@
+//! The published JSON schemas are those that the program prints, and know the same studies.
+
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// Names of the files under `validation/schema`, and what `foldwell schema NAME` prints.
+fn schemas() -> [(&'static str, String); 2] {
+    [("scene", foldwell::scene::schema()), ("summary", foldwell::output::schema::schema())]
+}
+
+/// Claim: the files of the repository and the program agree to the byte. A key that was added, renamed or described in
+/// other words shows here.
+#[test]
+fn published_schemas_are_those_of_the_program() {
+    for (name, printed) in schemas() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("validation/schema/{name}.json"));
+        let published = fs::read_to_string(path).unwrap();
+        let anew = format!("write it anew: foldwell schema {name} > validation/schema/{name}.json");
+        let differs = published.lines().zip(printed.lines()).find(|(a, b)| a != b);
+        assert!(published == printed, "{anew}; the first difference (file, program): {differs:?}");
+    }
+}
+
+/// The values of `"const": "..."` anywhere below.
+fn constants(schema: &Value) -> Vec<&str> {
+    let below: Box<dyn Iterator<Item = &Value>> = match schema {
+        Value::Object(keys) => Box::new(keys.values()),
+        Value::Array(list) => Box::new(list.iter()),
+        _ => return Vec::new(),
+    };
+    schema.get("const").and_then(Value::as_str).into_iter().chain(below.flat_map(constants)).collect()
+}
+
+/// Claim: what a scene can ask for is what a summary can answer: the kinds of studies are the same in both schemas.
+#[test]
+fn scenes_and_summaries_know_the_same_studies() {
+    let [scene, summary] = schemas().map(|(_, text)| serde_json::from_str::<Value>(&text).unwrap());
+    let mut asked = constants(&scene["$defs"]["StudySpec"]);
+    let mut answered = constants(&summary["$defs"]["StudySummary"]);
+    asked.sort_unstable();
+    answered.sort_unstable();
+    assert_eq!(asked, answered);
+    assert_eq!(asked.len(), 8);
+}
+
+/// Where in a schema a table is open, or a key has no description.
+fn findings(schema: &Value, place: &str) -> Vec<String> {
+    let Some(properties) = schema["properties"].as_object() else { return Vec::new() };
+    let closed = ["additionalProperties", "unevaluatedProperties"].iter().any(|key| schema[key] == false);
+    let open = (!closed).then(|| format!("{place} is open"));
+    let silent = properties.iter().filter(|(_, key)| key["description"].is_null());
+    open.into_iter().chain(silent.map(|(name, _)| format!("{place}.{name} says nothing"))).collect()
+}
+
+/// Claim: every key of a summary is described, and no table of it takes other keys; the answers of studies are parts of the
+/// table of a study, which is closed.
+#[test]
+fn every_key_of_a_summary_is_described() {
+    let summary: Value = serde_json::from_str(&foldwell::output::schema::schema()).unwrap();
+    let mut found = findings(&summary, "summary");
+    for (name, table) in summary["$defs"].as_object().unwrap() {
+        found.extend(findings(table, name));
+    }
+    let answers = summary["$defs"]["StudySummary"]["allOf"].as_array().unwrap();
+    assert_eq!(answers.len(), 8);
+    for answer in answers {
+        let kind = answer["if"]["properties"]["kind"]["const"].as_str().unwrap();
+        assert!(answer["if"]["anyOf"][1]["required"][0].is_string(), "{kind}");
+        let mut closed = answer["then"].clone();
+        closed["additionalProperties"] = Value::Bool(false);
+        found.extend(findings(&closed, kind));
+    }
+    assert_eq!(found, Vec::<String>::new());
+}

@@ -1,0 +1,244 @@
+//! Tubes: screw-periodic sheets that close on themselves, their seams and their ends.
+
+use crate::common::{Testing, jacobian, linearized, mesh, on};
+use approx::abs_diff_eq;
+use foldwell::analysis::chart::coordinates;
+use foldwell::analysis::trace::Folded;
+use foldwell::kinematics::tube::{BOTH, Condition};
+use foldwell::kinematics::{Closure, Embedding, Shape, Tube};
+use foldwell::math::Vec3;
+use foldwell::model::Gauge;
+use foldwell::model::{Assembly, Boundary, Terms};
+use foldwell::numerics::DenseMatrix;
+use foldwell::numerics::dense::{least_squares, null_space};
+use foldwell::sheet::generate::Random;
+use foldwell::sheet::{EdgeKind, Pattern, Sheet, generate};
+use foldwell::solver::continuation::End;
+use nalgebra::Rotation3;
+use std::f64::consts::TAU;
+
+/// What is kept of both conditions, and how many motions are left (theory, section 9).
+const LEFT: [(&[Condition], usize); 4] = [(&[], 2), (&[Condition::Turn], 1), (&[Condition::Rise], 1), (&BOTH, 0)];
+
+/// Tubes of the reference cell and of a random one, their seams along the lattice vectors and across: sheet, seam,
+/// angles.
+fn tubes() -> Vec<(Sheet, [i32; 2], Vec<f64>)> {
+    let random = generate(&Pattern::Random(Random { seed: 3, size: [2, 3], ..Random::default() })).unwrap();
+    let mut found = Vec::new();
+    for sheet in [mesh("open-star"), random] {
+        for seam in [[0, 8], [1, 8], [8, 0], [7, -3], [2, 8]] {
+            for inwards in [true, false] {
+                let angles = Tube::new(&sheet, seam).unwrap().rolled_up(inwards).unwrap();
+                found.push((sheet.clone(), seam, angles));
+            }
+        }
+    }
+    found
+}
+
+fn shape(sheet: &Sheet, angles: &[f64]) -> Shape {
+    Shape::at(&Embedding::new(sheet).unwrap(), angles).unwrap()
+}
+
+/// Claim: a tube closes: `n1 theta1 + n2 theta2 = 2 pi`, `n1 h1 + n2 h2 = 0`, cell `(n1, n2)` is where cell (0, 0) is,
+/// faces close, rotations commute.  Tolerances: rounding of angles of size 2 pi, and of positions after some ten cells.
+#[test]
+fn tubes_close() {
+    for (sheet, [n1, n2], angles) in tubes() {
+        let Shape { theta, screw, compatibility, .. } = shape(&sheet, &angles);
+        let of = |[a, b]: [f64; 2]| f64::from(n1) * a + f64::from(n2) * b;
+        let (turn, rise) = (of(theta).abs() - TAU, of(screw.rise()));
+        assert!(turn.abs() <= 2e-14 && rise.abs() <= 2e-14, "{turn:e} {rise:e}");
+        assert!(Closure::of_cell(&sheet).unwrap().residual(&angles).amax() <= 4e-15);
+        assert!(compatibility.largest() <= 1e-13, "{compatibility:?}");
+        let once_round = screw.motion([n1, n2]);
+        let moved = |x: &Vec3| (once_round.apply(x) - x).norm();
+        assert!(moved(&Vec3::zeros()) <= 1e-13 && moved(&Vec3::new(1.0, 2.0, 3.0)) <= 1e-13);
+    }
+}
+
+/// Jacobian of the bars of one screw-periodic cell at an exact state, vertex 0 pinned: `3 Nv` rows, `3 Nv + 2` columns,
+/// with rows for `n1 theta1 + n2 theta2` and `n1 h1 + n2 h2` below, where `theta_a = kappa b_a`, `b` across the axis and `h` along it.
+fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -> DenseMatrix {
+    let shape = shape(sheet, angles);
+    let (positions, rates) = (shape.positions.clone(), vec![]);
+    let folded =
+        Folded { arc_length: 0.0, angles: angles.to_vec(), rates, shape: Some(shape), positions, residual: 0.0 };
+    let case = on(sheet.clone(), [1, 1], Boundary::Screw);
+    let mut model = case.model_of(&Terms { bars: Some(f64::INFINITY), ..Terms::default() }, Gauge::Held);
+    let x = model.start_from(coordinates(&folded));
+    let at = linearized(&model, &x, &vec![0.0; case.edges()]);
+    let stretched = at.gaps.iter().fold(0.0, |most: f64, gap| most.max(gap.abs()));
+    assert!(stretched <= 1e-13, "the chart's bars have their drawn lengths: {stretched:e}");
+    let (bars, n) = (jacobian(&model, &at), [f64::from(n1), f64::from(n2)]);
+    let columns = bars.ncols();
+    let all = model.coordinates(&x);
+    let [direction, kappa, y1, y2, x1, x2] = [6, 5, 4, 3, 2, 1].map(|k| all[all.len() - k]);
+    let ((sin, cos), l) = (f64::sin_cos(direction), [n[0] * x1 + n[1] * x2, n[0] * y1 + n[1] * y2]);
+    let (along, across) = (cos * l[0] + sin * l[1], cos * l[1] - sin * l[0]);
+    let weighed = |parts: [f64; 2]| [n[0] * parts[1], n[1] * parts[1], n[0] * parts[0], n[1] * parts[0]];
+    let turn = [&[-kappa * along, across][..], &weighed([-kappa * sin, kappa * cos])].concat();
+    let rise = [&[across, 0.0][..], &weighed([cos, sin])].concat();
+    let wanted: Vec<&[f64]> =
+        kept.iter().map(|condition| if *condition == Condition::Turn { &turn[..] } else { &rise }).collect();
+    let unit = |column: usize| {
+        let mut rates = vec![0.0; columns];
+        rates[column] = 1.0;
+        model.velocity(&rates).split_off(all.len() - 6)
+    };
+    let rate = |row: &[f64], column: usize| row.iter().zip(unit(column)).map(|(a, b)| a * b).sum::<f64>();
+    DenseMatrix::from_fn(bars.nrows() + wanted.len(), columns, |row, column| match row.checked_sub(bars.nrows()) {
+        None => bars[(row, column)],
+        Some(extra) => rate(wanted[extra], column),
+    })
+}
+
+/// Claim (theory, section 9): within screw-symmetric motions a tube has 2 motions, 1 when its seam keeps turning by `2
+/// pi` (it slips), 1 when it keeps its height, 0 with both: rigid. By the closure of the fold angles and by the lengths
+/// of the bars in the chart of screw motions, which share no equation. Ranks stand out by more than ten decades.
+#[test]
+fn motions_left_by_the_conditions() {
+    for (sheet, seam, angles) in tubes() {
+        let tube = Tube::new(&sheet, seam).unwrap();
+        for (kept, left) in LEFT {
+            for matrix in [tube.jacobian(&angles, kept), bars(&sheet, seam, &angles, kept)] {
+                let null = null_space(&matrix).unwrap();
+                assert_eq!(null.basis.ncols(), left, "{} {seam:?} {kept:?}", sheet.title);
+                assert!(null.gap > 1e10, "{:e}", null.gap);
+            }
+        }
+    }
+}
+
+/// Claim: the seam of a tube slips, both ways, over a finite distance: `n1 theta1 + n2 theta2 = 2 pi` to 1e-12 all the
+/// way and faces closed, while its end climbs over its start, step by step, by more than 0.04 of the seam's length.
+/// Followed over 0.5 rad in fold angles. Kept its height instead, the tube would widen: the same motion is refused.
+/// Tolerance: the issue's.
+#[test]
+fn the_seam_slips() {
+    for (sheet, seam, angles) in tubes() {
+        let tube = Tube::new(&sheet, seam).unwrap();
+        for (rising, sign) in [(true, 1.0), (false, -1.0)] {
+            let slipped = tube.slip(&angles, rising, 0.5).unwrap();
+            assert_eq!(slipped.end, End::Length);
+            for point in &slipped.points {
+                let Shape { theta, compatibility, .. } = shape(&sheet, &point.x);
+                let turn = f64::from(seam[0]) * theta[0] + f64::from(seam[1]) * theta[1];
+                assert!(abs_diff_eq!(turn.abs(), TAU, epsilon = 1e-12), "{turn}");
+                assert!(point.residual <= 1e-13 && compatibility.largest() <= 1e-12, "{compatibility:?}");
+            }
+            let rises: Vec<f64> = slipped.points.iter().map(|point| sign * tube.defects(&point.x)[1]).collect();
+            assert!(rises.is_sorted() && rises[0].abs() <= 1e-15, "{rises:?}");
+            assert!(rises[rises.len() - 1] > 0.04, "{rises:?}");
+        }
+    }
+}
+
+/// Zero modes of the bars of a finite sheet, as columns.
+fn zero_modes(case: &Assembly) -> DenseMatrix {
+    let model = case.model_of(&Terms { bars: Some(1.0), ..Terms::default() }, Gauge::Free);
+    let at = linearized(&model, &model.start(), &vec![0.0; case.edges()]);
+    null_space(&jacobian(&model, &at)).unwrap().basis
+}
+
+/// The factors by which the zero modes of a tube along z grow from a row to the next, ascending in magnitude, `next`
+/// moving a point to its copy there. All zero modes together go over into each other, which is tested to 1e-9.
+fn growth(case: &Assembly, turn: f64, rise: f64) -> Vec<f64> {
+    let (modes, vertices) = (zero_modes(case), &case.sheet().vertices);
+    let rotation = Rotation3::from_axis_angle(&Vec3::z_axis(), turn);
+    let next = |x: &Vec3| {
+        let there = rotation * x + rise * Vec3::z();
+        vertices.iter().position(|y| (y - there).norm() <= 1e-9)
+    };
+    let pairs: Vec<[usize; 2]> = vertices.iter().enumerate().filter_map(|(a, x)| Some([a, next(x)?])).collect();
+    let [mut here, mut there] = [0, 1].map(|_| DenseMatrix::zeros(3 * pairs.len(), modes.ncols()));
+    for (k, &[a, b]) in pairs.iter().enumerate() {
+        here.rows_mut(3 * k, 3).copy_from(&modes.rows(3 * a, 3));
+        there.rows_mut(3 * k, 3).copy_from(&(rotation.inverse().matrix() * modes.rows(3 * b, 3)));
+    }
+    let shift = least_squares(&here, &there).unwrap();
+    assert!(shift.residual.amax() <= 1e-9, "{:e}", shift.residual.amax());
+    let mut growth: Vec<f64> = shift.solution.complex_eigenvalues().iter().map(|factor| factor.norm()).collect();
+    growth.sort_by(f64::total_cmp);
+    growth
+}
+
+/// Zero modes are as many as the rims have edges; no self stress; six rigid motions.
+fn check_counts(case: &Assembly, rim: usize) {
+    let edges = case.sheet().edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary).count();
+    let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+    let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
+    assert_eq!((edges, counts), (rim, (rim, 0, rim as i64, 6)), "gap {:?}", found.gap);
+}
+
+/// Claim: an open tube, cut to rows of cells, has as many zero modes as its two rims have edges, and no self stress:
+/// `V + F = E` and `3 F + b = 2 E` give `3 V - E = b`. Six are rigid motions. The others are the same in number
+/// whatever the length, and from row to row they change by factors that are the same too: so many fall off from one end
+/// as from the other, with reciprocal factors (theory, section 8: roots pair). Rolled up inwards, with seam `[0, 8]`,
+/// 13 modes belong to each end; outwards 8 do and 10 belong to none, waves along the whole tube. Tolerances: 1e-4
+/// for factors of size 1, of which those of rigid motions are double, and relative 1e-5 for all.
+#[test]
+fn end_modes_of_open_tubes() {
+    let sheet = mesh("open-star");
+    for (seam, inwards, [rim, each_end, waves]) in
+        [([0, 8], true, [32, 13, 0]), ([0, 8], false, [32, 8, 10]), ([0, 6], true, [24, 9, 0])]
+    {
+        let tube = Tube::new(&sheet, seam).unwrap();
+        let angles = tube.rolled_up(inwards).unwrap();
+        let Shape { theta, screw, .. } = shape(&sheet, &angles);
+        let mut first: Option<Vec<f64>> = None;
+        for rows in [2, 3, 5] {
+            let case = on(tube.cut(&angles, rows).unwrap(), [1, 1], Boundary::Patch);
+            check_counts(&case, rim);
+            let growth = growth(&case, theta[0], screw.rise()[0]);
+            let falling = growth.iter().filter(|factor| **factor < 1.0 - 1e-4).count();
+            let rising = growth.iter().filter(|factor| **factor > 1.0 + 1e-4).count();
+            assert_eq!((falling, rising, rim - falling - rising), (each_end, each_end, 6 + waves), "{growth:?}");
+            let paired = growth.iter().zip(growth.iter().rev()).map(|(a, b)| (a * b - 1.0).abs());
+            assert!(paired.fold(0.0, f64::max) <= 1e-5, "{growth:?}");
+            let first = first.get_or_insert_with(|| growth.clone());
+            let apart = first.iter().zip(&growth).map(|(a, b)| (a / b - 1.0).abs());
+            assert!(apart.fold(0.0, f64::max) <= 1e-5, "{growth:?}");
+        }
+    }
+}
+
+/// Claim: a tube of one strand, which ends in a step, has zero modes as said above: 36 for seam (1, 8), whatever the
+/// number of its cells.
+#[test]
+fn zero_modes_of_helical_tubes() {
+    let sheet = mesh("open-star");
+    let tube = Tube::new(&sheet, [1, 8]).unwrap();
+    for inwards in [true, false] {
+        let angles = tube.rolled_up(inwards).unwrap();
+        for cells in [12, 19, 30] {
+            check_counts(&on(tube.cut(&angles, cells).unwrap(), [1, 1], Boundary::Patch), 36);
+        }
+    }
+}
+
+/// The tube of `meshes/helical-tube.fold`.
+fn helical_tube() -> Sheet {
+    let sheet = mesh("open-star");
+    let tube = Tube::new(&sheet, [1, 8]).unwrap();
+    tube.cut(&tube.rolled_up(true).unwrap(), 48).unwrap()
+}
+
+/// Claim: `meshes/helical-tube.fold` is what it says: the reference cell rolled up until cell (1, 8) lies on cell (0,
+/// 0), one strand of 48 cells. Its edges are as long as those of the flat cell. Tolerance: what mathematical libraries
+/// differ in, over Newton's method and some fifty cells.
+#[test]
+fn the_helical_tube_in_meshes() {
+    let (kept, computed) = (mesh("helical-tube"), helical_tube());
+    assert_eq!((&kept.triangles, kept.lattice), (&computed.triangles, None));
+    let off = kept.vertices.iter().zip(&computed.vertices).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    assert!(off <= 1e-11, "{off:e}");
+    let cell = mesh("open-star");
+    let lengths = |sheet: &Sheet| -> Vec<f64> {
+        let ends = sheet.edges.iter().map(|edge| edge.key.ends().map(|end| sheet.position(end)));
+        ends.map(|[a, b]| (b - a).norm()).collect()
+    };
+    let flat = lengths(&cell);
+    let nearest = |length: &f64| flat.iter().map(|other| (other - length).abs()).fold(f64::INFINITY, f64::min);
+    assert!(lengths(&kept).iter().all(|length| nearest(length) <= 1e-12));
+}
