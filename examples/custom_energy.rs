@@ -81,7 +81,7 @@ impl Problem for Chain {
         out.gaps.copy_from_slice(&self.gaps(x));
         out.gradient.iter_mut().skip(1).step_by(2).for_each(|dy| *dy = WEIGHT);
         out.largest_force = tension.iter().fold(WEIGHT, |largest, t| largest.max(t.abs()));
-        for bar in 0..BARS {
+        for (bar, &pull) in tension.iter().enumerate() {
             let d = Self::along(x, bar);
             let square = d[0] * d[0] + d[1] * d[1];
             // m = L ln(l / L): dm/dd = L d / l^2, d2m/dd2 = L (1 - 2 d d^T / l^2) / l^2; the first end counts negative
@@ -99,7 +99,7 @@ impl Problem for Chain {
                 lower_triangle.extend(unknowns[..=row].iter().map(|(sign_j, j)| sign_i * sign_j * second(*i, *j)));
             }
             out.jacobian[self.layout.stiff.range(bar)].copy_from_slice(&rates);
-            out.add_stiff(bar, tension[bar], &lower_triangle);
+            out.add_stiff(bar, pull, &lower_triangle);
         }
     }
 

@@ -49,14 +49,6 @@ pub enum ExperimentError {
         /// Why.
         reason: String,
     },
-    /// The program itself, started for a part of the experiment, failed.
-    #[error("foldwell {words}: {message}")]
-    Child {
-        /// The words after its name.
-        words: String,
-        /// What it said.
-        message: String,
-    },
     /// There is no such experiment.
     #[error("there is no experiment `{0}`")]
     Unknown(String),
@@ -110,8 +102,6 @@ pub struct Laboratory<'a> {
 
 /// What a measurement may use.
 pub struct Bench<'a> {
-    /// A folder of its own.
-    pub folder: PathBuf,
     /// Whether little time is allowed.
     pub quick: bool,
     name: &'a str,
@@ -181,8 +171,7 @@ impl<'a> Laboratory<'a> {
 
     fn measure(&self, name: &str) -> Result<Findings, ExperimentError> {
         let measurement = measure::find(name).ok_or_else(|| ExperimentError::Unknown(name.into()))?;
-        let folder = self.folder.join("runs").join(name);
-        let bench = Bench { folder, quick: self.quick, name, observer: self.observer };
+        let bench = Bench { quick: self.quick, name, observer: self.observer };
         bench.step(0, 1)?;
         measurement(&bench)
     }

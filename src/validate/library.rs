@@ -12,9 +12,6 @@ macro_rules! files {
 /// Files of `validation/claims`, without their ending, in the order in which they are checked and reported: large patches first,
 /// because memory that other claims have left to the process would count as theirs.
 const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
-    "large-residuals"
-    "large-time"
-    "large-memory"
     "loops-of-open-star"
     "loops-close"
     "loops-stay-closed"
@@ -47,26 +44,10 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "steps-default"
     "sizes-exact"
     "sizes-growth"
-    "threads-exact"
-    "threads-same-bytes"
     "extremes-nothing-wrong"
     "extremes-mostly-right"
-    "random-nothing-wrong"
-    "random-mostly-right"
-    "random-seldom-refused"
-    "invariant-angles"
-    "invariant-energy"
-    "killed-runs-leave-whole-files"
-    "resumed-runs-end-the-same"
-    "two-runs-in-one-folder"
-    "full-disks-break-nothing"
-    "unusable-folders"
-    "ten-thousand-nothing-wrong"
-    "ten-thousand-mostly-right"
-    "ten-thousand-seldom-refused"
     "cells-closed-form"
     "cells-residuals"
-    "cells-memory"
 );
 
 /// Files of `meshes` that claims need.

@@ -1,11 +1,11 @@
 //! Spatially varying modes: theory, section 8.
 
 use crate::common::{Numbers, mesh};
+use crate::theory::duality::{displacement, fold_rates};
+use crate::theory::strain_form::StrainForm;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use foldwell::analysis::bloch::decay::WELL_CONDITIONED;
-use foldwell::analysis::bloch::duality::{displacement, fold_rates};
-use foldwell::analysis::bloch::strain_form::StrainForm;
 use foldwell::analysis::bloch::zero_lines::ZeroLine;
 use foldwell::analysis::bloch::{
     BlochError, Decay, Determinant, Laurent, ModeShape, Polarization, Rigidity, ZeroLines, Zone,

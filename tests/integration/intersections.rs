@@ -1,10 +1,10 @@
-//! Contacts of triangles against an oracle in exact integers, and crossings in sheets whose shape is known.
+//! Crossings of triangles against an oracle in exact integers, and those in sheets whose shape is known.
 //!
 //! The oracle shares nothing with the code: a point of a triangle is a convex combination of its corners, and whether two
 //! triangles have a point in common, or one that is interior to both, is a linear program in the weights. Coordinates become
 //! integers over a common power of two, and the simplex method runs on integers without division remainders.
 
-use foldwell::analysis::intersections::{Contact, Triangle, contact, crossings};
+use foldwell::analysis::intersections::{self, Triangle, crossings};
 use foldwell::math::Vec3;
 use num_bigint::BigInt;
 use rand::{RngExt, SeedableRng};
@@ -70,6 +70,17 @@ fn minus(p: &Point, q: &Point) -> Point {
 
 fn cross(u: &Point, v: &Point) -> Point {
     [0, 1, 2].map(|k| &u[(k + 1) % 3] * &v[(k + 2) % 3] - &u[(k + 2) % 3] * &v[(k + 1) % 3])
+}
+
+/// How two closed triangles lie to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Contact {
+    /// No point in common.
+    Disjoint,
+    /// Points in common, but neither goes through the other.
+    Touching,
+    /// Each goes through the other.
+    Crossing,
 }
 
 /// The contact of two triangles by its definition.
@@ -223,13 +234,14 @@ fn no_wrong_verdict() {
             let place = source.below(3);
             (0..common).for_each(|c| b[(place + c) % 3] = a[c]);
             let expected = oracle(&a, &b);
-            assert_eq!(contact(&a, &b), expected, "{kind}: {a:?} {b:?}");
+            let crossing = expected == Contact::Crossing;
+            assert_eq!(intersections::cross(&a, &b), crossing, "{kind}: {a:?} {b:?}");
             let scale = 2f64.powi(source.below(120) as i32 - 60);
             let mirrored = |p: Vec3| Vec3::new(p.z, p.x, -p.y) * scale;
             let (p, q) = (source.below(3), source.below(3));
             let (turned, swapped) = ([b[p], b[(p + 2) % 3], b[(p + 1) % 3]], [a[q], a[(q + 1) % 3], a[(q + 2) % 3]]);
-            let other = contact(&turned.map(mirrored), &swapped.map(mirrored));
-            assert_eq!(other, expected, "{kind}, mirrored and scaled by {scale}: {a:?} {b:?}");
+            let other = intersections::cross(&turned.map(mirrored), &swapped.map(mirrored));
+            assert_eq!(other, crossing, "{kind}, mirrored and scaled by {scale}: {a:?} {b:?}");
             *counts.entry((common, format!("{expected:?}"))).or_default() += 1;
             pairs += 1;
         }
@@ -279,9 +291,8 @@ fn boxes_lose_no_pair() {
             let at = |k: usize| triangles[k].map(|point| points[point]);
             let mut expected = Vec::new();
             for i in 0..triangles.len() {
-                expected.extend(
-                    (i + 1..triangles.len()).filter(|&j| contact(&at(i), &at(j)) == Contact::Crossing).map(|j| [i, j]),
-                );
+                expected
+                    .extend((i + 1..triangles.len()).filter(|&j| intersections::cross(&at(i), &at(j))).map(|j| [i, j]));
             }
             assert_eq!(found.pairs, expected);
             let marked = |k: usize| expected.iter().any(|pair| pair.contains(&k));

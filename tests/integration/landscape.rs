@@ -1,7 +1,7 @@
 //! What folding modes cost on patches: theory, section 6.
 
 use crate::common::{self, Numbers, Testing, on, patch};
-use foldwell::analysis::landscape::continuum;
+use crate::theory::continuum;
 use foldwell::analysis::landscape::fit::{coefficient, exponent};
 use foldwell::analysis::landscape::samples::landscape;
 use foldwell::analysis::landscape::{Expansion, HeldSheet, Prediction};

@@ -1,10 +1,10 @@
 //! Modes of finite wavenumber beyond linear order: theory, section 6, last paragraph.
 
 use crate::common::{mesh, on};
+use crate::theory::tuning::tuned;
 use approx::abs_diff_eq;
 use foldwell::analysis::landscape::fit::exponent;
 use foldwell::analysis::landscape::samples::{Samples, landscape};
-use foldwell::analysis::landscape::tuning::tuned;
 use foldwell::analysis::landscape::{Expansion, HeldSheet};
 use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::sheet::generate::Random;

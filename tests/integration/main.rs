@@ -6,6 +6,7 @@
 mod common;
 #[path = "../common/textbook.rs"]
 mod textbook;
+mod theory;
 
 mod assignments;
 mod bad_meshes;
@@ -16,6 +17,8 @@ mod bloch;
 mod bloch_runs;
 mod branches;
 mod command_line;
+mod disturbed_runs;
+mod drawings;
 mod empty_answers;
 mod engines;
 mod files;

@@ -9,7 +9,6 @@ pub mod bands;
 pub mod cluster;
 pub mod decay;
 pub mod determinant;
-pub mod duality;
 pub mod extended;
 pub mod extrema;
 pub mod laurent;
@@ -17,7 +16,6 @@ pub mod mode_shape;
 pub mod polarization;
 pub mod rigidity;
 pub mod singular;
-pub mod strain_form;
 mod survey;
 pub mod zero_lines;
 pub mod zone;
@@ -79,12 +77,4 @@ pub enum BlochError {
     /// The linear folding modes are not known.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
-    /// The way round the sheet does not tell where it begins.
-    #[error(
-        "nothing changes from a cell to the next at these Bloch factors: displacements do not follow from fold rates"
-    )]
-    NoPhase,
-    /// Faces that hang together at vertices only, or not at all, move against each other without any fold rate.
-    #[error("the faces do not hang together at their edges: displacements do not follow from fold rates")]
-    Pieces,
 }

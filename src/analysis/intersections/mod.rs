@@ -13,7 +13,7 @@ pub mod contact;
 mod depth;
 mod sheet;
 
-pub use contact::{Contact, Triangle, contact, cross};
+pub use contact::{Triangle, cross};
 pub use depth::depth;
 pub use sheet::{LYING, Marks, SelfIntersection};
 
@@ -133,31 +133,4 @@ fn apart(a: &Triangle, b: &Triangle) -> bool {
         first_b = first_b.min(way.dot(&arm) - ROUNDING * way.abs().dot(&arm.abs()));
     }
     last_a <= first_b
-}
-
-/// The parameter at which a sheet first crosses itself, between `free`, where it does not, and `crossing`, where it
-/// does: the end, on the crossing side, of an interval that is no longer than `tolerance` and has a free state at its
-/// other end. Bisection; `crosses` says of a parameter whether the sheet crosses itself there. Neither end is asked. Where
-/// the sheet comes free again in between, one of the places where it begins to cross is found.
-///
-/// # Errors
-/// Those of `crosses`, at once.
-pub fn first_crossing<E>(
-    mut crosses: impl FnMut(f64) -> Result<bool, E>,
-    [mut free, mut crossing]: [f64; 2],
-    tolerance: f64,
-) -> Result<f64, E> {
-    while (crossing - free).abs() > tolerance {
-        let middle = 0.5 * (free + crossing);
-        // neighbours among the doubles have no middle
-        if middle == free || middle == crossing {
-            break;
-        }
-        if crosses(middle)? {
-            crossing = middle;
-        } else {
-            free = middle;
-        }
-    }
-    Ok(crossing)
 }

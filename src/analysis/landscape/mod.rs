@@ -3,11 +3,9 @@
 //! The rest angles of a patch of `n1 x n2` cells are the same in every cell and are themselves unknowns, but for their
 //! components along the linear folding modes, which are held at an amplitude times a mode. What is left is the cost of not
 //! being a rigid folding. It goes as the fourth power of the amplitude for modes with Gaussian curvature, and its
-//! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone,
-//! `continuum` one cell.
+//! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone.
 
 pub mod cone;
-pub mod continuum;
 mod course;
 mod courses;
 pub mod expansion;
@@ -19,7 +17,6 @@ pub mod samples;
 mod settling;
 pub mod sphere;
 mod torus;
-pub mod tuning;
 
 pub use course::{Course, Place};
 pub use courses::Courses;
@@ -52,12 +49,6 @@ pub enum LandscapeError {
     /// Waves go round tori.
     #[error("a patch has no waves")]
     NoWaves,
-    /// No height of the vertex makes a zero mode.
-    #[error("no height of vertex {vertex} within half a cell makes a zero mode at this wavenumber")]
-    NotTunable {
-        /// The vertex.
-        vertex: usize,
-    },
     /// The torus is rigid to first order.
     #[error("every motion of this torus stretches a bar, but for the rigid ones")]
     NoZeroModes,

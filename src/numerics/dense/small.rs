@@ -55,14 +55,3 @@ pub fn symmetric_eigen_3(matrix: Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
 pub fn solve_3(matrix: Matrix3<f64>, right: &Vector3<f64>) -> Option<Vector3<f64>> {
     matrix.lu().solve(right)
 }
-
-/// The inverse of a 3 x 3 matrix; `None` where it is singular.
-pub fn inverse_3(matrix: Matrix3<f64>) -> Option<Matrix3<f64>> {
-    matrix.try_inverse()
-}
-
-/// The lower Cholesky factor `l` of a symmetric 3 x 3 matrix, `matrix = l l^T`; `None` where it is not positive
-/// definite.
-pub fn cholesky_3(matrix: Matrix3<f64>) -> Option<Matrix3<f64>> {
-    matrix.cholesky().map(|factor| factor.l())
-}

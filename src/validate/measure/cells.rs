@@ -5,7 +5,6 @@
 use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::super::report::figure;
 use super::super::star::size;
-use super::memory;
 use super::trial::distance;
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::model::{Assembly, Gauge, Model, RIGID, Terms};
@@ -39,15 +38,12 @@ struct Size {
     /// Largest difference of a fold angle to the closed form, in radians.
     error: f64,
     seconds: f64,
-    /// Most memory so far, in MB; NaN where the system does not tell.
-    memory: f64,
 }
 
 /// Relaxes patches whose creases rest where steeper pleats have them. No bar has to change its length for that, so they have
 /// to end there, without any energy.
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut sizes = Vec::new();
-    memory::forget();
     for (step, cells) in CELLS.into_iter().enumerate() {
         bench.step(step, CELLS.len())?;
         sizes.push(relaxed(cells)?);
@@ -58,7 +54,6 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
         "residuals": sizes.iter().map(residual).collect::<Vec<_>>(),
         "iterations": sizes.iter().map(|size| size.found.iterations).collect::<Vec<_>>(),
         "seconds": last.seconds,
-        "memory": last.memory,
     });
     Ok(Findings { values, tables: vec![table(&sizes)], ..Findings::default() })
 }
@@ -70,14 +65,7 @@ fn relaxed(cells: [usize; 2]) -> Result<Size, ExperimentError> {
     let found = relax_from(&mut pleats.model, start, options, &mut |_| true)?;
     let seconds = clock.elapsed().as_secs_f64();
     let error = distance(&found.state.fold_angle, &pleats.rest);
-    Ok(Size {
-        cells,
-        unknowns: size(&pleats.model).0,
-        found,
-        error,
-        seconds,
-        memory: memory::most().unwrap_or(f64::NAN),
-    })
+    Ok(Size { cells, unknowns: size(&pleats.model).0, found, error, seconds })
 }
 
 fn residual(size: &Size) -> f64 {
@@ -108,19 +96,11 @@ fn closed_form(sheet: &Sheet, slope: f64) -> Vec<f64> {
 fn table(sizes: &[Size]) -> Grid {
     let row = |s: &Size| {
         let counts = [s.unknowns, s.found.iterations, s.found.factorizations].map(|count| count.to_string());
-        let numbers = [residual(s), s.error, s.seconds, s.memory].map(figure);
+        let numbers = [residual(s), s.error, s.seconds].map(figure);
         [format!("{} x {}", s.cells[0], s.cells[1])].into_iter().chain(counts).chain(numbers).collect()
     };
-    let names = [
-        "cells",
-        "unknowns",
-        "iterations",
-        "factorizations",
-        "residual",
-        "off the closed form (rad)",
-        "seconds",
-        "most memory so far (MB)",
-    ];
+    let names =
+        ["cells", "unknowns", "iterations", "factorizations", "residual", "off the closed form (rad)", "seconds"];
     Grid {
         title: "Pleated Yoshimura patterns with rigid bars, their rows folded from a slope of 0.5 to 0.55".into(),
         header: names.map(str::to_owned).to_vec(),

@@ -4,15 +4,10 @@ use super::experiment::{Bench, ExperimentError, Findings};
 
 mod cells;
 mod extremes;
-mod files;
-mod invariances;
-mod large;
-mod memory;
 mod rigid_limit;
 mod sizes;
 mod steps;
 mod stiffness;
-mod threads;
 mod tolerance;
 mod trial;
 
@@ -22,17 +17,11 @@ pub type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
 /// The measurements by name.
 const MEASUREMENTS: &[(&str, Measurement)] = &[
     ("cells", cells::measure),
-    ("files", files::measure),
-    ("invariances", invariances::measure),
     ("extremes", extremes::measure),
-    ("large", large::measure),
-    ("random scenes", extremes::random_scenes),
-    ("ten thousand scenes", extremes::ten_thousand_scenes),
     ("rigid limit", rigid_limit::measure),
     ("sizes", sizes::measure),
     ("steps", steps::measure),
     ("stiffness", stiffness::measure),
-    ("threads", threads::measure),
     ("tolerance", tolerance::measure),
 ];
 

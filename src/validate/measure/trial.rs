@@ -7,7 +7,7 @@ use foldwell::analysis::state::State;
 use foldwell::model::{Assembly, AssemblyError, Boundary, Gauge, Hinges, Model, RIGID, Terms};
 use foldwell::numerics::random::symmetric;
 use foldwell::numerics::{larger, worst};
-use foldwell::sheet::{Edge, Sheet, TiledEdge};
+use foldwell::sheet::Sheet;
 use foldwell::solver::Options;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -23,6 +23,8 @@ const BALANCED: f64 = 1e-9;
 /// Weight of the augmented form over the stiffness of the creases, and the difference in fold angles up to which it agrees.
 const WEIGHT: f64 = 1e4;
 const AGREES: f64 = 1e-6;
+/// Seed of the random rest angles.
+const SEED: u64 = 1;
 
 /// What came of a trial.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,20 +49,10 @@ pub struct Trial {
     pub boundary: Boundary,
     /// Stiffness of bars and creases; facets are rigid.
     pub stiffness: [f64; 2],
-    /// Rest angles of the creases.
-    pub rest: Rest,
+    /// Rest angles of the creases: the drawn ones and at most this much more or less, at random, in radians.
+    pub off: f64,
     /// An edge with the angle that it has to have.
     pub lock: Option<(usize, f64)>,
-}
-
-/// Rest angles, in radians.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rest {
-    /// The drawn ones and at most this much more or less, at random with this seed.
-    Random(f64, u64),
-    /// The drawn ones and this much times the sine of ten times the edge's length over the mean: the same however the sheet
-    /// is turned, cut or numbered.
-    ByLength(f64),
 }
 
 /// Where a trial ended.
@@ -73,29 +65,13 @@ pub struct Found {
     pub to_augmented: Option<f64>,
     /// Largest relative change of the length of a bar.
     pub stretch: f64,
-    /// Energy.
-    pub energy: f64,
 }
 
 impl Trial {
     /// A patch with rigid bars and creases of 1.
     pub fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
         let stiffness = [f64::INFINITY, 1.0];
-        let rest = Rest::Random(off, 1);
-        Self { sheet, cells, boundary: Boundary::Patch, stiffness, rest, lock: None }
-    }
-
-    /// What it is, in a few words.
-    pub fn description(&self) -> String {
-        let Self { sheet, cells: [n1, n2], boundary, stiffness: [bars, _], rest, .. } = self;
-        let (vertices, off) = (
-            sheet.vertices.len(),
-            match rest {
-                Rest::Random(off, seed) => format!("{off:.1e} off, seed {seed}"),
-                Rest::ByLength(off) => format!("{off:.1e} off by length"),
-            },
-        );
-        format!("{boundary:?} of {n1} x {n2} cells of {vertices}, bars {bars:.1e}, rest {off}")
+        Self { sheet, cells, boundary: Boundary::Patch, stiffness, off, lock: None }
     }
 
     /// The sheet with its bars, creases, rigid polygons and lock.
@@ -127,26 +103,13 @@ impl Trial {
                 .flatten(),
             to_augmented: if rigid { None } else { augmented(&mut model, creases) }.map(|a| distance(&angles, &a)),
             stretch: stretch(&model, &found.x),
-            energy: found.state.total(),
             angles,
         })
     }
 
     fn rest_angles(&self, assembly: &Assembly) -> Vec<f64> {
-        let drawn = assembly.drawn_angles();
-        match self.rest {
-            Rest::Random(most, seed) => {
-                let mut numbers = ChaCha8Rng::seed_from_u64(seed);
-                drawn.iter().map(|angle| angle + most * symmetric(&mut numbers)).collect()
-            }
-            Rest::ByLength(most) => {
-                let ends = |edge: &Edge| edge.key.ends().map(|end| self.sheet.position(end));
-                let lengths: Vec<f64> = self.sheet.edges.iter().map(ends).map(|[a, b]| (b - a).norm()).collect();
-                let mean = lengths.iter().sum::<f64>() / lengths.len() as f64;
-                let off = |edge: &TiledEdge| most * (10.0 * lengths[edge.edge] / mean).sin();
-                drawn.iter().zip(&assembly.tiling().edges).map(|(angle, edge)| angle + off(edge)).collect()
-            }
-        }
+        let mut numbers = ChaCha8Rng::seed_from_u64(SEED);
+        assembly.drawn_angles().iter().map(|angle| angle + self.off * symmetric(&mut numbers)).collect()
     }
 
     /// Whether rigid bars end at the exact kinematics to `allowed` radians; where that cannot be asked, whether they kept

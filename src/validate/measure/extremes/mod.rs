@@ -1,9 +1,6 @@
 //! Stiff and extreme cases: each is right, or refused for a reason; never a silent wrong number, a hang or a panic.
 
 mod families;
-mod random;
-
-pub use random::{random_scenes, ten_thousand_scenes};
 
 use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
 use super::trial::Outcome;
@@ -33,7 +30,6 @@ impl Tally {
             "trials": self.all(),
             "right": self.right,
             "refused": self.refused,
-            "part refused": self.refused as f64 / self.all() as f64,
             "unjudged": self.unjudged,
             "wrong": self.wrong.len(),
         })

@@ -6,11 +6,10 @@
 //! Whiteley 1982; the paper's mapping at finite wavenumber). So there are as many zero modes as self stresses at `z`;
 //! those of the transposed matrix are at `1/z`; and zero modes come in pairs `z`, `1/z`.
 
-use super::BlochError;
-use super::rigidity::power;
-use crate::math::Vec3;
-use crate::math::fold_angle::fold_angle_gradient;
-use crate::sheet::{EdgeKey, Sheet};
+use super::Predicted;
+use foldwell::math::Vec3;
+use foldwell::math::fold_angle::fold_angle_gradient;
+use foldwell::sheet::{EdgeKey, Sheet};
 use nalgebra::{Complex, Vector3};
 use std::collections::{HashMap, VecDeque};
 
@@ -25,7 +24,7 @@ const LEAST_PHASE: f64 = 1e-6;
 /// Rates of the fold angles of all edges for a displacement `(u_0x, u_0y, u_0z, u_1x, ..)` at Bloch factors; zero on
 /// rims.
 pub fn fold_rates(sheet: &Sheet, z: [Complex<f64>; 2], displacement: &[Complex<f64>]) -> Vec<Complex<f64>> {
-    let rate = |edge: &crate::sheet::Edge| {
+    let rate = |edge: &foldwell::sheet::Edge| {
         let [left, right] = [edge.wings[0]?, edge.wings[1]?];
         let [i, j] = edge.key.ends();
         let corners = [i, j, left, right];
@@ -43,11 +42,7 @@ pub fn fold_rates(sheet: &Sheet, z: [Complex<f64>; 2], displacement: &[Complex<f
 /// The displacement with these fold rates at Bloch factors, for rates that close round every vertex.
 ///
 /// Fails where both factors are 1 to six digits, and where faces do not hang together at edges: then it does not follow from them.
-pub fn displacement(
-    sheet: &Sheet,
-    z: [Complex<f64>; 2],
-    rates: &[Complex<f64>],
-) -> Result<Vec<Complex<f64>>, BlochError> {
+pub fn displacement(sheet: &Sheet, z: [Complex<f64>; 2], rates: &[Complex<f64>]) -> Predicted<Vec<Complex<f64>>> {
     let along = |key: &EdgeKey| {
         let [i, j] = key.ends();
         sheet.position(j) - sheet.position(i)
@@ -75,6 +70,10 @@ pub fn displacement(
     Ok(moved.iter().flat_map(|u| [u.x, u.y, u.z]).collect())
 }
 
+fn power(z: [Complex<f64>; 2], [n1, n2]: [i32; 2]) -> Complex<f64> {
+    z[0].powi(n1) * z[1].powi(n2)
+}
+
 fn complex(v: Vec3) -> ComplexVec3 {
     v.map(|x| Complex::new(x, 0.0))
 }
@@ -88,7 +87,7 @@ struct Difference {
 
 /// The vectors with given differences: all in terms of the first along a tree, and the first from the difference that
 /// is farthest from the tree's by a phase.
-fn integrate(count: usize, differences: &[Difference], z: [Complex<f64>; 2]) -> Result<Vec<ComplexVec3>, BlochError> {
+fn integrate(count: usize, differences: &[Difference], z: [Complex<f64>; 2]) -> Predicted<Vec<ComplexVec3>> {
     // w = factor * first + offset
     let mut found: Vec<Option<(Complex<f64>, ComplexVec3)>> = vec![None; count];
     found[0] = Some((Complex::ONE, ComplexVec3::zeros()));
@@ -112,7 +111,7 @@ fn integrate(count: usize, differences: &[Difference], z: [Complex<f64>; 2]) -> 
         }
     }
     let all: Option<Vec<(Complex<f64>, ComplexVec3)>> = found.into_iter().collect();
-    let all = all.ok_or(BlochError::Pieces)?;
+    let all = all.ok_or("the faces do not hang together at their edges")?;
     let mismatch = |difference: &Difference| {
         let [from, to] = [difference.from, difference.to].map(|(node, shift)| {
             let (factor, offset) = all[node];
@@ -121,7 +120,8 @@ fn integrate(count: usize, differences: &[Difference], z: [Complex<f64>; 2]) -> 
         (to.0 - from.0, difference.by - to.1 + from.1)
     };
     let best = differences.iter().map(mismatch).max_by(|a, b| a.0.norm().total_cmp(&b.0.norm()));
-    let (phase, rest) = best.filter(|(phase, _)| phase.norm() > LEAST_PHASE).ok_or(BlochError::NoPhase)?;
+    let (phase, rest) =
+        best.filter(|(phase, _)| phase.norm() > LEAST_PHASE).ok_or("nothing changes from a cell to the next")?;
     let first = rest / phase;
     Ok(all.into_iter().map(|(factor, offset)| first * factor + offset).collect())
 }

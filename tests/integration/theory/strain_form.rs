@@ -6,11 +6,11 @@
 //! turned by a right angle. This quartic is the leading form of the determinant at `q = 0` up to a constant. It is as
 //! symmetric as it looks: `cof(K') : eps(K) = cof(K) : eps(K')` for any two modes.
 
-use super::BlochError;
-use crate::kinematics::metric::LatticeFrame;
-use crate::kinematics::{Displacement, Embedding, KinematicsError, folding_modes};
-use crate::math::Vec3;
-use crate::sheet::{Corner, Sheet};
+use super::Predicted;
+use foldwell::kinematics::metric::LatticeFrame;
+use foldwell::kinematics::{Displacement, Embedding, folding_modes};
+use foldwell::math::Vec3;
+use foldwell::sheet::{Corner, Sheet};
 use nalgebra::Matrix3;
 
 /// Strains of the linear folding modes of a spatially periodic sheet.
@@ -24,10 +24,10 @@ pub struct StrainForm {
 
 impl StrainForm {
     /// From the modes of the drawn state. Fails where there are not three, or curvatures do not name them.
-    pub fn new(sheet: &Sheet) -> Result<Self, BlochError> {
-        let lattice = sheet.lattice.ok_or(BlochError::NoLattice)?;
+    pub fn new(sheet: &Sheet) -> Predicted<Self> {
+        let lattice = sheet.lattice.ok_or("no lattice")?;
         let (modes, embedding, frame) = (folding_modes(sheet)?, Embedding::new(sheet)?, LatticeFrame::new(&lattice));
-        let strain = |mode: usize| -> Result<Vec3, KinematicsError> {
+        let strain = |mode: usize| -> Predicted<Vec3> {
             let mut curvature = [0.0; 3];
             curvature[mode] = 1.0;
             let moving = Displacement::new(&embedding, embedding.drawn_angles(), &modes.named(curvature)?);

@@ -4,10 +4,10 @@
 //! of the cell, and changes sign on lines. So its ratio to the drawn sheet's is real; where it crosses zero as a vertex rises or
 //! sinks, a line of zero modes has come to the wavenumber.
 
-use super::LandscapeError;
-use crate::analysis::bloch::Rigidity;
-use crate::math::Vec3;
-use crate::sheet::Sheet;
+use super::Predicted;
+use foldwell::analysis::bloch::Rigidity;
+use foldwell::math::Vec3;
+use foldwell::sheet::Sheet;
 use nalgebra::Complex;
 
 /// How far the vertex may go, in parts of the square root of the cell's area, and in how many steps each way.
@@ -19,13 +19,12 @@ const MOST_STEPS: usize = 200;
 /// The sheet with this vertex moved by the least height that makes a zero mode at wavenumbers `q`, in radians per cell.
 ///
 /// Fails for finite sheets, where the rigidity matrix is not square, and where no height does it.
-pub fn tuned(sheet: &Sheet, vertex: usize, q: [f64; 2]) -> Result<Sheet, LandscapeError> {
-    let [l1, l2] = sheet.lattice.ok_or(crate::kinematics::KinematicsError::NoLattice)?;
+pub fn tuned(sheet: &Sheet, vertex: usize, q: [f64; 2]) -> Predicted<Sheet> {
+    let [l1, l2] = sheet.lattice.ok_or("no lattice")?;
     let (size, normal) = (l1.cross(&l2).norm().sqrt(), l1.cross(&l2).normalize());
     let drawn = determinant(sheet, q)?;
-    let at = |height: f64| -> Result<f64, LandscapeError> {
-        Ok((determinant(&moved(sheet, vertex, height * normal), q)? / drawn).re)
-    };
+    let at =
+        |height: f64| -> Predicted<f64> { Ok((determinant(&moved(sheet, vertex, height * normal), q)? / drawn).re) };
     let step = FARTHEST * size / STEPS as f64;
     let mut ends = [(0.0, 1.0); 2];
     for k in 1..=STEPS {
@@ -39,10 +38,10 @@ pub fn tuned(sheet: &Sheet, vertex: usize, q: [f64; 2]) -> Result<Sheet, Landsca
             *end = (next, value);
         }
     }
-    Err(LandscapeError::NotTunable { vertex })
+    Err("no height of the vertex makes a zero mode".into())
 }
 
-fn determinant(sheet: &Sheet, q: [f64; 2]) -> Result<Complex<f64>, LandscapeError> {
+fn determinant(sheet: &Sheet, q: [f64; 2]) -> Predicted<Complex<f64>> {
     Ok(Rigidity::of_sheet(sheet, false)?.determinant(q.map(|q| Complex::from_polar(1.0, q)))?)
 }
 
@@ -53,11 +52,7 @@ fn moved(sheet: &Sheet, vertex: usize, by: Vec3) -> Sheet {
 }
 
 /// A zero between two places where the function has different signs: regula falsi in the form of Illinois.
-fn zero(
-    mut a: (f64, f64),
-    mut b: (f64, f64),
-    at: impl Fn(f64) -> Result<f64, LandscapeError>,
-) -> Result<f64, LandscapeError> {
+fn zero(mut a: (f64, f64), mut b: (f64, f64), at: impl Fn(f64) -> Predicted<f64>) -> Predicted<f64> {
     for _ in 0..MOST_STEPS {
         let next = b.0 - b.1 * (b.0 - a.0) / (b.1 - a.1);
         let value = at(next)?;

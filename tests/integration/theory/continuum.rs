@@ -11,13 +11,13 @@
 //! does. Here `w` is a polynomial, a sum of products of Legendre polynomials in the coordinates of the lattice, and satisfies the
 //! condition exactly (theory: curvature and strain of linear modes, compatibility of small strains).
 
-use super::{HeldSheet, LandscapeError};
-use crate::kinematics::metric::LatticeFrame;
-use crate::kinematics::{Displacement, Embedding, KinematicsError};
-use crate::numerics::DenseMatrix;
-use crate::numerics::dense::full_svd;
-use crate::numerics::dense::small::{cholesky_3, inverse_3};
-use crate::sheet::{Corner, Sheet};
+use super::Predicted;
+use foldwell::analysis::landscape::HeldSheet;
+use foldwell::kinematics::metric::LatticeFrame;
+use foldwell::kinematics::{Displacement, Embedding};
+use foldwell::numerics::DenseMatrix;
+use foldwell::numerics::dense::full_svd;
+use foldwell::sheet::{Corner, Sheet};
 use nalgebra::{DVector, Matrix2, Matrix3};
 
 /// Singular values below this part of the largest are zero.
@@ -27,7 +27,7 @@ const ZERO: f64 = 1e-11;
 ///
 /// `patch` is any patch of the sheet: its modes and the stiffness of its creases are read; bars are rigid. Fails where the
 /// sheet has not three modes that curvatures name.
-pub fn coefficient(sheet: &Sheet, patch: &HeldSheet, degree: usize) -> Result<f64, LandscapeError> {
+pub fn coefficient(sheet: &Sheet, patch: &HeldSheet, degree: usize) -> Predicted<f64> {
     let cell = Cell::new(sheet, patch)?;
     let basis = Basis::new(degree);
     let curvature = cell.second_derivatives(&basis);
@@ -70,15 +70,14 @@ struct Cell {
 }
 
 impl Cell {
-    fn new(sheet: &Sheet, patch: &HeldSheet) -> Result<Self, LandscapeError> {
-        let modes = patch.bending.as_ref().ok_or(LandscapeError::NoCurvatures)?;
+    fn new(sheet: &Sheet, patch: &HeldSheet) -> Predicted<Self> {
+        let modes = patch.bending.as_ref().ok_or("curvatures name no modes")?;
         if modes.count() != 3 {
-            return Err(KinematicsError::NotThreeModes { modes: modes.count() }.into());
+            return Err("there are not three modes".into());
         }
-        let lattice = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
+        let lattice = sheet.lattice.ok_or("no lattice")?;
         let (embedding, frame) = (Embedding::new(sheet)?, LatticeFrame::new(&lattice));
         let curvatures = Matrix3::from_fn(|component, mode| modes.curvatures[(component, mode)]);
-        let singular = KinematicsError::SingularCurvatures { condition: f64::INFINITY };
         let strains: Vec<[f64; 3]> = modes
             .basis
             .column_iter()
@@ -90,12 +89,12 @@ impl Cell {
             .collect();
         let weighed = DenseMatrix::from_diagonal(&DVector::from_vec(patch.stiffness())) * &modes.basis;
         let stiffness = modes.basis.tr_mul(&weighed).fixed_view::<3, 3>(0, 0).into_owned();
-        let root = cholesky_3(stiffness).map(|factor| factor.transpose());
+        let root = stiffness.cholesky().map(|factor| factor.l().transpose());
         Ok(Self {
             frame,
-            modes: inverse_3(curvatures).ok_or(singular.clone())?,
+            modes: curvatures.try_inverse().ok_or("singular curvatures")?,
             strain: Matrix3::from_fn(|component, mode| 0.5 * strains[mode][component]),
-            stiffness_root: root.ok_or(singular)?,
+            stiffness_root: root.ok_or("singular stiffness")?,
         })
     }
 
@@ -139,7 +138,7 @@ impl Basis {
 }
 
 /// The least `|energy c|^2` among all `c` with `condition c = source`.
-fn least_square(energy: &DenseMatrix, condition: &DenseMatrix, source: &DVector<f64>) -> Result<f64, LandscapeError> {
+fn least_square(energy: &DenseMatrix, condition: &DenseMatrix, source: &DVector<f64>) -> Predicted<f64> {
     let svd = full_svd(condition)?;
     let rank = rank(&svd.singular_values);
     let parts = svd.u.columns(0, rank).tr_mul(source);
