@@ -25,7 +25,7 @@ mod forms;
 use common::{Star, difference, measuring, norm, seconds, size, vector, wanted};
 use foldwell::model::Model;
 use foldwell::numerics::factor::{Factor, Inertia};
-use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, symmetric_product};
+use foldwell::numerics::sparse::{Cliques, FIXED, SparsityPattern, symmetric_product};
 use foldwell::solver::corrections::{NearlySolved, Pair, correct};
 use foldwell::solver::kkt::KktSystem;
 use foldwell::solver::{HessianKind, Layout, Linearization, Options, Problem, minimize};
@@ -153,7 +153,7 @@ impl Form for Weighted {
 /// `[H + e  R^T; R  -C - d]`.
 struct Block {
     delta: f64,
-    pattern: Pattern,
+    pattern: SparsityPattern,
     factor: Factor,
     values: Vec<f64>,
     /// Place of every entry of the Hessian, of the Jacobian, of the tensions' diagonal.
@@ -171,7 +171,7 @@ impl Block {
             stiff.push(members.iter().copied().chain([(unknowns + row) as u32]));
         }
         let size = unknowns + layout.stiff.len();
-        let pattern = Pattern::new(size, &[&layout.soft, &stiff]);
+        let pattern = SparsityPattern::new(size, &[&layout.soft, &stiff]);
         let blocks = layout.node.iter().max().map_or(0, |last| last + 1);
         let node: Vec<u32> = layout.node.iter().copied().chain(blocks..blocks + layout.stiff.len() as u32).collect();
         let factor = Factor::new(&pattern, &node, &[&layout.soft, &stiff]).unwrap();
@@ -351,7 +351,7 @@ fn corrections(form: &mut dyn Form, system: &mut System, label: &str) {
 }
 
 /// What is left of a minimisation: unknowns, accepted steps, seconds, whether it converged.
-struct Outcome {
+struct Minimised {
     x: Vec<f64>,
     iterations: usize,
     seconds: f64,
@@ -390,7 +390,7 @@ fn relaxation() {
     }
 }
 
-fn ours(star: &Star, k: f64) -> Outcome {
+fn ours(star: &Star, k: f64) -> Minimised {
     let mut model = star.model(k);
     let start = model.start();
     let mut found = None;
@@ -400,14 +400,14 @@ fn ours(star: &Star, k: f64) -> Outcome {
         Err(error) => (error.x, error.history, false),
     };
     let iterations = history.iter().filter(|step| step.fraction > 0.0).count();
-    Outcome { x, iterations, seconds, converged }
+    Minimised { x, iterations, seconds, converged }
 }
 
 /// The plain penalty of the validation, with the same scaled tolerance.
-fn penalty(star: &Star, k: f64) -> Outcome {
+fn penalty(star: &Star, k: f64) -> Minimised {
     let mut model = star.model(k);
     let mut found = None;
     let seconds = seconds(|| found = forms::minimize(&mut model, forms::Form::Penalty).ok());
     let found = found.unwrap();
-    Outcome { x: found.x, iterations: found.iterations, seconds, converged: found.converged }
+    Minimised { x: found.x, iterations: found.iterations, seconds, converged: found.converged }
 }

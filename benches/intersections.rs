@@ -17,7 +17,7 @@
 mod common;
 
 use common::{in_turns, measuring, random, seconds, uniform};
-use foldwell::analysis::intersections::{Finder, LYING};
+use foldwell::analysis::intersections::{Finder, STACKED_LAYERS_MARGIN};
 use foldwell::math::Vec3;
 use std::f64::consts::FRAC_PI_2;
 
@@ -31,12 +31,13 @@ fn main() {
         let triangles = triangles(n);
         let moved: Points = points.iter().map(|p| p * 1.01).collect();
         let mut finder = Finder::new(triangles.clone());
-        let found = finder.crossings(&points, LYING).pairs.len();
+        let found = finder.crossings(&points, STACKED_LAYERS_MARGIN).pairs.len();
         let times = in_turns(
             rounds,
-            &mut [&mut || seconds(|| Finder::new(triangles.clone()).crossings(&points, LYING)), &mut || {
-                seconds(|| finder.crossings(&moved, LYING))
-            }],
+            &mut [
+                &mut || seconds(|| Finder::new(triangles.clone()).crossings(&points, STACKED_LAYERS_MARGIN)),
+                &mut || seconds(|| finder.crossings(&moved, STACKED_LAYERS_MARGIN)),
+            ],
         );
         println!("{name:>12} {:>7} {found:>9} {:>9.1} {:>9.1}", triangles.len(), 1e3 * times[0], 1e3 * times[1]);
     }

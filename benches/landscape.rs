@@ -13,7 +13,7 @@ mod common;
 
 use common::{in_turns, measuring};
 use foldwell::analysis::landscape::sphere::{Direction, Net, samples};
-use foldwell::analysis::landscape::{Courses, HeldSheet};
+use foldwell::analysis::landscape::{HeldSheet, TaylorPaths};
 use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Gauge, RIGID, Terms};
@@ -30,7 +30,7 @@ fn main() {
     let patch = Assembly::patch(sheet, [6, 6]).bars(RIGID).creases(1.0).build().unwrap();
     let make = || HeldSheet::patch(&patch);
     let held = make().unwrap();
-    let courses = Courses::new(&held).unwrap();
+    let courses = TaylorPaths::new(&held).unwrap();
     let rates = held.named([0.8, -0.3, 0.4]).unwrap();
     let edges = patch.tiling().edges.iter().zip(patch.drawn_angles());
     let bent: Vec<f64> = edges.map(|(edge, angle)| angle + AMPLITUDE * rates[edge.edge]).collect();

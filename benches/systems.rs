@@ -15,7 +15,7 @@ mod common;
 
 use common::{Star, in_turns, measuring, seconds, size, vector};
 use foldwell::numerics::factor::Factor;
-use foldwell::numerics::sparse::{Pattern, symmetric_product};
+use foldwell::numerics::sparse::{SparsityPattern, symmetric_product};
 use foldwell::numerics::tearing::TornFactor;
 use foldwell::numerics::vector::max_abs;
 use foldwell::solver::kkt::KktSystem;
@@ -96,7 +96,7 @@ fn one(n: usize, folder: Option<&Path>) {
 }
 
 /// The matrix, and seconds for one torn factorization and one solve.
-fn write(folder: &Path, n: usize, pattern: &Pattern, entries: &[f64], [factor, solve]: [f64; 2]) {
+fn write(folder: &Path, n: usize, pattern: &SparsityPattern, entries: &[f64], [factor, solve]: [f64; 2]) {
     let unknowns = pattern.size();
     let mut text =
         format!("%%MatrixMarket matrix coordinate real symmetric\n{unknowns} {unknowns} {}\n", entries.len());

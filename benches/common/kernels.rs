@@ -11,7 +11,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, MatRef, Par, Side};
-use foldwell::numerics::{order, sparse::Pattern};
+use foldwell::numerics::{order, sparse::SparsityPattern};
 use foldwell::solver::Layout;
 
 /// Supernodal `L D L^T`, one thread, nested dissection.
@@ -25,7 +25,7 @@ pub struct Sparse {
 
 impl Sparse {
     /// Analyses a pattern.
-    pub fn new(pattern: &Pattern, layout: &Layout) -> Self {
+    pub fn new(pattern: &SparsityPattern, layout: &Layout) -> Self {
         let n = pattern.size();
         let (mut columns, mut rows) = (vec![0u32], Vec::new());
         for k in 0..n {
@@ -66,7 +66,7 @@ impl Sparse {
 }
 
 /// Seconds for one Bunch-Kaufman factorization and one solve.
-pub fn dense_factor_and_solve(pattern: &Pattern, values: &[f64], right: &[f64]) -> f64 {
+pub fn dense_factor_and_solve(pattern: &SparsityPattern, values: &[f64], right: &[f64]) -> f64 {
     let n = right.len();
     let mut x = right.to_vec();
     seconds(|| {

@@ -20,12 +20,12 @@ const MOST_EDGES: usize = 300;
 const STEPS: usize = 30;
 const CORRECTIONS: usize = 10;
 /// Residual of closure, and last change of an angle, of a state that is found.
-const CLOSED: f64 = 1e-13;
-const SETTLED: f64 = 1e-11;
+const CLOSURE_RESIDUAL: f64 = 1e-13;
+const LAST_ANGLE_CHANGE_RAD: f64 = 1e-11;
 /// Largest error of the exact state itself, in radians, with which it is worth a comparison.
 const KNOWN: f64 = 1e-10;
 /// Largest change of an angle in a step.
-const LONGEST: f64 = 0.3;
+const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
 /// Hinges by edge: the energy of exactly folded states.
 pub struct Springs {
@@ -119,9 +119,9 @@ impl Springs {
             let along = self.along(&closing, &x)?;
             let step = along.step()?;
             let longest = step.amax();
-            let part = (LONGEST / longest).min(1.0);
+            let part = (LONGEST_ANGLE_STEP_RAD / longest).min(1.0);
             x.iter_mut().zip(step.iter()).for_each(|(x, d)| *x += part * d);
-            if longest <= SETTLED {
+            if longest <= LAST_ANGLE_CHANGE_RAD {
                 self.close(&mut closing, &mut x)?;
                 let angles = closing.angles(&x);
                 let along = self.along(&closing, &x)?;
@@ -139,7 +139,7 @@ impl Springs {
         let mut jacobian = DenseMatrix::zeros(residual.len(), x.len());
         for _ in 0..CORRECTIONS {
             closing.linearize(x, &mut residual, &mut jacobian);
-            if residual.iter().all(|component| component.abs() <= CLOSED) {
+            if residual.iter().all(|component| component.abs() <= CLOSURE_RESIDUAL) {
                 return Some(());
             }
             let svd = full_svd(&jacobian).ok()?;

@@ -23,7 +23,7 @@ const HOLDS: usize = 20;
 /// Largest force of a rigid measure over those of the others from which on it hides them.
 const HIDDEN: f64 = 100.0;
 /// Tolerance of the states in between.
-const LOOSE: f64 = 1e-6;
+const INTERMEDIATE_TOLERANCE: f64 = 1e-6;
 
 /// An equilibrium.
 #[derive(Clone, Debug)]
@@ -121,7 +121,7 @@ pub fn relax_from(
         }
         found => found,
     };
-    let found = found.and_then(|found| held_firmly(model, found, options, observe, &mut history));
+    let found = found.and_then(|found| relaxed_with_a_valid_gauge(model, found, options, observe, &mut history));
     let found = found.and_then(|found| {
         // a restarted equilibrium stays where it is
         let moved = !restarted || !history.is_empty() || found.history.iter().any(|step| step.fraction > 0.0);
@@ -152,7 +152,7 @@ pub fn relax_from(
 /// The equilibrium, once what holds the sheet against rigid motions does nothing else. It was chosen in the drawn state, and may hold
 /// a shape in another one, so that where the sheet then stays is no equilibrium: it is chosen again, and the sheet goes on from
 /// there.
-fn held_firmly(
+fn relaxed_with_a_valid_gauge(
     model: &mut Model,
     mut found: Equilibrium,
     options: Options,
@@ -160,11 +160,11 @@ fn held_firmly(
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
     for _ in 0..HOLDS {
-        if model.held_firmly(&found.x) {
+        if model.gauge_is_valid(&found.x) {
             break;
         }
         history.append(&mut found.history);
-        let x = model.hold_anew(model.coordinates(&found.x));
+        let x = model.rebase_gauge(model.coordinates(&found.x));
         found = minimize(model, Start { x, tension: Some(found.tension) }, options, observe)?;
     }
     Ok(found)
@@ -186,7 +186,8 @@ fn follow(
     let start = model.start_from(place.clone());
     let (targets, origin) = (model.rests(), model.values(&start));
     let (mut done, mut step) = (0.0, 0.25);
-    let loose = Options { tolerance: options.tolerance.max(LOOSE), iterations: options.iterations.min(50) };
+    let loose =
+        Options { tolerance: options.tolerance.max(INTERMEDIATE_TOLERANCE), iterations: options.iterations.min(50) };
     loop {
         let next = f64::min(done + step, 1.0);
         let angles = model.angles();
@@ -259,7 +260,7 @@ fn rigid_over_others(model: &Model, found: &Equilibrium) -> f64 {
 /// has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a state under
 /// torques has a residual that is no rounding error of theirs.
 fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64> {
-    if !model.held_firmly(&found.x) {
+    if !model.gauge_is_valid(&found.x) {
         return Some(f64::INFINITY);
     }
     let last = found.history.last()?;

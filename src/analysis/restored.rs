@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-13;
 const BALANCED: f64 = 1e-12;
 const EXACT: f64 = 1e-14;
 /// Scaled force up to which tensions are those of a state near an equilibrium, and help.
-const NEAR: f64 = 0.1;
+const NEARLY_BALANCED_FORCE: f64 = 0.1;
 
 /// What is known of the forces of a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +66,7 @@ pub fn start(model: &Model, x: Vec<f64>, mut tensions: Vec<f64>) -> Start {
         }
         (force, tensions) = (left, better);
     }
-    let helps = force <= NEAR && tensions.iter().any(|t| *t != 0.0);
+    let helps = force <= NEARLY_BALANCED_FORCE && tensions.iter().any(|t| *t != 0.0);
     Start { x, tension: helps.then_some(tensions) }
 }
 

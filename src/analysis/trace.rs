@@ -10,7 +10,7 @@ use crate::math::Vec3;
 use crate::model::{Assembly, Boundary};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
-use crate::solver::continuation::{Curve, End, Event, Options, Point, Trajectory, follow};
+use crate::solver::continuation::{Curve, CurveOptions, End, Event, Point, Trajectory, follow};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
@@ -109,7 +109,7 @@ pub enum TraceError {
         /// Found.
         count: usize,
     },
-    /// Folding leaves along infinitely many directions, none of which stands alone: there is no single trajectory to follow.
+    /// TracedClosure leaves along infinitely many directions, none of which stands alone: there is no single trajectory to follow.
     #[error(
         "folding leaves the drawn state along infinitely many directions: lock a crease to choose among them, or ask for a surface"
     )]
@@ -123,7 +123,7 @@ pub enum TraceError {
 }
 
 /// The closure of a sheet as a curve, with what is watched along it.
-struct Folding<'a, 'b> {
+struct TracedClosure<'a, 'b> {
     closing: Closing<'a>,
     embedding: &'a Embedding,
     periodic: bool,
@@ -142,7 +142,7 @@ struct Known {
     shape: Shape,
 }
 
-impl Folding<'_, '_> {
+impl TracedClosure<'_, '_> {
     /// Asks whether faces of the drawn state pass through each other.
     fn look_at_start(&mut self, x: Vec<f64>) {
         let start = Point { arc_length: 0.0, tangent: vec![0.0; x.len()], x, residual: 0.0, corrections: 0 };
@@ -199,7 +199,7 @@ impl Folding<'_, '_> {
     }
 }
 
-impl Implicit for Folding<'_, '_> {
+impl Implicit for TracedClosure<'_, '_> {
     fn unknowns(&self) -> usize {
         self.closing.unknowns()
     }
@@ -213,7 +213,7 @@ impl Implicit for Folding<'_, '_> {
     }
 }
 
-impl Curve for Folding<'_, '_> {
+impl Curve for TracedClosure<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         let state = self.folded(point);
         let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());
@@ -252,7 +252,7 @@ pub fn trace(
     let closing = Closing::new(&closure, assembly.drawn_angles_or_zero());
     let (known, stop) = (Vec::new(), options.stop);
     let crosses = false;
-    let mut folding = Folding { closing, embedding: &embedding, periodic, known, stop, intersects, crosses };
+    let mut folding = TracedClosure { closing, embedding: &embedding, periodic, known, stop, intersects, crosses };
     folding.look_at_start(folding.closing.folding(assembly.drawn_angles()));
     if folding.crosses && stop.self_intersection {
         return Err(TraceError::CrossesAlready);
@@ -272,7 +272,7 @@ pub fn trace(
 
 /// The trajectory along one ray.
 fn along(
-    folding: &mut Folding<'_, '_>,
+    folding: &mut TracedClosure<'_, '_>,
     (assembly, options): (&Assembly, &TraceOptions),
     (ray, all): (&Ray, &Rays),
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
@@ -283,13 +283,13 @@ fn along(
     let leaving = folding.closing.folding(&ray.direction);
     let mut stops = vec![CURVATURE, CREASE_ANGLE];
     stops.extend(options.stop.self_intersection.then_some(INTERSECTION));
-    let options = Options {
+    let options = CurveOptions {
         tolerance: options.tolerance,
         max_step: options.max_step,
         length: options.stop.arc_length.unwrap_or(f64::INFINITY),
         period: Some(TAU),
         stops,
-        ..Options::default()
+        ..CurveOptions::default()
     };
     folding.known.clear();
     let found = follow(folding, start, leaving, &options, &mut |point| observe(branch, point));

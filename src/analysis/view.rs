@@ -10,7 +10,7 @@ use std::collections::HashMap;
 ///
 /// Every edge and every triangle of the cells is there once. Those of a torus or a screw that reach beyond the last cell end at
 /// images, which are points like others and stand after the vertices of the cells; a patch has none.
-pub struct View {
+pub struct ShownCells {
     /// The cells shown, with their elements.
     pub patch: Tiling,
     /// Points at the corners of each triangle of the patch.
@@ -56,7 +56,7 @@ fn beside_a_triangle(ends: [Site; 2], sides: &[(usize, [i32; 2])]) -> [Site; 2] 
     ends.map(|site| Site { shift: [0, 1].map(|k| site.shift[k] + by[k]), ..site })
 }
 
-impl View {
+impl ShownCells {
     /// The view of the cells that pictures of an assembly show.
     pub fn new(assembly: &Assembly) -> Self {
         Self::of_cells(assembly.sheet(), assembly.tiling(), assembly.shown(), [0, 0])

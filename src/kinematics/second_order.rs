@@ -13,7 +13,7 @@ use crate::numerics::dense::{Svd, full_svd, null_space, rank_at_largest_gap, sym
 use crate::numerics::vector::max_abs;
 
 /// Largest closure residual of a state whose directions mean something.
-const CLOSED: f64 = 1e-9;
+const CLOSURE_RESIDUAL: f64 = 1e-9;
 
 /// Eigenvalues below this part of the largest are zero in a signature.
 const ZERO: f64 = 1e-9;
@@ -40,7 +40,7 @@ impl SecondOrder {
     /// Where `angles` has another length than the list of edges.
     pub fn new(closure: &Closure, angles: &[f64]) -> Result<Self, KinematicsError> {
         let residual = closure.residual(angles).amax();
-        let closed = closure.vertices().len() == 0 || residual <= CLOSED;
+        let closed = closure.vertices().len() == 0 || residual <= CLOSURE_RESIDUAL;
         if !closed {
             return Err(KinematicsError::NotClosed { residual });
         }

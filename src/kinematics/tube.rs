@@ -24,11 +24,11 @@ use crate::numerics::dense::{least_squares, null_space};
 use crate::numerics::{DenseMatrix, larger};
 use crate::sheet::Sheet;
 use crate::solver::Implicit;
-use crate::solver::continuation::{Curve, End, Options, Point, Trajectory, follow};
+use crate::solver::continuation::{Curve, CurveOptions, End, Point, Trajectory, follow};
 use std::f64::consts::TAU;
 
 /// Largest closure residual and defect of a tube.
-const CLOSED: f64 = 4e-15;
+const CLOSURE_RESIDUAL: f64 = 4e-15;
 /// Newton steps from the end of the rolling to a tube.
 const STEPS: usize = 10;
 /// Most points of a rolling that is still expected to end.
@@ -59,7 +59,7 @@ pub struct Tube<'a> {
 
 /// Rotation vector and chord of the seam, `W` and `l`.
 #[derive(Clone, Copy)]
-struct Seam {
+struct SeamMotion {
     turn: Vec3,
     chord: Vec3,
 }
@@ -85,7 +85,8 @@ impl<'a> Tube<'a> {
     /// # Panics
     /// Where `angles` has another length than the edges.
     pub fn defects(&self, angles: &[f64]) -> [f64; 2] {
-        let Seam { turn, chord } = self.seam_of(&Displacement::new(&self.embedding, angles, &self.still()).lattice).0;
+        let SeamMotion { turn, chord } =
+            self.seam_of(&Displacement::new(&self.embedding, angles, &self.still()).lattice).0;
         [turn.norm() - TAU, turn.dot(&chord) / (TAU * self.length)]
     }
 
@@ -127,7 +128,7 @@ impl<'a> Tube<'a> {
         let ray = folding_modes(self.sheet)?.named(tensor)?;
         let size = ray.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
         let ray = ray.iter().map(|rate| rate / size).collect();
-        let options = Options { steps: MOST_POINTS, period: Some(TAU), stops: vec![0], ..Options::default() };
+        let options = CurveOptions { steps: MOST_POINTS, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
         let start = self.embedding.drawn_angles().to_vec();
         let found = follow(&mut self.keeping(Condition::Rise), start, ray, &options, &mut |_| true);
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
@@ -147,13 +148,13 @@ impl<'a> Tube<'a> {
         let rise = (self.rates(tube).row(1) * &null)[0];
         let sign = if (rise > 0.0) == rising { 1.0 } else { -1.0 };
         let tangent = null.iter().map(|rate| sign * rate).collect();
-        let options = Options { length, ..Options::default() };
+        let options = CurveOptions { length, ..CurveOptions::default() };
         Ok(follow(&mut self.keeping(Condition::Turn), tube.to_vec(), tangent, &options, &mut |_| true))
     }
 
-    fn keeping(&self, kept: Condition) -> Kept<'_, 'a> {
+    fn keeping(&self, kept: Condition) -> TubeCurve<'_, 'a> {
         let closure = DenseMatrix::zeros(3 * self.closure.vertices().len(), self.embedding.edges());
-        Kept { tube: self, kept, closure }
+        TubeCurve { tube: self, kept, closure }
     }
 
     /// The curvature tensor `[k11, k22, k12]` of size 1 that bends along the seam and not across it.
@@ -173,7 +174,7 @@ impl<'a> Tube<'a> {
             let defects: Vec<f64> =
                 self.closure.residual(&angles).iter().copied().chain(self.defects(&angles)).collect();
             residual = defects.iter().fold(0.0, |most, defect| larger(most, defect.abs()));
-            if residual <= CLOSED {
+            if residual <= CLOSURE_RESIDUAL {
                 return Ok(angles);
             }
             let right = DenseMatrix::from_column_slice(defects.len(), 1, &defects);
@@ -188,26 +189,26 @@ impl<'a> Tube<'a> {
     }
 
     /// The seam and its rate, from the lattice motions.
-    fn seam_of(&self, lattice: &Option<[Moving; 2]>) -> (Seam, Seam) {
-        let zero = Seam { turn: Vec3::zeros(), chord: Vec3::zeros() };
+    fn seam_of(&self, lattice: &Option<[Moving; 2]>) -> (SeamMotion, SeamMotion) {
+        let zero = SeamMotion { turn: Vec3::zeros(), chord: Vec3::zeros() };
         let moving = lattice.iter().flatten().zip(self.seam);
         moving.fold((zero, zero), |(at, rate), (one, n)| {
             let (n, turn, chord) = (f64::from(n), rotation::log(&one.motion.rotation), one.motion.translation);
             let turning = rotation::inverse_left_jacobian(&turn) * one.twist.angular;
-            let at = Seam { turn: at.turn + n * turn, chord: at.chord + n * chord };
-            (at, Seam { turn: rate.turn + n * turning, chord: rate.chord + n * one.twist.at(&chord) })
+            let at = SeamMotion { turn: at.turn + n * turn, chord: at.chord + n * chord };
+            (at, SeamMotion { turn: rate.turn + n * turning, chord: rate.chord + n * one.twist.at(&chord) })
         })
     }
 }
 
 /// Screw-periodic sheets that keep one condition, as a curve; its indicator is the defect of the other one.
-struct Kept<'t, 'a> {
+struct TubeCurve<'t, 'a> {
     tube: &'t Tube<'a>,
     kept: Condition,
     closure: DenseMatrix,
 }
 
-impl Implicit for Kept<'_, '_> {
+impl Implicit for TubeCurve<'_, '_> {
     fn unknowns(&self) -> usize {
         self.tube.embedding.edges()
     }
@@ -225,7 +226,7 @@ impl Implicit for Kept<'_, '_> {
     }
 }
 
-impl Curve for Kept<'_, '_> {
+impl Curve for TubeCurve<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         out.push(self.tube.defects(&point.x)[1 - self.kept as usize]);
     }

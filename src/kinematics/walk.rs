@@ -77,7 +77,7 @@ impl FaceWalk {
         let disconnected = || KinematicsError::Disconnected { faces };
         let (root, start) = first_with_vertex_0(sheet).ok_or_else(disconnected)?;
         let seats = seats(sheet);
-        let mut plan = Plan { sheet, seats: &seats, cells: vec![None; faces], steps: Vec::new() };
+        let mut plan = WalkBuilder { sheet, seats: &seats, cells: vec![None; faces], steps: Vec::new() };
         plan.cells[root] = Some(start);
         plan.spread(root);
         let loops = plan.loops();
@@ -123,14 +123,14 @@ impl FaceWalk {
 }
 
 /// A plan in the making.
-struct Plan<'a> {
+struct WalkBuilder<'a> {
     sheet: &'a Sheet,
     seats: &'a [[Option<Seat>; 2]],
     cells: Vec<Option<[i32; 2]>>,
     steps: Vec<Crossing>,
 }
 
-impl Plan<'_> {
+impl WalkBuilder<'_> {
     /// Breadth first from a face to all that hang together with it.
     fn spread(&mut self, root: usize) {
         let mut doors = vec![Vec::new(); self.cells.len()];

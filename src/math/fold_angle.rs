@@ -86,7 +86,7 @@ impl Side {
 }
 
 /// Second derivatives of the fold angle by the wing of one side and by `e`, and this side's part of `ee`.
-struct Curvature {
+struct AngleHessian {
     ww: Matrix3<f64>,
     we: Matrix3<f64>,
     ee: Matrix3<f64>,
@@ -122,12 +122,12 @@ impl Hinge {
 
     /// Second derivatives on the left side, `turn = 1`, or on the right one, `turn = -1`.
     #[inline(always)]
-    fn curvature(&self, side: &Side, turn: f64) -> Curvature {
+    fn curvature(&self, side: &Side, turn: f64) -> AngleHessian {
         let Side { wing, inverse, foot, .. } = side;
         let (e, turned) = (&self.e, turn * self.length);
         let along = e / self.length + 2.0 * turned * inverse.cross(wing);
         let sliding = (wing - 2.0 * *foot * e) / self.length;
-        Curvature {
+        AngleHessian {
             ww: symmetric(inverse, &(turned * e.cross(inverse))),
             we: inverse * along.transpose() - turned * inverse.norm_squared() * wing.cross_matrix(),
             ee: -0.5 * symmetric(inverse, &(sliding + *foot * along)),

@@ -23,7 +23,7 @@ use crate::math::Vec3;
 use crate::math::taylor::{Path, Taylor};
 use nalgebra::{Complex, Matrix3, SMatrix, SVector};
 use recentre::{raise_axis, turn_back, unwind};
-use screw::Screw;
+use screw::ScrewMotion;
 
 pub use crate::sheet::tiling::Site;
 
@@ -112,7 +112,7 @@ impl Domain {
             Self::FreeTorus => {
                 v + n1 * Vec3::from_column_slice(&shared[..3]) + n2 * Vec3::from_column_slice(&shared[3..])
             }
-            Self::Screw => Screw::new(shared, site).at(&v).point(),
+            Self::Screw => ScrewMotion::new(shared, site).at(&v).point(),
         }
     }
 
@@ -127,7 +127,7 @@ impl Domain {
                 }
             }
             Self::Screw => {
-                let screw = Screw::new(self.shared_of(x), site);
+                let screw = ScrewMotion::new(self.shared_of(x), site);
                 let at = screw.at(&vertex(x, site));
                 vertex_part = at.vertex_derivative();
                 shared_part = at.shared_derivative();
@@ -199,7 +199,12 @@ impl Domain {
         if matches!(self, Self::Screw) {
             for (k, &site) in sites.iter().enumerate() {
                 let force = g.fixed_rows::<3>(3 * k).into_owned();
-                Screw::new(self.shared_of(x), site).at(&vertex(x, site)).add_curvature(&force, 3 * k, D, &mut pulled);
+                ScrewMotion::new(self.shared_of(x), site).at(&vertex(x, site)).add_curvature(
+                    &force,
+                    3 * k,
+                    D,
+                    &mut pulled,
+                );
             }
         }
         lower.clear();

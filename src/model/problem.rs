@@ -25,7 +25,7 @@ pub(super) const RIGHT_WING: Range<u32> = 9..12;
 /// Rigid motions that the held coordinates cannot tell apart, against the largest one.
 const DEPENDENT: f64 = 1e-9;
 /// Separation of the rigid motions, over that of a new choice, below which what is held may hold a shape too.
-const FIRM: f64 = 1e-3;
+const LEAST_SEPARATION_RATIO: f64 = 1e-3;
 
 /// Bars and hinges of a sheet, with what is held and what pulls.
 pub struct Model {
@@ -134,18 +134,18 @@ impl Model {
 
     /// Whether what is held takes away the rigid motions of this state nearly as well as what would be chosen in it. Where it does
     /// not, it may hold a shape, and what looks like an equilibrium is none.
-    pub fn held_firmly(&self, x: &[f64]) -> bool {
+    pub fn gauge_is_valid(&self, x: &[f64]) -> bool {
         if self.gauge == Gauge::Free {
             return true;
         }
         let motions = gauge::rigid_motions(&self.domain, &self.coordinates(x), self.loads.is_empty());
         let separation = |held: &[bool]| gauge::separation(&motions, held);
-        separation(&self.held()) >= FIRM * separation(&self.chosen(&motions))
+        separation(&self.held()) >= LEAST_SEPARATION_RATIO * separation(&self.chosen(&motions))
     }
 
     /// Puts another state in the place of the drawn one, and chooses in it what is held against rigid motions. Returns its unknowns:
     /// others than before.
-    pub fn hold_anew(&mut self, coordinates: Vec<f64>) -> Vec<f64> {
+    pub fn rebase_gauge(&mut self, coordinates: Vec<f64>) -> Vec<f64> {
         self.base = coordinates;
         self.choose_unknowns();
         let mut x = self.start();

@@ -4,7 +4,7 @@
 //! Small matrices go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia: the signs
 //! of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
 
-use super::sparse::{Cliques, Pattern};
+use super::sparse::{Cliques, SparsityPattern};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::lblt;
@@ -99,7 +99,7 @@ impl Factor {
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
-    pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
+    pub fn new(pattern: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         Self::of(&Symbolic::new(pattern, node, cliques)?)
     }
 
@@ -119,7 +119,7 @@ impl Factor {
     ///
     /// # Errors
     /// [`FactorError::NotFinite`] and [`FactorError::Singular`].
-    pub fn factor(&mut self, pattern: &Pattern, values: &[f64]) -> Result<Inertia, FactorError> {
+    pub fn factor(&mut self, pattern: &SparsityPattern, values: &[f64]) -> Result<Inertia, FactorError> {
         if values.iter().any(|v| !v.is_finite()) {
             return Err(FactorError::NotFinite);
         }
@@ -158,7 +158,7 @@ impl Symbolic {
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
-    pub fn new(pattern: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
+    pub fn new(pattern: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         if pattern.size() <= DENSE_LIMIT {
             return Ok(Self { size: pattern.size(), sparse: None });
         }
@@ -173,7 +173,7 @@ impl Symbolic {
 
     /// Analyses a pattern whose unknowns are numbered in the order of elimination: nothing is put in order at a
     /// factorization.
-    pub(super) fn in_order(pattern: &Pattern) -> Result<Self, FactorError> {
+    pub(super) fn in_order(pattern: &SparsityPattern) -> Result<Self, FactorError> {
         let size = pattern.size();
         if size <= DENSE_LIMIT {
             return Ok(Self { size, sparse: None });
@@ -210,7 +210,7 @@ impl Sparse {
         Ok(Self { values: vec![0.0; symbolic.len_val()], symbolic, memory })
     }
 
-    fn factor(&mut self, pattern: &Pattern, values: &[f64]) -> Result<Inertia, FactorError> {
+    fn factor(&mut self, pattern: &SparsityPattern, values: &[f64]) -> Result<Inertia, FactorError> {
         let matrix = pattern.with_values(values);
         let stack = MemStack::new(&mut self.memory);
         self.symbolic
@@ -262,7 +262,7 @@ struct Dense {
 }
 
 impl Dense {
-    fn new(pattern: &Pattern, values: &[f64]) -> (Self, Inertia) {
+    fn new(pattern: &SparsityPattern, values: &[f64]) -> (Self, Inertia) {
         let n = pattern.size();
         let dense = pattern.to_dense(values);
         let mut lower = Mat::zeros(n, n);

@@ -22,13 +22,13 @@
 //!
 //! ```
 //! use foldwell::numerics::factor::{Factor, FactorError};
-//! use foldwell::numerics::sparse::{Cliques, FIXED, Pattern, RankOne, Slots};
+//! use foldwell::numerics::sparse::{Cliques, FIXED, SparsityPattern, RankOne, Slots};
 //!
 //! # fn main() -> Result<(), FactorError> {
 //! let mut springs = Cliques::new();
 //! springs.push([FIXED, 0]);
 //! springs.push([0, 1]);
-//! let pattern = Pattern::new(2, &[&springs]);
+//! let pattern = SparsityPattern::new(2, &[&springs]);
 //! let slots = Slots::new(&pattern, &springs);
 //! let mut values = vec![0.0; pattern.entries()];
 //! for (spring, weight) in [1.0, 2.0].into_iter().enumerate() {

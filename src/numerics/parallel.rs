@@ -86,14 +86,14 @@ impl Drop for Restore {
 }
 
 /// Where a loop runs.
-enum Place {
+enum Executor {
     CallingThread,
     /// The rayon pool to which the calling thread belongs.
     CurrentPool,
     Pool(Threads),
 }
 
-impl Place {
+impl Executor {
     /// The place for a loop; `worthwhile`: whether it is large enough to be shared out.
     fn of_loop(worthwhile: bool) -> Self {
         if !worthwhile {
@@ -126,8 +126,8 @@ pub fn compute_and_consume<T: Default + Send>(
     compute: impl Fn(usize, &mut T) + Sync + Send,
     mut consume: impl FnMut(usize, &T),
 ) {
-    let place = Place::of_loop(count >= FEWEST_SHARED_ELEMENTS);
-    if let Place::CallingThread = place {
+    let place = Executor::of_loop(count >= FEWEST_SHARED_ELEMENTS);
+    if let Executor::CallingThread = place {
         let mut result = T::default();
         for k in 0..count {
             compute(k, &mut result);
@@ -155,7 +155,7 @@ pub fn map_with_state<S, T: Send>(
     compute: impl Fn(&mut S, usize) -> T + Sync + Send,
 ) -> Vec<T> {
     let pieces = || (0..count).into_par_iter().with_min_len(PIECES_PER_STATE);
-    let shared = Place::of_loop(count > 1).share(|| pieces().map_init(&make_state, &compute).collect());
+    let shared = Executor::of_loop(count > 1).share(|| pieces().map_init(&make_state, &compute).collect());
     shared.unwrap_or_else(|| {
         let mut state = make_state();
         (0..count).map(|k| compute(&mut state, k)).collect()

@@ -5,7 +5,7 @@
 //! and an `L D L^T` factorization counts them.
 
 use super::factor::{Factor, FactorError};
-use super::sparse::{Cliques, Pattern, RankOne, Rows, Slots};
+use super::sparse::{Cliques, RankOne, Rows, Slots, SparsityPattern};
 use super::vector::max_abs;
 
 /// Number of singular values of `rows` (a matrix of `columns` columns) above `tau` times the largest entry. `node`
@@ -22,7 +22,7 @@ pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> R
     }
     let blocks = node.iter().max().map_or(0, |last| last + 1);
     let node: Vec<u32> = node.iter().copied().chain((0..count as u32).map(|row| blocks + row)).collect();
-    let pattern = Pattern::new(size, &[&cliques]);
+    let pattern = SparsityPattern::new(size, &[&cliques]);
     let slots = Slots::new(&pattern, &cliques);
     let scale = max_abs(rows.values);
     if scale == 0.0 {
@@ -56,7 +56,7 @@ const SLOWEST_CONTRACTION: f64 = 0.9;
 /// # Errors
 /// [`FactorError`] where the regularised matrix cannot be factored.
 pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) -> Result<Vec<f64>, FactorError> {
-    let pattern = Pattern::new(columns, &[rows.cliques]);
+    let pattern = SparsityPattern::new(columns, &[rows.cliques]);
     let slots = Slots::new(&pattern, rows.cliques);
     let mut values = vec![0.0; pattern.entries()];
     for row in 0..rows.cliques.len() {

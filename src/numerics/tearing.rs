@@ -19,7 +19,7 @@
 
 use super::factor::{DENSE_LIMIT, Factor, FactorError, Inertia, Symbolic};
 use super::order;
-use super::sparse::{Cliques, FIXED, Pattern, RankOne, Slots};
+use super::sparse::{Cliques, FIXED, RankOne, Slots, SparsityPattern};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -35,8 +35,8 @@ pub struct Tearing {
     torn: Vec<Torn>,
     /// Number of every unknown of the whole matrix in the torn one, which is in the order of elimination.
     numbers: Vec<u32>,
-    /// Pattern of the torn matrix.
-    pattern: Pattern,
+    /// SparsityPattern of the torn matrix.
+    pattern: SparsityPattern,
     /// Where the entries of the whole matrix stand in the torn one.
     places: Vec<u32>,
     /// Where the members of every torn clique, and then its own unknown, stand in the torn matrix.
@@ -67,7 +67,7 @@ impl Tearing {
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
-    pub fn new(whole: &Pattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
+    pub fn new(whole: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         if whole.size() <= DENSE_LIMIT {
             let as_they_are = Numbers { open: vec![], whole: (0..whole.size() as u32).collect() };
             return Self::torn(whole, node, cliques, vec![], as_they_are);
@@ -83,7 +83,7 @@ impl Tearing {
 
     /// The analysis with these cliques open and the unknowns in this order.
     fn torn(
-        whole: &Pattern,
+        whole: &SparsityPattern,
         node: &[u32],
         cliques: &[&Cliques],
         torn: Vec<(usize, usize)>,
@@ -136,7 +136,7 @@ impl TornFactor {
     /// As [`Factor::factor`].
     pub fn factor<'a>(
         &mut self,
-        whole: &Pattern,
+        whole: &SparsityPattern,
         values: &[f64],
         outer: impl Fn(usize, usize) -> RankOne<'a>,
     ) -> Result<Inertia, FactorError> {

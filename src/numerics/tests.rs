@@ -3,7 +3,7 @@
 use super::DenseMatrix;
 use super::dense::{full_svd, singular_values, symmetric_eigenvalues};
 use super::factor::{DENSE_LIMIT, Factor, FactorError};
-use super::sparse::{Cliques, ElementBlock, FIXED, Pattern, RankOne, Rows, Slots, symmetric_product};
+use super::sparse::{Cliques, ElementBlock, FIXED, RankOne, Rows, Slots, SparsityPattern, symmetric_product};
 use super::tearing::{Tearing, TornFactor};
 use super::{eigen, parallel, rank};
 use rand::{RngExt, SeedableRng};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// A symmetric matrix of random cliques, with an unknown twice in some and fixed members in others.
 struct Sample {
-    pattern: Pattern,
+    pattern: SparsityPattern,
     cliques: Cliques,
     values: Vec<f64>,
     dense: DenseMatrix,
@@ -29,7 +29,7 @@ fn sample(size: usize, seed: u64, diagonal: f64) -> Sample {
         }
         cliques.push(members);
     }
-    let pattern = Pattern::new(size, &[&cliques]);
+    let pattern = SparsityPattern::new(size, &[&cliques]);
     let slots = Slots::new(&pattern, &cliques);
     let (mut values, mut dense) = (vec![0.0; pattern.entries()], DenseMatrix::identity(size, size) * diagonal);
     pattern.add_to_diagonal(&mut values, diagonal);
@@ -93,7 +93,7 @@ const RIGHT: std::ops::Range<u32> = 9..12;
 /// Hinges on all inner edges of a triangulated grid of vertices, a sheet or a tube, with random blocks that leave the
 /// wings of a hinge uncoupled and random outer products besides, some of weight zero.
 struct Hinges {
-    pattern: Pattern,
+    pattern: SparsityPattern,
     node: Vec<u32>,
     cliques: Cliques,
     weights: Vec<f64>,
@@ -132,7 +132,7 @@ fn hinges(width: u32, height: u32, tube: bool, seed: u64, diagonal: f64) -> Hing
         cliques.push_split(members.chain([3 * vertices - 3]), LEFT, RIGHT);
     }
     let node: Vec<u32> = (0..3 * vertices - 2).map(|k| k / 3).collect();
-    let pattern = Pattern::new(node.len(), &[&cliques]);
+    let pattern = SparsityPattern::new(node.len(), &[&cliques]);
     let slots = Slots::new(&pattern, &cliques);
     let mut values = vec![0.0; pattern.entries()];
     pattern.add_to_diagonal(&mut values, diagonal);

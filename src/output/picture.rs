@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::analysis::state::State;
-use crate::analysis::view::View;
+use crate::analysis::view::ShownCells;
 use crate::math::Vec3;
 use crate::model::{Assembly, Drawn};
 use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
@@ -78,11 +78,11 @@ pub enum ShapeError {
 impl Picture {
     /// A state of an assembly on the cells that pictures of it show.
     pub fn new(assembly: &Assembly, state: &State) -> Self {
-        Self::of_state(&View::new(assembly), assembly.drawn(), state)
+        Self::of_state(&ShownCells::new(assembly), assembly.drawn(), state)
     }
 
     /// A state on the cells of a view.
-    pub fn of_state(view: &View, drawn: &Drawn, state: &State) -> Self {
+    pub fn of_state(view: &ShownCells, drawn: &Drawn, state: &State) -> Self {
         let on_lines = |values: &[f64]| view.edges.iter().map(|&edge| values[edge]).collect();
         let points = view.positions(drawn, &state.coordinates);
         let start = view.positions(drawn, &drawn.coordinates);

@@ -14,7 +14,7 @@ use crate::output::summary::StudySummary;
 use crate::output::table::read_columns;
 use crate::output::{OutputError, files};
 use crate::scene::SceneFile;
-use crate::scene::forms::Start;
+use crate::scene::forms::StartSpec;
 use crate::scene::spec::{BlochSpec, RelaxSpec, StudyKind, StudySpec};
 use crate::study::SavedState;
 use serde::Deserialize;
@@ -66,7 +66,7 @@ impl PreviousRun {
 pub fn is_start(file: &SceneFile, name: &str) -> bool {
     file.scene.studies.iter().any(|study| match &*study.kind {
         StudyKind::Relax(RelaxSpec { start, .. }) | StudyKind::Bloch(BlochSpec { start, .. }) => {
-            matches!(start.as_deref(), Some(Start::Study(start)) if start == name)
+            matches!(start.as_deref(), Some(StartSpec::Study(start)) if start == name)
         }
         _ => false,
     })

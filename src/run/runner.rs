@@ -4,7 +4,7 @@ use super::belongings::Belongings;
 use super::ledger::{INTERRUPTED, Ledger};
 use super::resume::{self, PreviousRun};
 use super::{RunError, RunOptions, RunReport, inputs};
-use crate::analysis::view::View;
+use crate::analysis::view::ShownCells;
 use crate::model::Assembly;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
 use crate::output::table::{Table, read_columns};
@@ -13,7 +13,7 @@ use crate::scene::build::notes;
 use crate::scene::spec::StudySpec;
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
-use crate::study::{self, Answer, Checkpoints, Context, Earlier, Observer, SavedState};
+use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers, SavedState};
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -24,11 +24,11 @@ use std::time::Instant;
 pub struct Runner<'a> {
     file: &'a SceneFile,
     assembly: &'a Assembly,
-    view: View,
+    view: ShownCells,
     /// Where files go.
     out: PathBuf,
     resumed: bool,
-    earlier: Earlier,
+    earlier: PreviousAnswers,
     kept: Vec<String>,
     /// Places of studies in the scene.
     order: HashMap<&'a str, usize>,
@@ -54,13 +54,13 @@ impl<'a> Runner<'a> {
     ) -> Result<Self, RunError> {
         let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
         let out = options.out.clone().unwrap_or_else(stem);
-        let view = View::new(assembly);
+        let view = ShownCells::new(assembly);
         let mut runner = Self {
             file,
             assembly,
             view,
             resumed: false,
-            earlier: Earlier::default(),
+            earlier: PreviousAnswers::default(),
             kept: Vec::new(),
             order: file.scene.studies.iter().enumerate().map(|(k, study)| (study.name.0.as_str(), k)).collect(),
             belongings: Belongings::new(file, &out),

@@ -2,8 +2,8 @@
 
 use super::angles::{AngleRow, read_angles, read_rates};
 use super::error::TableFault;
-use super::forms::{Mode, ModeRest, RatesFile, Rest};
-use super::spec::{Domain, Lattice};
+use super::forms::{Mode, ModeRest, RatesFile, RestSpec};
+use super::spec::{DomainSpec, Lattice};
 use super::values::{CellIndex, EdgeName};
 use super::{Located, SceneError, SceneFile};
 use crate::kinematics::folding_modes_with_locked;
@@ -59,10 +59,10 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
 fn boundary(file: &SceneFile, sheet: &Sheet) -> Result<Boundary, SceneError> {
     let spec = &file.scene.sheet;
     let periodic = match spec.domain() {
-        Domain::Patch => return Ok(Boundary::Patch),
-        Domain::Torus if spec.lattice() == Lattice::Fixed => Boundary::FixedTorus,
-        Domain::Torus => Boundary::FreeTorus,
-        Domain::Screw => Boundary::Screw,
+        DomainSpec::Patch => return Ok(Boundary::Patch),
+        DomainSpec::Torus if spec.lattice() == Lattice::Fixed => Boundary::FixedTorus,
+        DomainSpec::Torus => Boundary::FreeTorus,
+        DomainSpec::Screw => Boundary::Screw,
     };
     if sheet.lattice.is_some() {
         return Ok(periodic);
@@ -126,14 +126,14 @@ impl<'a> Reader<'a> {
     }
 
     /// Rest angle of every edge of the tiling.
-    fn rest(&self, rest: Option<&Located<Rest>>) -> Result<Vec<f64>, SceneError> {
+    fn rest(&self, rest: Option<&Located<RestSpec>>) -> Result<Vec<f64>, SceneError> {
         let Some(rest) = rest else { return Ok(self.angles.to_vec()) };
         match &**rest {
-            Rest::Drawn => Ok(self.angles.to_vec()),
-            Rest::Flat => Ok(vec![0.0; self.angles.len()]),
-            Rest::Angle(angle) => Ok(vec![*angle; self.angles.len()]),
-            Rest::Mode(mode) => self.along_mode(mode),
-            Rest::File(name) => {
+            RestSpec::Drawn => Ok(self.angles.to_vec()),
+            RestSpec::Flat => Ok(vec![0.0; self.angles.len()]),
+            RestSpec::Angle(angle) => Ok(vec![*angle; self.angles.len()]),
+            RestSpec::Mode(mode) => self.along_mode(mode),
+            RestSpec::File(name) => {
                 let path = self.file.resolve(&name.file);
                 let rows = read_angles(&path)?;
                 self.table(&path, &rows, &[EdgeKind::Crease], name.file.span())

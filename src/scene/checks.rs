@@ -4,9 +4,9 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::ops::Range;
 
-use super::forms::Start;
+use super::forms::StartSpec;
 use super::outputs::outputs;
-use super::spec::{BlochSpec, Domain, LandscapeSpec, RelaxSpec, StopSpec, StudyKind, StudySpec, WellsSpec};
+use super::spec::{BlochSpec, DomainSpec, LandscapeSpec, RelaxSpec, StopSpec, StudyKind, StudySpec, WellsSpec};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
 
@@ -37,7 +37,7 @@ fn sheet(file: &SceneFile) -> Checked {
         _ => {}
     }
     match &sheet.lattice {
-        Some(lattice) if sheet.domain() != Domain::Torus => {
+        Some(lattice) if sheet.domain() != DomainSpec::Torus => {
             let help = "it belongs to domain = \"torus\"; leave it out otherwise";
             Err(file.error_at(lattice.span(), format!("`lattice` is given for a {}", domain_name(file)), help))
         }
@@ -53,9 +53,9 @@ fn sheet_header(file: &SceneFile) -> Range<usize> {
 
 fn domain_name(file: &SceneFile) -> &'static str {
     match file.scene.sheet.domain() {
-        Domain::Screw => "screw domain",
-        Domain::Patch => "patch",
-        Domain::Torus => "torus",
+        DomainSpec::Screw => "screw domain",
+        DomainSpec::Patch => "patch",
+        DomainSpec::Torus => "torus",
     }
 }
 
@@ -105,7 +105,7 @@ fn places(file: &SceneFile) -> Checked {
 
 fn place(file: &SceneFile, what: &str, span: Range<usize>, cell: Option<&Located<CellIndex>>) -> Checked {
     let sheet = &file.scene.sheet;
-    if sheet.domain() != Domain::Patch {
+    if sheet.domain() != DomainSpec::Patch {
         let help = "loads and pins need domain = \"patch\"";
         return Err(file.error_at(span, format!("{what} on a {}", domain_name(file)), help));
     }
@@ -163,8 +163,8 @@ fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {
     }
 }
 
-fn earlier_study(file: &SceneFile, start: &Located<Start>, earlier: &[StudySpec]) -> Checked {
-    let Start::Study(name) = &**start else { return Ok(()) };
+fn earlier_study(file: &SceneFile, start: &Located<StartSpec>, earlier: &[StudySpec]) -> Checked {
+    let StartSpec::Study(name) = &**start else { return Ok(()) };
     let with_states: Vec<_> = earlier.iter().filter(|study| has_states(&study.kind)).collect();
     if with_states.iter().any(|study| study.name.0 == *name) {
         return Ok(());

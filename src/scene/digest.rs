@@ -4,7 +4,7 @@ use std::fmt;
 use std::fs;
 use std::path::PathBuf;
 
-use super::forms::{Mode, Rest, Start};
+use super::forms::{Mode, RestSpec, StartSpec};
 use super::spec::StudyKind;
 use super::{SceneError, SceneFile};
 
@@ -59,14 +59,14 @@ pub fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     };
     let mut found: Vec<PathBuf> = scene.sheet.mesh.iter().map(|mesh| mesh.to_path_buf()).collect();
     match scene.energy.creases.as_ref().and_then(|creases| creases.rest.as_deref()) {
-        Some(Rest::File(name)) => found.push(name.file.to_path_buf()),
-        Some(Rest::Mode(mode)) => found.extend(rates(&mode.mode)),
+        Some(RestSpec::File(name)) => found.push(name.file.to_path_buf()),
+        Some(RestSpec::Mode(mode)) => found.extend(rates(&mode.mode)),
         _ => {}
     }
     for study in &scene.studies {
         match &*study.kind {
             StudyKind::Relax(spec) => {
-                if let Some(Start::File(path)) = spec.start.as_deref() {
+                if let Some(StartSpec::File(path)) = spec.start.as_deref() {
                     found.push(path.clone());
                 }
             }

@@ -85,11 +85,11 @@ fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String
 }
 
 /// Characters of a line, and of a message, that are printed whole.
-const LONGEST: usize = 400;
+const LONGEST_PRINTED_LINE: usize = 400;
 
 /// A message that quotes no more than can be read.
 fn cut(message: &str) -> String {
-    match message.char_indices().nth(LONGEST) {
+    match message.char_indices().nth(LONGEST_PRINTED_LINE) {
         Some((end, _)) => format!("{}...", &message[..end]),
         None => message.to_owned(),
     }
@@ -98,7 +98,7 @@ fn cut(message: &str) -> String {
 /// The text to show for a place: the text itself, or, where the line of the place or a neighbour is very long, the text with
 /// long lines cut around the place.
 fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSource<String>>, Range<usize>) {
-    if text.inner().lines().all(|line| line.len() <= LONGEST) {
+    if text.inner().lines().all(|line| line.len() <= LONGEST_PRINTED_LINE) {
         return (text.clone(), span);
     }
     let (mut short, mut offset, mut moved) = (String::new(), 0, 0..0);
@@ -106,8 +106,12 @@ fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSou
         let here = offset..offset + line.len();
         let inside = here.contains(&span.start) || (span.start == here.end && here.end == text.inner().len());
         let place = if inside { span.start - here.start } else { 0 };
-        let from = if line.len() > LONGEST { floor(line, place.saturating_sub(LONGEST / 4)) } else { 0 };
-        let to = if line.len() > LONGEST { floor(line, from + LONGEST) } else { line.len() };
+        let from = if line.len() > LONGEST_PRINTED_LINE {
+            floor(line, place.saturating_sub(LONGEST_PRINTED_LINE / 4))
+        } else {
+            0
+        };
+        let to = if line.len() > LONGEST_PRINTED_LINE { floor(line, from + LONGEST_PRINTED_LINE) } else { line.len() };
         if inside {
             let start = short.len() + place - from;
             let room = (short.len() + to - from).saturating_sub(start);

@@ -14,7 +14,7 @@ use super::values::{Finite, Positive, Triple};
 
 /// Rest angles of creases.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Rest {
+pub enum RestSpec {
     /// The drawn fold angles.
     Drawn,
     /// Zero.
@@ -82,7 +82,7 @@ struct ModeTable {
 
 /// The state from which a relaxation starts.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Start {
+pub enum StartSpec {
     /// As drawn.
     #[default]
     Drawn,
@@ -114,42 +114,42 @@ pub enum BranchChoice {
     Number(usize),
 }
 
-impl<'de> Deserialize<'de> for Rest {
+impl<'de> Deserialize<'de> for RestSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Form;
-        impl<'de> Visitor<'de> for Form {
-            type Value = Rest;
+        struct RestForm;
+        impl<'de> Visitor<'de> for RestForm {
+            type Value = RestSpec;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
                 f.write_str("\"drawn\", \"flat\", an angle, { mode = [k11, k22, k12], amplitude = e } ")?;
                 f.write_str("or { file = \"angles.csv\" }")
             }
 
-            fn visit_str<E: Error>(self, word: &str) -> Result<Rest, E> {
+            fn visit_str<E: Error>(self, word: &str) -> Result<RestSpec, E> {
                 match word {
-                    "drawn" => Ok(Rest::Drawn),
-                    "flat" => Ok(Rest::Flat),
+                    "drawn" => Ok(RestSpec::Drawn),
+                    "flat" => Ok(RestSpec::Flat),
                     _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
                 }
             }
 
-            fn visit_f64<E: Error>(self, angle: f64) -> Result<Rest, E> {
-                Finite::try_from(angle).map(|angle| Rest::Angle(angle.0)).map_err(E::custom)
+            fn visit_f64<E: Error>(self, angle: f64) -> Result<RestSpec, E> {
+                Finite::try_from(angle).map(|angle| RestSpec::Angle(angle.0)).map_err(E::custom)
             }
 
-            fn visit_i64<E: Error>(self, angle: i64) -> Result<Rest, E> {
-                Ok(Rest::Angle(angle as f64))
+            fn visit_i64<E: Error>(self, angle: i64) -> Result<RestSpec, E> {
+                Ok(RestSpec::Angle(angle as f64))
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Rest, A::Error> {
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RestSpec, A::Error> {
                 RestTable::deserialize(MapAccessDeserializer::new(map))?.into_rest().map_err(A::Error::custom)
             }
         }
-        deserializer.deserialize_any(Form)
+        deserializer.deserialize_any(RestForm)
     }
 }
 
-/// The two tables of [`Rest`] in one, to see which of them was meant.
+/// The two tables of [`RestSpec`] in one, to see which of them was meant.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RestTable {
@@ -159,10 +159,10 @@ struct RestTable {
 }
 
 impl RestTable {
-    fn into_rest(self) -> Result<Rest, &'static str> {
+    fn into_rest(self) -> Result<RestSpec, &'static str> {
         match (self.mode, self.amplitude, self.file) {
-            (Some(mode), Some(amplitude), None) => Ok(Rest::Mode(ModeRest { mode, amplitude })),
-            (None, None, Some(file)) => Ok(Rest::File(FileName { file })),
+            (Some(mode), Some(amplitude), None) => Ok(RestSpec::Mode(ModeRest { mode, amplitude })),
+            (None, None, Some(file)) => Ok(RestSpec::File(FileName { file })),
             (Some(_), None, None) => Err("`amplitude` is missing, expected { mode = [k11, k22, k12], amplitude = e }"),
             (None, Some(_), None) => Err("`mode` is missing, expected { mode = [k11, k22, k12], amplitude = e }"),
             (None, None, None) => Err("the table is empty, expected { mode, amplitude } or { file }"),
@@ -173,8 +173,8 @@ impl RestTable {
 
 impl<'de> Deserialize<'de> for Mode {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Form;
-        impl<'de> Visitor<'de> for Form {
+        struct ModeForm;
+        impl<'de> Visitor<'de> for ModeForm {
             type Value = Mode;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -200,40 +200,40 @@ impl<'de> Deserialize<'de> for Mode {
                 }
             }
         }
-        deserializer.deserialize_any(Form)
+        deserializer.deserialize_any(ModeForm)
     }
 }
 
-impl<'de> Deserialize<'de> for Start {
+impl<'de> Deserialize<'de> for StartSpec {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Form;
-        impl<'de> Visitor<'de> for Form {
-            type Value = Start;
+        struct StartForm;
+        impl<'de> Visitor<'de> for StartForm {
+            type Value = StartSpec;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
                 f.write_str("\"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file")
             }
 
-            fn visit_str<E: Error>(self, word: &str) -> Result<Start, E> {
+            fn visit_str<E: Error>(self, word: &str) -> Result<StartSpec, E> {
                 Ok(match word {
-                    "drawn" => Start::Drawn,
-                    file if file.ends_with(".vtu") => Start::File(file.into()),
-                    name => Start::Study(name.into()),
+                    "drawn" => StartSpec::Drawn,
+                    file if file.ends_with(".vtu") => StartSpec::File(file.into()),
+                    name => StartSpec::Study(name.into()),
                 })
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Start, A::Error> {
-                RandomStart::deserialize(MapAccessDeserializer::new(map)).map(Start::Random)
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<StartSpec, A::Error> {
+                RandomStart::deserialize(MapAccessDeserializer::new(map)).map(StartSpec::Random)
             }
         }
-        deserializer.deserialize_any(Form)
+        deserializer.deserialize_any(StartForm)
     }
 }
 
 impl<'de> Deserialize<'de> for BranchChoice {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Form;
-        impl Visitor<'_> for Form {
+        struct BranchForm;
+        impl Visitor<'_> for BranchForm {
             type Value = BranchChoice;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -250,16 +250,16 @@ impl<'de> Deserialize<'de> for BranchChoice {
                 Ok(BranchChoice::Number(number))
             }
         }
-        deserializer.deserialize_any(Form)
+        deserializer.deserialize_any(BranchForm)
     }
 }
 
 /// Gives a type the schema "any of these", next to the visitor that reads them.
 macro_rules! schema_any_of {
-    ($type:ident, $generator:ident, $forms:tt) => {
+    ($type:ident as $name:literal, $generator:ident, $forms:tt) => {
         impl JsonSchema for $type {
             fn schema_name() -> Cow<'static, str> {
-                stringify!($type).into()
+                $name.into()
             }
 
             fn json_schema($generator: &mut SchemaGenerator) -> Schema {
@@ -269,19 +269,19 @@ macro_rules! schema_any_of {
     };
 }
 
-schema_any_of!(Rest, generator, [
+schema_any_of!(RestSpec as "Rest", generator, [
     { "enum": ["drawn", "flat"] },
     { "type": "number", "description": "one angle for all creases, in radians" },
     generator.subschema_for::<ModeRest>(),
     generator.subschema_for::<FileName>(),
 ]);
 schema_any_of!(
-    Mode,
+    Mode as "Mode",
     generator,
     [generator.subschema_for::<[f64; 3]>(), generator.subschema_for::<RatesFile>(), generator.subschema_for::<Wave>(),]
 );
-schema_any_of!(Start, generator, [
+schema_any_of!(StartSpec as "Start", generator, [
     { "type": "string", "description": "\"drawn\", the name of an earlier study, or a .vtu file" },
     generator.subschema_for::<RandomStart>(),
 ]);
-schema_any_of!(BranchChoice, _generator, [{ "const": "all" }, { "type": "integer", "minimum": 0 }]);
+schema_any_of!(BranchChoice as "BranchChoice", _generator, [{ "const": "all" }, { "type": "integer", "minimum": 0 }]);

@@ -7,7 +7,7 @@
 mod study;
 
 use super::Located;
-use super::forms::Rest;
+use super::forms::RestSpec;
 use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Stiffness, Triple};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -51,7 +51,7 @@ pub struct SheetSpec {
     #[schemars(with = "Option<std::collections::BTreeMap<String, serde_json::Value>>")]
     pub generate: Option<Located<toml::Table>>,
     /// Boundary conditions; left out: `patch`.
-    pub domain: Option<Located<Domain>>,
+    pub domain: Option<Located<DomainSpec>>,
     /// Patch and torus: cells of the model, [1, 1] when left out. Screw: cells of the pictures, [6, 6] when left out.
     pub cells: Option<Located<Cells>>,
     /// Torus only: whether the lattice vectors are unknowns (`free`, when left out) or stay as drawn (`fixed`).
@@ -60,8 +60,9 @@ pub struct SheetSpec {
 
 /// Where the cell's neighbours are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[schemars(rename = "Domain")]
 #[serde(rename_all = "lowercase")]
-pub enum Domain {
+pub enum DomainSpec {
     /// One cell, its copies moved by two commuting screw motions.
     Screw,
     /// n1 x n2 cells with free edges.
@@ -84,7 +85,7 @@ pub enum Lattice {
 
 impl SheetSpec {
     /// The domain; a scene that says nothing means a patch.
-    pub fn domain(&self) -> Domain {
+    pub fn domain(&self) -> DomainSpec {
         self.domain.as_deref().copied().unwrap_or_default()
     }
 
@@ -92,8 +93,8 @@ impl SheetSpec {
     pub fn cells(&self) -> [usize; 2] {
         match (self.cells.as_deref(), self.domain()) {
             (Some(cells), _) => cells.0,
-            (None, Domain::Screw) => [6, 6],
-            (None, Domain::Patch | Domain::Torus) => [1, 1],
+            (None, DomainSpec::Screw) => [6, 6],
+            (None, DomainSpec::Patch | DomainSpec::Torus) => [1, 1],
         }
     }
 
@@ -130,7 +131,7 @@ pub struct CreasesSpec {
     /// Torque per radian and per length of crease; the spring constant is stiffness * L0.
     pub stiffness: Located<Stiffness>,
     /// Rest angles; left out: as drawn.
-    pub rest: Option<Located<Rest>>,
+    pub rest: Option<Located<RestSpec>>,
 }
 
 /// `facets = { stiffness }`; they rest as drawn.

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use super::forms::Rest;
+use super::forms::RestSpec;
 use super::spec::{StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::Terms;
@@ -27,7 +27,7 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         None => Ok(()),
     };
     if let Some(rest) = scene.energy.creases.as_ref().and_then(|creases| creases.rest.as_ref())
-        && let Rest::Angle(angle) = **rest
+        && let RestSpec::Angle(angle) = **rest
     {
         at(angle, rest.span())?;
     }

@@ -32,7 +32,7 @@ pub enum SheetError {
 
 /// The part of a drawn mesh that a [`Defect`] is about, numbered from 0 whatever the file does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum MeshPart {
     /// The mesh as a whole.
     Mesh,
     /// A drawn vertex.
@@ -52,14 +52,14 @@ pub enum Place {
 #[error("{problem}")]
 pub struct Defect {
     /// Where.
-    pub place: Place,
+    pub place: MeshPart,
     /// What.
     pub problem: Box<Problem>,
 }
 
 impl Defect {
     /// `problem` at `place`.
-    pub fn new(place: Place, problem: Problem) -> Self {
+    pub fn new(place: MeshPart, problem: Problem) -> Self {
         Self { place, problem: Box::new(problem) }
     }
 }

@@ -18,7 +18,7 @@ use std::path::Path;
 use super::assignment::Assignment;
 use super::build::{Drawing, build, draw};
 use super::cell::Sheet;
-use super::error::{Defect, Place, Problem, SheetError};
+use super::error::{Defect, MeshPart, Problem, SheetError};
 use super::text;
 use crate::math::Vec3;
 
@@ -173,12 +173,12 @@ impl Reader {
 
     fn located(&self, name: &str, defect: Defect) -> SheetError {
         let line = match defect.place {
-            Place::Vertex(v) => self.vertex_lines.get(v),
-            Place::Face(f) => self.face_lines.get(f),
-            Place::Hole(h) => self.hole_lines.get(h),
-            Place::Lattice => Some(&self.lattice_line),
-            Place::Edge(e) => self.edge_lines.get(e),
-            Place::Mesh => None,
+            MeshPart::Vertex(v) => self.vertex_lines.get(v),
+            MeshPart::Face(f) => self.face_lines.get(f),
+            MeshPart::Hole(h) => self.hole_lines.get(h),
+            MeshPart::Lattice => Some(&self.lattice_line),
+            MeshPart::Edge(e) => self.edge_lines.get(e),
+            MeshPart::Mesh => None,
         };
         bad(name, line.copied().unwrap_or(self.line), *defect.problem)
     }

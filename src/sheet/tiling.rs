@@ -70,7 +70,7 @@ pub struct Tiling {
 /// and not periodic, whatever is asked.
 pub fn tile(sheet: &Sheet, cells: [usize; 2], periodic: bool) -> Tiling {
     let finite = sheet.lattice.is_none();
-    let grid = Grid {
+    let grid = CellGrid {
         cells: if finite { [1, 1] } else { cells },
         periodic: periodic && !finite,
         vertices: sheet.vertices.len(),
@@ -94,13 +94,13 @@ struct Flank {
     opposite: Corner,
 }
 
-struct Grid {
+struct CellGrid {
     cells: [usize; 2],
     periodic: bool,
     vertices: usize,
 }
 
-impl Grid {
+impl CellGrid {
     fn positions(&self, sheet: &Sheet) -> Vec<Vec3> {
         let mut positions = Vec::with_capacity(self.cells[0] * self.cells[1] * self.vertices);
         for cell in self.all_cells() {

@@ -24,7 +24,7 @@ pub trait NearlySolved {
 }
 
 /// The result of corrections.
-pub struct Corrected {
+pub struct RefinedSolution {
     /// The solution.
     pub found: Pair,
     /// Residual as the corrections update it: the larger one of the two block rows, in their units. Rounding errors of
@@ -42,14 +42,14 @@ pub fn correct(
     mut found: Pair,
     units: [f64; 2],
     tolerance: f64,
-) -> Corrected {
+) -> RefinedSolution {
     let per_unit = units.map(reciprocal);
     let mut left = right.minus(&system.product(&found)).scaled(per_unit);
     let (mut before, mut last): (Vec<Correction>, f64) = (vec![], f64::INFINITY);
     loop {
         let residual = larger(norm_blocked(&left.0), norm_blocked(&left.1));
         if residual <= tolerance || !(residual < SLOWEST_CONTRACTION * last) || before.len() == MOST_CORRECTIONS {
-            return Corrected { found, residual, corrections: before.len() };
+            return RefinedSolution { found, residual, corrections: before.len() };
         }
         last = residual;
         let mut motion = system.solve(&left.clone().scaled(units));

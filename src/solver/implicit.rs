@@ -30,7 +30,7 @@ pub(super) struct Corrector {
 
 /// The result of correcting a predicted point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corrected {
+pub(super) struct CorrectedPoint {
     /// Largest component of `F` at the corrected point.
     pub residual: f64,
     /// Number of corrections made.
@@ -54,7 +54,7 @@ impl Corrector {
         x: &mut [f64],
         frame: &mut [f64],
         tolerance: f64,
-    ) -> Option<Corrected> {
+    ) -> Option<CorrectedPoint> {
         let across = columns(frame, x.len());
         let predicted = x.to_vec();
         let mut last = f64::INFINITY;
@@ -64,7 +64,7 @@ impl Corrector {
             if residual <= tolerance {
                 frame.copy_from_slice(self.tangents(&across)?.as_slice());
                 let distance = vector::distance(x, &predicted);
-                return Some(Corrected { residual, corrections, distance });
+                return Some(CorrectedPoint { residual, corrections, distance });
             }
             if !(residual < last) {
                 return None;

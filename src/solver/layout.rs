@@ -1,7 +1,7 @@
 //! Unknowns of a problem, which of them are coupled, and what follows from that alone.
 
 use crate::numerics::factor::FactorError;
-use crate::numerics::sparse::{Cliques, Pattern, Slots};
+use crate::numerics::sparse::{Cliques, Slots, SparsityPattern};
 use crate::numerics::tearing::Tearing;
 use std::sync::{Arc, OnceLock};
 
@@ -17,14 +17,14 @@ pub struct Layout {
     pub soft: Cliques,
     /// Unknowns of each stiff measure.
     pub stiff: Cliques,
-    plan: OnceLock<Arc<Plan>>,
+    plan: OnceLock<Arc<SymbolicHessian>>,
 }
 
 /// The pattern of the Hessian, the places of the elements in it, and how it is factored: the same for all states and
 /// all solves.
 #[derive(Debug)]
-pub(super) struct Plan {
-    pub(super) pattern: Pattern,
+pub(super) struct SymbolicHessian {
+    pub(super) pattern: SparsityPattern,
     pub(super) soft: Slots,
     pub(super) stiff: Slots,
     tearing: OnceLock<Result<Arc<Tearing>, FactorError>>,
@@ -38,11 +38,11 @@ impl Layout {
     }
 
     /// The plan, made when it is first asked for.
-    pub(super) fn plan(&self) -> &Arc<Plan> {
+    pub(super) fn plan(&self) -> &Arc<SymbolicHessian> {
         self.plan.get_or_init(|| {
-            let pattern = Pattern::new(self.unknowns, &[&self.soft, &self.stiff]);
+            let pattern = SparsityPattern::new(self.unknowns, &[&self.soft, &self.stiff]);
             let (soft, stiff) = (Slots::new(&pattern, &self.soft), Slots::new(&pattern, &self.stiff));
-            Arc::new(Plan { pattern, soft, stiff, tearing: OnceLock::new() })
+            Arc::new(SymbolicHessian { pattern, soft, stiff, tearing: OnceLock::new() })
         })
     }
 

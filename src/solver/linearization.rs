@@ -1,8 +1,8 @@
 //! The numbers of a problem at one state: energy, gradient, Hessian, gaps and Jacobian.
 
-use super::layout::{Layout, Plan};
+use super::layout::{Layout, SymbolicHessian};
 use crate::numerics::larger;
-use crate::numerics::sparse::{ElementBlock, FIXED, Pattern, RankOne, Rows};
+use crate::numerics::sparse::{ElementBlock, FIXED, RankOne, Rows, SparsityPattern};
 use std::sync::Arc;
 
 /// The part of the soft Hessian that a linearization contains.
@@ -52,7 +52,7 @@ pub struct Linearization {
     /// The part of the soft Hessian that is contained.
     pub kind: HessianKind,
     layout: Arc<Layout>,
-    plan: Arc<Plan>,
+    plan: Arc<SymbolicHessian>,
 }
 
 impl Linearization {
@@ -139,8 +139,8 @@ impl Linearization {
         self.plan.pattern.add_to_one(&mut self.hessian, unknown, amount);
     }
 
-    /// Pattern of the Hessian; it has room for the outer products of the stiff gradients.
-    pub fn pattern(&self) -> &Pattern {
+    /// SparsityPattern of the Hessian; it has room for the outer products of the stiff gradients.
+    pub fn pattern(&self) -> &SparsityPattern {
         &self.plan.pattern
     }
 

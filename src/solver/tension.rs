@@ -15,7 +15,7 @@ const ROUNDING_FORCE: f64 = 1e-13;
 
 /// A converged state's tensions.
 #[derive(Clone, Debug)]
-pub struct Settled {
+pub struct BalancedTensions {
     /// Tensions, of least norm where rigid measures leave a self stress free.
     pub tension: Vec<f64>,
     /// Number of self stresses of the rigid measures; `None` where no measure is rigid or they could not be counted.
@@ -26,9 +26,9 @@ pub struct Settled {
 
 /// Takes self stresses out of the tensions of an equilibrium. Where its measures were seen to be independent there are
 /// none.
-pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> Settled {
+pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> BalancedTensions {
     if let (true, Some(last)) = (found.independent, found.history.last()) {
-        return Settled {
+        return BalancedTensions {
             tension: found.tension.clone(),
             self_stresses: problem.compliance().contains(&0.0).then_some(0),
             residuals: Residuals { force: last.residual_force, length: last.residual_length },
@@ -40,7 +40,7 @@ pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> Settled {
     let self_stresses = self_stresses(problem, &at);
     let settled = |at: &Linearization, tension: Vec<f64>| {
         let residuals = Residuals::new(problem, at, &tension);
-        Settled { tension, self_stresses, residuals }
+        BalancedTensions { tension, self_stresses, residuals }
     };
     let before = settled(&at, found.tension.clone());
     let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);

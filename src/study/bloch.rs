@@ -18,7 +18,7 @@ use crate::output::figure::bloch::{self as figure, BlochPlot};
 use crate::output::figure::rounded;
 use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyResult, ZeroLineSummary};
 use crate::output::table::{Table, Value};
-use crate::scene::forms::Start;
+use crate::scene::forms::StartSpec;
 use crate::scene::spec::{BlochSpec, Draw};
 use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKind;
@@ -58,20 +58,22 @@ pub fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> 
 }
 
 /// A state of one cell that an earlier study found.
-fn check_start(context: &Context<'_>, spec: &BlochSpec, start: &Located<Start>) -> Result<(), StudyError> {
+fn check_start(context: &Context<'_>, spec: &BlochSpec, start: &Located<StartSpec>) -> Result<(), StudyError> {
     let wrong = |message: &str, help: &str| Err(context.file.error_at(start.span(), message, help).into());
     let assembly = context.assembly;
     match &**start {
-        Start::Drawn => Ok(()),
-        Start::Study(_) if matches!(assembly.drawn().domain, Domain::Patch) || assembly.tiling().cells != [1, 1] => {
+        StartSpec::Drawn => Ok(()),
+        StartSpec::Study(_)
+            if matches!(assembly.drawn().domain, Domain::Patch) || assembly.tiling().cells != [1, 1] =>
+        {
             let help = "give domain = \"screw\", or \"torus\" with cells = [1, 1]";
             wrong("spatially varying modes are those of a state of one cell", help)
         }
-        Start::Study(_) if spec.path.is_some() => {
+        StartSpec::Study(_) if spec.path.is_some() => {
             wrong("bands are those of the drawn state, which is at rest", "leave out `path` or `start`")
         }
-        Start::Study(_) => Ok(()),
-        Start::Random(_) | Start::File(_) => {
+        StartSpec::Study(_) => Ok(()),
+        StartSpec::Random(_) | StartSpec::File(_) => {
             wrong("spatially varying modes need a state that an earlier study found", "give the name of that study")
         }
     }
@@ -88,7 +90,7 @@ struct Ground {
 /// The state that the scene names; `None` where the study that should have found it did not.
 fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<Ground>, BlochError> {
     let assembly = context.assembly;
-    let Some(Start::Study(name)) = spec.start.as_deref() else {
+    let Some(StartSpec::Study(name)) = spec.start.as_deref() else {
         return Ok(Some(Ground { rigidity: rigidity(context.file, assembly)?, folded: None }));
     };
     let (sheet, drawn) = (assembly.sheet(), assembly.drawn());
@@ -120,7 +122,7 @@ fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
 }
 
 /// What the analysis found.
-struct Found {
+struct FoundModes {
     ground: Ground,
     survey: Survey,
     grid: [usize; 2],
@@ -158,7 +160,7 @@ pub fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
 }
 
 /// All answers; `None` where the observer asked to stop.
-fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Option<Found>, BlochError> {
+fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Option<FoundModes>, BlochError> {
     let options = SurveyOptions {
         wavenumbers: wavenumbers(spec),
         averaged: AVERAGED,
@@ -167,7 +169,7 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Optio
     };
     let mut go_on = |step: usize| context.step(step, Some(bloch::STEPS));
     let Some(survey) = bloch::survey(&ground.rigidity, &options, &mut go_on)? else { return Ok(None) };
-    Ok(Some(Found { ground, survey, grid: options.grid, bands: bands(context, spec)? }))
+    Ok(Some(FoundModes { ground, survey, grid: options.grid, bands: bands(context, spec)? }))
 }
 
 /// The bands along the path of the scene.
@@ -217,7 +219,7 @@ fn band_table(bands: &[Bands]) -> Table {
 }
 
 /// Adds the map, the lines of zero modes and the displacements of modes, where the study asks for them.
-fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &Found) {
+fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
     if !context.draws(Draw::Vtk) {
         return;
     }
@@ -251,7 +253,7 @@ fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &Found) {
 }
 
 /// Adds the picture of determinant and decay rates, where the study asks for it.
-fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &Found) {
+fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
     if !context.draws(Draw::Svg) {
         return;
     }
@@ -295,7 +297,7 @@ fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
         .collect()
 }
 
-fn summary(assembly: &Assembly, found: &Found) -> BlochSummary {
+fn summary(assembly: &Assembly, found: &FoundModes) -> BlochSummary {
     let Survey { determinant, decays, polarization, real, map, .. } = &found.survey;
     let pairings: Vec<_> = decays.iter().map(Decay::pairing).collect();
     let decay = |decay: &Decay| DecaySummary {

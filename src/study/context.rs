@@ -2,7 +2,7 @@
 
 use super::answer::SavedState;
 use crate::analysis::intersections::SelfIntersection;
-use crate::analysis::view::View;
+use crate::analysis::view::ShownCells;
 use crate::model::Assembly;
 use crate::output::OutputError;
 use crate::output::figure::Caption;
@@ -32,7 +32,7 @@ pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
 
 /// What the studies before this one found, by their names.
 #[derive(Clone, Debug, Default)]
-pub struct Earlier {
+pub struct PreviousAnswers {
     /// States in which studies ended.
     pub states: HashMap<String, SavedState>,
     /// The trajectories that they followed, in the space of lattice strains.
@@ -61,11 +61,11 @@ pub struct Context<'a> {
     /// The sheet with its boundary conditions and terms.
     pub assembly: &'a Assembly,
     /// The cells that pictures show.
-    pub view: &'a View,
+    pub view: &'a ShownCells,
     /// What is asked.
     pub study: &'a StudySpec,
     /// What the studies before it found.
-    pub earlier: &'a Earlier,
+    pub earlier: &'a PreviousAnswers,
     /// Where parts of the answer are kept.
     pub checkpoints: &'a dyn Checkpoints,
     /// Whoever watches.

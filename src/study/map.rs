@@ -8,7 +8,7 @@ use super::error::StudyError;
 use crate::analysis::landscape::cone::{Cone, distance};
 use crate::analysis::landscape::samples::{Sample, SampleError};
 use crate::analysis::landscape::sphere::{self, Direction};
-use crate::analysis::landscape::{Courses, HeldSheet, LandscapeError};
+use crate::analysis::landscape::{HeldSheet, LandscapeError, TaylorPaths};
 use crate::math::Vec3;
 use crate::model::Assembly;
 use crate::numerics::worst;
@@ -94,7 +94,7 @@ fn sampled(
     amplitude: f64,
 ) -> Result<(Vec<Row>, Option<String>), StudyError> {
     let make = || HeldSheet::new(context.assembly);
-    let courses = match make().and_then(|held| Courses::new(&held)) {
+    let courses = match make().and_then(|held| TaylorPaths::new(&held)) {
         Ok(courses) => courses,
         Err(error) => return Ok((Vec::new(), Some(error.to_string()))),
     };
@@ -144,7 +144,7 @@ fn table(rows: &[Row]) -> Table {
 /// The exact cone, as a closed curve on each nappe, and the largest angle to zeros of the energy.
 fn cone(assembly: &Assembly, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f64>), SampleError> {
     let mut held = HeldSheet::new(assembly)?;
-    let courses = Courses::new(&held)?;
+    let courses = TaylorPaths::new(&held)?;
     let modes = held.bending.clone().ok_or(LandscapeError::NoCurvatures)?;
     let exact = Cone::new(assembly.sheet(), &modes, &assembly.rigid_facets_of_cell()).map_err(LandscapeError::from)?;
     let mut largest: Option<f64> = None;

@@ -31,7 +31,7 @@ mod wells;
 
 use crate::scene::spec::StudyKind;
 pub use answer::{Answer, SavedState};
-pub use context::{Checkpoints, Context, Earlier, Observer, Progress};
+pub use context::{Checkpoints, Context, Observer, PreviousAnswers, Progress};
 pub use error::StudyError;
 pub use surface::left_out;
 

@@ -7,7 +7,7 @@ use super::reason::reason;
 use super::states::{self, Shown};
 use super::{branches, energies};
 use crate::analysis::exact::error_to_kinematic;
-use crate::analysis::intersections::LYING;
+use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
 use crate::analysis::restored::{self, Forces};
 use crate::analysis::state::State;
@@ -18,7 +18,7 @@ use crate::output::figure::rounded;
 use crate::output::summary::{IterationSummary, RelaxSummary, StudyResult};
 use crate::output::vtk::{self, VtuMesh};
 use crate::scene::Located;
-use crate::scene::forms::{RandomStart, Start};
+use crate::scene::forms::{RandomStart, StartSpec};
 use crate::scene::spec::RelaxSpec;
 use crate::solver::{Options, Step};
 use rand::SeedableRng;
@@ -39,7 +39,7 @@ pub fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer, StudyE
     let mut model = context.assembly.model(Gauge::Held);
     let Some((x, forces)) = start(context, spec, &mut model)? else { return Ok(start_unavailable(context)) };
     let tensions = restored::tensions(&model, &x, &forces);
-    let known = spec.start.as_deref().is_some_and(|start| matches!(start, Start::Study(_) | Start::File(_)));
+    let known = spec.start.as_deref().is_some_and(|start| matches!(start, StartSpec::Study(_) | StartSpec::File(_)));
     let start = if known { restored::start(&model, x, tensions.clone()) } else { x.into() };
     let first = State::new(&model, &start.x, start.tension.as_ref().unwrap_or(&tensions));
     let mut options = Options::default();
@@ -59,7 +59,7 @@ fn found(context: &Context<'_>, spec: &RelaxSpec, model: &Model, first: &State, 
     let shown = format!("equilibrium, energy {}", rounded(relaxed.state.total(), 5));
     let self_intersecting = add_states(&mut answer, context, [first, &relaxed.state], residuals, &shown);
     let angles = states::with_all_angles(context, &relaxed.state).fold_angle;
-    let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, Start::Drawn));
+    let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, StartSpec::Drawn));
     let (branch_point_start, directions) = if drawn { branches::branch_point(assembly) } else { (None, None) };
     let result = RelaxSummary {
         self_intersecting,
@@ -108,7 +108,7 @@ fn add_states(
     let mut check = context.self_intersection();
     let [first, last] = ends.map(|state| {
         let state = states::with_all_angles(context, state);
-        let marks = check.as_mut().map(|check| check.marks(context.assembly.drawn(), &state, LYING));
+        let marks = check.as_mut().map(|check| check.marks(context.assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
         Shown { state, residuals: None, marks }
     });
     let both = [first, Shown { residuals, ..last }];
@@ -122,13 +122,13 @@ fn add_states(
 fn start(context: &Context<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Option<(Vec<f64>, Forces)>, StudyError> {
     let Some(start) = &spec.start else { return Ok(Some((model.start(), Forces::Unknown))) };
     match &**start {
-        Start::Drawn => Ok(Some((model.start(), Forces::Unknown))),
-        Start::Random(random) => Ok(Some((random_start(random, model), Forces::Unknown))),
-        Start::File(_) => {
+        StartSpec::Drawn => Ok(Some((model.start(), Forces::Unknown))),
+        StartSpec::Random(random) => Ok(Some((random_start(random, model), Forces::Unknown))),
+        StartSpec::File(_) => {
             let found = start_file(context, start)?;
             Ok(found.map(|(coordinates, mesh)| from_mesh(context, model, coordinates, &mesh)))
         }
-        Start::Study(name) => {
+        StartSpec::Study(name) => {
             let fits = |saved: &&SavedState| {
                 saved.coordinates.len() == context.assembly.drawn().coordinates.len()
                     && saved.angles.len() == model.angles().len()
@@ -156,8 +156,8 @@ fn from_mesh(context: &Context<'_>, model: &mut Model, coordinates: Vec<f64>, me
 }
 
 /// The coordinates that a VTU file gives, and the file; `None` where the start is no file.
-fn start_file(context: &Context<'_>, start: &Located<Start>) -> Result<Option<(Vec<f64>, VtuMesh)>, StudyError> {
-    let Start::File(path) = &**start else { return Ok(None) };
+fn start_file(context: &Context<'_>, start: &Located<StartSpec>) -> Result<Option<(Vec<f64>, VtuMesh)>, StudyError> {
+    let StartSpec::File(path) = &**start else { return Ok(None) };
     let mesh = vtk::read_vtu(&context.file.resolve(path))?;
     let found = context.view.coordinates(context.assembly.drawn(), &mesh.points);
     found.map(|found| Some((found, mesh))).ok_or_else(|| {

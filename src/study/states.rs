@@ -3,7 +3,7 @@
 use super::answer::Answer;
 use super::context::Context;
 use super::energies;
-use crate::analysis::intersections::{LYING, Marks};
+use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::state::{Cylinder, State, cylinder};
 use crate::output::artifact::Artifact;
 use crate::output::figure::sheet;
@@ -83,7 +83,8 @@ pub fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Picture {
     let (assembly, edges) = (context.assembly, context.assembly.edges());
     let state = State { energy: vec![f64::NAN; edges], ..State::empty(coordinates, edges) };
     let state = with_all_angles(context, &state);
-    let marks = context.self_intersection().map(|mut check| check.marks(assembly.drawn(), &state, LYING));
+    let marks =
+        context.self_intersection().map(|mut check| check.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
     picture(context, &Shown { state, residuals: None, marks })
 }
 

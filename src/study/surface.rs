@@ -6,7 +6,7 @@ use super::error::StudyError;
 use super::trace::state_at;
 use super::{energies, states};
 use crate::analysis::chart::{hinge_angles, screw_coordinates};
-use crate::analysis::intersections::LYING;
+use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
@@ -136,7 +136,8 @@ fn states_of(context: &Context<'_>, unlocked: &Assembly, surface: &mut Surface) 
         model.set_angles(&hinge_angles(&model, &point.angles));
         model.start_from(coordinates.clone());
         let state = state_at(&model, coordinates, &point.angles);
-        crossing.extend(finder.as_mut().map(|finder| finder.marks(unlocked.drawn(), &state, LYING).any));
+        crossing
+            .extend(finder.as_mut().map(|finder| finder.marks(unlocked.drawn(), &state, STACKED_LAYERS_MARGIN).any));
         states.push(state);
     }
     surface.truncate(states.len());

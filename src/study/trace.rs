@@ -7,7 +7,7 @@ use super::states::{self, Shown};
 use super::{branches, energies, relax};
 use crate::analysis::chart::{coordinates, hinge_angles};
 use crate::analysis::drive::{self, Drive, DriveFailure, Driven};
-use crate::analysis::intersections::{LYING, SelfIntersection};
+use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::relax::Relaxed;
 use crate::analysis::state::{State, cylinder};
 use crate::analysis::trace::{Folded, Intersects, Stop, TURNING, TraceError, TraceOptions, Traced, trace};
@@ -114,7 +114,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
     let model = assembly.model(Gauge::Held);
     let mut crosses = |state: &Folded| {
         let shown = state_at(&model, coordinates(state), &state.angles);
-        finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown, LYING).any)
+        finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any)
     };
     let mut step = 0;
     let mut observe = |_: (usize, i8), point: &continuation::Point| {
@@ -159,7 +159,7 @@ impl Path<'_> {
             (Some(failure), _) => format!("a relaxation failed: {failure}"),
             (None, End::Failed) => "the trajectory did not come to its end: no step leads on".to_owned(),
             (None, End::Steps) => {
-                let most = continuation::Options::default().steps;
+                let most = continuation::CurveOptions::default().steps;
                 format!("the trajectory has not come to its end after {most} steps: raise max_step, or give a stop")
             }
             _ => return None,
@@ -233,7 +233,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: 
             model.set_angles(&hinge_angles(&model, &folded.angles));
             model.start_from(coordinates(folded));
             let state = driven.map_or_else(|| state_at(&model, coordinates(folded), &folded.angles), relaxed_state);
-            let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, LYING));
+            let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, driven), &state, marks.as_ref().map(|marks| marks.any));
             let compared = driven.filter(|_| engine == Engine::Both);
             rows.push(StateRow { error_to_kinematic: compared.map(|driven| driven.error), ..row });

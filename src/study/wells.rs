@@ -5,10 +5,10 @@ use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
 use super::surface::{check_resolution, curvature_of_cell};
-use crate::analysis::intersections::{LYING, SelfIntersection};
+use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::State;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limit};
-use crate::analysis::wells::merge::{SAME, Translations, Well, wells};
+use crate::analysis::wells::merge::{SAME_WELL_ANGLE_RAD, Translations, Well, wells};
 use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
 use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_all};
 use crate::model::Assembly;
@@ -76,7 +76,7 @@ impl Tally {
 }
 
 /// What a study found.
-struct Found {
+struct FoundWells {
     tally: Tally,
     /// Stiffness of the sheet's own bars.
     stiffness: f64,
@@ -109,7 +109,7 @@ pub fn compute(context: &Context<'_>, spec: &WellsSpec) -> Answer {
         }
     }
     let crossing = crossing(assembly, &wells);
-    let found = Found { tally, stiffness: assembly.bar_stiffness(), wells, crossing, barriers, rigid };
+    let found = FoundWells { tally, stiffness: assembly.bar_stiffness(), wells, crossing, barriers, rigid };
     let mut answer = Answer::empty(context.study);
     add_files(&mut answer, context, &found);
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
@@ -128,7 +128,10 @@ fn sampling(assembly: &Assembly, spec: &WellsSpec) -> Sampling {
 /// Whether faces of each well pass through each other.
 fn crossing(assembly: &Assembly, wells: &[Well]) -> Vec<bool> {
     let mut finder = SelfIntersection::new(assembly);
-    wells.iter().map(|well| finder.marks(assembly.drawn(), &well.settled.relaxed.state, LYING).any).collect()
+    wells
+        .iter()
+        .map(|well| finder.marks(assembly.drawn(), &well.settled.relaxed.state, STACKED_LAYERS_MARGIN).any)
+        .collect()
 }
 
 /// The largest residual; `None` where nothing was found.
@@ -137,7 +140,7 @@ fn error(result: &WellsSummary) -> Option<f64> {
     worst(wells.chain(result.barriers.iter().filter_map(|barrier| barrier.residual)))
 }
 
-impl Found {
+impl FoundWells {
     /// Why the answer is not whole.
     fn missing(&self, spec: &WellsSpec) -> Option<String> {
         let count = self.wells.len();
@@ -186,7 +189,7 @@ impl Found {
         let rigid = self.rigid.as_ref()?.as_ref().ok()?;
         let angles = &well.settled.relaxed.state.fold_angle;
         let apart = |other: &[f64]| worst(other.iter().zip(angles).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan()));
-        rigid.wells.iter().position(|other| apart(&other.angles).is_some_and(|apart| apart <= SAME))
+        rigid.wells.iter().position(|other| apart(&other.angles).is_some_and(|apart| apart <= SAME_WELL_ANGLE_RAD))
     }
 
     fn summary(&self) -> WellsSummary {
@@ -269,13 +272,13 @@ fn rigid(found: &RigidLandscape) -> RigidSummary {
 
 /// Adds the wells and then the passes, as a table and as pictures; the energies of passes against stiffness; energies along
 /// the paths.
-fn add_files(answer: &mut Answer, context: &Context<'_>, found: &Found) {
+fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
     let name = context.name();
     let passes: Vec<&Barrier> = found.barriers.iter().filter_map(|(_, found)| found.as_ref().ok()).collect();
     let mut finder = SelfIntersection::new(context.assembly);
     let mut shown = |state: &State, residuals: [f64; 2]| {
         let state = states::with_all_angles(context, state);
-        let marks = finder.marks(context.assembly.drawn(), &state, LYING);
+        let marks = finder.marks(context.assembly.drawn(), &state, STACKED_LAYERS_MARGIN);
         Shown { state, residuals: Some(residuals), marks: Some(marks) }
     };
     let mut all = Vec::new();
@@ -316,7 +319,7 @@ fn heights(passes: &[&Barrier]) -> Table {
 }
 
 /// Energies along the path on which a pass was found, which may be one in softer bars, with the pass itself.
-fn path_chart(found: &Found, barrier: &Barrier) -> Chart {
+fn path_chart(found: &FoundWells, barrier: &Barrier) -> Chart {
     let ([from, to], last) = (barrier.between, barrier.path.len() - 1);
     let label = |at: usize| match at {
         0 => format!("well {from}"),

@@ -59,7 +59,7 @@ pub enum ExperimentError {
 
 /// A table of a report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Grid {
+pub struct ReportTable {
     /// What it shows.
     pub title: String,
     /// Names of its columns.
@@ -78,12 +78,12 @@ pub struct Findings {
     /// Its other charts.
     pub charts: Vec<Chart>,
     /// Its tables.
-    pub tables: Vec<Grid>,
+    pub tables: Vec<ReportTable>,
 }
 
 /// An experiment that was performed.
 #[derive(Debug)]
-pub struct Outcome {
+pub struct Performed {
     /// What was found.
     pub found: Result<Findings, ExperimentError>,
     /// Time it took.
@@ -93,11 +93,11 @@ pub struct Outcome {
 }
 
 /// Where experiments are performed.
-pub struct Laboratory<'a> {
+pub struct Experiments<'a> {
     folder: PathBuf,
     quick: bool,
     observer: Observer<'a>,
-    performed: Vec<(Experiment, Outcome)>,
+    performed: Vec<(Experiment, Performed)>,
 }
 
 /// What a measurement may use.
@@ -119,14 +119,14 @@ impl Bench<'_> {
     }
 }
 
-impl<'a> Laboratory<'a> {
+impl<'a> Experiments<'a> {
     /// Experiments write into folders below this one.
     pub fn new(folder: PathBuf, quick: bool, observer: Observer<'a>) -> Self {
         Self { folder, quick, observer, performed: Vec::new() }
     }
 
     /// Performs an experiment, or remembers it.
-    pub fn perform(&mut self, experiment: &Experiment) -> &Outcome {
+    pub fn perform(&mut self, experiment: &Experiment) -> &Performed {
         let known = self.performed.iter().position(|(performed, _)| performed == experiment);
         let at = known.unwrap_or_else(|| {
             let clock = Instant::now();
@@ -134,7 +134,7 @@ impl<'a> Laboratory<'a> {
                 Experiment::Scene(scene) => self.run(scene),
                 Experiment::Measurement(name) => self.measure(name),
             };
-            let outcome = Outcome { found, seconds: clock.elapsed().as_secs_f64(), first: true };
+            let outcome = Performed { found, seconds: clock.elapsed().as_secs_f64(), first: true };
             self.performed.push((experiment.clone(), outcome));
             self.performed.len() - 1
         });

@@ -37,7 +37,7 @@ pub enum Form {
 
 /// Where a minimisation ended.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct Minimised {
     /// Unknowns.
     pub x: Vec<f64>,
     /// Tensions.
@@ -66,7 +66,7 @@ struct Weighted<'a> {
 ///
 /// # Errors
 /// [`FactorError`] where the pattern cannot be analysed; a minimisation that gets stuck is an outcome.
-pub fn minimize(model: &mut Model, form: Form) -> Result<Outcome, FactorError> {
+pub fn minimize(model: &mut Model, form: Form) -> Result<Minimised, FactorError> {
     let at = Linearization::new(model.layout());
     let layout = model.layout();
     let factor = TornFactor::of(layout.tearing()?)?;
@@ -88,7 +88,7 @@ pub fn minimize(model: &mut Model, form: Form) -> Result<Outcome, FactorError> {
     }
     let residuals = run.residuals();
     let converged = residuals.iter().all(|residual| *residual <= TOLERANCE);
-    Ok(Outcome { converged, residuals, tension: run.before, iterations: run.iterations, x: run.x })
+    Ok(Minimised { converged, residuals, tension: run.before, iterations: run.iterations, x: run.x })
 }
 
 impl Weighted<'_> {

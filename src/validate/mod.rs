@@ -19,7 +19,7 @@ pub mod star;
 pub mod verdict;
 
 use claim::{Claim, ClaimError};
-use experiment::{ExperimentError, Laboratory};
+use experiment::{ExperimentError, Experiments};
 use foldwell::numerics::parallel::Threads;
 use foldwell::output::OutputError;
 use foldwell::run::Observer;
@@ -111,7 +111,7 @@ fn check(
     announce: &mut dyn FnMut(&Case),
 ) -> Result<Report, ValidationError> {
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("validation-report"));
-    let mut laboratory = Laboratory::new(out.clone(), options.quick, observer);
+    let mut laboratory = Experiments::new(out.clone(), options.quick, observer);
     let mut report = Report::new(options.quick, claims.len());
     let mut interrupted = false;
     report.interrupted = true; // that is what a report says which is left here

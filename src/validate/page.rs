@@ -1,6 +1,6 @@
 //! `report.html`: one file that needs nothing else, neither a script nor the network.
 
-use super::experiment::Grid;
+use super::experiment::ReportTable;
 use super::report::{Case, Report, cheapest};
 use foldwell::output::figure::chart::svg;
 use foldwell::output::figure::escaped;
@@ -55,7 +55,7 @@ fn row(case: &Case) -> String {
     )
 }
 
-fn table(grid: &Grid) -> String {
+fn table(grid: &ReportTable) -> String {
     let cells = |row: &[String], kind: &str| -> String {
         row.iter().map(|cell| format!("<{kind}>{}</{kind}>", escaped(cell))).collect()
     };

@@ -1,7 +1,7 @@
 //! The report of a validation: `report.json`, `report.md`, and `report.html` ([`super::page`]).
 
 use super::claim::{Claim, Numbers, Wanted};
-use super::experiment::{Grid, Outcome};
+use super::experiment::{Performed, ReportTable};
 use super::page;
 use super::precision::{Diagram, Setting};
 use super::verdict::{compare, numbers_at};
@@ -68,12 +68,12 @@ pub struct Report {
     #[serde(skip)]
     pub charts: Vec<Chart>,
     /// Tables of what was measured besides.
-    pub tables: Vec<Grid>,
+    pub tables: Vec<ReportTable>,
 }
 
 impl Case {
     /// Compares what an experiment gave with what a claim says.
-    pub fn of(claim: &Claim, outcome: &Outcome) -> Self {
+    pub fn of(claim: &Claim, outcome: &Performed) -> Self {
         let (comparison, expected) = match &claim.wanted {
             Wanted::Equal { numbers, .. } => ("equal", numbers.clone()),
             Wanted::AtMost(bound) => ("at most", Numbers::One(*bound)),
@@ -134,7 +134,7 @@ impl Report {
     }
 
     /// Adds a case, and what its experiment gave where it is the first to ask for it.
-    pub fn push(&mut self, case: Case, outcome: Option<&Outcome>) {
+    pub fn push(&mut self, case: Case, outcome: Option<&Performed>) {
         self.passed += usize::from(case.passed);
         self.cases.push(case);
         if let Some(outcome) = outcome {
@@ -183,7 +183,7 @@ impl Report {
         };
         let header = ["name", "claim", "expected", "found", "", "seconds"].map(str::to_owned).to_vec();
         let title = "Claims".into();
-        text += &markdown_table(&Grid { title, header, rows: self.cases.iter().map(row).collect() });
+        text += &markdown_table(&ReportTable { title, header, rows: self.cases.iter().map(row).collect() });
         for case in self.cases.iter().filter(|case| !case.passed) {
             text +=
                 &format!("\n**{} fails**: {}. {}\n", case.name, case.distance(), case.failure.as_deref().unwrap_or(""));
@@ -199,7 +199,7 @@ impl Report {
 }
 
 /// The cheapest setting for errors that one may want.
-pub fn cheapest(diagram: &Diagram) -> Grid {
+pub fn cheapest(diagram: &Diagram) -> ReportTable {
     let row = |(wanted, best): (f64, Option<(&str, &Setting)>)| match best {
         Some((method, setting)) => {
             let Setting { label, error, seconds } = setting;
@@ -207,14 +207,14 @@ pub fn cheapest(diagram: &Diagram) -> Grid {
         }
         None => vec![figure(wanted), "none reaches it".into(), String::new(), String::new(), String::new()],
     };
-    Grid {
+    ReportTable {
         title: format!("{}: the cheapest setting for a wanted error", diagram.title),
         header: ["wanted error", "method", "setting", "its error", "its seconds"].map(str::to_owned).to_vec(),
         rows: diagram.cheapest().into_iter().map(row).collect(),
     }
 }
 
-fn markdown_table(table: &Grid) -> String {
+fn markdown_table(table: &ReportTable) -> String {
     let line = |cells: &[String]| {
         let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
         format!("| {} |\n", cells.join(" | "))

@@ -3,7 +3,7 @@
 use crate::common::{Numbers, Testing, on};
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
-use foldwell::analysis::view::View;
+use foldwell::analysis::view::ShownCells;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Gauge, Terms};
@@ -140,7 +140,7 @@ impl Trial {
         let again = relax_from(&mut model, start, Options::default(), &mut |_| true);
         let again = again.map(|again| (again.state.total(), again.iterations)).map_err(|e| e.to_string());
         let negative = found.negative_eigenvalues;
-        let view = View::new(&assembly);
+        let view = ShownCells::new(&assembly);
         let pictured = Picture::of_state(&view, assembly.drawn(), &found.state).energy.iter().sum();
         let (halves, compliance) = (halves(&found.tension), model.compliance().to_vec());
         let (energy, angles, residual) = (found.state.total(), found.state.fold_angle, found.residual_force);

@@ -167,7 +167,7 @@ fn the_chart_of_screws_is_a_third_way() {
         let length = way.iter().map(|d| d * d).sum::<f64>().sqrt();
         let mut bars = Bars(model);
         assert_eq!([bars.unknowns(), bars.equations()], [14, 13]);
-        let options = continuation::Options { length: 1.0, ..continuation::Options::default() };
+        let options = continuation::CurveOptions { length: 1.0, ..continuation::CurveOptions::default() };
         let found = follow(&mut bars, x, way.iter().map(|d| d / length).collect(), &options, &mut |_| true);
         assert_eq!(found.end, End::Length);
         let last = &found.points[found.points.len() - 1];

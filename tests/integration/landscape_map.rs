@@ -4,7 +4,7 @@ use crate::common::patch;
 use approx::assert_abs_diff_eq;
 use foldwell::analysis::landscape::cone::{Cone, distance};
 use foldwell::analysis::landscape::sphere::{Direction, Net, curvature, point, samples};
-use foldwell::analysis::landscape::{Courses, Expansion, HeldSheet, Place, Prediction, Samples};
+use foldwell::analysis::landscape::{Expansion, HeldSheet, HeldState, Prediction, Samples, TaylorPaths};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Terms};
 use foldwell::numerics::parallel::Threads;
@@ -46,7 +46,7 @@ fn the_net_is_a_sphere() {
 fn energy_vanishes_on_the_exact_cone() {
     let case = patch("open-star", [4, 4]);
     let mut held = held(&case);
-    let courses = Courses::new(&held).unwrap();
+    let courses = TaylorPaths::new(&held).unwrap();
     let modes = held.bending.clone().unwrap();
     let cone = Cone::new(case.sheet(), &modes, &[]).unwrap();
     for amplitude in [0.005, 0.02] {
@@ -69,7 +69,7 @@ fn energy_vanishes_on_the_exact_cone() {
 fn courses_are_forms_of_the_mode() {
     let case = patch("open-star", [4, 4]);
     let mut sheet = held(&case);
-    let courses = Courses::new(&sheet).unwrap();
+    let courses = TaylorPaths::new(&sheet).unwrap();
     for tensor in [[0.8, -0.3, 0.4], [-0.1, 0.9, -0.7]] {
         let rates = sheet.named(tensor).unwrap();
         let (_, straight) = Expansion::with_course(&sheet, &rates).unwrap();
@@ -82,7 +82,7 @@ fn courses_are_forms_of_the_mode() {
             assert!(near(&a.x, &b.x) && near(&a.tension, &b.tension) && near(a.rest.as_slice(), b.rest.as_slice()));
         }
         let mut off = |amplitude: f64| {
-            let mut place = Place { x: sheet.drawn(), ..sheet.still() };
+            let mut place = HeldState { x: sheet.drawn(), ..sheet.still() };
             formed.advance(&mut place, 0.0, amplitude);
             let sample = Samples::new(&mut sheet, formed.clone()).at(amplitude, &mut |_| true).unwrap();
             let change = sample.relaxed.x.iter().zip(&place.x).map(|(a, b)| (a - b).powi(2));
@@ -100,7 +100,7 @@ fn courses_are_forms_of_the_mode() {
 fn samples_do_not_know_each_other() {
     let case = patch("open-star", [6, 6]);
     let sheet = held(&case);
-    let (prediction, courses) = (Prediction::new(&sheet).unwrap(), Courses::new(&sheet).unwrap());
+    let (prediction, courses) = (Prediction::new(&sheet).unwrap(), TaylorPaths::new(&sheet).unwrap());
     let net = Net::new(2);
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();
     let amplitude = 5e-4;

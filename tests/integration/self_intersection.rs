@@ -1,7 +1,7 @@
 //! Sheets that go through themselves, and sheets that only touch themselves, where one can say which is which.
 
 use crate::common::on;
-use foldwell::analysis::intersections::{Crossings, Finder, LYING, Marks, SelfIntersection, crossings};
+use foldwell::analysis::intersections::{Crossings, Finder, Marks, STACKED_LAYERS_MARGIN, SelfIntersection, crossings};
 use foldwell::analysis::state::State;
 use foldwell::math::Vec3;
 use foldwell::model::{Boundary, Drawn};
@@ -101,7 +101,7 @@ fn miura_ori_folds_flat_without_crossing() {
     assert!(crossings(&flat, &triangles).pairs.is_empty());
     let flat = turned(&flat);
     assert!(!crossings(&flat, &triangles).pairs.is_empty(), "rounding errors are there to be seen");
-    assert!(Finder::new(triangles).crossings(&flat, LYING).pairs.is_empty());
+    assert!(Finder::new(triangles).crossings(&flat, STACKED_LAYERS_MARGIN).pairs.is_empty());
 }
 
 /// Claim: a margin leaves out what is less deep and nothing else: layers pushed through each other by d cross for margins below d.
@@ -155,7 +155,7 @@ impl Case {
     fn marks(&mut self, coordinates: Vec<f64>, angle: f64) -> Marks {
         let edges = self.tiling.edges.len();
         let state = State { fold_angle: vec![angle; edges], ..State::empty(coordinates, edges) };
-        self.check.marks(&self.drawn, &state, LYING)
+        self.check.marks(&self.drawn, &state, STACKED_LAYERS_MARGIN)
     }
 }
 

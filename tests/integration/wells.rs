@@ -7,7 +7,7 @@ use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::wells::barrier::{Barrier, Height, barrier, rigid_limit};
 use foldwell::analysis::wells::merge::{Translations, Well, wells};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
-use foldwell::analysis::wells::settle::Settler;
+use foldwell::analysis::wells::settle::MinimumTracker;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::Gauge;
@@ -326,11 +326,11 @@ fn a_held_well_stays() {
     let terms = Terms::bars_and_creases(1e4, 1.0, rest);
     let assembly = case.with_terms(terms.clone());
     let well = reached(&assembly, 16, PI).swap_remove(0).settled;
-    let held = Settler::new(&assembly, 32.0).near(&well.place, &well.rho, Options::default(), &mut |_| true);
+    let held = MinimumTracker::new(&assembly, 32.0).near(&well.place, &well.rho, Options::default(), &mut |_| true);
     let held = held.unwrap();
     assert!(common::distance(&held.rho, &well.rho) <= 1e-9 && (held.energy - well.energy).abs() <= 1e-9, "{held:?}");
     let aside: Vec<f64> = well.rho.iter().map(|angle| angle + 0.05).collect();
-    let moved = Settler::new(&assembly, 32.0).near(&well.place, &aside, Options::default(), &mut |_| true);
+    let moved = MinimumTracker::new(&assembly, 32.0).near(&well.place, &aside, Options::default(), &mut |_| true);
     let moved = moved.unwrap();
     assert!(moved.energy > well.energy + 1e-6 && common::distance(&moved.rho, &well.rho) > 1e-3);
 }

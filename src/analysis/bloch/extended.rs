@@ -10,14 +10,14 @@ use nalgebra::{Complex, ComplexField};
 
 /// The unevaluated sum of two numbers, the second of which is the rounding of the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Twice {
+pub struct DoubleDouble {
     /// The sum, rounded.
     pub high: f64,
     /// What is left.
     pub low: f64,
 }
 
-impl Twice {
+impl DoubleDouble {
     /// `a + b`, exactly.
     pub fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
@@ -56,10 +56,10 @@ impl Twice {
 }
 
 /// Real and imaginary part.
-type ComplexTwice = [Twice; 2];
+type ComplexTwice = [DoubleDouble; 2];
 
 fn twice(z: Complex<f64>) -> ComplexTwice {
-    [z.re, z.im].map(|high| Twice { high, low: 0.0 })
+    [z.re, z.im].map(|high| DoubleDouble { high, low: 0.0 })
 }
 
 fn plus(a: ComplexTwice, b: ComplexTwice) -> ComplexTwice {
@@ -72,7 +72,7 @@ fn times(a: ComplexTwice, b: ComplexTwice) -> ComplexTwice {
 
 /// `exp(i q)`: the series at `q / 1024`, squared ten times.
 fn factor(q: f64) -> ComplexTwice {
-    let small = Twice { high: q / 1024.0, low: 0.0 };
+    let small = DoubleDouble { high: q / 1024.0, low: 0.0 };
     let mut sum = twice(Complex::ONE);
     for k in (1..=12).rev() {
         let [re, im] = sum.map(|part| part.times(small).over(f64::from(k)));
@@ -96,9 +96,9 @@ pub fn pairing(rigidity: &Rigidity, q: [f64; 2], left: &[Complex<f64>], right: &
         let mut stretch = ComplexTwice::default();
         for ((corner, direction), rest) in row.terms.iter().zip(&row.rests) {
             let along = |part: fn(Complex<f64>) -> f64| {
-                (0..3).fold(Twice::default(), |along, axis| {
-                    let moved = Twice { high: part(right[3 * corner.vertex + axis]), low: 0.0 };
-                    along.plus(moved.times(Twice { high: direction[axis], low: rest[axis] }))
+                (0..3).fold(DoubleDouble::default(), |along, axis| {
+                    let moved = DoubleDouble { high: part(right[3 * corner.vertex + axis]), low: 0.0 };
+                    along.plus(moved.times(DoubleDouble { high: direction[axis], low: rest[axis] }))
                 })
             };
             let phase = times(power(z[0], corner.shift[0]), power(z[1], corner.shift[1]));
@@ -125,11 +125,11 @@ mod tests {
         for [p, q] in [[0.75, 2.5], [-3.125, 1.0], [12.0, 0.0625]] {
             let [one, other, both] = [p, q, p + q].map(factor);
             assert!((one[0].high - p.cos()).abs() <= 2e-16 && (one[1].high - p.sin()).abs() <= 2e-16);
-            let apart = plus(times(one, other), both.map(Twice::minus));
+            let apart = plus(times(one, other), both.map(DoubleDouble::minus));
             let conjugate = [one[0], one[1].minus()];
             let length = plus(times(one, conjugate), twice(-Complex::ONE));
             assert!(size(apart) <= 1e-28 && size(length) <= 1e-28, "{:e} {:e}", size(apart), size(length));
-            assert!(size(plus(power(conjugate, -3), times(one, times(one, one)).map(Twice::minus))) <= 1e-28);
+            assert!(size(plus(power(conjugate, -3), times(one, times(one, one)).map(DoubleDouble::minus))) <= 1e-28);
         }
     }
 
@@ -146,8 +146,8 @@ mod tests {
         assert!((found - direct).norm() <= 1e-14, "{found} {direct}");
         for (row, edge) in rigidity.rows.iter().zip(&sheet.edges).filter(|(_, edge)| edge.key.shift == [0, 0]) {
             let [from, to] = [edge.key.i, edge.key.j].map(|v| sheet.vertices[v]);
-            let along = |axis: usize| Twice::sum(to[axis], -from[axis]);
-            let direction = |axis: usize| Twice { high: row.terms[1].1[axis], low: row.rests[1][axis] };
+            let along = |axis: usize| DoubleDouble::sum(to[axis], -from[axis]);
+            let direction = |axis: usize| DoubleDouble { high: row.terms[1].1[axis], low: row.rests[1][axis] };
             let across = direction(0).times(along(1)).plus(direction(1).times(along(0)).minus());
             assert!(across.high.abs() <= 1e-30 && row.rests[1].norm() > 1e-18, "{across:?}");
         }

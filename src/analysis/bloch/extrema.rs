@@ -12,11 +12,11 @@ use std::f64::consts::{PI, TAU};
 /// Newton steps at most.
 const STEPS: usize = 20;
 /// The last step of Newton's method.
-const SETTLED: f64 = 1e-12;
+const LAST_STEP: f64 = 1e-12;
 /// Longest way from the point of the grid, in meshes.
 const FARTHEST: f64 = 2.0;
 /// Extrema nearer to each other than this are one.
-const SAME: f64 = 1e-8;
+const SAME_EXTREMUM_DISTANCE: f64 = 1e-8;
 
 /// An extremum of the other sign than its boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ pub fn hidden(zone: &Zone, n: usize, positive: &[bool], steepness: &[f64]) -> Ve
         }
         let corners = corners(n, extremum);
         let apart = |other: &Hidden| [0, 1].map(|a| reduced(other.extremum[a] - extremum[a]).abs());
-        let known = found.iter().map(apart).any(|[x, y]| x.max(y) <= SAME);
+        let known = found.iter().map(apart).any(|[x, y]| x.max(y) <= SAME_EXTREMUM_DISTANCE);
         if !known && corners.iter().all(|&[i, j]| positive[j * n + i] != (value > 0.0)) {
             let outside = corners.map(|[i, j]| {
                 let at = [wavenumber(i, n), wavenumber(j, n)];
@@ -82,7 +82,7 @@ fn extremum(zone: &Zone, start: [f64; 2], farthest: f64) -> Option<[f64; 2]> {
         if !((q[0] - start[0]).hypot(q[1] - start[1]) <= farthest) {
             return None;
         }
-        if step[0].hypot(step[1]) <= SETTLED {
+        if step[0].hypot(step[1]) <= LAST_STEP {
             return (determinant > 0.0).then_some(q);
         }
     }

@@ -9,7 +9,7 @@
 //! Forces of tensions `t` that are multiplied in the same way are balanced where `R(1/z1, 1/z2)^T t = 0`.
 
 use super::BlochError;
-use super::extended::Twice;
+use super::extended::DoubleDouble;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
 use crate::math::fold_angle::fold_angle_gradient;
@@ -194,10 +194,10 @@ impl Rigidity {
 fn precise_direction(sheet: &Sheet, key: &EdgeKey, lattice: &[Vec3; 2]) -> (Vec3, Vec3) {
     let [from, to] = [sheet.vertices[key.i], sheet.vertices[key.j]];
     let along = [0, 1, 2].map(|axis| {
-        let shifted = [0, 1].map(|a| Twice::product(f64::from(key.shift[a]), lattice[a][axis]));
-        Twice::sum(to[axis], -from[axis]).plus(shifted[0]).plus(shifted[1])
+        let shifted = [0, 1].map(|a| DoubleDouble::product(f64::from(key.shift[a]), lattice[a][axis]));
+        DoubleDouble::sum(to[axis], -from[axis]).plus(shifted[0]).plus(shifted[1])
     });
-    let scale = Twice { high: Vec3::from(along.map(|x| x.high)).norm().recip(), low: 0.0 };
+    let scale = DoubleDouble { high: Vec3::from(along.map(|x| x.high)).norm().recip(), low: 0.0 };
     let unit = along.map(|x| x.times(scale));
     (Vec3::from(unit.map(|x| x.high)), Vec3::from(unit.map(|x| x.low)))
 }

@@ -21,7 +21,7 @@ const ROUNDS: usize = 8;
 /// Newton steps with one pair of null vectors.
 const STEPS: usize = 3;
 /// A round that moves `log z` by less than this, or by rounding, is the last: what it leaves is of its square.
-const SETTLED: f64 = 1e-12;
+const LAST_LOG_CHANGE: f64 = 1e-12;
 /// Longest way of `log z` from where a search begins.
 const FARTHEST: f64 = 0.2;
 /// Borders are taken anew where null vectors have more than this of their squared norm across them.
@@ -60,7 +60,7 @@ impl<'a> Search<'a> {
                 return None;
             }
             let condition = at.size / at.slopes[a].norm();
-            if (z[a] / before - 1.0).norm() <= SETTLED.max(f64::EPSILON * condition) {
+            if (z[a] / before - 1.0).norm() <= LAST_LOG_CHANGE.max(f64::EPSILON * condition) {
                 return Some(Root { z: z[a], condition, multiplicity: 1 });
             }
         }
@@ -90,7 +90,7 @@ impl<'a> Search<'a> {
             if !(moved(start) <= FARTHEST) {
                 return None;
             }
-            if moved(before) <= SETTLED {
+            if moved(before) <= LAST_LOG_CHANGE {
                 return Some((q, last.max(f64::EPSILON)));
             }
         }

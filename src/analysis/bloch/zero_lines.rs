@@ -118,7 +118,7 @@ impl ZeroLines {
 }
 
 /// Where a piece ends.
-enum End<'a> {
+enum ArcEnd<'a> {
     /// Where it began, with this tangent.
     Start([f64; 2]),
     /// At `q = 0`, on one of these rays.
@@ -220,7 +220,7 @@ impl<'a> Tracer<'a> {
                 continue;
             }
             used[ray] = true;
-            let arc = self.follow(start, self.longest, End::Origin(&mut used))?;
+            let arc = self.follow(start, self.longest, ArcEnd::Origin(&mut used))?;
             self.count(&arc.points);
             let last = arc.points[arc.points.len() - 1].map(reduced);
             arcs.push(([ray, self.nearest_ray(last)], arc));
@@ -243,11 +243,11 @@ impl<'a> Tracer<'a> {
         // not on the edge of the grid itself, where rounding would decide whether it is crossed
         let start = self.step(start, 0.3 * first).map_or(start, |(off, _)| off);
         let along = tangent(self.zone.at(start).1);
-        self.follow(start, first, End::Start(along))
+        self.follow(start, first, ArcEnd::Start(along))
     }
 
     /// Follows a line from a point on it to its end.
-    fn follow(&self, start: [f64; 2], first: f64, mut end: End<'_>) -> Result<Arc, BlochError> {
+    fn follow(&self, start: [f64; 2], first: f64, mut end: ArcEnd<'_>) -> Result<Arc, BlochError> {
         let mut arc = Arc { points: vec![start], residual: 0.0 };
         let (mut here, mut step) = (start, first);
         for _ in 0..MOST_STEPS {
@@ -260,7 +260,7 @@ impl<'a> Tracer<'a> {
                 }
                 continue;
             };
-            if let End::Start(along) = end
+            if let ArcEnd::Start(along) = end
                 && arc.points.len() > 2
                 && passes(start, along, here, there, step)
             {
@@ -271,7 +271,7 @@ impl<'a> Tracer<'a> {
             arc.points.push(there);
             arc.residual = arc.residual.max(residual);
             (here, step) = (there, 1.3 * step);
-            if let End::Origin(used) = &mut end
+            if let ArcEnd::Origin(used) = &mut end
                 && arrives(here, self.zone)
             {
                 used[self.nearest_ray(here.map(reduced))] = true;

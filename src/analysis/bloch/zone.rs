@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Sums that vanish relative to their terms by less than this are zero.
 const ZERO: f64 = 1e-9;
 /// Wavenumbers below this are near `q = 0`.
-const NEAR: f64 = 0.5;
+const SMALL_WAVENUMBER: f64 = 0.5;
 /// Relative imaginary part of a root that is real up to rounding.
 const REAL: f64 = 1e-7;
 
@@ -84,7 +84,7 @@ impl Zone {
 
     /// Order of the terms that are taken out of the cosines at reduced wavenumbers.
     fn parts(&self, q: [f64; 2]) -> usize {
-        if q.iter().all(|q| q.abs() < NEAR) { self.order } else { 0 }
+        if q.iter().all(|q| q.abs() < SMALL_WAVENUMBER) { self.order } else { 0 }
     }
 
     /// Directions in which zero lines leave `q = 0`: angles to the first axis in `(-pi/2, pi/2]`, ascending; those of

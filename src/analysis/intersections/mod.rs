@@ -15,7 +15,7 @@ mod sheet;
 
 pub use contact::{Triangle, cross};
 pub use depth::depth;
-pub use sheet::{LYING, Marks, SelfIntersection};
+pub use sheet::{Marks, STACKED_LAYERS_MARGIN, SelfIntersection};
 
 use crate::math::Vec3;
 use parry3d_f64::bounding_volume::Aabb;

@@ -16,7 +16,7 @@
 
 use super::Finder;
 use crate::analysis::state::State;
-use crate::analysis::view::View;
+use crate::analysis::view::ShownCells;
 use crate::model::{Assembly, Boundary, Drawn};
 use crate::sheet::{Sheet, Tiling};
 use std::collections::HashMap;
@@ -25,7 +25,7 @@ use std::f64::consts::PI;
 /// Cells of a torus on every side of the drawn ones that these are held against.
 pub const NEIGHBOURS: usize = 2;
 /// A margin for states that are known to the tolerance of a relaxation: layers that lie on each other stay apart.
-pub const LYING: f64 = 1e-9;
+pub const STACKED_LAYERS_MARGIN: f64 = 1e-9;
 
 /// What passes through itself in one state.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -39,7 +39,7 @@ pub struct Marks {
 /// Looks for self-intersection in states of one sheet.
 pub struct SelfIntersection {
     /// The cells that are looked at.
-    view: View,
+    view: ShownCells,
     finder: Finder,
     /// The triangle here that each triangle of the drawn patch is.
     drawn: Vec<usize>,
@@ -52,9 +52,10 @@ impl SelfIntersection {
     /// For the states of an assembly.
     pub fn new(assembly: &Assembly) -> Self {
         let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
-        let drawn = View::new(assembly);
+        let drawn = ShownCells::new(assembly);
         let around = if is_torus(assembly.boundary()) { NEIGHBOURS } else { 0 };
-        let view = View::of_cells(sheet, tiling, drawn.patch.cells.map(|n| n + 2 * around), [-(around as i32); 2]);
+        let view =
+            ShownCells::of_cells(sheet, tiling, drawn.patch.cells.map(|n| n + 2 * around), [-(around as i32); 2]);
         let numbers: HashMap<(usize, [i32; 2]), usize> =
             view.patch.triangles.iter().enumerate().map(|(k, t)| ((t.triangle, t.cell), k)).collect();
         let number = |triangle: usize, cell: [i32; 2]| numbers[&(triangle, cell.map(|c| c + around as i32))];
@@ -86,7 +87,7 @@ fn is_torus(boundary: Boundary) -> bool {
     matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus)
 }
 
-fn hinges(view: &View) -> Vec<(usize, [usize; 2])> {
+fn hinges(view: &ShownCells) -> Vec<(usize, [usize; 2])> {
     let hinge = |(&edge, beside): (&usize, &Vec<usize>)| Some((edge, beside.as_slice().try_into().ok()?));
     view.edges.iter().zip(&view.beside).filter_map(hinge).collect()
 }

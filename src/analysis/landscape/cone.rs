@@ -10,7 +10,7 @@
 
 use super::samples::SampleError;
 use super::sphere::{self, Direction, curvature};
-use super::{Courses, HeldSheet};
+use super::{HeldSheet, TaylorPaths};
 use crate::kinematics::{Closing, Closure, FoldingModes, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
@@ -22,7 +22,7 @@ use std::f64::consts::FRAC_PI_4;
 
 const STEPS: usize = 30;
 /// Largest residual of a point of the cone, closure and components over the amplitude.
-const CLOSED: f64 = 1e-12;
+const CONE_RESIDUAL: f64 = 1e-12;
 /// Half the first window about a zero, in radians, and how much smaller the next ones are.
 const WINDOW: f64 = 1e-2;
 const WINDOWS: usize = 3;
@@ -69,7 +69,7 @@ impl<'a> Cone<'a> {
             let change = DVector::from_fn(unknowns, |k, _| x[k] - drawn[k]);
             let k: Vec3 = (&tensor * change).fixed_rows::<3>(0).into_owned();
             let conditions = [k.norm() / amplitude - 1.0, along.dot(&k) / amplitude];
-            if residual.iter().chain(&conditions).all(|r| r.abs() <= CLOSED) {
+            if residual.iter().chain(&conditions).all(|r| r.abs() <= CONE_RESIDUAL) {
                 return Some(k.normalize());
             }
             let mut all = jacobian.clone().resize_vertically(equations + 2, 0.0);
@@ -87,7 +87,7 @@ impl<'a> Cone<'a> {
 /// opposite signs on both sides, where it is smooth, and its zero found in ever smaller windows.
 pub fn zero_of_energy(
     held: &mut HeldSheet,
-    courses: &Courses,
+    courses: &TaylorPaths,
     near: &Vec3,
     amplitude: f64,
 ) -> Result<Vec3, SampleError> {
@@ -113,7 +113,7 @@ pub fn zero_of_energy(
 }
 
 /// The angle between a point of the exact cone and the zero of the energy.
-pub fn distance(held: &mut HeldSheet, courses: &Courses, point: &Vec3, amplitude: f64) -> Result<f64, SampleError> {
+pub fn distance(held: &mut HeldSheet, courses: &TaylorPaths, point: &Vec3, amplitude: f64) -> Result<f64, SampleError> {
     let zero = zero_of_energy(held, courses, point, amplitude)?;
     Ok(zero.cross(point).norm().atan2(zero.dot(point)))
 }

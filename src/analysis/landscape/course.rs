@@ -8,7 +8,7 @@ pub const ORDERS: usize = 3;
 
 /// A place of a held sheet, or a change of place.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct HeldState {
     /// The unknowns.
     pub x: Vec<f64>,
     /// Tensions of the stiff measures.
@@ -17,7 +17,7 @@ pub struct Place {
     pub rest: DVector<f64>,
 }
 
-impl Place {
+impl HeldState {
     /// Adds another one times a factor.
     pub fn add(&mut self, factor: f64, other: &Self) {
         add_scaled(&mut self.x, factor, &other.x);
@@ -28,16 +28,16 @@ impl Place {
 
 /// Rest angles move by `a rates` along the modes; all else by the sum of `a^d orders[d - 1]`.
 #[derive(Clone, Debug)]
-pub struct Course {
+pub struct TaylorPath {
     /// Rates of the rest angles along the modes.
     pub rates: Vec<f64>,
     /// What goes with the powers of the amplitude. To first order a mode makes no tensions and needs no rest angles across.
-    pub orders: [Place; ORDERS],
+    pub orders: [HeldState; ORDERS],
 }
 
-impl Course {
+impl TaylorPath {
     /// Adds the change from one amplitude to another.
-    pub fn advance(&self, place: &mut Place, from: f64, to: f64) {
+    pub fn advance(&self, place: &mut HeldState, from: f64, to: f64) {
         for (power, order) in (1..).zip(&self.orders) {
             place.add(to.powi(power) - from.powi(power), order);
         }

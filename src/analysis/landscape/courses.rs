@@ -5,21 +5,21 @@
 
 use super::course::ORDERS;
 use super::prediction::drawn;
-use super::{Course, Expansion, HeldSheet, LandscapeError};
+use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
 use nalgebra::DVector;
 
-/// Courses along all modes of a sheet.
+/// Taylor paths along all modes of a sheet.
 #[derive(Clone, Debug)]
-pub struct Courses {
-    /// Courses along some modes.
-    known: Vec<Course>,
+pub struct TaylorPaths {
+    /// Taylor paths along some modes.
+    known: Vec<TaylorPath>,
     /// For every power, the weights of these courses by monomial, a column for each.
     weights: [DenseMatrix; ORDERS],
 }
 
-impl Courses {
+impl TaylorPaths {
     /// Of a sheet from the drawn state, by `n (n + 1) (n + 2) / 6` courses for `n` modes.
     ///
     /// Fails as [`LandscapeError`] says.
@@ -40,7 +40,7 @@ impl Courses {
     }
 
     /// Where the sheet goes along the mode with these rates.
-    pub fn along(&self, held: &HeldSheet, rates: &[f64]) -> Course {
+    pub fn along(&self, held: &HeldSheet, rates: &[f64]) -> TaylorPath {
         let amplitudes = held.amplitudes(rates);
         let order = |number: usize| {
             let mut sum = held.still();
@@ -48,7 +48,7 @@ impl Courses {
             weights.iter().zip(&self.known).for_each(|(weight, course)| sum.add(*weight, &course.orders[number]));
             sum
         };
-        Course { rates: rates.to_vec(), orders: [order(0), order(1), order(2)] }
+        TaylorPath { rates: rates.to_vec(), orders: [order(0), order(1), order(2)] }
     }
 }
 

@@ -10,10 +10,10 @@
 //! A mode that is rigid to second order has `h2 = t2 = 0`: then the sixth power leads, and `E6` tells whether it is rigid
 //! to third order.
 
-use super::course::Place;
+use super::course::HeldState;
 use super::prediction::{curvature_forces, drawn};
-use super::settling::{Both, Settling};
-use super::{Course, HeldSheet, LandscapeError};
+use super::settling::{Settling, TermValues};
+use super::{HeldSheet, LandscapeError, TaylorPath};
 use crate::model::Model;
 use crate::numerics::vector::dot;
 
@@ -37,7 +37,7 @@ impl Expansion {
     }
 
     /// The same, and where the sheet goes.
-    pub fn with_course(held: &HeldSheet, rates: &[f64]) -> Result<(Self, Course), LandscapeError> {
+    pub fn with_course(held: &HeldSheet, rates: &[f64]) -> Result<(Self, TaylorPath), LandscapeError> {
         Self::at(held, &mut drawn(held)?, rates)
     }
 
@@ -46,14 +46,14 @@ impl Expansion {
         held: &HeldSheet,
         settling: &mut Settling<'_>,
         rates: &[f64],
-    ) -> Result<(Self, Course), LandscapeError> {
+    ) -> Result<(Self, TaylorPath), LandscapeError> {
         let model = &held.model;
         let (x0, x1) = (model.coordinates(&model.start()), held.motion(rates));
         let still = vec![0.0; x0.len()];
         let [second, _, _] = powers(model, &[&x0, &x1, &still]);
         let at_second = settling.settle((&second.0, &second.1), None)?;
         let torques: Vec<f64> = settling.stiffness().iter().zip(&at_second.off).map(|(k, off)| k * off).collect();
-        let work = |(soft, stiff): &Both| dot(&torques, soft) + dot(&at_second.place.tension, stiff);
+        let work = |(soft, stiff): &TermValues| dot(&torques, soft) + dot(&at_second.place.tension, stiff);
 
         let [_, third, fourth] = powers(model, &[&x0, &x1, &model.velocity(&at_second.place.x)]);
         let bent = model.unknowns(&curvature_forces(model, &x1, (&torques, &at_second.place.tension)));
@@ -64,13 +64,13 @@ impl Expansion {
             fifth: work(&third),
             sixth: work(&fourth) + 0.5 * settling.product(&at_third, &at_third) + dot(&bent, &at_third.place.x),
         };
-        let first = Place { x: model.unknowns(&x1), ..held.still() };
-        Ok((expansion, Course { rates: rates.to_vec(), orders: [first, at_second.place, at_third.place] }))
+        let first = HeldState { x: model.unknowns(&x1), ..held.still() };
+        Ok((expansion, TaylorPath { rates: rates.to_vec(), orders: [first, at_second.place, at_third.place] }))
     }
 }
 
 /// The second, third and fourth powers of all measures, soft ones and stiff ones, along a path of all coordinates.
-fn powers(model: &Model, path: &[&[f64]; 3]) -> [Both; 3] {
+fn powers(model: &Model, path: &[&[f64]; 3]) -> [TermValues; 3] {
     let of = |power: usize, terms: &[Box<dyn crate::model::Elements>]| -> Vec<f64> {
         let elements = terms.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
         elements.map(|(term, k)| term.along(k, model.domain(), path).0[power]).collect()

@@ -1,6 +1,6 @@
 //! A sheet whose rest angles are held along its modes and free otherwise.
 
-use super::{LandscapeError, Place};
+use super::{HeldState, LandscapeError};
 use crate::kinematics::FoldingModes;
 use crate::model::{Assembly, Boundary, Model};
 use crate::numerics::DenseMatrix;
@@ -137,9 +137,9 @@ impl HeldSheet {
     }
 
     /// No change of place.
-    pub fn still(&self) -> Place {
+    pub fn still(&self) -> HeldState {
         let layout = self.model.layout();
-        Place {
+        HeldState {
             x: vec![0.0; layout.unknowns],
             tension: vec![0.0; layout.stiff.len()],
             rest: DVector::zeros(self.free.ncols()),

@@ -18,8 +18,8 @@ mod settling;
 pub mod sphere;
 mod torus;
 
-pub use course::{Course, Place};
-pub use courses::Courses;
+pub use course::{HeldState, TaylorPath};
+pub use courses::TaylorPaths;
 pub use expansion::Expansion;
 pub use held::HeldSheet;
 pub use prediction::Prediction;

@@ -10,7 +10,7 @@
 //! the mode, so the coefficient is a quartic form: one linear solve for each pair of modes and one for each direction of
 //! `p2` give it for all modes at once.
 
-use super::settling::{self, Both, Settling};
+use super::settling::{self, Settling, TermValues};
 use super::{HeldSheet, LandscapeError};
 use crate::model::{Elements, Model};
 use crate::numerics::DenseMatrix;
@@ -73,7 +73,7 @@ fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// `weight v^T H w` of every soft element and of every stiff measure, `H` its second derivative in the drawn state.
-fn second_order(model: &Model, [v, w]: [&[f64]; 2], weight: f64) -> Both {
+fn second_order(model: &Model, [v, w]: [&[f64]; 2], weight: f64) -> TermValues {
     let mut found: (Vec<f64>, Vec<f64>) = Default::default();
     each_curvature(model, v, |element, places, product| {
         let value = weight * places.iter().zip(product).map(|(&place, h)| w[place] * h).sum::<f64>();

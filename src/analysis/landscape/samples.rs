@@ -5,9 +5,9 @@
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
 //! predicts where the patch relaxes to next, so that one round is mostly enough.
 
-use super::course::Place;
-use super::settling::{Both, Settling};
-use super::{Course, Expansion, HeldSheet, LandscapeError};
+use super::course::HeldState;
+use super::settling::{Settling, TermValues};
+use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
 use crate::analysis::relax::{Relaxed, relax_from};
 use crate::numerics::larger;
 use crate::solver::{Failure, HessianKind, Options, Start, Step};
@@ -28,7 +28,7 @@ const ROUGH: f64 = 1e-7;
 const JOINT: usize = 3;
 const CLOSE: f64 = 1e-3;
 /// Longest change of a rest angle in a step, in radians.
-const LONGEST: f64 = 0.3;
+const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
 /// Rounding errors of an angle or a length in its evaluation.
 const ROUNDINGS: f64 = 4.0;
@@ -83,15 +83,15 @@ pub enum SampleError {
 /// Samples along one mode, each from the one before.
 pub struct Samples<'a> {
     held: &'a mut HeldSheet,
-    course: Course,
+    course: TaylorPath,
     /// Amplitude and place of the last one.
-    last: (f64, Place),
+    last: (f64, HeldState),
 }
 
 impl<'a> Samples<'a> {
     /// Along this course, from the drawn state.
-    pub fn new(held: &'a mut HeldSheet, course: Course) -> Self {
-        let place = Place { x: held.drawn(), ..held.still() };
+    pub fn new(held: &'a mut HeldSheet, course: TaylorPath) -> Self {
+        let place = HeldState { x: held.drawn(), ..held.still() };
         Self { held, course, last: (0.0, place) }
     }
 
@@ -113,7 +113,7 @@ impl<'a> Samples<'a> {
             let relaxed = relax_from(&mut self.held.model, start, OPTIONS, observe)
                 .map_err(|error| SampleError::Relaxation(error.failure))?;
             iterations += relaxed.iterations;
-            place = Place { x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: place.rest };
+            place = HeldState { x: relaxed.x.clone(), tension: relaxed.tension.clone(), rest: place.rest };
             torque = unbalanced(self.held, &directions, &relaxed);
             if torque <= BALANCED {
                 self.last = (amplitude, place);
@@ -125,19 +125,19 @@ impl<'a> Samples<'a> {
     }
 
     /// Uniform rest angles less those drawn.
-    fn rest(&self, place: &Place, amplitude: f64) -> DVector<f64> {
+    fn rest(&self, place: &HeldState, amplitude: f64) -> DVector<f64> {
         DVector::from_column_slice(&self.course.rates) * amplitude + &self.held.free * &place.rest
     }
 
     /// Joint steps of rest angles, unknowns and tensions, and how many; none where all rest angles are held.
-    fn approach(&mut self, place: &mut Place, amplitude: f64) -> Result<usize, LandscapeError> {
+    fn approach(&mut self, place: &mut HeldState, amplitude: f64) -> Result<usize, LandscapeError> {
         if self.held.free.ncols() == 0 {
             return Ok(0);
         }
         for steps in 1..=JOINT {
             self.held.set_rest(self.rest(place, amplitude).as_slice());
             let at = (place.x.as_slice(), place.tension.as_slice());
-            let step = Settling::new(self.held, at, HessianKind::Full, ROUGH)?.joint(at, LONGEST)?;
+            let step = Settling::new(self.held, at, HessianKind::Full, ROUGH)?.joint(at, LONGEST_ANGLE_STEP_RAD)?;
             place.add(1.0, &step);
             if step.rest.amax() <= CLOSE * place.rest.amax() {
                 return Ok(steps);
@@ -156,7 +156,7 @@ fn rounding(held: &HeldSheet, relaxed: &Relaxed) -> f64 {
 }
 
 /// The largest torque on a direction of rest angles, over its size.
-fn unbalanced(held: &HeldSheet, directions: &[Both], relaxed: &Relaxed) -> f64 {
+fn unbalanced(held: &HeldSheet, directions: &[TermValues], relaxed: &Relaxed) -> f64 {
     let model = &held.model;
     let stiffness = model.soft().iter().flat_map(|term| (0..term.len()).map(|k| term.spring(k).stiffness));
     let values = model.values(&relaxed.x);

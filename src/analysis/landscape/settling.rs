@@ -1,6 +1,6 @@
 //! How a held sheet settles, to first order, when its hinges and bars are off: the sheet and the rest angles across its modes.
 
-use super::course::Place;
+use super::course::HeldState;
 use super::{HeldSheet, LandscapeError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
@@ -16,13 +16,13 @@ pub const FINE: f64 = 1e-13;
 const INACCURATE: f64 = 1e-6;
 
 /// Amounts on every soft hinge and on every stiff measure.
-pub type Both = (Vec<f64>, Vec<f64>);
+pub type TermValues = (Vec<f64>, Vec<f64>);
 
 /// How a sheet settles.
 #[derive(Clone, Debug)]
 pub struct Response {
     /// What unknowns, tensions and rest angles across the modes move by.
-    pub place: Place,
+    pub place: HeldState,
     /// How far every soft hinge is off rest.
     pub off: Vec<f64>,
     /// What stiff measures are longer than their tensions make them: what linear solves have left.
@@ -47,7 +47,7 @@ pub struct Settling<'a> {
     held: &'a HeldSheet,
     tangent: Tangent,
     /// Directions of the rest angles across the modes.
-    directions: Vec<Both>,
+    directions: Vec<TermValues>,
     /// Responses to them.
     free: Vec<Response>,
     /// Energies of pairs of these responses: the Hessian of the energy in the rest angles.
@@ -106,7 +106,7 @@ impl<'a> Settling<'a> {
         for (((open, stretch), t), c) in open.iter_mut().zip(stretch).zip(&found.dt).zip(model.compliance()) {
             *open += stretch - c * t;
         }
-        Ok(Response { place: Place { x: found.dx, tension: found.dt, ..self.held.still() }, off, open })
+        Ok(Response { place: HeldState { x: found.dx, tension: found.dt, ..self.held.still() }, off, open })
     }
 
     /// The same with the rest angles across the modes settling too.
@@ -134,7 +134,7 @@ impl<'a> Settling<'a> {
     /// Hessian of the energy in the rest angles is that of equilibria near it. `longest` bounds what rest angles move by.
     ///
     /// Fails where the energy is not convex in the rest angles.
-    pub fn joint(&mut self, (x, tension): (&[f64], &[f64]), longest: f64) -> Result<Place, LandscapeError> {
+    pub fn joint(&mut self, (x, tension): (&[f64], &[f64]), longest: f64) -> Result<HeldState, LandscapeError> {
         let model = &self.held.model;
         let found = self.tangent.newton_step(tension, self.accuracy);
         let mut off = vec![0.0; model.layout().soft.len()];
@@ -147,9 +147,9 @@ impl<'a> Settling<'a> {
         let factor = cholesky(self.hessian.clone()).ok_or(FactorError::Singular { ratio: 0.0 })?;
         let rest = factor.solve(&torques);
         let rest = &rest * (longest / rest.amax()).min(1.0);
-        let mut step = Place { x: found.dx, tension: found.dt, ..self.held.still() };
+        let mut step = HeldState { x: found.dx, tension: found.dt, ..self.held.still() };
         rest.iter().zip(&self.free).for_each(|(part, free)| step.add(*part, &free.place));
-        Ok(Place { rest, ..step })
+        Ok(HeldState { rest, ..step })
     }
 
     /// Torque of hinges that are off and of tensions on a direction of the rest angles.

@@ -6,7 +6,7 @@
 //! at 45 degrees and the equator has opposite curvatures.
 
 use super::samples::{Sample, SampleError, Samples};
-use super::{Courses, HeldSheet, LandscapeError};
+use super::{HeldSheet, LandscapeError, TaylorPaths};
 use crate::math::Vec3;
 use crate::numerics::parallel;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
@@ -88,7 +88,7 @@ impl Net {
 /// The sample in a direction, relaxed from where third order says it is: nothing of other samples enters.
 pub fn sample(
     held: &mut HeldSheet,
-    courses: &Courses,
+    courses: &TaylorPaths,
     direction: &Vec3,
     amplitude: f64,
 ) -> Result<Sample, SampleError> {
@@ -101,7 +101,7 @@ pub fn sample(
 /// before each; those that come after it said no are `None`.
 pub fn samples(
     make: &(dyn Fn() -> Result<HeldSheet, LandscapeError> + Sync),
-    courses: &Courses,
+    courses: &TaylorPaths,
     points: &[Vec3],
     amplitude: f64,
     go_on: &(dyn Fn() -> bool + Sync),

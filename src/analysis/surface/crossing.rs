@@ -5,7 +5,7 @@
 //! Newton's method from between. An energy is lowest along the curve where its slope along the tangent vanishes, and is
 //! lowest on both surfaces there when it rises along each of the four ways that leave the curve.
 
-use super::folding::Folding;
+use super::folding::SurfaceClosure;
 use super::starts::starts;
 use super::tip::periodic_near;
 use super::{Surface, SurfaceOptions, SurfacePoint};
@@ -17,8 +17,8 @@ use std::collections::BTreeSet;
 /// Distance over which slopes are compared first, and at which the energy beside the curve is asked.
 const ASIDE: f64 = 1e-3;
 /// Longest and last step along the curve, and most of them.
-const LONGEST: f64 = 0.1;
-const SETTLED: f64 = 1e-11;
+const LONGEST_CURVE_STEP: f64 = 0.1;
+const LAST_STEP: f64 = 1e-11;
 const STEPS: usize = 40;
 /// Half the distance over which the slope of a quadratic energy is taken.
 const SLOPE: f64 = 0.1;
@@ -46,7 +46,7 @@ pub struct Lowest {
 }
 
 /// The states of the curve on the edges of a triangulation that go over it.
-pub(super) fn seam(folding: &Folding<'_>, points: &[SurfacePoint], triangles: &[[usize; 3]]) -> Vec<Seam> {
+pub(super) fn seam(folding: &SurfaceClosure<'_>, points: &[SurfacePoint], triangles: &[[usize; 3]]) -> Vec<Seam> {
     let edges: BTreeSet<[usize; 2]> =
         triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).map(|[a, b]| [a.min(b), a.max(b)]).collect();
     let on_edge = |between: [usize; 2]| {
@@ -75,7 +75,7 @@ impl Surface {
     ) -> Option<Lowest> {
         let closure = Closure::of_cell(assembly.sheet()).ok()?.with_locked(&assembly.locked_edges());
         let embedding = Embedding::new(assembly.sheet()).ok()?;
-        let folding = Folding::new(&closure, &embedding, options.max_curvature);
+        let folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
         let x = descend(&folding, folding.folding(angles), &|x| energy(&folding.all(x)))?;
         let angles = folding.all(&x);
         let singular = full_svd(&folding.periodic(&x).1).ok()?.singular_values;
@@ -87,7 +87,7 @@ impl Surface {
 }
 
 /// Along the curve to where the slope of the energy vanishes and rises, by the secant method.
-fn descend(folding: &Folding<'_>, start: Vec<f64>, energy: &dyn Fn(&[f64]) -> f64) -> Option<Vec<f64>> {
+fn descend(folding: &SurfaceClosure<'_>, start: Vec<f64>, energy: &dyn Fn(&[f64]) -> f64) -> Option<Vec<f64>> {
     let moved = |x: &[f64], by: f64, t: &[f64]| -> Vec<f64> { x.iter().zip(t).map(|(x, t)| x + by * t).collect() };
     let tangent = |x: &[f64], like: &[f64]| -> Option<Vec<f64>> {
         let basis = null_space(&folding.periodic(x).1).ok()?.basis;
@@ -106,8 +106,8 @@ fn descend(folding: &Folding<'_>, start: Vec<f64>, energy: &dyn Fn(&[f64]) -> f6
         if !(bend > 0.0) {
             return None;
         }
-        (before, step) = (now, (-now / bend).clamp(-LONGEST, LONGEST));
-        if step.abs() <= SETTLED {
+        (before, step) = (now, (-now / bend).clamp(-LONGEST_CURVE_STEP, LONGEST_CURVE_STEP));
+        if step.abs() <= LAST_STEP {
             return Some(x);
         }
     }
@@ -122,7 +122,7 @@ fn rises(
     energy: &dyn Fn(&[f64]) -> f64,
 ) -> Option<bool> {
     let second_order = SecondOrder::new(closure, angles).ok()?;
-    let mut folding = Folding::at(closure, embedding, (angles, f64::INFINITY));
+    let mut folding = SurfaceClosure::at(closure, embedding, (angles, f64::INFINITY));
     let near = SurfaceOptions { radius: ASIDE, max_curvature: f64::INFINITY, ..*options };
     let found = starts(&mut folding, &second_order, &near).ok()?.ok()?;
     let here = energy(angles);

@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use std::f64::consts::TAU;
 
 /// Fold angles that close, up to a curvature. The unknowns are the angles of the folding edges.
-pub(super) struct Folding<'a> {
+pub(super) struct SurfaceClosure<'a> {
     closure: &'a Closure,
     closing: Closing<'a>,
     embedding: &'a Embedding,
@@ -19,7 +19,7 @@ pub(super) struct Folding<'a> {
     max_curvature: f64,
 }
 
-impl<'a> Folding<'a> {
+impl<'a> SurfaceClosure<'a> {
     pub fn new(closure: &'a Closure, embedding: &'a Embedding, max_curvature: f64) -> Self {
         Self::at(closure, embedding, (embedding.drawn_angles(), max_curvature))
     }
@@ -82,7 +82,7 @@ impl<'a> Folding<'a> {
     }
 }
 
-impl Implicit for Folding<'_> {
+impl Implicit for SurfaceClosure<'_> {
     fn unknowns(&self) -> usize {
         self.closing.unknowns()
     }
@@ -96,7 +96,7 @@ impl Implicit for Folding<'_> {
     }
 }
 
-impl Surface for Folding<'_> {
+impl Surface for SurfaceClosure<'_> {
     fn period(&self, _unknown: usize) -> Option<f64> {
         Some(TAU)
     }
@@ -110,7 +110,7 @@ impl Surface for Folding<'_> {
 
 /// The states of a surface on a hyperplane through a point.
 pub(super) struct Section<'a, 'b> {
-    pub folding: &'b mut Folding<'a>,
+    pub folding: &'b mut SurfaceClosure<'a>,
     /// A point of the hyperplane.
     pub through: Vec<f64>,
     /// Its normal, of length 1.
@@ -122,7 +122,7 @@ pub(super) struct Section<'a, 'b> {
 }
 
 impl<'a, 'b> Section<'a, 'b> {
-    pub fn new(folding: &'b mut Folding<'a>, through: Vec<f64>, normal: Vec<f64>) -> Self {
+    pub fn new(folding: &'b mut SurfaceClosure<'a>, through: Vec<f64>, normal: Vec<f64>) -> Self {
         let (rows, columns) = (folding.equations(), folding.unknowns());
         Self { folding, through, normal, residual: vec![0.0; rows], jacobian: DenseMatrix::zeros(rows, columns) }
     }

@@ -20,7 +20,7 @@ use crate::kinematics::{Closure, Embedding, KinematicsError, SecondOrder, Shape}
 use crate::model::{Assembly, Boundary};
 use crate::solver::atlas::{self, Atlas, AtlasError, Coverage};
 pub use crossing::{Lowest, Seam};
-use folding::Folding;
+use folding::SurfaceClosure;
 use thiserror::Error;
 
 /// Largest angle between the tangent planes of neighbouring charts, in radians.
@@ -206,13 +206,13 @@ pub fn surface(
         let left = modes as i64 - quadrics as i64;
         return Err(SurfaceError::NotTwoDimensional { modes, quadrics, left });
     }
-    let mut folding = Folding::new(&closure, &embedding, options.max_curvature);
+    let mut folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
     let starts = match starts::starts(&mut folding, &second_order, options)? {
         Ok(starts) => starts,
         Err(negative) => return Ok(Surface::nothing(negative, options.radius)),
     };
     let states: Vec<Vec<f64>> = starts.list.iter().map(|start| start.x.clone()).collect();
-    let charts = atlas::Options {
+    let charts = atlas::CoverOptions {
         tolerance: options.tolerance,
         radius: options.radius.min(REACH * starts.reach),
         max_turn: MAX_TURN,
@@ -257,7 +257,7 @@ impl Surface {
 
 /// The states of an atlas, the hole around the drawn state closed where it is a tip.
 fn put_together(
-    folding: &Folding<'_>,
+    folding: &SurfaceClosure<'_>,
     mut atlas: Atlas,
     starts: &starts::Starts,
     observe: &mut dyn FnMut(usize) -> bool,

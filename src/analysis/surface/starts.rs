@@ -8,13 +8,13 @@
 //! multiplicity ([`crate::kinematics::Rays`]); as many hyperplanes are taken as make it unlikely that a piece meets
 //! none. On such a hyperplane the surface is a curve, followed from the drawn state along its ray.
 
-use super::folding::{Folding, Section};
+use super::folding::{Section, SurfaceClosure};
 use super::{Negative, SurfaceError, SurfaceOptions};
 use crate::kinematics::{KinematicsError, Rays, RealDirections, SecondOrder};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{null_space, symmetric_eigen};
 use crate::solver::atlas::{Atlas, Surface as _};
-use crate::solver::continuation::{Options, Point, follow};
+use crate::solver::continuation::{CurveOptions, Point, follow};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 
@@ -28,7 +28,7 @@ const ZERO: f64 = 1e-9;
 const NEAREST: f64 = 2e-5;
 
 /// A state on the surface.
-pub(super) struct Start {
+pub(super) struct SurfaceStart {
     /// Angles of the folding edges.
     pub x: Vec<f64>,
     /// Sign of its curvature; 1 where that is 0.
@@ -39,7 +39,7 @@ pub(super) struct Start {
 
 /// States from which the surface is begun.
 pub(super) struct Starts {
-    pub list: Vec<Start>,
+    pub list: Vec<SurfaceStart>,
     /// Distance from the drawn state, in fold angles, of the nearest one; infinite where the drawn state is itself the start.
     pub reach: f64,
     /// Ways along which no state was found, or that are not known themselves.
@@ -56,13 +56,13 @@ struct Direction {
 
 /// States near the drawn one along every direction found, both ways; or what is established instead.
 pub(super) fn starts(
-    folding: &mut Folding<'_>,
+    folding: &mut SurfaceClosure<'_>,
     second_order: &SecondOrder,
     settings: &SurfaceOptions,
 ) -> Result<Result<Starts, Negative>, SurfaceError> {
     let (directions, unknown) = match &second_order.quadrics[..] {
         [] => {
-            let list = vec![Start { x: folding.drawn(), sign: 1, line: 0 }];
+            let list = vec![SurfaceStart { x: folding.drawn(), sign: 1, line: 0 }];
             return Ok(Ok(Starts { list, reach: f64::INFINITY, lost: 0, crossing: false }));
         }
         [quadric] => match of_one_quadric(quadric)? {
@@ -83,7 +83,7 @@ pub(super) fn starts(
                     // beyond the limit: half of it is met so near that it could not be located
                     let reach = if folding.limit(&x) > 0.0 { 0.0 } else { arc_length };
                     found.reach = found.reach.min(reach);
-                    found.list.push(Start { x, sign, line });
+                    found.list.push(SurfaceStart { x, sign, line });
                 }
                 None => found.lost += 1,
             }
@@ -98,13 +98,17 @@ pub(super) fn starts(
 
 /// The state a chart's radius away on the hyperplane, or where half of the largest curvature is met.
 fn follow_out(
-    folding: &mut Folding<'_>,
+    folding: &mut SurfaceClosure<'_>,
     settings: &SurfaceOptions,
     tangent: Vec<f64>,
     normal: &[f64],
 ) -> Option<Point> {
-    let options =
-        Options { tolerance: settings.tolerance, length: settings.radius, stops: vec![0], ..Options::default() };
+    let options = CurveOptions {
+        tolerance: settings.tolerance,
+        length: settings.radius,
+        stops: vec![0],
+        ..CurveOptions::default()
+    };
     let drawn = folding.drawn();
     let mut section = Section::new(folding, drawn.clone(), normal.to_vec());
     let found = follow(&mut section, drawn, tangent, &options, &mut |_| true);
@@ -171,7 +175,7 @@ fn on_sections(second_order: &SecondOrder) -> Result<(Vec<Direction>, usize), Su
 
 /// Branch and sign of every start. Starts on one line through the drawn state, and on one piece of the surface, have
 /// one number.
-pub(super) fn branches(atlas: &Atlas, starts: &[Start]) -> Vec<(usize, i8)> {
+pub(super) fn branches(atlas: &Atlas, starts: &[SurfaceStart]) -> Vec<(usize, i8)> {
     let mut piece = pieces(atlas, starts.len());
     for (k, start) in starts.iter().enumerate() {
         for opposite in (0..k).filter(|&other| starts[other].line == start.line) {

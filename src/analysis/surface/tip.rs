@@ -5,7 +5,7 @@
 //! for one in every hole, as a solution of closure together with lattice rotations that are the identity, and joins the
 //! rim to it.
 
-use super::folding::Folding;
+use super::folding::SurfaceClosure;
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
 use crate::numerics::vector::distance;
@@ -16,10 +16,10 @@ use std::f64::consts::TAU;
 /// Limits of charts on the border of the surface are zero up to this.
 const BORDER: f64 = 1e-9;
 /// Largest residual of a tip, and steps to get there.
-const CLOSED: f64 = 1e-13;
+const TIP_RESIDUAL: f64 = 1e-13;
 const STEPS: usize = 20;
 /// A tip is no further from a point of the rim than this times the largest distance of two of its points.
-const NEAR: f64 = 1.5;
+const TIP_REACH: f64 = 1.5;
 
 /// The border of an atlas.
 pub(super) struct Left {
@@ -30,7 +30,7 @@ pub(super) struct Left {
 }
 
 /// Joins rims to the tips in their holes.
-pub(super) fn close(folding: &Folding<'_>, atlas: &mut Atlas) -> Left {
+pub(super) fn close(folding: &SurfaceClosure<'_>, atlas: &mut Atlas) -> Left {
     for rim in rims(&atlas.triangles) {
         if !rim.iter().all(|&k| off_limit(&atlas.charts[k])) {
             continue;
@@ -59,14 +59,14 @@ fn border(triangles: &[[usize; 3]]) -> BTreeSet<usize> {
 }
 
 /// The spatially periodic state within a rim, as a chart without extent.
-fn tip(folding: &Folding<'_>, charts: &[Chart], rim: &[usize]) -> Option<Chart> {
+fn tip(folding: &SurfaceClosure<'_>, charts: &[Chart], rim: &[usize]) -> Option<Chart> {
     let beside = &charts[rim[0]];
     let image = |(x, beside): (&f64, &f64)| x - TAU * ((x - beside) / TAU).round();
     let places: Vec<Vec<f64>> = rim.iter().map(|&k| charts[k].x.iter().zip(&beside.x).map(image).collect()).collect();
     let mut x = vec![0.0; beside.x.len()];
     places.iter().for_each(|place| x.iter_mut().zip(place).for_each(|(x, p)| *x += p / rim.len() as f64));
     let size = places.iter().map(|place| distance(place, &beside.x)).fold(0.0, f64::max);
-    let near = |x: &[f64]| distance(x, &beside.x) <= NEAR * size;
+    let near = |x: &[f64]| distance(x, &beside.x) <= TIP_REACH * size;
     let chart = |x: Vec<f64>| Chart {
         residual: folding.residual(&x),
         frame: vec![0.0; 2 * x.len()],
@@ -84,10 +84,10 @@ fn tip(folding: &Folding<'_>, charts: &[Chart], rim: &[usize]) -> Option<Chart> 
 }
 
 /// The spatially periodic state to which Newton's method leads, by shortest steps.
-pub(super) fn periodic_near(folding: &Folding<'_>, mut x: Vec<f64>) -> Option<Vec<f64>> {
+pub(super) fn periodic_near(folding: &SurfaceClosure<'_>, mut x: Vec<f64>) -> Option<Vec<f64>> {
     for _ in 0..STEPS {
         let (residual, jacobian) = folding.periodic(&x);
-        if residual.amax() <= CLOSED {
+        if residual.amax() <= TIP_RESIDUAL {
             return Some(x);
         }
         let right = DenseMatrix::from_column_slice(residual.len(), 1, residual.as_slice());

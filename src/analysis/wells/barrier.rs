@@ -11,7 +11,7 @@
 
 use super::merge::{Translations, Well, which};
 use super::pass::{Pass, equilibrium, sides};
-use super::settle::{Settled, Settler};
+use super::settle::{MinimumTracker, Settled};
 use super::string::{self, string};
 use crate::model::Assembly;
 use crate::solver::{Failure, Options};
@@ -167,7 +167,7 @@ fn from_softness(
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
     let failed = |failure| BarrierError::Path { stiffness, failure };
-    let mut settler = Settler::new(&assembly.with_bars(stiffness), string::STRENGTH);
+    let mut settler = MinimumTracker::new(&assembly.with_bars(stiffness), string::STRENGTH);
     let mut soft = Vec::new();
     for well in between {
         let place = &wells[well].settled.place;

@@ -9,7 +9,7 @@ use crate::model::Assembly;
 use std::collections::HashMap;
 
 /// Largest difference of a fold angle between two finds of one well, in radians.
-pub const SAME: f64 = 1e-5;
+pub const SAME_WELL_ANGLE_RAD: f64 = 1e-5;
 
 /// Rest angles of copies of a crease that are the same differ by no more, in radians.
 const ROUNDING: f64 = 1e-9;
@@ -78,8 +78,9 @@ pub fn wells(found: impl Iterator<Item = Settled>, translations: &Translations) 
     let mut wells: Vec<Well> = Vec::new();
     for settled in found {
         let angles = &settled.relaxed.state.fold_angle;
-        let known =
-            wells.iter_mut().find(|well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME);
+        let known = wells
+            .iter_mut()
+            .find(|well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME_WELL_ANGLE_RAD);
         match known {
             Some(well) => well.reached += 1,
             None => wells.push(Well { settled, reached: 1 }),
@@ -91,6 +92,7 @@ pub fn wells(found: impl Iterator<Item = Settled>, translations: &Translations) 
 
 /// The number of the well that a state is.
 pub fn which(wells: &[Well], angles: &[f64], translations: &Translations) -> Option<usize> {
-    let same = |well: &Well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME;
+    let same =
+        |well: &Well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME_WELL_ANGLE_RAD;
     wells.iter().position(same)
 }

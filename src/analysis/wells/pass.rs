@@ -4,19 +4,19 @@
 //! converges to whatever equilibrium is near, so the inertia is counted afterwards. What a pass joins is found by
 //! descending from it on both sides.
 
-use super::merge::SAME;
-use super::settle::{Place, Settled, Settler};
+use super::merge::SAME_WELL_ANGLE_RAD;
+use super::settle::{MinimumTracker, Settled, StartState};
 use super::string::STRENGTH;
 use crate::analysis::state::State;
 use crate::model::{Assembly, Gauge, Model};
 use crate::solver::{Failure, Options, Problem, Start, StationaryPoint, stationary_point};
 
 /// Largest change of a fold angle in a step.
-const LONGEST: f64 = 0.2;
+const LONGEST_ANGLE_STEP_RAD: f64 = 0.2;
 
 /// Steps of the descent from a pass before the sheet is set free, and their tolerance.
 const DESCENT: usize = 12;
-const LOOSE: Options = Options { tolerance: 1e-10, iterations: 60 };
+const DESCENT_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 
 /// How often a descent is held a hundred times as strongly, and the part of its strength that it loses in a step.
 const STRONGER: i32 = 4;
@@ -26,7 +26,7 @@ const WEAKER: f64 = 4.0;
 #[derive(Clone, Debug)]
 pub struct Pass {
     /// Where it is.
-    pub place: Place,
+    pub place: StartState,
     /// What it looks like.
     pub state: State,
     /// Fold angles of the soft hinges.
@@ -47,11 +47,11 @@ pub struct Pass {
 ///
 /// # Errors
 /// [`Failure`] where Newton's method does not converge, or its linear systems cannot be solved.
-pub fn equilibrium(assembly: &Assembly, from: &Place, options: Options) -> Result<Pass, Failure> {
+pub fn equilibrium(assembly: &Assembly, from: &StartState, options: Options) -> Result<Pass, Failure> {
     let mut model = assembly.model(Gauge::Held);
     model.set_angles(&from.angles);
-    let start = Start { x: model.hold_anew(from.coordinates.clone()), tension: Some(from.tension.clone()) };
-    let found = stationary_point(&mut model, start, LONGEST, options)?;
+    let start = Start { x: model.rebase_gauge(from.coordinates.clone()), tension: Some(from.tension.clone()) };
+    let found = stationary_point(&mut model, start, LONGEST_ANGLE_STEP_RAD, options)?;
     Ok(pass(&model, found))
 }
 
@@ -60,7 +60,7 @@ fn pass(model: &Model, found: StationaryPoint) -> Pass {
     let mut rho = model.values(&found.x);
     rho.truncate(model.layout().soft.len());
     Pass {
-        place: Place { coordinates: state.coordinates.clone(), angles: model.angles(), tension: found.tension },
+        place: StartState { coordinates: state.coordinates.clone(), angles: model.angles(), tension: found.tension },
         rho,
         energy: state.total(),
         state,
@@ -95,7 +95,7 @@ pub fn sides(assembly: &Assembly, pass: &Pass, along: &[f64], options: Options) 
 
 /// Whether two ends have the same fold angles.
 fn same(a: &Settled, b: &Settled) -> bool {
-    a.rho.iter().zip(&b.rho).all(|(a, b)| (a - b).abs() <= SAME)
+    a.rho.iter().zip(&b.rho).all(|(a, b)| (a - b).abs() <= SAME_WELL_ANGLE_RAD)
 }
 
 /// Descends from a pass to the side of a push, first held with this strength and then ever less; whether the first step
@@ -109,16 +109,16 @@ fn descent(
 ) -> Result<(Settled, bool), Failure> {
     let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + turn).collect();
     let (mut place, mut strength, mut to_its_side) = (pass.place.clone(), strength, None);
-    let mut settler = Settler::new(assembly, strength);
+    let mut settler = MinimumTracker::new(assembly, strength);
     let mut weak = 0;
     while weak < DESCENT {
-        let found = settler.near(&place, &target, LOOSE, &mut |_| true).map_err(|error| error.failure)?;
+        let found = settler.near(&place, &target, DESCENT_OPTIONS, &mut |_| true).map_err(|error| error.failure)?;
         let moved = |((rho, from), turn): ((&f64, &f64), &f64)| (rho - from) * turn;
         to_its_side.get_or_insert_with(|| found.rho.iter().zip(&pass.rho).zip(push).map(moved).sum::<f64>() > 0.0);
         (place, target) = (found.place, found.rho);
         if strength > STRENGTH {
             strength = (strength / WEAKER).max(STRENGTH);
-            settler = Settler::new(assembly, strength);
+            settler = MinimumTracker::new(assembly, strength);
         } else {
             weak += 1;
         }

@@ -1,4 +1,4 @@
-//! Relaxations that go on from each other, freely or held near given fold angles.
+//! Relaxations that relax_from_state on from each other, freely or held near given fold angles.
 //!
 //! Held is the proximal step (implicit Euler) of the descent in the metric `sum k (d rho)^2` of the creases: the minimum of
 //! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
@@ -11,7 +11,7 @@ use crate::solver::{Options, Problem, Start, Step};
 
 /// A state from which relaxations begin.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct StartState {
     /// All coordinates.
     pub coordinates: Vec<f64>,
     /// Angles of all hinges, from which angles continue.
@@ -24,7 +24,7 @@ pub struct Place {
 #[derive(Clone, Debug)]
 pub struct Settled {
     /// Where it is.
-    pub place: Place,
+    pub place: StartState,
     /// Fold angles of the soft hinges.
     pub rho: Vec<f64>,
     /// Energy, what holds it near its target left out.
@@ -34,7 +34,7 @@ pub struct Settled {
 }
 
 /// A model that can be held near given fold angles.
-pub struct Settler {
+pub struct MinimumTracker {
     free: Model,
     held: Model,
     /// How much stiffer than its creases is what holds the sheet.
@@ -43,7 +43,7 @@ pub struct Settler {
     stiffness: Vec<f64>,
 }
 
-impl Settler {
+impl MinimumTracker {
     /// The settler of an assembly; what holds it near fold angles is `strength` times as stiff as its creases.
     pub fn new(assembly: &Assembly, strength: f64) -> Self {
         let (free, mut held) = (assembly.model(Gauge::Held), assembly.model(Gauge::Held));
@@ -55,9 +55,9 @@ impl Settler {
     }
 
     /// The drawn state.
-    pub fn drawn(&self) -> Place {
+    pub fn drawn(&self) -> StartState {
         let coordinates = self.free.coordinates(&self.free.start());
-        Place { coordinates, angles: self.free.angles(), tension: vec![0.0; self.free.compliance().len()] }
+        StartState { coordinates, angles: self.free.angles(), tension: vec![0.0; self.free.compliance().len()] }
     }
 
     /// Stiffness of the soft hinges: the metric.
@@ -68,19 +68,19 @@ impl Settler {
     /// Relaxes from a place, whose tensions are used where they are near the solution.
     pub fn free(
         &mut self,
-        from: &Place,
+        from: &StartState,
         warm: bool,
         options: Options,
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Settled, Box<RelaxError>> {
-        let relaxed = go(&mut self.free, from, warm, options, observe)?;
+        let relaxed = relax_from_state(&mut self.free, from, warm, options, observe)?;
         Ok(self.settled(relaxed, false))
     }
 
     /// The same held near these fold angles of the soft hinges.
     pub fn near(
         &mut self,
-        from: &Place,
+        from: &StartState,
         target: &[f64],
         options: Options,
         observe: &mut dyn FnMut(&Step) -> bool,
@@ -90,14 +90,14 @@ impl Settler {
             rests[at] = (self.rest[at] + self.strength * target) / (1.0 + self.strength);
         }
         self.held.set_rests(&rests, &rests, 1.0);
-        let relaxed = go(&mut self.held, from, false, options, observe)?;
+        let relaxed = relax_from_state(&mut self.held, from, false, options, observe)?;
         Ok(self.settled(relaxed, true))
     }
 
     /// The place where the last free relaxation ended that did not converge; with no tensions.
-    pub fn ended(&self, state: &State) -> Place {
+    pub fn ended(&self, state: &State) -> StartState {
         let tension = vec![0.0; self.free.compliance().len()];
-        Place { coordinates: state.coordinates.clone(), angles: self.free.angles(), tension }
+        StartState { coordinates: state.coordinates.clone(), angles: self.free.angles(), tension }
     }
 
     fn settled(&self, relaxed: Relaxed, held: bool) -> Settled {
@@ -108,13 +108,13 @@ impl Settler {
         let stiff = relaxed.tension.iter().zip(model.compliance()).map(|(t, c)| c * t * t);
         let energy = 0.5 * (creases.sum::<f64>() + stiff.sum::<f64>());
         let (coordinates, tension) = (relaxed.state.coordinates.clone(), relaxed.tension.clone());
-        Settled { place: Place { coordinates, angles: model.angles(), tension }, rho, energy, relaxed }
+        Settled { place: StartState { coordinates, angles: model.angles(), tension }, rho, energy, relaxed }
     }
 }
 
-fn go(
+fn relax_from_state(
     model: &mut Model,
-    from: &Place,
+    from: &StartState,
     warm: bool,
     options: Options,
     observe: &mut dyn FnMut(&Step) -> bool,

@@ -6,7 +6,7 @@
 //! and rest angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the
 //! seed and its own number alone.
 
-use super::settle::{Place, Settled, Settler};
+use super::settle::{MinimumTracker, Settled, StartState};
 use crate::model::{Assembly, Boundary};
 use crate::numerics::parallel;
 use crate::numerics::random::symmetric;
@@ -115,8 +115,8 @@ fn one(assembly: &Assembly, starts: &Starts, number: usize) -> Outcome {
 }
 
 /// What the sheet does with its own bars and rest angles.
-fn released(assembly: &Assembly, from: &Place, options: Options) -> Outcome {
-    match Settler::new(assembly, 1.0).free(from, false, options, &mut |_| true) {
+fn released(assembly: &Assembly, from: &StartState, options: Options) -> Outcome {
+    match MinimumTracker::new(assembly, 1.0).free(from, false, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),
         Ok(found) if found.relaxed.negative_eigenvalues > 0 => Outcome::Saddle,
         Ok(found) => Outcome::Well(Box::new(found)),
@@ -124,13 +124,13 @@ fn released(assembly: &Assembly, from: &Place, options: Options) -> Outcome {
 }
 
 /// A state near random fold angles. One in which the relaxation did not converge is as good a start as any, where it is a state.
-fn crumpled(assembly: &Assembly, spread: f64, within: &mut dyn FnMut(f64) -> f64) -> Result<Place, Failure> {
+fn crumpled(assembly: &Assembly, spread: f64, within: &mut dyn FnMut(f64) -> f64) -> Result<StartState, Failure> {
     let mut terms = assembly.terms().clone();
     if let Some(creases) = &mut terms.creases {
         creases.rest = assembly.drawn_angles().iter().map(|angle| angle + within(spread)).collect();
         terms.bars = terms.bars.map(|bars| bars.min(SOFT * creases.stiffness));
     }
-    let mut settler = Settler::new(&assembly.with_terms(terms), 1.0);
+    let mut settler = MinimumTracker::new(&assembly.with_terms(terms), 1.0);
     let mut from = settler.drawn();
     shake(assembly, &mut from.coordinates, within);
     match settler.free(&from, false, CRUMPLED, &mut |_| true) {

@@ -6,7 +6,7 @@
 //! both halves of a sweep are one relaxation for every state: held ([`super::settle`]) near the point of the row where
 //! it belongs.
 
-use super::settle::{Settled, Settler};
+use super::settle::{MinimumTracker, Settled};
 use crate::numerics::random::symmetric;
 use crate::solver::{Failure, Options, Step};
 use rand::SeedableRng;
@@ -23,12 +23,12 @@ const AT_REST: f64 = 1e-3;
 /// How far a bent row is from the straight one in its middle, over its length.
 const BENT: f64 = 0.1;
 /// When the states of a row are converged.
-const LOOSE: Options = Options { tolerance: 1e-10, iterations: 60 };
+const STRING_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 
 /// The row of states between two wells. It begins straight in fold angles, or bent sideways at random, for each number but
 /// zero in another way: a straight one between symmetric states is symmetric and may rest on a ridge.
 pub fn string(
-    settler: &mut Settler,
+    settler: &mut MinimumTracker,
     [from, to]: [&Settled; 2],
     bend: u64,
     observe: &mut dyn FnMut(&Step) -> bool,
@@ -45,7 +45,7 @@ pub fn string(
 }
 
 /// The largest change of fold angles in a bend.
-fn sideways(settler: &Settler, [from, to]: [&Settled; 2], bend: u64) -> Vec<f64> {
+fn sideways(settler: &MinimumTracker, [from, to]: [&Settled; 2], bend: u64) -> Vec<f64> {
     let nothing = vec![0.0; from.rho.len()];
     if bend == 0 {
         return nothing;
@@ -58,7 +58,7 @@ fn sideways(settler: &Settler, [from, to]: [&Settled; 2], bend: u64) -> Vec<f64>
 
 /// States on the way between the fold angles of two wells, each from the one before it, from both ends.
 fn grown(
-    settler: &mut Settler,
+    settler: &mut MinimumTracker,
     [from, to]: [&Settled; 2],
     sideways: &[f64],
     observe: &mut dyn FnMut(&Step) -> bool,
@@ -72,14 +72,18 @@ fn grown(
         let beside = row[at.wrapping_add_signed(back)].clone().unwrap_or_else(|| from.clone());
         let mut target = between(&from.rho, &to.rho, part);
         target.iter_mut().zip(sideways).for_each(|(rho, turn)| *rho += turn * (PI * part).sin());
-        let found = settler.near(&beside.place, &target, LOOSE, observe).map_err(|error| error.failure)?;
+        let found = settler.near(&beside.place, &target, STRING_OPTIONS, observe).map_err(|error| error.failure)?;
         row[at] = Some(found);
     }
     Ok(row.into_iter().flatten().collect())
 }
 
 /// One sweep; the largest movement of a state.
-fn sweep(settler: &mut Settler, row: &mut [Settled], observe: &mut dyn FnMut(&Step) -> bool) -> Result<f64, Failure> {
+fn sweep(
+    settler: &mut MinimumTracker,
+    row: &mut [Settled],
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<f64, Failure> {
     let places = stations(settler, row);
     let (whole, last) = (places[row.len() - 1], row.len() - 1);
     let mut moved: f64 = 0.0;
@@ -90,7 +94,8 @@ fn sweep(settler: &mut Settler, row: &mut [Settled], observe: &mut dyn FnMut(&St
         let part = (station - places[behind]) / (places[behind + 1] - places[behind]);
         let target = between(&old[behind].rho, &old[behind + 1].rho, part);
         let nearest = if part < 0.5 { behind } else { behind + 1 };
-        let found = settler.near(&old[nearest].place, &target, LOOSE, observe).map_err(|error| error.failure)?;
+        let found =
+            settler.near(&old[nearest].place, &target, STRING_OPTIONS, observe).map_err(|error| error.failure)?;
         moved = moved.max(distance(settler, &found.rho, &old[at].rho));
         row[at] = found;
     }
@@ -102,13 +107,13 @@ fn between(a: &[f64], b: &[f64], part: f64) -> Vec<f64> {
 }
 
 /// Distance of fold angles in the metric of the creases.
-pub fn distance(settler: &Settler, a: &[f64], b: &[f64]) -> f64 {
+pub fn distance(settler: &MinimumTracker, a: &[f64], b: &[f64]) -> f64 {
     let squares = a.iter().zip(b).zip(settler.stiffness()).map(|((a, b), k)| k * (a - b).powi(2));
     squares.sum::<f64>().sqrt()
 }
 
 /// Distance of every state along the row.
-pub fn stations(settler: &Settler, row: &[Settled]) -> Vec<f64> {
+pub fn stations(settler: &MinimumTracker, row: &[Settled]) -> Vec<f64> {
     let mut along = vec![0.0];
     for pair in row.windows(2) {
         along.push(along[along.len() - 1] + distance(settler, &pair[0].rho, &pair[1].rho));
@@ -116,6 +121,6 @@ pub fn stations(settler: &Settler, row: &[Settled]) -> Vec<f64> {
     along
 }
 
-fn length(settler: &Settler, row: &[Settled]) -> f64 {
+fn length(settler: &MinimumTracker, row: &[Settled]) -> f64 {
     row.windows(2).map(|pair| distance(settler, &pair[0].rho, &pair[1].rho)).sum()
 }

@@ -6,7 +6,7 @@ use nalgebra::Complex;
 use std::f64::consts::TAU;
 
 /// Rotation angles above this are taken back by a turn; above pi, so that an angle that stays near pi is left alone.
-const WOUND: f64 = 4.0;
+const UNWINDING_ANGLE_RAD: f64 = 4.0;
 
 /// Puts the axis at twice `length` above z = 0 where it is nearer than that; returns whether it was.
 pub(super) fn raise_axis(points: &mut [f64], shared: &mut [f64], length: f64) -> bool {
@@ -25,12 +25,12 @@ pub(super) fn raise_axis(points: &mut [f64], shared: &mut [f64], length: f64) ->
 
 /// Takes whole turns off the rotations and off the direction of the axis; returns whether there were any.
 pub(super) fn unwind(shared: &mut [f64]) -> bool {
-    let around = shared[0].abs() > WOUND;
+    let around = shared[0].abs() > UNWINDING_ANGLE_RAD;
     if around {
         shared[0] -= TAU * (shared[0] / TAU).round();
     }
     let (kappa, lattice) = (shared[1], seen_along(shared));
-    let wound = |l: &Complex<f64>| (kappa * l.im).abs() > WOUND;
+    let wound = |l: &Complex<f64>| (kappa * l.im).abs() > UNWINDING_ANGLE_RAD;
     if !lattice.iter().any(wound) {
         return around;
     }

@@ -5,7 +5,7 @@ use crate::math::{Vec3, sinc};
 use nalgebra::{Complex, Matrix3};
 
 /// The screw motion of one cell, seen along the axis: complex numbers are places across it, imaginary is z.
-pub(super) struct Screw {
+pub(super) struct ScrewMotion {
     kappa: f64,
     /// Shift of the cell: across the axis and along it.
     b: f64,
@@ -21,7 +21,7 @@ pub(super) struct Screw {
 
 /// A point of the cell `(0, 0)` and the screw motion that it takes part in.
 pub(super) struct Screwed {
-    screw: Screw,
+    screw: ScrewMotion,
     v: Vec3,
     /// Its place along the axis and across.
     along: f64,
@@ -30,7 +30,7 @@ pub(super) struct Screwed {
 
 pub(super) const I: Complex<f64> = Complex::new(0.0, 1.0);
 
-impl Screw {
+impl ScrewMotion {
     pub(super) fn new(shared: &[f64], site: Site) -> Self {
         let n = site.shift.map(f64::from);
         let l = [n[0] * shared[4] + n[1] * shared[5], n[0] * shared[2] + n[1] * shared[3]];
@@ -57,7 +57,7 @@ struct Bend {
 
 impl Screwed {
     fn bend(&self) -> Bend {
-        let (Screw { kappa, b, turn, phi, .. }, w) = (&self.screw, self.w);
+        let (ScrewMotion { kappa, b, turn, phi, .. }, w) = (&self.screw, self.w);
         let psi = phi.value + I * phi.first;
         Bend {
             value: I * *kappa * *b * (phi.value * w + psi * *b),
@@ -100,7 +100,7 @@ impl Screwed {
     /// Adds `force . d^2 P` to the lower triangle: the block of this point's vertex (at `at`) and of the shared coordinates
     /// (at `shared`, behind it).
     pub(super) fn add_curvature(&self, force: &Vec3, at: usize, shared: usize, hessian: &mut Pulled) {
-        let (Screw { kappa, b, h, n, e: [cosine, sine], turn, phi, .. }, w) = (&self.screw, self.w);
+        let (ScrewMotion { kappa, b, h, n, e: [cosine, sine], turn, phi, .. }, w) = (&self.screw, self.w);
         let (m, e) = ([-sine, *cosine], [*cosine, *sine]);
         let (pull, along) = (m[0] * force.x + m[1] * force.y, e[0] * force.x + e[1] * force.y);
         let across = |z: Complex<f64>| pull * z.re + force.z * z.im;

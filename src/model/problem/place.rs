@@ -4,7 +4,7 @@ use super::Model;
 
 /// What a model knows of the state at which it is.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct ReferenceState {
     base: Vec<f64>,
     units: Vec<f64>,
     angles: Vec<f64>,
@@ -12,12 +12,12 @@ pub struct Place {
 
 impl Model {
     /// Where the model is: unknowns found from here mean the same after [`Model::go_to`].
-    pub fn place(&self) -> Place {
-        Place { base: self.base.clone(), units: self.units.clone(), angles: self.angles() }
+    pub fn place(&self) -> ReferenceState {
+        ReferenceState { base: self.base.clone(), units: self.units.clone(), angles: self.angles() }
     }
 
     /// Goes back to a place. What is held against rigid motions must not have been chosen anew since.
-    pub fn go_to(&mut self, place: &Place) {
+    pub fn go_to(&mut self, place: &ReferenceState) {
         self.base.clone_from(&place.base);
         self.units.clone_from(&place.units);
         self.set_angles(&place.angles);

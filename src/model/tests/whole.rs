@@ -96,7 +96,7 @@ fn derivatives_on_a_curved_screw() {
         let mut numbers = Numbers::new(8);
         let terms = terms(&assembly, &mut numbers, 1.0, 3.0);
         let mut model = assembly.with_terms(terms).model(Gauge::Held);
-        model.hold_anew(curved);
+        model.rebase_gauge(curved);
         check(&mut model, &mut numbers, &format!("kappa {kappa:e}"));
     }
 }

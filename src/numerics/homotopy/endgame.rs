@@ -32,7 +32,7 @@ const APPROXIMATE_ZERO: f64 = 0.1;
 
 /// The end of a path.
 #[derive(Clone, Debug)]
-pub(super) enum End {
+pub(super) enum PathEnd {
     Simple(Simple),
     Singular { point: Vec<C>, error: f64 },
 }
@@ -67,13 +67,13 @@ impl Target for Quadrics {
 }
 
 /// Follows a path from [`START`] to its end.
-pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<End, Lost> {
+pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: Vec<C>) -> Result<PathEnd, Lost> {
     let (mut x, mut radius) = (x, START);
     for circle in 0..MOST_CIRCLES {
         let t = C::new(radius, 0.0);
         let leapt = tracker.leap(&x, t, C::default());
         if let Some(simple) = leapt.and_then(|point| target.simple(&point)) {
-            return Ok(End::Simple(simple));
+            return Ok(PathEnd::Simple(simple));
         }
         if circle > 0
             && let Some(end) = by_integral(tracker, target, &x, radius)
@@ -87,7 +87,7 @@ pub(super) fn finish<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target
 }
 
 /// The mean over the rounds of a circle, where it is a solution.
-fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: &[C], radius: f64) -> Option<End> {
+fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: &[C], radius: f64) -> Option<PathEnd> {
     let (points, winding) = rounds(tracker, x, radius)?;
     let mean = |step: usize| -> Vec<C> {
         let count = points.len().div_ceil(step) as f64;
@@ -102,8 +102,8 @@ fn by_integral<H: Homotopy>(tracker: &mut Tracker<H>, target: &impl Target, x: &
         return None;
     }
     match target.simple(&point) {
-        None => Some(End::Singular { point, error }),
-        Some(found) => (winding == 1).then_some(End::Simple(found)),
+        None => Some(PathEnd::Singular { point, error }),
+        Some(found) => (winding == 1).then_some(PathEnd::Simple(found)),
     }
 }
 

@@ -13,11 +13,11 @@
 //! confirms them.
 
 use super::elimination::determinant;
-use super::endgame::{self, End, Simple, Target};
+use super::endgame::{self, PathEnd, Simple, Target};
 use super::error::HomotopyError;
 use super::sections::on_linear_space;
 use super::sections::random_frame;
-use super::solutions::{SAME, conjugate, grouped, turned};
+use super::solutions::{SAME_SOLUTION_DISTANCE, conjugate, grouped, turned};
 use super::system::{C, Homotopy, Local, Quadrics, distance, unit};
 use super::track::{Care, Tracker};
 use crate::numerics::dense::{full_svd, symmetric_eigenvalues};
@@ -69,7 +69,7 @@ pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<Singu
 fn confirmed(quadrics: &Quadrics, attempt: u32) -> Result<Option<Vec<Estimate>>, HomotopyError> {
     let [first, second] = [0, 1].map(|choice| singular_points(quadrics, attempt, choice));
     let (Some(first), Some(second)) = (first?, second?) else { return Ok(None) };
-    let near = |a: &[C], b: &[C]| distance(a, b) <= SAME;
+    let near = |a: &[C], b: &[C]| distance(a, b) <= SAME_SOLUTION_DISTANCE;
     let real = first.into_iter().filter(|(point, _)| near(point, &conjugate(point)));
     Ok(Some(real.filter(|(point, _)| second.iter().any(|(other, _)| near(point, other))).collect()))
 }
@@ -97,7 +97,7 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
         let x = tracker.track(start, begin, end, 0.05)?;
         endgame::finish(&mut tracker, &polar, x)
     };
-    let ends: Vec<End> = parallel::map_with_state(starts.len(), || (), |(), k| path(&starts[k]))
+    let ends: Vec<PathEnd> = parallel::map_with_state(starts.len(), || (), |(), k| path(&starts[k]))
         .into_iter()
         .filter_map(Result::ok)
         .collect();
@@ -105,8 +105,8 @@ fn singular_points(quadrics: &Quadrics, attempt: u32, choice: u64) -> Result<Opt
         return Err(HomotopyError::Lost { paths: starts.len() - ends.len() });
     }
     let singular = ends.into_iter().filter_map(|end| match end {
-        End::Singular { point, error } => Some((point, error)),
-        End::Simple(_) => None,
+        PathEnd::Singular { point, error } => Some((point, error)),
+        PathEnd::Simple(_) => None,
     });
     Ok(Some(grouped(singular).into_iter().map(|group| (group.point, group.error)).collect()))
 }

@@ -4,7 +4,7 @@ use super::system::{C, distance, normalize};
 use nalgebra::Complex;
 
 /// Distance below which ends of paths are one multiple solution.
-pub(super) const SAME: f64 = 1e-6;
+pub(super) const SAME_SOLUTION_DISTANCE: f64 = 1e-6;
 
 /// An isolated solution.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +39,7 @@ impl Solutions {
     }
 }
 
-/// Points that are the same up to [`SAME`].
+/// Points that are the same up to [`SAME_SOLUTION_DISTANCE`].
 pub(super) struct Group {
     pub(super) point: Vec<C>,
     /// Largest error or distance of a member.
@@ -51,7 +51,7 @@ pub(super) struct Group {
 pub(super) fn grouped(points: impl Iterator<Item = (Vec<C>, f64)>) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for (point, error) in points {
-        match groups.iter_mut().find(|group| distance(&group.point, &point) <= SAME) {
+        match groups.iter_mut().find(|group| distance(&group.point, &point) <= SAME_SOLUTION_DISTANCE) {
             Some(group) => {
                 group.error = group.error.max(error).max(distance(&group.point, &point));
                 group.members.push(point);
@@ -64,7 +64,7 @@ pub(super) fn grouped(points: impl Iterator<Item = (Vec<C>, f64)>) -> Vec<Group>
 
 /// A solution that is not simple.
 pub(super) fn multiple(point: Vec<C>, multiplicity: usize, error: f64) -> Solution {
-    let real = distance(&point, &conjugate(&point)) <= SAME;
+    let real = distance(&point, &conjugate(&point)) <= SAME_SOLUTION_DISTANCE;
     Solution { point: turned(point, real), multiplicity, real, error }
 }
 

@@ -1,9 +1,9 @@
 //! As many quadrics as determine points: all paths are followed, and what they find is checked.
 
-use super::endgame::{self, End, Simple};
+use super::endgame::{self, PathEnd, Simple};
 use super::error::{HomotopyError, MOST_QUADRICS};
 use super::multiplicity::{Multiplicity, multiplicity};
-use super::solutions::{Group, SAME, Solution, Solutions, conjugate, grouped, multiple, turned};
+use super::solutions::{Group, SAME_SOLUTION_DISTANCE, Solution, Solutions, conjugate, grouped, multiple, turned};
 use super::system::{C, Quadrics, TotalDegree, distance};
 use super::track::{Care, Tracker};
 use crate::numerics::{DenseMatrix, parallel};
@@ -55,7 +55,7 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
         let x = tracker.track(&homotopy.start(number), start, end, FIRST_STEP)?;
         endgame::finish(&mut tracker, quadrics, x)
     };
-    let ends: Vec<End> =
+    let ends: Vec<PathEnd> =
         parallel::map_with_state(paths, || (), |(), number| path(number)).into_iter().filter_map(Result::ok).collect();
     if ends.len() < paths {
         return Err(HomotopyError::Lost { paths: paths - ends.len() });
@@ -68,8 +68,8 @@ fn attempt(quadrics: &Quadrics, repeated: u32) -> Result<Solutions, HomotopyErro
 }
 
 /// Adds the simple solutions; fails where two paths ended at one.
-fn add_simple(ends: &[End], solutions: &mut Solutions) -> Result<(), HomotopyError> {
-    let simple = |end: &End| if let End::Simple(simple) = end { Some(simple.clone()) } else { None };
+fn add_simple(ends: &[PathEnd], solutions: &mut Solutions) -> Result<(), HomotopyError> {
+    let simple = |end: &PathEnd| if let PathEnd::Simple(simple) = end { Some(simple.clone()) } else { None };
     let simple: Vec<Simple> = ends.iter().filter_map(simple).collect();
     let same = |a: &Simple, b: &Simple| distance(&a.point, &b.point) <= a.separation.max(b.separation);
     let twice = |(k, one): (usize, &Simple)| simple[..k].iter().any(|other| same(one, other));
@@ -91,10 +91,10 @@ fn solution(Simple { point, error, separation }: Simple) -> Solution {
 }
 
 /// Puts ends that are the same together and adds them; fails where their number is not the multiplicity.
-fn add_singular(quadrics: &Quadrics, ends: &[End], solutions: &mut Solutions) -> Result<(), HomotopyError> {
-    let singular = |end: &End| match end {
-        End::Singular { point, error } => Some((point.clone(), *error)),
-        End::Simple(_) => None,
+fn add_singular(quadrics: &Quadrics, ends: &[PathEnd], solutions: &mut Solutions) -> Result<(), HomotopyError> {
+    let singular = |end: &PathEnd| match end {
+        PathEnd::Singular { point, error } => Some((point.clone(), *error)),
+        PathEnd::Simple(_) => None,
     };
     for Group { point, error, members } in grouped(ends.iter().filter_map(singular)) {
         let paths = members.len();
@@ -116,7 +116,8 @@ fn check_pairs(solutions: &[Solution]) -> Result<(), HomotopyError> {
     let alone = |solution: &Solution| {
         let partner = conjugate(&solution.point);
         let same = |other: &Solution| other.multiplicity == solution.multiplicity;
-        !solution.real && !solutions.iter().any(|other| same(other) && distance(&other.point, &partner) <= SAME)
+        !solution.real
+            && !solutions.iter().any(|other| same(other) && distance(&other.point, &partner) <= SAME_SOLUTION_DISTANCE)
     };
     let lonely = parallel::map_with_state(solutions.len(), || (), |(), k| alone(&solutions[k]));
     match lonely.into_iter().filter(|alone| *alone).count() {

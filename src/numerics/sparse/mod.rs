@@ -11,6 +11,6 @@ mod rows;
 mod slots;
 
 pub use cliques::{Cliques, FIXED};
-pub use pattern::{Pattern, symmetric_product};
+pub use pattern::{SparsityPattern, symmetric_product};
 pub use rows::Rows;
 pub use slots::{ElementBlock, RankOne, Slots};

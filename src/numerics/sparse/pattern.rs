@@ -7,14 +7,14 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 
 /// The lower triangle of a symmetric matrix by columns, with the diagonal first in each column.
 #[derive(Clone, Debug)]
-pub struct Pattern {
+pub struct SparsityPattern {
     n: usize,
     columns: Vec<u32>,
     rows: Vec<u32>,
 }
 
-impl Pattern {
-    /// Pattern of the sum of all cliques' blocks; every diagonal entry is there.
+impl SparsityPattern {
+    /// SparsityPattern of the sum of all cliques' blocks; every diagonal entry is there.
     pub fn new(n: usize, cliques: &[&Cliques]) -> Self {
         let lists: Vec<(&Cliques, Incidence)> = cliques.iter().map(|&list| (list, Incidence::new(n, list))).collect();
         let (mut columns, mut rows) = (vec![0u32], Vec::new());
@@ -138,7 +138,7 @@ impl Pattern {
 }
 
 /// `y = A x` for the symmetric matrix with this lower triangle.
-pub fn symmetric_product(pattern: &Pattern, values: &[f64], x: &[f64], y: &mut [f64]) {
+pub fn symmetric_product(pattern: &SparsityPattern, values: &[f64], x: &[f64], y: &mut [f64]) {
     y.fill(0.0);
     for column in 0..pattern.n {
         let start = pattern.columns[column] as usize;

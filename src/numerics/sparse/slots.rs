@@ -2,7 +2,7 @@
 
 use super::cliques::{Cliques, FIXED};
 use super::incidence::Incidence;
-use super::pattern::Pattern;
+use super::pattern::SparsityPattern;
 
 /// Marks the slot of an entry that is counted twice.
 const TWICE: u32 = 1 << 31;
@@ -36,7 +36,7 @@ pub struct Slots {
 
 impl Slots {
     /// Finds the slots of `cliques` in `pattern`. Couplings that the pattern does not contain are left out.
-    pub fn new(pattern: &Pattern, cliques: &Cliques) -> Self {
+    pub fn new(pattern: &SparsityPattern, cliques: &Cliques) -> Self {
         let mut starts = vec![0];
         for members in cliques.iter() {
             starts.push(starts[starts.len() - 1] + members.len() * (members.len() + 1) / 2);

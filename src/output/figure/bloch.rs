@@ -8,7 +8,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::axes::{Axis, Scale, rounded, unit};
-use super::canvas::{Area, Canvas, Caption, Font, Mark, Place, Style};
+use super::canvas::{Area, Canvas, Caption, Font, Mark, PaperPoint, Style};
 use super::contour::regions;
 use super::palette::{Colour, GRID, INK, MAGNITUDE, SERIES, SIGNED};
 use crate::analysis::bloch::Laurent;
@@ -113,7 +113,7 @@ fn map(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
     let values: Vec<f64> = points.iter().map(value).map(|v| if real { v.re } else { v.norm() }).collect();
     let largest = values.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
     let roots: Vec<f64> = values.iter().map(|value| value.signum() * (value.abs() / largest).powf(0.25)).collect();
-    let places: Vec<Place> = points.iter().map(|q| [LEFT[1] + along(q[0]), TOP + SIDE - along(q[1])]).collect();
+    let places: Vec<PaperPoint> = points.iter().map(|q| [LEFT[1] + along(q[0]), TOP + SIDE - along(q[1])]).collect();
     let corners = (0..SQUARES.pow(2)).map(|k| k / SQUARES * (SQUARES + 1) + k % SQUARES);
     let n = SQUARES + 1;
     let triangles: Vec<[usize; 3]> = corners.flat_map(|k| [[k, k + 1, k + n + 1], [k, k + n + 1, k + n]]).collect();

@@ -17,15 +17,15 @@ pub const HEAD: f64 = 84.0;
 const LETTER: [f64; 2] = [0.58, 0.64];
 
 /// A place on the paper.
-pub type Place = [f64; 2];
+pub type PaperPoint = [f64; 2];
 
 /// Left, top, right and bottom of a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
     /// Smallest coordinates.
-    pub low: Place,
+    pub low: PaperPoint,
     /// Largest coordinates.
-    pub high: Place,
+    pub high: PaperPoint,
 }
 
 /// What stands at the top of a figure.
@@ -182,7 +182,7 @@ impl Font {
     }
 
     /// Where words are whose foot is at a place.
-    fn area(&self, [x, y]: Place, words: &str) -> Area {
+    fn area(&self, [x, y]: PaperPoint, words: &str) -> Area {
         let width = self.width(words);
         let before = match self.anchor {
             Anchor::Start => 0.0,
@@ -199,7 +199,7 @@ impl Font {
 
 impl Area {
     /// The rectangle around a place.
-    pub fn around([x, y]: Place, radius: f64) -> Self {
+    pub fn around([x, y]: PaperPoint, radius: f64) -> Self {
         Self { low: [x - radius, y - radius], high: [x + radius, y + radius] }
     }
 
@@ -257,26 +257,26 @@ impl Canvas {
     }
 
     /// A line through places.
-    pub fn line(&mut self, places: &[Place], style: Style) {
+    pub fn line(&mut self, places: &[PaperPoint], style: Style) {
         self.path(&[places], false, style, "");
     }
 
     /// A polygon.
-    pub fn polygon(&mut self, corners: &[Place], style: Style) {
+    pub fn polygon(&mut self, corners: &[PaperPoint], style: Style) {
         self.path(&[corners], true, style, "");
     }
 
     /// Polygons as one element: where they overlap they are one area when all go round the same way.
-    pub fn polygons(&mut self, polygons: &[impl AsRef<[Place]>], style: Style) {
+    pub fn polygons(&mut self, polygons: &[impl AsRef<[PaperPoint]>], style: Style) {
         self.path(polygons, true, style, "");
     }
 
     /// Polygons as one element with soft rims.
-    pub fn shadow(&mut self, polygons: &[impl AsRef<[Place]>], colour: Colour) {
+    pub fn shadow(&mut self, polygons: &[impl AsRef<[PaperPoint]>], colour: Colour) {
         self.path(polygons, true, Style::tile(colour), " filter=\"url(#soft)\"");
     }
 
-    fn path(&mut self, parts: &[impl AsRef<[Place]>], closed: bool, style: Style, more: &str) {
+    fn path(&mut self, parts: &[impl AsRef<[PaperPoint]>], closed: bool, style: Style, more: &str) {
         self.text.push_str("<path d=\"");
         for part in parts {
             for (k, [x, y]) in part.as_ref().iter().enumerate() {
@@ -288,12 +288,12 @@ impl Canvas {
     }
 
     /// A circle.
-    pub fn circle(&mut self, [x, y]: Place, radius: f64, style: Style) {
+    pub fn circle(&mut self, [x, y]: PaperPoint, radius: f64, style: Style) {
         put!(self.text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{}\"{style}/>\n", Short(radius, 1));
     }
 
     /// Words whose foot is at a place.
-    pub fn text(&mut self, place: Place, words: &str, font: Font) {
+    pub fn text(&mut self, place: PaperPoint, words: &str, font: Font) {
         let area = font.area(place, words);
         #[cfg(test)]
         {
@@ -330,7 +330,12 @@ impl Canvas {
 
     /// Words at the first of some places where they cover nothing and are within an area; `false`: there is none, and nothing
     /// was set.
-    pub fn text_within(&mut self, room: Area, places: impl IntoIterator<Item = (Place, Font)>, words: &str) -> bool {
+    pub fn text_within(
+        &mut self,
+        room: Area,
+        places: impl IntoIterator<Item = (PaperPoint, Font)>,
+        words: &str,
+    ) -> bool {
         let found = places.into_iter().find(|(place, font)| {
             let area = font.area(*place, words);
             let within = (0..2).all(|k| area.low[k] >= room.low[k] && area.high[k] <= room.high[k]);
@@ -345,7 +350,7 @@ impl Canvas {
     }
 
     /// Marks and what they mean, in a row from a place on, and in another one below where the paper ends.
-    pub fn legend(&mut self, [left, top]: Place, entries: &[(Mark, &str)]) {
+    pub fn legend(&mut self, [left, top]: PaperPoint, entries: &[(Mark, &str)]) {
         let ([mut x, mut y], font) = ([left, top], Font::SMALL);
         for &(mark, words) in entries {
             let sign = match mark {
@@ -454,7 +459,7 @@ mod tests {
     #[test]
     fn words_stay_apart() {
         let mut canvas = canvas("");
-        let places = |canvas: &mut Canvas, places: &[Place]| {
+        let places = |canvas: &mut Canvas, places: &[PaperPoint]| {
             let before = canvas.text.len();
             let set = canvas.text_within(canvas.paper(), places.iter().map(|place| (*place, Font::LABEL)), "abc");
             set.then(|| canvas.text[before..].to_owned())

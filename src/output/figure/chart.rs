@@ -4,7 +4,7 @@
 //! logarithm. Series that lie on later ones are drawn wider, so that all of them can be seen.
 
 use super::axes::{Axis, Scale};
-use super::canvas::{Area, Canvas, Caption, Font, MARGIN, Place, Style, WIDTH};
+use super::canvas::{Area, Canvas, Caption, Font, MARGIN, PaperPoint, Style, WIDTH};
 use super::palette::{Colour, GREY, GRID, INK, PAPER, SERIES};
 
 /// Height of a chart alone, and of a row of panels.
@@ -113,7 +113,7 @@ struct Plot<'a> {
     frame: Area,
     axes: [Axis; 2],
     /// For each series the points that have a place, and their places.
-    series: Vec<Vec<(Place, &'a Point)>>,
+    series: Vec<Vec<(PaperPoint, &'a Point)>>,
 }
 
 impl<'a> Plot<'a> {
@@ -136,7 +136,7 @@ impl<'a> Plot<'a> {
     }
 
     /// Where a point is; `None` where it has no place on an axis.
-    fn place(&self, point: &Point) -> Option<Place> {
+    fn place(&self, point: &Point) -> Option<PaperPoint> {
         let Area { low: [left, top], high: [right, bottom] } = self.frame;
         let [x, y] = &self.axes;
         let there = x.has(point.x) && y.has(point.y);
@@ -187,13 +187,13 @@ impl<'a> Plot<'a> {
     }
 
     /// The line and the marks of a series, wider the more of the later ones it lies on.
-    fn join(&self, canvas: &mut Canvas, points: &[(Place, &Point)], number: usize) {
-        let near = |[a, b]: [Place; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= COINCIDENT;
-        let lies_on = |other: &&Vec<(Place, &Point)>| {
+    fn join(&self, canvas: &mut Canvas, points: &[(PaperPoint, &Point)], number: usize) {
+        let near = |[a, b]: [PaperPoint; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= COINCIDENT;
+        let lies_on = |other: &&Vec<(PaperPoint, &Point)>| {
             !points.is_empty() && points.iter().all(|(a, _)| other.iter().any(|(b, _)| near([*a, *b])))
         };
         let wider = self.series[number + 1..].iter().filter(lies_on).count() as f64;
-        let places: Vec<Place> = points.iter().map(|(place, _)| *place).collect();
+        let places: Vec<PaperPoint> = points.iter().map(|(place, _)| *place).collect();
         if places.len() > 1 {
             canvas.line(&places, Style::line(SERIES[number % SERIES.len()], 2.2 + 4.0 * wider));
         }
@@ -223,7 +223,7 @@ impl<'a> Plot<'a> {
 }
 
 /// Words beside a point, where they cover nothing.
-fn beside(canvas: &mut Canvas, room: Area, [x, y]: Place, words: &str, colour: Colour) {
+fn beside(canvas: &mut Canvas, room: Area, [x, y]: PaperPoint, words: &str, colour: Colour) {
     let font = Font::SMALL.colour(colour);
     let level = |by: f64| [([x + 12.0, y + by], font), ([x - 12.0, y + by], font.end()), ([x, y + by], font.middle())];
     let nearer = [-10.0, 20.0, 5.5].into_iter().flat_map(level);
@@ -232,7 +232,7 @@ fn beside(canvas: &mut Canvas, room: Area, [x, y]: Place, words: &str, colour: C
 }
 
 /// A disc, a square, a triangle, in turns: series differ in more than colour.
-fn mark(canvas: &mut Canvas, [x, y]: Place, number: usize, size: f64) {
+fn mark(canvas: &mut Canvas, [x, y]: PaperPoint, number: usize, size: f64) {
     let style = Style::area(SERIES[number % SERIES.len()]);
     let (low, high) = (-0.9 * size, 0.9 * size);
     match number % 3 {

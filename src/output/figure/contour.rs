@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::canvas::Place;
+use super::canvas::PaperPoint;
 
 /// A side of a triangle, or the way from a point on the rim to what is beyond it.
 type Crossing = [usize; 2];
@@ -12,7 +12,7 @@ const BEYOND: usize = usize::MAX;
 
 /// Polygons around the regions in which the function is at least `level`; holes go round the other way. Triangles with a
 /// corner where the function is not a number are left out.
-pub fn regions(points: &[Place], triangles: &[[usize; 3]], values: &[f64], level: f64) -> Vec<Vec<Place>> {
+pub fn regions(points: &[PaperPoint], triangles: &[[usize; 3]], values: &[f64], level: f64) -> Vec<Vec<PaperPoint>> {
     let known = |triangle: &&[usize; 3]| triangle.iter().all(|&corner| !values[corner].is_nan());
     let mut rim: HashSet<Crossing> = HashSet::new();
     let mut next: HashMap<Crossing, Crossing> = HashMap::new();
@@ -63,15 +63,15 @@ mod tests {
     use super::*;
 
     /// Points and triangles of a square of side 2 around the origin, all triangles counter-clockwise.
-    fn square(n: usize) -> (Vec<Place>, Vec<[usize; 3]>) {
+    fn square(n: usize) -> (Vec<PaperPoint>, Vec<[usize; 3]>) {
         let place = |k: usize| 2.0 * k as f64 / n as f64 - 1.0;
         let points = (0..=n).flat_map(|j| (0..=n).map(move |i| [place(i), place(j)])).collect();
         let corners = (0..n).flat_map(|j| (0..n).map(move |i| j * (n + 1) + i));
         (points, corners.flat_map(|k| [[k, k + 1, k + n + 2], [k, k + n + 2, k + n + 1]]).collect())
     }
 
-    fn area(polygons: &[Vec<Place>]) -> f64 {
-        let turn = |p: &[Place], k: usize| {
+    fn area(polygons: &[Vec<PaperPoint>]) -> f64 {
+        let turn = |p: &[PaperPoint], k: usize| {
             let [a, b] = [p[k], p[(k + 1) % p.len()]];
             a[0] * b[1] - b[0] * a[1]
         };
@@ -91,7 +91,7 @@ mod tests {
         assert!(all.len() == 1 && (area(&all).abs() - 4.0).abs() <= 1e-12);
         let outside = regions(&points, &triangles, &values.iter().map(|v| -v).collect::<Vec<_>>(), 0.2);
         assert!((area(&outside).abs() - (4.0 - exact)).abs() <= 0.01, "{}", area(&outside));
-        assert_eq!(regions(&points, &triangles, &values, 1.0), Vec::<Vec<Place>>::new());
+        assert_eq!(regions(&points, &triangles, &values, 1.0), Vec::<Vec<PaperPoint>>::new());
     }
 
     /// Claim: a corner that is not a number leaves out its triangles alone.

@@ -8,7 +8,7 @@
 
 use std::collections::HashMap;
 
-use super::canvas::Place;
+use super::canvas::PaperPoint;
 use crate::math::Vec3;
 
 /// Distances that are none, over the extent of the scene; and those in a scene of many pieces, where sheets that nearly
@@ -124,7 +124,7 @@ impl Piece {
     }
 
     /// Depth at a place of the paper.
-    fn depth_at(&self, [x, y]: Place) -> f64 {
+    fn depth_at(&self, [x, y]: PaperPoint) -> f64 {
         if let Some(Plane { normal, height }) = self.plane {
             return (height - normal.x * x - normal.y * y) / normal.z;
         }
@@ -238,12 +238,12 @@ impl Order {
 }
 
 /// Common corners on the paper of a piece and a triangle.
-fn overlap(a: &Piece, b: &Piece) -> Vec<Place> {
-    let mut places: Vec<Place> = a.corners.iter().map(|corner| [corner.x, corner.y]).collect();
+fn overlap(a: &Piece, b: &Piece) -> Vec<PaperPoint> {
+    let mut places: Vec<PaperPoint> = a.corners.iter().map(|corner| [corner.x, corner.y]).collect();
     let sense = turn(&b.corners).signum();
     for k in 0..b.corners.len() {
         let (from, to) = (b.corners[k], b.corners[(k + 1) % b.corners.len()]);
-        let inside = |[x, y]: Place| sense * ((to.x - from.x) * (y - from.y) - (to.y - from.y) * (x - from.x));
+        let inside = |[x, y]: PaperPoint| sense * ((to.x - from.x) * (y - from.y) - (to.y - from.y) * (x - from.x));
         places = clipped(&places, inside, |p, q, part| [0, 1].map(|k| p[k] + part * (q[k] - p[k])));
         if places.is_empty() {
             break;
@@ -400,7 +400,7 @@ mod tests {
     }
 
     /// Whether a place is within a piece, this far from its rim.
-    fn covers(piece: &Piece, place: Place, margin: f64) -> bool {
+    fn covers(piece: &Piece, place: PaperPoint, margin: f64) -> bool {
         let corners = &piece.corners;
         let side = |k: usize| {
             let (p, q) = (corners[k], corners[(k + 1) % corners.len()]);

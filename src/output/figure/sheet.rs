@@ -4,10 +4,10 @@
 //! outline in the colour of its filling, otherwise hairlines show between them.
 
 use super::axes::{number, round_step};
-use super::canvas::{Canvas, Caption, Font, HEAD, MARGIN, Place, Style, WIDTH};
+use super::canvas::{Canvas, Caption, Font, HEAD, MARGIN, PaperPoint, Style, WIDTH};
 use super::hidden::{Piece, back_to_front};
 use super::palette::{Colour, GREY, INK, MOUNTAIN, SHADOW, VALLEY};
-use super::view::View;
+use super::view::Projection;
 use crate::math::Vec3;
 use crate::output::Picture;
 use crate::output::picture::ShapeError;
@@ -41,7 +41,7 @@ pub fn svg(picture: &Picture, caption: &Caption) -> Result<String, ShapeError> {
 }
 
 fn drawn(picture: &Picture, caption: &Caption) -> Canvas {
-    let view = View::of(&picture.points, &picture.triangles);
+    let view = Projection::of(&picture.points, &picture.triangles);
     let place = |point: &Vec3| Vec3::from(view.place(point));
     let sheet: Vec<Vec3> = picture.points.iter().map(place).collect();
     let shadow: Vec<Vec3> = shadow_on_floor(picture, &view).iter().map(place).collect();
@@ -78,7 +78,7 @@ impl Frame {
         Self { left, top: high.y + HEAD / scale, scale, height: extent.y * scale + HEAD + ROOM, filled }
     }
 
-    fn on_paper(&self, place: &Vec3) -> Place {
+    fn on_paper(&self, place: &Vec3) -> PaperPoint {
         [(place.x - self.left) * self.scale, (self.top - place.y) * self.scale]
     }
 }
@@ -88,12 +88,12 @@ fn is_finite(place: &Vec3) -> bool {
 }
 
 /// Where the light comes from: from the upper left, a little in front of the sheet.
-fn light(view: &View) -> Vec3 {
+fn light(view: &Projection) -> Vec3 {
     (view.toward * 0.45 + view.up * 0.75 - view.right * 0.62).normalize()
 }
 
 /// The points moved along the light onto a floor just below the sheet.
-fn shadow_on_floor(picture: &Picture, view: &View) -> Vec<Vec3> {
+fn shadow_on_floor(picture: &Picture, view: &Projection) -> Vec<Vec3> {
     let light = light(view);
     let heights = picture.points.iter().map(|point| point.dot(&view.normal)).filter(|height| height.is_finite());
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
@@ -113,7 +113,7 @@ fn paint_shadow(canvas: &mut Canvas, picture: &Picture, frame: &Frame, shadow: &
     canvas.shadow(&finite.map(alike).collect::<Vec<_>>(), SHADOW);
 }
 
-fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &Frame, view: &View, sheet: &[Vec3]) {
+fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &Frame, view: &Projection, sheet: &[Vec3]) {
     let corners = |points: &[usize]| points.iter().map(|&point| sheet[point]).collect();
     let faces = picture.triangles.iter().map(|triangle| corners(triangle));
     let lines = picture.lines.iter().map(|line| corners(line));
@@ -121,7 +121,7 @@ fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &Frame, view: &Vie
     let pen = Pen::new(picture, frame, sheet);
     canvas.group(0.7);
     for Piece { corners, item, .. } in back_to_front(pieces.collect()) {
-        let places: Vec<Place> = corners.iter().map(|corner| frame.on_paper(corner)).collect();
+        let places: Vec<PaperPoint> = corners.iter().map(|corner| frame.on_paper(corner)).collect();
         match item.checked_sub(picture.triangles.len()) {
             None => canvas.polygon(&places, Style::tile(shade(picture, view, item))),
             Some(line) => canvas.line(&places, pen.style(picture, line)),
@@ -131,7 +131,7 @@ fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &Frame, view: &Vie
 }
 
 /// The colour of a face: its side towards the eye, between dark and light.
-fn shade(picture: &Picture, view: &View, face: usize) -> Colour {
+fn shade(picture: &Picture, view: &Projection, face: usize) -> Colour {
     let [a, b, c] = picture.triangles[face].map(|point| picture.points[point]);
     let normal = (b - a).cross(&(c - a)).normalize();
     let front = normal.dot(&view.toward) >= 0.0;
@@ -267,7 +267,7 @@ mod tests {
     fn near_faces_cover_far_ones() {
         let mut picture = samples::hinge(2.5);
         picture.self_intersecting = vec![0, 0];
-        let view = View::of(&picture.points, &picture.triangles);
+        let view = Projection::of(&picture.points, &picture.triangles);
         let depth =
             |face: usize| picture.triangles[face].map(|p| picture.points[p].dot(&view.toward)).iter().sum::<f64>();
         let near = if depth(0) > depth(1) { 0 } else { 1 };

@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
 use super::axes::{rounded, unit};
-use super::canvas::{Area, Canvas, Caption, Font, Mark, Place, Style};
+use super::canvas::{Area, Canvas, Caption, Font, Mark, PaperPoint, Style};
 use super::contour::regions;
 use super::palette::{Colour, ENERGY, INK, VALLEY};
 use crate::math::Vec3;
@@ -15,7 +15,7 @@ use crate::math::Vec3;
 const HEIGHT: f64 = 712.0;
 const RADIUS: f64 = 222.0;
 /// Middles of the discs: positive and negative mean curvature.
-const MIDDLES: [Place; 2] = [[298.0, 386.0], [816.0, 386.0]];
+const MIDDLES: [PaperPoint; 2] = [[298.0, 386.0], [816.0, 386.0]];
 const BAR: Area = Area { low: [1096.0, 200.0], high: [1116.0, 572.0] };
 /// What belongs to both discs may be this much beyond the rim.
 const RIM: f64 = 1e-9;
@@ -70,7 +70,7 @@ fn linear() -> Style {
 }
 
 /// Place of a point on a disc; `None` on the other half of the sphere.
-fn place(point: &Vec3, disc: usize) -> Option<Place> {
+fn place(point: &Vec3, disc: usize) -> Option<PaperPoint> {
     let sign = if disc == 0 { 1.0 } else { -1.0 };
     if !(sign * point.x >= -RIM) {
         return None;
@@ -89,10 +89,10 @@ fn radius(polar: f64) -> f64 {
 
 /// The map on a disc, grey where the energy is not known.
 fn paint(canvas: &mut Canvas, sphere: &Sphere<'_>, disc: usize, largest: f64) {
-    let places: Vec<Option<Place>> = sphere.points.iter().map(|point| place(point, disc)).collect();
+    let places: Vec<Option<PaperPoint>> = sphere.points.iter().map(|point| place(point, disc)).collect();
     let here = |triangle: &&[usize; 3]| triangle.iter().all(|&point| places[point].is_some());
     let triangles: Vec<[usize; 3]> = sphere.triangles.iter().filter(here).copied().collect();
-    let points: Vec<Place> = places.iter().map(|place| place.unwrap_or_default()).collect();
+    let points: Vec<PaperPoint> = places.iter().map(|place| place.unwrap_or_default()).collect();
     let roots: Vec<f64> = sphere.energies.iter().map(|energy| (energy / largest).max(0.0).sqrt()).collect();
     let roots: Vec<f64> = roots.iter().zip(sphere.energies).map(|(r, e)| if e.is_nan() { *e } else { *r }).collect();
     canvas.group(0.8);
@@ -125,7 +125,7 @@ fn frame(canvas: &mut Canvas, disc: usize, name: &str) {
 fn curves(canvas: &mut Canvas, sphere: &Sphere<'_>, disc: usize) {
     let (colour, width) = EXACT;
     for curve in sphere.cone {
-        let places: Vec<Place> = curve.iter().filter_map(|point| place(point, disc)).collect();
+        let places: Vec<PaperPoint> = curve.iter().filter_map(|point| place(point, disc)).collect();
         if places.len() == curve.len() && !places.is_empty() {
             canvas.polygon(&places, Style::line(colour, width));
         }

@@ -8,10 +8,10 @@
 use std::collections::HashMap;
 
 use super::axes::{Axis, Scale, below, rounded, unit};
-use super::canvas::{Area, Canvas, Caption, Font, HEAD, MARGIN, Mark, Place, Style};
+use super::canvas::{Area, Canvas, Caption, Font, HEAD, MARGIN, Mark, PaperPoint, Style};
 use super::hidden::{Piece, back_to_front};
 use super::palette::{CURVATURE, Colour, GRID, INK, PANE, PAPER, SHADOW};
-use super::view::View;
+use super::view::Projection;
 use crate::math::Vec3;
 use crate::output::StrainSurface;
 use crate::output::picture::ShapeError;
@@ -72,7 +72,7 @@ fn drawn(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption) -
 /// Where panels are.
 struct Layout {
     height: f64,
-    middles: &'static [Place],
+    middles: &'static [PaperPoint],
     /// Paper per side of the box.
     scale: f64,
     bar: Area,
@@ -123,7 +123,7 @@ type Stretch = ([Vec3; 2], f64);
 /// States in their box, whose sides have length 1 and whose middle is 0.
 struct Scene<'a> {
     axes: [Axis; 3],
-    view: View,
+    view: Projection,
     /// On which side of x and of y the eye is, 0.5 or -0.5; above in z.
     near: [f64; 2],
     surface: &'a StrainSurface,
@@ -152,7 +152,7 @@ impl<'a> Scene<'a> {
         let turn = largest(&mut surface.theta.iter().flatten().copied().chain(along().map(|point| point.turn)));
         let curvature = largest(&mut surface.curvature.iter().copied().chain(along().map(|point| point.curvature)));
         let largest = if turn > TURN_NOISE { Ok(curvature) } else { Err(curvature) };
-        Self { view: View::axonometric(near.map(f64::signum)), axes, near, surface, places, stretches, largest }
+        Self { view: Projection::axonometric(near.map(f64::signum)), axes, near, surface, places, stretches, largest }
     }
 
     /// The part of a curvature of the largest one.
@@ -196,7 +196,7 @@ impl<'a> Scene<'a> {
             stretches.iter().for_each(|(ends, _)| canvas.line(&ends.map(floor), Style::line(SHADOW.darker(0.9), 2.0)));
         }
         for Piece { corners, item, .. } in back_to_front(pieces) {
-            let places: Vec<Place> = corners.iter().map(|corner| panel.on_paper(corner)).collect();
+            let places: Vec<PaperPoint> = corners.iter().map(|corner| panel.on_paper(corner)).collect();
             match item.checked_sub(triangles.len()) {
                 None => canvas.polygon(&places, Style::tile(self.lit(triangles[item]))),
                 Some(line) if alone => canvas.line(&places, Style::line(self.shade(stretches[line].1), 4.5)),
@@ -214,7 +214,7 @@ impl<'a> Scene<'a> {
 
     /// The colour of a triangle, darker where it is not turned to the light.
     fn lit(&self, triangle: &[usize; 3]) -> Colour {
-        let View { toward, up, right, .. } = self.view;
+        let Projection { toward, up, right, .. } = self.view;
         let [a, b, c] = triangle.map(|point| self.places[point]);
         let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or(toward);
         let light = (toward * 0.5 + up * 0.8 - right * 0.4).normalize();
@@ -303,20 +303,20 @@ fn one_sided_mean(curvatures: &[f64]) -> f64 {
 /// A box on the paper.
 struct Panel<'a> {
     axes: &'a [Axis; 3],
-    view: View,
+    view: Projection,
     near: [f64; 2],
-    middle: Place,
+    middle: PaperPoint,
     scale: f64,
 }
 
 impl Panel<'_> {
     /// Where a place of the box is.
-    fn at(&self, boxed: Vec3) -> Place {
+    fn at(&self, boxed: Vec3) -> PaperPoint {
         self.on_paper(&Vec3::from(self.view.place(&boxed)))
     }
 
     /// Where a place is that is given by right, up and towards the eye.
-    fn on_paper(&self, place: &Vec3) -> Place {
+    fn on_paper(&self, place: &Vec3) -> PaperPoint {
         [self.middle[0] + self.scale * place.x, self.middle[1] - self.scale * place.y]
     }
 }

@@ -7,7 +7,7 @@ use crate::numerics::dense::small::symmetric_eigen_3;
 
 /// An orthographic view; the three directions are orthonormal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
+pub struct Projection {
     /// Direction on the paper to the right.
     pub right: Vec3,
     /// Direction on the paper upwards.
@@ -18,7 +18,7 @@ pub struct View {
     pub normal: Vec3,
 }
 
-impl View {
+impl Projection {
     /// Looks down on the side of the face normals, with the longer side of the sheet across the paper.
     ///
     /// The eye stands `ELEVATION` above the mean plane of the sheet and `TURN` beside its second principal axis.
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn the_eye_is_on_the_side_of_the_normals() {
         let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 4.0], [0.0, 4.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
-        let view = View::of(&points, &[[0, 2, 1], [0, 3, 2]]);
+        let view = Projection::of(&points, &[[0, 2, 1], [0, 3, 2]]);
         assert!((view.normal + Vec3::z()).norm() < 1e-12, "{view:?}");
         assert!(view.toward.dot(&view.normal) > 0.5);
         assert!(view.right.y.abs() > 0.85, "{view:?}");
@@ -114,7 +114,7 @@ mod tests {
     fn a_view_of_nothing() {
         for points in [vec![], vec![Vec3::zeros()], vec![Vec3::repeat(f64::NAN), Vec3::x()], vec![Vec3::repeat(1e300)]]
         {
-            let view = View::of(&points, &[]);
+            let view = Projection::of(&points, &[]);
             assert!((view.toward.norm() - 1.0).abs() < 1e-12, "{view:?}");
         }
     }

@@ -1,7 +1,7 @@
 //! `[[study]]` and the keys of each kind of study.
 
 use crate::scene::Located;
-use crate::scene::forms::{BranchChoice, Mode, Start};
+use crate::scene::forms::{BranchChoice, Mode, StartSpec};
 use crate::scene::values::{Cells, Count, EdgeName, Finite, Name, Pair, Positive, WellPair};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -76,7 +76,7 @@ pub enum StudyKind {
 #[serde(deny_unknown_fields)]
 pub struct RelaxSpec {
     /// Where it starts; left out: as drawn.
-    pub start: Option<Located<Start>>,
+    pub start: Option<Located<StartSpec>>,
     /// Bound on both scaled residuals.
     pub tolerance: Option<Located<Positive>>,
 }
@@ -187,7 +187,7 @@ pub struct MapSpec {
 #[serde(deny_unknown_fields)]
 pub struct BlochSpec {
     /// The state of which modes are wanted: an earlier study of one cell. Left out: as drawn.
-    pub start: Option<Located<Start>>,
+    pub start: Option<Located<StartSpec>>,
     /// Wavenumbers sampled along each direction; left out: [256, 256].
     pub grid: Option<Located<Cells>>,
     /// First wavenumbers at which decay rates are wanted, in radians per cell; left out: 32 that divide the zone evenly.

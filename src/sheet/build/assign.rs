@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Defect, Drawing, Identified, Place, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::assignment::{Assignment, AssignmentFault};
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet};
 
@@ -22,7 +22,7 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
         let numbers = known.get(&EdgeKey::new(a, b).0).map(Vec::as_slice).unwrap_or_default();
         let diagonal = numbers.iter().any(|&number| sheet.edges[number].kind == EdgeKind::Facet);
         if numbers.is_empty() || (diagonal && assignment != Assignment::Join) {
-            return Err(Defect::new(Place::Edge(e), Problem::LooseEdge { edge: e, ends: drawn.edge_name(ends) }));
+            return Err(Defect::new(MeshPart::Edge(e), Problem::LooseEdge { edge: e, ends: drawn.edge_name(ends) }));
         }
         for &number in numbers {
             if assignment == Assignment::Join && sheet.edges[number].kind == EdgeKind::Crease {
@@ -34,7 +34,7 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
                 continue;
             }
             if let Some(problem) = fault(sheet, edge, (e, drawn.edge_name(ends)), assignment) {
-                return Err(Defect::new(Place::Edge(e), Problem::Assignment(problem)));
+                return Err(Defect::new(MeshPart::Edge(e), Problem::Assignment(problem)));
             }
             let (key, shown) = (edge.key, sheet.drawn_assignment(edge));
             if assignment != shown {

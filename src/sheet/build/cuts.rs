@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Defect, Drawing, Identified, Place, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::assignment::{Assignment, AssignmentFault};
 use crate::sheet::cell::{Corner, EdgeKey};
 
@@ -69,7 +69,7 @@ fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]
 }
 
 fn fault(fault: AssignmentFault, edge: usize) -> Defect {
-    Defect::new(Place::Edge(edge), Problem::Assignment(fault))
+    Defect::new(MeshPart::Edge(edge), Problem::Assignment(fault))
 }
 
 fn sides(polygon: &[Corner]) -> impl Iterator<Item = EdgeKey> + '_ {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::split::Part;
-use super::{Defect, Drawing, Place, Problem};
+use super::{Defect, Drawing, MeshPart, Problem};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, TriangleSide};
 
 /// An edge along the polygons: its name, and where it is a side.
@@ -42,9 +42,9 @@ fn check_uses(drawn: &Drawing, side: &Side) -> Result<(), Defect> {
     match side.uses[..] {
         [(_, a), (g, b)] if a == b => {
             let problem = Problem::Orientation { edge, faces: [faces[0], faces[1]] };
-            Err(Defect::new(Place::Face(g), problem))
+            Err(Defect::new(MeshPart::Face(g), problem))
         }
-        [_, _, (third, _), ..] => Err(Defect::new(Place::Face(third), Problem::NonManifoldEdge { edge, faces })),
+        [_, _, (third, _), ..] => Err(Defect::new(MeshPart::Face(third), Problem::NonManifoldEdge { edge, faces })),
         _ => Ok(()),
     }
 }
@@ -61,7 +61,7 @@ pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>])
             let faces = rim.remove(&EdgeKey::new(hole[a], hole[b]).0).map_or(0, |s| s.uses.len());
             if faces != 1 {
                 let edge = drawn.edge_name([drawn.holes[h][a], drawn.holes[h][b]]);
-                return Err(Defect::new(Place::Hole(h), Problem::HoleSide { hole: h, edge, faces }));
+                return Err(Defect::new(MeshPart::Hole(h), Problem::HoleSide { hole: h, edge, faces }));
             }
         }
     }
@@ -69,7 +69,7 @@ pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>])
         Some(side) => {
             let face = side.uses[0].0;
             let problem = Problem::Unmatched { edge: drawn.edge_name(side.drawn), face: drawn.name(face) };
-            Err(Defect::new(Place::Face(face), problem))
+            Err(Defect::new(MeshPart::Face(face), problem))
         }
         None => Ok(()),
     }
@@ -85,7 +85,7 @@ pub(super) fn with_wings(drawn: &Drawing, sides: Vec<Side>, parts: &[Part]) -> R
         if numbers.insert(key, edges.len()).is_some() {
             let face = part.triangle.polygon;
             let problem = Problem::DiagonalIsEdge { face: drawn.name(face), edge: drawn.edge_name(ends) };
-            return Err(Defect::new(Place::Face(face), problem));
+            return Err(Defect::new(MeshPart::Face(face), problem));
         }
         edges.push(Edge { key, kind: EdgeKind::Facet, wings: [None; 2] });
     }

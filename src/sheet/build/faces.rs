@@ -3,40 +3,40 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::planar::PlacedSide;
-use super::{Defect, Drawing, Identified, Place, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::cell::{Corner, Sheet};
 
 /// Corners exist, no vertex twice in a face, no face twice in the cell, every vertex in a face.
 pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defect> {
     for (h, hole) in drawn.holes.iter().enumerate() {
-        check_indices(drawn, hole, Place::Hole(h), || format!("opening {h}"))?;
+        check_indices(drawn, hole, MeshPart::Hole(h), || format!("opening {h}"))?;
         if hole.len() < 3 {
-            return Err(Defect::new(Place::Hole(h), Problem::SmallHole { hole: h, corners: hole.len() }));
+            return Err(Defect::new(MeshPart::Hole(h), Problem::SmallHole { hole: h, corners: hole.len() }));
         }
     }
     let mut seen: BTreeMap<Vec<Corner>, (usize, [i32; 2])> = BTreeMap::new();
     let mut used = vec![false; identified.homes.len()];
     for (f, face) in drawn.faces.iter().enumerate() {
-        check_indices(drawn, face, Place::Face(f), || format!("face {}", drawn.name(f)))?;
+        check_indices(drawn, face, MeshPart::Face(f), || format!("face {}", drawn.name(f)))?;
         check_corners(drawn, f, face)?;
         let (canonical, base) = canonical(&identified.corners(face));
         if let Some((other, there)) = seen.insert(canonical, (f, base)) {
             let cell = [base[0] - there[0], base[1] - there[1]];
             let problem = Problem::DuplicateFace { face: drawn.name(f), other: drawn.name(other), cell };
-            return Err(Defect::new(Place::Face(f), problem));
+            return Err(Defect::new(MeshPart::Face(f), problem));
         }
         face.iter().for_each(|&v| used[identified.corner[v].vertex] = true);
     }
     match used.iter().position(|&u| !u) {
         Some(v) => {
             let home = identified.homes[v];
-            Err(Defect::new(Place::Vertex(home), Problem::UnusedVertex { vertex: drawn.name(home) }))
+            Err(Defect::new(MeshPart::Vertex(home), Problem::UnusedVertex { vertex: drawn.name(home) }))
         }
         None => Ok(()),
     }
 }
 
-fn check_indices(drawn: &Drawing, list: &[usize], place: Place, what: impl Fn() -> String) -> Result<(), Defect> {
+fn check_indices(drawn: &Drawing, list: &[usize], place: MeshPart, what: impl Fn() -> String) -> Result<(), Defect> {
     match list.iter().find(|&&v| v >= drawn.coords.len()) {
         Some(&v) => {
             let problem = Problem::Index {
@@ -54,13 +54,13 @@ fn check_indices(drawn: &Drawing, list: &[usize], place: Place, what: impl Fn() 
 fn check_corners(drawn: &Drawing, f: usize, face: &[usize]) -> Result<(), Defect> {
     if face.len() < 3 {
         let problem = Problem::FewCorners { face: drawn.name(f), corners: face.len() };
-        return Err(Defect::new(Place::Face(f), problem));
+        return Err(Defect::new(MeshPart::Face(f), problem));
     }
     let mut seen = BTreeSet::new();
     match face.iter().find(|&&v| !seen.insert(v)) {
         Some(&v) => {
             let problem = Problem::RepeatedVertex { face: drawn.name(f), vertex: drawn.name(v) };
-            Err(Defect::new(Place::Face(f), problem))
+            Err(Defect::new(MeshPart::Face(f), problem))
         }
         None => Ok(()),
     }
@@ -87,7 +87,7 @@ pub(crate) fn sides(drawn: &Drawing) -> Vec<PlacedSide> {
         for (k, &a) in face.iter().enumerate() {
             let b = face[(k + 1) % face.len()];
             if seen.insert([a.min(b), a.max(b)]) {
-                sides.push(([a, b], Place::Face(f)));
+                sides.push(([a, b], MeshPart::Face(f)));
             }
         }
     }
@@ -108,7 +108,7 @@ pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, sheet: &Sheet
         if count != steps.len() {
             let home = identified.homes[v];
             let problem = Problem::NonManifoldVertex { vertex: drawn.name(home) };
-            return Err(Defect::new(Place::Vertex(home), problem));
+            return Err(Defect::new(MeshPart::Vertex(home), problem));
         }
     }
     Ok(())

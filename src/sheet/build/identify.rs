@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::{Defect, Drawing, Place, Problem};
+use super::{Defect, Drawing, MeshPart, Problem};
 use crate::math::Vec3;
 use crate::sheet::cell::Corner;
 
@@ -49,7 +49,7 @@ pub(super) fn identify(drawn: &Drawing) -> Result<Identified, Defect> {
         };
         if let Some(other) = taken.insert(corner, v) {
             let problem = Problem::DuplicateVertex { vertex: drawn.name(v), other: drawn.name(other) };
-            return Err(Defect::new(Place::Vertex(v), problem));
+            return Err(Defect::new(MeshPart::Vertex(v), problem));
         }
         found.corner.push(corner);
     }
@@ -61,7 +61,7 @@ fn copy_corner(drawn: &Drawing, metric: &Metric, v: usize, c: usize, home: usize
     let [n1, n2] = metric.shift(drawn, drawn.coords[v], home).unwrap_or([0.0, 0.0]);
     if n1.abs() > FARTHEST || n2.abs() > FARTHEST {
         let problem = Problem::FarAway { vertex: drawn.name(v), other: drawn.name(home), n1, n2 };
-        return Err(Defect::new(Place::Vertex(v), problem));
+        return Err(Defect::new(MeshPart::Vertex(v), problem));
     }
     Ok(Corner { vertex: c, shift: [n1 as i32, n2 as i32] })
 }

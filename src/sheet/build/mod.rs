@@ -14,7 +14,7 @@ mod split;
 
 use super::assignment::Assignment;
 use super::cell::Sheet;
-use super::error::{Defect, DrawnEdge, Place, Problem};
+use super::error::{Defect, DrawnEdge, MeshPart, Problem};
 use crate::math::Vec3;
 pub(crate) use assign::edges_by_drawn_name;
 pub use draw::draw;
@@ -98,20 +98,20 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
 /// Everything is there, finite, and the lattice spans an area.
 fn check_numbers(drawn: &Drawing) -> Result<(), Defect> {
     if drawn.coords.is_empty() {
-        return Err(Defect::new(Place::Mesh, Problem::Empty { what: "vertices" }));
+        return Err(Defect::new(MeshPart::Mesh, Problem::Empty { what: "vertices" }));
     }
     for (v, x) in drawn.coords.iter().enumerate() {
         if let Some(&value) = x.iter().find(|c| !(0.0..=1e50).contains(&c.abs())) {
-            return Err(Defect::new(Place::Vertex(v), Problem::Coordinate { vertex: drawn.name(v), value }));
+            return Err(Defect::new(MeshPart::Vertex(v), Problem::Coordinate { vertex: drawn.name(v), value }));
         }
     }
     if drawn.faces.is_empty() {
-        return Err(Defect::new(Place::Mesh, Problem::Empty { what: "faces" }));
+        return Err(Defect::new(MeshPart::Mesh, Problem::Empty { what: "faces" }));
     }
     match drawn.lattice {
         Some(lattice) => check_lattice(lattice),
         None if drawn.holes.is_empty() => Ok(()),
-        None => Err(Defect::new(Place::Hole(0), Problem::HolesWithoutLattice)),
+        None => Err(Defect::new(MeshPart::Hole(0), Problem::HolesWithoutLattice)),
     }
 }
 
@@ -119,5 +119,5 @@ fn check_lattice([l1, l2]: [Vec3; 2]) -> Result<(), Defect> {
     let lengths = [l1.norm(), l2.norm()];
     let area = l1.cross(&l2).norm();
     let good = lengths.iter().all(|l| (1e-50..=1e50).contains(l)) && area > 1e-6 * lengths[0] * lengths[1];
-    if good { Ok(()) } else { Err(Defect::new(Place::Lattice, Problem::Lattice { area, lengths })) }
+    if good { Ok(()) } else { Err(Defect::new(MeshPart::Lattice, Problem::Lattice { area, lengths })) }
 }

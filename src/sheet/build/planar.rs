@@ -3,14 +3,14 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use super::{Defect, Drawing, Place, Problem};
+use super::{Defect, Drawing, MeshPart, Problem};
 use crate::math::Vec3;
 
 /// Sine of the angle below which three points count as lying on one line.
 const ALIGNED: f64 = 1e-12;
 
 /// A side to be compared with all others: its ends and what to blame.
-pub(crate) type PlacedSide = ([usize; 2], Place);
+pub(crate) type PlacedSide = ([usize; 2], MeshPart);
 
 /// No two edges meet in the plane other than at common ends.
 pub(crate) fn check_crossings(drawn: &Drawing, sides: &[PlacedSide]) -> Result<(), Defect> {
@@ -66,7 +66,7 @@ fn meet(x: &[Vec3], p: [usize; 2], q: [usize; 2]) -> bool {
 /// A [`Defect`] that names the edge.
 pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<usize>>, Defect> {
     let x = &drawn.coords;
-    let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, Place::Edge(e))).collect();
+    let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, MeshPart::Edge(e))).collect();
     if let Some(&([a, b], place)) = placed.iter().find(|([a, b], _)| (x[*a] - x[*b]).xy().norm() == 0.0) {
         return Err(Defect::new(place, Problem::Upright { edge: drawn.edge_name([a, b]) }));
     }
@@ -74,12 +74,12 @@ pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<
     let (walks, owner) = walks(&rounds(x, edges), edges);
     if let Some((e, &[a, b])) = edges.iter().enumerate().find(|(_, [a, b])| owner[&(*a, *b)] == owner[&(*b, *a)]) {
         let problem = Problem::LooseEdge { edge: e, ends: drawn.edge_name([a, b]) };
-        return Err(Defect::new(Place::Edge(e), problem));
+        return Err(Defect::new(MeshPart::Edge(e), problem));
     }
     let (faces, outside): (Vec<_>, Vec<_>) = walks.into_iter().partition(|walk| area(x, walk) > 0.0);
     match outside.len() {
         1 => Ok(faces),
-        pieces => Err(Defect::new(Place::Mesh, Problem::Pieces { pieces })),
+        pieces => Err(Defect::new(MeshPart::Mesh, Problem::Pieces { pieces })),
     }
 }
 

@@ -4,7 +4,7 @@
 //! vertex listed first. Larger polygons lose, again and again, the ear with the shortest diagonal, by the same tie
 //! rule. An ear is a corner that turns left seen along the polygon's normal and whose triangle holds no other corner.
 
-use super::{Defect, Drawing, Identified, Place, Problem};
+use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Triangle};
 
@@ -24,7 +24,7 @@ pub(super) fn triangles(drawn: &Drawing, cell: &Identified, polygons: &[Vec<Corn
     for (f, polygon) in polygons.iter().enumerate() {
         // The positions of the cell, not those of the drawn copies, so that a file and its copy split alike.
         let points: Vec<Vec3> = polygon.iter().map(|&c| position(drawn, cell, c)).collect();
-        let not_simple = || Defect::new(Place::Face(f), Problem::NotSimple { face: drawn.name(f) });
+        let not_simple = || Defect::new(MeshPart::Face(f), Problem::NotSimple { face: drawn.name(f) });
         let cut = ears(&points).ok_or_else(not_simple)?;
         for (k, &corners) in cut.iter().enumerate() {
             check_area(drawn, f, &points, corners)?;
@@ -50,7 +50,7 @@ fn check_area(drawn: &Drawing, f: usize, points: &[Vec3], corners: [usize; 3]) -
         return Ok(());
     }
     let triangle = corners.map(|k| drawn.name(drawn.faces[f][k]));
-    Err(Defect::new(Place::Face(f), Problem::ZeroArea { face: drawn.name(f), triangle, area, longest }))
+    Err(Defect::new(MeshPart::Face(f), Problem::ZeroArea { face: drawn.name(f), triangle, area, longest }))
 }
 
 /// Triangles of the polygon with these corners as `[before, tip, after]`; `None` where no ear is left.
@@ -106,7 +106,7 @@ fn ear(points: &[Vec3], left: &[usize], k: usize, normal: Vec3) -> Option<f64> {
     good.then(|| (points[b] - points[a]).norm())
 }
 
-/// Place in `left` of the ear with the shortest diagonal; among equals one whose diagonal ends at corner 0.
+/// Position in `left` of the ear with the shortest diagonal; among equals one whose diagonal ends at corner 0.
 fn shortest(left: &[usize], lengths: &[Option<f64>]) -> Option<usize> {
     let least = lengths.iter().flatten().copied().reduce(f64::min)?;
     let equal = |k: &usize| lengths[*k].is_some_and(|l| l <= least * (1.0 + 1e-9));

@@ -13,7 +13,7 @@ use crate::math::Vec3;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, build_identified, planar};
 use crate::sheet::cell::Sheet;
-use crate::sheet::error::{Defect, Place, Problem, SheetError};
+use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
 use crate::sheet::text;
 
 /// The keys that are read, not yet looked into.
@@ -196,12 +196,12 @@ fn drop_holes(drawn: &mut Drawing) {
 /// A defect of the mesh with the line of the text that draws it.
 fn located(source: &Source, keys: &Keys, rows: &Rows, edges: &Edges, defect: Defect) -> SheetError {
     let row = match defect.place {
-        Place::Mesh => None,
-        Place::Vertex(v) => rows.vertices.get(v).copied(),
-        Place::Face(f) => rows.faces.get(f).copied(),
-        Place::Edge(e) => edges.rows.get(e).copied(),
-        Place::Lattice => keys.lattice,
-        Place::Hole(h) => rows.holes.get(h).copied(),
+        MeshPart::Mesh => None,
+        MeshPart::Vertex(v) => rows.vertices.get(v).copied(),
+        MeshPart::Face(f) => rows.faces.get(f).copied(),
+        MeshPart::Edge(e) => edges.rows.get(e).copied(),
+        MeshPart::Lattice => keys.lattice,
+        MeshPart::Hole(h) => rows.holes.get(h).copied(),
     };
     let whole = keys.faces_vertices.or(keys.edges_vertices).or(keys.vertices_coords);
     match row.or(whole) {

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
 use serde::{Deserialize, Serialize};
 
-use super::grid::Grid;
+use super::grid::VertexGrid;
 use super::{GenerateError, Parts, between, length};
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
@@ -44,7 +44,7 @@ impl Eggbox {
         let slope = libm::cos(sector) / libm::sin(f);
         let (x, y) = (a * libm::cos(f), b * (1.0 - slope * slope).max(0.0).sqrt());
         let (down1, down2) = (a * libm::sin(f), b * slope);
-        let grid = Grid { size: [2, 2] };
+        let grid = VertexGrid { size: [2, 2] };
         let vertex = |[i, j]: [usize; 2]| {
             let (i, j) = (i as f64, j as f64);
             Vec3::new(x * i, y * j, 0.0 - down1 * i - down2 * j)

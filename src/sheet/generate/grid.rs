@@ -3,11 +3,11 @@
 use crate::sheet::cell::Corner;
 
 /// `size[0] x size[1]` vertices; vertex `(i, j)` has number `j size[0] + i`.
-pub(super) struct Grid {
+pub(super) struct VertexGrid {
     pub size: [usize; 2],
 }
 
-impl Grid {
+impl VertexGrid {
     /// `(i, j)` of every vertex, in order.
     pub fn all(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
         let [m1, m2] = self.size;

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use super::grid::Grid;
+use super::grid::VertexGrid;
 use super::{GenerateError, Parts, between, count, length};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
@@ -49,7 +49,7 @@ impl Kresling {
             Vec3::new(radius * libm::cos(angle), radius * libm::sin(angle), height * j as f64)
         };
         let at = |k: usize, j: usize| Corner::home(j * sides + k % sides);
-        let storeys = Grid { size: [sides, levels] };
+        let storeys = VertexGrid { size: [sides, levels] };
         let pair = |[k, j]: [usize; 2]| {
             let (left, right, over, across) = (at(k, j), at(k + 1, j), at(k, j + 1), at(k + 1, j + 1));
             [vec![left, right, over], vec![right, across, over]]
@@ -57,7 +57,7 @@ impl Kresling {
         let parts = Parts {
             title: "kresling",
             source: SOURCE,
-            vertices: Grid { size: [sides, levels + 1] }.all().map(vertex).collect(),
+            vertices: VertexGrid { size: [sides, levels + 1] }.all().map(vertex).collect(),
             lattice: None,
             polygons: storeys.all().flat_map(pair).collect(),
         };

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 use serde::{Deserialize, Serialize};
 
-use super::grid::Grid;
+use super::grid::VertexGrid;
 use super::{GenerateError, Parts, between, count, from, length};
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
@@ -91,7 +91,7 @@ impl Miura {
 
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let shape = self.shape()?;
-        let grid = Grid { size: [2, 2] };
+        let grid = VertexGrid { size: [2, 2] };
         let lattice = Some([Vec3::new(2.0 * shape.s, 0.0, 0.0), Vec3::new(0.0, 2.0 * shape.l, 0.0)]);
         let vertices = grid.all().map(|at| shape.vertex(at)).collect();
         let polygons = grid.all().map(|at| grid.quad(at).to_vec()).collect();
@@ -104,7 +104,7 @@ impl MiuraPatch {
         let cell = Miura { a: self.a, b: self.b, sector: self.sector, fold: self.fold };
         let shape = cell.shape()?;
         let [n1, n2] = [count("cells[0]", self.cells[0], 1, 500)?, count("cells[1]", self.cells[1], 1, 500)?];
-        let grid = Grid { size: [2 * n1 + 1, 2 * n2 + 1] };
+        let grid = VertexGrid { size: [2 * n1 + 1, 2 * n2 + 1] };
         let vertices = grid.all().map(|at| shape.vertex(at)).collect();
         let inner = grid.all().filter(|[i, j]| *i < 2 * n1 && *j < 2 * n2);
         let polygons = inner.map(|at| grid.quad(at).to_vec()).collect();

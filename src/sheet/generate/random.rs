@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
-use super::grid::Grid;
+use super::grid::VertexGrid;
 use super::{GenerateError, Parts, between, count, from};
 use crate::math::Vec3;
 use crate::numerics::random::symmetric;
@@ -77,7 +77,7 @@ impl Random {
         let jitter = from("jitter", self.jitter, 0.0, 0.25)?;
         let skew = between("skew", self.skew, -10.0, 10.0)?;
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
-        let grid = Grid { size: [m1, m2] };
+        let grid = VertexGrid { size: [m1, m2] };
         let place = |u: f64, v: f64, z: f64| Vec3::new(u + skew * v, v, z);
         let mut vertices: Vec<Vec3> = Vec::with_capacity(m1 * m2);
         for [i, j] in grid.all() {

@@ -1,12 +1,12 @@
 //! The charts of a surface, placed one after the other.
 
-use super::grid::Grid;
+use super::grid::PointIndex;
 use super::polygon::Polygon;
-use super::surface::{AtlasError, Chart, Coverage, KEPT, Options, Surface};
+use super::surface::{AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
 use crate::numerics::vector::{add_scaled, dot, norm};
-use crate::solver::implicit::{Corrected, Corrector};
+use crate::solver::implicit::{CorrectedPoint, Corrector};
 use std::collections::{HashSet, VecDeque};
 
 /// Smallest radius of a chart relative to the largest.
@@ -39,13 +39,13 @@ const MOST_NEIGHBOURS: usize = 256;
 
 pub(super) struct Cover<'a, S: Surface> {
     surface: &'a mut S,
-    options: Options,
+    options: CoverOptions,
     corrector: Corrector,
     periods: Vec<Option<f64>>,
     pub charts: Vec<Chart>,
     /// Number of charts beyond the limit between each chart and the inner ones, itself included.
     beyond: Vec<usize>,
-    grid: Grid,
+    grid: PointIndex,
     /// Charts that may be open.
     waiting: VecDeque<usize>,
     queued: Vec<bool>,
@@ -63,17 +63,17 @@ struct Neighbour {
 }
 
 /// A point before its chart.
-struct Place {
+struct Seed {
     residual: f64,
     start: usize,
 }
 
 impl<'a, S: Surface> Cover<'a, S> {
-    pub fn new(surface: &'a mut S, options: Options) -> Self {
+    pub fn new(surface: &'a mut S, options: CoverOptions) -> Self {
         let periods: Vec<Option<f64>> = (0..surface.unknowns()).map(|unknown| surface.period(unknown)).collect();
         Self {
             corrector: Corrector::new(surface),
-            grid: Grid::new(2.0 * MOST_DISTANCE_PER_RADII * options.radius, periods.clone()),
+            grid: PointIndex::new(2.0 * MOST_DISTANCE_PER_RADII * options.radius, periods.clone()),
             way: vec![0.0; periods.len()],
             periods,
             charts: vec![],
@@ -99,7 +99,7 @@ impl<'a, S: Surface> Cover<'a, S> {
         }
         let (mut x, mut frame) = (start.to_vec(), tangents.as_slice().to_vec());
         let chart = self.correct(&mut x, &mut frame, 1e-3 * self.options.radius).and_then(|found| {
-            let place = Place { residual: found.residual, start: number };
+            let place = Seed { residual: found.residual, start: number };
             self.chart(x, frame, self.options.radius, place)
         });
         let chart = chart.ok_or(AtlasError::Start { start: number })?;
@@ -164,7 +164,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     }
 
     /// Brings a point onto the surface, no further than `reach`, and its frame into the tangents there.
-    fn correct(&mut self, x: &mut [f64], frame: &mut [f64], reach: f64) -> Option<Corrected> {
+    fn correct(&mut self, x: &mut [f64], frame: &mut [f64], reach: f64) -> Option<CorrectedPoint> {
         let found = self.corrector.correct(self.surface, x, frame, self.options.tolerance)?;
         (found.distance <= reach).then_some(found)
     }
@@ -180,7 +180,7 @@ impl<'a, S: Surface> Cover<'a, S> {
         if !(turn(&self.charts[number].frame, &frame) <= self.options.max_turn) {
             return None;
         }
-        self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Place { residual: found.residual, start })
+        self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Seed { residual: found.residual, start })
     }
 
     /// A chart at a point of the surface, its radius at most `largest` and such that the tangent plane turns gently
@@ -188,7 +188,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     ///
     /// `None` where that is less than the smallest radius. The turning is measured at two points beside, in the tangent
     /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does.
-    fn chart(&mut self, x: Vec<f64>, frame: Vec<f64>, largest: f64, place: Place) -> Option<Chart> {
+    fn chart(&mut self, x: Vec<f64>, frame: Vec<f64>, largest: f64, place: Seed) -> Option<Chart> {
         let aside = PROBE_PER_RADIUS * largest;
         let mut square = 0.0;
         for tangent in frame.chunks_exact(x.len()) {

@@ -15,7 +15,7 @@ const CUBE: usize = 3;
 
 /// Numbered points, sorted into cubes.
 #[derive(Clone, Debug)]
-pub(super) struct Grid {
+pub(super) struct PointIndex {
     side: f64,
     periods: Vec<Option<f64>>,
     /// Orthonormal directions, one behind the other; fewer for few coordinates.
@@ -24,7 +24,7 @@ pub(super) struct Grid {
     seen: Vec<f64>,
 }
 
-impl Grid {
+impl PointIndex {
     /// A grid of cubes of this side, for points with these periods.
     pub fn new(side: f64, periods: Vec<Option<f64>>) -> Self {
         let coordinates: usize = periods.iter().map(|period| if period.is_some() { 2 } else { 1 }).sum();
@@ -105,7 +105,7 @@ mod tests {
     fn all_near_points_are_found() {
         for unknowns in 1..=5 {
             let periods: Vec<Option<f64>> = (0..unknowns).map(|k| (k % 2 == 0).then_some(TAU)).collect();
-            let mut grid = Grid::new(0.4, periods.clone());
+            let mut grid = PointIndex::new(0.4, periods.clone());
             let value = |point: usize, k: usize| 20.0 * ((point * 7 + k * 13) as f64 * 0.754_877_666).fract() - 10.0;
             let points: Vec<Vec<f64>> = (0..400).map(|p| (0..unknowns).map(|k| value(p, k)).collect()).collect();
             points.iter().enumerate().for_each(|(number, x)| grid.insert(x, number));

@@ -20,7 +20,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-pub use surface::{Atlas, AtlasError, Chart, Coverage, KEPT, Options, Surface};
+pub use surface::{Atlas, AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
 
 /// Covers the parts of a surface that hold the `starts`: points on it, or within a thousandth of the radius of it, at
 /// which it is not singular. A start that lies in a chart already is passed over.
@@ -33,7 +33,7 @@ pub use surface::{Atlas, AtlasError, Chart, Coverage, KEPT, Options, Surface};
 pub fn cover<S: Surface>(
     surface: &mut S,
     starts: &[Vec<f64>],
-    options: Options,
+    options: CoverOptions,
     observe: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Atlas, AtlasError> {
     let mut cover = cover::Cover::new(surface, options);

@@ -21,7 +21,7 @@ pub trait Surface: Implicit {
 
 /// Fineness and extent of a covering.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct CoverOptions {
     /// Largest component of the residual of a point.
     pub tolerance: f64,
     /// Largest radius of a chart: neighbouring points are one to two radii apart.
@@ -32,7 +32,7 @@ pub struct Options {
     pub max_charts: usize,
 }
 
-impl Default for Options {
+impl Default for CoverOptions {
     fn default() -> Self {
         Self { tolerance: 1e-13, radius: 0.1, max_turn: 0.3, max_charts: 100_000 }
     }
@@ -71,7 +71,7 @@ pub enum Coverage {
         /// Number of these charts.
         charts: usize,
     },
-    /// As many charts as [`Options::max_charts`] allows were placed.
+    /// As many charts as [`CoverOptions::max_charts`] allows were placed.
     TooManyCharts,
     /// The observer asked to stop.
     Interrupted,

@@ -95,7 +95,7 @@ fn derivatives() {
 }
 
 fn run<const N: usize>(surface: &mut Textbook<N>, start: [f64; N], radius: f64) -> Atlas {
-    let options = Options { radius, ..Options::default() };
+    let options = CoverOptions { radius, ..CoverOptions::default() };
     let atlas = cover(surface, &[start.to_vec()], options, &mut |_| true).unwrap();
     for chart in &atlas.charts {
         let rows = (surface.rows)(&chart.x);
@@ -198,7 +198,7 @@ fn torus_is_closed() {
         let missing = 1.0 - area(&atlas, None) / (4.0 * PI * PI * 0.4);
         assert!(missing.abs() <= 0.5 * (radius / 0.4f64).powi(2), "{missing}");
     }
-    let options = Options { radius: 0.2, max_turn: 0.2, ..Options::default() };
+    let options = CoverOptions { radius: 0.2, max_turn: 0.2, ..CoverOptions::default() };
     let atlas = cover(&mut Textbook::new(torus), &[vec![1.4, 0.0, 0.0]], options, &mut |_| true).unwrap();
     assert_eq!((topology(&atlas).euler, topology(&atlas).border), (0, 0));
     let normal = |chart: usize| {
@@ -273,7 +273,7 @@ fn a_tip_is_not_crossed() {
     let lowest = atlas.charts.iter().map(|chart| chart.x[2]).fold(f64::INFINITY, f64::min);
     assert!(lowest > 0.0 && lowest <= 0.02, "{lowest}");
     let starts = [vec![0.3, 0.4, 0.5], vec![0.3, 0.4, -0.5], vec![0.31, 0.4, 0.506]];
-    let options = Options { radius: 0.1, ..Options::default() };
+    let options = CoverOptions { radius: 0.1, ..CoverOptions::default() };
     let both = cover(&mut surface, &starts, options, &mut |_| true).unwrap();
     let side = |chart: usize| both.charts[chart].x[2] > 0.0;
     assert!(both.triangles.iter().all(|[a, b, c]| side(*a) == side(*b) && side(*b) == side(*c)));
@@ -285,13 +285,13 @@ fn a_tip_is_not_crossed() {
 /// Claim: a singular start, a start off the surface, a small allowance and an impatient observer are all said.
 #[test]
 fn what_cannot_be_done_is_said() {
-    let options = Options::default();
+    let options = CoverOptions::default();
     let mut always = |_: usize| true;
     let tip = cover(&mut Textbook::new(cone), &[vec![0.0; 3]], options, &mut always);
     assert_eq!(tip, Err(AtlasError::Singular { start: 0, tangents: 3 }));
     let off = cover(&mut Textbook::new(cone), &[vec![0.3, 0.4, 0.6]], options, &mut always);
     assert!(matches!(off, Err(AtlasError::Start { start: 0 })), "{off:?}");
-    let few = Options { max_charts: 50, ..options };
+    let few = CoverOptions { max_charts: 50, ..options };
     let atlas = cover(&mut Textbook::new(sphere), &[vec![0.0, 0.0, 1.0]], few, &mut always).unwrap();
     assert_eq!(atlas.coverage, Coverage::TooManyCharts);
     let atlas = cover(&mut Textbook::new(sphere), &[vec![0.0, 0.0, 1.0]], options, &mut |_| false).unwrap();

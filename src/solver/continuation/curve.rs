@@ -27,7 +27,7 @@ pub struct Point {
 
 /// Tolerance, steps and ends of a trajectory.
 #[derive(Clone, Debug)]
-pub struct Options {
+pub struct CurveOptions {
     /// Bound on the largest component of `F`.
     pub tolerance: f64,
     /// Longest step, in arc length.
@@ -44,7 +44,7 @@ pub struct Options {
     pub points: usize,
 }
 
-impl Default for Options {
+impl Default for CurveOptions {
     fn default() -> Self {
         let (length, steps) = (f64::INFINITY, 100_000);
         Self { tolerance: 1e-13, max_step: 0.25, length, steps, period: None, stops: Vec::new(), points: 3 }

@@ -1,7 +1,7 @@
 //! The predictor and corrector, and where indicators change sign.
 
 use super::closing;
-use super::curve::{Curve, End, Event, Options, Point, Return, Trajectory};
+use super::curve::{Curve, CurveOptions, End, Event, Point, Return, Trajectory};
 use super::hermite::{Hermite, MOST};
 use crate::numerics::vector::{dot, normalize};
 use crate::solver::implicit::Corrector;
@@ -34,7 +34,7 @@ pub fn follow<C: Curve>(
     curve: &mut C,
     x: Vec<f64>,
     tangent: Vec<f64>,
-    options: &Options,
+    options: &CurveOptions,
     observe: &mut dyn FnMut(&Point) -> bool,
 ) -> Trajectory {
     let start = Point { arc_length: 0.0, x, tangent, residual: 0.0, corrections: 0 };
@@ -59,7 +59,7 @@ pub fn follow<C: Curve>(
 impl<C: Curve> Follower<'_, C> {
     fn run(
         &mut self,
-        options: &Options,
+        options: &CurveOptions,
         mut indicators: Vec<f64>,
         events: &mut Vec<Event>,
         observe: &mut dyn FnMut(&Point) -> bool,
@@ -135,7 +135,7 @@ impl<C: Curve> Follower<'_, C> {
     }
 
     /// The end of a trajectory that came back to its start.
-    fn ended(&mut self, options: &Options, approach: &mut f64) -> Option<End> {
+    fn ended(&mut self, options: &CurveOptions, approach: &mut f64) -> Option<End> {
         let period = options.period?;
         let start = self.points[0].x.clone();
         let now = closing::approach(&self.points[self.points.len() - 1], &start, period);
@@ -161,7 +161,13 @@ impl<C: Curve> Follower<'_, C> {
     }
 
     /// Locates the sign changes of the last step; one that ends the trajectory becomes its last point.
-    fn pass(&mut self, options: &Options, before: &[f64], after: &[f64], events: &mut Vec<Event>) -> Option<usize> {
+    fn pass(
+        &mut self,
+        options: &CurveOptions,
+        before: &[f64],
+        after: &[f64],
+        events: &mut Vec<Event>,
+    ) -> Option<usize> {
         let changed = |k: &usize| before[*k] * after[*k] < 0.0 || (after[*k] == 0.0 && before[*k] != 0.0);
         let mut found: Vec<Event> =
             (0..before.len()).filter(changed).filter_map(|k| self.locate(k, before[k], after[k])).collect();

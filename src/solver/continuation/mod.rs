@@ -16,5 +16,5 @@ mod hermite;
 #[cfg(test)]
 mod tests;
 
-pub use curve::{Curve, End, Event, Options, Point, Return, Trajectory};
+pub use curve::{Curve, CurveOptions, End, Event, Point, Return, Trajectory};
 pub use follower::follow;

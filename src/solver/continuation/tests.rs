@@ -41,7 +41,7 @@ fn no_indicator(_: &Point) -> f64 {
     1.0
 }
 
-fn run(curve: &mut Textbook, x: &[f64], tangent: &[f64], options: &Options) -> Trajectory {
+fn run(curve: &mut Textbook, x: &[f64], tangent: &[f64], options: &CurveOptions) -> Trajectory {
     follow(curve, x.to_vec(), tangent.to_vec(), options, &mut |_| true)
 }
 
@@ -73,8 +73,8 @@ fn viviani(p: &[f64]) -> (Vec<f64>, Vec<f64>) {
     (vec![sphere, cylinder], vec![2.0 * p[0], 2.0 * p[1], 2.0 * p[2], 2.0 * p[0] - 1.0, 2.0 * p[1], 0.0])
 }
 
-fn closed(period: f64) -> Options {
-    Options { period: Some(period), ..Options::default() }
+fn closed(period: f64) -> CurveOptions {
+    CurveOptions { period: Some(period), ..CurveOptions::default() }
 }
 
 #[test]
@@ -157,12 +157,12 @@ fn events_are_located() {
     let expected = 0.5 * (0.6f64).asin();
     for indicator in [smooth, jump] {
         let mut curve = Textbook { unknowns: 2, equations: circle, indicator };
-        let seen = run(&mut curve, &[0.5, 0.0], &[0.0, 1.0], &Options { length: 1.5, ..Options::default() });
+        let seen = run(&mut curve, &[0.5, 0.0], &[0.0, 1.0], &CurveOptions { length: 1.5, ..CurveOptions::default() });
         assert_eq!(seen.end, End::Length);
         assert!((seen.points[seen.points.len() - 1].arc_length - 1.5).abs() <= 1e-12);
         assert_eq!(seen.events.len(), 2);
         assert!((seen.events[0].point.x[1] - 0.3).abs() <= 1e-10, "{:?}", seen.events[0]);
-        let options = Options { stops: vec![0], ..Options::default() };
+        let options = CurveOptions { stops: vec![0], ..CurveOptions::default() };
         let stopped = run(&mut curve, &[0.5, 0.0], &[0.0, 1.0], &options);
         assert_eq!(stopped.end, End::Stopped { indicator: 0 });
         let last = &stopped.points[stopped.points.len() - 1];
@@ -176,7 +176,7 @@ fn dead_end() {
     let cusp: Equations = |p| (vec![p[1] * p[1] - p[0].powi(3)], vec![-3.0 * p[0] * p[0], 2.0 * p[1]]);
     let mut curve = Textbook { unknowns: 2, equations: cusp, indicator: no_indicator };
     let slope = [-2.0 / 13f64.sqrt(), -3.0 / 13f64.sqrt()];
-    let found = run(&mut curve, &[1.0, 1.0], &slope, &Options::default());
+    let found = run(&mut curve, &[1.0, 1.0], &slope, &CurveOptions::default());
     assert_eq!(found.end, End::Failed);
     let last = &found.points[found.points.len() - 1];
     assert!(last.x[0].abs() < 0.01, "{:?}", last);

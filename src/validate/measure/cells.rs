@@ -2,7 +2,7 @@
 //!
 //! Two vertices a cell, the fewest of a cell that is not flat: Miura-ori, with four, takes several times as long.
 
-use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
+use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::report::figure;
 use super::super::star::size;
 use super::trial::distance;
@@ -93,7 +93,7 @@ fn closed_form(sheet: &Sheet, slope: f64) -> Vec<f64> {
     sheet.edges.iter().map(|edge| if edge.key.i == edge.key.j { angle(edge) } else { 0.0 }).collect()
 }
 
-fn table(sizes: &[Size]) -> Grid {
+fn table(sizes: &[Size]) -> ReportTable {
     let row = |s: &Size| {
         let counts = [s.unknowns, s.found.iterations, s.found.factorizations].map(|count| count.to_string());
         let numbers = [residual(s), s.error, s.seconds].map(figure);
@@ -101,7 +101,7 @@ fn table(sizes: &[Size]) -> Grid {
     };
     let names =
         ["cells", "unknowns", "iterations", "factorizations", "residual", "off the closed form (rad)", "seconds"];
-    Grid {
+    ReportTable {
         title: "Pleated Yoshimura patterns with rigid bars, their rows folded from a slope of 0.5 to 0.55".into(),
         header: names.map(str::to_owned).to_vec(),
         rows: sizes.iter().map(row).collect(),

@@ -4,7 +4,7 @@
 //! first order in `1/k` the state moves by `dx / k`, where `H dx + R^T dt = 0` and `R dx = c t`, and its energy falls by
 //! `sum(c t^2) / 2k`, which is also what the bars then store. One linear solve at the rigid state, no stiffness in it.
 
-use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
+use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::report::figure;
 use super::super::star::Star;
 use super::trial::distance;
@@ -22,11 +22,11 @@ const MORE: usize = 48;
 const DECADES: RangeInclusive<i32> = 2..=16;
 /// From this stiffness on each sheet is relaxed from the drawn state: within the tolerance, the rigid state and the state of
 /// the next stiffness are solutions too, and a start from there would say nothing.
-const ALIKE: f64 = 1e9;
+const STIFFNESS_STARTED_AS_DRAWN: f64 = 1e9;
 /// Largest deviation of a rest angle from the drawn one, in radians.
 const OFF: f64 = 0.1;
 /// The law has set in where what it predicts is met to this.
-const SETTLED: f64 = 0.01;
+const LAW_TOLERANCE: f64 = 0.01;
 /// Up to this stiffness the fall of the total energy is well above its rounding error.
 const ENERGY_SEEN: f64 = 1e10;
 
@@ -56,7 +56,7 @@ struct Size {
 }
 
 /// Patches of the reference cell, every hinge with a rest angle of its own within 0.1 rad of the drawn one, from rigid down to a
-/// stiffness of 100; below [`ALIKE`] each state starts from the one before, so that it is the same minimum.
+/// stiffness of 100; below [`STIFFNESS_STARTED_AS_DRAWN`] each state starts from the one before, so that it is the same minimum.
 pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let cells: Vec<usize> = CELLS.into_iter().chain((!bench.quick).then_some(MORE)).collect();
     let mut sizes = Vec::new();
@@ -69,10 +69,10 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
         reached.filter(|r| (within[0]..=within[1]).contains(&r.stiffness)).map(|r| (of(r) - 1.0).abs()).collect()
     };
     let values = json!({
-        "distance off law": all(|r| r.distance, [ALIKE, 1e14]),
+        "distance off law": all(|r| r.distance, [STIFFNESS_STARTED_AS_DRAWN, 1e14]),
         "distance off law at 1e16": all(|r| r.distance, [1e16, 1e16]),
-        "fall of energy off law": all(|r| r.fall, [ALIKE, ENERGY_SEEN]),
-        "energy of bars off law": all(|r| r.bars, [ALIKE, 1e16]),
+        "fall of energy off law": all(|r| r.fall, [STIFFNESS_STARTED_AS_DRAWN, ENERGY_SEEN]),
+        "energy of bars off law": all(|r| r.bars, [STIFFNESS_STARTED_AS_DRAWN, 1e16]),
     });
     let tables = vec![laws(&sizes), distances(&sizes)];
     Ok(Findings { values, tables, charts: vec![chart(&sizes)], ..Findings::default() })
@@ -86,7 +86,7 @@ fn size(n: usize) -> Result<Size, ExperimentError> {
     let (mut reached, mut last) = (Vec::new(), Start::from(rigid.x.clone()));
     for stiffness in DECADES.rev().map(|decade| 10f64.powi(decade)) {
         let mut model = star.model(stiffness);
-        let start = if stiffness >= ALIKE { model.start().into() } else { last };
+        let start = if stiffness >= STIFFNESS_STARTED_AS_DRAWN { model.start().into() } else { last };
         let found = relax_from(&mut model, start, Options::default(), &mut |_| true)?;
         reached.push(Reached {
             stiffness,
@@ -112,14 +112,14 @@ fn law(model: &Model, unit: &Model, rigid: &Relaxed) -> Result<Law, ExperimentEr
     })
 }
 
-/// The least stiffness from which on, up to [`ENERGY_SEEN`], a number stays within [`SETTLED`] of the law.
+/// The least stiffness from which on, up to [`ENERGY_SEEN`], a number stays within [`LAW_TOLERANCE`] of the law.
 fn sets_in(reached: &[Reached], of: fn(&Reached) -> f64) -> f64 {
     let seen = reached.iter().skip_while(|r| r.stiffness > ENERGY_SEEN);
-    let met = seen.take_while(|r| (of(r) - 1.0).abs() <= SETTLED);
+    let met = seen.take_while(|r| (of(r) - 1.0).abs() <= LAW_TOLERANCE);
     met.last().map_or(f64::NAN, |last| last.stiffness)
 }
 
-fn laws(sizes: &[Size]) -> Grid {
+fn laws(sizes: &[Size]) -> ReportTable {
     let row = |size: &Size| {
         let Law { distance, energy } = size.law;
         let ways: [fn(&Reached) -> f64; 3] = [|r| r.distance, |r| r.fall, |r| r.bars];
@@ -135,14 +135,14 @@ fn laws(sizes: &[Size]) -> Grid {
         "met to 1% from k =",
         "bars' energy met from k =",
     ];
-    Grid {
+    ReportTable {
         title: "First order in 1/k, from one linear solve at the rigid state, and from where on it is met".into(),
         header: names.map(str::to_owned).to_vec(),
         rows: sizes.iter().map(row).collect(),
     }
 }
 
-fn distances(sizes: &[Size]) -> Grid {
+fn distances(sizes: &[Size]) -> ReportTable {
     let number = |size: &Size, k: usize| {
         let Reached { distance, fall, bars, stiffness } = &size.reached[k];
         let fall = if *stiffness <= ENERGY_SEEN { format!("{fall:.4}") } else { "-".into() };
@@ -153,7 +153,7 @@ fn distances(sizes: &[Size]) -> Grid {
         [stiffness].into_iter().chain(sizes.iter().map(|size| number(size, k))).collect()
     };
     let cells = sizes.iter().map(|size| format!("{0} x {0}", size.cells));
-    Grid {
+    ReportTable {
         title: "Distance, fall of energy and energy of the bars over what first order says".into(),
         header: ["k".to_owned()].into_iter().chain(cells).collect(),
         rows: (0..sizes.first().map_or(0, |size| size.reached.len())).map(row).collect(),

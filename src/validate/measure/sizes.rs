@@ -1,6 +1,6 @@
 //! What the size of a patch costs, against an exact state that is known at every size.
 
-use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
+use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
 use super::super::precision::shortest;
 use super::super::report::figure;
@@ -102,7 +102,7 @@ fn chart(sizes: &[Size]) -> Chart {
     }
 }
 
-fn table(sizes: &[Size]) -> Grid {
+fn table(sizes: &[Size]) -> ReportTable {
     let row = |s: &Size| {
         let penalty = s.penalty.map_or([String::new(), String::new()], |both| both.map(figure));
         let ours = [s.unknowns.to_string(), s.iterations.to_string(), figure(s.error), figure(s.seconds)];
@@ -110,7 +110,7 @@ fn table(sizes: &[Size]) -> Grid {
     };
     let names =
         ["cells", "unknowns", "iterations", "error (rad)", "seconds", "error of the penalty (rad)", "its seconds"];
-    Grid {
+    ReportTable {
         title: "Size of a patch that rolls up to an exact cylinder, rigid bars".into(),
         header: names.map(str::to_owned).to_vec(),
         rows: sizes.iter().map(row).collect(),

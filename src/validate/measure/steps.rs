@@ -6,7 +6,7 @@ use super::super::star;
 use foldwell::analysis::branches::{BranchesError, branches};
 use foldwell::kinematics::{Closing, Closure, KinematicsError};
 use foldwell::model::{Assembly, Boundary, Terms};
-use foldwell::solver::continuation::{End, Options, follow};
+use foldwell::solver::continuation::{CurveOptions, End, follow};
 use serde_json::json;
 use std::f64::consts::TAU;
 
@@ -78,7 +78,7 @@ impl Short {
     fn length(&mut self, max_step: f64, points: usize) -> Result<f64, ExperimentError> {
         let mut closing = Closing::new(&self.closure, self.angles.clone());
         let [start, leaving] = [&self.angles, &self.direction].map(|all| closing.folding(all));
-        let options = Options { tolerance: 3e-14, max_step, points, period: Some(TAU), ..Options::default() };
+        let options = CurveOptions { tolerance: 3e-14, max_step, points, period: Some(TAU), ..CurveOptions::default() };
         match follow(&mut closing, start, leaving, &options, &mut |_| true).end {
             End::Closed(back) => Ok(back.arc_length),
             _ => Err(ExperimentError::Other("the loop did not close".into())),

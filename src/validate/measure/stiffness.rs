@@ -1,6 +1,6 @@
 //! What a stiffness buys and costs: the program's tension form beside a plain penalty and the augmented form.
 
-use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
+use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::report::figure;
@@ -123,7 +123,7 @@ fn times(star: &Star) -> Vec<[f64; 3]> {
     seconds
 }
 
-fn table(all: &[[Option<Reached>; 3]], seconds: &[[f64; 3]], names: &[&str; 3]) -> Grid {
+fn table(all: &[[Option<Reached>; 3]], seconds: &[[f64; 3]], names: &[&str; 3]) -> ReportTable {
     let of = |reached: &Option<Reached>, seconds: f64| match reached {
         Some(reached) => {
             let Reached { residual, iterations, .. } = reached;
@@ -135,7 +135,7 @@ fn table(all: &[[Option<Reached>; 3]], seconds: &[[f64; 3]], names: &[&str; 3]) 
         let cells = (0..names.len()).map(|form| of(&all[k][form], seconds[k][form]));
         [format!("{:e}", STIFFNESSES[k])].into_iter().chain(cells).collect()
     };
-    Grid {
+    ReportTable {
         title: "Residual that is left at each stiffness (the larger one of force and length, scaled)".into(),
         header: ["k"].iter().chain(names).map(|name| (*name).to_owned()).collect(),
         rows: (0..all.len()).map(row).collect(),

@@ -28,7 +28,7 @@ const SEED: u64 = 1;
 
 /// What came of a trial.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum TrialVerdict {
     /// As an independent computation says, to this error in fold angles.
     Right(f64),
     /// Converged, where nothing independent is at hand.
@@ -56,7 +56,7 @@ pub struct Trial {
 }
 
 /// Where a trial ended.
-pub struct Found {
+pub struct TrialResult {
     /// Fold angle of every edge; NaN where there is no hinge.
     pub angles: Vec<f64>,
     /// Largest difference of a fold angle to the exact kinematics; `None` where there is nothing to compare with.
@@ -88,7 +88,7 @@ impl Trial {
     }
 
     /// Relaxes from the drawn state. `Err`: why not.
-    pub fn run(&self) -> Result<Found, String> {
+    pub fn run(&self) -> Result<TrialResult, String> {
         let [bars, creases] = self.stiffness;
         let assembly = self.assembly().map_err(|error| error.to_string())?;
         let mut model = assembly.model(Gauge::Held);
@@ -97,7 +97,7 @@ impl Trial {
         let found = found.map_err(|error| error.failure.to_string())?;
         let state = State::new(&model, &found.x, &found.tension);
         let (rigid, angles) = (bars.is_infinite(), state.fold_angle);
-        Ok(Found {
+        Ok(TrialResult {
             to_kinematic: rigid
                 .then(|| error_to_kinematic(assembly.sheet(), assembly.tiling(), &model, &angles))
                 .flatten(),
@@ -114,36 +114,36 @@ impl Trial {
 
     /// Whether rigid bars end at the exact kinematics to `allowed` radians; where that cannot be asked, whether they kept
     /// their lengths. Whether soft ones end where the augmented form does, if it finds the same minimum.
-    pub fn judged(&self, allowed: f64) -> Outcome {
+    pub fn judged(&self, allowed: f64) -> TrialVerdict {
         judge(|found| match (found.to_kinematic, found.to_augmented) {
             (Some(error), _) => within(error, allowed),
-            (None, Some(error)) if error <= AGREES => Outcome::Right(error),
-            (None, _) if self.stiffness[0].is_finite() || found.stretch <= KEPT => Outcome::Unjudged,
-            (None, _) => Outcome::Wrong(format!("a rigid bar changed its length by {:.1e}", found.stretch)),
+            (None, Some(error)) if error <= AGREES => TrialVerdict::Right(error),
+            (None, _) if self.stiffness[0].is_finite() || found.stretch <= KEPT => TrialVerdict::Unjudged,
+            (None, _) => TrialVerdict::Wrong(format!("a rigid bar changed its length by {:.1e}", found.stretch)),
         })(self)
     }
 
     /// Whether the fold angles are these to `allowed` radians.
-    pub fn against(&self, expected: &[f64], allowed: f64) -> Outcome {
+    pub fn against(&self, expected: &[f64], allowed: f64) -> TrialVerdict {
         judge(|found| within(distance(&found.angles, expected), allowed))(self)
     }
 }
 
 /// The verdict on a trial; a panic is wrong, and so is one that was cut short.
-pub fn judge(verdict: impl Fn(&Found) -> Outcome) -> impl Fn(&Trial) -> Outcome {
+pub fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&Trial) -> TrialVerdict {
     move |trial| match catch_unwind(AssertUnwindSafe(|| trial.run())) {
         Ok(Ok(found)) => verdict(&found),
         Ok(Err(reason)) if reason.contains("stopped on request") => {
-            Outcome::Wrong(format!("no end after {} s", PATIENCE.as_secs()))
+            TrialVerdict::Wrong(format!("no end after {} s", PATIENCE.as_secs()))
         }
-        Ok(Err(reason)) => Outcome::Refused(reason),
-        Err(_) => Outcome::Wrong("panic".into()),
+        Ok(Err(reason)) => TrialVerdict::Refused(reason),
+        Err(_) => TrialVerdict::Wrong("panic".into()),
     }
 }
 
 /// Right where an error is at most `allowed`.
-pub fn within(error: f64, allowed: f64) -> Outcome {
-    if error <= allowed { Outcome::Right(error) } else { Outcome::Wrong(format!("off by {error:.1e}")) }
+pub fn within(error: f64, allowed: f64) -> TrialVerdict {
+    if error <= allowed { TrialVerdict::Right(error) } else { TrialVerdict::Wrong(format!("off by {error:.1e}")) }
 }
 
 /// Largest difference where a number is expected; NaN where there is none, where none is expected, and of lists of other lengths.
@@ -183,7 +183,7 @@ mod tests {
         {
             let off = distance(angles, expected);
             assert!(off.is_nan(), "{angles:?} {expected:?}: {off}");
-            assert!(matches!(within(off, 1.0), Outcome::Wrong(_)));
+            assert!(matches!(within(off, 1.0), TrialVerdict::Wrong(_)));
         }
     }
 }

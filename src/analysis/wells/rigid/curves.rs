@@ -6,16 +6,16 @@ use crate::kinematics::{Closing, Closure, KinematicsError, Rays, RealDirections,
 use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
-use crate::solver::continuation::{Curve, End, Options, Point, follow};
+use crate::solver::continuation::{Curve, CurveOptions, End, Point, follow};
 use std::f64::consts::{PI, TAU};
 
 /// Steps on curves over those on surfaces: they cost next to nothing.
 const FINER: f64 = 0.25;
 
 /// Closed angles, with the distance of the sharpest fold from `pi`.
-struct Folding<'a>(Closing<'a>);
+struct BoundedClosure<'a>(Closing<'a>);
 
-impl Implicit for Folding<'_> {
+impl Implicit for BoundedClosure<'_> {
     fn unknowns(&self) -> usize {
         self.0.unknowns()
     }
@@ -29,7 +29,7 @@ impl Implicit for Folding<'_> {
     }
 }
 
-impl Curve for Folding<'_> {
+impl Curve for BoundedClosure<'_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         out.push(point.x.iter().fold(0.0, |most: f64, angle| most.max(angle.abs())) - PI);
     }
@@ -54,7 +54,7 @@ pub(super) fn net(
         return Err(RigidError::Dimension { dimension });
     }
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
-    let mut folding = Folding(Closing::new(&closure, drawn.clone()));
+    let mut folding = BoundedClosure(Closing::new(&closure, drawn.clone()));
     let crossing = rays.len() > 2;
     let mut net = Net {
         angles: vec![drawn.clone()],
@@ -65,7 +65,8 @@ pub(super) fn net(
         seam: usize::MAX,
         open: usize::from(directions != RealDirections::Listed),
     };
-    let options = Options { max_step: FINER * sampling.step, period: Some(TAU), stops: vec![0], ..Options::default() };
+    let options =
+        CurveOptions { max_step: FINER * sampling.step, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
     for ray in &rays {
         let [x, tangent] = [&drawn, &ray.direction].map(|all| folding.0.folding(all));
         let found = follow(&mut folding, x, tangent, &options, &mut |_| go_on());

@@ -24,9 +24,9 @@ use std::f64::consts::PI;
 use thiserror::Error;
 
 /// Two stationary states are one where no angle differs by more.
-const SAME: f64 = 1e-7;
+const SAME_STATE_ANGLE_RAD: f64 = 1e-7;
 /// How far, in fold angles, a sampled state may be from the stationary one next to it, in distances of neighbours.
-const NEAR: f64 = 4.0;
+const NEIGHBOUR_DISTANCES: f64 = 4.0;
 
 /// How finely and how far the folded states are sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,12 +155,12 @@ fn polished(springs: &Springs, net: &Net, (step, lowest): (f64, OnCrossing<'_>))
     // the well of each minimum; none where the landscape ends there, or where it is no well
     let mut well = vec![None; states];
     for &at in &minima {
-        let found = if let Some(found) = net.well_on_seam(springs, at, (NEAR * step, lowest)) {
+        let found = if let Some(found) = net.well_on_seam(springs, at, (NEIGHBOUR_DISTANCES * step, lowest)) {
             Some(found)
         } else if net.border[at] || net.singular[at] {
             net.beside(at).find_map(|other| between(springs, net, [at, other]))
         } else {
-            exact(springs, &net.angles[at], (0, NEAR * step))
+            exact(springs, &net.angles[at], (0, NEIGHBOUR_DISTANCES * step))
         };
         match found {
             Some(found) => well[at] = Some(known(&mut landscape.wells, found)),
@@ -210,7 +210,7 @@ impl Net {
     /// Whether a curve ends in a state because a crease is shut.
     fn touches(&self, at: usize) -> bool {
         let sharpest = self.angles[at].iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
-        self.dimension == 1 && (sharpest - PI).abs() <= SAME
+        self.dimension == 1 && (sharpest - PI).abs() <= SAME_STATE_ANGLE_RAD
     }
 }
 
@@ -219,7 +219,7 @@ fn between(springs: &Springs, net: &Net, [at, other]: [usize; 2]) -> Option<Stat
     let [here, there] = [at, other].map(|state| &net.angles[state]);
     let length = distance(here, there);
     let found = springs.stationary(there)?;
-    let inside = [here, there].iter().all(|end| distance(&found.angles, end) <= (1.0 + SAME) * length)
+    let inside = [here, there].iter().all(|end| distance(&found.angles, end) <= (1.0 + SAME_STATE_ANGLE_RAD) * length)
         && found.angles.iter().all(|angle| angle.abs() <= PI);
     (found.negative_eigenvalues == 0 && inside).then_some(found)
 }
@@ -233,7 +233,8 @@ fn exact(springs: &Springs, angles: &[f64], (index, reach): (usize, f64)) -> Opt
 
 /// The number of a well, which is added where it is new.
 fn known(wells: &mut Vec<Stationary>, found: Stationary) -> usize {
-    let same = |well: &Stationary| well.angles.iter().zip(&found.angles).all(|(a, b)| (a - b).abs() <= SAME);
+    let same =
+        |well: &Stationary| well.angles.iter().zip(&found.angles).all(|(a, b)| (a - b).abs() <= SAME_STATE_ANGLE_RAD);
     wells.iter().position(same).unwrap_or_else(|| {
         wells.push(found);
         wells.len() - 1
@@ -266,7 +267,7 @@ impl RigidLandscape {
             self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular: true });
             return;
         }
-        match exact(springs, &net.angles[at], (1, NEAR * step)) {
+        match exact(springs, &net.angles[at], (1, NEIGHBOUR_DISTANCES * step)) {
             Some(Stationary { angles, energy, .. }) => {
                 self.passes.push(RigidPass { joins, energy, angles, singular: false });
             }

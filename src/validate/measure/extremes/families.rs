@@ -1,6 +1,6 @@
 //! The families of extreme cases, each with what its result is compared with.
 
-use super::super::trial::{Outcome, Trial, distance, judge, within};
+use super::super::trial::{Trial, TrialVerdict, distance, judge, within};
 use crate::validate::experiment::ExperimentError;
 use crate::validate::{library, star};
 use foldwell::math::Vec3;
@@ -11,7 +11,7 @@ use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
 /// A trial that is not made yet.
-pub type Attempt = Box<dyn FnOnce() -> Outcome>;
+pub type Attempt = Box<dyn FnOnce() -> TrialVerdict>;
 /// What it is called and what is tried.
 pub type Named = (String, Attempt);
 
@@ -46,7 +46,7 @@ pub fn families(quick: bool) -> Result<Vec<Family>, ExperimentError> {
     ])
 }
 
-fn case(name: impl Into<String>, attempt: impl FnOnce() -> Outcome + 'static) -> Named {
+fn case(name: impl Into<String>, attempt: impl FnOnce() -> TrialVerdict + 'static) -> Named {
     (name.into(), Box::new(attempt))
 }
 
@@ -74,7 +74,7 @@ fn stiffness(cell: &Sheet) -> Result<Family, ExperimentError> {
                     // from here on the law holds to a tenth
                     1e7.. => within((off - scaled / k).abs(), 0.1 * scaled / k + 1e-12),
                     // softer ones are compared with the augmented form
-                    _ => found.to_augmented.map_or(Outcome::Unjudged, |error| within(error, 1e-6)),
+                    _ => found.to_augmented.map_or(TrialVerdict::Unjudged, |error| within(error, 1e-6)),
                 }
             })(&trial)
         })

@@ -2,8 +2,8 @@
 
 mod families;
 
-use super::super::experiment::{Bench, ExperimentError, Findings, Grid};
-use super::trial::Outcome;
+use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
+use super::trial::TrialVerdict;
 use serde_json::{Value, json};
 
 /// How many trials came out how, and what was wrong.
@@ -16,12 +16,12 @@ struct Tally {
 }
 
 impl Tally {
-    fn add(&mut self, name: &str, outcome: &Outcome) {
+    fn add(&mut self, name: &str, outcome: &TrialVerdict) {
         match outcome {
-            Outcome::Right(_) => self.right += 1,
-            Outcome::Unjudged => self.unjudged += 1,
-            Outcome::Refused(_) => self.refused += 1,
-            Outcome::Wrong(reason) => self.wrong.push(format!("{name}: {reason}")),
+            TrialVerdict::Right(_) => self.right += 1,
+            TrialVerdict::Unjudged => self.unjudged += 1,
+            TrialVerdict::Refused(_) => self.refused += 1,
+            TrialVerdict::Wrong(reason) => self.wrong.push(format!("{name}: {reason}")),
         }
     }
 
@@ -50,19 +50,19 @@ pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
             bench.step(tally.all(), all)?;
             let outcome = attempt();
             tally.add(&format!("{}, {name}", family.name), &outcome);
-            rows.push(vec![family.name.to_owned(), name, said(&outcome), family.compared.to_owned()]);
+            rows.push(vec![family.name.to_owned(), name, verdict_text(&outcome), family.compared.to_owned()]);
         }
     }
     let header = ["what is extreme", "case", "what happens", "compared with"].map(str::to_owned).to_vec();
     let title = "Stiff and extreme cases, and the limits found".into();
-    Ok(Findings { values: tally.values(), tables: vec![Grid { title, header, rows }], ..Findings::default() })
+    Ok(Findings { values: tally.values(), tables: vec![ReportTable { title, header, rows }], ..Findings::default() })
 }
 
-fn said(outcome: &Outcome) -> String {
+fn verdict_text(outcome: &TrialVerdict) -> String {
     match outcome {
-        Outcome::Right(error) => format!("right to {error:.0e}"),
-        Outcome::Unjudged => "converged, nothing to compare with".into(),
-        Outcome::Refused(reason) => format!("refused: {reason}"),
-        Outcome::Wrong(reason) => format!("WRONG: {reason}"),
+        TrialVerdict::Right(error) => format!("right to {error:.0e}"),
+        TrialVerdict::Unjudged => "converged, nothing to compare with".into(),
+        TrialVerdict::Refused(reason) => format!("refused: {reason}"),
+        TrialVerdict::Wrong(reason) => format!("WRONG: {reason}"),
     }
 }
