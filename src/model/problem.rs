@@ -12,7 +12,7 @@ use crate::solver::{HessianKind, Layout, Linearization, Problem, SoftElement};
 use std::ops::Range;
 use std::sync::Arc;
 
-mod place;
+mod reference_state;
 mod turning;
 
 /// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is

@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
+use crate::analysis::shown_cells::ShownCells;
 use crate::analysis::state::State;
-use crate::analysis::view::ShownCells;
 use crate::math::Vec3;
 use crate::model::{Assembly, Drawn};
 use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};

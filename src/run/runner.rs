@@ -4,7 +4,7 @@ use super::belongings::Belongings;
 use super::ledger::{INTERRUPTED, Ledger};
 use super::resume::{self, PreviousRun};
 use super::{RunError, RunOptions, RunReport, inputs};
-use crate::analysis::view::ShownCells;
+use crate::analysis::shown_cells::ShownCells;
 use crate::model::Assembly;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
 use crate::output::table::{Table, read_columns};

@@ -2,7 +2,7 @@
 
 use super::answer::SavedState;
 use crate::analysis::intersections::SelfIntersection;
-use crate::analysis::view::ShownCells;
+use crate::analysis::shown_cells::ShownCells;
 use crate::model::Assembly;
 use crate::output::OutputError;
 use crate::output::figure::Caption;

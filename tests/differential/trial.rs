@@ -3,7 +3,7 @@
 use crate::common::{Numbers, Testing, on};
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
-use foldwell::analysis::view::ShownCells;
+use foldwell::analysis::shown_cells::ShownCells;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Gauge, Terms};

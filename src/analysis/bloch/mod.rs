@@ -9,7 +9,7 @@ pub mod bands;
 pub mod cluster;
 pub mod decay;
 pub mod determinant;
-pub mod extended;
+pub mod double_double;
 pub mod extrema;
 pub mod laurent;
 pub mod mode_shape;

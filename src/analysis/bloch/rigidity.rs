@@ -9,7 +9,7 @@
 //! Forces of tensions `t` that are multiplied in the same way are balanced where `R(1/z1, 1/z2)^T t = 0`.
 
 use super::BlochError;
-use super::extended::DoubleDouble;
+use super::double_double::DoubleDouble;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
 use crate::math::fold_angle::fold_angle_gradient;

@@ -12,7 +12,7 @@
 
 use super::decay::Root;
 use super::rigidity::Pairing;
-use super::{Rigidity, extended};
+use super::{Rigidity, double_double};
 use crate::numerics::complex::{ComplexVector, solve_with_adjoint};
 use nalgebra::{Complex, DMatrix};
 
@@ -81,7 +81,7 @@ impl<'a> Search<'a> {
             let squared = slopes[0].norm_sqr() + slopes[1].norm_sqr();
             let (before, mut last) = (q, f64::NAN);
             for _ in 0..STEPS {
-                let value = extended::pairing(self.rigidity, q, pair[0].as_slice(), pair[1].as_slice());
+                let value = double_double::pairing(self.rigidity, q, pair[0].as_slice(), pair[1].as_slice());
                 let step = slopes.map(|slope| (-(Complex::<f64>::I * slope).conj() * value / squared).re);
                 q = [0, 1].map(|a| q[a] + step[a]);
                 last = step[0].hypot(step[1]);

@@ -15,8 +15,8 @@
 //! angles.
 
 use super::Finder;
+use crate::analysis::shown_cells::ShownCells;
 use crate::analysis::state::State;
-use crate::analysis::view::ShownCells;
 use crate::model::{Assembly, Boundary, Drawn};
 use crate::sheet::{Sheet, Tiling};
 use std::collections::HashMap;

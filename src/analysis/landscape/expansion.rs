@@ -10,9 +10,9 @@
 //! A mode that is rigid to second order has `h2 = t2 = 0`: then the sixth power leads, and `E6` tells whether it is rigid
 //! to third order.
 
-use super::course::HeldState;
 use super::prediction::{curvature_forces, drawn};
 use super::settling::{Settling, TermValues};
+use super::taylor_path::HeldState;
 use super::{HeldSheet, LandscapeError, TaylorPath};
 use crate::model::Model;
 use crate::numerics::vector::dot;

@@ -6,8 +6,6 @@
 //! coefficient knows the mode only through that. `samples` relaxes patches, `prediction` needs linear solves alone.
 
 pub mod cone;
-mod course;
-mod courses;
 pub mod expansion;
 pub mod fit;
 mod held;
@@ -16,14 +14,16 @@ pub mod prediction;
 pub mod samples;
 mod settling;
 pub mod sphere;
+mod taylor_path;
+mod taylor_paths;
 mod torus;
 
-pub use course::{HeldState, TaylorPath};
-pub use courses::TaylorPaths;
 pub use expansion::Expansion;
 pub use held::HeldSheet;
 pub use prediction::Prediction;
 pub use samples::{Sample, Samples};
+pub use taylor_path::{HeldState, TaylorPath};
+pub use taylor_paths::TaylorPaths;
 
 use crate::analysis::bloch::BlochError;
 use crate::kinematics::KinematicsError;

@@ -5,8 +5,8 @@
 //! `dE/dy = -C^T K (rho - p)` and the Hessian from the response of the equilibrium to each direction of `C`. The response also
 //! predicts where the patch relaxes to next, so that one round is mostly enough.
 
-use super::course::HeldState;
 use super::settling::{Settling, TermValues};
+use super::taylor_path::HeldState;
 use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
 use crate::analysis::relax::{Relaxed, relax_from};
 use crate::numerics::larger;

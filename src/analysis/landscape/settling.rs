@@ -1,6 +1,6 @@
 //! How a held sheet settles, to first order, when its hinges and bars are off: the sheet and the rest angles across its modes.
 
-use super::course::HeldState;
+use super::taylor_path::HeldState;
 use super::{HeldSheet, LandscapeError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;

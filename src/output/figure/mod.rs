@@ -14,10 +14,10 @@ pub mod chart;
 mod contour;
 mod hidden;
 mod palette;
+mod projection;
 pub mod sheet;
 pub mod sphere;
 pub mod surface;
-mod view;
 
 pub use axes::rounded;
 pub use canvas::{Caption, escaped};

@@ -7,7 +7,7 @@ use super::axes::{number, round_step};
 use super::canvas::{Canvas, Caption, Font, HEAD, MARGIN, PaperPoint, Style, WIDTH};
 use super::hidden::{Piece, back_to_front};
 use super::palette::{Colour, GREY, INK, MOUNTAIN, SHADOW, VALLEY};
-use super::view::Projection;
+use super::projection::Projection;
 use crate::math::Vec3;
 use crate::output::Picture;
 use crate::output::picture::ShapeError;

@@ -11,7 +11,7 @@ use super::axes::{Axis, Scale, below, rounded, unit};
 use super::canvas::{Area, Canvas, Caption, Font, HEAD, MARGIN, Mark, PaperPoint, Style};
 use super::hidden::{Piece, back_to_front};
 use super::palette::{CURVATURE, Colour, GRID, INK, PANE, PAPER, SHADOW};
-use super::view::Projection;
+use super::projection::Projection;
 use crate::math::Vec3;
 use crate::output::StrainSurface;
 use crate::output::picture::ShapeError;

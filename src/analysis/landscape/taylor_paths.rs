@@ -3,8 +3,8 @@
 //! What goes with the power `d` of the amplitude is a form of degree `d` in the amplitudes of the modes. Forms of degree three are
 //! known from their values at `(i, j, k, ...)`, whole numbers of sum three (a unisolvent set), and those of lower degree too.
 
-use super::course::ORDERS;
 use super::prediction::drawn;
+use super::taylor_path::ORDERS;
 use super::{Expansion, HeldSheet, LandscapeError, TaylorPath};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::least_squares;
