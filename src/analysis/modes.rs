@@ -116,6 +116,9 @@ pub type Observer<'a> = dyn FnMut() -> bool + Send + 'a;
 
 /// Finds the modes. `observe` is asked before every decomposition and factorization, and before every product of the
 /// iteration for eigenpairs; between them, at most for the time of one decomposition, nothing stops the work.
+///
+/// # Errors
+/// [`ModesError`] where a factorization fails, ranks by two ways disagree, or `observe` returned false.
 pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
     let assembly = assembly.with_axis(0.0);
     let (tiling, boundary, terms, drawn) = (assembly.tiling(), assembly.boundary(), assembly.terms(), assembly.drawn());

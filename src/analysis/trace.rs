@@ -229,6 +229,9 @@ impl Curve for TracedClosure<'_, '_> {
 
 /// Follows every ray that the options ask for; none where it is established that no direction is real. `observe` sees branch, sign and every state's
 /// arc length, and returns false to stop.
+///
+/// # Errors
+/// [`TraceError`] where the rays cannot be found, or the branch that the options ask for is not there.
 pub fn trace(
     assembly: &Assembly,
     options: &TraceOptions,

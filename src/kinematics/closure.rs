@@ -95,7 +95,8 @@ impl From<&TiledEdge> for HingedEdge {
 impl Closure {
     /// The closure of one cell of a periodic sheet, or of a finite sheet; edges are numbered as in the sheet.
     ///
-    /// Fails where the faces at an interior vertex do not form one round.
+    /// # Errors
+    /// [`KinematicsError`] where the faces at an interior vertex do not form one round.
     pub fn of_cell(sheet: &Sheet) -> Result<Self, KinematicsError> {
         let edges: Vec<HingedEdge> = sheet.edges.iter().map(HingedEdge::from).collect();
         Self::of_edges(&edges, |corner| sheet.position(corner))
@@ -103,7 +104,8 @@ impl Closure {
 
     /// The closure of several cells of a sheet; edges and vertices are numbered as in the tiling.
     ///
-    /// Fails as [`of_cell`](Self::of_cell).
+    /// # Errors
+    /// [`KinematicsError`] as [`of_cell`](Self::of_cell).
     pub fn of_tiling(sheet: &Sheet, tiling: &Tiling) -> Result<Self, KinematicsError> {
         let edges: Vec<HingedEdge> = tiling.edges.iter().map(HingedEdge::from).collect();
         let lattice = sheet.lattice.unwrap_or([Vec3::zeros(); 2]);
@@ -116,7 +118,8 @@ impl Closure {
     /// The closure of any list of edges, numbered as in the list; vertices are numbered as in
     /// their corners. `position` says where a corner is in a state in which the faces have their shape.
     ///
-    /// Fails where the faces at an interior vertex do not form one round.
+    /// # Errors
+    /// [`KinematicsError`] where the faces at an interior vertex do not form one round.
     pub fn of_edges(edges: &[HingedEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
         let halves = halves_by_vertex(edges);
         let mut rounds = Vec::new();

@@ -80,8 +80,9 @@ impl Compatibility {
 impl Embedding {
     /// Plans how to place a sheet.
     ///
-    /// Fails with [`KinematicsError::Disconnected`] where the walk does not reach all faces and vertices, in both
-    /// directions of the lattice where there is one.
+    /// # Errors
+    /// [`KinematicsError::Disconnected`] where the walk does not reach all faces and vertices, in both directions of
+    /// the lattice where there is one.
     pub fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
         let walk = FaceWalk::new(sheet)?;
         let faces: Vec<DrawnFace> = (0..walk.cells.len()).map(|face| DrawnFace::new(sheet, &walk, face)).collect();

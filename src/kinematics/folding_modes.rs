@@ -42,15 +42,20 @@ pub struct FoldingModes {
 
 /// The linear folding modes of a sheet with a lattice, no edge locked.
 ///
-/// Three of them at a generic spatially periodic state, `Nv + 2` at a flat developable one. Fails for a finite sheet, for
-/// one with openings, and where the number of modes is not clear.
+/// Three of them at a generic spatially periodic state, `Nv + 2` at a flat developable one.
+///
+/// # Errors
+/// [`KinematicsError`] for a finite sheet, for one with openings, and where the number of modes is not clear.
 pub fn folding_modes(sheet: &Sheet) -> Result<FoldingModes, KinematicsError> {
     folding_modes_with_locked(sheet, &[])
 }
 
 /// The linear folding modes that leave the `locked` edges as they are: rigid polygons have their diagonals locked.
 ///
-/// The rates of locked edges are zero. Fails as [`folding_modes`].
+/// The rates of locked edges are zero.
+///
+/// # Errors
+/// [`KinematicsError`] as [`folding_modes`].
 pub fn folding_modes_with_locked(sheet: &Sheet, locked: &[usize]) -> Result<FoldingModes, KinematicsError> {
     let lattice = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
     let closure = Closure::of_cell(sheet)?.with_locked(locked);
@@ -83,7 +88,9 @@ impl FoldingModes {
 
     /// The fold rates of the mode that makes the curvature tensor `[k11, k22, k12]`.
     ///
-    /// Fails where there are not three modes, and where they do not map one to one onto curvature tensors.
+    /// # Errors
+    /// [`KinematicsError`] where there are not three modes, and where they do not map one to one onto curvature
+    /// tensors.
     pub fn named(&self, curvature: [f64; 3]) -> Result<Vec<f64>, KinematicsError> {
         if self.count() != 3 {
             return Err(KinematicsError::NotThreeModes { modes: self.count() });

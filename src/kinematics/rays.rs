@@ -73,7 +73,10 @@ pub struct Rays {
 }
 
 impl Rays {
-    /// Solves the quadrics of a state. Fails as the homotopy.
+    /// Solves the quadrics of a state.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] as the homotopy.
     pub fn new(second_order: &SecondOrder) -> Result<Self, KinematicsError> {
         let SecondOrder { modes, quadrics, .. } = second_order;
         let section = solve_any(quadrics, second_order.count())?;

@@ -35,7 +35,9 @@ impl SecondOrder {
     /// The motions and quadrics of a closed state, `angles` in radians for every edge, locked edges of the closure left as
     /// they are.
     ///
-    /// Fails where the state does not close to 1e-9, and where a rank is not clear.
+    /// # Errors
+    /// [`KinematicsError`] where the state does not close to 1e-9, and where a rank is not clear.
+    ///
     /// # Panics
     /// Where `angles` has another length than the list of edges.
     pub fn new(closure: &Closure, angles: &[f64]) -> Result<Self, KinematicsError> {
@@ -91,7 +93,10 @@ fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), Kinemat
 /// How many eigenvalues of a symmetric matrix are positive, negative and zero, the last up to 1e-9 of the largest.
 ///
 /// Of the one quadric of a periodic state: `[2, 1, 0]` or `[1, 2, 0]` is a cone of real directions, `[3, 0, 0]` has none, and
-/// `[2, 0, 1]` has one, of multiplicity two. Fails on entries that are not finite.
+/// `[2, 0, 1]` has one, of multiplicity two.
+///
+/// # Errors
+/// [`KinematicsError`] on entries that are not finite.
 pub fn signature(quadric: &DenseMatrix) -> Result<[usize; 3], KinematicsError> {
     let values = symmetric_eigenvalues(quadric)?;
     let threshold = ZERO * max_abs(&values);

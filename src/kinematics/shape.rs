@@ -64,14 +64,20 @@ impl Shape {
     /// The shape at fold angles of every edge, in radians, valley positive.
     ///
     /// Angles that do not close have a shape too, which means little; [`compatibility`](Self::compatibility) tells.
-    /// Fails for a finite sheet.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] for a finite sheet.
+    ///
     /// # Panics
     /// Where `angles` has another length than the edges.
     pub fn at(embedding: &Embedding, angles: &[f64]) -> Result<Self, KinematicsError> {
         Self::of(embedding, embedding.place(angles))
     }
 
-    /// The shape of a placement. Fails for a finite sheet.
+    /// The shape of a placement.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] for a finite sheet.
     pub fn of(embedding: &Embedding, placement: Placement) -> Result<Self, KinematicsError> {
         let (Some(motions), Some(drawn)) = (placement.lattice, &embedding.lattice) else {
             return Err(KinematicsError::NoLattice);

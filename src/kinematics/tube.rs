@@ -67,7 +67,8 @@ struct SeamMotion {
 impl<'a> Tube<'a> {
     /// Plans a tube in which cell `seam` comes to lie on cell (0, 0).
     ///
-    /// Fails for a finite sheet, for one whose faces do not hang together, and for the seam `[0, 0]`.
+    /// # Errors
+    /// [`KinematicsError`] for a finite sheet, for one whose faces do not hang together, and for the seam `[0, 0]`.
     pub fn new(sheet: &'a Sheet, seam: [i32; 2]) -> Result<Self, KinematicsError> {
         let [l1, l2] = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
         if seam == [0, 0] {
@@ -120,9 +121,12 @@ impl<'a> Tube<'a> {
     /// Fold angles of a tube, closed to rounding: the drawn sheet rolled up about the line across the seam, towards its
     /// face normals (`inwards`) or away from them.
     ///
-    /// The drawn sheet is spatially periodic and not flat. Fails with [`KinematicsError::NoTube`] where the sheet
-    /// cannot be rolled up so far, and as [`folding_modes()`](super::folding_modes()) and
-    /// [`FoldingModes::named`](super::FoldingModes::named). The tube may go through itself.
+    /// The drawn sheet is spatially periodic and not flat.
+    /// The tube may go through itself.
+    ///
+    /// # Errors
+    /// [`KinematicsError::NoTube`] where the sheet cannot be rolled up so far, and as
+    /// [`folding_modes()`](super::folding_modes()) and [`FoldingModes::named`](super::FoldingModes::named).
     pub fn rolled_up(&self, inwards: bool) -> Result<Vec<f64>, KinematicsError> {
         let tensor = self.bending(if inwards { 1.0 } else { -1.0 })?;
         let ray = folding_modes(self.sheet)?.named(tensor)?;
@@ -139,6 +143,9 @@ impl<'a> Tube<'a> {
 
     /// The one motion of a tube whose seam turns by `2 pi` and may rise: followed from the tube's angles for a length
     /// in fold angles, forwards where the seam's rise grows (`rising`) or where it falls.
+    ///
+    /// # Errors
+    /// [`KinematicsError::NotOneMotion`] where the tube has none or more than one.
     pub fn slip(&self, tube: &[f64], rising: bool, length: f64) -> Result<Trajectory, KinematicsError> {
         let null = null_space(&self.jacobian(tube, &[Condition::Turn]))?.basis;
         let motions = null.ncols();

@@ -42,6 +42,9 @@ pub fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> Result<
 }
 
 /// The sheet of a scene, from its mesh or its generator.
+///
+/// # Errors
+/// [`SceneError`] where the mesh cannot be read, or the pattern has no sheet for its parameters.
 pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let spec = &file.scene.sheet;
     if let Some(mesh) = &spec.mesh {

@@ -24,7 +24,7 @@ const FELL: [u64; 27] = [
     12920, 13210, 13432, 13568, 14790, 16586, 18530, 18956, 19010,
 ];
 /// Cases where nothing else is asked for.
-const USUAL: u64 = 600;
+const USUAL: u64 = 150;
 /// Folding is asked of one case in so many: it takes much longer than a relaxation.
 const FOLDED: u64 = 10;
 

@@ -13,9 +13,9 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Runs that are killed; `FOLDWELL_KILLS=100` kills more.
-const KILLS: usize = 12;
+const KILLS: usize = 6;
 /// Sizes of files from which on there is no room.
-const FULL_DISKS: usize = 6;
+const FULL_DISKS: usize = 4;
 /// Bytes in the unit of the shell's limit on files.
 const BLOCK: usize = 512;
 /// Exit status of a run that could not write.

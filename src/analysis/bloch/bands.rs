@@ -40,7 +40,10 @@ pub struct Stiffnesses {
 }
 
 impl DynamicalMatrix {
-    /// The dynamical matrix of a sheet as drawn, which is its state of rest. Fails for a finite sheet.
+    /// The dynamical matrix of a sheet as drawn, which is its state of rest.
+    ///
+    /// # Errors
+    /// [`BlochError`] for a finite sheet.
     pub fn new(sheet: &Sheet, stiffnesses: Stiffnesses) -> Result<Self, BlochError> {
         if sheet.lattice.is_none() {
             return Err(BlochError::NoLattice);
@@ -87,6 +90,9 @@ impl DynamicalMatrix {
     }
 
     /// Eigenvalues of `D(q)`, ascending.
+    ///
+    /// # Errors
+    /// [`BlochError`] where the eigenvalues cannot be computed.
     pub fn bands(&self, q: [f64; 2]) -> Result<Vec<f64>, BlochError> {
         Ok(hermitian_eigenvalues(&self.at(q))?)
     }

@@ -81,7 +81,8 @@ pub struct Pairing {
 impl Decay {
     /// The roots `z2` at `z1 = exp(i q)` (`a` = 0), or `z1` at `z2 = exp(i q)` (`a` = 1).
     ///
-    /// Fails where the determinant vanishes for all of them.
+    /// # Errors
+    /// [`BlochError`] where the determinant vanishes for all of them.
     pub fn new(determinant: &Determinant, a: usize, q: f64) -> Result<Self, BlochError> {
         let polynomial = &determinant.polynomial;
         let (coefficients, sizes) = (polynomial.along(a, q), polynomial.sizes(a));

@@ -45,7 +45,8 @@ pub struct Determinant {
 impl Determinant {
     /// The determinant of a rigidity matrix.
     ///
-    /// Fails where the matrix is not square, and where the determinant is nothing but rounding: it vanishes
+    /// # Errors
+    /// [`BlochError`] where the matrix is not square, and where the determinant is nothing but rounding: it vanishes
     /// identically, as for a flat sheet, or the cell is too ill-conditioned.
     pub fn new(rigidity: &Rigidity) -> Result<Self, BlochError> {
         rigidity.require_square()?;

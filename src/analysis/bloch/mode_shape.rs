@@ -18,7 +18,10 @@ pub struct ModeShape {
 }
 
 impl ModeShape {
-    /// The displacement that stretches the bars least at these factors. Fails where the matrix is not square.
+    /// The displacement that stretches the bars least at these factors.
+    ///
+    /// # Errors
+    /// [`BlochError`] where the matrix is not square.
     pub fn new(rigidity: &Rigidity, z: [Complex<f64>; 2]) -> Result<Self, BlochError> {
         rigidity.require_square()?;
         let ComplexSvd { singular_values, v, .. } = complex_svd(&rigidity.at(z))?;

@@ -45,6 +45,9 @@ impl Count {
 
 impl Polarization {
     /// The polarization, from this many wavenumbers along each direction.
+    ///
+    /// # Errors
+    /// [`BlochError`] where the determinant cannot be computed.
     pub fn new(determinant: &Determinant, samples: usize) -> Result<Self, BlochError> {
         let mut found = Self::default();
         for a in 0..2 {

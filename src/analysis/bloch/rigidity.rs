@@ -58,7 +58,8 @@ impl Rigidity {
     /// The bars of a spatially periodic sheet as drawn; with `rigid_facets` also the locks of the diagonals of
     /// polygons.
     ///
-    /// Fails for a finite sheet.
+    /// # Errors
+    /// [`BlochError`] for a finite sheet.
     pub fn of_sheet(sheet: &Sheet, rigid_facets: bool) -> Result<Self, BlochError> {
         let lattice = sheet.lattice.ok_or(BlochError::NoLattice)?;
         let mut found = Self::placed(sheet, rigid_facets, |corner| sheet.position(corner), |_| Matrix3::identity());
@@ -79,7 +80,8 @@ impl Rigidity {
     /// The bars of a state of one cell, periodic or screw-periodic as its domain says, with all coordinates of the state
     /// in the domain's frame; with `rigid_facets` also the locks of the diagonals of polygons.
     ///
-    /// Fails on a patch.
+    /// # Errors
+    /// [`BlochError`] on a patch.
     pub fn of_state(sheet: &Sheet, rigid_facets: bool, domain: &Domain, x: &[f64]) -> Result<Self, BlochError> {
         let place = |Corner { vertex, shift }| domain.point(x, Site { vertex, shift });
         if matches!(domain, Domain::Patch) {
@@ -117,6 +119,9 @@ impl Rigidity {
     }
 
     /// Refuses what has no determinant.
+    ///
+    /// # Errors
+    /// [`BlochError`] where the matrix is not square.
     pub fn require_square(&self) -> Result<(), BlochError> {
         let (rows, columns) = (self.rows.len(), self.columns());
         if rows == columns { Ok(()) } else { Err(BlochError::NotSquare { rows, columns }) }
@@ -159,7 +164,10 @@ impl Rigidity {
         self.at(z.map(|z| z.inv())).transpose()
     }
 
-    /// `det R(z1, z2)`, not centred. Fails where the matrix is not square.
+    /// `det R(z1, z2)`, not centred.
+    ///
+    /// # Errors
+    /// [`BlochError`] where the matrix is not square.
     pub fn determinant(&self, z: [Complex<f64>; 2]) -> Result<Complex<f64>, BlochError> {
         self.require_square()?;
         Ok(determinant(self.at(z)))

@@ -76,6 +76,9 @@ pub struct ZeroLines {
 
 impl ZeroLines {
     /// Follows all lines.
+    ///
+    /// # Errors
+    /// [`BlochError::ZeroLines`] where the lines contradict the signs of the determinant.
     pub fn new(zone: &Zone) -> Result<Self, BlochError> {
         let mut longest = 0.6 * TAU / GRID as f64;
         let mut last = Err(BlochError::ZeroLines { edges: 0 });

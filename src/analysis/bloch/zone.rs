@@ -32,7 +32,10 @@ pub struct Zone {
 }
 
 impl Zone {
-    /// The zone of a determinant. Fails where it is not symmetric: then it is not real.
+    /// The zone of a determinant.
+    ///
+    /// # Errors
+    /// [`BlochError`] where it is not symmetric: then it is not real.
     pub fn new(determinant: &Determinant) -> Result<Self, BlochError> {
         if !determinant.symmetric {
             return Err(BlochError::NotSymmetric { asymmetry: determinant.symmetry_error });
@@ -89,6 +92,9 @@ impl Zone {
 
     /// Directions in which zero lines leave `q = 0`: angles to the first axis in `(-pi/2, pi/2]`, ascending; those of
     /// the real roots of the form.
+    ///
+    /// # Errors
+    /// [`BlochError`] where the leading form of the determinant at `q = 0` is not known.
     pub fn directions(&self) -> Result<Vec<f64>, BlochError> {
         if self.order == 0 {
             return Ok(Vec::new());

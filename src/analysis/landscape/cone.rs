@@ -40,7 +40,8 @@ pub struct Cone<'a> {
 impl<'a> Cone<'a> {
     /// Of a sheet with three modes, these edges locked.
     ///
-    /// Fails as [`FoldingModes::named`].
+    /// # Errors
+    /// [`KinematicsError`] as [`FoldingModes::named`].
     pub fn new(sheet: &Sheet, modes: &'a FoldingModes, locked: &[usize]) -> Result<Self, KinematicsError> {
         modes.named([1.0, 0.0, 0.0])?;
         let closure = Closure::of_cell(sheet)?.with_locked(locked);
@@ -85,6 +86,9 @@ impl<'a> Cone<'a> {
 
 /// The zero of the energy across the cone near a point of the unit sphere: the square root of the energy is taken with
 /// opposite signs on both sides, where it is smooth, and its zero found in ever smaller windows.
+///
+/// # Errors
+/// [`SampleError`] where a sample beside the point does not converge.
 pub fn zero_of_energy(
     held: &mut HeldSheet,
     courses: &TaylorPaths,
@@ -113,6 +117,9 @@ pub fn zero_of_energy(
 }
 
 /// The angle between a point of the exact cone and the zero of the energy.
+///
+/// # Errors
+/// [`SampleError`] where a sample beside the point does not converge.
 pub fn distance(held: &mut HeldSheet, courses: &TaylorPaths, point: &Vec3, amplitude: f64) -> Result<f64, SampleError> {
     let zero = zero_of_energy(held, courses, point, amplitude)?;
     Ok(zero.cross(point).norm().atan2(zero.dot(point)))

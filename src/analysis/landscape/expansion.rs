@@ -31,12 +31,16 @@ pub struct Expansion {
 impl Expansion {
     /// Of the mode with these rates of the rest angles, in the drawn state.
     ///
-    /// Fails as [`LandscapeError`] says.
+    /// # Errors
+    /// [`LandscapeError`] where the modes of the sheet are not known, or its linear algebra fails.
     pub fn new(held: &HeldSheet, rates: &[f64]) -> Result<Self, LandscapeError> {
         Ok(Self::with_course(held, rates)?.0)
     }
 
     /// The same, and where the sheet goes.
+    ///
+    /// # Errors
+    /// [`LandscapeError`] where the response of the sheet cannot be computed.
     pub fn with_course(held: &HeldSheet, rates: &[f64]) -> Result<(Self, TaylorPath), LandscapeError> {
         Self::at(held, &mut drawn(held)?, rates)
     }

@@ -72,7 +72,8 @@ impl HeldSheet {
 
     /// Rates of the rest angles of the mode that makes the curvature tensor `[k11, k22, k12]`.
     ///
-    /// Fails where curvatures name no modes: on a torus, and as [`FoldingModes::named`].
+    /// # Errors
+    /// [`LandscapeError`] where curvatures name no modes: on a torus, and as [`FoldingModes::named`].
     pub fn named(&self, curvature: [f64; 3]) -> Result<Vec<f64>, LandscapeError> {
         let modes = self.bending.as_ref().ok_or(LandscapeError::NoCurvatures)?;
         Ok(modes.named(curvature)?)
@@ -80,7 +81,8 @@ impl HeldSheet {
 
     /// The mode that has these rates on the edges of the repeating piece; NaN: not known there.
     ///
-    /// Fails where no mode comes near them, where several have them, and where all are zero.
+    /// # Errors
+    /// [`LandscapeError`] where no mode comes near them, where several have them, and where all are zero.
     pub fn with_rates(&self, rates: &[f64]) -> Result<Vec<f64>, LandscapeError> {
         let known: Vec<usize> = (0..rates.len()).filter(|&edge| !rates[edge].is_nan()).collect();
         let right = DenseMatrix::from_fn(known.len(), 1, |row, _| rates[known[row]]);

@@ -29,7 +29,8 @@ pub struct Prediction {
 impl Prediction {
     /// Of a sheet in the drawn state.
     ///
-    /// Fails as [`LandscapeError`] says.
+    /// # Errors
+    /// [`LandscapeError`] where the modes of the sheet are not known, or its linear algebra fails.
     pub fn new(held: &HeldSheet) -> Result<Self, LandscapeError> {
         let mut settling = drawn(held)?;
         let mut responses = Vec::new();

@@ -96,6 +96,9 @@ impl<'a> Samples<'a> {
     }
 
     /// The sample at an amplitude, from the last one.
+    ///
+    /// # Errors
+    /// [`SampleError`] where the relaxation does not converge.
     pub fn at(&mut self, amplitude: f64, observe: &mut dyn FnMut(&Step) -> bool) -> Result<Sample, SampleError> {
         let (from, mut place) = self.last.clone();
         self.course.advance(&mut place, from, amplitude);
@@ -185,6 +188,9 @@ pub struct Landscape {
 }
 
 /// Samples along a mode, by rising amplitude, as far as they go.
+///
+/// # Errors
+/// [`LandscapeError`] where the response of the sheet cannot be computed.
 pub fn landscape(
     held: &mut HeldSheet,
     rates: Vec<f64>,

@@ -86,6 +86,9 @@ impl Net {
 }
 
 /// The sample in a direction, relaxed from where third order says it is: nothing of other samples enters.
+///
+/// # Errors
+/// [`SampleError`] where the relaxation does not converge.
 pub fn sample(
     held: &mut HeldSheet,
     courses: &TaylorPaths,

@@ -22,7 +22,8 @@ pub struct TaylorPaths {
 impl TaylorPaths {
     /// Of a sheet from the drawn state, by `n (n + 1) (n + 2) / 6` courses for `n` modes.
     ///
-    /// Fails as [`LandscapeError`] says.
+    /// # Errors
+    /// [`LandscapeError`] where the modes of the sheet are not known, or its linear algebra fails.
     pub fn new(held: &HeldSheet) -> Result<Self, LandscapeError> {
         let places: Vec<DVector<f64>> = exponents(held.basis.ncols(), ORDERS)
             .into_iter()

@@ -53,7 +53,8 @@ impl HeldSheet {
     /// Rates of the mode of a torus that goes as `cos(2 pi (m1 c1 / n1 + m2 c2 / n2) + phase)` from cell to cell: the mean
     /// square over the cells, summed over the edges of a cell, is 1, and the edge that turns most has the phase zero.
     ///
-    /// Fails where no mode has this wavenumber.
+    /// # Errors
+    /// [`LandscapeError`] where no mode has this wavenumber.
     pub fn wave(&self, tiling: &Tiling, wave: [i32; 2]) -> Result<Vec<f64>, LandscapeError> {
         let cells = tiling.cells[0] * tiling.cells[1];
         let edges = self.basis.nrows() / cells;

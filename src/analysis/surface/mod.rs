@@ -185,6 +185,9 @@ pub enum SurfaceError {
 
 /// Covers the surface; no points where no direction is real. `observe` is told the number of charts and returns false
 /// to stop.
+///
+/// # Errors
+/// [`SurfaceError`] where the sheet has no surface of folded states, or its directions are not established.
 pub fn surface(
     assembly: &Assembly,
     options: &SurfaceOptions,

@@ -118,6 +118,9 @@ pub struct Barrier {
 }
 
 /// The barrier between two of the wells. `go_on` returns false to stop.
+///
+/// # Errors
+/// [`BarrierError`] where no pass is found, or the one that is found does not lie between these wells.
 pub fn barrier(
     assembly: &Assembly,
     wells: &[Well],

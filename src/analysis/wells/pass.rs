@@ -75,6 +75,9 @@ fn pass(model: &Model, found: StationaryPoint) -> Pass {
 ///
 /// A descent that is held too weakly steps across a steep pass: where one side leads over to the other, or both end in
 /// one state, both are held more strongly.
+///
+/// # Errors
+/// [`Failure`] of the relaxation that ends the descent.
 pub fn sides(assembly: &Assembly, pass: &Pass, along: &[f64], options: Options) -> Result<[Settled; 2], Failure> {
     let mut last = Err(Failure::SingularStart);
     for stronger in 0..STRONGER {

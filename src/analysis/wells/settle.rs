@@ -66,6 +66,9 @@ impl MinimumTracker {
     }
 
     /// Relaxes from a place, whose tensions are used where they are near the solution.
+    ///
+    /// # Errors
+    /// [`RelaxError`] where the relaxation does not converge.
     pub fn free(
         &mut self,
         from: &StartState,
@@ -78,6 +81,9 @@ impl MinimumTracker {
     }
 
     /// The same held near these fold angles of the soft hinges.
+    ///
+    /// # Errors
+    /// [`RelaxError`] where the relaxation does not converge.
     pub fn near(
         &mut self,
         from: &StartState,

@@ -27,6 +27,9 @@ const STRING_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 
 /// The row of states between two wells. It begins straight in fold angles, or bent sideways at random, for each number but
 /// zero in another way: a straight one between symmetric states is symmetric and may rest on a ridge.
+///
+/// # Errors
+/// [`Failure`] of a relaxation on the way, or [`Failure::Interrupted`].
 pub fn string(
     settler: &mut MinimumTracker,
     [from, to]: [&Settled; 2],

@@ -53,8 +53,11 @@ impl Tube<'_> {
     /// The tube with these fold angles, cut to `rows` rows of cells: a finite sheet, its axis along z, vertex 0 of the
     /// first cell at height 0 in the half-plane `y = 0`, `x > 0`.
     ///
-    /// The faces of a cell are those that the sheet lists. Fails where these do not make a sheet, as in a tube so
-    /// narrow that a face meets itself.
+    /// The faces of a cell are those that the sheet lists.
+    ///
+    /// # Errors
+    /// [`Defect`] where these do not make a sheet, as in a tube so narrow that a face meets itself.
+    ///
     /// # Panics
     /// Where `angles` has another length than the edges.
     pub fn cut(&self, angles: &[f64], rows: usize) -> Result<Sheet, Defect> {

@@ -124,6 +124,9 @@ pub enum RigidError {
 }
 
 /// The landscape of a sheet. `go_on` returns false to stop.
+///
+/// # Errors
+/// [`RigidError`] where the sheet has no surface or curve of rigidly folded states, or `go_on` returned false.
 pub fn landscape(
     assembly: &Assembly,
     sampling: &Sampling,
