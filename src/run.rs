@@ -1,149 +1,28 @@
 //! The pipeline: read a scene, build it, study it, write files.
 
-use std::path::{Path, PathBuf};
-
-use miette::Diagnostic;
-use thiserror::Error;
+use std::path::Path;
 
 use crate::numerics::parallel::Threads;
 use crate::output::picture::Picture;
-use crate::output::summary::Summary;
 use crate::output::{OutputError, files, vtk};
 use crate::scene::SceneError;
 use crate::sheet::build::{self, Drawing};
-use crate::sheet::error::Defect;
-use crate::sheet::{Info, Pattern, Sheet, SheetError, fold, generate, obj};
-use crate::study::StudyError;
+use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
 
 mod belongings;
 mod convert;
+mod error;
 mod inputs;
 mod ledger;
+mod report;
 mod resume;
 mod runner;
 
 pub use crate::study::{Observer, Progress};
+pub use error::RunError;
 pub use ledger::Ledger;
+pub use report::{RunOptions, RunReport};
 use runner::Runner;
-
-/// What the command line can change about a run.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct RunOptions {
-    /// Folder for the files; `None`: the scene's name without its ending, in the current folder.
-    pub out: Option<PathBuf>,
-    /// Number of threads; `None`: as many as the machine has.
-    pub threads: Option<usize>,
-    /// Keep the studies that an interrupted run finished.
-    pub resume: bool,
-}
-
-/// What a run did.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RunReport {
-    /// What is in `summary.json`.
-    pub summary: Summary,
-    /// Where the files are.
-    pub out: PathBuf,
-    /// Studies that an earlier run had finished and that were not computed again.
-    pub kept: Vec<String>,
-    /// Whether the observer stopped it.
-    pub interrupted: bool,
-    /// What is to be said about the scene.
-    pub notes: Vec<String>,
-}
-
-/// Why there is no answer.
-#[derive(Debug, Error, Diagnostic)]
-pub enum RunError {
-    /// The scene is wrong.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Scene(#[from] SceneError),
-    /// A file could not be written or read.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// A mesh stands where a scene should.
-    #[error("{}: this is a mesh, not a scene", path.display())]
-    #[diagnostic(help("name it in a scene, a .toml file: under [sheet], mesh = \"{}\"", path.display()))]
-    NoScene {
-        /// The mesh.
-        path: PathBuf,
-    },
-    /// A mesh is wrong.
-    #[error(transparent)]
-    Mesh(#[from] SheetError),
-    /// The triangles of a VTU file make no sheet.
-    #[error("{}: {defect}", path.display())]
-    NoSheet {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        defect: Defect,
-    },
-    /// A pattern has no sheet for its parameters.
-    #[error("{message}")]
-    #[diagnostic(help("the patterns are {names}; angles are radians"))]
-    Pattern {
-        /// What is wrong.
-        message: String,
-        /// The patterns there are.
-        names: String,
-    },
-    /// A file of a kind that is not known.
-    #[error("{}: {}", path.display(), unknown_ending(ending))]
-    #[diagnostic(help("expected one of {expected}"))]
-    Ending {
-        /// The file.
-        path: PathBuf,
-        /// Its ending; empty where it has none.
-        ending: String,
-        /// The endings that are known.
-        expected: &'static str,
-    },
-}
-
-impl From<StudyError> for RunError {
-    fn from(error: StudyError) -> Self {
-        match error {
-            StudyError::Scene(error) => Self::Scene(error),
-            StudyError::Output(error) => Self::Output(error),
-        }
-    }
-}
-
-impl RunError {
-    /// The exit status of the program: 2 where the input is wrong, 3 where an existing place cannot be read or written.
-    pub fn exit_status(&self) -> u8 {
-        match self {
-            Self::Scene(SceneError::Read { source, .. } | SceneError::Mesh(SheetError::Read { source, .. }))
-            | Self::Mesh(SheetError::Read { source, .. })
-            | Self::Output(OutputError::Read { source, .. }) => {
-                if wrong_input(source) {
-                    2
-                } else {
-                    3
-                }
-            }
-            Self::Output(OutputError::Write { .. }) => 3,
-            _ => 2,
-        }
-    }
-}
-
-/// What is wrong with an ending that is not known.
-fn unknown_ending(ending: &str) -> String {
-    if ending.is_empty() {
-        "a file without an ending".to_owned()
-    } else {
-        format!("files ending in `{ending}` are not known here")
-    }
-}
-
-/// Whether a file could not be read because of what was named: nothing is there, or it is no text.
-fn wrong_input(error: &std::io::Error) -> bool {
-    use std::io::ErrorKind::{InvalidData, IsADirectory, NotADirectory, NotFound};
-    matches!(error.kind(), NotFound | InvalidData | IsADirectory | NotADirectory)
-}
 
 /// Reads a scene, computes its studies and writes their files.
 ///

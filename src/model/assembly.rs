@@ -1,9 +1,8 @@
 //! A sheet with its boundary conditions and what it is made of: what every study is asked about.
 
 use super::assemble::assemble;
-use super::axis;
+use super::assembly_error::AssemblyError;
 use super::boundary::{Boundary, Drawn};
-use super::builder::{AssemblyError, Builder};
 use super::problem::{Gauge, Model};
 use super::terms::{RIGID, Terms};
 use crate::sheet::{Sheet, Tiling, tile};
@@ -11,7 +10,7 @@ use std::sync::Arc;
 
 /// A sheet, its boundary conditions and its terms.
 ///
-/// [`Assembly::patch`] and its siblings begin a [`Builder`]; facets are rigid unless it is told otherwise. Clones share the
+/// [`Assembly::patch`] and its siblings begin a [`Builder`](super::Builder); facets are rigid unless it is told otherwise. Clones share the
 /// sheet.
 ///
 /// ```
@@ -43,26 +42,6 @@ struct Geometry {
 }
 
 impl Assembly {
-    /// Begins a patch with free edges: `cells[0] x cells[1]` cells of a sheet, or a finite sheet.
-    pub fn patch(sheet: Sheet, cells: [usize; 2]) -> Builder {
-        Builder::new(sheet, cells, Boundary::Patch)
-    }
-
-    /// Begins a torus of `cells[0] x cells[1]` cells with free lattice vectors.
-    pub fn torus(sheet: Sheet, cells: [usize; 2]) -> Builder {
-        Builder::new(sheet, cells, Boundary::FreeTorus)
-    }
-
-    /// Begins a torus of `cells[0] x cells[1]` cells with the lattice vectors held as drawn.
-    pub fn fixed_torus(sheet: Sheet, cells: [usize; 2]) -> Builder {
-        Builder::new(sheet, cells, Boundary::FixedTorus)
-    }
-
-    /// Begins one cell repeated by two screw motions, a cylinder of any curvature; pictures show `cells[0] x cells[1]` of it.
-    pub fn screw(sheet: Sheet, cells: [usize; 2]) -> Builder {
-        Builder::new(sheet, cells, Boundary::Screw)
-    }
-
     /// A sheet with boundary conditions and no terms. On a screw, `cells` are those that pictures show; a sheet without
     /// lattice is one cell.
     ///
@@ -112,11 +91,6 @@ impl Assembly {
     /// The same sheet without what the coordinates of a screw hold against drift: models of it have every rigid motion.
     pub fn with_free_coordinates(&self) -> Self {
         Self { drawn: Arc::new(Drawn { held: vec![], ..Drawn::clone(&self.drawn) }), ..self.clone() }
-    }
-
-    /// The same sheet; the axis of a screw lies where folding promises the largest fall of the energy.
-    pub fn with_best_axis(&self) -> Self {
-        axis::with_best_axis(self)
     }
 
     /// The cell.

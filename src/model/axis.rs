@@ -20,24 +20,26 @@ const LEAST_SHIFT: f64 = 1e-9;
 /// Reductions of the interval in which the maximum is, each by the golden section: from a quarter of a radian to 1e-8.
 const REDUCTIONS: usize = 36;
 
-/// The assembly with the axis of its screw where folding starts best; itself where it is no screw.
-pub(super) fn with_best_axis(assembly: &Assembly) -> Assembly {
-    if assembly.boundary() != Boundary::Screw {
-        return assembly.clone();
-    }
-    let fall = |angle: f64, shift: f64| promised_fall(&assembly.with_axis(angle), shift).unwrap_or(0.0);
-    let step = PI / DIRECTIONS as f64;
-    let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
-    for angle in (0..DIRECTIONS).map(|k| step * k as f64) {
-        let found = fall(angle, SHIFT);
-        if found > most * (1.0 + 1e-6) || angle == 0.0 {
-            (best, most) = (angle, found);
+impl Assembly {
+    /// The same sheet; the axis of a screw lies where folding promises the largest fall of the energy.
+    pub fn with_best_axis(&self) -> Self {
+        if self.boundary() != Boundary::Screw {
+            return self.clone();
         }
+        let fall = |angle: f64, shift: f64| promised_fall(&self.with_axis(angle), shift).unwrap_or(0.0);
+        let step = PI / DIRECTIONS as f64;
+        let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
+        for angle in (0..DIRECTIONS).map(|k| step * k as f64) {
+            let found = fall(angle, SHIFT);
+            if found > most * (1.0 + 1e-6) || angle == 0.0 {
+                (best, most) = (angle, found);
+            }
+        }
+        if !(most > 0.0) {
+            return self.with_axis(0.0);
+        }
+        self.with_axis(maximum([best - step, best + step], |angle| fall(angle, LEAST_SHIFT)))
     }
-    if !(most > 0.0) {
-        return assembly.with_axis(0.0);
-    }
-    assembly.with_axis(maximum([best - step, best + step], |angle| fall(angle, LEAST_SHIFT)))
 }
 
 /// Where a function with one maximum between two places has it, by the golden section.

@@ -1,63 +1,11 @@
 //! A builder of assemblies: stiffnesses, rest angles, locks, pins and loads by the names that a sheet gives them.
 
 use super::assembly::Assembly;
+use super::assembly_error::AssemblyError;
 use super::boundary::Boundary;
 use super::terms::{Hinges, RIGID, Terms};
 use crate::math::Vec3;
 use crate::sheet::{EdgeKey, Sheet};
-use thiserror::Error;
-
-/// Why there is no such assembly.
-#[derive(Clone, Debug, PartialEq, Error)]
-pub enum AssemblyError {
-    /// A finite sheet cannot be periodic.
-    #[error("the sheet has no lattice: it can only be a patch")]
-    NoLattice,
-    /// A number of cells is zero.
-    #[error("there is at least one cell along each lattice vector")]
-    NoCells,
-    /// A stiffness is negative, zero or not a number.
-    #[error("the stiffness of the {term} is {stiffness}, not a positive number")]
-    Stiffness {
-        /// Bars, creases or facets.
-        term: &'static str,
-        /// As given.
-        stiffness: f64,
-    },
-    /// Rest angles without creases.
-    #[error("rest angles are those of creases: give these a stiffness")]
-    RestWithoutCreases,
-    /// A list of rest angles has another length than the list of edges.
-    #[error("{given} rest angles were given for {edges} edges of the tiling")]
-    RestAngles {
-        /// How many were given.
-        given: usize,
-        /// How many there are.
-        edges: usize,
-    },
-    /// An edge is not there, or does not fold.
-    #[error("the sheet has no crease [{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1])]
-    NoCrease {
-        /// The name that was given.
-        key: EdgeKey,
-    },
-    /// A vertex or its cell is not there.
-    #[error("there is no vertex {vertex} of cell {cell:?}")]
-    NoVertex {
-        /// Number in the cell.
-        vertex: usize,
-        /// The cell.
-        cell: [usize; 2],
-    },
-    /// Loads that nothing holds push the whole sheet.
-    #[error("the loads push the whole sheet along {} with a force of {force}", ["x", "y", "z"][*axis])]
-    Unbalanced {
-        /// 0, 1, 2: x, y, z.
-        axis: usize,
-        /// Their sum.
-        force: f64,
-    },
-}
 
 /// The angles at which creases are at rest, in radians.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -71,6 +19,28 @@ pub enum Rest {
     Angle(f64),
     /// One for each edge of the tiling, in its order; read where there is a crease.
     PerEdge(Vec<f64>),
+}
+
+impl Assembly {
+    /// Begins a patch with free edges: `cells[0] x cells[1]` cells of a sheet, or a finite sheet.
+    pub fn patch(sheet: Sheet, cells: [usize; 2]) -> Builder {
+        Builder::new(sheet, cells, Boundary::Patch)
+    }
+
+    /// Begins a torus of `cells[0] x cells[1]` cells with free lattice vectors.
+    pub fn torus(sheet: Sheet, cells: [usize; 2]) -> Builder {
+        Builder::new(sheet, cells, Boundary::FreeTorus)
+    }
+
+    /// Begins a torus of `cells[0] x cells[1]` cells with the lattice vectors held as drawn.
+    pub fn fixed_torus(sheet: Sheet, cells: [usize; 2]) -> Builder {
+        Builder::new(sheet, cells, Boundary::FixedTorus)
+    }
+
+    /// Begins one cell repeated by two screw motions, a cylinder of any curvature; pictures show `cells[0] x cells[1]` of it.
+    pub fn screw(sheet: Sheet, cells: [usize; 2]) -> Builder {
+        Builder::new(sheet, cells, Boundary::Screw)
+    }
 }
 
 /// An assembly that is being put together; [`Assembly::patch`] and its siblings begin one.

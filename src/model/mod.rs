@@ -7,6 +7,7 @@
 
 mod assemble;
 mod assembly;
+mod assembly_error;
 mod axis;
 mod boundary;
 mod builder;
@@ -21,8 +22,9 @@ mod terms;
 mod tests;
 
 pub use assembly::Assembly;
+pub use assembly_error::AssemblyError;
 pub use boundary::{Boundary, Drawn};
-pub use builder::{AssemblyError, Builder, Rest};
+pub use builder::{Builder, Rest};
 pub use domain::{Domain, Site, Turns};
 pub use element::{Element, Elements, Spring, Term, TermKind};
 pub use problem::{Gauge, Model};

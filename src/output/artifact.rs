@@ -1,6 +1,7 @@
 //! The files of a study before they are written: tables, states, surfaces, maps, pictures.
 
-use super::picture::{Picture, ShapeError};
+use super::fault::ShapeError;
+use super::picture::Picture;
 use super::strain_space::StrainSurface;
 use super::table::Table;
 use super::{OutputError, files, vtk};

@@ -5,8 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::picture::ShapeError;
-use super::vtk::VtuFault;
+use super::fault::{ShapeError, VtuFault};
 
 /// Why a file could not be written or read.
 #[derive(Debug, Error)]

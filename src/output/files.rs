@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::OutputError;
-use super::picture::ShapeError;
+use super::fault::ShapeError;
 
 /// Writes a file, with the folders it needs.
 ///

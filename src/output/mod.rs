@@ -4,6 +4,7 @@
 
 pub mod artifact;
 pub mod error;
+pub mod fault;
 pub mod figure;
 pub mod files;
 pub mod picture;

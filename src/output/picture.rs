@@ -1,6 +1,6 @@
 //! A state of a sheet as it is drawn or written: points, triangles, lines and what is known on them.
 
-use thiserror::Error;
+use super::fault::ShapeError;
 
 use crate::analysis::shown_cells::ShownCells;
 use crate::analysis::state::State;
@@ -40,39 +40,6 @@ pub struct Picture {
     pub tension: Vec<f64>,
     /// Torque of the hinge.
     pub torque: Vec<f64>,
-}
-
-/// Parts of a picture that do not fit together.
-#[derive(Clone, Debug, Error, PartialEq, Eq)]
-pub enum ShapeError {
-    /// An array has the wrong length.
-    #[error("array `{array}` has {found} entries, expected {expected}")]
-    Length {
-        /// Name of the array.
-        array: &'static str,
-        /// Its length.
-        found: usize,
-        /// The length it should have.
-        expected: usize,
-    },
-    /// A triangle or a line names a point that is not there.
-    #[error("point {point} is used, but there are {count}")]
-    NoSuchPoint {
-        /// The point.
-        point: usize,
-        /// How many there are.
-        count: usize,
-    },
-    /// A row of a table has the wrong length.
-    #[error("row {row} has {found} values, expected {expected} as in the header")]
-    Row {
-        /// The row, counted from 0.
-        row: usize,
-        /// Its length.
-        found: usize,
-        /// The number of columns.
-        expected: usize,
-    },
 }
 
 impl Picture {

@@ -1,6 +1,6 @@
 //! A surface of folded states in the space of lattice strains, as it is drawn or written.
 
-use super::picture::ShapeError;
+use super::fault::ShapeError;
 use crate::math::Vec3;
 
 /// States and their triangles. Everything has one entry per state.

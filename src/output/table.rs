@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::OutputError;
+use super::fault::ShapeError;
 use super::files;
-use super::picture::ShapeError;
 use crate::sheet::EdgeKey;
 
 /// Reads columns of a table that was written here: one row after the other, NaN where there is no number or no such

@@ -8,59 +8,17 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
 
-use thiserror::Error;
 use vtkio::IOBuffer;
 use vtkio::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, ElementType, Extent, ImageDataPiece, Piece,
     PolyDataPiece, UnstructuredGridPiece, Version, VertexNumbers, Vtk,
 };
 
-use super::picture::{Picture, ShapeError};
+use super::fault::{ShapeError, VtuFault};
+use super::picture::Picture;
 use super::strain_space::StrainSurface;
 use super::{OutputError, files};
 use crate::math::Vec3;
-
-/// What is wrong with a VTU file.
-#[derive(Debug, Error, PartialEq, Eq)]
-pub enum VtuFault {
-    /// No XML file of VTK.
-    #[error("not a readable VTU file: {0}")]
-    Format(String),
-    /// Another kind of data set.
-    #[error("not an unstructured grid")]
-    NotUnstructured,
-    /// Points that are no numbers.
-    #[error("the coordinates of the points are no floating-point numbers")]
-    Coordinates,
-    /// A cell other than a triangle or a line.
-    #[error("cell {cell} is a {kind}, expected triangles and lines only")]
-    CellKind {
-        /// The cell, counted from 0.
-        cell: usize,
-        /// What it is.
-        kind: String,
-    },
-    /// Connectivity and offsets do not fit.
-    #[error("cell {cell} has {found} points, expected {expected}")]
-    CellSize {
-        /// The cell, counted from 0.
-        cell: usize,
-        /// Its number of points.
-        found: usize,
-        /// The number it should have.
-        expected: usize,
-    },
-    /// A cell names a point that is not there.
-    #[error("cell {cell} uses point {point}, but there are {count}")]
-    NoSuchPoint {
-        /// The cell, counted from 0.
-        cell: usize,
-        /// The point.
-        point: u64,
-        /// How many there are.
-        count: usize,
-    },
-}
 
 /// What a VTU file says about a sheet.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -393,7 +351,8 @@ fn numbers_on(name: &str, data: &Attributes, line_cells: &[usize]) -> Option<Vec
 
 #[cfg(test)]
 mod tests {
-    use super::super::picture::{ShapeError, samples};
+    use super::super::fault::ShapeError;
+    use super::super::picture::samples;
     use super::*;
     use proptest::prelude::*;
 

@@ -12,7 +12,6 @@ use toml::de::{DeTable, DeValue};
 use super::error::SceneError;
 use super::schema::{common_study_keys, kinds, kinds_with_key};
 use super::spec::Scene;
-use crate::sheet::text::read_text;
 
 /// A scene with the text from which it was read.
 #[derive(Clone, Debug)]
@@ -23,30 +22,14 @@ pub struct SceneFile {
     text: Arc<NamedSource<String>>,
 }
 
-/// Reads and checks a scene file.
-///
-/// # Errors
-/// [`SceneError::Read`] when the file cannot be read, [`SceneError::At`] for everything that is wrong in it.
-pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
-    let text = read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
-    parse(&text, path)
-}
-
-/// Reads and checks the text of a scene; `name` stands in messages and is what paths in the scene are relative to.
-///
-/// # Errors
-/// [`SceneError::At`] for the first thing that is wrong.
-pub fn parse(text: &str, name: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
-    let path = name.as_ref().to_path_buf();
-    let source = Arc::new(NamedSource::new(path.display().to_string(), text.to_owned()).with_language("TOML"));
-    let scene = deserialize(&source)?;
-    let file = SceneFile { scene, path, text: source };
-    super::checks::check(&file)?;
-    Ok(file)
-}
-
 impl SceneFile {
-    /// The scene file, as it was named to [`read`] or [`parse`].
+    /// The scene in a text, not checked yet; `path` stands in messages and is what paths in the scene are relative to.
+    pub(super) fn unchecked(text: &str, path: &Path) -> Result<Self, SceneError> {
+        let source = Arc::new(NamedSource::new(path.display().to_string(), text.to_owned()).with_language("TOML"));
+        Ok(Self { scene: deserialize(&source)?, path: path.to_path_buf(), text: source })
+    }
+
+    /// The scene file, as it was named to [`read`](super::read) or [`parse`](super::parse).
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -13,6 +13,7 @@ pub mod forms;
 mod located;
 mod memory;
 pub mod outputs;
+mod parse;
 mod schema;
 pub mod spec;
 mod turns;
@@ -20,6 +21,7 @@ pub mod values;
 
 pub use digest::{Fingerprint, digest, named_files};
 pub use error::SceneError;
-pub use file::{SceneFile, parse, read};
+pub use file::SceneFile;
 pub use located::Located;
+pub use parse::{parse, read};
 pub use schema::schema;

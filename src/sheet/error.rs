@@ -1,9 +1,9 @@
 //! What can be wrong with a mesh, where, and what would be right.
 
-use std::fmt;
 use std::path::PathBuf;
 
-use super::assignment::AssignmentFault;
+use super::assignment_fault::AssignmentFault;
+pub use super::drawn_edge::DrawnEdge;
 
 /// Why a file gave no sheet.
 #[derive(Debug, thiserror::Error)]
@@ -61,16 +61,6 @@ impl Defect {
     /// `problem` at `place`.
     pub fn new(place: MeshPart, problem: Problem) -> Self {
         Self { place, problem: Box::new(problem) }
-    }
-}
-
-/// A drawn edge, by the file's numbers of its ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DrawnEdge(pub usize, pub usize);
-
-impl fmt::Display for DrawnEdge {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "[{}, {}]", self.0, self.1)
     }
 }
 

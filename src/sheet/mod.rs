@@ -1,8 +1,11 @@
 //! One cell of a sheet on the torus (or a finite sheet), with its files and its generators.
 
+mod assigned;
 pub mod assignment;
+pub mod assignment_fault;
 pub mod build;
 pub mod cell;
+mod drawn_edge;
 pub mod error;
 pub mod fold;
 pub mod generate;

@@ -1,85 +1,13 @@
 //! Experiments: a scene or a measurement, performed once however many claims ask for it.
 
 use super::claim::Experiment;
-use super::precision::Diagram;
+use super::findings::{Bench, ExperimentError, Findings};
 use super::{library, measure};
-use foldwell::analysis::relax::RelaxError;
-use foldwell::analysis::trace::TraceError;
-use foldwell::model::AssemblyError;
-use foldwell::output::figure::chart::Chart;
-use foldwell::output::{OutputError, files};
-use foldwell::run::{Observer, Progress, RunError, RunOptions, run_scene};
-use foldwell::sheet::SheetError;
-use serde::Serialize;
-use serde_json::Value;
+use foldwell::output::files;
+use foldwell::run::{Observer, Progress, RunOptions, run_scene};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
-use thiserror::Error;
-
-/// Why an experiment gives no value.
-#[derive(Debug, Error)]
-pub enum ExperimentError {
-    /// A scene could not be run.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// A file could not be written or read.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// A mesh is wrong.
-    #[error(transparent)]
-    Mesh(#[from] SheetError),
-    /// A sheet cannot be put together.
-    #[error(transparent)]
-    Assembly(#[from] AssemblyError),
-    /// A relaxation failed.
-    #[error(transparent)]
-    Relax(#[from] Box<RelaxError>),
-    /// A trajectory failed.
-    #[error(transparent)]
-    Trace(#[from] TraceError),
-    /// Something else.
-    #[error("{0}")]
-    Other(String),
-    /// A study of a scene gave no answer.
-    #[error("study {study}: {reason}")]
-    Study {
-        /// The study.
-        study: String,
-        /// Why.
-        reason: String,
-    },
-    /// There is no such experiment.
-    #[error("there is no experiment `{0}`")]
-    Unknown(String),
-    /// The observer asked to stop.
-    #[error("stopped on request")]
-    Interrupted,
-}
-
-/// A table of a report.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct ReportTable {
-    /// What it shows.
-    pub title: String,
-    /// Names of its columns.
-    pub header: Vec<String>,
-    /// Its rows.
-    pub rows: Vec<Vec<String>>,
-}
-
-/// What an experiment gives.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Findings {
-    /// Its values, among which claims choose.
-    pub values: Value,
-    /// Its diagrams of error against run time.
-    pub diagrams: Vec<Diagram>,
-    /// Its other charts.
-    pub charts: Vec<Chart>,
-    /// Its tables.
-    pub tables: Vec<ReportTable>,
-}
 
 /// An experiment that was performed.
 #[derive(Debug)]
@@ -98,25 +26,6 @@ pub struct Experiments<'a> {
     quick: bool,
     observer: Observer<'a>,
     performed: Vec<(Experiment, Performed)>,
-}
-
-/// What a measurement may use.
-pub struct Bench<'a> {
-    /// Whether little time is allowed.
-    pub quick: bool,
-    name: &'a str,
-    observer: Observer<'a>,
-}
-
-impl Bench<'_> {
-    /// Tells how far it is.
-    ///
-    /// # Errors
-    /// [`ExperimentError::Interrupted`] where the observer asks to stop.
-    pub fn step(&self, step: usize, of: usize) -> Result<(), ExperimentError> {
-        let progress = Progress { study: self.name.into(), step, of: Some(of), residual: f64::NAN };
-        if (self.observer)(&progress).is_continue() { Ok(()) } else { Err(ExperimentError::Interrupted) }
-    }
 }
 
 impl<'a> Experiments<'a> {

@@ -8,6 +8,7 @@
 
 pub mod claim;
 pub mod experiment;
+pub mod findings;
 #[allow(dead_code)] // the bench reads the rest
 mod forms;
 pub mod library;
@@ -15,11 +16,13 @@ pub mod measure;
 pub mod page;
 pub mod precision;
 pub mod report;
+mod report_files;
 pub mod star;
 pub mod verdict;
 
 use claim::{Claim, ClaimError};
-use experiment::{ExperimentError, Experiments};
+use experiment::Experiments;
+use findings::ExperimentError;
 use foldwell::numerics::parallel::Threads;
 use foldwell::output::OutputError;
 use foldwell::run::Observer;

@@ -1,6 +1,6 @@
 //! `report.html`: one file that needs nothing else, neither a script nor the network.
 
-use super::experiment::ReportTable;
+use super::findings::ReportTable;
 use super::report::{Case, Report, cheapest};
 use foldwell::output::figure::chart::svg;
 use foldwell::output::figure::escaped;

@@ -1,15 +1,12 @@
-//! The report of a validation: `report.json`, `report.md`, and `report.html` ([`super::page`]).
+//! The report of a validation.
 
 use super::claim::{Claim, Numbers, Wanted};
-use super::experiment::{Performed, ReportTable};
-use super::page;
+use super::experiment::Performed;
+use super::findings::ReportTable;
 use super::precision::{Diagram, Setting};
 use super::verdict::{compare, numbers_at};
 use foldwell::output::figure::chart::Chart;
-use foldwell::output::summary::to_json;
-use foldwell::output::{OutputError, files};
 use serde::Serialize;
-use std::path::Path;
 
 /// A claim that was checked.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -163,17 +160,7 @@ impl Report {
         format!("{} of {} {which} hold, {failed} fail{left}; {:.0} s", self.passed, self.claims, self.seconds)
     }
 
-    /// Writes the three files.
-    ///
-    /// # Errors
-    /// [`OutputError::Write`].
-    pub fn write(&self, folder: &Path) -> Result<(), OutputError> {
-        files::write(&folder.join("report.json"), to_json(self))?;
-        files::write(&folder.join("report.md"), self.markdown())?;
-        files::write(&folder.join("report.html"), page::html(self))
-    }
-
-    fn markdown(&self) -> String {
+    pub fn markdown(&self) -> String {
         let mut text = format!("# Validation of foldwell {}\n\n{}.\n", self.version, self.verdict());
         let row = |case: &Case| {
             let passed = if case.passed { "holds" } else { "**fails**" };

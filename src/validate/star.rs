@@ -1,6 +1,6 @@
 //! Patches of the reference cell whose creases all want another angle: what costs are measured on.
 
-use super::experiment::ExperimentError;
+use super::findings::ExperimentError;
 use super::library;
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};

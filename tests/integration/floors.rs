@@ -84,7 +84,7 @@ fn floor(module: &str) -> Option<u8> {
 }
 
 /// All `.rs` files under `folder`, as paths relative to it.
-fn sources(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(next) = folders.pop() {
@@ -102,7 +102,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// The names, `::` and other signs of a source, without comments, strings and characters.
-fn words(text: &str) -> Vec<String> {
+pub(crate) fn words(text: &str) -> Vec<String> {
     let letters: Vec<char> = text.chars().collect();
     let starts = |at: usize, what: &str| what.chars().enumerate().all(|(k, c)| letters.get(at + k) == Some(&c));
     let name = |c: char| c.is_alphanumeric() || c == '_';
@@ -248,7 +248,7 @@ fn decompositions(words: &[String]) -> impl Iterator<Item = &str> {
     })
 }
 
-fn root() -> &'static Path {
+pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 

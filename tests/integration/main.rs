@@ -16,6 +16,7 @@ mod bent;
 mod bloch;
 mod bloch_runs;
 mod branches;
+mod circles;
 mod command_line;
 mod disturbed_runs;
 mod drawings;

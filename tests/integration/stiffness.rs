@@ -121,7 +121,6 @@ fn twenty_four_cells_a_side() {
 /// Claim: 48 x 48 cells likewise.
 #[test]
 #[ignore = "takes 20 s; `.ci/run` runs it"]
-#[cfg_attr(debug_assertions, ignore = "takes minutes without optimisation: cargo test --release")]
 fn forty_eight_cells_a_side() {
     large(48);
 }

@@ -8,7 +8,7 @@
 //! invertible there and all of them end at one point.
 
 use super::Rigidity;
-use super::decay::Root;
+use super::root::Root;
 use crate::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
 use crate::numerics::dense::small::inverse;
 use nalgebra::Complex;

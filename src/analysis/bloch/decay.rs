@@ -4,6 +4,7 @@
 //! without openings a root `z` at wavenumber `q` has the partner `1/conj(z)`: decay rates come in pairs of opposite
 //! sign.
 
+use super::root::Root;
 use super::singular::Search;
 use super::{BlochError, Determinant, Rigidity, cluster};
 use crate::numerics::polynomial::{Roots, roots, value_and_slope};
@@ -12,45 +13,8 @@ use nalgebra::Complex;
 
 /// Roots of a larger condition number are left out of the pairing: they are known to less than ten digits.
 pub const WELL_CONDITIONED: f64 = 1e5;
-/// Roots nearer to the circle than this are on it, and those nearer than so many times their rounding error.
-const ON_CIRCLE: f64 = 1e-9;
-const ROUNDINGS: f64 = 100.0;
 /// Roots of a larger condition number are corrected on the matrix.
 const WELL_KNOWN: f64 = 1e3;
-
-/// A root of the determinant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Root {
-    /// Factor from a cell to the next.
-    pub z: Complex<f64>,
-    /// Change of `log z` per change of the determinant's coefficients by so much of the largest; of a root corrected on
-    /// the matrix, per relative change of its entries.
-    pub condition: f64,
-    /// How many roots the matrix shows here: more than one where it has as many null vectors; each is listed.
-    pub multiplicity: usize,
-}
-
-impl Root {
-    /// `log|z|`, per cell.
-    pub fn kappa(&self) -> f64 {
-        self.z.norm().ln()
-    }
-
-    /// Real part of the wavenumber, in `(-pi, pi]`.
-    pub fn wavenumber(&self) -> f64 {
-        self.z.arg()
-    }
-
-    /// How well `log z` is known.
-    pub(super) fn rounding(&self) -> f64 {
-        ROUNDINGS * f64::EPSILON * self.condition
-    }
-
-    /// Whether the mode neither grows nor decays, as far as its condition tells.
-    pub fn on_circle(&self) -> bool {
-        self.kappa().abs() <= ON_CIRCLE.max(self.rounding())
-    }
-}
 
 /// All roots at one wavenumber.
 #[derive(Clone, Debug, PartialEq)]

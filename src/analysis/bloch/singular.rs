@@ -10,9 +10,9 @@
 //! right to second order near by: one factorization gives a Newton step and the error of the point where it leads
 //! (A. Griewank, G. W. Reddien, IMA J. Numer. Anal. 4, 295 (1984)).
 
-use super::decay::Root;
 use super::rigidity::Pairing;
-use super::{Rigidity, double_double};
+use super::root::Root;
+use super::{Rigidity, exact_pairing};
 use crate::numerics::complex::{ComplexVector, solve_with_adjoint};
 use nalgebra::{Complex, DMatrix};
 
@@ -71,7 +71,7 @@ impl<'a> Search<'a> {
     /// error of that point. `None` where Newton's method does not settle near by.
     ///
     /// Up to a phase `g` is real there: the step is that of least squares for its two parts. It is taken to
-    /// [twice the digits](super::extended), since the gradient may be as small as it likes.
+    /// [twice the digits](super::double_double), since the gradient may be as small as it likes.
     pub fn on_zone(&mut self, start: [f64; 2]) -> Option<([f64; 2], f64)> {
         let mut q = start;
         for _ in 0..ROUNDS {
@@ -81,7 +81,7 @@ impl<'a> Search<'a> {
             let squared = slopes[0].norm_sqr() + slopes[1].norm_sqr();
             let (before, mut last) = (q, f64::NAN);
             for _ in 0..STEPS {
-                let value = double_double::pairing(self.rigidity, q, pair[0].as_slice(), pair[1].as_slice());
+                let value = exact_pairing::pairing(self.rigidity, q, pair[0].as_slice(), pair[1].as_slice());
                 let step = slopes.map(|slope| (-(Complex::<f64>::I * slope).conj() * value / squared).re);
                 q = [0, 1].map(|a| q[a] + step[a]);
                 last = step[0].hypot(step[1]);

@@ -11,6 +11,7 @@
 //! rigidity matrix itself (see [`singular`](super::singular)).
 
 mod arc;
+mod line;
 mod region;
 
 use super::extrema::{Hidden, hidden};
@@ -20,12 +21,12 @@ use super::zone::{Zone, reduced};
 use super::{BlochError, Rigidity};
 use crate::numerics::larger;
 use arc::{Arc, joined, line};
+pub use line::ZeroLine;
+use line::{GRID, next};
 pub use region::Region;
 use region::regions;
 use std::f64::consts::{PI, TAU};
 
-/// Grid points along each direction.
-const GRID: usize = 192;
 /// Distance from `q = 0` at which the curves through it begin and end.
 const START: f64 = 1e-4;
 /// Corrections end when they are as small as this.
@@ -48,20 +49,6 @@ const BULGE: f64 = 0.05;
 const EXACT: f64 = 1e-12;
 /// Longest correction on the matrix, over the distance from `q = 0` and over the length of the next chord.
 const LONGEST_CORRECTION: f64 = 0.01;
-
-/// A closed curve of zero modes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ZeroLine {
-    /// Wavenumbers along it, continuous, not reduced to the zone; the last is the first moved by the winding.
-    pub points: Vec<[f64; 2]>,
-    /// How often it goes round the zone in both directions; `[0, 0]`: it closes in itself.
-    pub winding: [i32; 2],
-    /// How often it passes `q = 0`.
-    pub passes: usize,
-    /// Largest distance of a point from the zero of the determinant, estimated by its last correction; of
-    /// [refined](ZeroLines::refined) lines also by the rounding of the determinant.
-    pub residual: f64,
-}
 
 /// All lines and what they enclose.
 #[derive(Clone, Debug, PartialEq)]
@@ -373,12 +360,6 @@ fn contains(line: &ZeroLine, q: [f64; 2]) -> bool {
         let off = (from[0] * chord[1] - from[1] * chord[0]) / squared;
         off.abs() <= BULGE && (-BULGE..=1.0 + BULGE).contains(&along)
     })
-}
-
-/// The neighbour of a grid point in the direction `a`.
-fn next(a: usize, k: usize) -> usize {
-    let (column, row) = (k % GRID, k / GRID);
-    if a == 0 { row * GRID + (column + 1) % GRID } else { (row + 1) % GRID * GRID + column }
 }
 
 fn norm(v: [f64; 2]) -> f64 {

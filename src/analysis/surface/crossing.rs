@@ -5,10 +5,10 @@
 //! Newton's method from between. An energy is lowest along the curve where its slope along the tangent vanishes, and is
 //! lowest on both surfaces there when it rises along each of the four ways that leave the curve.
 
+use super::covered::{Seam, Surface, SurfaceOptions, SurfacePoint};
 use super::folding::SurfaceClosure;
 use super::starts::starts;
 use super::tip::periodic_near;
-use super::{Surface, SurfaceOptions, SurfacePoint};
 use crate::kinematics::{Closure, Embedding, SecondOrder};
 use crate::model::Assembly;
 use crate::numerics::dense::{full_svd, null_space, rank_at_largest_gap};
@@ -22,15 +22,6 @@ const LAST_STEP: f64 = 1e-11;
 const STEPS: usize = 40;
 /// Half the distance over which the slope of a quadratic energy is taken.
 const SLOPE: f64 = 0.1;
-
-/// A state on the curve, between two neighbours on one surface.
-#[derive(Clone, Debug)]
-pub struct Seam {
-    /// Fold angles of all edges.
-    pub angles: Vec<f64>,
-    /// The states between which it lies, by number.
-    pub between: [usize; 2],
-}
 
 /// The state of the curve at which an energy is lowest along it.
 #[derive(Clone, Debug)]

@@ -9,19 +9,21 @@
 //! Nappes of a flat cell come close to each other where its directions nearly meet, closer than the smallest charts;
 //! there the coverage stays open, and says so.
 
+mod covered;
 mod crossing;
+mod error;
 mod folding;
 mod sign;
 mod starts;
 mod tip;
 
-use super::branches::BranchesError;
-use crate::kinematics::{Closure, Embedding, KinematicsError, SecondOrder, Shape};
+use crate::kinematics::{Closure, Embedding, KinematicsError, SecondOrder};
 use crate::model::{Assembly, Boundary};
-use crate::solver::atlas::{self, Atlas, AtlasError, Coverage};
-pub use crossing::{Lowest, Seam};
+use crate::solver::atlas::{self, Atlas, Coverage};
+pub use covered::{Negative, Seam, Surface, SurfaceOptions, SurfacePoint};
+pub use crossing::Lowest;
+pub use error::SurfaceError;
 use folding::SurfaceClosure;
-use thiserror::Error;
 
 /// Largest angle between the tangent planes of neighbouring charts, in radians.
 const MAX_TURN: f64 = 0.4;
@@ -30,158 +32,6 @@ const MAX_TURN: f64 = 0.4;
 const OBSERVED: usize = 256;
 /// Charts are no larger than this part of the way at which half of the largest curvature is met.
 const REACH: f64 = 2.0;
-
-/// How a surface is covered.
-#[derive(Clone, Copy, Debug)]
-pub struct SurfaceOptions {
-    /// Largest radius of a chart, in fold angles: neighbouring states are one to two radii apart, fewer where the
-    /// surface bends.
-    pub radius: f64,
-    /// Bound on the closure residual.
-    pub tolerance: f64,
-    /// Magnitude of the curvature at which the surface ends, 1/length.
-    pub max_curvature: f64,
-    /// Most states.
-    pub max_points: usize,
-}
-
-/// A folded state.
-#[derive(Clone, Debug)]
-pub struct SurfacePoint {
-    /// Branch, and the sign of the curvature with which folding left the drawn state on the way here.
-    pub branch: (usize, i8),
-    /// Fold angles of all edges, in radians; continuous from the start of the piece.
-    pub angles: Vec<f64>,
-    /// The cylinder.
-    pub shape: Shape,
-    /// Largest component of the closure residual.
-    pub residual: f64,
-    /// Radius of its chart; 0 at the drawn state.
-    pub radius: f64,
-}
-
-/// A triangulated surface of folded states.
-#[derive(Clone, Debug)]
-pub struct Surface {
-    /// Its states; where charts meet the largest curvature, states are exactly there.
-    pub points: Vec<SurfacePoint>,
-    /// Triangles of states, the same way round on each piece where `oriented`. Across the end of a period (2 pi) the
-    /// nearest images are meant.
-    pub triangles: Vec<[usize; 3]>,
-    /// How the covering ended; holes around the drawn state are closed and do not count.
-    pub coverage: Coverage,
-    /// Of a complete covering: states within the limit beside which triangles are missing. Charts of one surface take those of
-    /// another for their own where both cross at a small angle, and then there is no telling how they hang together.
-    pub gaps: usize,
-    /// Whether neighbours go the same way round everywhere.
-    pub oriented: bool,
-    /// Whether it has no border.
-    pub closed: bool,
-    /// Branch and sign of the nappes from which it was begun. One number is shared by nappes that lie opposite each
-    /// other at the drawn state, and by those that hang together elsewhere.
-    pub branches: Vec<(usize, i8)>,
-    /// Largest radius of a chart: that of the options, or less where the largest curvature is met close to the drawn state.
-    pub radius: f64,
-    /// Ways away from the drawn state along which no state was found, or that are not known: what lies there may be missing.
-    pub lost: usize,
-    /// Whether two surfaces cross at the drawn state, along a curve of spatially periodic states.
-    pub crossing: bool,
-    /// Then the states of that curve on the edges of triangles that go over it.
-    pub seam: Vec<Seam>,
-    /// What second order establishes where there is no surface; then there are no states.
-    pub negative: Option<Negative>,
-}
-
-/// What is established of a drawn state that no surface of cylinders leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Negative {
-    /// The quadric is definite: no direction is real, and the drawn state cannot fold.
-    NoDirection,
-    /// The quadric is definite but for one direction, which alone is real: at most a curve of folded states.
-    OneDirection,
-}
-
-impl std::fmt::Display for Negative {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::NoDirection => {
-                "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
-                 definite, so that none of them extends"
-            }
-            Self::OneDirection => {
-                "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
-                 definite across its null direction, so that this one direction is the only real one and leaves at most a curve"
-            }
-        })
-    }
-}
-
-/// Why there is no surface.
-#[derive(Debug, Error)]
-pub enum SurfaceError {
-    /// The drawn state is no state of a cell with two commuting screw motions.
-    #[error("a surface of folded states needs domain \"screw\": its states are drawn in the space of lattice strains")]
-    NotScrew,
-    /// The folded states are not a surface.
-    #[error(
-        "the folded states are no surface: {modes} linear folding motions and {quadrics} quadratic conditions on them leave \
-         {left} dimensions, not 2"
-    )]
-    NotTwoDimensional {
-        /// Linear folding motions of the drawn state.
-        modes: usize,
-        /// Independent quadrics.
-        quadrics: usize,
-        /// Their difference.
-        left: i64,
-    },
-    /// What the drawn state says.
-    #[error(transparent)]
-    Branches(#[from] BranchesError),
-    /// The sheet cannot be put together.
-    #[error(transparent)]
-    Kinematics(#[from] KinematicsError),
-    /// Second order does not say what leaves the drawn state.
-    #[error(
-        "second order does not tell the folded states here: the quadratic condition on the linear motions has the signature \
-         {signature:?} (positive, negative, zero), whose zeros are multiple"
-    )]
-    Degenerate {
-        /// Eigenvalues that are positive, negative and zero.
-        signature: [usize; 3],
-    },
-    /// No direction was met, which does not say that there is none.
-    #[error(
-        "no simple real direction was met on {sections} random hyperplanes, and {multiple} multiple ones: this does not \
-         establish that no surface leaves the drawn state"
-    )]
-    NoneMet {
-        /// Hyperplanes.
-        sections: usize,
-        /// Real solutions of higher multiplicity, for which second order says no more.
-        multiple: usize,
-    },
-    /// The curvature is met before the surface can be told from the drawn state.
-    #[error(
-        "nothing could be found within max_curvature = {max_curvature:e}: half of it is met at {reach:e} from the drawn state or nearer in \
-         fold angles, where the surface cannot be told from its singular point; choose a larger max_curvature"
-    )]
-    NothingWithin {
-        /// The largest curvature.
-        max_curvature: f64,
-        /// Distance from the drawn state, in fold angles, at which half of it is met.
-        reach: f64,
-    },
-    /// No ray could be followed away from the drawn state.
-    #[error("{rays} real directions leave the drawn state, but along none of them a folded state was found")]
-    NoStart {
-        /// How many.
-        rays: usize,
-    },
-    /// The charts could not be begun.
-    #[error(transparent)]
-    Atlas(#[from] AtlasError),
-}
 
 /// Covers the surface; no points where no direction is real. `observe` is told the number of charts and returns false
 /// to stop.
@@ -228,34 +78,6 @@ pub fn surface(
         return Err(SurfaceError::NothingWithin { max_curvature: options.max_curvature, reach: starts.reach });
     }
     Ok(found)
-}
-
-impl Surface {
-    /// Keeps the first states and the triangles among them.
-    pub fn truncate(&mut self, kept: usize) {
-        self.points.truncate(kept);
-        self.triangles.retain(|triangle| triangle.iter().all(|&corner| corner < kept));
-    }
-
-    /// No states, for an established reason.
-    fn nothing(negative: Negative, radius: f64) -> Self {
-        let (points, triangles, branches) = (Vec::new(), Vec::new(), Vec::new());
-        let (coverage, negative) = (Coverage::Complete, Some(negative));
-        Self {
-            points,
-            triangles,
-            coverage,
-            gaps: 0,
-            oriented: true,
-            closed: false,
-            branches,
-            radius,
-            lost: 0,
-            crossing: false,
-            seam: Vec::new(),
-            negative,
-        }
-    }
 }
 
 /// The states of an atlas, the hole around the drawn state closed where it is a tip.

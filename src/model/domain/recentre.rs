@@ -1,7 +1,7 @@
 //! Keeps the chart of a screw away from its singular places; the sheet stays the same, but for its place in space.
 
 use super::screw::I;
-use super::seen_along;
+use super::shared::seen_along;
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 

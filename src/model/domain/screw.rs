@@ -1,7 +1,8 @@
 //! The screw motion of one cell and its derivatives.
 
-use super::{Pulled, SharedMatrix, Site};
+use super::shared::{Pulled, SharedMatrix};
 use crate::math::{Vec3, sinc};
+use crate::sheet::tiling::Site;
 use nalgebra::{Complex, Matrix3};
 
 /// The screw motion of one cell, seen along the axis: complex numbers are places across it, imaginary is z.

@@ -10,7 +10,7 @@ use super::palette::{Colour, GREY, INK, MOUNTAIN, SHADOW, VALLEY};
 use super::projection::Projection;
 use crate::math::Vec3;
 use crate::output::Picture;
-use crate::output::picture::ShapeError;
+use crate::output::fault::ShapeError;
 use crate::sheet::EdgeKind;
 
 /// Room beside the sheet, and for the legend below it.

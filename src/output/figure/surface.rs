@@ -14,7 +14,7 @@ use super::palette::{CURVATURE, Colour, GRID, INK, PANE, PAPER, SHADOW};
 use super::projection::Projection;
 use crate::math::Vec3;
 use crate::output::StrainSurface;
-use crate::output::picture::ShapeError;
+use crate::output::fault::ShapeError;
 
 const AXES: [&str; 3] = ["strain11", "strain22", "strain12"];
 /// Extents of strain over the largest one that are rounding, and those that are whatever the others are.

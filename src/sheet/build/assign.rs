@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
-use crate::sheet::assignment::{Assignment, AssignmentFault};
+use crate::sheet::assignment::Assignment;
+use crate::sheet::assignment_fault::AssignmentFault;
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet};
 
 /// Fold angles this many degrees from 0 and from 180 have a side.

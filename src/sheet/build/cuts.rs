@@ -7,7 +7,8 @@
 use std::collections::BTreeMap;
 
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
-use crate::sheet::assignment::{Assignment, AssignmentFault};
+use crate::sheet::assignment::Assignment;
+use crate::sheet::assignment_fault::AssignmentFault;
 use crate::sheet::cell::{Corner, EdgeKey};
 
 /// Cut edges by name, with their entry of the list.

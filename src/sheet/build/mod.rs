@@ -6,53 +6,21 @@
 mod assign;
 mod cuts;
 mod draw;
+mod drawing;
 mod edges;
 mod faces;
 mod identify;
 pub(crate) mod planar;
 mod split;
 
-use super::assignment::Assignment;
 use super::cell::Sheet;
-use super::error::{Defect, DrawnEdge, MeshPart, Problem};
+use super::error::{Defect, MeshPart, Problem};
 use crate::math::Vec3;
 pub(crate) use assign::edges_by_drawn_name;
 pub use draw::draw;
+pub use drawing::Drawing;
 pub(crate) use faces::sides as drawn_sides;
 pub(crate) use identify::Identified;
-
-/// A mesh as a file draws it.
-#[derive(Clone, Debug, Default)]
-pub struct Drawing {
-    /// Name of the sheet.
-    pub title: String,
-    /// Source and units.
-    pub description: String,
-    /// Positions of the drawn vertices, copies included.
-    pub coords: Vec<Vec3>,
-    /// Whether the mesh is drawn in the plane, where edges must not cross.
-    pub planar: bool,
-    /// Faces by numbers into `coords`, counter-clockwise.
-    pub faces: Vec<Vec<usize>>,
-    /// The two lattice vectors.
-    pub lattice: Option<[Vec3; 2]>,
-    /// Openings by numbers into `coords`.
-    pub holes: Vec<Vec<usize>>,
-    /// Assignments of drawn edges, by numbers into `coords`.
-    pub assignments: Vec<([usize; 2], Assignment)>,
-    /// Number that the file gives to its first vertex and face: 0 in FOLD, 1 in OBJ. Only messages use it.
-    pub first: usize,
-}
-
-impl Drawing {
-    pub(crate) fn name(&self, number: usize) -> usize {
-        number + self.first
-    }
-
-    pub(crate) fn edge_name(&self, ends: [usize; 2]) -> DrawnEdge {
-        DrawnEdge(self.name(ends[0]), self.name(ends[1]))
-    }
-}
 
 /// The sheet that `drawn` draws.
 ///

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::value::RawValue;
 
+use super::keys::Keys;
 use super::locate::Source;
-use super::read::Keys;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Identified, edges_by_drawn_name};
 use crate::sheet::cell::{Corner, EdgeKey, Sheet};

@@ -11,6 +11,7 @@
 //! is read. Keys about the file and its frame are kept, others are listed as left out.
 
 mod edges;
+mod keys;
 mod locate;
 mod read;
 mod record;

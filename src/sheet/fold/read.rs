@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::edges::{self, Edges};
+use super::keys::Keys;
 use super::locate::Source;
 use super::record;
 use crate::math::Vec3;
@@ -15,30 +15,6 @@ use crate::sheet::build::{Drawing, build_identified, planar};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
 use crate::sheet::text;
-
-/// The keys that are read, not yet looked into.
-#[derive(Deserialize)]
-#[serde(expecting = "a FOLD file, one JSON object in braces")]
-pub(super) struct Keys<'a> {
-    #[serde(borrow)]
-    file_title: Option<&'a RawValue>,
-    #[serde(borrow)]
-    file_description: Option<&'a RawValue>,
-    #[serde(borrow)]
-    vertices_coords: Option<&'a RawValue>,
-    #[serde(borrow)]
-    faces_vertices: Option<&'a RawValue>,
-    #[serde(borrow)]
-    pub edges_vertices: Option<&'a RawValue>,
-    #[serde(borrow)]
-    pub edges_assignment: Option<&'a RawValue>,
-    #[serde(borrow, rename = "edges_foldAngle")]
-    pub edges_fold_angle: Option<&'a RawValue>,
-    #[serde(borrow, rename = "foldwell:lattice")]
-    lattice: Option<&'a RawValue>,
-    #[serde(borrow, rename = "foldwell:holes")]
-    holes: Option<&'a RawValue>,
-}
 
 /// Where the parts of the mesh stand in the text.
 #[derive(Default)]

@@ -3,7 +3,8 @@
 use std::fmt::{Display, Write};
 
 use super::record::{ATTRIBUTES, CLASSES};
-use crate::sheet::assignment::{Assignment, FLAT};
+use crate::sheet::assigned::FLAT;
+use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, draw, drawn_sides, edges_by_drawn_name};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
 

@@ -4,8 +4,9 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
 use serde::{Deserialize, Serialize};
 
+use super::error::{GenerateError, between, length};
 use super::grid::VertexGrid;
-use super::{GenerateError, Parts, between, length};
+use super::parts::Parts;
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
 

@@ -4,8 +4,9 @@ use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
+use super::error::{GenerateError, between, count, length};
 use super::grid::VertexGrid;
-use super::{GenerateError, Parts, between, count, length};
+use super::parts::Parts;
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 

@@ -4,8 +4,9 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 use serde::{Deserialize, Serialize};
 
+use super::error::{GenerateError, between, count, from, length};
 use super::grid::VertexGrid;
-use super::{GenerateError, Parts, between, count, from, length};
+use super::parts::Parts;
 use crate::math::Vec3;
 use crate::sheet::cell::Sheet;
 

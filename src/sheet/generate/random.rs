@@ -4,8 +4,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
+use super::error::{GenerateError, between, count, from};
 use super::grid::VertexGrid;
-use super::{GenerateError, Parts, between, count, from};
+use super::parts::Parts;
 use crate::math::Vec3;
 use crate::numerics::random::symmetric;
 use crate::sheet::cell::{Corner, Sheet};

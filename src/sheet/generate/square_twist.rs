@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use serde::{Deserialize, Serialize};
 
-use super::{GenerateError, Parts, between, from, length};
+use super::error::{GenerateError, between, from, length};
+use super::parts::Parts;
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 

@@ -1,5 +1,6 @@
 //! Claims about all patterns, and the files in `meshes/`.
 
+use crate::math::Vec3;
 use std::f64::consts::{FRAC_PI_3, PI};
 use std::path::PathBuf;
 

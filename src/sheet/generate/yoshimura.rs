@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::{Deserialize, Serialize};
 
-use super::{GenerateError, Parts, from, length};
+use super::error::{GenerateError, from, length};
+use super::parts::Parts;
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
 

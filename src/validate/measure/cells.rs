@@ -2,7 +2,7 @@
 //!
 //! Two vertices a cell, the fewest of a cell that is not flat: Miura-ori, with four, takes several times as long.
 
-use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
+use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::report::figure;
 use super::super::star::size;
 use super::trial::distance;

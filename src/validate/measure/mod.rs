@@ -1,6 +1,6 @@
 //! Measurements: experiments that no scene describes. One idea a file.
 
-use super::experiment::{Bench, ExperimentError, Findings};
+use super::findings::{Bench, ExperimentError, Findings};
 
 mod cells;
 mod extremes;

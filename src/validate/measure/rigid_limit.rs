@@ -4,7 +4,7 @@
 //! first order in `1/k` the state moves by `dx / k`, where `H dx + R^T dt = 0` and `R dx = c t`, and its energy falls by
 //! `sum(c t^2) / 2k`, which is also what the bars then store. One linear solve at the rigid state, no stiffness in it.
 
-use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
+use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::report::figure;
 use super::super::star::Star;
 use super::trial::distance;

@@ -1,6 +1,6 @@
 //! What the size of a patch costs, against an exact state that is known at every size.
 
-use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
+use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
 use super::super::precision::shortest;
 use super::super::report::figure;

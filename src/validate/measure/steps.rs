@@ -1,6 +1,6 @@
 //! What the length of a step and the degree of its interpolant buy when a trajectory is followed.
 
-use super::super::experiment::{Bench, ExperimentError, Findings};
+use super::super::findings::{Bench, ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::star;
 use foldwell::analysis::branches::{BranchesError, branches};

@@ -1,6 +1,6 @@
 //! What a stiffness buys and costs: the program's tension form beside a plain penalty and the augmented form.
 
-use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
+use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::report::figure;

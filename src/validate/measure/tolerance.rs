@@ -1,6 +1,6 @@
 //! What a tolerance buys: relaxations of a rigid patch against the exact kinematics.
 
-use super::super::experiment::{Bench, ExperimentError, Findings};
+use super::super::findings::{Bench, ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
 use super::super::star::Star;
 use foldwell::analysis::exact::error_to_kinematic;

@@ -1,6 +1,6 @@
 //! Pieces of lines of zero modes, joined at `q = 0`.
 
-use super::ZeroLine;
+use super::line::ZeroLine;
 use std::f64::consts::TAU;
 
 /// A piece of a line: all of one that closes, or from a ray at `q = 0` to another.

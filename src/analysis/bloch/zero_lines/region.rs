@@ -1,6 +1,6 @@
 //! Parts of the zone in which the determinant has one sign.
 
-use super::{GRID, next};
+use super::line::{GRID, next};
 
 /// A part of the zone in which the determinant has one sign.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The families of extreme cases, each with what its result is compared with.
 
 use super::super::trial::{Trial, TrialVerdict, distance, judge, within};
-use crate::validate::experiment::ExperimentError;
+use crate::validate::findings::ExperimentError;
 use crate::validate::{library, star};
 use foldwell::math::Vec3;
 use foldwell::model::Boundary;

@@ -2,7 +2,7 @@
 
 mod families;
 
-use super::super::experiment::{Bench, ExperimentError, Findings, ReportTable};
+use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::trial::TrialVerdict;
 use serde_json::{Value, json};
 

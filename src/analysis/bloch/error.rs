@@ -1,0 +1,50 @@
+//! Why there is no answer about spatially varying modes.
+
+use crate::kinematics::KinematicsError;
+use crate::numerics::dense::DenseError;
+use thiserror::Error;
+
+/// Why there is no answer about spatially varying modes.
+#[derive(Debug, Error)]
+pub enum BlochError {
+    /// A finite sheet has no wavenumbers.
+    #[error("a sheet without lattice vectors has no spatially varying modes")]
+    NoLattice,
+    /// As many equations as unknowns are needed for a determinant.
+    #[error("{rows} conditions (bars and rigid facets) for {columns} coordinates of a cell: no determinant")]
+    NotSquare {
+        /// Bars and rigid facets of a cell.
+        rows: usize,
+        /// Coordinates of a cell.
+        columns: usize,
+    },
+    /// The determinant is rounding.
+    #[error(
+        "the determinant is known to {error:.1e} of its size only, more than {limit:e}: it vanishes at all \
+         wavenumbers, as for a flat sheet, or the cell is too ill-conditioned"
+    )]
+    NoDeterminant {
+        /// Difference to the matrix over the largest magnitude.
+        error: f64,
+        /// The largest that is accepted.
+        limit: f64,
+    },
+    /// A decomposition failed.
+    #[error(transparent)]
+    Dense(#[from] DenseError),
+    /// The determinant is not real on the zone.
+    #[error("the determinant is not symmetric (relative asymmetry {asymmetry:.1e}): it has no lines of zeros")]
+    NotSymmetric {
+        /// Largest difference of opposite coefficients over the largest.
+        asymmetry: f64,
+    },
+    /// The zero lines that were followed do not agree with the signs of the determinant.
+    #[error("lines of zero modes could not be followed: {edges} edges of the grid contradict them")]
+    ZeroLines {
+        /// Edges of the grid that contradict; 0 where a line came to no end.
+        edges: usize,
+    },
+    /// The linear folding modes are not known.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+}

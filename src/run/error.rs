@@ -1,0 +1,103 @@
+//! Why a run gives no answer.
+
+use crate::output::OutputError;
+use crate::scene::SceneError;
+use crate::sheet::SheetError;
+use crate::sheet::error::Defect;
+use crate::study::StudyError;
+use miette::Diagnostic;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why there is no answer.
+#[derive(Debug, Error, Diagnostic)]
+pub enum RunError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Scene(#[from] SceneError),
+    /// A file could not be written or read.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A mesh stands where a scene should.
+    #[error("{}: this is a mesh, not a scene", path.display())]
+    #[diagnostic(help("name it in a scene, a .toml file: under [sheet], mesh = \"{}\"", path.display()))]
+    NoScene {
+        /// The mesh.
+        path: PathBuf,
+    },
+    /// A mesh is wrong.
+    #[error(transparent)]
+    Mesh(#[from] SheetError),
+    /// The triangles of a VTU file make no sheet.
+    #[error("{}: {defect}", path.display())]
+    NoSheet {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        defect: Defect,
+    },
+    /// A pattern has no sheet for its parameters.
+    #[error("{message}")]
+    #[diagnostic(help("the patterns are {names}; angles are radians"))]
+    Pattern {
+        /// What is wrong.
+        message: String,
+        /// The patterns there are.
+        names: String,
+    },
+    /// A file of a kind that is not known.
+    #[error("{}: {}", path.display(), unknown_ending(ending))]
+    #[diagnostic(help("expected one of {expected}"))]
+    Ending {
+        /// The file.
+        path: PathBuf,
+        /// Its ending; empty where it has none.
+        ending: String,
+        /// The endings that are known.
+        expected: &'static str,
+    },
+}
+
+impl From<StudyError> for RunError {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Scene(error) => Self::Scene(error),
+            StudyError::Output(error) => Self::Output(error),
+        }
+    }
+}
+
+impl RunError {
+    /// The exit status of the program: 2 where the input is wrong, 3 where an existing place cannot be read or written.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Scene(SceneError::Read { source, .. } | SceneError::Mesh(SheetError::Read { source, .. }))
+            | Self::Mesh(SheetError::Read { source, .. })
+            | Self::Output(OutputError::Read { source, .. }) => {
+                if wrong_input(source) {
+                    2
+                } else {
+                    3
+                }
+            }
+            Self::Output(OutputError::Write { .. }) => 3,
+            _ => 2,
+        }
+    }
+}
+
+/// What is wrong with an ending that is not known.
+fn unknown_ending(ending: &str) -> String {
+    if ending.is_empty() {
+        "a file without an ending".to_owned()
+    } else {
+        format!("files ending in `{ending}` are not known here")
+    }
+}
+
+/// Whether a file could not be read because of what was named: nothing is there, or it is no text.
+fn wrong_input(error: &std::io::Error) -> bool {
+    use std::io::ErrorKind::{InvalidData, IsADirectory, NotADirectory, NotFound};
+    matches!(error.kind(), NotFound | InvalidData | IsADirectory | NotADirectory)
+}

@@ -1,0 +1,38 @@
+//! A mesh as a file draws it.
+
+use crate::math::Vec3;
+use crate::sheet::assignment::Assignment;
+use crate::sheet::error::DrawnEdge;
+
+/// A mesh as a file draws it.
+#[derive(Clone, Debug, Default)]
+pub struct Drawing {
+    /// Name of the sheet.
+    pub title: String,
+    /// Source and units.
+    pub description: String,
+    /// Positions of the drawn vertices, copies included.
+    pub coords: Vec<Vec3>,
+    /// Whether the mesh is drawn in the plane, where edges must not cross.
+    pub planar: bool,
+    /// Faces by numbers into `coords`, counter-clockwise.
+    pub faces: Vec<Vec<usize>>,
+    /// The two lattice vectors.
+    pub lattice: Option<[Vec3; 2]>,
+    /// Openings by numbers into `coords`.
+    pub holes: Vec<Vec<usize>>,
+    /// Assignments of drawn edges, by numbers into `coords`.
+    pub assignments: Vec<([usize; 2], Assignment)>,
+    /// Number that the file gives to its first vertex and face: 0 in FOLD, 1 in OBJ. Only messages use it.
+    pub first: usize,
+}
+
+impl Drawing {
+    pub(crate) fn name(&self, number: usize) -> usize {
+        number + self.first
+    }
+
+    pub(crate) fn edge_name(&self, ends: [usize; 2]) -> DrawnEdge {
+        DrawnEdge(self.name(ends[0]), self.name(ends[1]))
+    }
+}

@@ -1,0 +1,66 @@
+//! Why a pattern has no sheet for its parameters, and the ranges of parameters.
+
+use crate::sheet::error::Defect;
+
+/// Why a pattern has no sheet for its parameters.
+#[derive(Debug, thiserror::Error)]
+pub enum GenerateError {
+    /// A name that no pattern has.
+    #[error("there is no pattern `{name}`; there are {}", known.join(", "))]
+    Unknown {
+        /// The name.
+        name: String,
+        /// The names of all patterns.
+        known: &'static [&'static str],
+    },
+    /// A number out of its range.
+    #[error("`{name}` is {value}; it should be {} {low} and below {high}", if *closed { "at least" } else { "above" })]
+    Number {
+        /// The parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// Lower end of the range.
+        low: f64,
+        /// Whether the lower end belongs to the range.
+        closed: bool,
+        /// Upper end of the range, which never belongs to it.
+        high: f64,
+    },
+    /// A count out of its range.
+    #[error("`{name}` is {value}; it should be from {low} to {high}")]
+    Count {
+        /// The parameter.
+        name: &'static str,
+        /// Its value.
+        value: usize,
+        /// Least count.
+        low: usize,
+        /// Largest count.
+        high: usize,
+    },
+    /// Parameters, each in its range, that together give a degenerate mesh.
+    #[error("these parameters together give no sheet: {0}")]
+    Mesh(#[from] Defect),
+}
+
+/// `low < value < high`.
+pub(super) fn between(name: &'static str, value: f64, low: f64, high: f64) -> Result<f64, GenerateError> {
+    let good = low < value && value < high;
+    if good { Ok(value) } else { Err(GenerateError::Number { name, value, low, closed: false, high }) }
+}
+
+/// `low <= value < high`.
+pub(super) fn from(name: &'static str, value: f64, low: f64, high: f64) -> Result<f64, GenerateError> {
+    let good = low <= value && value < high;
+    if good { Ok(value) } else { Err(GenerateError::Number { name, value, low, closed: true, high }) }
+}
+
+/// A length: above zero, below 1e6.
+pub(super) fn length(name: &'static str, value: f64) -> Result<f64, GenerateError> {
+    between(name, value, 0.0, 1e6)
+}
+
+pub(super) fn count(name: &'static str, value: usize, low: usize, high: usize) -> Result<usize, GenerateError> {
+    if (low..=high).contains(&value) { Ok(value) } else { Err(GenerateError::Count { name, value, low, high }) }
+}
