@@ -4,8 +4,7 @@ use std::path::Path;
 
 use crate::numerics::parallel::Threads;
 use crate::output::picture::Picture;
-use crate::output::{OutputError, files, vtk};
-use crate::scene::SceneError;
+use crate::output::{files, vtk};
 use crate::sheet::build::{self, Drawing};
 use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
 
@@ -155,6 +154,8 @@ fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::OutputError;
+    use crate::scene::SceneError;
     use std::io;
 
     /// A file that is not there is wrong input (2); one that cannot be read, or written, is not the user's scene (3).

@@ -38,7 +38,7 @@ impl Mul for Taylor {
 
 impl Taylor {
     /// The quotient of two series; the divisor must not start with zero.
-    fn over(self, divisor: Self) -> Self {
+    pub(crate) fn over(self, divisor: Self) -> Self {
         let mut quotient = Self::default();
         for k in 0..TERMS {
             let known: f64 = (0..k).map(|j| quotient.0[j] * divisor.0[k - j]).sum();

@@ -7,11 +7,14 @@
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::path::Path;
+use tempfile::NamedTempFile;
 
 use super::OutputError;
 use super::fault::ShapeError;
+
+/// The ending of files on their way.
+const DRAFT_ENDING: &str = ".part";
 
 /// Writes a file, with the folders it needs.
 ///
@@ -41,45 +44,31 @@ fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> 
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
     }
-    let draft = Draft::create(path)?;
-    let mut file = BufWriter::new(&draft.file);
+    let draft = draft(path)?;
+    let mut file = BufWriter::new(draft.as_file());
     fill(&mut file)?;
     file.into_inner().map_err(io::IntoInnerError::into_error)?;
-    fs::rename(&draft.path, path)
+    draft.persist(path)?;
+    Ok(())
 }
 
-/// A file on its way, locked; removed when dropped before it was renamed.
-struct Draft {
-    path: PathBuf,
-    file: File,
-}
-
-impl Draft {
-    /// One for the place `path`. Between its creation and its lock [`remove_drafts`] may take it: then there is another.
-    fn create(place: &Path) -> io::Result<Self> {
-        loop {
-            let path = draft_name(place)?;
-            let draft = Self { file: File::create_new(&path)?, path };
-            let taken = matches!(draft.file.try_lock(), Err(TryLockError::WouldBlock));
-            if !taken && draft.path.exists() {
-                return Ok(draft);
-            }
+/// A locked file beside `path`, with a name that nobody else uses; it is removed when dropped. Between its creation and its
+/// lock [`remove_drafts`] may take it: then there is another.
+fn draft(path: &Path) -> io::Result<NamedTempFile> {
+    let name = path.file_name().ok_or_else(|| io::Error::from(io::ErrorKind::InvalidFilename))?;
+    let prefix = format!(".{}.{}-", name.to_string_lossy(), std::process::id());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(DRAFT_ENDING);
+    // files of results are for everybody whom the user lets read them
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    loop {
+        let draft = builder.tempfile_in(path.parent().unwrap_or(Path::new("")))?;
+        let taken = matches!(draft.as_file().try_lock(), Err(TryLockError::WouldBlock));
+        if !taken && draft.path().exists() {
+            return Ok(draft);
         }
     }
-}
-
-impl Drop for Draft {
-    fn drop(&mut self) {
-        let _ = fs::remove_file(&self.path);
-    }
-}
-
-/// A name beside `path` that nobody else uses: process and count.
-fn draft_name(path: &Path) -> io::Result<PathBuf> {
-    static COUNT: AtomicUsize = AtomicUsize::new(0);
-    let name = path.file_name().ok_or_else(|| io::Error::from(io::ErrorKind::InvalidFilename))?;
-    let count = COUNT.fetch_add(1, Ordering::Relaxed);
-    Ok(path.with_file_name(format!(".{}.{}-{count}.part", name.to_string_lossy(), std::process::id())))
 }
 
 /// Removes what programs that were stopped have left in a folder on its way; nothing else, and no folder is no fault. Where
@@ -110,18 +99,18 @@ fn remove_unlocked(path: &Path) -> io::Result<()> {
     fs::remove_file(path)
 }
 
-/// Whether a name is one of [`draft_name`].
+/// Whether a name is one of [`draft`].
 fn is_draft(name: &str) -> bool {
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let middle = name.strip_prefix('.').and_then(|name| name.strip_suffix(".part"));
-    let counts = middle.and_then(|name| name.rsplit_once('.')).and_then(|(_, counts)| counts.split_once('-'));
-    counts.is_some_and(|(process, count)| digits(process) && digits(count))
+    let all = |text: &str, kind: fn(&u8) -> bool| !text.is_empty() && text.as_bytes().iter().all(kind);
+    let middle = name.strip_prefix('.').and_then(|name| name.strip_suffix(DRAFT_ENDING));
+    let parts = middle.and_then(|name| name.rsplit_once('.')).and_then(|(_, parts)| parts.split_once('-'));
+    parts.is_some_and(|(process, random)| all(process, u8::is_ascii_digit) && all(random, u8::is_ascii_alphanumeric))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::atomic::AtomicBool;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
@@ -158,12 +147,11 @@ mod tests {
     #[test]
     fn drafts_are_removed() {
         let folder = tempfile::tempdir().unwrap();
-        let draft = draft_name(&folder.path().join("b.txt")).unwrap();
-        let others = [".b.txt.part", "b.txt.1-2.part", ".b.txt.1-x.part", ".b.1-2.txt"];
+        let (_, draft) = draft(&folder.path().join("b.txt")).unwrap().keep().unwrap();
+        let others = [".b.txt.part", "b.txt.1-2.part", ".b.txt.x-1.part", ".b.1-2.txt"];
         for name in others {
             fs::write(folder.path().join(name), "").unwrap();
         }
-        fs::write(&draft, "").unwrap();
         remove_drafts(folder.path());
         remove_drafts(&folder.path().join("none"));
         assert!(!draft.exists());

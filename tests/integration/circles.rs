@@ -203,7 +203,7 @@ fn planted_circles_are_found() {
     let plants: [(&str, &str, &[&[&str]]); 9] = [
         ("a/y.rs", "use super::x::X;", &[&["a::x", "a::y"]]),
         ("a/y.rs", "use super::X;", &[&["a::x", "a::y"]]),
-        ("a/y.rs", "use crate::{a::{self, X as Other}};", &[&["a::x", "a::y"]]),
+        ("a/y.rs", "use crate::{a::{self, X as Other}};", &[&["a", "a::x", "a::y"]]),
         ("a/y.rs", "fn f(_: &crate::a::x::X) {}", &[&["a::x", "a::y"]]),
         ("a/y.rs", "use super::super::b::B;", &[&["a::x", "a::y", "b"]]),
         ("a/x.rs", "use foldwell::b;", &[&["a::x", "b"]]),

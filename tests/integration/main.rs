@@ -25,6 +25,7 @@ mod engines;
 mod files;
 mod floors;
 mod folding_theory;
+mod front_door;
 mod hanging_chain;
 mod intersections;
 mod invariance;

@@ -1,0 +1,56 @@
+//! What somebody meets who uses the library for the first time: the names at its root, rigid facets, short errors.
+
+use foldwell::sheet::generate::SquareTwist;
+use foldwell::solver::NewtonError;
+use foldwell::{Assembly, Pattern, Picture, RIGID, Relaxed, Rest, generate, relax, write_vtu};
+use std::error::Error;
+
+/// The most that an error prints where `main` returns it: half a screen.
+const MOST_CHARACTERS: usize = 500;
+
+/// Claim: twelve lines with names of the root alone relax a Miura-ori of 3 x 3 cells, rigid bars, creases that rest elsewhere,
+/// and write a VTU that can be read back. Facets that nobody mentions are rigid: the polygons stay flat, and where they do the
+/// sheet unfolds without any energy. Tolerances: those of the solver, 1e-12 of the forces.
+#[test]
+fn twelve_lines_relax_a_miura_ori() {
+    fn program(file: &std::path::Path) -> Result<(Assembly, Relaxed), Box<dyn Error>> {
+        let sheet = generate(&Pattern::named("miura")?)?;
+        let assembly = Assembly::patch(sheet, [3, 3]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+        let relaxed = relax(&assembly)?;
+        write_vtu(file, &Picture::new(&assembly, &relaxed.state))?;
+        Ok((assembly, relaxed))
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("miura.vtu");
+    let (assembly, relaxed) = program(&file).unwrap();
+    assert!(assembly.terms().has_rigid_facets() && relaxed.state.total() < 1e-12 && relaxed.iterations > 1);
+    for facet in assembly.tiling().facets() {
+        assert!(relaxed.state.fold_angle[facet].abs() < 1e-9, "facet {facet}: {}", relaxed.state.fold_angle[facet]);
+    }
+    let read = foldwell::output::vtk::read_vtu(&file).unwrap();
+    assert_eq!(read.points.len(), assembly.tiling().positions.len());
+}
+
+/// Claim: a relaxation that fails prints less than 500 characters, also by `{:?}`, as `main` prints what it returns: not the
+/// state and the history that it carries.
+#[test]
+fn failures_print_few_characters() {
+    let sheet = generate(&Pattern::SquareTwist(SquareTwist::default())).unwrap();
+    let rest = Rest::Angle(3.0); // mountains to valleys and beyond, in a sheet that folds in one way only
+    let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).facets(1e-9).rest(rest).build().unwrap();
+    let mut model = assembly.model(foldwell::model::Gauge::Held);
+    let start = model.start();
+    let few_steps = foldwell::solver::Options { iterations: 3, ..foldwell::solver::Options::default() };
+    let failed = foldwell::analysis::relax::relax_from(&mut model, start, few_steps, &mut |_| true).unwrap_err();
+    assert!(!failed.state.coordinates.is_empty() && !failed.x.is_empty(), "the last state goes along");
+    for text in [format!("{failed:?}"), format!("{failed}"), format!("{:?}", failed as Box<dyn Error>)] {
+        assert!((10..MOST_CHARACTERS).contains(&text.len()), "{text}");
+    }
+    let newton = NewtonError {
+        failure: foldwell::solver::Failure::Interrupted,
+        x: vec![0.5; 10_000],
+        tension: vec![0.5; 10_000],
+        history: Vec::new(),
+    };
+    assert!(format!("{newton:?}").len() < MOST_CHARACTERS, "{newton:?}");
+}
