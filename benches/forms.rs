@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! cargo bench --bench forms                  all parts
-//! cargo bench --bench forms -- system        one part: system, weight, relaxation
+//! cargo bench --bench forms -- system        one part: system, weight
 //! ```
 //!
 //! - `system`: the linear system of one Newton step, `[H R^T; R -C]`, at the same linearization, solved to a relative
@@ -13,14 +13,11 @@
 //!   the graph that is ordered. *Penalty*: `H + k R^T R`, with the same corrections.
 //! - `weight`: corrections needed and accuracy reached against `gamma`, and against `d` of the block form; and, as in the steps near
 //!   a solution, where no gaps are open.
-//! - `relaxation`: whole relaxations by Newton's method with backtracking on the penalty energy against the program's,
-//!   for every stiffness: the error that is left, iterations, time.
+//!
+//! Whole relaxations by the penalty energy are compared with the program's by `foldwell validate stiffness-cost`.
 #![allow(clippy::unwrap_used)]
 
 mod common;
-#[allow(dead_code)] // the validation reads the rest
-#[path = "../src/validate/forms.rs"]
-mod forms;
 
 use common::{Star, difference, measuring, norm, seconds, size, vector, wanted};
 use foldwell::model::Model;
@@ -28,7 +25,7 @@ use foldwell::numerics::factor::{Factor, Inertia};
 use foldwell::numerics::sparse::{Cliques, FIXED, SparsityPattern, symmetric_product};
 use foldwell::solver::corrections::{NearlySolved, Pair, correct};
 use foldwell::solver::kkt::KktSystem;
-use foldwell::solver::{HessianKind, Layout, Linearization, Options, Problem, minimize};
+use foldwell::solver::{HessianKind, Layout, Linearization, Problem};
 use std::sync::Arc;
 
 /// Regularisation of the block form: `d` and `e`, over the same entry.
@@ -36,7 +33,7 @@ const DELTA: f64 = 1e-8;
 const LEAST: f64 = 1e-10;
 
 fn main() {
-    let parts: [(&str, fn()); 3] = [("system", system), ("weight", weight), ("relaxation", relaxation)];
+    let parts: [(&str, fn()); 2] = [("system", system), ("weight", weight)];
     for (name, part) in parts {
         if wanted(name) {
             println!("\n== {name}");
@@ -348,66 +345,4 @@ fn corrections(form: &mut dyn Form, system: &mut System, label: &str) {
     let (closed, reached) = solve(form, system, 1e-8);
     system.b.iter_mut().for_each(|b| *b *= 1e8);
     println!("{label} | {loose:>5} {middle:>5} {tight:>5} {best:8.0e} | {closed:>6} {reached:8.0e}");
-}
-
-/// What is left of a minimisation: unknowns, accepted steps, seconds, whether it converged.
-struct Minimised {
-    x: Vec<f64>,
-    iterations: usize,
-    seconds: f64,
-    converged: bool,
-}
-
-fn relaxation() {
-    println!(
-        "error: largest fold-angle difference to the program's own state at this k; softness: to its rigid state.\n\
-         {:>3} {:>6} | {:>8} {:>5} {:>8} | {:>9} {:>5} {:>8} {:>8} {:>6}",
-        "n", "k", "softness", "steps", "ms", "penalty", "steps", "ms", "error", "ratio"
-    );
-    let sizes: &[usize] = if measuring() { &[6, 12] } else { &[2] };
-    for &n in sizes {
-        let star = Star::new(n);
-        let rigid = ours(&star, f64::INFINITY);
-        for k in [1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16] {
-            let model = star.model(k);
-            let folds = |x: &[f64]| {
-                let values = model.values(x);
-                values[..model.soft()[0].len()].to_vec()
-            };
-            let (ours, other) = (ours(&star, k), penalty(&star, k));
-            println!(
-                "{n:3} {k:6.0e} | {:8.1e} {:5} {:8.1} | {:>9} {:5} {:8.1} {:8.1e} {:6.1}",
-                difference(&folds(&ours.x), &folds(&rigid.x)),
-                if ours.converged { ours.iterations.to_string() } else { "stuck".into() },
-                1e3 * ours.seconds,
-                if other.converged { "converged" } else { "stuck" },
-                other.iterations,
-                1e3 * other.seconds,
-                difference(&folds(&other.x), &folds(&ours.x)),
-                other.seconds / ours.seconds
-            );
-        }
-    }
-}
-
-fn ours(star: &Star, k: f64) -> Minimised {
-    let mut model = star.model(k);
-    let start = model.start();
-    let mut found = None;
-    let seconds = seconds(|| found = Some(minimize(&mut model, start, Options::default(), &mut |_| true)));
-    let (x, history, converged) = match found.unwrap() {
-        Ok(found) => (found.x, found.history, true),
-        Err(error) => (error.x, error.history, false),
-    };
-    let iterations = history.iter().filter(|step| step.fraction > 0.0).count();
-    Minimised { x, iterations, seconds, converged }
-}
-
-/// The plain penalty of the validation, with the same scaled tolerance.
-fn penalty(star: &Star, k: f64) -> Minimised {
-    let mut model = star.model(k);
-    let mut found = None;
-    let seconds = seconds(|| found = forms::minimize(&mut model, forms::Form::Penalty).ok());
-    let found = found.unwrap();
-    Minimised { x: found.x, iterations: found.iterations, seconds, converged: found.converged }
 }

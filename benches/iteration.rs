@@ -9,8 +9,7 @@
 //! runs taken in turns; compare along a line, not between machines.
 //!
 //! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution
-//!   (assembly, filling
-//!   and factoring the matrix, solving with corrections to 1e-6 for random forces, which takes so many `solves`, residuals, energy and
+//!   (assembly, filling and factoring the matrix, solving with corrections to 1e-6 for random forces, which takes so many `solves`, residuals, energy and
 //!   gaps of the new state); the same with one solve and the relative residual that this leaves; and one iteration as it comes out of
 //!   the run (the minimiser's time, less the set-up, over its accepted steps: refused shifts, retraction and shorter steps included),
 //!   and what that is made of. Comes last and ends with an error where the first one is more than 1.5.
@@ -23,8 +22,9 @@
 mod common;
 
 use common::kernels::{Sparse, dense_factor_and_solve};
+use common::timed::Timed;
 use common::{Star, exponent, in_turns, measuring, seconds, size, vector, wanted};
-use foldwell::model::Model;
+use foldwell::model::{Model, RIGID};
 use foldwell::numerics::factor::DENSE_LIMIT;
 use foldwell::numerics::parallel::{FEWEST_SHARED_ELEMENTS, Threads};
 use foldwell::numerics::tearing::TornFactor;
@@ -32,10 +32,7 @@ use foldwell::solver::kkt::KktSystem;
 use foldwell::solver::{
     Equilibrium, HessianKind, Layout, Linearization, NewtonError, Options, Problem, Residuals, minimize, tension,
 };
-use std::cell::Cell;
-use std::sync::Arc;
 
-const RIGID: f64 = f64::INFINITY;
 /// Most that a plain iteration may take of one factorization and one solve.
 const MOST: f64 = 1.5;
 /// Relative residual that the linear system of a plain iteration is solved to.
@@ -59,61 +56,6 @@ fn main() {
 
 fn rounds() -> usize {
     if measuring() { 5 } else { 1 }
-}
-
-/// A model whose work is timed.
-struct Timed<'a> {
-    model: &'a mut Model,
-    linearize: Cell<f64>,
-    energy: Cell<f64>,
-    gaps: Cell<f64>,
-    retractions: Cell<usize>,
-    accept: f64,
-}
-
-impl<'a> Timed<'a> {
-    fn new(model: &'a mut Model) -> Self {
-        let zero = || Cell::new(0.0);
-        Self { model, linearize: zero(), energy: zero(), gaps: zero(), retractions: Cell::new(0), accept: 0.0 }
-    }
-}
-
-impl Problem for Timed<'_> {
-    fn layout(&self) -> &Arc<Layout> {
-        self.model.layout()
-    }
-
-    fn compliance(&self) -> &[f64] {
-        self.model.compliance()
-    }
-
-    fn gap_scale(&self) -> &[f64] {
-        self.model.gap_scale()
-    }
-
-    fn energy(&self, x: &[f64]) -> f64 {
-        let mut energy = 0.0;
-        let time = seconds(|| energy = self.model.energy(x));
-        self.energy.set(self.energy.get() + time);
-        energy
-    }
-
-    fn gaps(&self, x: &[f64]) -> Vec<f64> {
-        let mut gaps = Vec::new();
-        let time = seconds(|| gaps = self.model.gaps(x));
-        self.gaps.set(self.gaps.get() + time);
-        self.retractions.set(self.retractions.get() + 1);
-        gaps
-    }
-
-    fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
-        let time = seconds(|| self.model.linearize(x, tension, kind, out));
-        self.linearize.set(self.linearize.get() + time);
-    }
-
-    fn accept(&mut self, x: &mut [f64]) {
-        self.accept += seconds(|| self.model.accept(x));
-    }
 }
 
 /// Time of a minimisation and its parts; of the parts of the linear algebra there are counts.

@@ -2,6 +2,7 @@
 #![allow(dead_code)] // each benchmark uses a part
 
 pub mod kernels;
+pub mod timed;
 
 use cpu_time::ThreadTime;
 use foldwell::analysis::relax::{Relaxed, relax_from};

@@ -9,7 +9,6 @@
 pub mod claim;
 pub mod experiment;
 pub mod findings;
-#[allow(dead_code)] // the bench reads the rest
 mod forms;
 pub mod library;
 pub mod measure;
