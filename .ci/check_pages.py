@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Checks numbers in the validation pages against runs of the scenes they come from, as validation/numbers.toml lists them. A
-page may not say what the program does not find: one number changed by two in its last digit fails, which the script tries
-with each of them. And the figures of the pages have to be those that the scenes draw.
+"""Checks numbers in the README, the book and the validation pages against runs of the scenes they come from, as
+validation/numbers.toml lists them. A page may not say what the program does not find: one number changed by two in its last
+digit fails, which the script tries with each of them. The figures of the pages have to be those that the scenes draw, and links,
+chapters and sources what `book.py` asks of them.
 
     python .ci/check_pages.py RUNS                 RUNS/NAME/summary.json is the run of meshes/NAME.toml
 """
@@ -12,21 +13,32 @@ import sys
 import tomllib
 from decimal import Decimal
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent / "validation"
+import book
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FIGURE_FOLDER = ROOT / "validation/figures"
 # the figures of the pages, and the files of runs that they are
 FIGURES = {
+    "degree-four": "degree-four/folded",
     "flat-quad-folded": "flat-quad/folding",
     "flat-quad-strain": "flat-quad/folding-strain",
     "kirigami-bloch": "kirigami-bloch/modes",
     "kirigami-polarized-bloch": "kirigami-polarized-bloch/modes",
+    "kresling": "kresling/pressed",
+    "miura-lock": "miura-lock/folded",
+    "miura-spectrum": "miura-spectrum/spectrum",
     "near-cross-wells": "near-cross-wells/wells",
     "quad-cell-folded": "quad-cell/roll",
     "quad-cell-strain": "quad-cell/roll-strain",
     "star": "star/relaxed",
     "star-bloch": "star-bloch/modes",
     "star-cylinder-bloch": "star-cylinder-bloch/modes",
+    "star-landscape": "star-landscape/modes",
     "star-map": "star-map/bending-map",
     "star-surface": "star-surface/surface",
+    "star-wells": "star-wells/wells",
+    "tube": "tube/rolled",
+    "waterbomb": "waterbomb/relaxed",
 }
 PIXEL = 0.25  # of 1,200; places are rounded to 0.1
 NUMBER = r"([+-]?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?)"
@@ -97,9 +109,9 @@ def faults(entry, runs):
 def other_figures(runs):
     """The figures that are not what the runs draw, and those of which no run is known."""
     numeral, colour = re.compile(r"-?\d+\.?\d*"), re.compile("#[0-9a-f]{6}")
-    wrong = [f"{file.name}: no run is known" for file in (ROOT / "figures").glob("*.svg") if file.stem not in FIGURES]
+    wrong = [f"{file.name}: no run is known" for file in FIGURE_FOLDER.glob("*.svg") if file.stem not in FIGURES]
     for name, run in FIGURES.items():
-        files = ROOT / "figures" / f"{name}.svg", runs / f"{run}.svg"
+        files = FIGURE_FOLDER / f"{name}.svg", runs / f"{run}.svg"
         kept, drawn = (colour.sub("#", file.read_text()) for file in files)
         same_words = numeral.sub("", kept) == numeral.sub("", drawn)
         pairs = zip(numeral.findall(kept), numeral.findall(drawn))
@@ -110,16 +122,16 @@ def other_figures(runs):
 
 def main():
     runs = pathlib.Path(sys.argv[1])
-    entries = tomllib.loads((ROOT / "numbers.toml").read_text())["number"]
+    entries = tomllib.loads((ROOT / "validation/numbers.toml").read_text())["number"]
     failed = 0
     for entry in entries:
         for fault in faults(entry, runs):
             failed += 1
             print(f"FAILED {entry['page']}: \"{entry['text']}\" ({entry['scene']}): {fault}")
-    for fault in other_figures(runs):
+    for fault in other_figures(runs) + book.faults(ROOT):
         failed += 1
         print(f"FAILED {fault}")
-    print(f"{len(entries)} texts and {len(FIGURES)} figures of pages, {failed} failures")
+    print(f"{len(entries)} texts and {len(FIGURES)} figures of {len(book.pages(ROOT))} pages, {failed} failures")
     sys.exit(failed > 0 or not entries)
 
 

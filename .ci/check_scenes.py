@@ -1,23 +1,31 @@
 #!/usr/bin/env python3
-"""Checks scenes against the published schema: it has to accept each of them, and refuse it with a key
-that does not exist, in every table.
+"""Checks scenes, and those shown in pages, against the published schema: it has to accept each of them, and refuse it with a
+key that does not exist, in every table.
 
-    python .ci/check_scenes.py SCHEMA.json SCENE.toml...        needs: jsonschema
+    python .ci/check_scenes.py SCHEMA.json SCENE.toml... PAGE.md...        needs: jsonschema
 """
 import copy
 import sys
 import tomllib
 
+import book
 import published
 
 
+def scenes_in(path):
+    """The scene of a file, or those shown in a page, each with a name."""
+    if path.endswith(".md"):
+        return book.scenes_of(path)
+    with open(path, "rb") as file:
+        return [(path, tomllib.load(file))]
+
+
 def main():
-    schema_path, *scenes = sys.argv[1:]
+    schema_path, *paths = sys.argv[1:]
     _, check = published.schema(schema_path)
     failed = 0
-    for path in scenes:
-        with open(path, "rb") as file:
-            scene = tomllib.load(file)
+    scenes = [scene for path in paths for scene in scenes_in(path)]
+    for path, scene in scenes:
         for error in check.iter_errors(scene):
             failed += 1
             print(f"FAILED {path}: {error.json_path}: {error.message}")

@@ -72,6 +72,7 @@ const ROOT: &[&str] = &[
     "LICENSE-MIT",
     "README.md",
     "benches",
+    "docs",
     "examples",
     "meshes",
     "src",
