@@ -19,13 +19,13 @@
 
 mod common;
 
-use common::{Star, difference, measuring, norm, seconds, size, vector, wanted};
+use common::{Star, measuring, norm, seconds, size, vector, wanted};
 use foldwell::model::Model;
 use foldwell::numerics::factor::{Factor, Inertia};
 use foldwell::numerics::sparse::{Cliques, FIXED, SparsityPattern, symmetric_product};
 use foldwell::solver::corrections::{NearlySolved, Pair, correct};
 use foldwell::solver::kkt::KktSystem;
-use foldwell::solver::{HessianKind, Layout, Linearization, Problem};
+use foldwell::solver::{HessianKind, Layout, Linearization, Options, Problem, minimize};
 use std::sync::Arc;
 
 /// Regularisation of the block form: `d` and `e`, over the same entry.

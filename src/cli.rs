@@ -146,7 +146,7 @@ impl Failure {
 }
 
 /// Runs the command line.
-pub fn main() -> ExitCode {
+pub(crate) fn main() -> ExitCode {
     let status = dispatch(Cli::parse().command).unwrap_or_else(|failure| {
         report(&failure);
         failure.exit_status()

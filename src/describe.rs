@@ -7,7 +7,7 @@ use foldwell::run::RunReport;
 use std::fmt::Write as _;
 
 /// The studies of a run, one after the other.
-pub fn describe_run(report: &RunReport) -> String {
+pub(crate) fn describe_run(report: &RunReport) -> String {
     let mut text = String::new();
     for study in &report.summary.studies {
         // writing to a string does not fail

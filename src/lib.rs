@@ -60,6 +60,8 @@
 //! | 1 | [`sheet`], [`solver`] | cells, lattices and files of sheets; a Newton method that knows no origami |
 //! | 0 | [`math`], [`numerics`] | rotations and the sinc family; sparse matrices and factorizations |
 #![cfg_attr(test, allow(clippy::unwrap_used))]
+// pages of public modules link to private parts too, which `cargo doc --document-private-items` shows
+#![allow(rustdoc::private_intra_doc_links)]
 
 pub mod analysis;
 pub mod kinematics;

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 
 /// What is wrong with the words after a pattern.
 #[derive(Debug, Error, PartialEq, Eq)]
-pub enum ParameterError {
+pub(crate) enum ParameterError {
     /// A word where a key should stand.
     #[error("`{0}` stands where a parameter was expected; write --key value, and -o FILE for the mesh")]
     NoKey(String),
@@ -32,7 +32,7 @@ pub enum ParameterError {
 ///
 /// Keys may have `-` for `_` and `=` before the value. A value is a whole number, a number, `true`, `false`, a list with
 /// commas between, or else a word.
-pub fn parse(pattern: &str, words: &[String]) -> Result<(Table, PathBuf), ParameterError> {
+pub(crate) fn parse(pattern: &str, words: &[String]) -> Result<(Table, PathBuf), ParameterError> {
     let mut table = Table::new();
     table.insert("pattern".into(), pattern.into());
     let mut output = None;

@@ -25,7 +25,7 @@ const GLANCE: Duration = Duration::from_millis(20);
 const STACK: usize = 8 << 20;
 
 /// Shows how far a run is, and stops it after Ctrl-C.
-pub struct Watch {
+pub(crate) struct Watch {
     interrupted: Arc<AtomicBool>,
     shown: Option<Mutex<Shown>>,
 }
@@ -38,7 +38,7 @@ struct Shown {
 
 impl Watch {
     /// Begins to listen for Ctrl-C; `quiet`: shows nothing.
-    pub fn new(quiet: bool) -> Self {
+    pub(crate) fn new(quiet: bool) -> Self {
         let interrupted = Arc::new(AtomicBool::new(false));
         let flag = interrupted.clone();
         // where no handler can be set, Ctrl-C ends the program at once, as it does by default
@@ -52,13 +52,13 @@ impl Watch {
     }
 
     /// Whether Ctrl-C was pressed.
-    pub fn interrupted(&self) -> bool {
+    pub(crate) fn interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
 
     /// Does some work on a thread of its own and gives what comes of it; `None` where Ctrl-C was pressed and the work does
     /// not end soon after it. A panic of the work is one here.
-    pub fn over<T: Send + 'static>(
+    pub(crate) fn over<T: Send + 'static>(
         self: &Arc<Self>,
         work: impl FnOnce(&Self) -> T + Send + 'static,
     ) -> io::Result<Option<T>> {
@@ -88,7 +88,7 @@ impl Watch {
     }
 
     /// Takes note of a step; breaks after Ctrl-C.
-    pub fn step(&self, progress: &Progress) -> ControlFlow<()> {
+    pub(crate) fn step(&self, progress: &Progress) -> ControlFlow<()> {
         if let Some(shown) = &self.shown {
             shown.lock().unwrap_or_else(PoisonError::into_inner).step(progress);
         }
@@ -96,7 +96,7 @@ impl Watch {
     }
 
     /// Removes what is shown.
-    pub fn finish(&self) {
+    pub(crate) fn finish(&self) {
         if let Some(shown) = &self.shown {
             shown.lock().unwrap_or_else(PoisonError::into_inner).bar.finish_and_clear();
         }

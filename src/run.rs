@@ -17,7 +17,8 @@ mod report;
 mod resume;
 mod runner;
 
-pub use crate::study::{Observer, Progress};
+pub use crate::study::Observer;
+pub use crate::study::Progress;
 pub use error::RunError;
 pub use ledger::Ledger;
 pub use report::{RunOptions, RunReport};

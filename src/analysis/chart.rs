@@ -21,7 +21,7 @@ pub fn coordinates(state: &Folded) -> Vec<f64> {
 }
 
 /// Coordinates of the vertices and of the screw of a screw-periodic state.
-pub fn screw_coordinates(shape: &Shape) -> Vec<f64> {
+pub(crate) fn screw_coordinates(shape: &Shape) -> Vec<f64> {
     let (chords, towards) = (shape.screw.chords, shape.screw.towards_axis());
     // below, the direction of the axis is off by more than what leaving out the turn costs
     let turns = shape.turns();
@@ -45,7 +45,7 @@ pub fn screw_coordinates(shape: &Shape) -> Vec<f64> {
 }
 
 /// The angles of the model's hinges among those of all edges: from them angles continue.
-pub fn hinge_angles(model: &Model, angles: &[f64]) -> Vec<f64> {
+pub(crate) fn hinge_angles(model: &Model, angles: &[f64]) -> Vec<f64> {
     let terms = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
     terms.flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<_>>()).collect()
 }

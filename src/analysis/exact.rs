@@ -28,7 +28,7 @@ const KNOWN: f64 = 1e-10;
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
 /// Hinges by edge: the energy of exactly folded states.
-pub struct Springs {
+pub(crate) struct Springs {
     closure: Closure,
     stiffness: DVector<f64>,
     rest: DVector<f64>,
@@ -78,7 +78,7 @@ pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles:
 impl Springs {
     /// The hinges of a model, rigid ones at rest and the others from these angles of all edges; `None` where nothing can be said, as
     /// [`error_to_kinematic`].
-    pub fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
+    pub(crate) fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
         let edges = angles.len();
         let torus = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus);
         if edges > MOST_EDGES || model.held_or_loaded() || torus || !sheet.holes.is_empty() {
@@ -104,14 +104,14 @@ impl Springs {
     }
 
     /// The energy of the hinges at fold angles of all edges.
-    pub fn energy(&self, angles: &[f64]) -> f64 {
+    pub(crate) fn energy(&self, angles: &[f64]) -> f64 {
         let off =
             angles.iter().zip(&self.rest).zip(&self.stiffness).map(|((angle, rest), k)| k * (angle - rest).powi(2));
         0.5 * off.sum::<f64>()
     }
 
     /// The stationary state near these fold angles of all edges, of whatever index; `None` where Newton's method finds none.
-    pub fn stationary(&self, start: &[f64]) -> Option<Stationary> {
+    pub(crate) fn stationary(&self, start: &[f64]) -> Option<Stationary> {
         let mut closing = Closing::new(&self.closure, self.start.clone());
         let mut x = closing.folding(start);
         for _ in 0..STEPS {

@@ -21,13 +21,13 @@ use thiserror::Error;
 /// Rigidity matrices of more rows or columns than this are not decomposed dense.
 pub const DENSE_LIMIT: usize = 1200;
 /// Models of up to this number of unknowns are decomposed dense where that gives eigenvalues that the iteration cannot give.
-pub const DENSE_EIGENVALUES: usize = 2000;
+pub(crate) const DENSE_EIGENVALUES: usize = 2000;
 /// Most eigenvalues that are asked of the iteration.
 pub const SPARSE_EIGENVALUES: usize = 256;
 /// Most shifts of the Hessian that are tried, each four times the last.
 const SHIFTS: i32 = 30;
 /// Smallest ratio of kept to dropped singular values at which a rank is believed.
-pub const LEAST_GAP: f64 = 1e3;
+pub(crate) const LEAST_GAP: f64 = 1e3;
 
 /// Modes of a drawn state.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,7 +18,7 @@ const NEARLY_BALANCED_FORCE: f64 = 0.1;
 
 /// What is known of the forces of a state.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Forces {
+pub(crate) enum Forces {
     /// Nothing.
     Unknown,
     /// The tension of every stiff measure of the same model.
@@ -33,7 +33,7 @@ pub enum Forces {
 }
 
 /// The tensions of all stiff measures at `x`: those that are known, where they agree with the geometry; else what follows from it.
-pub fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
+pub(crate) fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
     let gaps = model.gaps(x);
     let by_law = by_law(model, &gaps);
     let known = match known {
@@ -56,7 +56,7 @@ pub fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
 
 /// Where a relaxation starts that knows these tensions, completed by those of rigid measures: with them near an equilibrium, without them
 /// elsewhere.
-pub fn start(model: &Model, x: Vec<f64>, mut tensions: Vec<f64>) -> Start {
+pub(crate) fn start(model: &Model, x: Vec<f64>, mut tensions: Vec<f64>) -> Start {
     let mut force = unbalanced(model, &x, &tensions);
     while force > BALANCED && model.compliance().contains(&0.0) {
         let Some(better) = completed(model, &x, &tensions) else { break };

@@ -63,7 +63,7 @@ impl ShownCells {
     }
 
     /// The view of `cells`, beginning at the cell `first` of a tiling; a periodic one goes on beyond its last cell.
-    pub fn of_cells(sheet: &Sheet, tiling: &Tiling, cells: [usize; 2], first: [i32; 2]) -> Self {
+    pub(crate) fn of_cells(sheet: &Sheet, tiling: &Tiling, cells: [usize; 2], first: [i32; 2]) -> Self {
         let patch = tile(sheet, cells, tiling.periodic);
         let sides = sides(&patch);
         let beside = |ends: [Site; 2]| sides.get(&up_to_translation(ends).0).map_or(&[][..], Vec::as_slice);
@@ -97,7 +97,7 @@ impl ShownCells {
     }
 
     /// Positions of all points in the frame of the mesh file, vertex 0 of a screw where it was drawn.
-    pub fn positions(&self, drawn: &Drawn, coordinates: &[f64]) -> Vec<Vec3> {
+    pub(crate) fn positions(&self, drawn: &Drawn, coordinates: &[f64]) -> Vec<Vec3> {
         let back = drawn.frame.transpose();
         let centre = match drawn.domain {
             Domain::Screw => Vec3::from_column_slice(&coordinates[..3]),
@@ -107,7 +107,7 @@ impl ShownCells {
     }
 
     /// Velocities of all points when the coordinates have these rates, by central differences.
-    pub fn velocities(&self, drawn: &Drawn, rates: &[f64]) -> Vec<Vec3> {
+    pub(crate) fn velocities(&self, drawn: &Drawn, rates: &[f64]) -> Vec<Vec3> {
         let step = 1e-5;
         let moved = |sign: f64| {
             let x: Vec<f64> = drawn.coordinates.iter().zip(rates).map(|(x, v)| x + sign * step * v).collect();
@@ -117,7 +117,7 @@ impl ShownCells {
     }
 
     /// Values of the edges of the model from values of lines between the points of the patch; NaN where no line is a copy of the edge.
-    pub fn on_edges(&self, edges: usize, lines: &[[usize; 2]], values: &[f64]) -> Vec<f64> {
+    pub(crate) fn on_edges(&self, edges: usize, lines: &[[usize; 2]], values: &[f64]) -> Vec<f64> {
         let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
         let given: HashMap<[usize; 2], f64> =
             lines.iter().map(|line| sorted(*line)).zip(values.iter().copied()).collect();
@@ -132,7 +132,7 @@ impl ShownCells {
 
     /// The coordinates of a state whose points are these; `None` where points do not say all (a free lattice, a screw)
     /// or their number is another one. Images may be left out.
-    pub fn coordinates(&self, drawn: &Drawn, points: &[Vec3]) -> Option<Vec<f64>> {
+    pub(crate) fn coordinates(&self, drawn: &Drawn, points: &[Vec3]) -> Option<Vec<f64>> {
         let home = self.patch.positions.len();
         let known = matches!(drawn.domain, Domain::Patch | Domain::FixedTorus(_));
         let fits = known && [home, self.sites.len()].contains(&points.len());

@@ -90,7 +90,7 @@ impl State {
     }
 
     /// Energy of the terms of a kind; locks are rigid and have none.
-    pub fn energy_of(&self, kind: TermKind) -> f64 {
+    pub(crate) fn energy_of(&self, kind: TermKind) -> f64 {
         match kind {
             TermKind::Bars => self.energy_bars,
             TermKind::Creases => self.energy_creases,
@@ -112,7 +112,7 @@ fn add_known(sum: &mut f64, part: f64) {
 
 /// A sheet periodic up to screw motions, as seen from vertex 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cylinder {
+pub(crate) struct Cylinder {
     /// Signed curvature, 1/(distance of vertex 0 from the axis), with the sign of the chart's: it changes only where the
     /// curvature passes zero, as that of a [shape](crate::kinematics::Shape) along a trajectory does.
     pub curvature: f64,
@@ -124,7 +124,7 @@ pub struct Cylinder {
 }
 
 /// The cylinder of a periodic state; `None` on a patch. `drawn` are the coordinates of the drawn state.
-pub fn cylinder(domain: &Domain, drawn: &[f64], x: &[f64]) -> Option<Cylinder> {
+pub(crate) fn cylinder(domain: &Domain, drawn: &[f64], x: &[f64]) -> Option<Cylinder> {
     let chords = chords(domain, x)?;
     let (curvature, theta) = domain.turns(x).map_or((0.0, [0.0; 2]), |Turns { kappa, theta, .. }| {
         let theta = theta.map(|theta| theta - TAU * (theta / TAU).round());

@@ -19,7 +19,7 @@ const ALONG: f64 = 0.999;
 /// States between two questions whether to go on.
 const OBSERVED: usize = 256;
 /// Quantities whose turning points are reported, in the order of their indicators.
-pub const TURNING: [&str; 4] = ["curvature", "strain11", "strain22", "strain12"];
+pub(crate) const TURNING: [&str; 4] = ["curvature", "strain11", "strain22", "strain12"];
 /// The indicators after these.
 const CURVATURE: usize = TURNING.len();
 const CREASE_ANGLE: usize = CURVATURE + 1;
@@ -52,7 +52,7 @@ pub struct Stop {
 }
 
 /// Says whether faces of a state pass through each other.
-pub type Intersects<'a> = &'a mut dyn FnMut(&Folded) -> bool;
+pub(crate) type Intersects<'a> = &'a mut dyn FnMut(&Folded) -> bool;
 
 /// A state on a trajectory.
 #[derive(Clone, Debug)]

@@ -23,12 +23,12 @@ impl<'a> Closing<'a> {
     }
 
     /// The fold angles of all edges.
-    pub fn angles(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn angles(&self, x: &[f64]) -> Vec<f64> {
         self.spread(x, &self.angles)
     }
 
     /// Rates of all edges from those of the folding ones.
-    pub fn rates(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn rates(&self, x: &[f64]) -> Vec<f64> {
         self.spread(x, &vec![0.0; self.angles.len()])
     }
 

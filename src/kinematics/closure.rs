@@ -20,7 +20,7 @@ mod second_derivative;
 ///
 /// Corners may stand in any cell, those of one edge in the same frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct HingedEdge {
+pub(crate) struct HingedEdge {
     /// First and second end.
     pub ends: [Corner; 2],
     /// Opposite vertices of the left and of the right face; without one of them the edge does not fold.
@@ -106,7 +106,7 @@ impl Closure {
     ///
     /// # Errors
     /// [`KinematicsError`] as [`of_cell`](Self::of_cell).
-    pub fn of_tiling(sheet: &Sheet, tiling: &Tiling) -> Result<Self, KinematicsError> {
+    pub(crate) fn of_tiling(sheet: &Sheet, tiling: &Tiling) -> Result<Self, KinematicsError> {
         let edges: Vec<HingedEdge> = tiling.edges.iter().map(HingedEdge::from).collect();
         let lattice = sheet.lattice.unwrap_or([Vec3::zeros(); 2]);
         Self::of_edges(&edges, |Corner { vertex, shift }| {
@@ -120,7 +120,7 @@ impl Closure {
     ///
     /// # Errors
     /// [`KinematicsError`] where the faces at an interior vertex do not form one round.
-    pub fn of_edges(edges: &[HingedEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
+    pub(crate) fn of_edges(edges: &[HingedEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
         let halves = halves_by_vertex(edges);
         let mut rounds = Vec::new();
         for (vertex, halves) in halves.iter().enumerate() {
@@ -156,13 +156,13 @@ impl Closure {
     }
 
     /// The interior vertices, in the order of their rows.
-    pub fn vertices(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+    pub(crate) fn vertices(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
         self.rounds.iter().map(|round| round.vertex)
     }
 
     /// Number of independent loops that no interior vertex closes, the two of a torus apart: openings of a connected
     /// sheet beyond the one rim that a finite sheet has. Where it is not zero, more conditions exist than these.
-    pub fn unchecked_loops(&self) -> usize {
+    pub(crate) fn unchecked_loops(&self) -> usize {
         self.unchecked_loops
     }
 

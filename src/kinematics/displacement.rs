@@ -27,6 +27,7 @@ pub struct Displacement {
     /// Largest difference, over the edges that the walk has not crossed, between the angular velocity of the way over the
     /// edge and the one that the lattice motions give: zero but for rounding where the rates close.
     pub disagreement: f64,
+    #[cfg(test)]
     walked: Walked<Moving>,
 }
 
@@ -50,7 +51,14 @@ impl Displacement {
         let ways = embedding.walk.loops.iter().zip(&walked.loops);
         let apart = ways.map(|(closing, way)| way.twist - Moving::lattice_power(lattice, closing.cell).twist);
         let disagreement = apart.map(|twist| twist.angular.amax()).fold(0.0, larger);
-        Self { positions, velocities, lattice: walked.lattice, disagreement, walked }
+        Self {
+            positions,
+            velocities,
+            lattice: walked.lattice,
+            disagreement,
+            #[cfg(test)]
+            walked,
+        }
     }
 
     /// Where a corner is, and its velocity; of a finite sheet only in cell (0, 0).
@@ -60,43 +68,10 @@ impl Displacement {
         (there.motion.apply(place), there.carry(place, velocity))
     }
 
-    /// Angular velocity of a triangle of the sheet, moved by `cell` from where the sheet lists it.
-    pub fn angular_velocity(&self, embedding: &Embedding, face: usize, cell: [i32; 2]) -> Vec3 {
-        let home = embedding.walk.cells[face];
-        let there = self.to_cell([cell[0] - home[0], cell[1] - home[1]]);
-        (there * self.walked.faces[face]).twist.angular
-    }
-
-    /// The rates of all fold angles, from the velocities of the vertices and of the lattice alone; zero on the rim.
-    pub fn fold_rates(&self, embedding: &Embedding) -> Vec<f64> {
-        let spins: Vec<Vec3> = embedding.faces.iter().map(|face| self.spin(&face.corners)).collect();
-        let mut rates = vec![0.0; embedding.edges()];
-        let steps = embedding.walk.steps.iter().map(|step| (step, [0, 0]));
-        let loops = embedding.walk.loops.iter().map(|closing| (&closing.crossing, closing.cell));
-        for (step, cell) in steps.chain(loops) {
-            let ([from, to], there) = (step.faces, self.to_cell(cell));
-            let behind = there.twist.angular + there.motion.rotation * spins[to];
-            let edge = self.walked.faces[from].motion.rotation * step.line.direction;
-            rates[step.edge] = edge.dot(&(behind - spins[from]));
-        }
-        rates
-    }
-
     /// From cell (0, 0) to another; a finite sheet has no other.
     fn to_cell(&self, cell: [i32; 2]) -> Moving {
         self.lattice.as_ref().map_or_else(Moving::identity, |lattice| Moving::lattice_power(lattice, cell))
     }
-
-    fn spin(&self, corners: &[Corner; 3]) -> Vec3 {
-        let [a, b, c] = corners.map(|corner| self.corner(corner));
-        angular_velocity([b.0 - a.0, c.0 - a.0], [b.1 - a.1, c.1 - a.1])
-    }
-}
-
-/// The `w` with `w x p = dp` and `w x q = dq`, for two sides of a triangle and their rates.
-fn angular_velocity([p, q]: [Vec3; 2], [dp, dq]: [Vec3; 2]) -> Vec3 {
-    let normal = p.cross(&q);
-    (dq.dot(&normal) * p - dp.dot(&normal) * q + dp.dot(&q) * normal) / normal.norm_squared()
 }
 
 #[cfg(test)]
@@ -108,6 +83,41 @@ mod tests {
     use crate::numerics::dense::null_space;
     use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
     use crate::sheet::Sheet;
+
+    impl Displacement {
+        /// Angular velocity of a triangle of the sheet, moved by `cell` from where the sheet lists it.
+        fn angular_velocity(&self, embedding: &Embedding, face: usize, cell: [i32; 2]) -> Vec3 {
+            let home = embedding.walk.cells[face];
+            let there = self.to_cell([cell[0] - home[0], cell[1] - home[1]]);
+            (there * self.walked.faces[face]).twist.angular
+        }
+
+        /// The rates of all fold angles, from the velocities of the vertices and of the lattice alone; zero on the rim.
+        fn fold_rates(&self, embedding: &Embedding) -> Vec<f64> {
+            let spins: Vec<Vec3> = embedding.faces.iter().map(|face| self.spin(&face.corners)).collect();
+            let mut rates = vec![0.0; embedding.edges()];
+            let steps = embedding.walk.steps.iter().map(|step| (step, [0, 0]));
+            let loops = embedding.walk.loops.iter().map(|closing| (&closing.crossing, closing.cell));
+            for (step, cell) in steps.chain(loops) {
+                let ([from, to], there) = (step.faces, self.to_cell(cell));
+                let behind = there.twist.angular + there.motion.rotation * spins[to];
+                let edge = self.walked.faces[from].motion.rotation * step.line.direction;
+                rates[step.edge] = edge.dot(&(behind - spins[from]));
+            }
+            rates
+        }
+
+        fn spin(&self, corners: &[Corner; 3]) -> Vec3 {
+            let [a, b, c] = corners.map(|corner| self.corner(corner));
+            angular_velocity([b.0 - a.0, c.0 - a.0], [b.1 - a.1, c.1 - a.1])
+        }
+    }
+
+    /// The `w` with `w x p = dp` and `w x q = dq`, for two sides of a triangle and their rates.
+    fn angular_velocity([p, q]: [Vec3; 2], [dp, dq]: [Vec3; 2]) -> Vec3 {
+        let normal = p.cross(&q);
+        (dq.dot(&normal) * p - dp.dot(&normal) * q + dp.dot(&q) * normal) / normal.norm_squared()
+    }
 
     /// Sheets at closed states, with one null vector of closure each: periodic, flat, cylinders, finite.
     fn moving() -> Vec<(Sheet, Vec<f64>, Vec<f64>)> {

@@ -99,7 +99,7 @@ impl Embedding {
     }
 
     /// Number of edges, which is the number of fold angles.
-    pub fn edges(&self) -> usize {
+    pub(crate) fn edges(&self) -> usize {
         self.edges.len()
     }
 
@@ -180,7 +180,7 @@ impl Embedding {
 
 impl Placement {
     /// Where a corner is, by doing the lattice motions one by one; of a finite sheet only in cell (0, 0).
-    pub fn corner(&self, corner: Corner) -> Vec3 {
+    pub(crate) fn corner(&self, corner: Corner) -> Vec3 {
         let home = self.positions[corner.vertex];
         match &self.lattice {
             Some(lattice) if corner.shift != [0, 0] => Motion::lattice_power(lattice, corner.shift).apply(&home),

@@ -31,7 +31,7 @@ impl LatticeFrame {
     }
 
     /// Strain `[strain11, strain22, strain12]` of chords against the drawn lattice: `a^-T g a^-1 - I`, without a half.
-    pub fn strain(&self, chords: &[Vec3; 2]) -> [f64; 3] {
+    pub(crate) fn strain(&self, chords: &[Vec3; 2]) -> [f64; 3] {
         let metric = Matrix2::from_fn(|i, j| chords[i].dot(&chords[j]));
         let [e11, e22, e12] = self.tensor(&metric);
         [e11 - 1.0, e22 - 1.0, e12]
@@ -43,7 +43,7 @@ impl LatticeFrame {
     }
 
     /// The line in the drawn plane along `n1 l1 + n2 l2`: its angle to x in radians, in `(-pi/2, pi/2]`.
-    pub fn line_angle(&self, n: [f64; 2]) -> f64 {
+    pub(crate) fn line_angle(&self, n: [f64; 2]) -> f64 {
         let [x, y]: [f64; 2] = (self.vectors * Vector2::from(n)).into();
         let flipped = x < 0.0 || (x == 0.0 && y < 0.0);
         if flipped { (-y).atan2(-x) } else { y.atan2(x) }

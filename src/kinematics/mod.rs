@@ -3,32 +3,34 @@
 //!
 //! Nothing here knows bars or energies, so that it can judge what the energies find.
 
-pub mod closing;
-pub mod closure;
-pub mod displacement;
-pub mod embedding;
-pub mod error;
+pub(crate) mod closing;
+pub(crate) mod closure;
+pub(crate) mod displacement;
+pub(crate) mod embedding;
+pub(crate) mod error;
 pub mod folding_modes;
 pub mod metric;
-pub mod motion;
-pub mod rays;
-pub mod screw;
-pub mod second_order;
-pub mod shape;
+pub(crate) mod motion;
+pub(crate) mod rays;
+pub(crate) mod screw;
+pub(crate) mod second_order;
+pub(crate) mod shape;
 #[cfg(test)]
 mod test_sheets;
 pub mod tube;
 mod walk;
 
 pub use closing::Closing;
-pub use closure::{Closure, HingedEdge, drawn_fold_angles};
+pub use closure::Closure;
+pub use closure::drawn_fold_angles;
 pub use displacement::Displacement;
 pub use embedding::{Compatibility, Embedding, Placement};
 pub use error::KinematicsError;
 pub use folding_modes::{FoldingModes, folding_modes, folding_modes_with_locked};
-pub use motion::{Motion, Moving, Rigid, Twist};
+pub use motion::{Motion, Moving, Twist};
 pub use rays::{Ray, Rays, RealDirections};
-pub use screw::{Screw, ScrewRate};
-pub use second_order::{SecondOrder, signature};
-pub use shape::{Shape, ShapeRate};
+pub use screw::Screw;
+pub use second_order::SecondOrder;
+pub(crate) use second_order::signature;
+pub use shape::Shape;
 pub use tube::Tube;

@@ -11,7 +11,7 @@ use nalgebra::Matrix3;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// What composes as rigid motions do; `A * B` is `B` first and `A` after it.
-pub trait Rigid: Copy + Mul<Output = Self> {
+pub(crate) trait Rigid: Copy + Mul<Output = Self> {
     /// The motion that adds a vector to every point.
     fn shift(by: Vec3) -> Self;
     /// The motion that undoes this one.
@@ -36,7 +36,7 @@ pub trait Rigid: Copy + Mul<Output = Self> {
 
 /// A straight line with a direction, to turn about.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
+pub(crate) struct Line {
     /// A point on it.
     pub point: Vec3,
     /// Its direction, of length 1.
@@ -72,7 +72,7 @@ pub struct Moving {
 
 impl Motion {
     /// The turn about a line by an angle in radians, counter-clockwise looking against its direction.
-    pub fn about(line: &Line, angle: f64) -> Self {
+    pub(crate) fn about(line: &Line, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         let [x, y, z] = (sin * line.direction).into();
         let dyad = (1.0 - cos) * line.direction * line.direction.transpose();
@@ -107,12 +107,12 @@ impl Mul for Motion {
 
 impl Twist {
     /// Nothing moves.
-    pub fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         Self { angular: Vec3::zeros(), linear: Vec3::zeros() }
     }
 
     /// Turning about a line at an angular speed.
-    pub fn about(line: &Line, speed: f64) -> Self {
+    pub(crate) fn about(line: &Line, speed: f64) -> Self {
         let angular = speed * line.direction;
         Self { angular, linear: line.point.cross(&angular) }
     }
@@ -123,7 +123,7 @@ impl Twist {
     }
 
     /// The same velocities in a body that a motion has carried elsewhere.
-    pub fn carried_by(&self, motion: &Motion) -> Self {
+    pub(crate) fn carried_by(&self, motion: &Motion) -> Self {
         let angular = motion.rotation * self.angular;
         Self { angular, linear: motion.rotation * self.linear + motion.translation.cross(&angular) }
     }
@@ -155,12 +155,12 @@ impl Sub for Twist {
 
 impl Moving {
     /// The turn about a line by an angle that changes at an angular speed.
-    pub fn about(line: &Line, angle: f64, speed: f64) -> Self {
+    pub(crate) fn about(line: &Line, angle: f64, speed: f64) -> Self {
         Self { motion: Motion::about(line, angle), twist: Twist::about(line, speed) }
     }
 
     /// The velocity of the image of a point that itself moves.
-    pub fn carry(&self, x: &Vec3, velocity: &Vec3) -> Vec3 {
+    pub(crate) fn carry(&self, x: &Vec3, velocity: &Vec3) -> Vec3 {
         self.twist.at(&self.motion.apply(x)) + self.motion.rotation * velocity
     }
 }

@@ -33,7 +33,7 @@ pub struct Screw {
 
 /// Rates of a screw that turns.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScrewRate {
+pub(crate) struct ScrewRate {
     /// Of the direction of the axis, in the embedding's frame.
     pub axis: Vec3,
     /// Of the two angles.
@@ -46,7 +46,7 @@ pub struct ScrewRate {
 
 impl Screw {
     /// The screw of two lattice motions that commute up to rounding.
-    pub fn new(lattice: &[Motion; 2]) -> Self {
+    pub(crate) fn new(lattice: &[Motion; 2]) -> Self {
         let turns = lattice.map(|motion| rotation::log(&motion.rotation));
         let larger = turns[dominant(&turns)];
         let angle = larger.norm();
@@ -97,7 +97,7 @@ impl Screw {
     ///
     /// A rotation vector changes by the inverse left Jacobian of the rotation group times the angular velocity. For the
     /// axis alone this is `(1 - S) ds = W x s` across the axis (appendix on displacements of the paper above).
-    pub fn rate(&self, lattice: &[Moving; 2]) -> Option<ScrewRate> {
+    pub(crate) fn rate(&self, lattice: &[Moving; 2]) -> Option<ScrewRate> {
         let s = self.axis?;
         let turns = lattice.map(|moving| rotation::log(&moving.motion.rotation));
         let a = dominant(&turns);

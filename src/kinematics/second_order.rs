@@ -97,7 +97,7 @@ fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), Kinemat
 ///
 /// # Errors
 /// [`KinematicsError`] on entries that are not finite.
-pub fn signature(quadric: &DenseMatrix) -> Result<[usize; 3], KinematicsError> {
+pub(crate) fn signature(quadric: &DenseMatrix) -> Result<[usize; 3], KinematicsError> {
     let values = symmetric_eigenvalues(quadric)?;
     let threshold = ZERO * max_abs(&values);
     let [positive, negative] = [1.0, -1.0].map(|sign| values.iter().filter(|v| sign * **v > threshold).count());

@@ -51,7 +51,7 @@ pub struct Shape {
 
 /// Rates of a shape that is a cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShapeRate {
+pub(crate) struct ShapeRate {
     /// Of axis, angles and chords.
     pub screw: ScrewRate,
     /// Of the signed curvature.
@@ -92,7 +92,7 @@ impl Shape {
     }
 
     /// Whether the lattice turns by so much that curvature and axis are more than rounding errors.
-    pub fn turns(&self) -> bool {
+    pub(crate) fn turns(&self) -> bool {
         self.theta.iter().any(|theta| theta.abs() >= NO_TURN)
     }
 
@@ -123,7 +123,7 @@ impl Shape {
 
     /// The same over a longer way: the fold angles of `last` and of this shape, between which steps are halved until `k` does
     /// not turn by more than a sixth of a turn in one.
-    pub fn continue_over(&mut self, embedding: &Embedding, last: &Self, angles: [&[f64]; 2]) {
+    pub(crate) fn continue_over(&mut self, embedding: &Embedding, last: &Self, angles: [&[f64]; 2]) {
         self.continue_halving(embedding, last, angles, HALVINGS);
     }
 
@@ -143,7 +143,7 @@ impl Shape {
     }
 
     /// Rates of the shape, from its lattice motions with their rates; `None` where nothing turns.
-    pub fn rate(&self, embedding: &Embedding, lattice: &[Moving; 2]) -> Option<ShapeRate> {
+    pub(crate) fn rate(&self, embedding: &Embedding, lattice: &[Moving; 2]) -> Option<ShapeRate> {
         let screw = self.screw.rate(lattice)?;
         let frame = LatticeFrame::new(embedding.lattice.as_ref()?);
         let towards = self.screw.towards_axis();

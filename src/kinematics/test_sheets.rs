@@ -11,24 +11,24 @@ use serde_json::Value;
 use std::collections::{HashMap, VecDeque};
 
 /// Fold angles, curvature, rotation angles and strain.
-pub type Cylinder = (Vec<f64>, f64, Vec<f64>, Vec<f64>);
+pub(crate) type Cylinder = (Vec<f64>, f64, Vec<f64>, Vec<f64>);
 
 /// Numbers of [-1, 1).
-pub fn random_numbers(seed: u64, count: usize) -> Vec<f64> {
+pub(crate) fn random_numbers(seed: u64, count: usize) -> Vec<f64> {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
     (0..count).map(|_| rng.random_range(-1.0..1.0)).collect()
 }
 
-pub fn open_star() -> Sheet {
+pub(crate) fn open_star() -> Sheet {
     from_fold(include_str!("../../tests/cases/open-star.fold"))
 }
 
-pub fn open_flat() -> Sheet {
+pub(crate) fn open_flat() -> Sheet {
     from_fold(include_str!("../../tests/cases/open-flat.fold"))
 }
 
 /// Miura-ori, one cell of four triangulated parallelograms (sides 2, angle 60 degrees, folded by 15 degrees).
-pub fn miura() -> Sheet {
+pub(crate) fn miura() -> Sheet {
     let (a, t, g) = (2.0, 60f64.to_radians(), 15f64.to_radians());
     let (q, h) = ((1.0 + (g.cos() * t.tan()).powi(2)).sqrt(), a * t.sin() * g.sin());
     let (s, v, l) = (a * g.cos() * t.tan() / q, a / q, a * (1.0 - (g.sin() * t.sin()).powi(2)).sqrt());
@@ -45,7 +45,7 @@ pub fn miura() -> Sheet {
 }
 
 /// `m` x `n` squares, each of two triangles, with heights at random; no lattice.
-pub fn finite_grid(m: usize, n: usize, height: f64) -> Sheet {
+pub(crate) fn finite_grid(m: usize, n: usize, height: f64) -> Sheet {
     let heights = random_numbers(5, (m + 1) * (n + 1));
     let number = |i: usize, j: usize| i + (m + 1) * j;
     let place = |k: usize| Vec3::new((k % (m + 1)) as f64, (k / (m + 1)) as f64, height * heights[k]);
@@ -58,13 +58,13 @@ pub fn finite_grid(m: usize, n: usize, height: f64) -> Sheet {
 }
 
 /// A random cell one vertex wide: some of its edges have the same vertex, of two cells, at both ends.
-pub fn narrow() -> Sheet {
+pub(crate) fn narrow() -> Sheet {
     let pattern = Random { size: [1, 3], height: 0.4, ..Random::default() };
     generate(&Pattern::Random(pattern)).unwrap()
 }
 
 /// A ring of six triangles: an opening that no vertex closes.
-pub fn ring() -> Sheet {
+pub(crate) fn ring() -> Sheet {
     let place = |k: usize| {
         let turn = std::f64::consts::TAU * k as f64 / 6.0;
         Vec3::new(turn.cos(), turn.sin(), 0.0) * if k.is_multiple_of(2) { 1.0 } else { 2.0 }
@@ -133,19 +133,19 @@ fn floats(value: &Value) -> Vec<f64> {
 }
 
 /// The numbers that an independent program found for `open-star`.
-pub struct Reference(Value);
+pub(crate) struct Reference(Value);
 
-pub fn open_star_reference() -> Reference {
+pub(crate) fn open_star_reference() -> Reference {
     Reference(serde_json::from_str(include_str!("../../tests/cases/open-star.json")).unwrap())
 }
 
 impl Reference {
-    pub fn numbers(&self, key: &str) -> Vec<f64> {
+    pub(crate) fn numbers(&self, key: &str) -> Vec<f64> {
         floats(&self.0[key])
     }
 
     /// Numbers per edge in the order of the reference, brought into that of the sheet.
-    pub fn in_sheet_order(&self, sheet: &Sheet, numbers: &[f64]) -> Vec<f64> {
+    pub(crate) fn in_sheet_order(&self, sheet: &Sheet, numbers: &[f64]) -> Vec<f64> {
         let list = self.0["edge_list"].as_array().unwrap();
         let find = |edge: &Edge| {
             let EdgeKey { i, j, shift: [n1, n2] } = edge.key;
@@ -156,7 +156,7 @@ impl Reference {
     }
 
     /// Folded cylinders.
-    pub fn states(&self, sheet: &Sheet) -> Vec<Cylinder> {
+    pub(crate) fn states(&self, sheet: &Sheet) -> Vec<Cylinder> {
         let read = |state: &Value| {
             let kappa = state["kappa"].as_f64().unwrap();
             let angles = self.in_sheet_order(sheet, &floats(&state["fold_angles"]));
@@ -166,13 +166,13 @@ impl Reference {
     }
 
     /// Fold angles of folded cylinders.
-    pub fn cylinders(&self, sheet: &Sheet) -> Vec<Vec<f64>> {
+    pub(crate) fn cylinders(&self, sheet: &Sheet) -> Vec<Vec<f64>> {
         let states = self.0["states"].as_array().unwrap();
         states.iter().map(|state| self.in_sheet_order(sheet, &floats(&state["fold_angles"]))).collect()
     }
 
     /// The directions in which folding leaves the drawn state, with the signs of the curvature they lead to.
-    pub fn rays(&self, sheet: &Sheet) -> Vec<(Vec<f64>, f64)> {
+    pub(crate) fn rays(&self, sheet: &Sheet) -> Vec<(Vec<f64>, f64)> {
         let loops = self.0["loops"].as_array().unwrap();
         let states = self.0["states"].as_array().unwrap();
         let same = |a: &Value, b: &Value| a["branch"] == b["branch"] && a["sign"] == b["sign"];
@@ -192,7 +192,7 @@ struct Placed {
 
 /// Positions of the vertices of cells -2 to 2, from the shapes of the faces and fold angles alone: each new face is put
 /// onto an edge of one that stands, the first one as it is drawn. Points, not motions: another way than the program's.
-pub fn put_together(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec3> {
+pub(crate) fn put_together(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec3> {
     let first = sheet.triangles[0];
     let mut places: HashMap<Corner, Vec3> = first.corners.map(|c| (c, sheet.position(c))).into_iter().collect();
     let mut queue = VecDeque::from([Placed { face: 0, cell: [0, 0] }]);
@@ -242,7 +242,7 @@ fn find_face(sheet: &Sheet, corners: [Corner; 3]) -> Placed {
 }
 
 /// Fold angles brought to closure by steps of least norm, none longer than 0.2.
-pub fn closed(closure: &Closure, mut angles: Vec<f64>) -> Vec<f64> {
+pub(crate) fn closed(closure: &Closure, mut angles: Vec<f64>) -> Vec<f64> {
     for _ in 0..200 {
         let residual = closure.residual(&angles);
         if residual.amax() <= 2e-15 {

@@ -94,7 +94,7 @@ impl<'a> Tube<'a> {
     /// The derivative of [`defects`](Self::defects): two rows, a column per edge.
     /// # Panics
     /// As [`defects`](Self::defects); not a number where nothing turns.
-    pub fn rates(&self, angles: &[f64]) -> DenseMatrix {
+    pub(crate) fn rates(&self, angles: &[f64]) -> DenseMatrix {
         let mut rates = DenseMatrix::zeros(2, angles.len());
         let mut moving = self.still();
         for edge in 0..angles.len() {

@@ -16,7 +16,7 @@ use std::collections::{HashMap, VecDeque};
 
 /// The step from a face over an edge to the next, with the edge as drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct Crossing {
+pub(crate) struct Crossing {
     /// Number of the edge.
     pub edge: usize,
     /// Face before and behind the edge.
@@ -27,7 +27,7 @@ pub struct Crossing {
 
 /// An edge that is not in the tree.
 #[derive(Clone, Copy, Debug)]
-pub struct Loop {
+pub(crate) struct Loop {
     /// The step over it.
     pub crossing: Crossing,
     /// Cell of the copy of the face behind it.
@@ -38,7 +38,7 @@ pub struct Loop {
 
 /// The tree, the loops and how the loops make the lattice motions. Drawn positions have vertex 0 as origin.
 #[derive(Clone, Debug)]
-pub struct FaceWalk {
+pub(crate) struct FaceWalk {
     /// Cell into which every face, as the sheet lists it, is moved so that the faces hang together. The walk starts at the
     /// first face with vertex 0, moved so that this vertex is in cell (0, 0).
     pub cells: Vec<[i32; 2]>,
@@ -52,7 +52,7 @@ pub struct FaceWalk {
 
 /// The result of a walk.
 #[derive(Clone, Debug)]
-pub struct Walked<M> {
+pub(crate) struct Walked<M> {
     /// From drawn to present, for every face.
     pub faces: Vec<M>,
     /// From the sheet to its copy, for every loop.
@@ -72,7 +72,7 @@ impl FaceWalk {
     /// Plans a walk over a sheet.
     ///
     /// Fails where the faces do not hang together, in both directions of the lattice where there is one.
-    pub fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
+    pub(crate) fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
         let faces = sheet.triangles.len();
         let disconnected = || KinematicsError::Disconnected { faces };
         let (root, start) = first_with_vertex_0(sheet).ok_or_else(disconnected)?;
@@ -94,14 +94,14 @@ impl FaceWalk {
     }
 
     /// Walks, with the motion of each turn about a drawn edge as given.
-    pub fn walk<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M) -> Walked<M> {
+    pub(crate) fn walk<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M) -> Walked<M> {
         let mut walked = Walked { faces: Vec::new(), loops: Vec::new(), lattice: None };
         self.walk_into(turn, &mut walked);
         walked
     }
 
     /// The same, into what an earlier walk of this plan has left: nothing is allocated.
-    pub fn walk_into<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M, walked: &mut Walked<M>) {
+    pub(crate) fn walk_into<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M, walked: &mut Walked<M>) {
         let Walked { faces, loops, lattice } = walked;
         faces.clear();
         faces.resize(self.cells.len(), M::identity());
@@ -180,7 +180,7 @@ impl WalkBuilder<'_> {
 }
 
 /// Where a corner is drawn, from vertex 0.
-pub fn relative(sheet: &Sheet, corner: Corner) -> Vec3 {
+pub(crate) fn relative(sheet: &Sheet, corner: Corner) -> Vec3 {
     sheet.position(corner) - sheet.position(Corner::home(0))
 }
 

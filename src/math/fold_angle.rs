@@ -19,7 +19,7 @@ use super::taylor::{Path, Taylor, cross, difference, dot};
 use nalgebra::{Matrix3, SVector};
 
 /// Gradient over the twelve coordinates of `[i, j, left, right]`.
-pub type HingeGradient = SVector<f64, 12>;
+pub(crate) type HingeGradient = SVector<f64, 12>;
 /// Number of entries of the lower triangle of the Hessian over these coordinates.
 const TRIANGLE_ENTRIES: usize = 78;
 
@@ -48,7 +48,7 @@ pub fn fold_angle_gradient(points: &[Vec3; 4]) -> (f64, HingeGradient) {
 ///
 /// The function is inlined into the loop over hinges and writes in place: no matrix is copied on the way.
 #[inline(always)]
-pub fn fold_angle_hessian(points: &[Vec3; 4], lower: &mut Vec<f64>) -> (f64, HingeGradient) {
+pub(crate) fn fold_angle_hessian(points: &[Vec3; 4], lower: &mut Vec<f64>) -> (f64, HingeGradient) {
     let hinge = Hinge::new(points);
     lower.resize(TRIANGLE_ENTRIES, 0.0);
     hinge.hessian(&mut lower[..TRIANGLE_ENTRIES]);
@@ -56,7 +56,7 @@ pub fn fold_angle_hessian(points: &[Vec3; 4], lower: &mut Vec<f64>) -> (f64, Hin
 }
 
 /// Taylor series of the fold angle while its points move, to the fourth power of their parameter.
-pub fn fold_angle_along([i, j, left, right]: &[Path; 4]) -> Taylor {
+pub(crate) fn fold_angle_along([i, j, left, right]: &[Path; 4]) -> Taylor {
     let [e, a, b] = [j, left, right].map(|point| difference(point, i));
     let (n, m) = (cross(&e, &a), cross(&b, &e));
     (dot(&e, &e).sqrt() * dot(&a, &m)).atan2(dot(&n, &m))

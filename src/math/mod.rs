@@ -26,8 +26,8 @@
 
 pub mod fold_angle;
 pub mod rotation;
-pub mod sinc;
-pub mod taylor;
+pub(crate) mod sinc;
+pub(crate) mod taylor;
 
 /// A point or a vector in space, in the user's unit of length.
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -18,7 +18,7 @@ pub fn exp(v: &Vec3) -> Matrix3<f64> {
 ///
 /// All digits are kept at 0 and near pi. At pi itself the axis is one of the two opposite ones. The matrix has to be a
 /// rotation up to rounding; for any other the result means nothing (it is not a number where an entry is none).
-pub fn log(rotation: &Matrix3<f64>) -> Vec3 {
+pub(crate) fn log(rotation: &Matrix3<f64>) -> Vec3 {
     let (scalar, vector) = quaternion(rotation);
     let (scalar, vector) = if scalar < 0.0 { (-scalar, -vector) } else { (scalar, vector) };
     let length = vector.norm();
@@ -49,7 +49,7 @@ fn quaternion(r: &Matrix3<f64>) -> (f64, Vec3) {
 /// the rate `J w` with `J = I - [v]x / 2 + c [v]x^2` and `c = (1 - (t/2) cot(t/2)) / t^2`, `t = |v|` (T. D. Barfoot,
 /// "State Estimation for Robotics", 2017, section 7.1.5). With `s(x) = sin(x)/x` and `x = t/2` this is
 /// `c = (s(x) + s''(x)) / (8 s(x))`, which has no singular point below `t = 2 pi`.
-pub fn inverse_left_jacobian(v: &Vec3) -> Matrix3<f64> {
+pub(crate) fn inverse_left_jacobian(v: &Vec3) -> Matrix3<f64> {
     let half = phi(0.5 * v.norm());
     let factor = (half.value.re + half.second.re) / (8.0 * half.value.re);
     let cross = v.cross_matrix();

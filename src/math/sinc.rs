@@ -18,7 +18,7 @@ const TERMS: usize = 22;
 
 /// `phi(t) = (e^{it} - 1) / (it)` with its first two derivatives in `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Phi {
+pub(crate) struct Phi {
     /// `sin(t)/t + i (1 - cos t)/t`; 1 at 0.
     pub value: Complex<f64>,
     /// First derivative; `i/2` at 0.
@@ -28,7 +28,7 @@ pub struct Phi {
 }
 
 /// The function and its first two derivatives, for every finite `t`; not a number where `t` is not finite.
-pub fn phi(t: f64) -> Phi {
+pub(crate) fn phi(t: f64) -> Phi {
     let [m0, m1, m2] =
         if t.abs() <= LARGEST_SERIES_ARGUMENT { moments_by_series(t) } else { moments_in_closed_form(t) };
     Phi { value: m0, first: Complex::new(-m1.im, m1.re), second: -m2 }

@@ -3,14 +3,14 @@
 use std::ops::{Add, Mul, Sub};
 
 /// Number of coefficients.
-pub const TERMS: usize = 5;
+pub(crate) const TERMS: usize = 5;
 
 /// The series `c[0] + c[1] a + c[2] a^2 + c[3] a^3 + c[4] a^4` in a parameter `a`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Taylor(pub [f64; TERMS]);
 
 /// A point that moves with the parameter: the series of its three coordinates.
-pub type Path = [Taylor; 3];
+pub(crate) type Path = [Taylor; 3];
 
 impl Add for Taylor {
     type Output = Self;
@@ -48,7 +48,7 @@ impl Taylor {
     }
 
     /// The square root; of a series that starts positive.
-    pub fn sqrt(self) -> Self {
+    pub(crate) fn sqrt(self) -> Self {
         let mut root = Self::default();
         root.0[0] = self.0[0].sqrt();
         for k in 1..TERMS {
@@ -59,7 +59,7 @@ impl Taylor {
     }
 
     /// `atan2(self, x)`, integrated from its derivative `(x y' - y x') / (x^2 + y^2)`.
-    pub fn atan2(self, x: Self) -> Self {
+    pub(crate) fn atan2(self, x: Self) -> Self {
         let rate = (x * self.derivative() - self * x.derivative()).over(x * x + self * self);
         let mut angle = Self::default();
         angle.0[0] = self.0[0].atan2(x.0[0]);
@@ -76,12 +76,12 @@ impl Taylor {
 }
 
 /// Difference of two points.
-pub fn difference(a: &Path, b: &Path) -> Path {
+pub(crate) fn difference(a: &Path, b: &Path) -> Path {
     std::array::from_fn(|axis| a[axis] - b[axis])
 }
 
 /// Scalar product.
-pub fn dot(a: &Path, b: &Path) -> Taylor {
+pub(crate) fn dot(a: &Path, b: &Path) -> Taylor {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 

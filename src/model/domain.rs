@@ -22,13 +22,12 @@ mod shared;
 
 use crate::math::Vec3;
 use crate::math::taylor::{Path, Taylor};
+pub use crate::sheet::tiling::Site;
 use nalgebra::{Matrix3, SMatrix, SVector};
 use recentre::{raise_axis, turn_back, unwind};
 use screw::ScrewMotion;
-pub use shared::{MOST_SHARED, Turns};
+pub(crate) use shared::{MOST_SHARED, Turns};
 use shared::{Pulled, SharedMatrix};
-
-pub use crate::sheet::tiling::Site;
 
 /// Where points come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +68,7 @@ impl Domain {
 
     /// Where a site is. `x` holds all coordinates, the shared ones last.
     #[inline]
-    pub fn point(&self, x: &[f64], site: Site) -> Vec3 {
+    pub(crate) fn point(&self, x: &[f64], site: Site) -> Vec3 {
         let v = vertex(x, site);
         let [n1, n2] = site.shift.map(f64::from);
         let shared = self.shared_of(x);
@@ -104,7 +103,7 @@ impl Domain {
     }
 
     /// Velocity of a site when all coordinates have these rates.
-    pub fn velocity(&self, x: &[f64], site: Site, rates: &[f64]) -> Vec3 {
+    pub(crate) fn velocity(&self, x: &[f64], site: Site, rates: &[f64]) -> Vec3 {
         let placed = self.place(x, site);
         let shared = &rates[rates.len() - self.shared()..];
         let by_shared: Vec3 = shared.iter().enumerate().map(|(k, rate)| placed.shared.column(k) * *rate).sum();
@@ -112,14 +111,14 @@ impl Domain {
     }
 
     /// A site on the path `x[0] + a x[1] + a^2 x[2]` of all coordinates. Not for screws, whose maps are not linear.
-    pub fn path(&self, x: &[&[f64]; 3], site: Site) -> Path {
+    pub(crate) fn path(&self, x: &[&[f64]; 3], site: Site) -> Path {
         let start = self.point(x[0], site);
         let [first, second] = [x[1], x[2]].map(|rates| self.velocity(x[0], site, rates));
         std::array::from_fn(|axis| Taylor([start[axis], first[axis], second[axis], 0.0, 0.0]))
     }
 
     /// Appends to `out` the gradient in the element's coordinates of a function whose gradient in its points is `g`.
-    pub fn pull_gradient<const N: usize, const D: usize>(
+    pub(crate) fn pull_gradient<const N: usize, const D: usize>(
         &self,
         x: &[f64],
         sites: &[Site; N],
@@ -140,7 +139,7 @@ impl Domain {
 
     /// Turns `lower`, the lower triangle, row by row, of the Hessian of a function in its points, where its gradient is `g`, into the
     /// one in the element's coordinates: `J^T H J` plus the curvature of the map itself, weighted by `g`.
-    pub fn pull_hessian<const N: usize, const D: usize>(
+    pub(crate) fn pull_hessian<const N: usize, const D: usize>(
         &self,
         x: &[f64],
         sites: &[Site; N],
@@ -181,12 +180,12 @@ impl Domain {
     }
 
     /// The screw motions of a state; `None` where there are none.
-    pub fn turns(&self, x: &[f64]) -> Option<Turns> {
+    pub(crate) fn turns(&self, x: &[f64]) -> Option<Turns> {
         matches!(self, Self::Screw).then(|| Turns::new(self.shared_of(x)))
     }
 
     /// Gives the axis of a screw this direction; nothing else changes.
-    pub fn point_axis(&self, x: &mut [f64], direction: f64) {
+    pub(crate) fn point_axis(&self, x: &mut [f64], direction: f64) {
         if matches!(self, Self::Screw) {
             let first = x.len() - self.shared();
             x[first] = direction;
@@ -194,7 +193,7 @@ impl Domain {
     }
 
     /// Gives a screw an axis of this direction and this curvature; its lattice and its vertices stay.
-    pub fn bend(&self, x: &mut [f64], direction: f64, kappa: f64) {
+    pub(crate) fn bend(&self, x: &mut [f64], direction: f64, kappa: f64) {
         if matches!(self, Self::Screw) {
             let first = x.len() - self.shared();
             (x[first], x[first + 1]) = (direction, kappa);
@@ -206,7 +205,7 @@ impl Domain {
     ///
     /// Curvature moves points by the square of lengths. The direction of the axis moves them as much, times the curvature; as long as
     /// that is not next to nothing it counts, so that both are known with the same error.
-    pub fn units(&self, x: &[f64], length: f64) -> Vec<f64> {
+    pub(crate) fn units(&self, x: &[f64], length: f64) -> Vec<f64> {
         let Some(Turns { kappa, .. }) = self.turns(x) else { return vec![] };
         let curvature = 1.0 / (length * length);
         vec![curvature / f64::max(kappa.abs(), STRAIGHT / length), curvature, 1.0, 1.0, 1.0, 1.0]
@@ -221,7 +220,7 @@ impl Domain {
     /// taken back by `2 pi` where it is clearly larger than `pi`; so is the direction of the axis. And the first lattice
     /// vector, whose y is held while the sheet moves, must not come to lie across x, where that would not keep the sheet
     /// from turning in the plane: then all is turned.
-    pub fn recentre(&self, x: &mut [f64], length: f64) -> bool {
+    pub(crate) fn recentre(&self, x: &mut [f64], length: f64) -> bool {
         if !matches!(self, Self::Screw) {
             return false;
         }

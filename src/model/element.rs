@@ -30,10 +30,10 @@ pub enum TermKind {
 
 impl TermKind {
     /// Every kind, in the order of a scene.
-    pub const ALL: [Self; 4] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks];
+    pub(crate) const ALL: [Self; 4] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks];
 
     /// The name that the scene has for this kind.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Bars => "bars",
             Self::Creases => "creases",
@@ -45,7 +45,7 @@ impl TermKind {
 
 /// One element: its points, its law, and the edge of the sheet to which it belongs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Element<const N: usize> {
+pub(crate) struct Element<const N: usize> {
     /// Its points in the order that the measure wants.
     pub sites: [Site; N],
     /// Its law.
@@ -56,7 +56,7 @@ pub struct Element<const N: usize> {
 
 /// Elements with one measure.
 #[derive(Clone, Debug)]
-pub struct Term<M, const N: usize, const D: usize> {
+pub(crate) struct Term<M, const N: usize, const D: usize> {
     /// What its elements are.
     pub kind: TermKind,
     /// The elements.
@@ -79,7 +79,7 @@ pub struct Local {
 
 impl Local {
     /// Derivatives by shared unknowns of these sizes instead of by the shared coordinates; none: as they are.
-    pub fn measure_in(&mut self, units: &[f64]) {
+    pub(crate) fn measure_in(&mut self, units: &[f64]) {
         if units.is_empty() {
             return;
         }
@@ -133,7 +133,7 @@ pub trait Elements: Send + Sync {
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
     /// A term of these elements; angles continue from their values at `x`.
-    pub fn new(kind: TermKind, elements: Vec<Element<N>>, domain: &Domain, x: &[f64]) -> Self {
+    pub(crate) fn new(kind: TermKind, elements: Vec<Element<N>>, domain: &Domain, x: &[f64]) -> Self {
         let mut term = Self { kind, elements, last: Vec::new(), measure: PhantomData };
         if M::ANGLE {
             term.last = term.elements.iter().map(|e| M::value(&domain.points(x, &e.sites))).collect();

@@ -16,13 +16,13 @@ const BALANCED: f64 = 1e-15;
 const NEUTRAL: f64 = 1e-9;
 
 /// Rates of a coordinate under the rigid motions.
-pub type Motion = SVector<f64, 6>;
+pub(crate) type Motion = SVector<f64, 6>;
 
 /// Rates of every coordinate under the rigid motions: translations in columns 0 to 2, rotations about the centroid,
 /// scaled by the size of the sheet, in columns 3 to 5 (zero where not wanted or where the
 /// domain cannot turn). A screw can turn in the plane of its axis alone: what stands against that, like vertex 0, is held
 /// by the drawn state itself.
-pub fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
+pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
     let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
     let centre = (0..vertices).map(point).sum::<Vec3>() / vertices as f64;
@@ -55,7 +55,7 @@ fn rows_of(translation: f64, arm: Vec3) -> [Motion; 3] {
 }
 
 /// Coordinates to hold, besides those already `held`, so that no rigid motion is left.
-pub fn choose(motions: &[Motion], held: &[bool]) -> Vec<usize> {
+pub(crate) fn choose(motions: &[Motion], held: &[bool]) -> Vec<usize> {
     let mut rows = motions.to_vec();
     let scale = rows.iter().map(|r| r.norm()).fold(0.0, f64::max);
     let mut chosen = Vec::new();
@@ -79,7 +79,7 @@ fn largest(rows: &[Motion], held: &[bool], wanted: bool) -> Option<(usize, Motio
 
 /// How well holding these coordinates separates the rigid motions: least over largest singular value of their rows, motions that the
 /// domain does not have left out.
-pub fn separation(motions: &[Motion], held: &[bool]) -> f64 {
+pub(crate) fn separation(motions: &[Motion], held: &[bool]) -> f64 {
     let had: Vec<usize> = (0..6).filter(|&motion| motions.iter().any(|row| row[motion] != 0.0)).collect();
     let kept: Vec<&Motion> = motions.iter().zip(held).filter_map(|(row, held)| held.then_some(row)).collect();
     let rows = nalgebra::DMatrix::from_fn(kept.len().max(had.len()), had.len(), |row, motion| {
@@ -90,7 +90,7 @@ pub fn separation(motions: &[Motion], held: &[bool]) -> f64 {
 
 /// Turn about the origin of the arms after which these forces do the most work on them, by Newton's method: the nearest one. Turns that
 /// change nothing are not made. `None` where the forces have no torque.
-pub fn turn_along(mut arms: Vec<(Vec3, Vec3)>) -> Option<Rotation3<f64>> {
+pub(crate) fn turn_along(mut arms: Vec<(Vec3, Vec3)>) -> Option<Rotation3<f64>> {
     let most: f64 = arms.iter().map(|(arm, force)| arm.norm() * force.norm()).sum();
     let mut turn = None;
     for _ in 0..TURNS {

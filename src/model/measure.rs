@@ -5,7 +5,7 @@ use crate::math::{Vec3, fold_angle};
 use nalgebra::SVector;
 
 /// A scalar of `N` points. `D = 3 N` is the number of their coordinates.
-pub trait Measure<const N: usize, const D: usize> {
+pub(crate) trait Measure<const N: usize, const D: usize> {
     /// Whether values are angles, known modulo 2 pi, that must continue from the last accepted state.
     const ANGLE: bool;
     /// Whether its points are `[i, j, left, right]` of a hinge and its Hessian does not couple `left` with `right`.
@@ -22,7 +22,7 @@ pub trait Measure<const N: usize, const D: usize> {
 
 /// Length of the bar between two points; not differentiable where they coincide.
 #[derive(Clone, Copy, Debug)]
-pub struct Length;
+pub(crate) struct Length;
 
 impl Measure<2, 6> for Length {
     const ANGLE: bool = false;
@@ -70,7 +70,7 @@ impl Measure<2, 6> for Length {
 
 /// Fold angle of the hinge `[i, j, left, right]`, see [`crate::math::fold_angle`].
 #[derive(Clone, Copy, Debug)]
-pub struct FoldAngle;
+pub(crate) struct FoldAngle;
 
 impl Measure<4, 12> for FoldAngle {
     const ANGLE: bool = true;

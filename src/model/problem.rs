@@ -1,23 +1,19 @@
 //! The model: terms on a domain, as the problem that the solver minimises.
 
 use super::domain::Domain;
-use super::element::{Elements, Local, Spring};
+use super::element::{Elements, Spring};
 use super::gauge;
 use crate::numerics::dense::small::shortest_solution;
-use crate::numerics::parallel;
 use crate::numerics::sparse::{Cliques, FIXED};
-use crate::numerics::vector::max_abs;
-use crate::solver::{HessianKind, Layout, Linearization, Problem, SoftElement};
+use crate::solver::{Layout, Problem};
 
 use std::ops::Range;
 use std::sync::Arc;
 
+mod energy;
 mod reference_state;
 mod turning;
 
-/// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is
-/// closer to rest than that, residuals are relative to the force of a milliradian instead of to round-off.
-const LEAST_ANGLE: f64 = 1e-3;
 /// Places of the coordinates of a hinge's wings among those of its element.
 pub(super) const LEFT_WING: Range<u32> = 6..9;
 pub(super) const RIGHT_WING: Range<u32> = 9..12;
@@ -61,7 +57,7 @@ pub enum Gauge {
 }
 
 /// What a model is made of.
-pub struct Parts {
+pub(crate) struct Parts {
     /// Where points come from.
     pub domain: Domain,
     /// Coordinates of the drawn state.
@@ -84,7 +80,7 @@ pub struct Parts {
 
 impl Model {
     /// Puts the parts together.
-    pub fn new(parts: Parts) -> Self {
+    pub(crate) fn new(parts: Parts) -> Self {
         let Parts { domain, drawn, soft, stiff, pinned, loads, edges, mean_edge, gauge } = parts;
         let springs = || stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term.is_angle(), term.spring(k))));
         let compliance = springs().map(|(_, spring)| 1.0 / spring.stiffness).collect();
@@ -134,7 +130,7 @@ impl Model {
 
     /// Whether what is held takes away the rigid motions of this state nearly as well as what would be chosen in it. Where it does
     /// not, it may hold a shape, and what looks like an equilibrium is none.
-    pub fn gauge_is_valid(&self, x: &[f64]) -> bool {
+    pub(crate) fn gauge_is_valid(&self, x: &[f64]) -> bool {
         if self.gauge == Gauge::Free {
             return true;
         }
@@ -145,7 +141,7 @@ impl Model {
 
     /// Puts another state in the place of the drawn one, and chooses in it what is held against rigid motions. Returns its unknowns:
     /// others than before.
-    pub fn rebase_gauge(&mut self, coordinates: Vec<f64>) -> Vec<f64> {
+    pub(crate) fn rebase_gauge(&mut self, coordinates: Vec<f64>) -> Vec<f64> {
         self.base = coordinates;
         self.choose_unknowns();
         let mut x = self.start();
@@ -183,7 +179,7 @@ impl Model {
 
     /// Velocities of all coordinates less the rigid motion of the drawn state that comes nearest to them on the held coordinates:
     /// where these are held only against drift, they stand still.
-    pub fn without_drift(&self, velocity: &[f64]) -> Vec<f64> {
+    pub(crate) fn without_drift(&self, velocity: &[f64]) -> Vec<f64> {
         let motions = gauge::rigid_motions(&self.domain, &self.base, true);
         let held: Vec<usize> = (0..velocity.len()).zip(self.held()).filter(|(_, held)| *held).map(|(k, _)| k).collect();
         let rows = nalgebra::DMatrix::from_fn(held.len(), 6, |row, motion| motions[held[row]][motion]);
@@ -207,7 +203,7 @@ impl Model {
     }
 
     /// Which coordinates are held.
-    pub fn held(&self) -> Vec<bool> {
+    pub(crate) fn held(&self) -> Vec<bool> {
         let mut held = vec![true; self.base.len()];
         self.free.iter().for_each(|&k| held[k as usize] = false);
         held
@@ -221,7 +217,7 @@ impl Model {
     }
 
     /// Whether forces pull at vertices, or pins hold some of them.
-    pub fn held_or_loaded(&self) -> bool {
+    pub(crate) fn held_or_loaded(&self) -> bool {
         !self.loads.is_empty() || (!matches!(self.domain, Domain::Screw) && !self.pinned.is_empty())
     }
 
@@ -231,7 +227,7 @@ impl Model {
     }
 
     /// The number of edges of the tiling, of which elements name some.
-    pub fn edges(&self) -> usize {
+    pub(crate) fn edges(&self) -> usize {
         self.edges
     }
 
@@ -246,7 +242,7 @@ impl Model {
     }
 
     /// Rest values of all elements, soft terms first.
-    pub fn rests(&self) -> Vec<f64> {
+    pub(crate) fn rests(&self) -> Vec<f64> {
         self.terms().flat_map(|term| (0..term.len()).map(|k| term.spring(k).rest)).collect()
     }
 
@@ -257,7 +253,7 @@ impl Model {
     }
 
     /// Sets the rest values to `origin + part (target - origin)`; the targets themselves at `part = 1`.
-    pub fn set_rests(&mut self, origin: &[f64], target: &[f64], part: f64) {
+    pub(crate) fn set_rests(&mut self, origin: &[f64], target: &[f64], part: f64) {
         let mut at = 0;
         for term in self.soft.iter_mut().chain(&mut self.stiff) {
             for k in 0..term.len() {
@@ -280,7 +276,7 @@ impl Model {
     }
 
     /// Angles of the last accepted state, from which angles continue.
-    pub fn angles(&self) -> Vec<f64> {
+    pub(crate) fn angles(&self) -> Vec<f64> {
         self.terms().flat_map(|term| term.angles().iter().copied()).collect()
     }
 
@@ -330,145 +326,4 @@ fn layout(
     used.dedup();
     blocks.iter_mut().for_each(|b| *b = used.binary_search(b).unwrap_or(0) as u32);
     Layout::new(blocks, collect(soft), collect(stiff))
-}
-
-/// Terms with the number of their first element among all of them.
-fn numbered(terms: &[Box<dyn Elements>]) -> impl Iterator<Item = (usize, &dyn Elements)> {
-    let mut end = 0;
-    terms.iter().map(move |term| {
-        end += term.len();
-        (end - term.len(), term.as_ref())
-    })
-}
-
-impl Problem for Model {
-    fn layout(&self) -> &Arc<Layout> {
-        &self.layout
-    }
-
-    fn compliance(&self) -> &[f64] {
-        &self.compliance
-    }
-
-    fn gap_scale(&self) -> &[f64] {
-        &self.gap_scale
-    }
-
-    fn unit_of_length(&self) -> f64 {
-        self.mean_edge
-    }
-
-    fn energy(&self, x: &[f64]) -> f64 {
-        let all = self.coordinates(x);
-        let mut energy = -self.loads.iter().zip(&all).map(|(f, x)| f * x).sum::<f64>();
-        for term in &self.soft {
-            let cost = |k: usize, energy: &mut f64| {
-                let spring = term.spring(k);
-                let off = term.value(k, &self.domain, &all) - spring.rest;
-                *energy = 0.5 * spring.stiffness * off * off;
-            };
-            parallel::compute_and_consume(term.len(), cost, |_, value| energy += value);
-        }
-        energy
-    }
-
-    fn gaps(&self, x: &[f64]) -> Vec<f64> {
-        let all = self.coordinates(x);
-        let mut gaps = Vec::with_capacity(self.compliance.len());
-        for term in &self.stiff {
-            let gap = |k: usize, gap: &mut f64| *gap = term.value(k, &self.domain, &all) - term.spring(k).rest;
-            parallel::compute_and_consume(term.len(), gap, |_, gap| gaps.push(*gap));
-        }
-        gaps
-    }
-
-    fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
-        let all = self.coordinates(x);
-        out.clear(kind);
-        self.linearize_loads(&all, out);
-        self.linearize_soft(&all, kind, out);
-        self.linearize_stiff(&all, tension, out);
-    }
-
-    fn accept(&mut self, x: &mut [f64]) {
-        let mut all = self.coordinates(x);
-        for term in self.soft.iter_mut().chain(&mut self.stiff) {
-            term.accept(&self.domain, &all);
-        }
-        let moved = self.domain.recentre(&mut all, self.mean_edge);
-        let units = self.units_at(&all);
-        if moved || units != self.units {
-            self.units = units;
-            x.copy_from_slice(&self.unknowns(&all));
-        }
-        if moved {
-            self.base = all;
-        }
-    }
-
-    fn hold(&self, tension: &[f64], out: &mut Linearization) {
-        self.hold_rotations(tension, out);
-    }
-
-    fn relieve(&mut self, x: &mut [f64]) -> f64 {
-        self.turn_along_loads(x)
-    }
-}
-
-impl Model {
-    fn linearize_loads(&self, all: &[f64], out: &mut Linearization) {
-        for (coordinate, force) in self.loads.iter().enumerate() {
-            out.energy -= force * all[coordinate];
-            out.largest_force = out.largest_force.max(force.abs());
-        }
-        if !self.loads.is_empty() {
-            self.free.iter().zip(&mut out.gradient).for_each(|(&k, g)| *g -= self.loads[k as usize]);
-        }
-    }
-
-    fn linearize_soft(&self, all: &[f64], kind: HessianKind, out: &mut Linearization) {
-        let full = kind == HessianKind::Full;
-        for (first, term) in numbered(&self.soft) {
-            let add = |k: usize, local: &Local| {
-                let spring = term.spring(k);
-                let off = local.value - spring.rest;
-                let force = spring.stiffness * off;
-                out.energy += 0.5 * force * off;
-                let largest = max_abs(&local.gradient);
-                out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
-                let (gradient, hessian) = (&local.gradient, &local.hessian);
-                out.add_soft(first + k, &SoftElement { stiffness: spring.stiffness, force, gradient, hessian });
-            };
-            parallel::compute_and_consume(term.len(), self.locals(term, all, full), add);
-        }
-    }
-
-    fn linearize_stiff(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
-        let sizes = self.gap_scale.iter().map(|scale| scale / self.mean_edge);
-        out.sizes.iter_mut().zip(sizes).for_each(|(out, size)| *out = size);
-        for (first, term) in numbered(&self.stiff) {
-            let add = |k: usize, local: &Local| {
-                let measure = first + k;
-                out.gaps[measure] = local.value - term.spring(k).rest;
-                let largest = max_abs(&local.gradient);
-                out.largest_force = out.largest_force.max(largest * tension[measure].abs());
-                out.jacobian[self.layout.stiff.range(measure)].copy_from_slice(&local.gradient);
-                out.add_stiff(measure, tension[measure], &local.hessian);
-            };
-            parallel::compute_and_consume(term.len(), self.locals(term, all, true), add);
-        }
-    }
-
-    /// Puts the measure of an element of this term at these coordinates, by the unknowns, in its place.
-    fn locals<'a>(
-        &'a self,
-        term: &'a dyn Elements,
-        all: &'a [f64],
-        want_hessian: bool,
-    ) -> impl Fn(usize, &mut Local) + Sync + Send + 'a {
-        move |k, local| {
-            term.local(k, &self.domain, all, want_hessian, local);
-            local.measure_in(&self.units);
-        }
-    }
 }

@@ -12,7 +12,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 pub type ComplexMatrix = DMatrix<Complex<f64>>;
 
 /// A complex vector.
-pub type ComplexVector = DVector<Complex<f64>>;
+pub(crate) type ComplexVector = DVector<Complex<f64>>;
 
 /// `matrix = u * diag(singular_values) * v^H` of a square matrix.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ pub struct ComplexSvd {
 ///
 /// # Panics
 /// Panics where the matrix is not square.
-pub fn determinant(mut matrix: ComplexMatrix) -> Complex<f64> {
+pub(crate) fn determinant(mut matrix: ComplexMatrix) -> Complex<f64> {
     assert!(matrix.is_square(), "a determinant is that of a square matrix");
     let n = matrix.nrows();
     let mut product = Complex::new(1.0, 0.0);
@@ -64,7 +64,7 @@ fn eliminate(entries: &mut [Complex<f64>], n: usize, k: usize) {
 
 /// The solutions `y` of `A^H y = right` and `x` of `A x = right`, in this order, from one elimination with row pivots;
 /// `None` where the square matrix `A` is singular or a solution is not finite.
-pub fn solve_with_adjoint(matrix: ComplexMatrix, right: &ComplexVector) -> Option<[ComplexVector; 2]> {
+pub(crate) fn solve_with_adjoint(matrix: ComplexMatrix, right: &ComplexVector) -> Option<[ComplexVector; 2]> {
     let (rows, lower, upper) = matrix.lu().unpack();
     let (mut adjoint, mut solution) = (right.clone(), right.clone());
     rows.permute_rows(&mut solution);
@@ -99,7 +99,7 @@ pub fn eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<Complex<f64>>, DenseErr
 ///
 /// # Errors
 /// As [`eigenvalues`].
-pub fn hermitian_eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<f64>, DenseError> {
+pub(crate) fn hermitian_eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<f64>, DenseError> {
     let (rows, columns) = check(matrix)?;
     let mut values = vec![Complex::ZERO; rows];
     if rows > 0 {

@@ -17,7 +17,7 @@ const RELATIVE_RESIDUAL: f64 = 1e-13;
 
 /// The reason for which no eigenpairs were found.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
-pub enum EigenError {
+pub(crate) enum EigenError {
     /// The iteration did not find them all, or its memory is too large.
     #[error(transparent)]
     Factor(#[from] FactorError),
@@ -76,7 +76,7 @@ impl<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send> LinOp<f64> for Operator<F> {
 /// # Errors
 /// [`EigenError::Stopped`] where `product` gives `None`. [`EigenError::Factor`] where a product is not finite, where
 /// the iteration does not find all eigenpairs, and where the operator is too small for its `4 count + 64` vectors.
-pub fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
+pub(crate) fn largest<F: FnMut(&[f64]) -> Option<Vec<f64>> + Send>(
     size: usize,
     count: usize,
     product: F,

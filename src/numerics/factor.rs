@@ -70,7 +70,7 @@ pub struct Inertia {
 /// The symbolic analysis of a pattern: the order of elimination and the pattern of the factor. Shared by all its
 /// factorizations.
 #[derive(Clone, Debug)]
-pub struct Symbolic {
+pub(crate) struct Symbolic {
     size: usize,
     /// `None` for a small matrix, which is factored dense.
     sparse: Option<Arc<SymbolicCholesky<u32>>>,
@@ -107,7 +107,7 @@ impl Factor {
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where there is not enough memory.
-    pub fn of(symbolic: &Symbolic) -> Result<Self, FactorError> {
+    pub(crate) fn of(symbolic: &Symbolic) -> Result<Self, FactorError> {
         let kind = match &symbolic.sparse {
             None => Kind::Dense(None),
             Some(sparse) => Kind::Sparse(Box::new(Sparse::new(sparse.clone())?)),
@@ -158,7 +158,7 @@ impl Symbolic {
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
-    pub fn new(pattern: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
+    pub(crate) fn new(pattern: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         if pattern.size() <= DENSE_LIMIT {
             return Ok(Self { size: pattern.size(), sparse: None });
         }

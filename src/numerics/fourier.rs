@@ -17,7 +17,7 @@ use rustfft::FftPlanner;
 ///
 /// Exponents are known modulo `n1` and `n2` only: `c_mn` stands at row `m`, column `n` for `0 <= m < n1`, `0 <= n <
 /// n2`.
-pub fn coefficients(values: &ComplexMatrix) -> ComplexMatrix {
+pub(crate) fn coefficients(values: &ComplexMatrix) -> ComplexMatrix {
     let mut planner = FftPlanner::new();
     let [rows, columns] = [values.nrows(), values.ncols()];
     let mut found = values.clone();

@@ -121,7 +121,7 @@ impl Executor {
 /// on the calling thread. Loops of fewer than [`FEWEST_SHARED_ELEMENTS`] stay on the calling thread altogether.
 ///
 /// A result is used again for a later `k`, so that what it owns is not allocated anew.
-pub fn compute_and_consume<T: Default + Send>(
+pub(crate) fn compute_and_consume<T: Default + Send>(
     count: usize,
     compute: impl Fn(usize, &mut T) + Sync + Send,
     mut consume: impl FnMut(usize, &T),

@@ -11,7 +11,7 @@ const MOST_STEPS: usize = 8;
 
 /// The roots of a polynomial whose degree is one less than its number of coefficients.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Roots {
+pub(crate) struct Roots {
     /// The roots that are neither zero nor infinite, in no order.
     pub finite: Vec<Complex<f64>>,
     /// Number of roots that are zero.
@@ -24,7 +24,7 @@ pub struct Roots {
 ///
 /// # Errors
 /// [`DenseError`] on a coefficient that is not finite, and where all are zero.
-pub fn roots(coefficients: &[Complex<f64>]) -> Result<Roots, DenseError> {
+pub(crate) fn roots(coefficients: &[Complex<f64>]) -> Result<Roots, DenseError> {
     let largest = coefficients.iter().map(|c| c.norm()).fold(0.0, f64::max);
     let there = |c: &Complex<f64>| c.norm() > ZERO_COEFFICIENT * largest || !c.norm().is_finite();
     let (Some(first), Some(last)) = (coefficients.iter().position(there), coefficients.iter().rposition(there)) else {
@@ -57,7 +57,7 @@ fn polished(coefficients: &[Complex<f64>], mut root: Complex<f64>) -> Complex<f6
 }
 
 /// The value `p(z)` and the derivative `p'(z)` of a polynomial.
-pub fn value_and_slope(coefficients: &[Complex<f64>], z: Complex<f64>) -> [Complex<f64>; 2] {
+pub(crate) fn value_and_slope(coefficients: &[Complex<f64>], z: Complex<f64>) -> [Complex<f64>; 2] {
     coefficients
         .iter()
         .rev()

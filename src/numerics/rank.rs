@@ -13,7 +13,7 @@ use super::vector::max_abs;
 ///
 /// # Errors
 /// [`FactorError`] where the matrix of the count cannot be factored.
-pub fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> Result<usize, FactorError> {
+pub(crate) fn count_above(rows: &Rows<'_>, columns: usize, node: &[u32], tau: f64) -> Result<usize, FactorError> {
     let count = rows.cliques.len();
     let size = columns + count;
     let mut cliques = Cliques::new();
@@ -55,7 +55,7 @@ const SLOWEST_CONTRACTION: f64 = 0.9;
 ///
 /// # Errors
 /// [`FactorError`] where the regularised matrix cannot be factored.
-pub fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) -> Result<Vec<f64>, FactorError> {
+pub(crate) fn without_null(rows: &Rows<'_>, columns: usize, node: &[u32], t: &[f64]) -> Result<Vec<f64>, FactorError> {
     let pattern = SparsityPattern::new(columns, &[rows.cliques]);
     let slots = Slots::new(&pattern, rows.cliques);
     let mut values = vec![0.0; pattern.entries()];

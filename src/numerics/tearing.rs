@@ -67,7 +67,7 @@ impl Tearing {
     ///
     /// # Errors
     /// [`FactorError::TooLarge`] where memory or indices run out.
-    pub fn new(whole: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
+    pub(crate) fn new(whole: &SparsityPattern, node: &[u32], cliques: &[&Cliques]) -> Result<Self, FactorError> {
         if whole.size() <= DENSE_LIMIT {
             let as_they_are = Numbers { open: vec![], whole: (0..whole.size() as u32).collect() };
             return Self::torn(whole, node, cliques, vec![], as_they_are);

@@ -20,22 +20,22 @@ pub fn max_abs(v: &[f64]) -> f64 {
 }
 
 /// Scalar product, summed in order.
-pub fn dot(v: &[f64], w: &[f64]) -> f64 {
+pub(crate) fn dot(v: &[f64], w: &[f64]) -> f64 {
     v.iter().zip(w).map(|(v, w)| v * w).sum()
 }
 
 /// Euclidean norm, squares summed in order.
-pub fn norm(v: &[f64]) -> f64 {
+pub(crate) fn norm(v: &[f64]) -> f64 {
     dot(v, v).sqrt()
 }
 
 /// Scalar product for long vectors, in eight sums at a time: several times as fast as [`dot`], and rounded differently.
-pub fn dot_blocked(v: &[f64], w: &[f64]) -> f64 {
+pub(crate) fn dot_blocked(v: &[f64], w: &[f64]) -> f64 {
     DVectorView::from_slice(v, v.len()).dot(&DVectorView::from_slice(w, w.len()))
 }
 
 /// Euclidean norm of a long vector, see [`dot_blocked`].
-pub fn norm_blocked(v: &[f64]) -> f64 {
+pub(crate) fn norm_blocked(v: &[f64]) -> f64 {
     dot_blocked(v, v).sqrt()
 }
 
@@ -45,17 +45,17 @@ pub fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Adds `factor * step` to `v`.
-pub fn add_scaled(v: &mut [f64], factor: f64, step: &[f64]) {
+pub(crate) fn add_scaled(v: &mut [f64], factor: f64, step: &[f64]) {
     v.iter_mut().zip(step).for_each(|(v, step)| *v += factor * step);
 }
 
 /// The point `v + factor * step`.
-pub fn moved(v: &[f64], factor: f64, step: &[f64]) -> Vec<f64> {
+pub(crate) fn moved(v: &[f64], factor: f64, step: &[f64]) -> Vec<f64> {
     v.iter().zip(step).map(|(v, step)| v + factor * step).collect()
 }
 
 /// Divides a vector by its norm.
-pub fn normalize(v: &mut [f64]) {
+pub(crate) fn normalize(v: &mut [f64]) {
     let length = norm(v);
     v.iter_mut().for_each(|entry| *entry /= length);
 }

@@ -61,7 +61,7 @@ impl Artifact {
     ///
     /// # Errors
     /// [`OutputError::Shape`] where parts do not fit together, [`OutputError::Write`] where it cannot be written.
-    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+    pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
         match self {
             Self::Table(table) => table.write(path),
             Self::State(picture) => vtk::write_vtu(path, picture),

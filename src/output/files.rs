@@ -11,7 +11,6 @@ use std::path::Path;
 use tempfile::NamedTempFile;
 
 use super::OutputError;
-use super::fault::ShapeError;
 
 /// The ending of files on their way.
 const DRAFT_ENDING: &str = ".part";
@@ -24,19 +23,11 @@ pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), OutputError>
     write_with(path, |file| file.write_all(contents.as_ref()))
 }
 
-/// Writes a figure, with the folders it needs.
-///
-/// # Errors
-/// [`OutputError::Shape`] where there is none because what it should show does not fit together, [`OutputError::Write`].
-pub fn write_figure(path: &Path, figure: Result<String, ShapeError>) -> Result<(), OutputError> {
-    write(path, figure.map_err(|fault| OutputError::Shape { path: path.into(), fault })?)
-}
-
 /// Writes what `fill` puts into a file, with the folders it needs.
 ///
 /// # Errors
 /// [`OutputError::Write`], also where `fill` fails; then the file is as it was before.
-pub fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
+pub(crate) fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
     replace(path, fill).map_err(|source| OutputError::Write { path: path.into(), source })
 }
 
@@ -73,7 +64,7 @@ fn draft(path: &Path) -> io::Result<NamedTempFile> {
 
 /// Removes what programs that were stopped have left in a folder on its way; nothing else, and no folder is no fault. Where
 /// files cannot be locked, it stays.
-pub fn remove_drafts(folder: &Path) {
+pub(crate) fn remove_drafts(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         if is_draft(&entry.file_name().to_string_lossy()) {
             let _ = remove_unlocked(&entry.path());
@@ -82,7 +73,7 @@ pub fn remove_drafts(folder: &Path) {
 }
 
 /// Removes what this program itself has on its way in a folder, before it ends without waiting for its other threads.
-pub fn remove_own_drafts(folder: &Path) {
+pub(crate) fn remove_own_drafts(folder: &Path) {
     let own = format!(".{}-", std::process::id());
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();

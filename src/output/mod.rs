@@ -2,16 +2,16 @@
 //!
 //! Every writer goes through [`files`]: a file appears whole or not at all.
 
-pub mod artifact;
-pub mod error;
-pub mod fault;
+pub(crate) mod artifact;
+pub(crate) mod error;
+pub(crate) mod fault;
 pub mod figure;
 pub mod files;
 pub mod picture;
 pub mod schema;
-pub mod strain_space;
+pub(crate) mod strain_space;
 pub mod summary;
-pub mod table;
+pub(crate) mod table;
 pub mod vtk;
 
 pub use error::OutputError;

@@ -71,12 +71,12 @@ impl Picture {
     }
 
     /// The picture with those triangles marked that pass through others.
-    pub fn with_crossing(self, faces: &[bool]) -> Self {
+    pub(crate) fn with_crossing(self, faces: &[bool]) -> Self {
         Self { self_intersecting: faces.iter().map(|&face| u8::from(face)).collect(), ..self }
     }
 
     /// The drawn state of a sheet: one cell, or all of a finite sheet, with the images its faces need.
-    pub fn drawn(sheet: &Sheet) -> Self {
+    pub(crate) fn drawn(sheet: &Sheet) -> Self {
         let mut corners: Vec<Corner> = sheet.triangles.iter().flat_map(|t| t.corners).collect();
         corners.sort_unstable_by_key(|corner| (corner.shift, corner.vertex));
         corners.dedup();
@@ -113,7 +113,7 @@ impl Picture {
     }
 
     /// The picture with its points moved along their displacements, the largest of them by `part` of the sheet's size.
-    pub fn displaced(&self, part: f64) -> Self {
+    pub(crate) fn displaced(&self, part: f64) -> Self {
         let size = self.points.iter().map(|p| (p - self.points[0]).norm()).fold(0.0, f64::max);
         let largest = self.displacement.iter().map(Vec3::norm).fold(f64::MIN_POSITIVE, f64::max);
         let moved = self.points.iter().zip(&self.displacement).map(|(p, u)| p + u * (part * size / largest));
@@ -124,7 +124,7 @@ impl Picture {
     ///
     /// # Errors
     /// The first array or index that does not fit.
-    pub fn check(&self) -> Result<(), ShapeError> {
+    pub(crate) fn check(&self) -> Result<(), ShapeError> {
         let (points, faces, lines) = (self.points.len(), self.triangles.len(), self.lines.len());
         let arrays = [
             ("displacement", self.displacement.len(), points),
@@ -155,7 +155,7 @@ pub(super) mod samples {
     use super::*;
 
     /// Two triangles folded by `angle` along an edge of unit length: a crease and four edges of the boundary.
-    pub fn hinge(angle: f64) -> Picture {
+    pub(crate) fn hinge(angle: f64) -> Picture {
         let points = vec![
             Vec3::zeros(),
             Vec3::new(0.0, 1.0, 0.0),

@@ -27,7 +27,7 @@ impl StrainSurface {
     ///
     /// # Errors
     /// The first array of a wrong length, or a triangle with a point that is not there.
-    pub fn check(&self) -> Result<(), ShapeError> {
+    pub(crate) fn check(&self) -> Result<(), ShapeError> {
         let expected = self.points.len();
         let folds = self.folds.iter().map(|(_, angles)| ("fold", angles.len()));
         let lengths = [("curvature", self.curvature.len()), ("theta", self.theta.len())].into_iter().chain(folds);
@@ -49,7 +49,7 @@ pub(super) mod samples {
     use super::*;
 
     /// `n` x `n` states on a saddle, its curvature along x.
-    pub fn cap(n: usize) -> StrainSurface {
+    pub(crate) fn cap(n: usize) -> StrainSurface {
         let place = |k: usize| [k % n, k / n].map(|k| 2.0 * k as f64 / (n - 1) as f64 - 1.0);
         let squares = (0..n * n).filter(|k| k % n + 1 < n && k / n + 1 < n);
         let points: Vec<[f64; 2]> = (0..n * n).map(place).collect();

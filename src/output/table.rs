@@ -15,7 +15,7 @@ use crate::sheet::EdgeKey;
 ///
 /// # Errors
 /// [`OutputError::Read`].
-pub fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
+pub(crate) fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
     let text = std::fs::read_to_string(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
@@ -30,7 +30,7 @@ pub fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>, Output
 
 /// A value of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Value {
+pub(crate) enum Value {
     /// Not computed.
     Empty,
     /// A whole number.
@@ -48,13 +48,13 @@ pub struct Table {
 
 impl Table {
     /// A table without rows.
-    pub fn new(header: Vec<String>) -> Self {
+    pub(crate) fn new(header: Vec<String>) -> Self {
         Self { header, rows: Vec::new() }
     }
 
     /// The table of the states of a study: its columns are those of [`StateRow`], the edges of the cell last. The error to
     /// the exact kinematics has a column where some state knows it.
-    pub fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
+    pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
         let columns = StateRow::COLUMNS.iter().copied().chain(compared.then_some("error_to_kinematic"));
         let fold = edges.iter().map(Self::fold_column);
@@ -63,12 +63,12 @@ impl Table {
     }
 
     /// The name of the column with the fold angle of an edge.
-    pub fn fold_column(edge: &EdgeKey) -> String {
+    pub(crate) fn fold_column(edge: &EdgeKey) -> String {
         format!("fold_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }
 
     /// Adds a row.
-    pub fn push(&mut self, row: Vec<Value>) {
+    pub(crate) fn push(&mut self, row: Vec<Value>) {
         self.rows.push(row);
     }
 
@@ -76,7 +76,7 @@ impl Table {
     ///
     /// # Errors
     /// [`OutputError::Shape`] where a row does not have a value for every column, [`OutputError::Write`].
-    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+    pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
         let text = self.to_csv().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
         files::write(path, text)
     }
@@ -131,7 +131,7 @@ impl From<Option<i64>> for Value {
 
 /// A state in the table of a study; what is `None` was not computed.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct StateRow {
+pub(crate) struct StateRow {
     /// Number of the branch on which the state lies.
     pub branch: Option<i64>,
     /// Which way along the branch, +1 or -1.
@@ -162,7 +162,7 @@ pub struct StateRow {
 
 impl StateRow {
     /// The columns before the fold angles.
-    pub const COLUMNS: [&str; 17] = [
+    pub(crate) const COLUMNS: [&str; 17] = [
         "branch",
         "sign",
         "step",

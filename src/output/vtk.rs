@@ -61,7 +61,7 @@ pub fn write_vtu(path: &Path, picture: &Picture) -> Result<(), OutputError> {
 ///
 /// # Errors
 /// [`OutputError::Shape`] where the arrays do not fit together, [`OutputError::Write`].
-pub fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError> {
+pub(crate) fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError> {
     surface.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
     let polys = VertexNumbers::XML {
         connectivity: surface.triangles.iter().flatten().map(|&point| point as u64).collect(),
@@ -88,7 +88,7 @@ pub fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError
 ///
 /// # Errors
 /// [`OutputError::Shape`] where an array has not one number for each point, [`OutputError::Write`].
-pub fn write_surface(
+pub(crate) fn write_surface(
     path: &Path,
     points: &[Vec3],
     (triangles, curves): (&[[usize; 3]], &[Vec<usize>]),
@@ -120,7 +120,7 @@ pub fn write_surface(
 ///
 /// # Errors
 /// [`OutputError::Shape`] where an array has not one number for each curve, [`OutputError::Write`].
-pub fn write_curves(
+pub(crate) fn write_curves(
     path: &Path,
     curves: &[Vec<[f64; 2]>],
     arrays: &[(&'static str, Vec<i32>)],
@@ -146,7 +146,7 @@ pub fn write_curves(
 ///
 /// # Errors
 /// [`OutputError::Shape`] where an array has not one number for each point, [`OutputError::Write`].
-pub fn write_vti(
+pub(crate) fn write_vti(
     path: &Path,
     size: [usize; 2],
     [origin, spacing]: [[f64; 2]; 2],
@@ -254,7 +254,7 @@ fn array(name: &str, elem: ElementType, data: IOBuffer) -> Attribute {
 ///
 /// # Errors
 /// [`OutputError::Write`].
-pub fn write_pvd(path: &Path, states: &[(f64, String)]) -> Result<(), OutputError> {
+pub(crate) fn write_pvd(path: &Path, states: &[(f64, String)]) -> Result<(), OutputError> {
     files::write(path, pvd(states))
 }
 

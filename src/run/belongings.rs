@@ -11,7 +11,7 @@ use crate::scene::outputs::{is_one_of, outputs, owned};
 use crate::scene::{Fingerprint, SceneFile};
 
 /// Which file belongs to which study.
-pub struct Belongings {
+pub(crate) struct Belongings {
     out: PathBuf,
     /// The study that can write a file, for files outside of the folders of studies.
     writers: HashMap<String, String>,
@@ -21,7 +21,7 @@ pub struct Belongings {
 
 impl Belongings {
     /// Of the studies of a scene in the folder `out`.
-    pub fn new(file: &SceneFile, out: &Path) -> Self {
+    pub(crate) fn new(file: &SceneFile, out: &Path) -> Self {
         let studies = file.scene.studies.iter();
         let writers =
             studies.flat_map(|study| outputs(study).into_iter().map(|file| (file, study.name.0.clone()))).collect();
@@ -49,7 +49,7 @@ impl Belongings {
     ///
     /// # Errors
     /// [`OutputError::Write`]: a file that stays would pass for one of this run.
-    pub fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) -> Result<(), OutputError> {
+    pub(crate) fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) -> Result<(), OutputError> {
         let old = self.present(name).into_iter().map(|file| self.out.join(file));
         let old: Vec<PathBuf> = old.filter(|path| !written.contains(path)).collect();
         for path in &old {
@@ -71,7 +71,7 @@ impl Belongings {
     ///
     /// # Errors
     /// [`OutputError::Read`].
-    pub fn record(&self, name: &str) -> Result<Files, OutputError> {
+    pub(crate) fn record(&self, name: &str) -> Result<Files, OutputError> {
         let (mut digest, mut files) = (Fingerprint::default(), Files::default());
         for file in self.present(name) {
             let path = self.out.join(&file);

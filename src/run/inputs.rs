@@ -45,7 +45,7 @@ fn inputs(file: &SceneFile) -> Vec<Input> {
 }
 
 /// Where the files that a scene reads really are, the scene itself among them.
-pub fn real_paths(file: &SceneFile) -> HashSet<PathBuf> {
+pub(crate) fn real_paths(file: &SceneFile) -> HashSet<PathBuf> {
     inputs(file).into_iter().map(|input| input.real).collect()
 }
 
@@ -53,7 +53,7 @@ pub fn real_paths(file: &SceneFile) -> HashSet<PathBuf> {
 ///
 /// # Errors
 /// [`SceneError::At`] the study that would write it.
-pub fn check(file: &SceneFile, out: &Path) -> Result<(), SceneError> {
+pub(crate) fn check(file: &SceneFile, out: &Path) -> Result<(), SceneError> {
     if !out.exists() {
         return Ok(());
     }

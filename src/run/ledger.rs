@@ -124,4 +124,4 @@ impl Entries {
 }
 
 /// Why a study that was stopped gave no answer.
-pub const INTERRUPTED: &str = "interrupted";
+pub(crate) const INTERRUPTED: &str = "interrupted";

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 /// The parts of an earlier `summary.json` that matter here.
 #[derive(Default, Deserialize)]
-pub struct PreviousRun {
+pub(crate) struct PreviousRun {
     digest: String,
     /// One by one: what cannot be read of one study, such as a number that is none, costs no other.
     studies: Vec<Box<RawValue>>,
@@ -31,20 +31,20 @@ pub struct PreviousRun {
 
 impl PreviousRun {
     /// The earlier run into this folder, where it was of the scene with this digest; otherwise nothing.
-    pub fn read(out: &Path, digest: &str) -> Self {
+    pub(crate) fn read(out: &Path, digest: &str) -> Self {
         let text = std::fs::read_to_string(out.join("summary.json")).unwrap_or_default();
         let found: Option<Self> = serde_json::from_str(&text).ok();
         found.filter(|earlier| earlier.digest == digest).unwrap_or_default()
     }
 
     /// Whether there was one.
-    pub fn is_of_this_scene(&self) -> bool {
+    pub(crate) fn is_of_this_scene(&self) -> bool {
         !self.digest.is_empty()
     }
 
     /// What the earlier run found for a study, and the state it left where later studies start from it; `None` where it
     /// has to be computed.
-    pub fn study(
+    pub(crate) fn study(
         &self,
         file: &SceneFile,
         (out, files): (&Path, &Belongings),
@@ -63,7 +63,7 @@ impl PreviousRun {
 }
 
 /// Whether a later study starts from this one.
-pub fn is_start(file: &SceneFile, name: &str) -> bool {
+pub(crate) fn is_start(file: &SceneFile, name: &str) -> bool {
     file.scene.studies.iter().any(|study| match &*study.kind {
         StudyKind::Relax(RelaxSpec { start, .. }) | StudyKind::Bloch(BlochSpec { start, .. }) => {
             matches!(start.as_deref(), Some(StartSpec::Study(start)) if start == name)
@@ -77,7 +77,7 @@ pub fn is_start(file: &SceneFile, name: &str) -> bool {
 ///
 /// # Errors
 /// [`OutputError`] where the table cannot be read.
-pub fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<PathPoint>>>, OutputError> {
+pub(crate) fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<PathPoint>>>, OutputError> {
     const COLUMNS: [&str; 8] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12", "theta1", "theta2"];
     if !matches!(*study.kind, StudyKind::Trace(_)) {
         return Ok(None);
@@ -101,7 +101,7 @@ fn read_state(out: &Path, name: &str) -> Option<SavedState> {
 }
 
 /// Writes the state of a study if a later one starts from it.
-pub fn write_state(file: &SceneFile, out: &Path, name: &str, state: &SavedState) -> Result<(), RunError> {
+pub(crate) fn write_state(file: &SceneFile, out: &Path, name: &str, state: &SavedState) -> Result<(), RunError> {
     if !is_start(file, name) {
         return Ok(());
     }

@@ -21,7 +21,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// One run.
-pub struct Runner<'a> {
+pub(crate) struct Runner<'a> {
     file: &'a SceneFile,
     assembly: &'a Assembly,
     view: ShownCells,
@@ -45,7 +45,7 @@ impl<'a> Runner<'a> {
     ///
     /// The summary is written at once, with what is kept: a later run must not take files of this one for those of an
     /// earlier scene.
-    pub fn new(
+    pub(crate) fn new(
         file: &'a SceneFile,
         assembly: &'a Assembly,
         options: &RunOptions,
@@ -99,7 +99,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Computes one study and writes its files; what an earlier run left of it goes. A study that is kept is left as it is.
-    pub fn study(&mut self, study: &StudySpec) -> Result<(), RunError> {
+    pub(crate) fn study(&mut self, study: &StudySpec) -> Result<(), RunError> {
         if self.kept.contains(&study.name.0) {
             return Ok(());
         }
@@ -157,7 +157,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Whether the observer asked to stop.
-    pub fn interrupted(&self) -> bool {
+    pub(crate) fn interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
 
@@ -169,7 +169,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Ends the run.
-    pub fn finish(self) -> Result<RunReport, RunError> {
+    pub(crate) fn finish(self) -> Result<RunReport, RunError> {
         self.ledger.end(self.interrupted())
     }
 }

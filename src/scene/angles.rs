@@ -12,7 +12,7 @@ use crate::sheet::EdgeKey;
 
 /// A row of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AngleRow {
+pub(crate) struct AngleRow {
     /// The cell in which the crease `key` starts (at its vertex `key.i`); `None`: every cell.
     pub cell: Option<[usize; 2]>,
     /// The edge, by its canonical name.
@@ -27,7 +27,7 @@ pub struct AngleRow {
 ///
 /// # Errors
 /// [`SceneError::Read`], or [`SceneError::Table`] with the line.
-pub fn read_angles(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
+pub(crate) fn read_angles(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
     read(path, "angle")
 }
 
@@ -35,7 +35,7 @@ pub fn read_angles(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
 ///
 /// # Errors
 /// As [`read_angles`].
-pub fn read_rates(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
+pub(crate) fn read_rates(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
     read(path, "rate")
 }
 

@@ -29,7 +29,7 @@ pub fn assembly(file: &SceneFile) -> Result<Assembly, SceneError> {
 }
 
 /// What is to be said about a scene before its studies.
-pub fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
+pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
     super::turns::notes(file, assembly.terms())
 }
 
@@ -37,7 +37,7 @@ pub fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
 ///
 /// # Errors
 /// [`SceneError`] where the table cannot be read, names an edge that does not fold, or lacks a crease.
-pub fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
+pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
     Reader::new(file, assembly).rates(name)
 }
 

@@ -15,7 +15,7 @@ use super::{SceneError, SceneFile};
 ///
 /// # Errors
 /// [`SceneError::Read`] where one of the files cannot be read.
-pub fn digest(file: &SceneFile) -> Result<String, SceneError> {
+pub(crate) fn digest(file: &SceneFile) -> Result<String, SceneError> {
     let mut hash = Fingerprint::default();
     hash.add(env!("CARGO_PKG_VERSION").as_bytes());
     hash.add(file.text().as_bytes());
@@ -27,7 +27,7 @@ pub fn digest(file: &SceneFile) -> Result<String, SceneError> {
 
 /// The hash FNV-1a of 64 bits; written as sixteen hexadecimal digits.
 #[derive(Clone, Copy, Debug)]
-pub struct Fingerprint(u64);
+pub(crate) struct Fingerprint(u64);
 
 impl Default for Fingerprint {
     fn default() -> Self {
@@ -37,7 +37,7 @@ impl Default for Fingerprint {
 
 impl Fingerprint {
     /// Takes in bytes, their number first, so that bytes moved from one file to the next make a difference.
-    pub fn add(&mut self, bytes: &[u8]) {
+    pub(crate) fn add(&mut self, bytes: &[u8]) {
         for &byte in (bytes.len() as u64).to_le_bytes().iter().chain(bytes) {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
@@ -51,7 +51,7 @@ impl fmt::Display for Fingerprint {
 }
 
 /// The files that a scene names, in the order in which it names them.
-pub fn named_files(file: &SceneFile) -> Vec<PathBuf> {
+pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     let scene = &file.scene;
     let rates = |mode: &Mode| match mode {
         Mode::Rates(name) => Some(name.rates.to_path_buf()),

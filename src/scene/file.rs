@@ -30,7 +30,7 @@ impl SceneFile {
     }
 
     /// The scene file, as it was named to [`read`](super::read) or [`parse`](super::parse).
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
@@ -40,7 +40,7 @@ impl SceneFile {
     }
 
     /// The title, or the name of the file without its ending.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         let stem = || self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         self.scene.title.clone().unwrap_or_else(stem)
     }

@@ -3,23 +3,23 @@
 //! A scene is TOML. [`read`] gives a [`SceneFile`]: typed values ([`spec`]), each with its place in the text, so that
 //! whoever finds a fault later can point at it with [`SceneFile::error_at`].
 
-pub mod angles;
+pub(crate) mod angles;
 pub mod build;
 mod checks;
 mod digest;
-pub mod error;
+pub(crate) mod error;
 mod file;
-pub mod forms;
+pub(crate) mod forms;
 mod located;
 mod memory;
-pub mod outputs;
+pub(crate) mod outputs;
 mod parse;
 mod schema;
-pub mod spec;
+pub(crate) mod spec;
 mod turns;
-pub mod values;
+pub(crate) mod values;
 
-pub use digest::{Fingerprint, digest, named_files};
+pub(crate) use digest::{Fingerprint, digest, named_files};
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use located::Located;

@@ -14,7 +14,7 @@ const BANDS: &[&str] = &["@_bands.csv"];
 const WELLS: &[&str] = &["@-barriers.csv"];
 
 /// The files that a study can write as the scene asks for it.
-pub fn outputs(study: &StudySpec) -> Vec<String> {
+pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
     let own: [&[&str]; 2] = match &*study.kind {
         StudyKind::Trace(_) => [TRACE, &[]],
         StudyKind::Surface(_) => [SURFACE, &[]],
@@ -28,7 +28,7 @@ pub fn outputs(study: &StudySpec) -> Vec<String> {
 }
 
 /// The files that a study of this name can have written, whatever its kind was.
-pub fn owned(name: &str) -> Vec<String> {
+pub(crate) fn owned(name: &str) -> Vec<String> {
     let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS].into_iter().flatten();
     named(name, ANY.iter().chain(others))
 }
@@ -38,7 +38,7 @@ fn named<'a>(name: &str, files: impl Iterator<Item = &'a &'a str>) -> Vec<String
 }
 
 /// Whether a file is one of a list, a number in the place of `#`.
-pub fn is_one_of(files: &[String], file: &str) -> bool {
+pub(crate) fn is_one_of(files: &[String], file: &str) -> bool {
     files.iter().any(|listed| match listed.split_once('#') {
         None => listed == file,
         Some((start, end)) => {

@@ -85,12 +85,12 @@ pub enum Lattice {
 
 impl SheetSpec {
     /// The domain; a scene that says nothing means a patch.
-    pub fn domain(&self) -> DomainSpec {
+    pub(crate) fn domain(&self) -> DomainSpec {
         self.domain.as_deref().copied().unwrap_or_default()
     }
 
     /// The numbers of cells, with the default of the domain.
-    pub fn cells(&self) -> [usize; 2] {
+    pub(crate) fn cells(&self) -> [usize; 2] {
         match (self.cells.as_deref(), self.domain()) {
             (Some(cells), _) => cells.0,
             (None, DomainSpec::Screw) => [6, 6],
@@ -99,7 +99,7 @@ impl SheetSpec {
     }
 
     /// Whether the lattice vectors of a torus are unknowns.
-    pub fn lattice(&self) -> Lattice {
+    pub(crate) fn lattice(&self) -> Lattice {
         self.lattice.as_deref().copied().unwrap_or_default()
     }
 }
@@ -178,19 +178,19 @@ pub struct PinSpec {
 
 impl LoadSpec {
     /// The cell of the vertex.
-    pub fn cell(&self) -> [usize; 2] {
+    pub(crate) fn cell(&self) -> [usize; 2] {
         self.cell.as_deref().copied().unwrap_or_default().0
     }
 }
 
 impl PinSpec {
     /// Which of x, y, z are held.
-    pub fn axes(&self) -> [bool; 3] {
+    pub(crate) fn axes(&self) -> [bool; 3] {
         self.axes.as_deref().map_or([true; 3], |axes| axes.0)
     }
 
     /// The cell of the vertex.
-    pub fn cell(&self) -> [usize; 2] {
+    pub(crate) fn cell(&self) -> [usize; 2] {
         self.cell.as_deref().copied().unwrap_or_default().0
     }
 }

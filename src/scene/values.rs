@@ -61,7 +61,7 @@ pub enum ValueError {
 
 /// A list of exactly `N` values: arrays alone would leave out what is too much without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Exactly<T, const N: usize>(pub [T; N]);
+pub(crate) struct Exactly<T, const N: usize>(pub [T; N]);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -206,7 +206,7 @@ pub struct Cells(pub [usize; 2]);
 
 impl Cells {
     /// The largest number of cells: their indices fit into 32 bits, signs included.
-    pub const MOST: i64 = i32::MAX as i64;
+    pub(crate) const MOST: i64 = i32::MAX as i64;
 }
 
 impl TryFrom<Exactly<i64, 2>> for Cells {

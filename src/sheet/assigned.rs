@@ -4,7 +4,7 @@ use super::assignment::Assignment;
 use super::cell::{Edge, EdgeKind, Sheet};
 
 /// Drawing fold angles below this many degrees count as flat.
-pub const FLAT: f64 = 1e-9;
+pub(crate) const FLAT: f64 = 1e-9;
 
 impl Sheet {
     /// What an edge is meant to be: the letter of its file, or what the drawing shows where the file gives none.
@@ -13,7 +13,7 @@ impl Sheet {
     }
 
     /// What the drawing alone shows: a boundary, part of a polygon, a mountain, a valley, or an edge that lies flat.
-    pub fn drawn_assignment(&self, edge: &Edge) -> Assignment {
+    pub(crate) fn drawn_assignment(&self, edge: &Edge) -> Assignment {
         match (edge.kind, self.drawn_angle(edge).unwrap_or(0.0).to_degrees()) {
             (EdgeKind::Boundary, _) => Assignment::Boundary,
             (EdgeKind::Facet, _) => Assignment::Join,

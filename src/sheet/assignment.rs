@@ -33,12 +33,12 @@ impl Assignment {
     ];
 
     /// The assignment with this letter, if FOLD has it.
-    pub fn from_letter(letter: &str) -> Option<Self> {
+    pub(crate) fn from_letter(letter: &str) -> Option<Self> {
         Self::LETTERS.iter().find(|(_, known)| *known == letter).map(|(assignment, _)| *assignment)
     }
 
     /// The letter that FOLD has for it.
-    pub fn letter(self) -> &'static str {
+    pub(crate) fn letter(self) -> &'static str {
         Self::LETTERS.iter().find(|(known, _)| *known == self).map_or("U", |(_, letter)| letter)
     }
 }

@@ -118,7 +118,7 @@ impl Corner {
     }
 
     /// The copy of this corner `shift` cells further.
-    pub fn translated(self, shift: [i32; 2]) -> Self {
+    pub(crate) fn translated(self, shift: [i32; 2]) -> Self {
         Self { vertex: self.vertex, shift: [self.shift[0] + shift[0], self.shift[1] + shift[1]] }
     }
 }
@@ -156,7 +156,7 @@ impl Triangle {
 
 impl Sheet {
     /// The corner as it was before the sheet was cut.
-    pub fn uncut(&self, corner: Corner) -> Corner {
+    pub(crate) fn uncut(&self, corner: Corner) -> Corner {
         let drawn = self.vertices.len() - self.cut_from.len();
         let vertex = corner.vertex.checked_sub(drawn).map_or(corner.vertex, |made| self.cut_from[made]);
         Corner { vertex, ..corner }
@@ -170,7 +170,7 @@ impl Sheet {
     }
 
     /// The edges that are diagonals of polygons.
-    pub fn facets(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn facets(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.edges.len()).filter(|&edge| self.edges[edge].kind == EdgeKind::Facet)
     }
 

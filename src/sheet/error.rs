@@ -59,7 +59,7 @@ pub struct Defect {
 
 impl Defect {
     /// `problem` at `place`.
-    pub fn new(place: MeshPart, problem: Problem) -> Self {
+    pub(crate) fn new(place: MeshPart, problem: Problem) -> Self {
         Self { place, problem: Box::new(problem) }
     }
 }

@@ -1,20 +1,20 @@
 //! One cell of a sheet on the torus (or a finite sheet), with its files and its generators.
 
 mod assigned;
-pub mod assignment;
-pub mod assignment_fault;
+pub(crate) mod assignment;
+pub(crate) mod assignment_fault;
 pub mod build;
-pub mod cell;
+pub(crate) mod cell;
 mod drawn_edge;
-pub mod error;
+pub(crate) mod error;
 pub mod fold;
 pub mod generate;
-pub mod info;
+pub(crate) mod info;
 pub mod obj;
 pub mod pieces;
-pub mod record;
-pub mod text;
-pub mod tiling;
+pub(crate) mod record;
+pub(crate) mod text;
+pub(crate) mod tiling;
 
 pub use assignment::Assignment;
 pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};

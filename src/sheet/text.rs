@@ -12,7 +12,7 @@ const MOST_BYTES: u64 = 1 << 30;
 /// # Errors
 /// What the operating system says; [`ErrorKind::InvalidData`] for devices and pipes, which may never end, and for more
 /// than 1 GiB.
-pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let standard_input = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
     let named = path.to_string_lossy();
     let known = standard_input.iter().any(|start| named.starts_with(start));
@@ -36,7 +36,7 @@ pub fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// As [`read_bytes`]; [`ErrorKind::InvalidData`] with the line where it is not UTF-8.
-pub fn read_text(path: &Path) -> io::Result<String> {
+pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read_bytes(path)?).map_err(|error| {
         let good = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..good].iter().filter(|&&byte| byte == b'\n').count() + 1;

@@ -83,7 +83,7 @@ impl Correction {
 
 impl Pair {
     /// Adds `part` times another vector.
-    pub fn add(&mut self, part: f64, other: &Self) {
+    pub(crate) fn add(&mut self, part: f64, other: &Self) {
         add_scaled(&mut self.0, part, &other.0);
         add_scaled(&mut self.1, part, &other.1);
     }

@@ -41,14 +41,14 @@ pub(super) struct CorrectedPoint {
 
 impl Corrector {
     /// Makes room for equations of this size.
-    pub fn new(equations: &impl Implicit) -> Self {
+    pub(crate) fn new(equations: &impl Implicit) -> Self {
         let (rows, unknowns) = (equations.equations(), equations.unknowns());
         Self { residual: DVector::zeros(rows), jacobian: DenseMatrix::zeros(rows, unknowns) }
     }
 
     /// Moves `x` across `frame` (tangents one behind the other) onto the solutions, until the largest residual is at
     /// most `tolerance`, and makes the frame the tangents there, on the same side; `None` where that does not converge.
-    pub fn correct(
+    pub(crate) fn correct(
         &mut self,
         equations: &mut impl Implicit,
         x: &mut [f64],
@@ -78,14 +78,14 @@ impl Corrector {
     }
 
     /// The largest component of `F` at `x`.
-    pub fn residual(&mut self, equations: &mut impl Implicit, x: &[f64]) -> f64 {
+    pub(crate) fn residual(&mut self, equations: &mut impl Implicit, x: &[f64]) -> f64 {
         equations.linearize(x, self.residual.as_mut_slice(), &mut self.jacobian);
         self.residual.amax()
     }
 
     /// Turns a frame into the tangents at `x`, which is near the solutions but need not be one; `None` where that
     /// fails.
-    pub fn turn(&mut self, equations: &mut impl Implicit, x: &[f64], frame: &mut [f64]) -> Option<()> {
+    pub(crate) fn turn(&mut self, equations: &mut impl Implicit, x: &[f64], frame: &mut [f64]) -> Option<()> {
         equations.linearize(x, self.residual.as_mut_slice(), &mut self.jacobian);
         let tangents = self.tangents(&columns(frame, x.len()))?;
         frame.copy_from_slice(tangents.as_slice());

@@ -144,7 +144,7 @@ impl KktSystem {
     ///
     /// # Errors
     /// As [`KktSystem::factor`].
-    pub fn factor_shortest(&mut self, at: &Linearization, compliance: &[f64]) -> Result<Inertia, FactorError> {
+    pub(crate) fn factor_shortest(&mut self, at: &Linearization, compliance: &[f64]) -> Result<Inertia, FactorError> {
         self.values.fill(0.0);
         at.pattern().add_to_diagonal(&mut self.values, hessian_size(at));
         self.shifted.clone_from(&self.values);
@@ -156,7 +156,7 @@ impl KktSystem {
     ///
     /// # Errors
     /// As [`KktSystem::factor`].
-    pub fn inertia(&mut self, at: &Linearization, compliance: &[f64]) -> Result<Inertia, FactorError> {
+    pub(crate) fn inertia(&mut self, at: &Linearization, compliance: &[f64]) -> Result<Inertia, FactorError> {
         self.fill(at, compliance, 0.0);
         let zero = ZERO_EIGENVALUE * at.pattern().largest_diagonal(&self.values);
         at.pattern().add_to_diagonal(&mut self.values, zero);

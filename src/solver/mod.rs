@@ -93,7 +93,7 @@
 pub mod atlas;
 pub mod continuation;
 pub mod corrections;
-pub mod implicit;
+pub(crate) mod implicit;
 pub mod kkt;
 mod layout;
 mod linearization;

@@ -9,7 +9,7 @@ use crate::numerics::sparse::Rows;
 const ZERO_SINGULAR_VALUE: f64 = 1e-6;
 
 /// Number of self stresses at a linearization; `None` where no measure is rigid, or where they cannot be counted.
-pub fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Option<usize> {
+pub(crate) fn self_stresses<P: Problem>(problem: &P, at: &Linearization) -> Option<usize> {
     let layout = problem.layout();
     if !problem.compliance().contains(&0.0) {
         return None;

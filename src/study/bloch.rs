@@ -36,7 +36,7 @@ const STEPS: usize = 50;
 const DRAWN: usize = 240;
 
 /// Spatially varying modes need a lattice, and as many conditions as coordinates.
-pub fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> {
+pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> {
     let (file, assembly) = (context.file, context.assembly);
     if let Some(start) = &spec.start {
         check_start(context, spec, start)?;
@@ -136,7 +136,7 @@ struct Bands {
 }
 
 /// Surveys the modes of the state that the scene names.
-pub fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
+pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     let found = match ground(context, spec) {
         Ok(Some(ground)) => find(context, spec, ground),
         Ok(None) => return relax::start_unavailable(context),

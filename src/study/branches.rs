@@ -13,7 +13,7 @@ use crate::output::table::{Table, Value};
 const AS_DRAWN: f64 = 1e-9;
 
 /// Branches leave the drawn state of a screw or a patch: refuses a torus, and locks at other angles.
-pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
+pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     let assembly = context.assembly;
     if matches!(assembly.boundary(), Boundary::FixedTorus | Boundary::FreeTorus) {
         let message = "branches of a torus are not known: its lattice has conditions of its own";
@@ -35,7 +35,7 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
 /// from there may end in other equilibria.
 ///
 /// Beside it what is established about these directions; `None` where they were not looked for.
-pub fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDirections>) {
+pub(crate) fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDirections>) {
     let rigid = assembly.terms().bars.is_some_and(f64::is_infinite);
     if !rigid || assembly.boundary() != Boundary::Screw || assembly.terms().locks.is_empty() {
         return (None, None);
@@ -49,7 +49,7 @@ pub fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDirection
 }
 
 /// The word of the summary for what is established about directions.
-pub fn word(directions: RealDirections) -> String {
+pub(crate) fn word(directions: RealDirections) -> String {
     let word = match directions {
         RealDirections::Listed => "listed",
         RealDirections::Continuum => "continuum",
@@ -59,7 +59,7 @@ pub fn word(directions: RealDirections) -> String {
 }
 
 /// Finds the branches.
-pub fn compute(context: &Context<'_>) -> Answer {
+pub(crate) fn compute(context: &Context<'_>) -> Answer {
     let mut answer = Answer::empty(context.study);
     context.step(0, None);
     match branches(context.assembly) {

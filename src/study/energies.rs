@@ -5,13 +5,13 @@ use crate::model::Terms;
 use crate::output::summary::EnergySummary;
 
 /// Energies of bars, creases, facets and all terms, the last one always known.
-pub fn columns(terms: &Terms, state: &State) -> [Option<f64>; 4] {
+pub(crate) fn columns(terms: &Terms, state: &State) -> [Option<f64>; 4] {
     let EnergySummary { bars, creases, facets, total } = summary(terms, state);
     [bars, creases, facets, Some(total)]
 }
 
 /// The same; the last one is empty where neither bars nor creases were built.
-pub fn columns_if_any(terms: &Terms, state: &State) -> [Option<f64>; 4] {
+pub(crate) fn columns_if_any(terms: &Terms, state: &State) -> [Option<f64>; 4] {
     let [bars, creases, facets, total] = columns(terms, state);
     let any = terms.bars.is_some() || terms.creases.is_some();
     [bars, creases, facets, total.filter(|_| any)]

@@ -19,7 +19,7 @@ use crate::scene::spec::{Draw, LandscapeSpec};
 use crate::sheet::EdgeKey;
 
 /// Landscapes are those of patches and tori of periodic sheets, with bars and creases and nothing that holds or pulls.
-pub fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), StudyError> {
+pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), StudyError> {
     let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
     let (file, assembly, terms) = (context.file, context.assembly, context.assembly.terms());
     let torus = match assembly.boundary() {
@@ -90,7 +90,7 @@ fn uniform(context: &Context<'_>, mode: &Located<Mode>, all: &[f64]) -> Result<V
 }
 
 /// Samples every mode, and the map where the scene asks for one.
-pub fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Answer, StudyError> {
     let found: Vec<Along> = spec.modes.iter().map(|mode| along(context, spec, mode)).collect::<Result<_, _>>()?;
     let mut answer = Answer::empty(context.study);
     answer.add(format!("{}.csv", context.name()), table(context.assembly, &found));

@@ -45,7 +45,7 @@ const ITERATIONS: usize = 8;
 type Row = [f64; COLUMNS.len()];
 
 /// What a map found.
-pub struct Map {
+pub(crate) struct Map {
     /// For the summary.
     pub summary: MapSummary,
     /// Why it is not whole.
@@ -53,7 +53,7 @@ pub struct Map {
 }
 
 /// Samples the map; adds its table and its pictures to an answer.
-pub fn compute(context: &Context<'_>, spec: &MapSpec, answer: &mut Answer) -> Result<Map, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &MapSpec, answer: &mut Answer) -> Result<Map, StudyError> {
     let (amplitude, rings) = (spec.amplitude.0, spec.rings.as_ref().map_or(RINGS, |count| count.0) as usize);
     let net = sphere::Net::new(rings);
     let points: Vec<Vec3> = net.directions.iter().map(Direction::point).collect();

@@ -12,7 +12,7 @@ use crate::output::table::{Table, Value};
 use crate::scene::spec::ModesSpec;
 
 /// A model has so many eigenvalues that the study can find.
-pub fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {
+pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {
     let Some(count) = &spec.eigenvalues else { return Ok(()) };
     let (drawn, terms) = (context.assembly.drawn(), context.assembly.terms());
     let unknowns = drawn.coordinates.len().saturating_sub(drawn.held.len() + terms.pinned());
@@ -27,7 +27,7 @@ pub fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> 
 }
 
 /// Finds the modes of the drawn state.
-pub fn compute(context: &Context<'_>, spec: &ModesSpec) -> Answer {
+pub(crate) fn compute(context: &Context<'_>, spec: &ModesSpec) -> Answer {
     let (mut step, mut answer) = (0, Answer::empty(context.study));
     let eigenvalues = spec.eigenvalues.as_ref().map_or(0, |n| **n);
     let found = modes(context.assembly, eigenvalues, &mut || {

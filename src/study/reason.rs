@@ -11,7 +11,7 @@ const THIN: f64 = 1e-2;
 const MET: f64 = 1e-9;
 
 /// The failure, with the lock that is not met or the thin triangle that may be its cause.
-pub fn reason(assembly: &Assembly, failure: Failure, state: &State) -> String {
+pub(crate) fn reason(assembly: &Assembly, failure: Failure, state: &State) -> String {
     let cause = match failure {
         Failure::Infeasible { .. } => unmet_lock(assembly, state),
         Failure::Uncertain { force, tolerance, .. } if !(force <= tolerance) => thin_triangle(assembly),

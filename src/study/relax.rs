@@ -24,7 +24,7 @@ use crate::solver::{Options, Step};
 use rand::SeedableRng;
 
 /// A relaxation needs an energy, and a start file that fits the sheet.
-pub fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
+pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
     if !context.assembly.terms().has_energy() {
         return Err(context.refuse("there is no energy to relax", "give bars, creases or facets a stiffness").into());
     }
@@ -35,7 +35,7 @@ pub fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> 
 }
 
 /// Relaxes from the start that the scene names.
-pub fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer, StudyError> {
     let mut model = context.assembly.model(Gauge::Held);
     let Some((x, forces)) = start(context, spec, &mut model)? else { return Ok(start_unavailable(context)) };
     let tensions = restored::tensions(&model, &x, &forces);
@@ -88,7 +88,7 @@ fn not_found(context: &Context<'_>, first: &State, error: &RelaxError) -> Answer
 }
 
 /// Shows the steps of a relaxation.
-pub fn watcher<'a>(context: &'a Context<'_>) -> impl FnMut(&Step) -> bool + 'a {
+pub(crate) fn watcher<'a>(context: &'a Context<'_>) -> impl FnMut(&Step) -> bool + 'a {
     let mut step = 0;
     move |last| {
         step += 1;
@@ -181,7 +181,7 @@ fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
 }
 
 /// The answer of a study whose start study ended in no state.
-pub fn start_unavailable(context: &Context<'_>) -> Answer {
+pub(crate) fn start_unavailable(context: &Context<'_>) -> Answer {
     Answer::failed(context.study, "the study from which it starts did not converge")
 }
 

@@ -12,7 +12,7 @@ use crate::output::table::{StateRow, Table};
 use crate::scene::spec::Draw;
 
 /// A state with what else is known of it.
-pub struct Shown {
+pub(crate) struct Shown {
     /// The state, with the fold angles of all edges.
     pub state: State,
     /// Scaled residuals of force and length; `None` where they were not computed.
@@ -23,20 +23,20 @@ pub struct Shown {
 
 /// The state with the fold angle of every edge between two faces, also of those that are no hinge of the model: these from
 /// its coordinates, in (-pi, pi].
-pub fn with_all_angles(context: &Context<'_>, state: &State) -> State {
+pub(crate) fn with_all_angles(context: &Context<'_>, state: &State) -> State {
     let angles = context.assembly.fold_angles_at(&state.coordinates);
     let known = |(known, other): (&f64, f64)| if known.is_nan() { other } else { *known };
     State { fold_angle: state.fold_angle.iter().zip(angles).map(known).collect(), ..state.clone() }
 }
 
 /// The table of states: one row each.
-pub fn table(context: &Context<'_>, states: &[Shown]) -> Table {
+pub(crate) fn table(context: &Context<'_>, states: &[Shown]) -> Table {
     let rows: Vec<StateRow> = states.iter().enumerate().map(|(step, shown)| row(context, step, shown)).collect();
     table_of_rows(context, &rows)
 }
 
 /// The table with these rows.
-pub fn table_of_rows(context: &Context<'_>, rows: &[StateRow]) -> Table {
+pub(crate) fn table_of_rows(context: &Context<'_>, rows: &[StateRow]) -> Table {
     let keys: Vec<_> = context.assembly.sheet().edges.iter().map(|edge| edge.key).collect();
     Table::of_states(&keys, rows)
 }
@@ -79,7 +79,7 @@ pub fn picture(context: &Context<'_>, shown: &Shown) -> Picture {
 }
 
 /// A state of which modes are velocities, from all its coordinates.
-pub fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Picture {
+pub(crate) fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Picture {
     let (assembly, edges) = (context.assembly, context.assembly.edges());
     let state = State { energy: vec![f64::NAN; edges], ..State::empty(coordinates, edges) };
     let state = with_all_angles(context, &state);
@@ -89,7 +89,7 @@ pub fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Picture {
 }
 
 /// Adds the VTK series of states, and the picture of one of them with what it is, as the study asks.
-pub fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], shown: Option<(usize, &str)>) {
+pub(crate) fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], shown: Option<(usize, &str)>) {
     let pictures: Vec<Picture> = states.iter().map(|shown| picture(context, shown)).collect();
     let drawn = shown.and_then(|(number, state)| Some((pictures.get(number)?.clone(), state)));
     add_series(answer, context, pictures);
@@ -99,7 +99,7 @@ pub fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], shown: 
 }
 
 /// Adds pictures as a VTK series, time being their number, where the study asks for it.
-pub fn add_series(answer: &mut Answer, context: &Context<'_>, pictures: Vec<Picture>) {
+pub(crate) fn add_series(answer: &mut Answer, context: &Context<'_>, pictures: Vec<Picture>) {
     if !context.draws(Draw::Vtk) {
         return;
     }
@@ -114,7 +114,7 @@ pub fn add_series(answer: &mut Answer, context: &Context<'_>, pictures: Vec<Pict
 }
 
 /// Adds one picture as SVG, with what state it is, where the study asks for it.
-pub fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
+pub(crate) fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
     if context.draws(Draw::Svg) {
         answer.add(format!("{}.svg", context.name()), sheet::svg(picture, &context.caption(state)));
     }

@@ -36,7 +36,7 @@ const MOST_POINTS: usize = 300_000;
 const OBSERVED: usize = 256;
 
 /// Surfaces are drawn in the space of lattice strains: refuses other domains than the screw.
-pub fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), StudyError> {
+pub(crate) fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), StudyError> {
     if let Some(resolution) = &spec.resolution {
         check_resolution(context.file, resolution)?;
     }
@@ -48,7 +48,7 @@ pub fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), StudyError
 }
 
 /// Refuses a resolution at which states could not be told from each other.
-pub fn check_resolution(file: &SceneFile, resolution: &Located<Count>) -> Result<(), StudyError> {
+pub(crate) fn check_resolution(file: &SceneFile, resolution: &Located<Count>) -> Result<(), StudyError> {
     if resolution.0 <= MOST_RESOLUTION {
         return Ok(());
     }
@@ -66,7 +66,7 @@ pub fn left_out(assembly: &Assembly, study: &StudySpec) -> Option<String> {
 }
 
 /// Covers the surface, whatever is locked.
-pub fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
+pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
     let assembly = context.assembly;
     let unlocked = assembly.with_terms(Terms { locks: Vec::new(), ..assembly.terms().clone() });
     let options = SurfaceOptions {
@@ -87,7 +87,7 @@ pub fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
 }
 
 /// One over the square root of the area of the cell.
-pub fn curvature_of_cell(assembly: &Assembly) -> f64 {
+pub(crate) fn curvature_of_cell(assembly: &Assembly) -> f64 {
     assembly.sheet().lattice.map_or(1.0, |[first, second]| first.cross(&second).norm().sqrt().recip())
 }
 

@@ -35,7 +35,7 @@ const OBSERVED: usize = 64;
 const PICTURES: usize = 40;
 
 /// Trajectories start from the drawn state of one cell, or of a finite sheet.
-pub fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
+pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
     branches::check(context)?;
     let assembly = context.assembly;
     if assembly.boundary() == Boundary::Patch && assembly.sheet().lattice.is_some() {
@@ -74,7 +74,7 @@ fn stop(context: &Context<'_>, spec: &TraceSpec) -> Result<Stop, StudyError> {
 }
 
 /// Follows the trajectories that the scene asks for.
-pub fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer, StudyError> {
+pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer, StudyError> {
     let options = TraceOptions {
         max_step: spec.max_step.as_ref().map_or(MAX_STEP, |step| step.0),
         tolerance: spec.tolerance.as_ref().map_or(TOLERANCE, |tolerance| tolerance.0),
@@ -126,7 +126,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
 }
 
 /// The state of a model at coordinates, with the fold angles of all edges.
-pub fn state_at(model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
+pub(crate) fn state_at(model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
     let tension = vec![0.0; model.layout().stiff.len()];
     let state = State::new(model, &model.unknowns(&coordinates), &tension);
     State { coordinates, fold_angle: angles.to_vec(), ..state }
@@ -269,7 +269,7 @@ fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut
 }
 
 /// The place of a state in the space of lattice strains; `None` where it has none.
-pub fn path_point(row: &StateRow) -> Option<PathPoint> {
+pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
     let ([a, b, c], [theta1, theta2]) = (row.strain, row.theta);
     let turn = larger(theta1?.abs(), theta2?.abs());
     Some(PathPoint { strain: Vec3::new(a?, b?, c?), curvature: row.curvature?, turn })

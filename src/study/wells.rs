@@ -30,7 +30,7 @@ const STARTS: u32 = 64;
 const RESOLUTION: u32 = 64;
 
 /// Wells are those of bars and creases, with nothing that holds or pulls.
-pub fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), StudyError> {
+pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), StudyError> {
     let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
     if let Some(resolution) = &spec.resolution {
         check_resolution(context.file, resolution)?;
@@ -87,7 +87,7 @@ struct FoundWells {
 }
 
 /// Finds the wells and the barriers that the scene asks for.
-pub fn compute(context: &Context<'_>, spec: &WellsSpec) -> Answer {
+pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Answer {
     let assembly = context.assembly;
     let step = AtomicUsize::new(0);
     let watch = |of: Option<usize>| context.step(step.fetch_add(1, Ordering::Relaxed) + 1, of);

@@ -17,7 +17,7 @@ use thiserror::Error;
 /// A number or several.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(untagged)]
-pub enum Numbers {
+pub(crate) enum Numbers {
     /// One number.
     One(f64),
     /// A list.
@@ -26,7 +26,7 @@ pub enum Numbers {
 
 impl Numbers {
     /// The numbers.
-    pub fn list(&self) -> &[f64] {
+    pub(crate) fn list(&self) -> &[f64] {
         match self {
             Self::One(number) => std::slice::from_ref(number),
             Self::Many(numbers) => numbers,
@@ -36,7 +36,7 @@ impl Numbers {
 
 /// Where the value comes from.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Experiment {
+pub(crate) enum Experiment {
     /// A scene of `meshes/`, run as `foldwell run` does.
     Scene(String),
     /// A measurement of [`super::measure`].
@@ -45,7 +45,7 @@ pub enum Experiment {
 
 /// What the value has to be.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Wanted {
+pub(crate) enum Wanted {
     /// These numbers, each within `absolute + relative * |number|`.
     Equal {
         /// The numbers.
@@ -63,7 +63,7 @@ pub enum Wanted {
 
 /// A claim.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Claim {
+pub(crate) struct Claim {
     /// Name of its file without ending.
     pub name: String,
     /// What is claimed.
@@ -84,7 +84,7 @@ pub struct Claim {
 
 /// Why a file states no claim.
 #[derive(Clone, Debug, Error, PartialEq)]
-pub enum ClaimError {
+pub(crate) enum ClaimError {
     /// It is no TOML, or has other keys.
     #[error("{name}: {message}")]
     Form {
@@ -131,7 +131,7 @@ impl Claim {
     ///
     /// # Errors
     /// [`ClaimError`] where the text is no claim.
-    pub fn parse(name: &str, text: &str) -> Result<Self, ClaimError> {
+    pub(crate) fn parse(name: &str, text: &str) -> Result<Self, ClaimError> {
         let keys: Keys = toml::from_str(text)
             .map_err(|fault| ClaimError::Form { name: name.into(), message: fault.message().into() })?;
         let experiment = match (&keys.scene, &keys.measurement) {
@@ -145,7 +145,7 @@ impl Claim {
     }
 
     /// The command that computes the value.
-    pub fn command(&self) -> String {
+    pub(crate) fn command(&self) -> String {
         match &self.experiment {
             Experiment::Scene(scene) => format!("foldwell run meshes/{scene}"),
             Experiment::Measurement(_) => format!("foldwell validate {}", self.name),

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 /// An experiment that was performed.
 #[derive(Debug)]
-pub struct Performed {
+pub(crate) struct Performed {
     /// What was found.
     pub found: Result<Findings, ExperimentError>,
     /// Time it took.
@@ -21,7 +21,7 @@ pub struct Performed {
 }
 
 /// Where experiments are performed.
-pub struct Experiments<'a> {
+pub(crate) struct Experiments<'a> {
     folder: PathBuf,
     quick: bool,
     observer: Observer<'a>,
@@ -30,12 +30,12 @@ pub struct Experiments<'a> {
 
 impl<'a> Experiments<'a> {
     /// Experiments write into folders below this one.
-    pub fn new(folder: PathBuf, quick: bool, observer: Observer<'a>) -> Self {
+    pub(crate) fn new(folder: PathBuf, quick: bool, observer: Observer<'a>) -> Self {
         Self { folder, quick, observer, performed: Vec::new() }
     }
 
     /// Performs an experiment, or remembers it.
-    pub fn perform(&mut self, experiment: &Experiment) -> &Performed {
+    pub(crate) fn perform(&mut self, experiment: &Experiment) -> &Performed {
         let known = self.performed.iter().position(|(performed, _)| performed == experiment);
         let at = known.unwrap_or_else(|| {
             let clock = Instant::now();

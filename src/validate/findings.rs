@@ -14,7 +14,7 @@ use thiserror::Error;
 
 /// Why an experiment gives no value.
 #[derive(Debug, Error)]
-pub enum ExperimentError {
+pub(crate) enum ExperimentError {
     /// A scene could not be run.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -54,7 +54,7 @@ pub enum ExperimentError {
 
 /// A table of a report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct ReportTable {
+pub(crate) struct ReportTable {
     /// What it shows.
     pub title: String,
     /// Names of its columns.
@@ -65,7 +65,7 @@ pub struct ReportTable {
 
 /// What an experiment gives.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Findings {
+pub(crate) struct Findings {
     /// Its values, among which claims choose.
     pub values: Value,
     /// Its diagrams of error against run time.
@@ -77,7 +77,7 @@ pub struct Findings {
 }
 
 /// What a measurement may use.
-pub struct Bench<'a> {
+pub(crate) struct Bench<'a> {
     /// Whether little time is allowed.
     pub quick: bool,
     /// The measurement.
@@ -91,7 +91,7 @@ impl Bench<'_> {
     ///
     /// # Errors
     /// [`ExperimentError::Interrupted`] where the observer asks to stop.
-    pub fn step(&self, step: usize, of: usize) -> Result<(), ExperimentError> {
+    pub(crate) fn step(&self, step: usize, of: usize) -> Result<(), ExperimentError> {
         let progress = Progress { study: self.name.into(), step, of: Some(of), residual: f64::NAN };
         if (self.observer)(&progress).is_continue() { Ok(()) } else { Err(ExperimentError::Interrupted) }
     }

@@ -28,7 +28,7 @@ const MOST_SHIFT: f64 = 1e30;
 
 /// How stiff measures enter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Form {
+pub(crate) enum Form {
     /// `k m^2 / 2`. Rigid measures are not possible.
     Penalty,
     /// With this weight `gamma`, force per length, and updates of the tensions.
@@ -37,15 +37,13 @@ pub enum Form {
 
 /// Where a minimisation ended.
 #[derive(Clone, Debug)]
-pub struct Minimised {
+pub(crate) struct Minimised {
     /// Unknowns.
     pub x: Vec<f64>,
     /// Tensions.
     pub tension: Vec<f64>,
     /// Accepted Newton steps.
     pub iterations: usize,
-    /// Whether both scaled residuals are at most 1e-12.
-    pub converged: bool,
     /// Scaled residuals of force and length.
     pub residuals: [f64; 2],
 }
@@ -66,7 +64,7 @@ struct Weighted<'a> {
 ///
 /// # Errors
 /// [`FactorError`] where the pattern cannot be analysed; a minimisation that gets stuck is an outcome.
-pub fn minimize(model: &mut Model, form: Form) -> Result<Minimised, FactorError> {
+pub(crate) fn minimize(model: &mut Model, form: Form) -> Result<Minimised, FactorError> {
     let at = Linearization::new(model.layout());
     let layout = model.layout();
     let factor = TornFactor::of(layout.tearing()?)?;
@@ -87,8 +85,7 @@ pub fn minimize(model: &mut Model, form: Form) -> Result<Minimised, FactorError>
         best = length;
     }
     let residuals = run.residuals();
-    let converged = residuals.iter().all(|residual| *residual <= TOLERANCE);
-    Ok(Minimised { converged, residuals, tension: run.before, iterations: run.iterations, x: run.x })
+    Ok(Minimised { residuals, tension: run.before, iterations: run.iterations, x: run.x })
 }
 
 impl Weighted<'_> {

@@ -70,17 +70,17 @@ const MESHES: &[(&str, &str)] = files!("meshes", "":
 ///
 /// # Errors
 /// [`ClaimError`] of the first file that states none.
-pub fn claims() -> Result<Vec<Claim>, ClaimError> {
+pub(crate) fn claims() -> Result<Vec<Claim>, ClaimError> {
     CLAIMS.iter().map(|(name, text)| Claim::parse(name, text)).collect()
 }
 
 /// Names and texts of the scenes and meshes.
-pub fn meshes() -> &'static [(&'static str, &'static str)] {
+pub(crate) fn meshes() -> &'static [(&'static str, &'static str)] {
     MESHES
 }
 
 /// The text of a mesh or scene.
-pub fn mesh(name: &str) -> Option<&'static str> {
+pub(crate) fn mesh(name: &str) -> Option<&'static str> {
     MESHES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
 

@@ -6,18 +6,18 @@
 //! reported as `report.json`, `report.md` and `report.html` ([`report`], [`page`]), after every case anew, so that an
 //! interrupted validation leaves what it found.
 
-pub mod claim;
-pub mod experiment;
-pub mod findings;
+pub(crate) mod claim;
+pub(crate) mod experiment;
+pub(crate) mod findings;
 mod forms;
-pub mod library;
-pub mod measure;
-pub mod page;
-pub mod precision;
-pub mod report;
+pub(crate) mod library;
+pub(crate) mod measure;
+pub(crate) mod page;
+pub(crate) mod precision;
+pub(crate) mod report;
 mod report_files;
-pub mod star;
-pub mod verdict;
+pub(crate) mod star;
+pub(crate) mod verdict;
 
 use claim::{Claim, ClaimError};
 use experiment::Experiments;
@@ -32,7 +32,7 @@ use thiserror::Error;
 
 /// What the command line can change about the validation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ValidateOptions {
+pub(crate) struct ValidateOptions {
     /// Leave out the claims that take long.
     pub quick: bool,
     /// Folder for the reports; `None`: `validation-report`.
@@ -43,7 +43,7 @@ pub struct ValidateOptions {
 
 /// Why there is no report.
 #[derive(Debug, Error, Diagnostic)]
-pub enum ValidationError {
+pub(crate) enum ValidationError {
     /// A file of the program's own states no claim.
     #[error(transparent)]
     Claim(#[from] ClaimError),
@@ -71,7 +71,7 @@ pub enum ValidationError {
 
 impl ValidationError {
     /// The exit status of the program: 2 where the input is wrong, 3 where a place cannot be written.
-    pub fn exit_status(&self) -> u8 {
+    pub(crate) fn exit_status(&self) -> u8 {
         if matches!(self, Self::Output(_)) { 3 } else { 2 }
     }
 }
@@ -80,7 +80,7 @@ impl ValidationError {
 ///
 /// # Errors
 /// [`ValidationError`]; a claim that fails, or an experiment that gives no value, is a case of the report instead.
-pub fn validate(
+pub(crate) fn validate(
     options: &ValidateOptions,
     observer: Observer,
     announce: &mut dyn FnMut(&Case),

@@ -9,7 +9,7 @@ const WANTED: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
 
 /// A setting, what it reached and what it cost.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Setting {
+pub(crate) struct Setting {
     /// The setting: `"k = 1e6"`.
     pub label: String,
     /// Error of its result; NaN where there is none.
@@ -20,7 +20,7 @@ pub struct Setting {
 
 /// A method at several settings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Method {
+pub(crate) struct Method {
     /// Its name.
     pub name: String,
     /// Its settings.
@@ -29,7 +29,7 @@ pub struct Method {
 
 /// A diagram of error against run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Diagram {
+pub(crate) struct Diagram {
     /// What is varied.
     pub title: String,
     /// Which error, and against what.
@@ -40,7 +40,7 @@ pub struct Diagram {
 
 impl Diagram {
     /// As a chart.
-    pub fn chart(&self) -> Chart {
+    pub(crate) fn chart(&self) -> Chart {
         let point = |s: &Setting| Point { x: s.error, y: s.seconds, label: s.label.clone() };
         let series = |m: &Method| Series { name: m.name.clone(), points: m.settings.iter().map(point).collect() };
         Chart {
@@ -53,7 +53,7 @@ impl Diagram {
     }
 
     /// For errors that one may want, the method and setting that reach them in the shortest time; `None`: none does.
-    pub fn cheapest(&self) -> Vec<(f64, Option<(&str, &Setting)>)> {
+    pub(crate) fn cheapest(&self) -> Vec<(f64, Option<(&str, &Setting)>)> {
         let all = || self.methods.iter().flat_map(|m| m.settings.iter().map(move |s| (m.name.as_str(), s)));
         let best = |wanted: f64| {
             let good = all().filter(|(_, setting)| setting.error <= wanted);
@@ -64,7 +64,7 @@ impl Diagram {
 }
 
 /// Does several pieces of work in turns, so that other load on the machine hits all alike; the shortest time of each.
-pub fn shortest(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
+pub(crate) fn shortest(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
     let mut times = vec![f64::INFINITY; work.len()];
     for _ in 0..rounds {
         for (time, work) in times.iter_mut().zip(work.iter_mut()) {

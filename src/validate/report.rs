@@ -10,7 +10,7 @@ use serde::Serialize;
 
 /// A claim that was checked.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Case {
+pub(crate) struct Case {
     /// Its name.
     pub name: String,
     /// What is claimed.
@@ -44,7 +44,7 @@ pub struct Case {
 
 /// All that was checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Report {
+pub(crate) struct Report {
     /// Version of the program.
     pub version: &'static str,
     /// Whether only the quick claims were asked for.
@@ -70,7 +70,7 @@ pub struct Report {
 
 impl Case {
     /// Compares what an experiment gave with what a claim says.
-    pub fn of(claim: &Claim, outcome: &Performed) -> Self {
+    pub(crate) fn of(claim: &Claim, outcome: &Performed) -> Self {
         let (comparison, expected) = match &claim.wanted {
             Wanted::Equal { numbers, .. } => ("equal", numbers.clone()),
             Wanted::AtMost(bound) => ("at most", Numbers::One(*bound)),
@@ -101,7 +101,7 @@ impl Case {
     }
 
     /// What has to be and what is allowed, in a few words.
-    pub fn expectation(&self) -> String {
+    pub(crate) fn expectation(&self) -> String {
         match self.comparison {
             "equal" => format!("{} \u{b1} {}", short(&self.expected), figure(self.tolerance)),
             comparison => format!("{comparison} {}", short(&self.expected)),
@@ -109,12 +109,12 @@ impl Case {
     }
 
     /// What was found, in a few words.
-    pub fn finding(&self) -> String {
+    pub(crate) fn finding(&self) -> String {
         self.found.as_ref().map_or_else(|| self.failure.clone().unwrap_or_default(), short)
     }
 
     /// By how much it fails, or how far it is from failing.
-    pub fn distance(&self) -> String {
+    pub(crate) fn distance(&self) -> String {
         match (self.miss, self.comparison) {
             (None, _) => "no value".into(),
             (Some(miss), "equal") => format!("off by {}, allowed {}", figure(miss), figure(self.tolerance)),
@@ -126,12 +126,12 @@ impl Case {
 
 impl Report {
     /// An empty report.
-    pub fn new(quick: bool, claims: usize) -> Self {
+    pub(crate) fn new(quick: bool, claims: usize) -> Self {
         Self { version: env!("CARGO_PKG_VERSION"), quick, claims, ..Self::default() }
     }
 
     /// Adds a case, and what its experiment gave where it is the first to ask for it.
-    pub fn push(&mut self, case: Case, outcome: Option<&Performed>) {
+    pub(crate) fn push(&mut self, case: Case, outcome: Option<&Performed>) {
         self.passed += usize::from(case.passed);
         self.cases.push(case);
         if let Some(outcome) = outcome {
@@ -145,12 +145,12 @@ impl Report {
     }
 
     /// Whether every claim was checked and holds.
-    pub fn all_passed(&self) -> bool {
+    pub(crate) fn all_passed(&self) -> bool {
         self.passed == self.claims
     }
 
     /// Which claims were checked and how many hold, in a sentence.
-    pub fn verdict(&self) -> String {
+    pub(crate) fn verdict(&self) -> String {
         let failed = self.cases.len() - self.passed;
         let left = match self.claims - self.cases.len() {
             0 => String::new(),
@@ -160,7 +160,7 @@ impl Report {
         format!("{} of {} {which} hold, {failed} fail{left}; {:.0} s", self.passed, self.claims, self.seconds)
     }
 
-    pub fn markdown(&self) -> String {
+    pub(crate) fn markdown(&self) -> String {
         let mut text = format!("# Validation of foldwell {}\n\n{}.\n", self.version, self.verdict());
         let row = |case: &Case| {
             let passed = if case.passed { "holds" } else { "**fails**" };
@@ -186,7 +186,7 @@ impl Report {
 }
 
 /// The cheapest setting for errors that one may want.
-pub fn cheapest(diagram: &Diagram) -> ReportTable {
+pub(crate) fn cheapest(diagram: &Diagram) -> ReportTable {
     let row = |(wanted, best): (f64, Option<(&str, &Setting)>)| match best {
         Some((method, setting)) => {
             let Setting { label, error, seconds } = setting;
@@ -224,7 +224,7 @@ fn short(numbers: &Numbers) -> String {
 }
 
 /// A number with at most ten digits, with an exponent where it is very large or small.
-pub fn figure(number: f64) -> String {
+pub(crate) fn figure(number: f64) -> String {
     let size = number.abs();
     if number == 0.0 || (1e-3..1e7).contains(&size) {
         let digits = if size >= 1.0 { 9 - size.log10() as usize } else { 6 };

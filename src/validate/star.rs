@@ -12,7 +12,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 /// A patch of `meshes/open-star.fold` with rest angles.
-pub struct Star {
+pub(crate) struct Star {
     /// The patch, without terms.
     pub assembly: Assembly,
     /// Rest angle of every edge, in radians; NaN where there is no hinge.
@@ -23,7 +23,7 @@ pub struct Star {
 ///
 /// # Errors
 /// None that the repository's own mesh could cause.
-pub fn cell() -> Result<Sheet, SheetError> {
+pub(crate) fn cell() -> Result<Sheet, SheetError> {
     fold::parse(library::mesh("open-star.fold").unwrap_or_default(), "open-star.fold")
 }
 
@@ -33,7 +33,7 @@ impl Star {
     ///
     /// # Errors
     /// None that the repository's own mesh could cause.
-    pub fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
+    pub(crate) fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
         let mut numbers = ChaCha8Rng::seed_from_u64(1);
         let off = |angle: &mut f64| *angle += most * symmetric(&mut numbers);
@@ -45,7 +45,7 @@ impl Star {
     ///
     /// # Errors
     /// None that the repository's own mesh could cause.
-    pub fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, ExperimentError> {
+    pub(crate) fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
         for (rest, edge) in star.rest.iter_mut().zip(&star.assembly.tiling().edges).filter(|(rest, _)| !rest.is_nan()) {
             *rest = angles[edge.edge];
@@ -63,7 +63,7 @@ impl Star {
     ///
     /// # Errors
     /// [`ExperimentError::Trace`] where there are none.
-    pub fn traced(max_step: f64, stop: Stop) -> Result<Vec<Traced>, ExperimentError> {
+    pub(crate) fn traced(max_step: f64, stop: Stop) -> Result<Vec<Traced>, ExperimentError> {
         let drawn = Assembly::without_terms(cell()?, [1, 1], Boundary::Screw)?;
         let locked = Terms { locks: vec![(0, drawn.drawn_angles()[0])], ..Terms::default() };
         let options = TraceOptions { max_step, tolerance: 3e-14, branch: None, stop };
@@ -74,14 +74,14 @@ impl Star {
     ///
     /// # Errors
     /// [`ExperimentError::Trace`] where there is none.
-    pub fn cylinder(arc_length: f64) -> Result<Vec<f64>, ExperimentError> {
+    pub(crate) fn cylinder(arc_length: f64) -> Result<Vec<f64>, ExperimentError> {
         let all = Self::traced(0.25, Stop { arc_length: Some(arc_length), ..Stop::default() })?;
         let last = all.first().and_then(|traced| traced.states.last());
         Ok(last.ok_or(ExperimentError::Other("there is no ray".into()))?.angles.clone())
     }
 
     /// The model with this stiffness of every bar, `EA`, over that of the creases, which is 1 per length.
-    pub fn model(&self, stiffness: f64) -> Model {
+    pub(crate) fn model(&self, stiffness: f64) -> Model {
         let terms = Terms::bars_and_creases(stiffness, 1.0, self.rest.clone());
         self.assembly.with_terms(terms).model(Gauge::Held)
     }
@@ -90,13 +90,13 @@ impl Star {
     ///
     /// # Errors
     /// [`RelaxError`] where it does not converge.
-    pub fn relax(&self, model: &mut Model, options: Options) -> Result<Relaxed, Box<RelaxError>> {
+    pub(crate) fn relax(&self, model: &mut Model, options: Options) -> Result<Relaxed, Box<RelaxError>> {
         let start = model.start();
         relax_from(model, start, options, &mut |_| true)
     }
 }
 
 /// Unknowns and stiff measures of a model.
-pub fn size(model: &Model) -> (usize, usize) {
+pub(crate) fn size(model: &Model) -> (usize, usize) {
     (model.layout().unknowns, model.layout().stiff.len())
 }

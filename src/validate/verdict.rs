@@ -5,7 +5,7 @@ use serde_json::Value;
 
 /// What comparing gave.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Verdict {
+pub(crate) struct Verdict {
     /// Whether the claim holds.
     pub passed: bool,
     /// How far the worst number is from its expected value, or beyond its bound (negative: within); NaN where numbers
@@ -16,7 +16,7 @@ pub struct Verdict {
 }
 
 /// Compares. A number that is missing or not a number fails.
-pub fn compare(wanted: &Wanted, found: &Numbers) -> Verdict {
+pub(crate) fn compare(wanted: &Wanted, found: &Numbers) -> Verdict {
     let bounded = |beyond: fn(f64, f64) -> f64, bound: f64| {
         let each = found.list().iter().map(|number| (beyond(*number, bound), 0.0));
         worst(each.collect())
@@ -45,7 +45,7 @@ fn worst(each: Vec<(f64, f64)>) -> Verdict {
 ///
 /// Steps between dots are keys of tables; places in lists; names of the entries of a list that have a `name`; `*`, all
 /// entries; `6..10`, those from 6 to 9. True is 1 and false is 0. `None` where there are no numbers.
-pub fn numbers_at(value: &Value, path: &str) -> Option<Numbers> {
+pub(crate) fn numbers_at(value: &Value, path: &str) -> Option<Numbers> {
     let mut several = false;
     let mut values = vec![value];
     for step in path.replace("..", "\u{0}").split('.') {

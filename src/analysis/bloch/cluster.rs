@@ -22,7 +22,7 @@ const ROUNDINGS: f64 = 16.0;
 
 /// The roots of a cluster by their numbers in a list: each within the rounding errors of another of them. Roots that are
 /// alone are left out.
-pub fn clusters(roots: &[Root]) -> Vec<Vec<usize>> {
+pub(crate) fn clusters(roots: &[Root]) -> Vec<Vec<usize>> {
     let mut left: Vec<usize> = (0..roots.len()).collect();
     let mut found = Vec::new();
     while let Some(first) = left.pop() {
@@ -50,7 +50,7 @@ fn meet(a: &Root, b: &Root) -> bool {
 /// The roots `z_a` of a cluster on the matrix, as many as there were: the other factor and the place where to begin are
 /// those of `z`. `None` where the matrix has fewer null vectors than the cluster has roots, so that it knows them no
 /// better, or Newton's method does not settle.
-pub fn on_matrix(rigidity: &Rigidity, mut z: [Complex<f64>; 2], a: usize, count: usize) -> Option<Vec<Root>> {
+pub(crate) fn on_matrix(rigidity: &Rigidity, mut z: [Complex<f64>; 2], a: usize, count: usize) -> Option<Vec<Root>> {
     let start = z[a];
     for _ in 0..STEPS {
         let step = Steps::at(rigidity, z, a, count)?;

@@ -67,7 +67,7 @@ impl Determinant {
     }
 
     /// The symmetric part of the polynomial: what is left of the other is rounding where the determinant is symmetric.
-    pub fn symmetrized(&self) -> Laurent {
+    pub(crate) fn symmetrized(&self) -> Laurent {
         let c = &self.polynomial.coefficients;
         let (rows, columns) = c.shape();
         let mean = |i: usize, j: usize| 0.5 * (c[(i, j)] + c[(rows - 1 - i, columns - 1 - j)]);

@@ -4,7 +4,7 @@ use nalgebra::Complex;
 
 /// The unevaluated sum of two numbers, the second of which is the rounding of the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DoubleDouble {
+pub(crate) struct DoubleDouble {
     /// The sum, rounded.
     pub high: f64,
     /// What is left.
@@ -13,26 +13,26 @@ pub struct DoubleDouble {
 
 impl DoubleDouble {
     /// `a + b`, exactly.
-    pub fn sum(a: f64, b: f64) -> Self {
+    pub(crate) fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let part = high - a;
         Self { high, low: (a - (high - part)) + (b - part) }
     }
 
     /// `a b`, exactly.
-    pub fn product(a: f64, b: f64) -> Self {
+    pub(crate) fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         Self { high, low: a.mul_add(b, -high) }
     }
 
     /// The sum of two.
-    pub fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         let sum = Self::sum(self.high, other.high);
         Self::sum(sum.high, sum.low + self.low + other.low)
     }
 
     /// The product of two.
-    pub fn times(self, other: Self) -> Self {
+    pub(crate) fn times(self, other: Self) -> Self {
         let product = Self::product(self.high, other.high);
         Self::sum(product.high, product.low + self.high * other.low + self.low * other.high)
     }

@@ -10,7 +10,7 @@ use nalgebra::{Complex, ComplexField};
 
 /// `left^H R right` at real wavenumbers, right to all digits of a number as long as it is no less than 1e-16 of its
 /// terms.
-pub fn pairing(rigidity: &Rigidity, q: [f64; 2], left: &[Complex<f64>], right: &[Complex<f64>]) -> Complex<f64> {
+pub(crate) fn pairing(rigidity: &Rigidity, q: [f64; 2], left: &[Complex<f64>], right: &[Complex<f64>]) -> Complex<f64> {
     let z = q.map(factor);
     let mut sum = ComplexTwice::default();
     for (row, weight) in rigidity.rows.iter().zip(left) {

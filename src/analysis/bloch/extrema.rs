@@ -20,7 +20,7 @@ const SAME_EXTREMUM_DISTANCE: f64 = 1e-8;
 
 /// An extremum of the other sign than its boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hidden {
+pub(crate) struct Hidden {
     /// Its wavenumbers.
     pub extremum: [f64; 2],
     /// Whether the determinant is positive there.
@@ -31,7 +31,7 @@ pub struct Hidden {
 
 /// The extrema that a grid of `n x n` wavenumbers, half a mesh away from `q = 0`, hides, from the signs of the
 /// determinant and the norm of its gradient on it, `q2` by `q1`.
-pub fn hidden(zone: &Zone, n: usize, positive: &[bool], steepness: &[f64]) -> Vec<Hidden> {
+pub(crate) fn hidden(zone: &Zone, n: usize, positive: &[bool], steepness: &[f64]) -> Vec<Hidden> {
     let mut found: Vec<Hidden> = Vec::new();
     for k in (0..n * n).filter(|&k| is_least(n, steepness, k)) {
         let start = [wavenumber(k % n, n), wavenumber(k / n, n)];

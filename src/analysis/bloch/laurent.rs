@@ -24,7 +24,7 @@ impl Laurent {
     }
 
     /// The largest coefficient in magnitude.
-    pub fn largest(&self) -> f64 {
+    pub(crate) fn largest(&self) -> f64 {
         self.coefficients.amax()
     }
 
@@ -34,7 +34,7 @@ impl Laurent {
     }
 
     /// Coefficients of the powers of `z_b` at `z_a = exp(i q)`, lowest power first, `a` being 0 or 1 and `b` the other.
-    pub fn along(&self, a: usize, q: f64) -> Vec<Complex<f64>> {
+    pub(crate) fn along(&self, a: usize, q: f64) -> Vec<Complex<f64>> {
         let mut found = vec![Complex::ZERO; self.count(1 - a)];
         self.each(|powers, c| {
             let phase = q * (self.lowest[a] + powers[a] as f64);
@@ -44,7 +44,7 @@ impl Laurent {
     }
 
     /// Sums of the magnitudes of the terms that make each of those coefficients.
-    pub fn sizes(&self, a: usize) -> Vec<f64> {
+    pub(crate) fn sizes(&self, a: usize) -> Vec<f64> {
         let mut found = vec![0.0; self.count(1 - a)];
         self.each(|powers, c| found[powers[1 - a]] += c.abs());
         found
@@ -90,7 +90,7 @@ impl Laurent {
 
 /// The `k`-th of `n` wavenumbers that divide the zone from `-pi` to `pi` evenly, half a step away from its ends; for
 /// even `n` none of them is 0.
-pub fn wavenumber(k: usize, n: usize) -> f64 {
+pub(crate) fn wavenumber(k: usize, n: usize) -> f64 {
     (k as f64 + 0.5) * TAU / n as f64 - PI
 }
 

@@ -6,22 +6,22 @@
 //! section and appendix J; C. L. Kane, T. C. Lubensky, Nature Physics 10, 39 (2014)).
 
 pub mod bands;
-pub mod cluster;
+pub(crate) mod cluster;
 pub mod decay;
-pub mod determinant;
-pub mod double_double;
+pub(crate) mod determinant;
+pub(crate) mod double_double;
 mod error;
 mod exact_pairing;
-pub mod extrema;
-pub mod laurent;
-pub mod mode_shape;
-pub mod polarization;
-pub mod rigidity;
+pub(crate) mod extrema;
+pub(crate) mod laurent;
+pub(crate) mod mode_shape;
+pub(crate) mod polarization;
+pub(crate) mod rigidity;
 mod root;
-pub mod singular;
+pub(crate) mod singular;
 mod survey;
 pub mod zero_lines;
-pub mod zone;
+pub(crate) mod zone;
 
 pub use decay::Decay;
 pub use determinant::Determinant;
@@ -31,6 +31,7 @@ pub use mode_shape::ModeShape;
 pub use polarization::Polarization;
 pub use rigidity::Rigidity;
 pub use root::Root;
-pub use survey::{STEPS, Survey, SurveyOptions, survey};
+pub(crate) use survey::{STEPS, Survey};
+pub use survey::{SurveyOptions, survey};
 pub use zero_lines::ZeroLines;
 pub use zone::Zone;

@@ -33,16 +33,8 @@ impl ModeShape {
         Ok(Self { z, displacement, residual: singular_values[last] / singular_values[0] })
     }
 
-    /// Real displacements of all vertices of `n1 x n2` cells, vertex `v` of cell `(c1, c2)` at `(c2 n1 + c1) Nv + v`,
-    /// the largest of them of length 1.
-    pub fn on_cells(&self, [n1, n2]: [usize; 2]) -> Vec<Vec3> {
-        let cells = (0..n2).flat_map(|c2| (0..n1).map(move |c1| [c1 as i32, c2 as i32]));
-        let vertices = self.displacement.len() / 3;
-        self.at(&cells.flat_map(|cell| (0..vertices).map(move |vertex| (vertex, cell))).collect::<Vec<_>>())
-    }
-
     /// Real displacements of vertices of cells, the largest of them of length 1.
-    pub fn at(&self, places: &[(usize, [i32; 2])]) -> Vec<Vec3> {
+    pub(crate) fn at(&self, places: &[(usize, [i32; 2])]) -> Vec<Vec3> {
         let moved = places.iter().map(|&(vertex, cell)| {
             let factor = power(self.z, cell);
             Vec3::from_fn(|k, _| (self.displacement[3 * vertex + k] * factor).re)

@@ -30,7 +30,7 @@ pub struct Polarization {
 
 impl Count {
     /// The roots at one wavenumber.
-    pub fn of(decay: &Decay) -> Self {
+    pub(crate) fn of(decay: &Decay) -> Self {
         let mut count = Self { inside: decay.at_zero, on_circle: 0, outside: decay.at_infinity };
         for root in &decay.roots {
             match (root.on_circle(), root.kappa() < 0.0) {

@@ -36,7 +36,7 @@ impl Row {
 
 /// The rigidity matrix between two vectors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pairing {
+pub(crate) struct Pairing {
     /// `left^H R right`.
     pub value: Complex<f64>,
     /// Its derivatives by `log z1` and `log z2`.
@@ -82,7 +82,7 @@ impl Rigidity {
     ///
     /// # Errors
     /// [`BlochError`] on a patch.
-    pub fn of_state(sheet: &Sheet, rigid_facets: bool, domain: &Domain, x: &[f64]) -> Result<Self, BlochError> {
+    pub(crate) fn of_state(sheet: &Sheet, rigid_facets: bool, domain: &Domain, x: &[f64]) -> Result<Self, BlochError> {
         let place = |Corner { vertex, shift }| domain.point(x, Site { vertex, shift });
         if matches!(domain, Domain::Patch) {
             return Err(BlochError::NoLattice);
@@ -122,7 +122,7 @@ impl Rigidity {
     ///
     /// # Errors
     /// [`BlochError`] where the matrix is not square.
-    pub fn require_square(&self) -> Result<(), BlochError> {
+    pub(crate) fn require_square(&self) -> Result<(), BlochError> {
         let (rows, columns) = (self.rows.len(), self.columns());
         if rows == columns { Ok(()) } else { Err(BlochError::NotSquare { rows, columns }) }
     }
@@ -143,7 +143,7 @@ impl Rigidity {
 
     /// `left^H R(z1, z2) right`, its derivatives by `log z1` and `log z2`, and the sum of the magnitudes of the products
     /// that make it; rows by `left`, columns by `right`.
-    pub fn pairing(&self, z: [Complex<f64>; 2], left: &[Complex<f64>], right: &[Complex<f64>]) -> Pairing {
+    pub(crate) fn pairing(&self, z: [Complex<f64>; 2], left: &[Complex<f64>], right: &[Complex<f64>]) -> Pairing {
         let mut found = Pairing::default();
         for (row, weight) in self.rows.iter().zip(left) {
             for (corner, direction) in &row.terms {
@@ -175,7 +175,7 @@ impl Rigidity {
 
     /// Lowest and highest power of `z1` (`a` = 0) or `z2` (1) that the determinant can have: every row contributes one
     /// of its terms.
-    pub fn powers(&self, a: usize) -> [i32; 2] {
+    pub(crate) fn powers(&self, a: usize) -> [i32; 2] {
         let of_row = |row: &Row| {
             let shifts = row.terms.iter().map(|(corner, _)| corner.shift[a]);
             shifts.fold([i32::MAX, i32::MIN], |[low, high], s| [low.min(s), high.max(s)])
@@ -218,7 +218,7 @@ fn lock(points: &[Vec3; 4]) -> [Vec3; 4] {
 }
 
 /// How cell `(n1, n2)` of a state is turned against cell `(0, 0)`, from all coordinates of the state.
-pub fn cell_rotation(domain: &Domain, x: &[f64], [n1, n2]: [i32; 2]) -> Matrix3<f64> {
+pub(crate) fn cell_rotation(domain: &Domain, x: &[f64], [n1, n2]: [i32; 2]) -> Matrix3<f64> {
     domain.turns(x).map_or(Matrix3::identity(), |turns| {
         let angle = f64::from(n1) * turns.theta[0] + f64::from(n2) * turns.theta[1];
         Rotation3::new(turns.axis() * angle).into_inner()
@@ -226,7 +226,7 @@ pub fn cell_rotation(domain: &Domain, x: &[f64], [n1, n2]: [i32; 2]) -> Matrix3<
 }
 
 /// `z1^n1 z2^n2`.
-pub fn power(z: [Complex<f64>; 2], [n1, n2]: [i32; 2]) -> Complex<f64> {
+pub(crate) fn power(z: [Complex<f64>; 2], [n1, n2]: [i32; 2]) -> Complex<f64> {
     z[0].powi(n1) * z[1].powi(n2)
 }
 

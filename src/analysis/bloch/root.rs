@@ -26,7 +26,7 @@ impl Root {
     }
 
     /// Real part of the wavenumber, in `(-pi, pi]`.
-    pub fn wavenumber(&self) -> f64 {
+    pub(crate) fn wavenumber(&self) -> f64 {
         self.z.arg()
     }
 

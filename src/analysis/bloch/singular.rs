@@ -28,14 +28,14 @@ const FARTHEST: f64 = 0.2;
 const LEANING: f64 = 4.0;
 
 /// A search for singular matrices; it keeps the borders of the last, which serve near by.
-pub struct Search<'a> {
+pub(crate) struct Search<'a> {
     rigidity: &'a Rigidity,
     borders: [ComplexVector; 2],
 }
 
 impl<'a> Search<'a> {
     /// For a square rigidity matrix.
-    pub fn new(rigidity: &'a Rigidity) -> Self {
+    pub(crate) fn new(rigidity: &'a Rigidity) -> Self {
         // directions that no symmetry of a cell prefers
         let part = |k: usize| (k as f64 * 0.618_033_988_75).fract() - 0.5;
         let any = |shift: usize| {
@@ -47,7 +47,7 @@ impl<'a> Search<'a> {
 
     /// The root `z_a` near `z[a]`, the other factor held; its condition is the change of `log z_a` per relative change
     /// of the entries of the matrix. `None` where Newton's method does not settle near by.
-    pub fn root(&mut self, mut z: [Complex<f64>; 2], a: usize) -> Option<Root> {
+    pub(crate) fn root(&mut self, mut z: [Complex<f64>; 2], a: usize) -> Option<Root> {
         let start = z[a];
         for _ in 0..ROUNDS {
             let pair = self.null_pair(z)?;
@@ -72,7 +72,7 @@ impl<'a> Search<'a> {
     ///
     /// Up to a phase `g` is real there: the step is that of least squares for its two parts. It is taken to
     /// [twice the digits](super::double_double), since the gradient may be as small as it likes.
-    pub fn on_zone(&mut self, start: [f64; 2]) -> Option<([f64; 2], f64)> {
+    pub(crate) fn on_zone(&mut self, start: [f64; 2]) -> Option<([f64; 2], f64)> {
         let mut q = start;
         for _ in 0..ROUNDS {
             let z = q.map(|q| Complex::from_polar(1.0, q));

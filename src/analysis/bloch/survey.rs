@@ -5,7 +5,7 @@ use super::{BlochError, Decay, Determinant, ModeShape, Polarization, Rigidity, R
 use nalgebra::Complex;
 
 /// Steps of a survey, after each of which its observer is asked.
-pub const STEPS: usize = 4;
+pub(crate) const STEPS: usize = 4;
 
 /// What is looked at.
 #[derive(Clone, Debug)]

@@ -64,7 +64,7 @@ impl Zone {
 
     /// How well the value is known: every coefficient carries the rounding of the largest value, and near `q = 0` each
     /// counts as little as what is left of its cosine.
-    pub fn uncertainty(&self, q: [f64; 2]) -> f64 {
+    pub(crate) fn uncertainty(&self, q: [f64; 2]) -> f64 {
         let q = q.map(reduced);
         let parts = self.parts(q);
         let squares = self.terms.iter().map(|[m, n, _]| remainder(m * q[0] + n * q[1], parts).0.powi(2));
@@ -72,7 +72,7 @@ impl Zone {
     }
 
     /// Second derivatives, `[11, 22, 12]`.
-    pub fn curvature(&self, q: [f64; 2]) -> [f64; 3] {
+    pub(crate) fn curvature(&self, q: [f64; 2]) -> [f64; 3] {
         let q = q.map(reduced);
         let bent = |t: f64| match self.parts(q) {
             4 => 2.0 * (0.5 * t).sin().powi(2),
@@ -111,7 +111,7 @@ impl Zone {
 }
 
 /// A wavenumber in `[-pi, pi)`.
-pub fn reduced(q: f64) -> f64 {
+pub(crate) fn reduced(q: f64) -> f64 {
     (q + PI).rem_euclid(TAU) - PI
 }
 

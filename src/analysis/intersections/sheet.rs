@@ -23,7 +23,7 @@ use std::collections::HashMap;
 use std::f64::consts::PI;
 
 /// Cells of a torus on every side of the drawn ones that these are held against.
-pub const NEIGHBOURS: usize = 2;
+pub(crate) const NEIGHBOURS: usize = 2;
 /// A margin for states that are known to the tolerance of a relaxation: layers that lie on each other stay apart.
 pub const STACKED_LAYERS_MARGIN: f64 = 1e-9;
 

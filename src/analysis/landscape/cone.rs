@@ -89,7 +89,7 @@ impl<'a> Cone<'a> {
 ///
 /// # Errors
 /// [`SampleError`] where a sample beside the point does not converge.
-pub fn zero_of_energy(
+pub(crate) fn zero_of_energy(
     held: &mut HeldSheet,
     courses: &TaylorPaths,
     near: &Vec3,

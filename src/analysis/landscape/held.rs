@@ -41,7 +41,7 @@ impl HeldSheet {
     ///
     /// # Errors
     /// [`LandscapeError`] where the modes are not known.
-    pub fn new(assembly: &Assembly) -> Result<Self, LandscapeError> {
+    pub(crate) fn new(assembly: &Assembly) -> Result<Self, LandscapeError> {
         match assembly.boundary() {
             Boundary::Patch => Self::patch(assembly),
             _ => Self::torus(assembly),
@@ -83,7 +83,7 @@ impl HeldSheet {
     ///
     /// # Errors
     /// [`LandscapeError`] where no mode comes near them, where several have them, and where all are zero.
-    pub fn with_rates(&self, rates: &[f64]) -> Result<Vec<f64>, LandscapeError> {
+    pub(crate) fn with_rates(&self, rates: &[f64]) -> Result<Vec<f64>, LandscapeError> {
         let known: Vec<usize> = (0..rates.len()).filter(|&edge| !rates[edge].is_nan()).collect();
         let right = DenseMatrix::from_fn(known.len(), 1, |row, _| rates[known[row]]);
         let fit = least_squares(&self.basis.select_rows(&known), &right)?;
@@ -108,12 +108,12 @@ impl HeldSheet {
     }
 
     /// Amplitudes along the basis of the modes.
-    pub fn amplitudes(&self, rates: &[f64]) -> DVector<f64> {
+    pub(crate) fn amplitudes(&self, rates: &[f64]) -> DVector<f64> {
         self.basis.tr_mul(&DVector::from_column_slice(rates))
     }
 
     /// Velocities of all coordinates for rates along the modes.
-    pub fn motion(&self, rates: &[f64]) -> Vec<f64> {
+    pub(crate) fn motion(&self, rates: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.motions.first().map_or(0, Vec::len)];
         for (amplitude, motion) in self.amplitudes(rates).iter().zip(&self.motions) {
             all.iter_mut().zip(motion).for_each(|(sum, v)| *sum += amplitude * v);
@@ -150,7 +150,7 @@ impl HeldSheet {
 
     /// An amount per edge of the repeating piece for every soft element and every stiff measure; zero where rest values do
     /// not float.
-    pub fn spread(&self, per_edge: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub(crate) fn spread(&self, per_edge: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let of = |edge: &Option<usize>| edge.map_or(0.0, |edge| per_edge[edge]);
         let all: Vec<f64> = self.repeating.iter().map(of).collect();
         let (soft, stiff) = all.split_at(self.model.layout().soft.len());
@@ -158,12 +158,12 @@ impl HeldSheet {
     }
 
     /// What the directions of rest angles across the modes are for every soft element and every stiff measure.
-    pub fn directions(&self) -> Vec<(Vec<f64>, Vec<f64>)> {
+    pub(crate) fn directions(&self) -> Vec<(Vec<f64>, Vec<f64>)> {
         self.free.column_iter().map(|direction| self.spread(direction.as_slice())).collect()
     }
 
     /// Moves the rest angles off the drawn ones.
-    pub fn set_rest(&mut self, per_edge: &[f64]) {
+    pub(crate) fn set_rest(&mut self, per_edge: &[f64]) {
         let (soft, stiff) = self.spread(per_edge);
         let rests: Vec<f64> =
             self.rests.iter().zip(soft.iter().chain(&stiff)).map(|(rest, moved)| rest + moved).collect();

@@ -7,11 +7,11 @@
 
 pub mod cone;
 mod error;
-pub mod expansion;
+pub(crate) mod expansion;
 pub mod fit;
 mod held;
 mod patch;
-pub mod prediction;
+pub(crate) mod prediction;
 pub mod samples;
 mod settling;
 pub mod sphere;

@@ -21,7 +21,7 @@ const ROUNDS: usize = 30;
 const BALANCED: f64 = 1e-10;
 const LEAST_ANGLE: f64 = 1e-4;
 /// Tolerance of the relaxations: above the rounding error of forces that are much smaller than the tensions.
-pub const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 200 };
+pub(crate) const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 200 };
 /// Accuracy of the linear solves for a step of the rest angles.
 const ROUGH: f64 = 1e-7;
 /// Most steps of a round, and the last step over the rest angles after which no other is needed: its square is left.

@@ -11,16 +11,16 @@ use crate::solver::{HessianKind, Problem, Tangent};
 use nalgebra::DVector;
 
 /// Accuracy of the linear solves where the response itself is wanted.
-pub const FINE: f64 = 1e-13;
+pub(crate) const FINE: f64 = 1e-13;
 /// Residual above which they are refused.
 const INACCURATE: f64 = 1e-6;
 
 /// Amounts on every soft hinge and on every stiff measure.
-pub type TermValues = (Vec<f64>, Vec<f64>);
+pub(crate) type TermValues = (Vec<f64>, Vec<f64>);
 
 /// How a sheet settles.
 #[derive(Clone, Debug)]
-pub struct Response {
+pub(crate) struct Response {
     /// What unknowns, tensions and rest angles across the modes move by.
     pub place: HeldState,
     /// How far every soft hinge is off rest.
@@ -43,7 +43,7 @@ impl Response {
 }
 
 /// A held sheet linearized at a state, factored once.
-pub struct Settling<'a> {
+pub(crate) struct Settling<'a> {
     held: &'a HeldSheet,
     tangent: Tangent,
     /// Directions of the rest angles across the modes.
@@ -60,7 +60,7 @@ impl<'a> Settling<'a> {
     /// At these unknowns and tensions, by linear solves of this accuracy.
     ///
     /// Fails where the sheet is not stable there.
-    pub fn new(
+    pub(crate) fn new(
         held: &'a HeldSheet,
         (x, tension): (&[f64], &[f64]),
         kind: HessianKind,
@@ -110,7 +110,7 @@ impl<'a> Settling<'a> {
     }
 
     /// The same with the rest angles across the modes settling too.
-    pub fn settle(&mut self, off: (&[f64], &[f64]), force: Option<&[f64]>) -> Result<Response, LandscapeError> {
+    pub(crate) fn settle(&mut self, off: (&[f64], &[f64]), force: Option<&[f64]>) -> Result<Response, LandscapeError> {
         let mut response = self.respond(off, force)?;
         let torques = DVector::from_fn(self.free.len(), |j, _| self.torque(response.parts(), j));
         let rest = self.absorb(&torques)?;
@@ -122,7 +122,7 @@ impl<'a> Settling<'a> {
     }
 
     /// The rest angles across the modes that take these torques away.
-    pub fn absorb(&self, torques: &DVector<f64>) -> Result<DVector<f64>, LandscapeError> {
+    pub(crate) fn absorb(&self, torques: &DVector<f64>) -> Result<DVector<f64>, LandscapeError> {
         if torques.is_empty() {
             return Ok(torques.clone());
         }
@@ -134,7 +134,7 @@ impl<'a> Settling<'a> {
     /// Hessian of the energy in the rest angles is that of equilibria near it. `longest` bounds what rest angles move by.
     ///
     /// Fails where the energy is not convex in the rest angles.
-    pub fn joint(&mut self, (x, tension): (&[f64], &[f64]), longest: f64) -> Result<HeldState, LandscapeError> {
+    pub(crate) fn joint(&mut self, (x, tension): (&[f64], &[f64]), longest: f64) -> Result<HeldState, LandscapeError> {
         let model = &self.held.model;
         let found = self.tangent.newton_step(tension, self.accuracy);
         let mut off = vec![0.0; model.layout().soft.len()];
@@ -161,7 +161,7 @@ impl<'a> Settling<'a> {
 
     /// Twice the energy of a pair of responses. With the work of tensions on what is left open it is stationary where they are
     /// exact: the error is of second order in what linear solves have left.
-    pub fn product(&self, a: &Response, b: &Response) -> f64 {
+    pub(crate) fn product(&self, a: &Response, b: &Response) -> f64 {
         let hinges = a.off.iter().zip(&b.off).zip(self.stiffness()).map(|((a, b), k)| k * a * b);
         let bars =
             a.place.tension.iter().zip(&b.place.tension).zip(self.held.model.compliance()).map(|((a, b), c)| c * a * b);
@@ -171,7 +171,7 @@ impl<'a> Settling<'a> {
     }
 
     /// Stiffness of every soft hinge.
-    pub fn stiffness(&self) -> &[f64] {
+    pub(crate) fn stiffness(&self) -> &[f64] {
         &self.tangent.at.soft_stiffness
     }
 }

@@ -89,7 +89,7 @@ impl Net {
 ///
 /// # Errors
 /// [`SampleError`] where the relaxation does not converge.
-pub fn sample(
+pub(crate) fn sample(
     held: &mut HeldSheet,
     courses: &TaylorPaths,
     direction: &Vec3,

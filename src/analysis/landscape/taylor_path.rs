@@ -4,7 +4,7 @@ use crate::numerics::vector::add_scaled;
 use nalgebra::DVector;
 
 /// Orders that are known.
-pub const ORDERS: usize = 3;
+pub(crate) const ORDERS: usize = 3;
 
 /// A place of a held sheet, or a change of place.
 #[derive(Clone, Debug)]
@@ -19,7 +19,7 @@ pub struct HeldState {
 
 impl HeldState {
     /// Adds another one times a factor.
-    pub fn add(&mut self, factor: f64, other: &Self) {
+    pub(crate) fn add(&mut self, factor: f64, other: &Self) {
         add_scaled(&mut self.x, factor, &other.x);
         add_scaled(&mut self.tension, factor, &other.tension);
         add_scaled(self.rest.as_mut_slice(), factor, other.rest.as_slice());

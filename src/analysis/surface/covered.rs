@@ -90,7 +90,7 @@ impl std::fmt::Display for Negative {
 
 impl Surface {
     /// Keeps the first states and the triangles among them.
-    pub fn truncate(&mut self, kept: usize) {
+    pub(crate) fn truncate(&mut self, kept: usize) {
         self.points.truncate(kept);
         self.triangles.retain(|triangle| triangle.iter().all(|&corner| corner < kept));
     }

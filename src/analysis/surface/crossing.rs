@@ -58,7 +58,7 @@ pub(super) fn seam(folding: &SurfaceClosure<'_>, points: &[SurfacePoint], triang
 impl Surface {
     /// Where a quadratic energy is lowest along the curve on which two surfaces cross, near a state of it; `None` where that
     /// is not found.
-    pub fn lowest_on_crossing(
+    pub(crate) fn lowest_on_crossing(
         assembly: &Assembly,
         options: &SurfaceOptions,
         angles: &[f64],

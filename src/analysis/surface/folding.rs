@@ -20,50 +20,50 @@ pub(super) struct SurfaceClosure<'a> {
 }
 
 impl<'a> SurfaceClosure<'a> {
-    pub fn new(closure: &'a Closure, embedding: &'a Embedding, max_curvature: f64) -> Self {
+    pub(crate) fn new(closure: &'a Closure, embedding: &'a Embedding, max_curvature: f64) -> Self {
         Self::at(closure, embedding, (embedding.drawn_angles(), max_curvature))
     }
 
     /// The same cell, at another state than the drawn one.
-    pub fn at(closure: &'a Closure, embedding: &'a Embedding, (angles, max_curvature): (&[f64], f64)) -> Self {
+    pub(crate) fn at(closure: &'a Closure, embedding: &'a Embedding, (angles, max_curvature): (&[f64], f64)) -> Self {
         let closing = Closing::new(closure, angles.to_vec());
         let origin = closing.folding(angles);
         Self { closure, closing, embedding, origin, max_curvature }
     }
 
     /// What places the cell.
-    pub fn embedding(&self) -> &Embedding {
+    pub(crate) fn embedding(&self) -> &Embedding {
         self.embedding
     }
 
     /// The angles of the folding edges at the state from which folding starts, which is the drawn one mostly.
-    pub fn drawn(&self) -> Vec<f64> {
+    pub(crate) fn drawn(&self) -> Vec<f64> {
         self.origin.clone()
     }
 
     /// The entries of the folding edges.
-    pub fn folding(&self, all: &[f64]) -> Vec<f64> {
+    pub(crate) fn folding(&self, all: &[f64]) -> Vec<f64> {
         self.closing.folding(all)
     }
 
     /// The angles of all edges.
-    pub fn all(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn all(&self, x: &[f64]) -> Vec<f64> {
         self.closing.angles(x)
     }
 
     /// The cylinder at the angles of the folding edges.
-    pub fn shape(&self, x: &[f64]) -> Result<Shape, KinematicsError> {
+    pub(crate) fn shape(&self, x: &[f64]) -> Result<Shape, KinematicsError> {
         Shape::at(self.embedding, &self.all(x))
     }
 
     /// The largest component of the closure residual.
-    pub fn residual(&self, x: &[f64]) -> f64 {
+    pub(crate) fn residual(&self, x: &[f64]) -> f64 {
         self.closure.residual(&self.all(x)).amax()
     }
 
     /// Closure and the rotation vectors of both lattice motions, which vanish at a spatially periodic state; and the
     /// Jacobian, right to first order in those vectors.
-    pub fn periodic(&self, x: &[f64]) -> (DVector<f64>, DenseMatrix) {
+    pub(crate) fn periodic(&self, x: &[f64]) -> (DVector<f64>, DenseMatrix) {
         let angles = self.all(x);
         let rows = self.equations();
         let mut residual = self.closure.residual(&angles).resize_vertically(rows + 6, 0.0);
@@ -122,7 +122,7 @@ pub(super) struct Section<'a, 'b> {
 }
 
 impl<'a, 'b> Section<'a, 'b> {
-    pub fn new(folding: &'b mut SurfaceClosure<'a>, through: Vec<f64>, normal: Vec<f64>) -> Self {
+    pub(crate) fn new(folding: &'b mut SurfaceClosure<'a>, through: Vec<f64>, normal: Vec<f64>) -> Self {
         let (rows, columns) = (folding.equations(), folding.unknowns());
         Self { folding, through, normal, residual: vec![0.0; rows], jacobian: DenseMatrix::zeros(rows, columns) }
     }

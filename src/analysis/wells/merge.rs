@@ -9,7 +9,7 @@ use crate::model::Assembly;
 use std::collections::HashMap;
 
 /// Largest difference of a fold angle between two finds of one well, in radians.
-pub const SAME_WELL_ANGLE_RAD: f64 = 1e-5;
+pub(crate) const SAME_WELL_ANGLE_RAD: f64 = 1e-5;
 
 /// Rest angles of copies of a crease that are the same differ by no more, in radians.
 const ROUNDING: f64 = 1e-9;
@@ -91,7 +91,7 @@ pub fn wells(found: impl Iterator<Item = Settled>, translations: &Translations) 
 }
 
 /// The number of the well that a state is.
-pub fn which(wells: &[Well], angles: &[f64], translations: &Translations) -> Option<usize> {
+pub(crate) fn which(wells: &[Well], angles: &[f64], translations: &Translations) -> Option<usize> {
     let same =
         |well: &Well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME_WELL_ANGLE_RAD;
     wells.iter().position(same)

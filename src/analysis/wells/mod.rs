@@ -8,8 +8,8 @@
 
 pub mod barrier;
 pub mod merge;
-pub mod pass;
+pub(crate) mod pass;
 pub mod rigid;
 pub mod settle;
 pub mod starts;
-pub mod string;
+pub(crate) mod string;

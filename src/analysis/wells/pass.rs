@@ -47,7 +47,7 @@ pub struct Pass {
 ///
 /// # Errors
 /// [`Failure`] where Newton's method does not converge, or its linear systems cannot be solved.
-pub fn equilibrium(assembly: &Assembly, from: &StartState, options: Options) -> Result<Pass, Failure> {
+pub(crate) fn equilibrium(assembly: &Assembly, from: &StartState, options: Options) -> Result<Pass, Failure> {
     let mut model = assembly.model(Gauge::Held);
     model.set_angles(&from.angles);
     let start = Start { x: model.rebase_gauge(from.coordinates.clone()), tension: Some(from.tension.clone()) };
@@ -78,7 +78,12 @@ fn pass(model: &Model, found: StationaryPoint) -> Pass {
 ///
 /// # Errors
 /// [`Failure`] of the relaxation that ends the descent.
-pub fn sides(assembly: &Assembly, pass: &Pass, along: &[f64], options: Options) -> Result<[Settled; 2], Failure> {
+pub(crate) fn sides(
+    assembly: &Assembly,
+    pass: &Pass,
+    along: &[f64],
+    options: Options,
+) -> Result<[Settled; 2], Failure> {
     let mut last = Err(Failure::SingularStart);
     for stronger in 0..STRONGER {
         let strength = STRENGTH * 100f64.powi(stronger);

@@ -55,13 +55,13 @@ impl MinimumTracker {
     }
 
     /// The drawn state.
-    pub fn drawn(&self) -> StartState {
+    pub(crate) fn drawn(&self) -> StartState {
         let coordinates = self.free.coordinates(&self.free.start());
         StartState { coordinates, angles: self.free.angles(), tension: vec![0.0; self.free.compliance().len()] }
     }
 
     /// Stiffness of the soft hinges: the metric.
-    pub fn stiffness(&self) -> &[f64] {
+    pub(crate) fn stiffness(&self) -> &[f64] {
         &self.stiffness
     }
 
@@ -69,7 +69,7 @@ impl MinimumTracker {
     ///
     /// # Errors
     /// [`RelaxError`] where the relaxation does not converge.
-    pub fn free(
+    pub(crate) fn free(
         &mut self,
         from: &StartState,
         warm: bool,
@@ -101,7 +101,7 @@ impl MinimumTracker {
     }
 
     /// The place where the last free relaxation ended that did not converge; with no tensions.
-    pub fn ended(&self, state: &State) -> StartState {
+    pub(crate) fn ended(&self, state: &State) -> StartState {
         let tension = vec![0.0; self.free.compliance().len()];
         StartState { coordinates: state.coordinates.clone(), angles: self.free.angles(), tension }
     }

@@ -67,7 +67,7 @@ pub fn relax_all(assembly: &Assembly, starts: &Starts, go_on: &(dyn Fn() -> bool
 }
 
 /// Why starts failed, and how many for each reason, the most frequent first.
-pub fn failures(outcomes: &[Outcome]) -> Vec<(&'static str, usize)> {
+pub(crate) fn failures(outcomes: &[Outcome]) -> Vec<(&'static str, usize)> {
     let mut counts: Vec<(&'static str, usize)> = Vec::new();
     for outcome in outcomes {
         let Outcome::Failed(failure) = outcome else { continue };

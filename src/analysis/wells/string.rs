@@ -14,7 +14,7 @@ use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
 /// Strength with which states of the row are held: the step of the descent is one over it.
-pub const STRENGTH: f64 = 32.0;
+pub(crate) const STRENGTH: f64 = 32.0;
 /// States of the row, its ends included.
 const STATES: usize = 17;
 /// Most sweeps, and the movement in a sweep, over the length of the row, at which it is at rest.
@@ -30,7 +30,7 @@ const STRING_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 ///
 /// # Errors
 /// [`Failure`] of a relaxation on the way, or [`Failure::Interrupted`].
-pub fn string(
+pub(crate) fn string(
     settler: &mut MinimumTracker,
     [from, to]: [&Settled; 2],
     bend: u64,
@@ -116,7 +116,7 @@ pub fn distance(settler: &MinimumTracker, a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Distance of every state along the row.
-pub fn stations(settler: &MinimumTracker, row: &[Settled]) -> Vec<f64> {
+pub(crate) fn stations(settler: &MinimumTracker, row: &[Settled]) -> Vec<f64> {
     let mut along = vec![0.0];
     for pair in row.windows(2) {
         along.push(along[along.len() - 1] + distance(settler, &pair[0].rho, &pair[1].rho));

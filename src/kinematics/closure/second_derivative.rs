@@ -19,7 +19,7 @@ impl Closure {
     /// column for every motion.
     /// # Panics
     /// Where `angles` or `modes` have another number of rows than the list of edges.
-    pub fn second_order(&self, angles: &[f64], modes: &DenseMatrix) -> Vec<DenseMatrix> {
+    pub(crate) fn second_order(&self, angles: &[f64], modes: &DenseMatrix) -> Vec<DenseMatrix> {
         assert_eq!([angles.len(), modes.nrows()], [self.edges; 2], "a row for every edge");
         let count = modes.ncols();
         let mut parts = vec![DenseMatrix::zeros(count, count); 3 * self.rounds.len()];

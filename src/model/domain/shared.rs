@@ -4,7 +4,7 @@ use crate::math::Vec3;
 use nalgebra::{Complex, SMatrix};
 
 /// Most shared coordinates that a domain has.
-pub const MOST_SHARED: usize = 6;
+pub(crate) const MOST_SHARED: usize = 6;
 
 pub(super) type SharedMatrix = SMatrix<f64, 3, MOST_SHARED>;
 
@@ -13,7 +13,7 @@ pub(super) type Pulled = SMatrix<f64, { 12 + MOST_SHARED }, { 12 + MOST_SHARED }
 
 /// The screw motions of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turns {
+pub(crate) struct Turns {
     /// Direction of the axis: its angle from x, in radians.
     pub direction: f64,
     /// One over the height of the axis above z = 0.
@@ -30,7 +30,7 @@ impl Turns {
     }
 
     /// Unit vector along the axis.
-    pub fn axis(&self) -> Vec3 {
+    pub(crate) fn axis(&self) -> Vec3 {
         Vec3::new(self.direction.cos(), self.direction.sin(), 0.0)
     }
 }

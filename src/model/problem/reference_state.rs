@@ -12,12 +12,12 @@ pub struct ReferenceState {
 
 impl Model {
     /// Where the model is: unknowns found from here mean the same after [`Model::go_to`].
-    pub fn place(&self) -> ReferenceState {
+    pub(crate) fn place(&self) -> ReferenceState {
         ReferenceState { base: self.base.clone(), units: self.units.clone(), angles: self.angles() }
     }
 
     /// Goes back to a place. What is held against rigid motions must not have been chosen anew since.
-    pub fn go_to(&mut self, place: &ReferenceState) {
+    pub(crate) fn go_to(&mut self, place: &ReferenceState) {
         self.base.clone_from(&place.base);
         self.units.clone_from(&place.units);
         self.set_angles(&place.angles);

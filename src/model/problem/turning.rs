@@ -27,11 +27,6 @@ impl Model {
         gauge::choose(&motions, &held).into_iter().map(|k| number[k]).collect()
     }
 
-    /// How many rotations of the whole sheet pins leave free where loads pull.
-    pub fn free_rotations(&self) -> usize {
-        self.turning.len()
-    }
-
     /// Makes turning the sheet cost something in the Hessian, and nothing in the force: turns that no load resists have no other stiffness
     /// in balance, and a stiffness that means nothing out of it. Those that loads resist are made by [`Problem::relieve`] too.
     pub(super) fn hold_rotations(&self, tension: &[f64], out: &mut Linearization) {

@@ -2,7 +2,7 @@
 //!
 //! Matrices come and go as [`DenseMatrix`]; everything runs on the calling thread.
 
-pub mod small;
+pub(crate) mod small;
 
 use super::DenseMatrix;
 use super::sparse::{FIXED, Rows};
@@ -13,7 +13,7 @@ use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{ColMut, MatMut, MatRef, Par, Spec};
 
 /// The smallest gap between kept and dropped singular values at which a rank is believed.
-pub const SMALLEST_GAP: f64 = 1e3;
+pub(crate) const SMALLEST_GAP: f64 = 1e3;
 
 /// The reason for which a matrix was not decomposed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -107,7 +107,7 @@ pub struct NullSpace {
 
 /// Eigenvalues and eigenvectors of a symmetric matrix.
 #[derive(Clone, Debug)]
-pub struct SymmetricEigen {
+pub(crate) struct SymmetricEigen {
     /// Eigenvalues, ascending.
     pub values: Vec<f64>,
     /// Orthonormal eigenvectors as columns, in the order of the values.
@@ -141,7 +141,7 @@ pub fn from_rows(rows: &Rows<'_>, columns: usize) -> DenseMatrix {
 ///
 /// # Errors
 /// [`DenseError::NotFinite`] and [`DenseError::NoConvergence`].
-pub fn singular_values(matrix: &DenseMatrix) -> Result<Vec<f64>, DenseError> {
+pub(crate) fn singular_values(matrix: &DenseMatrix) -> Result<Vec<f64>, DenseError> {
     decompose(matrix, None)
 }
 
@@ -163,7 +163,7 @@ pub fn full_svd(matrix: &DenseMatrix) -> Result<Svd, DenseError> {
 ///
 /// # Errors
 /// [`DenseError::NoGap`] where the largest gap is below [`SMALLEST_GAP`].
-pub fn rank_at_largest_gap(values: &[f64]) -> Result<Rank, DenseError> {
+pub(crate) fn rank_at_largest_gap(values: &[f64]) -> Result<Rank, DenseError> {
     let largest = values.first().copied().unwrap_or(0.0);
     if largest == 0.0 {
         return Ok(Rank { rank: 0, gap: 1.0 / f64::EPSILON });
@@ -219,7 +219,7 @@ pub fn least_squares(matrix: &DenseMatrix, right: &DenseMatrix) -> Result<LeastS
 ///
 /// # Errors
 /// [`DenseError`] where the matrix is not square, or an entry is not finite.
-pub fn symmetric_eigen(matrix: &DenseMatrix) -> Result<SymmetricEigen, DenseError> {
+pub(crate) fn symmetric_eigen(matrix: &DenseMatrix) -> Result<SymmetricEigen, DenseError> {
     let mut vectors = DenseMatrix::identity(matrix.nrows(), matrix.nrows());
     let values = diagonalize(matrix, Some(&mut vectors))?;
     Ok(SymmetricEigen { values, vectors })

@@ -8,50 +8,50 @@ use crate::numerics::DenseMatrix;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix3, Vector3};
 
 /// A Cholesky factorization, to solve with.
-pub type CholeskyFactor = Cholesky<f64, Dyn>;
+pub(crate) type CholeskyFactor = Cholesky<f64, Dyn>;
 
 /// The Cholesky factorization of a symmetric matrix; `None` where it is not positive definite.
-pub fn cholesky(matrix: DenseMatrix) -> Option<CholeskyFactor> {
+pub(crate) fn cholesky(matrix: DenseMatrix) -> Option<CholeskyFactor> {
     Cholesky::new(matrix)
 }
 
 /// Orthonormal columns `q` and an upper triangle `r` with `matrix = q r`, for a matrix with at least as many rows as
 /// columns.
-pub fn orthonormal_triangular(matrix: DenseMatrix) -> [DenseMatrix; 2] {
+pub(crate) fn orthonormal_triangular(matrix: DenseMatrix) -> [DenseMatrix; 2] {
     let found = matrix.qr();
     [found.q(), found.r()]
 }
 
 /// The solution of `matrix * x = right`, column by column, by elimination with row pivots; `None` where the square
 /// matrix is singular.
-pub fn solve_square(matrix: DenseMatrix, right: &DenseMatrix) -> Option<DenseMatrix> {
+pub(crate) fn solve_square(matrix: DenseMatrix, right: &DenseMatrix) -> Option<DenseMatrix> {
     matrix.lu().solve(right)
 }
 
 /// The inverse of a square matrix, real or complex; `None` where it is singular.
-pub fn inverse<T: nalgebra::ComplexField>(matrix: DMatrix<T>) -> Option<DMatrix<T>> {
+pub(crate) fn inverse<T: nalgebra::ComplexField>(matrix: DMatrix<T>) -> Option<DMatrix<T>> {
     matrix.try_inverse()
 }
 
 /// The smallest over the largest singular value; not a number for a matrix of zeros.
-pub fn reciprocal_condition(matrix: &DenseMatrix) -> f64 {
+pub(crate) fn reciprocal_condition(matrix: &DenseMatrix) -> f64 {
     let values = matrix.singular_values();
     values.min() / values.max()
 }
 
 /// The shortest vector `x` with the least residual of `matrix * x = right`, singular values up to `zero` taken for
 /// zero; `None` where `zero` is negative.
-pub fn shortest_solution(matrix: DenseMatrix, right: &DVector<f64>, zero: f64) -> Option<DVector<f64>> {
+pub(crate) fn shortest_solution(matrix: DenseMatrix, right: &DVector<f64>, zero: f64) -> Option<DVector<f64>> {
     matrix.svd(true, true).solve(right, zero).ok()
 }
 
 /// Eigenvalues, in no order, and orthonormal eigenvectors as columns of a symmetric 3 x 3 matrix.
-pub fn symmetric_eigen_3(matrix: Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+pub(crate) fn symmetric_eigen_3(matrix: Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
     let found = matrix.symmetric_eigen();
     (found.eigenvalues, found.eigenvectors)
 }
 
 /// The solution of a 3 x 3 system; `None` where it is singular.
-pub fn solve_3(matrix: Matrix3<f64>, right: &Vector3<f64>) -> Option<Vector3<f64>> {
+pub(crate) fn solve_3(matrix: Matrix3<f64>, right: &Vector3<f64>) -> Option<Vector3<f64>> {
     matrix.lu().solve(right)
 }

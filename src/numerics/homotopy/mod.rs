@@ -28,7 +28,6 @@ mod track;
 mod tests;
 
 pub use error::HomotopyError;
-pub use sections::{Section, meets_real_points, solve_any};
-pub use singular::{SingularPoint, real_singular_points};
-pub use solutions::{Solution, Solutions};
-pub use square::solve;
+pub(crate) use sections::{Section, meets_real_points, solve_any};
+pub(crate) use singular::{SingularPoint, real_singular_points};
+pub(crate) use solutions::Solution;

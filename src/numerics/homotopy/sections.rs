@@ -21,7 +21,7 @@ const SOLUTION_RESIDUAL: f64 = 1e-8;
 
 /// The solutions of quadrics of any number, or where there are infinitely many, those on a random linear space.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Section {
+pub(crate) struct Section {
     /// Dimension of the solutions in projective space: unknowns less one less quadrics, and 0 with more quadrics.
     pub dimension: usize,
     /// Bezout's number: the sum of all multiplicities, of the paths that ended on continua and of the extraneous
@@ -39,7 +39,7 @@ pub struct Section {
 ///
 /// # Errors
 /// Those of [`solve`](super::solve).
-pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, HomotopyError> {
+pub(crate) fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, HomotopyError> {
     if unknowns == 0 {
         return Ok(Section::default());
     }
@@ -65,7 +65,11 @@ pub fn solve_any(quadrics: &[DenseMatrix], unknowns: usize) -> Result<Section, H
 ///
 /// # Errors
 /// Those of [`solve`](super::solve).
-pub fn meets_real_points(quadrics: &[DenseMatrix], unknowns: usize, spaces: usize) -> Result<bool, HomotopyError> {
+pub(crate) fn meets_real_points(
+    quadrics: &[DenseMatrix],
+    unknowns: usize,
+    spaces: usize,
+) -> Result<bool, HomotopyError> {
     let all = Quadrics::new(quadrics, unknowns)?;
     let mut random = ChaCha8Rng::seed_from_u64(u64::MAX);
     for _ in 0..spaces {

@@ -13,7 +13,7 @@ pub(super) struct Monomials {
 pub(super) type Series = Vec<C>;
 
 impl Monomials {
-    pub fn new(unknowns: usize, degree: usize) -> Self {
+    pub(crate) fn new(unknowns: usize, degree: usize) -> Self {
         let mut exponents: Vec<Vec<usize>> = vec![vec![]];
         for _ in 0..unknowns {
             let longer = |known: &Vec<usize>| {
@@ -35,16 +35,16 @@ impl Monomials {
     }
 
     /// Number of monomials of `unknowns` unknowns of at most a degree: `(unknowns + degree)! / (unknowns! degree!)`.
-    pub fn count(unknowns: usize, degree: usize) -> usize {
+    pub(crate) fn count(unknowns: usize, degree: usize) -> usize {
         (1..=unknowns).fold(1, |count, k| count * (degree + k) / k)
     }
 
-    pub fn zero(&self) -> Series {
+    pub(crate) fn zero(&self) -> Series {
         vec![C::default(); self.degrees.len()]
     }
 
     /// Adds `factor * monomial * series`, as far as the degrees reach.
-    pub fn add_shifted(&self, sum: &mut Series, factor: C, monomial: usize, series: &Series) {
+    pub(crate) fn add_shifted(&self, sum: &mut Series, factor: C, monomial: usize, series: &Series) {
         let places = &self.products[monomial * self.degrees.len()..];
         for (place, coefficient) in places.iter().zip(series) {
             if let Some(place) = place {
@@ -54,7 +54,7 @@ impl Monomials {
     }
 
     /// Adds the product of two series.
-    pub fn add_product(&self, sum: &mut Series, a: &Series, b: &Series) {
+    pub(crate) fn add_product(&self, sum: &mut Series, a: &Series, b: &Series) {
         for (monomial, coefficient) in a.iter().enumerate().filter(|(_, c)| **c != C::default()) {
             self.add_shifted(sum, *coefficient, monomial, b);
         }

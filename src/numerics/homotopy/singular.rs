@@ -36,7 +36,7 @@ type Estimate = (Vec<C>, f64);
 
 /// A real singular point of a curve.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SingularPoint {
+pub(crate) struct SingularPoint {
     /// A vector of norm 1, its largest entry positive.
     pub point: Vec<f64>,
     /// Whether no real branch of the curve goes through it: both its tangents are complex.
@@ -52,7 +52,7 @@ pub struct SingularPoint {
 ///
 /// # Errors
 /// Those of [`solve`](super::solve).
-pub fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<SingularPoint>>, HomotopyError> {
+pub(crate) fn real_singular_points(quadrics: &[DenseMatrix]) -> Result<Option<Vec<SingularPoint>>, HomotopyError> {
     let count = quadrics.len();
     let quadrics = Quadrics::new(quadrics, count + 2)?;
     let mut found = Err(HomotopyError::Lost { paths: 0 });

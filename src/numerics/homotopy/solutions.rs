@@ -8,7 +8,7 @@ pub(super) const SAME_SOLUTION_DISTANCE: f64 = 1e-6;
 
 /// An isolated solution.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Solution {
+pub(crate) struct Solution {
     /// A vector of norm 1, its largest entry real and positive; all entries are real where the solution is.
     pub point: Vec<Complex<f64>>,
     /// Multiplicity of the solution.
@@ -21,7 +21,7 @@ pub struct Solution {
 
 /// The solutions of a square system.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Solutions {
+pub(crate) struct Solutions {
     /// The isolated solutions, in the order of their paths.
     pub isolated: Vec<Solution>,
     /// Points of norm 1, one for each path that ended on a curve, a surface or more of solutions.
@@ -34,7 +34,7 @@ pub struct Solutions {
 
 impl Solutions {
     /// Number of isolated solutions, each with its multiplicity.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.isolated.iter().map(|solution| solution.multiplicity).sum()
     }
 }

@@ -6,7 +6,7 @@ use super::multiplicity::{Multiplicity, multiplicity};
 use super::solutions::{Group, SAME_SOLUTION_DISTANCE, Solution, Solutions, conjugate, grouped, multiple, turned};
 use super::system::{C, Quadrics, TotalDegree, distance};
 use super::track::{Care, Tracker};
-use crate::numerics::{DenseMatrix, parallel};
+use crate::numerics::parallel;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
@@ -23,11 +23,6 @@ const FIRST_STEP: f64 = 0.05;
 /// # Errors
 /// [`HomotopyError`] on matrices that are zero, not finite or of the wrong size or number, and where after several
 /// attempts paths and multiplicities still do not agree.
-pub fn solve(quadrics: &[DenseMatrix]) -> Result<Solutions, HomotopyError> {
-    solve_square(&Quadrics::new(quadrics, quadrics.len() + 1)?)
-}
-
-/// Finds all solutions, as [`solve`].
 pub(super) fn solve_square(quadrics: &Quadrics) -> Result<Solutions, HomotopyError> {
     let count = quadrics.count();
     if quadrics.unknowns != count + 1 {

@@ -44,7 +44,7 @@ pub(super) struct TotalDegree<'a> {
 
 impl Quadrics {
     /// Refuses matrices that are not square, not of one size, without entries, or zero.
-    pub fn new(matrices: &[DenseMatrix], unknowns: usize) -> Result<Self, HomotopyError> {
+    pub(crate) fn new(matrices: &[DenseMatrix], unknowns: usize) -> Result<Self, HomotopyError> {
         let scaled = matrices.iter().enumerate().map(|(number, matrix)| {
             let norm = if matrix.shape() == (unknowns, unknowns) { matrix.norm() } else { f64::NAN };
             let good = norm > 0.0 && norm.is_finite();
@@ -53,16 +53,16 @@ impl Quadrics {
         Ok(Self { unknowns, matrices: scaled.collect::<Result<_, _>>()? })
     }
 
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.matrices.len()
     }
 
-    pub fn matrices(&self) -> &[DenseMatrix] {
+    pub(crate) fn matrices(&self) -> &[DenseMatrix] {
         &self.matrices
     }
 
     /// `F` and its derivative, `2 A_k x` in row `k`.
-    pub fn evaluate(&self, x: &[C], value: &mut [C], jacobian: &mut [C]) {
+    pub(crate) fn evaluate(&self, x: &[C], value: &mut [C], jacobian: &mut [C]) {
         for (number, matrix) in self.matrices.iter().enumerate() {
             let row = &mut jacobian[number * self.unknowns..][..self.unknowns];
             row.fill(C::default());
@@ -75,7 +75,7 @@ impl Quadrics {
     }
 
     /// Largest `|F_k|` at a vector of norm 1.
-    pub fn residual(&self, x: &[C]) -> f64 {
+    pub(crate) fn residual(&self, x: &[C]) -> f64 {
         let mut value = vec![C::default(); self.count()];
         let mut jacobian = vec![C::default(); self.count() * self.unknowns];
         self.evaluate(x, &mut value, &mut jacobian);
@@ -84,21 +84,21 @@ impl Quadrics {
 }
 
 impl Local {
-    pub fn new(unknowns: usize) -> Self {
+    pub(crate) fn new(unknowns: usize) -> Self {
         let zeros = |count| vec![C::default(); count];
         Self { value: zeros(unknowns - 1), jacobian: zeros((unknowns - 1) * unknowns), rate: zeros(unknowns - 1) }
     }
 }
 
 impl<'a> TotalDegree<'a> {
-    pub fn new(quadrics: &'a Quadrics, random: &mut ChaCha8Rng) -> Self {
+    pub(crate) fn new(quadrics: &'a Quadrics, random: &mut ChaCha8Rng) -> Self {
         let mut units = |_| unit(random);
         let factors = (0..quadrics.count()).map(&mut units).collect();
         Self { quadrics, factors, squares: (0..quadrics.count()).map(units).collect() }
     }
 
     /// The start of path `number`: the roots of `b_k`, their signs the binary digits of the number.
-    pub fn start(&self, number: usize) -> Vec<C> {
+    pub(crate) fn start(&self, number: usize) -> Vec<C> {
         let roots =
             self.squares.iter().enumerate().map(|(k, b)| if number >> k & 1 == 0 { b.sqrt() } else { -b.sqrt() });
         let mut point: Vec<C> = [C::new(1.0, 0.0)].into_iter().chain(roots).collect();

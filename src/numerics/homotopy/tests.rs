@@ -1,5 +1,6 @@
 //! Systems whose solutions are known beforehand.
 
+use super::solutions::Solutions;
 use super::system::{C, Quadrics, distance, normalize};
 use super::*;
 use crate::numerics::DenseMatrix;
@@ -7,6 +8,11 @@ use crate::numerics::random::symmetric;
 use nalgebra::DVector;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+
+/// All solutions of as many quadrics as determine points.
+fn solve(quadrics: &[DenseMatrix]) -> Result<Solutions, HomotopyError> {
+    square::solve_square(&Quadrics::new(quadrics, quadrics.len() + 1)?)
+}
 
 fn random(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(1000 + seed)

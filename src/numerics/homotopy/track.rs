@@ -26,7 +26,7 @@ pub(super) struct Care {
 
 impl Care {
     /// Care at the first attempt (0), and more at each repetition.
-    pub fn of_attempt(repeated: u32) -> Self {
+    pub(crate) fn of_attempt(repeated: u32) -> Self {
         Self { correction: 0.01 * 0.1f64.powi(repeated as i32), contraction: 0.1 * 0.3f64.powi(repeated as i32) }
     }
 }
@@ -50,14 +50,14 @@ enum Step {
 }
 
 impl<'a, H: Homotopy> Tracker<'a, H> {
-    pub fn new(homotopy: &'a H, care: Care) -> Self {
+    pub(crate) fn new(homotopy: &'a H, care: Care) -> Self {
         let n = homotopy.unknowns();
         Self { homotopy, care, local: Local::new(n), matrix: vec![C::default(); n * n] }
     }
 
     /// Follows the solution `x` along the straight line between two parameters; `first` is the part of the line that
     /// the first step tries.
-    pub fn track(&mut self, x: &[C], from: C, to: C, first: f64) -> Result<Vec<C>, Lost> {
+    pub(crate) fn track(&mut self, x: &[C], from: C, to: C, first: f64) -> Result<Vec<C>, Lost> {
         let (mut x, mut done, mut length) = (x.to_vec(), 0.0, first);
         for _ in 0..MOST_STEPS {
             let last = length >= 1.0 - done;
@@ -78,7 +78,7 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
     }
 
     /// Goes in one step or not at all.
-    pub fn leap(&mut self, x: &[C], from: C, to: C) -> Option<Vec<C>> {
+    pub(crate) fn leap(&mut self, x: &[C], from: C, to: C) -> Option<Vec<C>> {
         match self.step(x, from, to) {
             Step::Accepted(found, _) => Some(found),
             Step::Refused => None,
@@ -86,7 +86,7 @@ impl<'a, H: Homotopy> Tracker<'a, H> {
     }
 
     /// Newton's method at one parameter until rounding is all that is left.
-    pub fn polished(&mut self, x: &[C], t: C) -> Vec<C> {
+    pub(crate) fn polished(&mut self, x: &[C], t: C) -> Vec<C> {
         let (mut polished, mut before) = (x.to_vec(), CORRECTED);
         for _ in 0..3 {
             let Some(correction) = self.correction(&polished, t, x).filter(|c| norm(c) < before) else { break };

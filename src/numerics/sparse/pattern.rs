@@ -101,7 +101,7 @@ impl SparsityPattern {
     }
 
     /// Adds a number to one diagonal entry.
-    pub fn add_to_one(&self, values: &mut [f64], k: usize, amount: f64) {
+    pub(crate) fn add_to_one(&self, values: &mut [f64], k: usize, amount: f64) {
         values[self.columns[k] as usize] += amount;
     }
 

@@ -18,7 +18,7 @@ pub struct RankOne<'a> {
 
 /// What an element adds to a matrix: an outer product and a multiple of a symmetric block.
 #[derive(Clone, Copy, Debug)]
-pub struct ElementBlock<'a> {
+pub(crate) struct ElementBlock<'a> {
     /// The outer product.
     pub outer: RankOne<'a>,
     /// Factor of the block.
@@ -29,14 +29,14 @@ pub struct ElementBlock<'a> {
 
 /// Where the entries of every clique's block stand in the values of a matrix.
 #[derive(Clone, Debug)]
-pub struct Slots {
+pub(crate) struct Slots {
     starts: Vec<usize>,
     slots: Vec<u32>,
 }
 
 impl Slots {
     /// Finds the slots of `cliques` in `pattern`. Couplings that the pattern does not contain are left out.
-    pub fn new(pattern: &SparsityPattern, cliques: &Cliques) -> Self {
+    pub(crate) fn new(pattern: &SparsityPattern, cliques: &Cliques) -> Self {
         let mut starts = vec![0];
         for members in cliques.iter() {
             starts.push(starts[starts.len() - 1] + members.len() * (members.len() + 1) / 2);
@@ -59,7 +59,7 @@ impl Slots {
     }
 
     /// Adds `scale` times the lower triangle of a block, given row by row, to the values.
-    pub fn add_block(&self, clique: usize, scale: f64, block: &[f64], values: &mut [f64]) {
+    pub(crate) fn add_block(&self, clique: usize, scale: f64, block: &[f64], values: &mut [f64]) {
         let slots = &self.slots[self.starts[clique]..self.starts[clique + 1]];
         for (&slot, &entry) in slots.iter().zip(block) {
             add(values, slot, scale * entry);
@@ -67,7 +67,7 @@ impl Slots {
     }
 
     /// Adds an outer product and a multiple of a block to the values.
-    pub fn add_element(&self, clique: usize, element: &ElementBlock<'_>, values: &mut [f64]) {
+    pub(crate) fn add_element(&self, clique: usize, element: &ElementBlock<'_>, values: &mut [f64]) {
         let ElementBlock { outer, scale, block } = *element;
         if block.is_empty() {
             return self.add_outer(clique, outer, values);
@@ -83,7 +83,7 @@ impl Slots {
     }
 
     /// Adds an outer product to the values.
-    pub fn add_outer(&self, clique: usize, outer: RankOne<'_>, values: &mut [f64]) {
+    pub(crate) fn add_outer(&self, clique: usize, outer: RankOne<'_>, values: &mut [f64]) {
         let g = outer.gradient;
         let mut slots = self.slots[self.starts[clique]..self.starts[clique + 1]].iter();
         for p in 0..g.len() {

@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// What is proportional to the length along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
+pub(crate) enum Scale {
     /// The value.
     Linear,
     /// Its logarithm.
@@ -23,7 +23,7 @@ pub enum Scale {
 
 /// A range of values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub(crate) struct Axis {
     scale: Scale,
     /// The ends, of a logarithmic axis their logarithms to base ten.
     low: f64,
@@ -34,7 +34,7 @@ pub struct Axis {
 
 /// A number beside an axis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tick {
+pub(crate) struct Tick {
     /// Its place, from 0 at the lower to 1 at the upper end.
     pub part: f64,
     /// As it is written.
@@ -53,7 +53,7 @@ impl Scale {
 impl Axis {
     /// The axis around values, without those that have no place on it; differences up to `noise`, and those that are
     /// rounding of the values themselves, are none.
-    pub fn around(scale: Scale, values: impl Iterator<Item = f64>, noise: f64) -> Self {
+    pub(crate) fn around(scale: Scale, values: impl Iterator<Item = f64>, noise: f64) -> Self {
         let places = values.map(|value| scale.place(value)).filter(|place| place.is_finite());
         let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         if low > high {
@@ -77,7 +77,7 @@ impl Axis {
     }
 
     /// From 0 at the lower to 1 at the upper end; in the middle where all values are one.
-    pub fn part(&self, value: f64) -> f64 {
+    pub(crate) fn part(&self, value: f64) -> f64 {
         match self.constant {
             Some(_) => 0.5,
             None => (self.scale.place(value) - self.low) / (self.high - self.low),
@@ -85,17 +85,17 @@ impl Axis {
     }
 
     /// Whether a value has a place.
-    pub fn has(&self, value: f64) -> bool {
+    pub(crate) fn has(&self, value: f64) -> bool {
         self.scale.place(value).is_finite()
     }
 
     /// The middle of the range.
-    pub fn middle(&self) -> f64 {
+    pub(crate) fn middle(&self) -> f64 {
         0.5 * (self.low + self.high)
     }
 
     /// A name that says where the values are one.
-    pub fn named(&self, name: &str) -> String {
+    pub(crate) fn named(&self, name: &str) -> String {
         match self.constant {
             Some(spread) if self.middle().abs() <= spread => format!("{name} = 0"),
             Some(_) => format!("{name}, constant"),
@@ -104,12 +104,12 @@ impl Axis {
     }
 
     /// How large the rounding is that the axis does not show.
-    pub fn rounding(&self) -> Option<String> {
+    pub(crate) fn rounding(&self) -> Option<String> {
         self.constant.filter(|spread| *spread > 0.0).map(|spread| format!("rounding {}", below(spread)))
     }
 
     /// Round numbers within the range.
-    pub fn ticks(&self) -> Vec<Tick> {
+    pub(crate) fn ticks(&self) -> Vec<Tick> {
         let tick = |value: f64, label: String| Tick { part: self.part(value), label };
         if let Some(spread) = self.constant {
             let middle = self.middle();
@@ -144,14 +144,14 @@ impl Axis {
 }
 
 /// One, two or five times a power of ten: about six of them in a range.
-pub fn round_step(range: f64) -> f64 {
+pub(crate) fn round_step(range: f64) -> f64 {
     let wanted = range.max(f64::MIN_POSITIVE) / TICKS;
     let power = 10f64.powf(wanted.log10().floor());
     [1.0, 2.0, 5.0].map(|factor| factor * power).into_iter().find(|step| *step >= wanted).unwrap_or(10.0 * power)
 }
 
 /// A number with a true minus, and as many digits as tell steps apart.
-pub fn number(value: f64, step: f64) -> String {
+pub(crate) fn number(value: f64, step: f64) -> String {
     let rounded = (value / step).round() * step;
     if rounded == 0.0 {
         return "0".into();
@@ -182,7 +182,7 @@ pub fn rounded(value: f64, digits: i32) -> String {
 }
 
 /// A bound as one digit and a power of ten.
-pub fn below(value: f64) -> String {
+pub(crate) fn below(value: f64) -> String {
     let power = value.log10().floor() as i32;
     let factor = (value / 10f64.powi(power)).ceil();
     format!("below {}", if factor < 10.0 { scientific(&factor.to_string(), power) } else { scientific("1", power + 1) })
@@ -190,7 +190,7 @@ pub fn below(value: f64) -> String {
 
 /// The power of ten by which numbers up to a largest one are divided to be short, and how it stands behind the name of what
 /// they are.
-pub fn unit(largest: f64) -> (f64, String) {
+pub(crate) fn unit(largest: f64) -> (f64, String) {
     let power = largest.log10().floor() as i32;
     if largest > 0.0 && !(-2..=3).contains(&power) {
         return (10f64.powi(power), format!(" ({})", scientific("1", power)));

@@ -8,9 +8,10 @@
 use std::f64::consts::{PI, TAU};
 
 use super::axes::{Axis, Scale, rounded, unit};
-use super::canvas::{Area, Canvas, Caption, Font, Mark, PaperPoint, Style};
+use super::canvas::{Canvas, Caption, Mark};
 use super::contour::regions;
 use super::palette::{Colour, GRID, INK, MAGNITUDE, SERIES, SIGNED};
+use super::style::{Area, Font, PaperPoint, Style};
 use crate::analysis::bloch::Laurent;
 
 const HEIGHT: f64 = 728.0;

@@ -3,30 +3,17 @@
 //! Places are `[right, down]` in units of the paper, 1,200 of which are its width in every figure, so that letters and
 //! lines have the same size in all of them.
 
-use std::fmt::{self, Display, Write};
+use std::fmt::Write;
 
-use super::palette::{Colour, GREY, INK, PAPER, Ramp};
+use super::palette::{Colour, INK, PAPER, Ramp};
+use super::style::{Anchor, Area, Font, PaperPoint, Short, Style, escaped};
 
 /// Width of the paper.
-pub const WIDTH: f64 = 1200.0;
+pub(crate) const WIDTH: f64 = 1200.0;
 /// Left margin of the words at the top.
-pub const MARGIN: f64 = 48.0;
+pub(crate) const MARGIN: f64 = 48.0;
 /// Height of the room for the words at the top.
-pub const HEAD: f64 = 84.0;
-/// Widths of letters over their height, at most on average: of plain and of bold ones.
-const LETTER: [f64; 2] = [0.58, 0.64];
-
-/// A place on the paper.
-pub type PaperPoint = [f64; 2];
-
-/// Left, top, right and bottom of a rectangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Area {
-    /// Smallest coordinates.
-    pub low: PaperPoint,
-    /// Largest coordinates.
-    pub high: PaperPoint,
-}
+pub(crate) const HEAD: f64 = 84.0;
 
 /// What stands at the top of a figure.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -37,37 +24,9 @@ pub struct Caption {
     pub state: String,
 }
 
-/// How lines and areas are drawn; everything is off in the default.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Style {
-    fill: Option<Colour>,
-    stroke: Option<(Colour, f64)>,
-    dash: Option<[f64; 2]>,
-    opacity: Option<f64>,
-}
-
-/// How words are set.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Font {
-    /// Height.
-    pub size: f64,
-    bold: bool,
-    colour: Colour,
-    anchor: Anchor,
-    turned: bool,
-}
-
-/// Which part of the words is at their place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Anchor {
-    Start,
-    Middle,
-    End,
-}
-
 /// What stands before words of a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mark {
+pub(crate) enum Mark {
     /// A line.
     Line(Style),
     /// A disc or a ring of this radius.
@@ -77,7 +36,7 @@ pub enum Mark {
 }
 
 /// A figure that is drawn.
-pub struct Canvas {
+pub(crate) struct Canvas {
     height: f64,
     text: String,
     /// Where words stand, and what else they must not cover.
@@ -92,127 +51,9 @@ macro_rules! put {
     ($text:expr, $($format:tt)*) => {{ let _ = write!($text, $($format)*); }};
 }
 
-impl Style {
-    /// A line.
-    pub fn line(colour: Colour, width: f64) -> Self {
-        Self { stroke: Some((colour, width)), ..Self::default() }
-    }
-
-    /// An area without outline.
-    pub fn area(colour: Colour) -> Self {
-        Self { fill: Some(colour), ..Self::default() }
-    }
-
-    /// An area with an outline as wide as the group says in its own colour, so that no gap shows beside its neighbours.
-    pub fn tile(colour: Colour) -> Self {
-        Self { fill: Some(colour), stroke: Some((colour, 0.0)), ..Self::default() }
-    }
-
-    /// The same with an outline.
-    pub fn outlined(self, colour: Colour, width: f64) -> Self {
-        Self { stroke: Some((colour, width)), ..self }
-    }
-
-    /// The same with dashes and gaps of these lengths.
-    pub fn dashed(self, dash: f64, gap: f64) -> Self {
-        Self { dash: Some([dash, gap]), ..self }
-    }
-
-    /// The same, so that what is below shows through.
-    pub fn opacity(self, opacity: f64) -> Self {
-        Self { opacity: Some(opacity), ..self }
-    }
-}
-
-impl Display for Style {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.fill {
-            Some(colour) => write!(f, " fill=\"{colour}\"")?,
-            None => f.write_str(" fill=\"none\"")?,
-        }
-        if let Some((colour, width)) = self.stroke {
-            write!(f, " stroke=\"{colour}\"")?;
-            if width > 0.0 {
-                write!(f, " stroke-width=\"{}\"", Short(width, 2))?;
-            }
-        }
-        if let Some([dash, gap]) = self.dash {
-            write!(f, " stroke-dasharray=\"{} {}\"", Short(dash, 1), Short(gap, 1))?;
-        }
-        self.opacity.map_or(Ok(()), |opacity| write!(f, " opacity=\"{opacity}\""))
-    }
-}
-
-impl Font {
-    /// Words beside axes and in legends.
-    pub const LABEL: Self = Self { size: 19.0, bold: false, colour: INK, anchor: Anchor::Start, turned: false };
-    /// Smaller words beside points.
-    pub const SMALL: Self = Self { size: 16.0, ..Self::LABEL };
-    const TITLE: Self = Self { size: 23.0, bold: true, ..Self::LABEL };
-    const STATE: Self = Self { size: 18.0, colour: GREY, ..Self::LABEL };
-
-    /// The same in heavy letters.
-    pub fn bold(self) -> Self {
-        Self { bold: true, ..self }
-    }
-
-    /// The same in another colour.
-    pub fn colour(self, colour: Colour) -> Self {
-        Self { colour, ..self }
-    }
-
-    /// The same with the middle of the words at their place.
-    pub fn middle(self) -> Self {
-        Self { anchor: Anchor::Middle, ..self }
-    }
-
-    /// The same with the end of the words at their place.
-    pub fn end(self) -> Self {
-        Self { anchor: Anchor::End, ..self }
-    }
-
-    /// The same, read from below to above.
-    pub fn turned(self) -> Self {
-        Self { turned: true, ..self }
-    }
-
-    /// Width of words, at most.
-    pub fn width(&self, words: &str) -> f64 {
-        words.chars().count() as f64 * self.size * LETTER[usize::from(self.bold)]
-    }
-
-    /// Where words are whose foot is at a place.
-    fn area(&self, [x, y]: PaperPoint, words: &str) -> Area {
-        let width = self.width(words);
-        let before = match self.anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => 0.5 * width,
-            Anchor::End => width,
-        };
-        let (up, down) = (0.76 * self.size, 0.22 * self.size);
-        if self.turned {
-            return Area { low: [x - up, y - width + before], high: [x + down, y + before] };
-        }
-        Area { low: [x - before, y - up], high: [x - before + width, y + down] }
-    }
-}
-
-impl Area {
-    /// The rectangle around a place.
-    pub fn around([x, y]: PaperPoint, radius: f64) -> Self {
-        Self { low: [x - radius, y - radius], high: [x + radius, y + radius] }
-    }
-
-    /// Common part of two rectangles.
-    fn common(&self, other: &Self) -> f64 {
-        let side = |k: usize| (self.high[k].min(other.high[k]) - self.low[k].max(other.low[k])).max(0.0);
-        side(0) * side(1)
-    }
-}
-
 impl Canvas {
     /// Paper of a height, with its caption at the top in letters small enough to end on it.
-    pub fn new(height: f64, caption: &Caption) -> Self {
+    pub(crate) fn new(height: f64, caption: &Caption) -> Self {
         let title = escaped(&caption.title);
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.0}\" width=\"{WIDTH}\" \
@@ -236,43 +77,43 @@ impl Canvas {
     }
 
     /// The text of the figure.
-    pub fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }
 
     /// A group in which lines without a width are this wide, with round joints and ends.
-    pub fn group(&mut self, width: f64) {
+    pub(crate) fn group(&mut self, width: f64) {
         put!(self.text, "<g stroke-width=\"{width}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n");
     }
 
     /// A group of which words tell more where the pointer rests on it.
-    pub fn told(&mut self, words: &str) {
+    pub(crate) fn told(&mut self, words: &str) {
         put!(self.text, "<g><title>{}</title>", escaped(words));
     }
 
     /// Ends the last group.
-    pub fn end(&mut self) {
+    pub(crate) fn end(&mut self) {
         self.text.push_str("</g>\n");
     }
 
     /// A line through places.
-    pub fn line(&mut self, places: &[PaperPoint], style: Style) {
+    pub(crate) fn line(&mut self, places: &[PaperPoint], style: Style) {
         self.path(&[places], false, style, "");
     }
 
     /// A polygon.
-    pub fn polygon(&mut self, corners: &[PaperPoint], style: Style) {
+    pub(crate) fn polygon(&mut self, corners: &[PaperPoint], style: Style) {
         self.path(&[corners], true, style, "");
     }
 
     /// Polygons as one element: where they overlap they are one area when all go round the same way.
-    pub fn polygons(&mut self, polygons: &[impl AsRef<[PaperPoint]>], style: Style) {
+    pub(crate) fn polygons(&mut self, polygons: &[impl AsRef<[PaperPoint]>], style: Style) {
         self.path(polygons, true, style, "");
     }
 
     /// Polygons as one element with soft rims.
-    pub fn shadow(&mut self, polygons: &[impl AsRef<[PaperPoint]>], colour: Colour) {
+    pub(crate) fn shadow(&mut self, polygons: &[impl AsRef<[PaperPoint]>], colour: Colour) {
         self.path(polygons, true, Style::tile(colour), " filter=\"url(#soft)\"");
     }
 
@@ -288,12 +129,12 @@ impl Canvas {
     }
 
     /// A circle.
-    pub fn circle(&mut self, [x, y]: PaperPoint, radius: f64, style: Style) {
+    pub(crate) fn circle(&mut self, [x, y]: PaperPoint, radius: f64, style: Style) {
         put!(self.text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{}\"{style}/>\n", Short(radius, 1));
     }
 
     /// Words whose foot is at a place.
-    pub fn text(&mut self, place: PaperPoint, words: &str, font: Font) {
+    pub(crate) fn text(&mut self, place: PaperPoint, words: &str, font: Font) {
         let area = font.area(place, words);
         #[cfg(test)]
         {
@@ -324,13 +165,13 @@ impl Canvas {
     }
 
     /// Keeps words away from an area.
-    pub fn take(&mut self, area: Area) {
+    pub(crate) fn take(&mut self, area: Area) {
         self.taken.push(area);
     }
 
     /// Words at the first of some places where they cover nothing and are within an area; `false`: there is none, and nothing
     /// was set.
-    pub fn text_within(
+    pub(crate) fn text_within(
         &mut self,
         room: Area,
         places: impl IntoIterator<Item = (PaperPoint, Font)>,
@@ -345,12 +186,12 @@ impl Canvas {
     }
 
     /// The paper without its rim.
-    pub fn paper(&self) -> Area {
+    pub(crate) fn paper(&self) -> Area {
         Area { low: [6.0, 6.0], high: [WIDTH - 6.0, self.height - 6.0] }
     }
 
     /// Marks and what they mean, in a row from a place on, and in another one below where the paper ends.
-    pub fn legend(&mut self, [left, top]: PaperPoint, entries: &[(Mark, &str)]) {
+    pub(crate) fn legend(&mut self, [left, top]: PaperPoint, entries: &[(Mark, &str)]) {
         let ([mut x, mut y], font) = ([left, top], Font::SMALL);
         for &(mark, words) in entries {
             let sign = match mark {
@@ -374,7 +215,7 @@ impl Canvas {
 
     /// The scale of colours in an upright rectangle: its name above it, and at parts from 0 (bottom) to 1 (top) numbers on
     /// its right.
-    pub fn colour_bar(&mut self, area: Area, ramp: Ramp, name: &str, ticks: &[(f64, String)]) {
+    pub(crate) fn colour_bar(&mut self, area: Area, ramp: Ramp, name: &str, ticks: &[(f64, String)]) {
         let ([left, top], [right, bottom]) = (area.low, area.high);
         self.text.push_str("<defs><linearGradient id=\"colours\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
         for (part, colour) in ramp.stops() {
@@ -396,28 +237,10 @@ impl Canvas {
     }
 }
 
-/// Text as it stands in XML and HTML, without the characters that neither allows.
-pub fn escaped(text: &str) -> String {
-    let allowed = text.chars().filter(|c| !c.is_control() || matches!(c, '\t' | '\n' | '\r'));
-    let allowed: String = allowed.filter(|c| !matches!(c, '\u{fffe}' | '\u{ffff}')).collect();
-    allowed.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-/// A number with at most some decimals, without zeros at its end.
-struct Short(f64, usize);
-
-impl Display for Short {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let text = format!("{:.*}", self.1, self.0);
-        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-        f.write_str(if text == "-0" { "0" } else { text })
-    }
-}
-
 #[cfg(test)]
 impl Canvas {
     /// How many words stand on others or end beyond the paper.
-    pub fn crowded(&self) -> usize {
+    pub(crate) fn crowded(&self) -> usize {
         self.crowded
     }
 }

@@ -4,8 +4,9 @@
 //! logarithm. Series that lie on later ones are drawn wider, so that all of them can be seen.
 
 use super::axes::{Axis, Scale};
-use super::canvas::{Area, Canvas, Caption, Font, MARGIN, PaperPoint, Style, WIDTH};
+use super::canvas::{Canvas, Caption, MARGIN, WIDTH};
 use super::palette::{Colour, GREY, GRID, INK, PAPER, SERIES};
+use super::style::{Area, Font, PaperPoint, Style};
 
 /// Height of a chart alone, and of a row of panels.
 const HEIGHT: f64 = 720.0;
@@ -64,7 +65,7 @@ pub fn svg(chart: &Chart) -> String {
 }
 
 /// The figure of charts with linear axes, side by side under a caption.
-pub fn panels(charts: &[Chart], caption: &Caption) -> String {
+pub(crate) fn panels(charts: &[Chart], caption: &Caption) -> String {
     side_by_side(charts, caption).finish()
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::canvas::PaperPoint;
+use super::style::PaperPoint;
 
 /// A side of a triangle, or the way from a point on the rim to what is beyond it.
 type Crossing = [usize; 2];
@@ -12,7 +12,12 @@ const BEYOND: usize = usize::MAX;
 
 /// Polygons around the regions in which the function is at least `level`; holes go round the other way. Triangles with a
 /// corner where the function is not a number are left out.
-pub fn regions(points: &[PaperPoint], triangles: &[[usize; 3]], values: &[f64], level: f64) -> Vec<Vec<PaperPoint>> {
+pub(crate) fn regions(
+    points: &[PaperPoint],
+    triangles: &[[usize; 3]],
+    values: &[f64],
+    level: f64,
+) -> Vec<Vec<PaperPoint>> {
     let known = |triangle: &&[usize; 3]| triangle.iter().all(|&corner| !values[corner].is_nan());
     let mut rim: HashSet<Crossing> = HashSet::new();
     let mut next: HashMap<Crossing, Crossing> = HashMap::new();

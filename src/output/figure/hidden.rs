@@ -8,7 +8,7 @@
 
 use std::collections::HashMap;
 
-use super::canvas::PaperPoint;
+use super::style::PaperPoint;
 use crate::math::Vec3;
 
 /// Distances that are none, over the extent of the scene; and those in a scene of many pieces, where sheets that nearly
@@ -25,7 +25,7 @@ const TRIED: usize = 12;
 
 /// A triangle or a line between two ends, or what is left of it when it was cut.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub(crate) struct Piece {
     /// Corners: right, up and towards the eye.
     pub corners: Vec<Vec3>,
     /// What it is a piece of.
@@ -43,7 +43,7 @@ struct Plane {
 
 /// The pieces from back to front, cut where no order is right. Triangles seen from their side are left out, and so are
 /// pieces with corners that are not finite.
-pub fn back_to_front(mut pieces: Vec<Piece>) -> Vec<Piece> {
+pub(crate) fn back_to_front(mut pieces: Vec<Piece>) -> Vec<Piece> {
     pieces.retain(|piece| piece.corners.iter().flatten().all(|x| x.is_finite()));
     let limits = Limits::of(&pieces);
     pieces.retain(|piece| piece.is_line() || 0.5 * turn(&piece.corners).abs() > limits.area);
@@ -90,7 +90,7 @@ impl Limits {
 
 impl Piece {
     /// A triangle of three corners or a line of two.
-    pub fn new(corners: Vec<Vec3>, item: usize) -> Self {
+    pub(crate) fn new(corners: Vec<Vec3>, item: usize) -> Self {
         let plane = (corners.len() > 2).then(|| Plane::through([corners[0], corners[1], corners[2]])).flatten();
         Self { corners, item, plane }
     }

@@ -17,7 +17,9 @@ mod palette;
 mod projection;
 pub mod sheet;
 pub mod sphere;
+mod style;
 pub mod surface;
 
 pub use axes::rounded;
-pub use canvas::{Caption, escaped};
+pub use canvas::Caption;
+pub use style::escaped;

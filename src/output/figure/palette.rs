@@ -4,51 +4,52 @@ use std::fmt;
 
 /// A colour: red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Colour(pub u8, pub u8, pub u8);
+pub(crate) struct Colour(pub u8, pub u8, pub u8);
 
 /// The paper.
-pub const PAPER: Colour = Colour(252, 251, 248);
+pub(crate) const PAPER: Colour = Colour(252, 251, 248);
 /// Text, axes and rims.
-pub const INK: Colour = Colour(46, 50, 56);
+pub(crate) const INK: Colour = Colour(46, 50, 56);
 /// Words of lesser weight, and edges that are flat.
-pub const GREY: Colour = Colour(110, 108, 101);
+pub(crate) const GREY: Colour = Colour(110, 108, 101);
 /// Lines of a grid.
-pub const GRID: Colour = Colour(220, 217, 207);
+pub(crate) const GRID: Colour = Colour(220, 217, 207);
 /// The far sides of a box.
-pub const PANE: Colour = Colour(243, 241, 234);
+pub(crate) const PANE: Colour = Colour(243, 241, 234);
 /// Shadows.
-pub const SHADOW: Colour = Colour(231, 228, 221);
+pub(crate) const SHADOW: Colour = Colour(231, 228, 221);
 /// Creases with a negative fold angle, and negative values.
-pub const MOUNTAIN: Colour = Colour(200, 55, 45);
+pub(crate) const MOUNTAIN: Colour = Colour(200, 55, 45);
 /// Creases with a positive fold angle, and positive values.
-pub const VALLEY: Colour = Colour(29, 98, 176);
+pub(crate) const VALLEY: Colour = Colour(29, 98, 176);
 /// Colours of series: they stay apart also for those who see fewer of them, by brightness as well as by hue.
-pub const SERIES: [Colour; 6] =
+pub(crate) const SERIES: [Colour; 6] =
     [VALLEY, MOUNTAIN, Colour(63, 38, 93), Colour(217, 138, 31), Colour(44, 138, 107), Colour(125, 122, 114)];
 /// Curvatures, from negative (violet) over zero (pale) to positive (orange).
-pub const CURVATURE: Ramp = Ramp(&[[63, 38, 125], [150, 138, 196], [247, 244, 238], [238, 160, 78], [156, 70, 8]]);
+pub(crate) const CURVATURE: Ramp =
+    Ramp(&[[63, 38, 125], [150, 138, 196], [247, 244, 238], [238, 160, 78], [156, 70, 8]]);
 /// Energies, from none to the largest.
-pub const ENERGY: Ramp = Ramp(&[[250, 247, 240], [244, 196, 120], [209, 96, 62], [88, 24, 69]]);
+pub(crate) const ENERGY: Ramp = Ramp(&[[250, 247, 240], [244, 196, 120], [209, 96, 62], [88, 24, 69]]);
 /// Values of both signs, from negative (red) over zero (pale) to positive (blue).
-pub const SIGNED: Ramp = Ramp(&[[196, 66, 52], [250, 248, 243], [40, 98, 170]]);
+pub(crate) const SIGNED: Ramp = Ramp(&[[196, 66, 52], [250, 248, 243], [40, 98, 170]]);
 
 /// Magnitudes, with the same colours.
-pub const MAGNITUDE: Ramp = Ramp(&[[250, 248, 243], [40, 98, 170]]);
+pub(crate) const MAGNITUDE: Ramp = Ramp(&[[250, 248, 243], [40, 98, 170]]);
 
 /// Colours between which others are interpolated, evenly spaced.
 #[derive(Clone, Copy, Debug)]
-pub struct Ramp(&'static [[u8; 3]]);
+pub(crate) struct Ramp(&'static [[u8; 3]]);
 
 impl Ramp {
     /// The colours with their parts of the way.
-    pub fn stops(&self) -> impl Iterator<Item = (f64, Colour)> {
+    pub(crate) fn stops(&self) -> impl Iterator<Item = (f64, Colour)> {
         let last = (self.0.len() - 1) as f64;
         self.0.iter().enumerate().map(move |(k, [red, green, blue])| (k as f64 / last, Colour(*red, *green, *blue)))
     }
 
     /// The colour at a part of the way, from 0 to 1; beyond the ends and for what is not a number, the nearest end and the
     /// middle.
-    pub fn at(&self, part: f64) -> Colour {
+    pub(crate) fn at(&self, part: f64) -> Colour {
         let part = if part.is_nan() { 0.5 } else { part.clamp(0.0, 1.0) };
         let place = part * (self.0.len() - 1) as f64;
         let first = (place as usize).min(self.0.len() - 2);
@@ -60,18 +61,18 @@ impl Ramp {
 
 impl Colour {
     /// The colour with its light multiplied by a factor of at most 1.
-    pub fn darker(self, factor: f64) -> Self {
+    pub(crate) fn darker(self, factor: f64) -> Self {
         let part = |part: u8| (f64::from(part) * factor).round() as u8;
         Self(part(self.0), part(self.1), part(self.2))
     }
 
     /// The mean of its parts, from 0 (black) to 255 (white).
-    pub fn brightness(self) -> f64 {
+    pub(crate) fn brightness(self) -> f64 {
         (f64::from(self.0) + f64::from(self.1) + f64::from(self.2)) / 3.0
     }
 
     /// The colour between this one (0) and another (1).
-    pub fn towards(self, other: Self, share: f64) -> Self {
+    pub(crate) fn towards(self, other: Self, share: f64) -> Self {
         let part = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
         Self(part(self.0, other.0), part(self.1, other.1), part(self.2, other.2))
     }

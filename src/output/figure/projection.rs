@@ -22,7 +22,7 @@ impl Projection {
     /// Looks down on the side of the face normals, with the longer side of the sheet across the paper.
     ///
     /// The eye stands `ELEVATION` above the mean plane of the sheet and `TURN` beside its second principal axis.
-    pub fn of(points: &[Vec3], triangles: &[[usize; 3]]) -> Self {
+    pub(crate) fn of(points: &[Vec3], triangles: &[[usize; 3]]) -> Self {
         const ELEVATION: f64 = 0.82;
         const TURN: f64 = 0.5;
         let [across, along, normal] = principal_axes(points, triangles);
@@ -33,7 +33,7 @@ impl Projection {
     }
 
     /// Looks at a box along the axes, from above, the eye on these sides (1 or -1) of x and y.
-    pub fn axonometric([x, y]: [f64; 2]) -> Self {
+    pub(crate) fn axonometric([x, y]: [f64; 2]) -> Self {
         const ELEVATION: f64 = 0.42;
         const TURN: f64 = 0.95;
         let level = Vec3::new(x * TURN.cos(), y * TURN.sin(), 0.0);
@@ -43,7 +43,7 @@ impl Projection {
     }
 
     /// Right, up and towards the eye.
-    pub fn place(&self, point: &Vec3) -> [f64; 3] {
+    pub(crate) fn place(&self, point: &Vec3) -> [f64; 3] {
         [point.dot(&self.right), point.dot(&self.up), point.dot(&self.toward)]
     }
 }

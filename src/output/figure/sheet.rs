@@ -4,10 +4,11 @@
 //! outline in the colour of its filling, otherwise hairlines show between them.
 
 use super::axes::{number, round_step};
-use super::canvas::{Canvas, Caption, Font, HEAD, MARGIN, PaperPoint, Style, WIDTH};
+use super::canvas::{Canvas, Caption, HEAD, MARGIN, WIDTH};
 use super::hidden::{Piece, back_to_front};
 use super::palette::{Colour, GREY, INK, MOUNTAIN, SHADOW, VALLEY};
 use super::projection::Projection;
+use super::style::{Font, PaperPoint, Style};
 use crate::math::Vec3;
 use crate::output::Picture;
 use crate::output::fault::ShapeError;

@@ -7,9 +7,10 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
 use super::axes::{rounded, unit};
-use super::canvas::{Area, Canvas, Caption, Font, Mark, PaperPoint, Style};
+use super::canvas::{Canvas, Caption, Mark};
 use super::contour::regions;
 use super::palette::{Colour, ENERGY, INK, VALLEY};
+use super::style::{Area, Font, PaperPoint, Style};
 use crate::math::Vec3;
 
 const HEIGHT: f64 = 712.0;

@@ -8,10 +8,11 @@
 use std::collections::HashMap;
 
 use super::axes::{Axis, Scale, below, rounded, unit};
-use super::canvas::{Area, Canvas, Caption, Font, HEAD, MARGIN, Mark, PaperPoint, Style};
+use super::canvas::{Canvas, Caption, HEAD, MARGIN, Mark};
 use super::hidden::{Piece, back_to_front};
 use super::palette::{CURVATURE, Colour, GRID, INK, PANE, PAPER, SHADOW};
 use super::projection::Projection;
+use super::style::{Area, Font, PaperPoint, Style};
 use crate::math::Vec3;
 use crate::output::StrainSurface;
 use crate::output::fault::ShapeError;

@@ -21,12 +21,12 @@ const ANSWERS: [(&str, Answer); 8] = [
 ];
 
 /// The kind of a study.
-pub fn kind(_: &mut SchemaGenerator) -> Schema {
+pub(crate) fn kind(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "enum": ANSWERS.map(|(kind, _)| kind) })
 }
 
 /// What a study has beside the keys of all: the keys of its kind where it converged, or has the first of them.
-pub fn answers(generator: &mut SchemaGenerator) -> Schema {
+pub(crate) fn answers(generator: &mut SchemaGenerator) -> Schema {
     let by_kind = ANSWERS.map(|(kind, answer)| {
         let answer = answer(generator);
         json!({

@@ -133,7 +133,7 @@ pub enum StudyResult {
 
 impl StudySummary {
     /// The summary of a study that has given no answer yet.
-    pub fn unanswered(name: &str, kind: &str) -> Self {
+    pub(crate) fn unanswered(name: &str, kind: &str) -> Self {
         Self {
             name: name.to_owned(),
             kind: kind.to_owned(),
@@ -162,7 +162,7 @@ impl Summary {
     ///
     /// # Errors
     /// [`OutputError::Write`].
-    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
+    pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
         files::write(path, self.to_json())
     }
 }

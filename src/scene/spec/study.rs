@@ -225,7 +225,7 @@ pub struct WellsSpec {
 
 impl StudyKind {
     /// The word in the scene.
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Relax(_) => "relax",
             Self::Trace(_) => "trace",

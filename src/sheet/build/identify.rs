@@ -24,7 +24,7 @@ pub(crate) struct Identified {
 
 impl Identified {
     /// The corners of a list of drawn vertices.
-    pub fn corners(&self, drawn: &[usize]) -> Vec<Corner> {
+    pub(crate) fn corners(&self, drawn: &[usize]) -> Vec<Corner> {
         drawn.iter().map(|&v| self.corner[v]).collect()
     }
 }

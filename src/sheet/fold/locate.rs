@@ -12,13 +12,13 @@ pub(super) struct Source<'a> {
 
 impl<'a> Source<'a> {
     /// `problem` at a value of the text.
-    pub fn at(&self, value: &RawValue, problem: Problem) -> SheetError {
+    pub(crate) fn at(&self, value: &RawValue, problem: Problem) -> SheetError {
         let offset = (value.get().as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
         self.at_offset(offset.min(self.text.len()), problem)
     }
 
     /// `problem` at the start of the text.
-    pub fn at_start(&self, problem: Problem) -> SheetError {
+    pub(crate) fn at_start(&self, problem: Problem) -> SheetError {
         self.at_offset(0, problem)
     }
 
@@ -31,7 +31,7 @@ impl<'a> Source<'a> {
     }
 
     /// The parser's own complaint, where it has a position.
-    pub fn syntax(&self, error: &serde_json::Error) -> SheetError {
+    pub(crate) fn syntax(&self, error: &serde_json::Error) -> SheetError {
         let full = error.to_string();
         let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned();
         let problem = Box::new(Problem::Syntax { message });
@@ -39,7 +39,7 @@ impl<'a> Source<'a> {
     }
 
     /// The value as a `T`.
-    pub fn typed<T: serde::Deserialize<'a>>(
+    pub(crate) fn typed<T: serde::Deserialize<'a>>(
         &self,
         value: &'a RawValue,
         what: impl Fn() -> String,
@@ -49,12 +49,12 @@ impl<'a> Source<'a> {
     }
 
     /// `value` is of the right kind of JSON and yet not what it should be.
-    pub fn mistyped(&self, value: &RawValue, what: String, right: &'static str) -> SheetError {
+    pub(crate) fn mistyped(&self, value: &RawValue, what: String, right: &'static str) -> SheetError {
         self.at(value, Problem::Type { what, found: shortened(value.get()), right })
     }
 
     /// The entries of a list.
-    pub fn list(
+    pub(crate) fn list(
         &self,
         value: &'a RawValue,
         what: impl Fn() -> String,
@@ -64,7 +64,7 @@ impl<'a> Source<'a> {
     }
 
     /// A list of numbers of vertices, out of `count`.
-    pub fn indices(
+    pub(crate) fn indices(
         &self,
         value: &'a RawValue,
         what: impl Fn() -> String,

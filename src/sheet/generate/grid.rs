@@ -9,13 +9,13 @@ pub(super) struct VertexGrid {
 
 impl VertexGrid {
     /// `(i, j)` of every vertex, in order.
-    pub fn all(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
         let [m1, m2] = self.size;
         (0..m2).flat_map(move |j| (0..m1).map(move |i| [i, j]))
     }
 
     /// Vertex `(i, j)` of the infinite grid that repeats this one.
-    pub fn corner(&self, i: i64, j: i64) -> Corner {
+    pub(crate) fn corner(&self, i: i64, j: i64) -> Corner {
         let [m1, m2] = self.size.map(|m| m as i64);
         Corner {
             vertex: (j.rem_euclid(m2) * m1 + i.rem_euclid(m1)) as usize,
@@ -24,7 +24,7 @@ impl VertexGrid {
     }
 
     /// The quadrilateral whose lower left corner is `(i, j)`, counter-clockwise from there.
-    pub fn quad(&self, [i, j]: [usize; 2]) -> [Corner; 4] {
+    pub(crate) fn quad(&self, [i, j]: [usize; 2]) -> [Corner; 4] {
         let (i, j) = (i as i64, j as i64);
         [self.corner(i, j), self.corner(i + 1, j), self.corner(i + 1, j + 1), self.corner(i, j + 1)]
     }

@@ -56,7 +56,7 @@ pub enum Pattern {
 
 impl Pattern {
     /// The names of all patterns.
-    pub fn names() -> &'static [&'static str] {
+    pub(crate) fn names() -> &'static [&'static str] {
         &[
             "miura",
             "miura-patch",

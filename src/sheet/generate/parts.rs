@@ -16,7 +16,7 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    pub fn sheet(self, parameters: String) -> Result<Sheet, GenerateError> {
+    pub(crate) fn sheet(self, parameters: String) -> Result<Sheet, GenerateError> {
         let Self { title, source, vertices, lattice, polygons } = self;
         let bare = Sheet {
             title: title.to_owned(),

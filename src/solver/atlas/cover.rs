@@ -69,7 +69,7 @@ struct Seed {
 }
 
 impl<'a, S: Surface> Cover<'a, S> {
-    pub fn new(surface: &'a mut S, options: CoverOptions) -> Self {
+    pub(crate) fn new(surface: &'a mut S, options: CoverOptions) -> Self {
         let periods: Vec<Option<f64>> = (0..surface.unknowns()).map(|unknown| surface.period(unknown)).collect();
         Self {
             corrector: Corrector::new(surface),
@@ -89,7 +89,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     }
 
     /// Places the chart of a start, unless it lies in one.
-    pub fn start(&mut self, number: usize, start: &[f64]) -> Result<(), AtlasError> {
+    pub(crate) fn start(&mut self, number: usize, start: &[f64]) -> Result<(), AtlasError> {
         let mut residual = vec![0.0; self.surface.equations()];
         let mut jacobian = DenseMatrix::zeros(residual.len(), start.len());
         self.surface.linearize(start, &mut residual, &mut jacobian);
@@ -110,7 +110,7 @@ impl<'a, S: Surface> Cover<'a, S> {
     }
 
     /// Places charts until none is open.
-    pub fn run(&mut self, observe: &mut dyn FnMut(usize) -> bool) -> Coverage {
+    pub(crate) fn run(&mut self, observe: &mut dyn FnMut(usize) -> bool) -> Coverage {
         let (mut open, mut seen, mut taken) = (HashSet::new(), 0, 0);
         while let Some(number) = self.waiting.pop_front() {
             self.queued[number] = false;
@@ -275,13 +275,13 @@ impl<'a, S: Surface> Cover<'a, S> {
     }
 
     /// The neighbours around a chart, counter-clockwise; `None` where it is open.
-    pub fn ring(&mut self, number: usize) -> Vec<Option<usize>> {
+    pub(crate) fn ring(&mut self, number: usize) -> Vec<Option<usize>> {
         self.shape(number);
         self.polygon.ring()
     }
 
     /// The rings of all charts, or of the first ones of an interrupted covering.
-    pub fn rings(
+    pub(crate) fn rings(
         &mut self,
         coverage: &mut Coverage,
         observe: &mut dyn FnMut(usize) -> bool,
@@ -307,19 +307,19 @@ impl<'a, S: Surface> Cover<'a, S> {
     }
 
     /// Distance of two charts, modulo periods.
-    pub fn distance(&self, a: usize, b: usize) -> f64 {
+    pub(crate) fn distance(&self, a: usize, b: usize) -> f64 {
         self.apart(&self.charts[a].x, &self.charts[b].x)
     }
 
     /// Distance of two points, modulo periods.
-    pub fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
+    pub(crate) fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
         let mut way = vec![0.0; self.periods.len()];
         separate(a, b, &self.periods, &mut way);
         norm(&way)
     }
 
     /// The chart of the point that lies `part` of the straight way from one chart to another, brought onto the surface.
-    pub fn between(&mut self, a: usize, b: usize, part: f64) -> Option<Chart> {
+    pub(crate) fn between(&mut self, a: usize, b: usize, part: f64) -> Option<Chart> {
         separate(&self.charts[a].x, &self.charts[b].x, &self.periods, &mut self.way);
         let mut chart = self.charts[a].clone();
         add_scaled(&mut chart.x, part, &self.way);

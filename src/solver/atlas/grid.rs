@@ -26,20 +26,20 @@ pub(super) struct PointIndex {
 
 impl PointIndex {
     /// A grid of cubes of this side, for points with these periods.
-    pub fn new(side: f64, periods: Vec<Option<f64>>) -> Self {
+    pub(crate) fn new(side: f64, periods: Vec<Option<f64>>) -> Self {
         let coordinates: usize = periods.iter().map(|period| if period.is_some() { 2 } else { 1 }).sum();
         let directions = directions(coordinates);
         Self { side, periods, directions, cubes: HashMap::new(), seen: vec![0.0; coordinates] }
     }
 
     /// Adds a point.
-    pub fn insert(&mut self, x: &[f64], number: usize) {
+    pub(crate) fn insert(&mut self, x: &[f64], number: usize) {
         let place = self.project(x);
         self.cubes.entry(self.cube(&place)).or_default().push((number, place));
     }
 
     /// Writes the numbers of all points within `reach`, at most the side of a cube, and of some others.
-    pub fn near(&mut self, x: &[f64], reach: f64, found: &mut Vec<usize>) {
+    pub(crate) fn near(&mut self, x: &[f64], reach: f64, found: &mut Vec<usize>) {
         found.clear();
         let place = self.project(x);
         let cube = self.cube(&place);

@@ -20,7 +20,9 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-pub use surface::{Atlas, AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
+pub use surface::Surface;
+pub(crate) use surface::{Atlas, KEPT};
+pub use surface::{AtlasError, Chart, CoverOptions, Coverage};
 
 /// Covers the parts of a surface that hold the `starts`: points on it, or within a thousandth of the radius of it, at
 /// which it is not singular. A start that lies in a chart already is passed over.
@@ -30,7 +32,7 @@ pub use surface::{Atlas, AtlasError, Chart, CoverOptions, Coverage, KEPT, Surfac
 ///
 /// # Errors
 /// [`AtlasError`] where a start is not a regular point of the surface.
-pub fn cover<S: Surface>(
+pub(crate) fn cover<S: Surface>(
     surface: &mut S,
     starts: &[Vec<f64>],
     options: CoverOptions,

@@ -31,12 +31,12 @@ struct Corner {
 }
 
 impl Polygon {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { radius: 0.0, corners: Vec::new(), clipped: Vec::new(), neighbours: Vec::new() }
     }
 
     /// Starts from the square around a disc.
-    pub fn reset(&mut self, radius: f64) {
+    pub(crate) fn reset(&mut self, radius: f64) {
         self.radius = radius;
         self.neighbours.clear();
         self.corners.clear();
@@ -46,7 +46,7 @@ impl Polygon {
     }
 
     /// Cuts off the part that neighbour `number` at `u`, of this radius, covers better.
-    pub fn clip(&mut self, u: [f64; 2], radius: f64, number: usize) {
+    pub(crate) fn clip(&mut self, u: [f64; 2], radius: f64, number: usize) {
         self.neighbours.push(u);
         let limit = 0.5 * (u[0] * u[0] + u[1] * u[1] + self.radius * self.radius - radius * radius);
         let beyond = |corner: &Corner| corner.at[0] * u[0] + corner.at[1] * u[1] - limit;
@@ -74,7 +74,7 @@ impl Polygon {
     ///
     /// It is on the rim of the disc and of a neighbour where that can be: discs placed there are one radius apart. A
     /// corner within the disc but close to its rim is itself the place.
-    pub fn uncovered(&self) -> Option<[f64; 2]> {
+    pub(crate) fn uncovered(&self) -> Option<[f64; 2]> {
         let count = self.corners.len();
         let apart = |a: [f64; 2], b: [f64; 2]| length([a[0] - b[0], a[1] - b[1]]);
         let crowded = |at| self.neighbours.iter().any(|other| apart(*other, at) < CROWDED * self.radius);
@@ -101,7 +101,7 @@ impl Polygon {
     }
 
     /// The neighbours behind the sides, counter-clockwise; `None` where the disc is open.
-    pub fn ring(&self) -> Vec<Option<usize>> {
+    pub(crate) fn ring(&self) -> Vec<Option<usize>> {
         self.corners.iter().map(|corner| corner.beyond).collect()
     }
 }

@@ -5,7 +5,7 @@ use crate::solver::implicit::Implicit;
 use thiserror::Error;
 
 /// Number of charts that are kept of an interrupted covering.
-pub const KEPT: usize = 4096;
+pub(crate) const KEPT: usize = 4096;
 
 /// A surface given by equations, with its limit.
 pub trait Surface: Implicit {
@@ -79,7 +79,7 @@ pub enum Coverage {
 
 /// A covered surface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Atlas {
+pub(crate) struct Atlas {
     /// The charts, those on the border last.
     pub charts: Vec<Chart>,
     /// Triangles of neighbouring charts, counter-clockwise in their frames. Across the end of a period the nearest

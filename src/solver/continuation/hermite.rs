@@ -4,7 +4,7 @@ use super::curve::Point;
 use crate::numerics::vector::norm;
 
 /// Largest number of points of an interpolant.
-pub const MOST: usize = 4;
+pub(crate) const MOST: usize = 4;
 /// Nodes and weights of the Gauss-Legendre rule of five points on [-1, 1].
 const GAUSS: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
@@ -16,7 +16,7 @@ const GAUSS: [(f64, f64); 5] = [
 
 /// A polynomial of degree `2 m - 1` in arc length through `m` points and tangents.
 #[derive(Clone, Debug, Default)]
-pub struct Hermite {
+pub(crate) struct Hermite {
     /// Arc lengths of the points, each twice.
     nodes: Vec<f64>,
     /// Newton's coefficients, one vector after the other.
@@ -26,7 +26,7 @@ pub struct Hermite {
 
 impl Hermite {
     /// Interpolates at most [`MOST`] points of different arc length.
-    pub fn fit(&mut self, points: &[&Point]) {
+    pub(crate) fn fit(&mut self, points: &[&Point]) {
         let count = 2 * points.len();
         self.size = points[0].x.len();
         self.nodes.clear();
@@ -50,7 +50,7 @@ impl Hermite {
     }
 
     /// The point at an arc length and its derivative.
-    pub fn at(&self, s: f64, x: &mut [f64], slope: &mut [f64]) {
+    pub(crate) fn at(&self, s: f64, x: &mut [f64], slope: &mut [f64]) {
         let last = self.nodes.len() - 1;
         x.copy_from_slice(&self.coefficients[last * self.size..]);
         slope.fill(0.0);
@@ -65,7 +65,7 @@ impl Hermite {
     }
 
     /// Length of the polynomial's curve between two values of its parameter.
-    pub fn length(&self, from: f64, to: f64, x: &mut [f64], slope: &mut [f64]) -> f64 {
+    pub(crate) fn length(&self, from: f64, to: f64, x: &mut [f64], slope: &mut [f64]) -> f64 {
         let half = 0.5 * (to - from);
         let speed = |&(node, weight): &(f64, f64)| {
             self.at(from + half * (1.0 + node), x, slope);

@@ -20,7 +20,8 @@ mod shift;
 use super::problem::Problem;
 use iteration::Newton;
 pub use options::{Options, Start};
-pub use outcome::{Equilibrium, Failure, NewtonError, Step};
+pub use outcome::NewtonError;
+pub use outcome::{Equilibrium, Failure, Step};
 
 /// Minimises a problem from a start. `observe` sees every accepted step, the retracted start first, and returns false
 /// to stop.

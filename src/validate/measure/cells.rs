@@ -42,7 +42,7 @@ struct Size {
 
 /// Relaxes patches whose creases rest where steeper pleats have them. No bar has to change its length for that, so they have
 /// to end there, without any energy.
-pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut sizes = Vec::new();
     for (step, cells) in CELLS.into_iter().enumerate() {
         bench.step(step, CELLS.len())?;

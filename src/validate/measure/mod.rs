@@ -12,7 +12,7 @@ mod tolerance;
 mod trial;
 
 /// A measurement.
-pub type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
+pub(crate) type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
 
 /// The measurements by name.
 const MEASUREMENTS: &[(&str, Measurement)] = &[
@@ -26,6 +26,6 @@ const MEASUREMENTS: &[(&str, Measurement)] = &[
 ];
 
 /// The measurement of this name.
-pub fn find(name: &str) -> Option<Measurement> {
+pub(crate) fn find(name: &str) -> Option<Measurement> {
     MEASUREMENTS.iter().find(|(known, _)| *known == name).map(|(_, measurement)| *measurement)
 }

@@ -57,7 +57,7 @@ struct Size {
 
 /// Patches of the reference cell, every hinge with a rest angle of its own within 0.1 rad of the drawn one, from rigid down to a
 /// stiffness of 100; below [`STIFFNESS_STARTED_AS_DRAWN`] each state starts from the one before, so that it is the same minimum.
-pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let cells: Vec<usize> = CELLS.into_iter().chain((!bench.quick).then_some(MORE)).collect();
     let mut sizes = Vec::new();
     for (step, &n) in cells.iter().enumerate() {

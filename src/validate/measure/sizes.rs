@@ -39,7 +39,7 @@ struct Size {
 /// Patches whose creases rest at the angles of an exact cylinder, the reference cell followed over 0.1 rad by the
 /// kinematics: relaxed from the drawn state they have to end there. The error is the largest difference of a fold angle. Rigid bars by
 /// the program's form, all sizes in turns; bars of 1e6 by a plain penalty, for which this state, free of tension, is as exact.
-pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let exact = Star::cylinder(FOLDED)?;
     let cells: Vec<usize> = CELLS.into_iter().chain(MORE.into_iter().filter(|_| !bench.quick)).collect();
     let stars = cells.iter().map(|&n| Star::resting([n, n], &exact)).collect::<Result<Vec<_>, _>>()?;
@@ -124,7 +124,7 @@ fn by_penalty(star: &Star) -> Vec<f64> {
 }
 
 /// Exponent `p` of the power law `y ~ x^p` that fits best in logarithms.
-pub fn exponent(points: &[(f64, f64)]) -> f64 {
+pub(crate) fn exponent(points: &[(f64, f64)]) -> f64 {
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
     let count = logs.len() as f64;
     let middle = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / count;

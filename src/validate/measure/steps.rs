@@ -24,7 +24,7 @@ const ROUNDS: usize = 3;
 /// Follows the shorter loop of the reference cell, about 9.93 rad long, with steps of at most this length and interpolants of degree
 /// three, five and seven. Every point lies on the curve to 3e-14 whatever they are; what depends on them is the integral of the
 /// arc length. Its error is measured against a trajectory followed with steps of 0.003.
-pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut short = Short::new()?;
     let reference = short.length(REFERENCE, POINTS[USUAL])?;
     let mut methods = Vec::new();

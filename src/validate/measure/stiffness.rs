@@ -32,7 +32,7 @@ struct Reached {
 /// The error is the largest difference of a fold angle to the exact kinematics of rigid faces: for one who wants those, the stiffness is
 /// a setting, and the error falls as one over it until the form fails. The residual is what is left of force and length,
 /// scaled: that has to be small at every stiffness.
-pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let star = Star::new([CELLS, CELLS], 0.1)?;
     let (exact, rigid_error) = exact(&star)?;
     let mut all = Vec::new();

@@ -15,7 +15,7 @@ const ROUNDS: usize = 3;
 
 /// Relaxes 5 x 5 rigid cells with random rest angles (within 0.1 rad) to each tolerance; the error is the largest difference
 /// of a fold angle to the exact equilibrium, which knows no bars.
-pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let star = Star::new([CELLS, CELLS], 0.1)?;
     let mut settings = Vec::new();
     for (step, tolerance) in TOLERANCES.into_iter().enumerate() {

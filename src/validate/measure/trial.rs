@@ -28,7 +28,7 @@ const SEED: u64 = 1;
 
 /// What came of a trial.
 #[derive(Clone, Debug, PartialEq)]
-pub enum TrialVerdict {
+pub(crate) enum TrialVerdict {
     /// As an independent computation says, to this error in fold angles.
     Right(f64),
     /// Converged, where nothing independent is at hand.
@@ -40,7 +40,7 @@ pub enum TrialVerdict {
 }
 
 /// A sheet with bars and creases, whose creases want other angles.
-pub struct Trial {
+pub(crate) struct Trial {
     /// The cell, or the finite sheet.
     pub sheet: Sheet,
     /// Its cells.
@@ -56,7 +56,7 @@ pub struct Trial {
 }
 
 /// Where a trial ended.
-pub struct TrialResult {
+pub(crate) struct TrialResult {
     /// Fold angle of every edge; NaN where there is no hinge.
     pub angles: Vec<f64>,
     /// Largest difference of a fold angle to the exact kinematics; `None` where there is nothing to compare with.
@@ -69,7 +69,7 @@ pub struct TrialResult {
 
 impl Trial {
     /// A patch with rigid bars and creases of 1.
-    pub fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
+    pub(crate) fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
         let stiffness = [f64::INFINITY, 1.0];
         Self { sheet, cells, boundary: Boundary::Patch, stiffness, off, lock: None }
     }
@@ -88,7 +88,7 @@ impl Trial {
     }
 
     /// Relaxes from the drawn state. `Err`: why not.
-    pub fn run(&self) -> Result<TrialResult, String> {
+    pub(crate) fn run(&self) -> Result<TrialResult, String> {
         let [bars, creases] = self.stiffness;
         let assembly = self.assembly().map_err(|error| error.to_string())?;
         let mut model = assembly.model(Gauge::Held);
@@ -114,7 +114,7 @@ impl Trial {
 
     /// Whether rigid bars end at the exact kinematics to `allowed` radians; where that cannot be asked, whether they kept
     /// their lengths. Whether soft ones end where the augmented form does, if it finds the same minimum.
-    pub fn judged(&self, allowed: f64) -> TrialVerdict {
+    pub(crate) fn judged(&self, allowed: f64) -> TrialVerdict {
         judge(|found| match (found.to_kinematic, found.to_augmented) {
             (Some(error), _) => within(error, allowed),
             (None, Some(error)) if error <= AGREES => TrialVerdict::Right(error),
@@ -124,13 +124,13 @@ impl Trial {
     }
 
     /// Whether the fold angles are these to `allowed` radians.
-    pub fn against(&self, expected: &[f64], allowed: f64) -> TrialVerdict {
+    pub(crate) fn against(&self, expected: &[f64], allowed: f64) -> TrialVerdict {
         judge(|found| within(distance(&found.angles, expected), allowed))(self)
     }
 }
 
 /// The verdict on a trial; a panic is wrong, and so is one that was cut short.
-pub fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&Trial) -> TrialVerdict {
+pub(crate) fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&Trial) -> TrialVerdict {
     move |trial| match catch_unwind(AssertUnwindSafe(|| trial.run())) {
         Ok(Ok(found)) => verdict(&found),
         Ok(Err(reason)) if reason.contains("stopped on request") => {
@@ -142,12 +142,12 @@ pub fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&Trial) 
 }
 
 /// Right where an error is at most `allowed`.
-pub fn within(error: f64, allowed: f64) -> TrialVerdict {
+pub(crate) fn within(error: f64, allowed: f64) -> TrialVerdict {
     if error <= allowed { TrialVerdict::Right(error) } else { TrialVerdict::Wrong(format!("off by {error:.1e}")) }
 }
 
 /// Largest difference where a number is expected; NaN where there is none, where none is expected, and of lists of other lengths.
-pub fn distance(angles: &[f64], expected: &[f64]) -> f64 {
+pub(crate) fn distance(angles: &[f64], expected: &[f64]) -> f64 {
     let known = angles.iter().zip(expected).filter(|(_, expected)| !expected.is_nan());
     let worst = worst(known.map(|(a, b)| (a - b).abs()));
     worst.filter(|_| angles.len() == expected.len()).unwrap_or(f64::NAN)

@@ -4,7 +4,7 @@ use super::line::ZeroLine;
 use std::f64::consts::TAU;
 
 /// A piece of a line: all of one that closes, or from a ray at `q = 0` to another.
-pub struct Arc {
+pub(crate) struct Arc {
     /// Wavenumbers along it.
     pub points: Vec<[f64; 2]>,
     /// Largest distance of a point from the zero of the determinant.
@@ -12,14 +12,14 @@ pub struct Arc {
 }
 
 /// A line from its points, with the winding that follows from its ends.
-pub fn line(points: Vec<[f64; 2]>, passes: usize, residual: f64) -> ZeroLine {
+pub(crate) fn line(points: Vec<[f64; 2]>, passes: usize, residual: f64) -> ZeroLine {
     let (first, last) = (points[0], points[points.len() - 1]);
     let winding = [0, 1].map(|a| ((last[a] - first[a]) / TAU).round() as i32);
     ZeroLine { points, winding, passes, residual }
 }
 
 /// Pieces joined at `q = 0`: a line that arrives along one ray leaves along the opposite one.
-pub fn joined(arcs: Vec<([usize; 2], Arc)>) -> Vec<ZeroLine> {
+pub(crate) fn joined(arcs: Vec<([usize; 2], Arc)>) -> Vec<ZeroLine> {
     let mut left: Vec<Option<([usize; 2], Arc)>> = arcs.into_iter().map(Some).collect();
     let mut lines = Vec::new();
     while let Some(([first, mut ray], arc)) = left.iter_mut().find_map(Option::take) {

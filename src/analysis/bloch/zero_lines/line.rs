@@ -13,7 +13,7 @@ pub struct ZeroLine {
     /// How often it passes `q = 0`.
     pub passes: usize,
     /// Largest distance of a point from the zero of the determinant, estimated by its last correction; of
-    /// [refined](ZeroLines::refined) lines also by the rounding of the determinant.
+    /// [refined](super::ZeroLines::refined) lines also by the rounding of the determinant.
     pub residual: f64,
 }
 

@@ -12,7 +12,7 @@ pub struct Region {
 }
 
 /// Connected parts of the grid of equal sign, the largest first.
-pub fn regions(positive: &[bool]) -> Vec<Region> {
+pub(crate) fn regions(positive: &[bool]) -> Vec<Region> {
     let mut seen = vec![false; positive.len()];
     let mut regions = Vec::new();
     for first in 0..positive.len() {

@@ -11,14 +11,14 @@ use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
 /// A trial that is not made yet.
-pub type Attempt = Box<dyn FnOnce() -> TrialVerdict>;
+pub(crate) type Attempt = Box<dyn FnOnce() -> TrialVerdict>;
 /// What it is called and what is tried.
-pub type Named = (String, Attempt);
+pub(crate) type Named = (String, Attempt);
 
 const POWERS: [i32; 8] = [-150, -100, -60, -30, 30, 60, 100, 150];
 
 /// A family of cases, one idea.
-pub struct Family {
+pub(crate) struct Family {
     /// What is extreme.
     pub name: &'static str,
     /// What the results are compared with.
@@ -28,7 +28,7 @@ pub struct Family {
 }
 
 /// All families; large patches only where there is time.
-pub fn families(quick: bool) -> Result<Vec<Family>, ExperimentError> {
+pub(crate) fn families(quick: bool) -> Result<Vec<Family>, ExperimentError> {
     let cell = star::cell()?;
     Ok(vec![
         stiffness(&cell)?,

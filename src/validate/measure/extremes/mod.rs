@@ -41,7 +41,7 @@ impl Tally {
 }
 
 /// Tries every family, case by case.
-pub fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
+pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let families = families::families(bench.quick)?;
     let all: usize = families.iter().map(|family| family.cases.len()).sum();
     let (mut tally, mut rows) = (Tally::default(), Vec::new());
