@@ -1,7 +1,9 @@
-//! From a sheet and the stiffnesses of its parts to a model: the only place that decides what is built.
+//! Builds the model of a sheet from its terms; no other place decides what a model contains.
 //!
-//! A term that nothing asks for is not built. Bars always carry tensions. A hinge term carries tensions too when it is
-//! rigid, or so much stiffer than the softest term that its forces would drown in its own rounding error.
+//! A term that is absent is not built. Bars always have tensions as unknowns. Hinges have tensions too if they are
+//! rigid, or so much stiffer than the softest term that the rounding errors of `k (angle - rest)` would hide their
+//! forces.
+//! errors of theirs.
 
 use super::boundary::Drawn;
 use super::element::{Element, Elements, Spring, Term, TermKind};
@@ -11,12 +13,12 @@ use super::terms::{Hinges, Terms};
 use crate::sheet::EdgeKind;
 use crate::sheet::tiling::{TiledEdge, Tiling};
 
-/// Hinges stiffer than this times the softest term carry tensions.
+/// Ratio of a hinge's stiffness to the softest stiffness above which hinges have tensions as unknowns.
 const STIFF_RATIO: f64 = 1e4;
 
 type Elementwise = Vec<Box<dyn Elements>>;
 
-/// Builds the model of a tiling. Hinges of a kind for which the terms have nothing are not built.
+/// Builds the model of a tiling, without the kinds of hinges that `terms` does not have.
 pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gauge) -> Model {
     let (mut soft, mut stiff): (Elementwise, Elementwise) = (vec![], vec![]);
     let mean_edge = drawn.mean_edge(tiling);
@@ -62,7 +64,8 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
     })
 }
 
-/// The force on every coordinate, without what pins take up; nothing where no force is left: a load that does nothing changes nothing.
+/// Returns the force on every coordinate, zero where a pin takes it up. The list is empty if all forces are zero, so
+/// that a load without effect gives the same model as no load.
 fn net_loads(terms: &Terms, coordinates: usize, pinned: &[usize]) -> Vec<f64> {
     let mut loads = vec![0.0; coordinates];
     terms.loads.iter().for_each(|(v, f)| (0..3).for_each(|axis| loads[3 * v + axis] += f[axis]));

@@ -1,4 +1,4 @@
-//! A sheet with its boundary conditions and what it is made of: what every study is asked about.
+//! The assembly: a sheet with its boundary conditions and terms, the input of every study.
 
 use super::assemble::assemble;
 use super::assembly_error::AssemblyError;
@@ -8,10 +8,11 @@ use super::terms::{RIGID, Terms};
 use crate::sheet::{Sheet, Tiling, tile};
 use std::sync::Arc;
 
-/// A sheet, its boundary conditions and its terms.
+/// A sheet with its boundary conditions and terms.
 ///
-/// [`Assembly::patch`] and its siblings begin a [`Builder`](super::Builder); facets are rigid unless it is told otherwise. Clones share the
-/// sheet.
+/// [`Assembly::patch`], [`Assembly::torus`], [`Assembly::fixed_torus`] and [`Assembly::screw`] begin a
+/// [`Builder`](super::Builder); facets are rigid unless [`Builder::facets`](super::Builder::facets) gives them a
+/// stiffness. Clones share the sheet.
 ///
 /// ```
 /// use foldwell::{Assembly, Pattern, RIGID, Rest, generate};
@@ -29,24 +30,26 @@ pub struct Assembly {
     terms: Arc<Terms>,
 }
 
-/// The part of an assembly that no terms change.
+/// The sheet, its tiling and its boundary conditions, which do not depend on the terms.
 #[derive(Debug)]
 struct Geometry {
     sheet: Sheet,
     tiling: Tiling,
     boundary: Boundary,
-    /// Cells that pictures show.
+    /// Numbers of cells along the two lattice vectors that pictures show.
     shown: [usize; 2],
-    /// Fold angles of the drawn state.
+    /// Fold angles of the drawn state, one for each edge of the tiling, in radians; NaN where there is no hinge.
     angles: Vec<f64>,
 }
 
 impl Assembly {
-    /// A sheet with boundary conditions and no terms. On a screw, `cells` are those that pictures show; a sheet without
-    /// lattice is one cell.
+    /// Makes an assembly of a sheet with boundary conditions and no terms. `cells` counts the cells along the two
+    /// lattice vectors: those of the tiling, or, for screw boundary conditions, those that pictures show. A sheet
+    /// without lattice has one cell, whatever `cells` says.
     ///
     /// # Errors
-    /// [`AssemblyError::NoLattice`] where a sheet without lattice is to be periodic, and [`AssemblyError::NoCells`].
+    /// [`AssemblyError::NoLattice`] for periodic boundary conditions on a sheet without lattice, and
+    /// [`AssemblyError::NoCells`] if a number of cells is zero.
     pub fn without_terms(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Result<Self, AssemblyError> {
         if boundary.is_periodic() && sheet.lattice.is_none() {
             return Err(AssemblyError::NoLattice);
@@ -62,10 +65,11 @@ impl Assembly {
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
-    /// The same sheet with other terms, in the same drawn state.
+    /// Returns the same sheet with other terms, in the same drawn state.
     ///
     /// # Panics
-    /// Where rest angles are not one for each edge of the tiling, or a lock, pin or load names what the tiling has not.
+    /// If the rest angles of creases or facets are not one for each edge of the tiling. A lock, pin or load whose
+    /// edge or vertex number is outside the tiling panics later, when the model is built.
     pub fn with_terms(&self, terms: Terms) -> Self {
         let edges = self.edges();
         let rests = [&terms.creases, &terms.facets].into_iter().flatten().map(|hinges| hinges.rest.len());
@@ -73,12 +77,13 @@ impl Assembly {
         Self { terms: Arc::new(terms), ..self.clone() }
     }
 
-    /// The same sheet with bars of another stiffness `EA`.
+    /// Returns the same assembly with bars of stiffness `EA` (a force); [`RIGID`] keeps their lengths.
     pub fn with_bars(&self, stiffness: f64) -> Self {
         self.with_terms(Terms { bars: Some(stiffness), ..self.terms().clone() })
     }
 
-    /// The same sheet; the axis of a screw makes this angle with the first lattice vector, in radians.
+    /// Returns the same assembly with the axis of its screw motions at `angle` (radians) from the first lattice
+    /// vector. Other boundary conditions have no axis and are returned unchanged.
     pub fn with_axis(&self, angle: f64) -> Self {
         let Geometry { sheet, tiling, boundary, .. } = &*self.geometry;
         let drawn = match boundary {
@@ -88,91 +93,95 @@ impl Assembly {
         Self { drawn, ..self.clone() }
     }
 
-    /// The same sheet without what the coordinates of a screw hold against drift: models of it have every rigid motion.
+    /// Returns the same assembly without the coordinates that screw boundary conditions hold against drift, so that
+    /// its models have all rigid motions.
     pub fn with_free_coordinates(&self) -> Self {
         Self { drawn: Arc::new(Drawn { held: vec![], ..Drawn::clone(&self.drawn) }), ..self.clone() }
     }
 
-    /// The cell.
+    /// Returns the cell of the sheet.
     pub fn sheet(&self) -> &Sheet {
         &self.geometry.sheet
     }
 
-    /// Its copies: one cell of a screw.
+    /// Returns the tiling, the copies of the cell; with screw boundary conditions it has one cell.
     pub fn tiling(&self) -> &Tiling {
         &self.geometry.tiling
     }
 
-    /// The boundary conditions.
+    /// Returns the boundary conditions.
     pub fn boundary(&self) -> Boundary {
         self.geometry.boundary
     }
 
-    /// The cells that pictures show: those of the tiling, or as many of a screw as it was given.
+    /// Returns the numbers of cells that pictures show along the two lattice vectors: those of the tiling, or, for
+    /// screw boundary conditions, those given to the builder.
     pub fn shown(&self) -> [usize; 2] {
         if self.boundary() == Boundary::Screw { self.geometry.shown } else { self.tiling().cells }
     }
 
-    /// The terms of the energy and the conditions on the sheet.
+    /// Returns the terms: stiffnesses and rest angles, locks, pins and loads.
     pub fn terms(&self) -> &Terms {
         &self.terms
     }
 
-    /// Stiffness `EA` of the bars; infinite where there are none to stretch.
+    /// Returns the stiffness `EA` of the bars; infinite if the assembly has no bars.
     pub fn bar_stiffness(&self) -> f64 {
         self.terms.bars.unwrap_or(RIGID)
     }
 
-    /// Stiffness of the creases; 1 where they have none.
+    /// Returns the stiffness of the creases, torque per radian and length; 1 if the assembly has no crease energy.
     pub fn crease_stiffness(&self) -> f64 {
         self.terms.creases.as_ref().map_or(1.0, |creases| creases.stiffness)
     }
 
-    /// The drawn state.
+    /// Returns the drawn state.
     pub fn drawn(&self) -> &Drawn {
         &self.drawn
     }
 
-    /// Fold angles of the drawn state, one for each edge of the tiling, in radians; NaN where there is no hinge.
+    /// Returns the fold angles of the drawn state, one for each edge of the tiling, in radians; NaN where there is no
+    /// hinge.
     pub fn drawn_angles(&self) -> &[f64] {
         &self.geometry.angles
     }
 
-    /// The same angles, zero where there is no hinge.
+    /// Returns [`Assembly::drawn_angles`] with zero where there is no hinge.
     pub fn drawn_angles_or_zero(&self) -> Vec<f64> {
         self.drawn_angles().iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect()
     }
 
-    /// Fold angles of a state with these coordinates, between -pi and pi, one for each edge of the tiling; NaN where there is
-    /// no hinge.
+    /// Returns the fold angles of the state with these coordinates, in `[-pi, pi]`, one for each edge of the tiling;
+    /// NaN where there is no hinge.
     pub fn fold_angles_at(&self, coordinates: &[f64]) -> Vec<f64> {
         let state = Drawn { coordinates: coordinates.to_vec(), ..Drawn::clone(&self.drawn) };
         state.fold_angles(self.tiling())
     }
 
-    /// Number of edges of the tiling: the length of every list that has a value for each edge.
+    /// Returns the number of edges of the tiling, which is the length of every list with one value for each edge.
     pub fn edges(&self) -> usize {
         self.tiling().edges.len()
     }
 
-    /// Mean length of the edges of the tiling.
+    /// Returns the mean length of the edges of the tiling.
     pub fn mean_edge(&self) -> f64 {
         self.drawn.mean_edge(self.tiling())
     }
 
-    /// Edges of the tiling that keep their angle: locked ones, and diagonals of polygons where these are rigid.
+    /// Returns the numbers of the edges of the tiling whose fold angle is kept: locked edges, and the diagonals of
+    /// polygons if facets are rigid.
     pub fn locked_edges(&self) -> Vec<usize> {
         let facets = self.tiling().facets().filter(|_| self.terms.has_rigid_facets());
         self.terms.locks.iter().map(|(edge, _)| *edge).chain(facets).collect()
     }
 
-    /// Diagonals of the polygons of the cell where these are rigid, as numbers of the sheet's edges.
+    /// Returns the numbers of the sheet's edges that are diagonals of rigid polygons; empty if facets are not rigid.
     pub fn rigid_facets_of_cell(&self) -> Vec<usize> {
         let rigid = self.terms.has_rigid_facets();
         self.sheet().facets().filter(|_| rigid).collect()
     }
 
-    /// The model of the bars and hinges, in the drawn state.
+    /// Builds the model of the bars and hinges, in the drawn state.
     pub fn model(&self, gauge: Gauge) -> Model {
         assemble(&self.drawn, self.tiling(), &self.terms, gauge)
     }

@@ -1,12 +1,12 @@
-//! Why an assembly cannot be put together.
+//! The errors of building an assembly.
 
 use crate::sheet::EdgeKey;
 use thiserror::Error;
 
-/// Why there is no such assembly.
+/// The reason why an assembly cannot be built.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum AssemblyError {
-    /// A finite sheet cannot be periodic.
+    /// Periodic boundary conditions were asked of a sheet without lattice.
     #[error("the sheet has no lattice: it can only be a patch")]
     NoLattice,
     /// A number of cells is zero.
@@ -15,42 +15,42 @@ pub enum AssemblyError {
     /// A stiffness is negative, zero or not a number.
     #[error("the stiffness of the {term} is {stiffness}, not a positive number")]
     Stiffness {
-        /// Bars, creases or facets.
+        /// Name of the term: bars, creases or facets.
         term: &'static str,
-        /// As given.
+        /// The stiffness that was given.
         stiffness: f64,
     },
-    /// Rest angles without creases.
+    /// Rest angles were given, but no stiffness of the creases.
     #[error("rest angles are those of creases: give these a stiffness")]
     RestWithoutCreases,
-    /// A list of rest angles has another length than the list of edges.
+    /// The list of rest angles has not one entry for each edge of the tiling.
     #[error("{given} rest angles were given for {edges} edges of the tiling")]
     RestAngles {
-        /// How many were given.
+        /// Number of rest angles that were given.
         given: usize,
-        /// How many there are.
+        /// Number of edges of the tiling.
         edges: usize,
     },
-    /// An edge is not there, or does not fold.
+    /// The sheet has no such edge, or the edge is not a crease.
     #[error("the sheet has no crease [{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1])]
     NoCrease {
-        /// The name that was given.
+        /// The name of the edge that was given.
         key: EdgeKey,
     },
-    /// A vertex or its cell is not there.
+    /// The tiling has no such vertex or no such cell.
     #[error("there is no vertex {vertex} of cell {cell:?}")]
     NoVertex {
-        /// Number in the cell.
+        /// Number of the vertex in the cell.
         vertex: usize,
-        /// The cell.
+        /// The cell, counted along the two lattice vectors.
         cell: [usize; 2],
     },
-    /// Loads that nothing holds push the whole sheet.
+    /// The loads have a resultant force along an axis on which no vertex is pinned.
     #[error("the loads push the whole sheet along {} with a force of {force}", ["x", "y", "z"][*axis])]
     Unbalanced {
-        /// 0, 1, 2: x, y, z.
+        /// The axis: 0, 1, 2 for x, y, z.
         axis: usize,
-        /// Their sum.
+        /// Sum of the loads along the axis.
         force: f64,
     },
 }

@@ -1,10 +1,10 @@
-//! Which way a flat state rolls up: the direction of the axis of a screw before there is any curvature.
+//! The initial axis of a screw: the direction about which a flat state rolls up.
 //!
-//! At zero curvature the axis of a screw has a direction but no meaning: turning it is turning the sheet. Folding then
-//! starts about whatever axis the chart was given, and from a bad one Newton's method may end in a poor minimum. So
-//! the axis is laid where the first Newton step promises the largest fall of the energy: the best of some directions, then
-//! the maximum next to it. Near zero curvature the direction and the curvature are polar coordinates; Newton's method
-//! does not correct the direction there, so it has to be right from the start.
+//! At zero curvature the direction of the axis does not affect the shape: rotating it rotates the sheet. But folding
+//! starts about the axis that the chart has, and from a bad one Newton's method may end in a poor minimum. So the
+//! axis is put where the first Newton step promises the largest decrease of the energy: first the best of some
+//! directions, then the maximum next to it. Near zero curvature direction and curvature are polar coordinates, and
+//! Newton's method does not correct the direction there; it has to be right from the start.
 
 use super::assembly::Assembly;
 use super::boundary::Boundary;
@@ -12,16 +12,19 @@ use super::problem::Gauge;
 use crate::solver::{HessianKind, Problem, Tangent};
 use std::f64::consts::PI;
 
-/// Directions that are tried, evenly over half a turn.
+/// Number of directions that are tried, evenly spaced over half a turn.
 const DIRECTIONS: usize = 24;
-/// Shift that keeps the step finite along motions that cost nothing: of the first look, and of the search for the maximum.
+/// Shift of the Hessian, which keeps the Newton step finite along motions that cost no energy: `SHIFT` while
+/// directions are compared, `LEAST_SHIFT` in the search for the maximum.
 const SHIFT: f64 = 1e-2;
 const LEAST_SHIFT: f64 = 1e-9;
-/// Reductions of the interval in which the maximum is, each by the golden section: from a quarter of a radian to 1e-8.
+/// Number of golden-section reductions of the interval around the maximum: they take it from a quarter of a radian to
+/// 1e-8.
 const REDUCTIONS: usize = 36;
 
 impl Assembly {
-    /// The same sheet; the axis of a screw lies where folding promises the largest fall of the energy.
+    /// Returns the same assembly with the axis of its screw motions in the direction that promises the largest
+    /// decrease of the energy. Other boundary conditions are returned unchanged.
     pub fn with_best_axis(&self) -> Self {
         if self.boundary() != Boundary::Screw {
             return self.clone();
@@ -42,7 +45,7 @@ impl Assembly {
     }
 }
 
-/// Where a function with one maximum between two places has it, by the golden section.
+/// Returns the argument of the maximum of a function with one maximum in an interval, by golden-section search.
 fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let inner = |low: f64, high: f64| [high - golden * (high - low), low + golden * (high - low)];
@@ -62,7 +65,8 @@ fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 
     0.5 * (low + high)
 }
 
-/// Fall of the energy along the first Newton step, to second order.
+/// Returns the decrease of the energy along the first Newton step, to second order; `None` if the Hessian cannot be
+/// factorized.
 fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
     let model = assembly.model(Gauge::Held);
     let tension = vec![0.0; model.layout().stiff.len()];

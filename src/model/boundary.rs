@@ -1,4 +1,4 @@
-//! Boundary conditions of the cells, and the drawn state in the coordinates that they give.
+//! Boundary conditions of a tiling, and the drawn state in the coordinates that belong to them.
 
 use super::domain::Domain;
 use crate::math::{Vec3, fold_angle::fold_angle};
@@ -6,7 +6,8 @@ use crate::sheet::tiling::{Site, Tiling};
 use crate::sheet::{Corner, Sheet};
 use nalgebra::Matrix3;
 
-/// Distance of the first vertex from the file's origin, in sizes of the sheet, beyond which that vertex is made the origin.
+/// Largest distance of the first vertex from the file's origin, relative to the size of the sheet, at which the
+/// file's origin is kept; beyond it the first vertex becomes the origin.
 const FAR: f64 = 4.0;
 
 /// The boundary conditions of a tiling.
@@ -14,9 +15,9 @@ const FAR: f64 = 4.0;
 pub enum Boundary {
     /// A finite piece with free edges.
     Patch,
-    /// Periodic with the lattice vectors held as drawn.
+    /// Periodic, with the lattice vectors held at their drawn values.
     FixedTorus,
-    /// Periodic with free lattice vectors.
+    /// Periodic, with lattice vectors that are unknowns.
     FreeTorus,
     /// One cell repeated by two screw motions about a common axis: a cylinder of any curvature.
     Screw,
@@ -34,20 +35,21 @@ impl Boundary {
 pub struct Drawn {
     /// The map from coordinates to points.
     pub domain: Domain,
-    /// All coordinates.
+    /// Coordinates of all vertices, then the shared coordinates of the domain; see [`Domain`].
     pub coordinates: Vec<f64>,
-    /// Coordinates that the domain itself holds: vertex 0 of a screw, and y of its first lattice vector.
+    /// Indices of the coordinates that the boundary conditions hold: for a screw those of vertex 0 and y of the first
+    /// lattice vector, otherwise none.
     pub held: Vec<usize>,
-    /// Rotation from the file's frame to the domain's, about `origin`.
+    /// Rotation about `origin` from the file's frame to the domain's frame.
     pub frame: Matrix3<f64>,
-    /// The point of the file at the origin of the domain's frame: vertex 0 of a screw; elsewhere the file's origin, or the
-    /// sheet's first vertex where the sheet is far from that.
+    /// Point of the file that is the origin of the domain's frame: vertex 0 for a screw, otherwise the file's origin,
+    /// or the sheet's first vertex if the sheet is far from the file's origin.
     pub origin: Vec3,
 }
 
 impl Drawn {
-    /// The drawn state of a tiling; the axis of a screw makes the angle `axis` (radians) with the first lattice vector.
-    /// A sheet without lattice must be a patch.
+    /// Makes the drawn state of a tiling. For a screw, `axis` is the angle of the axis from the first lattice vector,
+    /// in radians. A sheet without lattice must be a patch.
     pub(super) fn new(sheet: &Sheet, tiling: &Tiling, boundary: Boundary, axis: f64) -> Self {
         let flat = |points: &[Vec3]| points.iter().flat_map(|p| [p.x, p.y, p.z]).collect::<Vec<f64>>();
         let lattice = sheet.lattice.map(|[l1, l2]| [l1 * tiling.cells[0] as f64, l2 * tiling.cells[1] as f64]);
@@ -62,7 +64,8 @@ impl Drawn {
         Self { domain, coordinates, held: vec![], frame, origin }
     }
 
-    /// Vertex 0 at the origin, the first lattice vector along x, face normals along +z, no curvature.
+    /// Makes the drawn state of a screw: vertex 0 at the origin, the first lattice vector along x, the face normals
+    /// along +z, zero curvature.
     fn screw(sheet: &Sheet, [l1, l2]: [Vec3; 2], axis: f64) -> Self {
         let along = l1.normalize();
         let across = l1.cross(&l2);
@@ -77,28 +80,28 @@ impl Drawn {
         Self { domain: Domain::Screw, coordinates, held, frame, origin }
     }
 
-    /// Distance of two sites.
+    /// Returns the distance between two sites.
     pub(super) fn distance(&self, ends: &[Site; 2]) -> f64 {
         let [a, b] = self.domain.points(&self.coordinates, ends);
         (b - a).norm()
     }
 
-    /// Mean length of the edges of the tiling.
+    /// Returns the mean length of the edges of the tiling.
     pub(super) fn mean_edge(&self, tiling: &Tiling) -> f64 {
         let total: f64 = tiling.edges.iter().map(|edge| self.distance(&edge.ends)).sum();
         total / tiling.edges.len() as f64
     }
 
-    /// Fold angle of every edge of the tiling, in radians; NaN where there is no hinge.
+    /// Returns the fold angle of every edge of the tiling, in radians; NaN where there is no hinge.
     pub(super) fn fold_angles(&self, tiling: &Tiling) -> Vec<f64> {
         let angle = |sites| fold_angle(self.domain.points(&self.coordinates, &sites));
         tiling.edges.iter().map(|edge| edge.hinge().map_or(f64::NAN, angle)).collect()
     }
 }
 
-/// Positions of a tiling's vertices, and the point of the file at their origin. Where the first vertex is far off, as
-/// measured by the sheet, it is made the origin: then rounding errors are those of the sheet's size and of the file's own
-/// numbers.
+/// Returns the positions of a tiling's vertices, and the point of the file that is their origin. If the first vertex
+/// is farther than [`FAR`] sizes of the sheet from the file's origin, it becomes the origin: then rounding errors are
+/// relative to the size of the sheet, apart from those in the numbers of the file.
 fn near_origin(sheet: &Sheet, tiling: &Tiling) -> (Vec<Vec3>, Vec3) {
     let Some(&first) = sheet.vertices.first() else { return (tiling.positions.clone(), Vec3::zeros()) };
     let size = tiling.positions.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
@@ -114,7 +117,7 @@ fn near_origin(sheet: &Sheet, tiling: &Tiling) -> (Vec<Vec3>, Vec3) {
     ((0..tiling.positions.len()).map(place).collect(), first)
 }
 
-/// Sum of the area vectors of the triangles: points to the side of the face normals.
+/// Returns the sum of the area vectors of the triangles, which points to the side of the face normals.
 fn area_vector(sheet: &Sheet) -> Vec3 {
     let area = |corners: [Corner; 3]| {
         let [a, b, c] = corners.map(|corner| sheet.position(corner));

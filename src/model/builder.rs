@@ -1,4 +1,5 @@
-//! A builder of assemblies: stiffnesses, rest angles, locks, pins and loads by the names that a sheet gives them.
+//! The builder of assemblies: sets stiffnesses, rest angles, locks, pins and loads, and names edges and vertices as
+//! the sheet does.
 
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
@@ -7,22 +8,22 @@ use super::terms::{Hinges, RIGID, Terms};
 use crate::math::Vec3;
 use crate::sheet::{EdgeKey, Sheet};
 
-/// The angles at which creases are at rest, in radians.
+/// The rest angles of the creases, in radians.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Rest {
     /// The drawn fold angles.
     #[default]
     Drawn,
-    /// All zero.
+    /// Zero for every crease.
     Flat,
-    /// The same for all.
+    /// The same angle for every crease.
     Angle(f64),
-    /// One for each edge of the tiling, in its order; read where there is a crease.
+    /// One angle for each edge of the tiling, in the tiling's order; only those of creases are used.
     PerEdge(Vec<f64>),
 }
 
 impl Assembly {
-    /// Begins a patch with free edges: `cells[0] x cells[1]` cells of a sheet, or a finite sheet.
+    /// Begins a patch with free edges: `cells[0] x cells[1]` cells of a sheet with lattice, or a whole finite sheet.
     pub fn patch(sheet: Sheet, cells: [usize; 2]) -> Builder {
         Builder::new(sheet, cells, Boundary::Patch)
     }
@@ -37,13 +38,15 @@ impl Assembly {
         Builder::new(sheet, cells, Boundary::FixedTorus)
     }
 
-    /// Begins one cell repeated by two screw motions, a cylinder of any curvature; pictures show `cells[0] x cells[1]` of it.
+    /// Begins one cell repeated by two screw motions about a common axis, a cylinder of any curvature; pictures show
+    /// `cells[0] x cells[1]` copies of it.
     pub fn screw(sheet: Sheet, cells: [usize; 2]) -> Builder {
         Builder::new(sheet, cells, Boundary::Screw)
     }
 }
 
-/// An assembly that is being put together; [`Assembly::patch`] and its siblings begin one.
+/// An assembly under construction; [`Assembly::patch`] and the similar functions begin one and [`Builder::build`]
+/// ends it.
 #[derive(Clone, Debug)]
 pub struct Builder {
     sheet: Sheet,
@@ -64,57 +67,58 @@ impl Builder {
         Self { sheet, cells, boundary, bars: None, creases: None, facets: RIGID, rest: None, locks, pins, loads }
     }
 
-    /// Gives every edge a bar of this stiffness `EA`, force per strain; [`RIGID`]: its length is kept.
+    /// Gives every edge a bar of stiffness `EA`, in force per strain; [`RIGID`] keeps its length exactly.
     #[must_use]
     pub fn bars(self, stiffness: f64) -> Self {
         Self { bars: Some(stiffness), ..self }
     }
 
-    /// Gives every crease this stiffness, torque per radian and length.
+    /// Gives every crease this stiffness, in torque per radian and length.
     #[must_use]
     pub fn creases(self, stiffness: f64) -> Self {
         Self { creases: Some(stiffness), ..self }
     }
 
-    /// Gives the diagonals of polygons this stiffness, torque per radian and length, at rest as drawn; without this call
-    /// polygons are rigid.
+    /// Gives the diagonals of polygons this stiffness, in torque per radian and length, with the drawn angles as rest
+    /// angles. Without this call polygons are rigid.
     #[must_use]
     pub fn facets(self, stiffness: f64) -> Self {
         Self { facets: stiffness, ..self }
     }
 
-    /// Sets the rest angles of the creases; without this call they rest as drawn.
+    /// Sets the rest angles of the creases. Without this call they are the drawn angles.
     #[must_use]
     pub fn rest(self, rest: Rest) -> Self {
         Self { rest: Some(rest), ..self }
     }
 
-    /// Keeps a crease of the cell, in all its copies, at an angle in radians; `None`: as drawn.
+    /// Locks a crease of the cell, in all its copies, at a fold angle in radians; `None` locks it at the drawn angle.
     #[must_use]
     pub fn lock(mut self, crease: EdgeKey, angle: Option<f64>) -> Self {
         self.locks.push((crease, angle));
         self
     }
 
-    /// Holds a vertex of a cell along the axes (x, y, z) that are true.
+    /// Pins a vertex of a cell: its coordinates along the axes (x, y, z) that are true keep their drawn values.
     #[must_use]
     pub fn pin(mut self, vertex: usize, cell: [usize; 2], axes: [bool; 3]) -> Self {
         self.pins.push((vertex, cell, axes));
         self
     }
 
-    /// Pulls at a vertex of a cell with a force.
+    /// Applies a force (x, y, z) to a vertex of a cell.
     #[must_use]
     pub fn load(mut self, vertex: usize, cell: [usize; 2], force: [f64; 3]) -> Self {
         self.loads.push((vertex, cell, Vec3::from(force)));
         self
     }
 
-    /// Puts the assembly together.
+    /// Builds the assembly.
     ///
     /// # Errors
-    /// [`AssemblyError`]: the sheet cannot have these boundary conditions, a stiffness is no positive number, a crease or
-    /// a vertex is not there, rest angles do not fit the tiling, or loads do not balance along an axis without pins.
+    /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness is not a positive number,
+    /// rest angles are given without a stiffness of creases or their number does not match the tiling, a crease or a
+    /// vertex does not exist, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
         let Self { sheet, cells, boundary, bars, creases, facets, rest, locks, pins, loads } = self;
         let bare = Assembly::without_terms(sheet, cells, boundary)?;
@@ -149,6 +153,7 @@ impl Builder {
     }
 }
 
+/// Returns the rest angles, one for each edge of the tiling.
 fn angles(assembly: &Assembly, rest: Rest) -> Result<Vec<f64>, AssemblyError> {
     let edges = assembly.edges();
     match rest {
@@ -160,14 +165,14 @@ fn angles(assembly: &Assembly, rest: Rest) -> Result<Vec<f64>, AssemblyError> {
     }
 }
 
-/// The edges of the tiling that are copies of a crease and fold.
+/// Returns the numbers of the tiling's edges that are copies of this crease and have a hinge.
 fn copies(assembly: &Assembly, crease: EdgeKey) -> Result<Vec<usize>, AssemblyError> {
     let (sheet, tiling, angles) = (assembly.sheet(), assembly.tiling(), assembly.drawn_angles());
     let edge = sheet.crease(crease).ok_or(AssemblyError::NoCrease { key: crease })?;
     Ok((0..tiling.edges.len()).filter(|&k| tiling.edges[k].edge == edge && !angles[k].is_nan()).collect())
 }
 
-/// The number of a cell's vertex in the tiling.
+/// Returns the number that a cell's vertex has in the tiling.
 fn numbered(assembly: &Assembly, vertex: usize, cell: [usize; 2]) -> Result<usize, AssemblyError> {
     let (count, cells) = (assembly.sheet().vertices.len(), assembly.tiling().cells);
     let there = vertex < count && cell[0] < cells[0] && cell[1] < cells[1];

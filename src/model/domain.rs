@@ -1,20 +1,21 @@
-//! Domains: where the points of an element come from, and the chain rule through them.
+//! Domains: the maps from the coordinates of a state to the points of an element, and the chain rule through them.
 //!
-//! The coordinates of a state are three for each vertex, and after them the *shared* coordinates of the domain:
-//! none on a patch or on a torus with fixed lattice, the six components of the lattice vectors on a free torus, and
-//! `direction, kappa, y1, y2, x1, x2` on a screw, `l1 = (x1, y1)` and `l2 = (x2, y2)`. A point of an element is a
-//! vertex of some cell, a [`Site`].
+//! The coordinates of a state are three for each vertex, followed by the *shared* coordinates of the domain: none for
+//! a patch or a torus with fixed lattice, the six components of the lattice vectors for a free torus, and `direction,
+//! kappa, y1, y2, x1, x2` for a screw, with the lattice vectors `l1 = (x1, y1)` and `l2 = (x2, y2)`. A point of an
+//! element is a vertex of some cell, a [`Site`].
 //!
-//! Screw (commuting screw motions about an axis in the plane of x and y, written so that the axis may go to infinity):
-//! with `e` the direction of the axis, at the angle `direction` from x, `m` across it, `l = n1 l1 + n2 l2` the part of
-//! the lattice in the plane, `b = m . l` and `t = kappa b`, the copy of a point `q + z e_z` in cell `(n1, n2)` is
-//! `q + l + m Re d + (z + Im d) e_z` with `d = i kappa b (phi(t) w + b psi(t))`, where `w = m . q + i z`,
-//! `phi(t) = (e^(it) - 1)/(it)` and `psi = (phi - 1)/(it) = phi + i phi'`. That is the turn `e^(it) w + b phi(t)` across the
-//! axis and the shift `e . l` along it.
+//! A screw repeats the cell by commuting screw motions about an axis parallel to the plane of x and y, in a form that
+//! stays regular when the axis goes to infinity. Let `e` be the direction of the axis, at the angle `direction` from
+//! x, `m` the direction across it, `l = n1 l1 + n2 l2` the lattice vector of cell `(n1, n2)`, `b = m . l` and `t =
+//! kappa b`. The copy of a point `q + z e_z` in cell `(n1, n2)` is `q + l + m Re d + (z + Im d) e_z` with `d = i
+//! kappa b (phi(t) w + b psi(t))`, where `w = m . q + i z`, `phi(t) = (e^(it) - 1)/(it)` and `psi = (phi - 1)/(it) =
+//! phi + i phi'`. This is the rotation `e^(it) w + b phi(t)` across the axis and the translation `e . l` along it.
 //!
-//! All that bends has the factor `kappa`, so also the derivative by the direction: near zero curvature, where direction
-//! and curvature are polar coordinates, it is small but keeps its digits. At `kappa = 0` the map is the translation by `l` and
-//! the direction means nothing; the derivatives by `kappa` are as smooth there as elsewhere.
+//! The displacement `d` has the factor `kappa`, and so has its derivative by the direction. Near zero curvature,
+//! where direction and curvature are polar coordinates, that derivative is small but keeps its digits. At `kappa = 0`
+//! the map is the translation by `l` and does not depend on the direction; the derivatives by `kappa` are regular
+//! there.
 
 mod recentre;
 mod screw;
@@ -29,30 +30,31 @@ use screw::ScrewMotion;
 pub(crate) use shared::{MOST_SHARED, Turns};
 use shared::{Pulled, SharedMatrix};
 
-/// Where points come from.
+/// The map from the coordinates of a state to points; see the module's page for the coordinates of each kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Domain {
-    /// Vertices, free edges.
+    /// Free edges: points are vertices.
     Patch,
-    /// Periodic, with this lattice.
+    /// Periodic with these fixed lattice vectors.
     FixedTorus([Vec3; 2]),
-    /// Periodic, the lattice vectors are coordinates.
+    /// Periodic with lattice vectors that are coordinates.
     FreeTorus,
-    /// One cell moved by commuting screw motions about an axis in the plane of x and y.
+    /// One cell repeated by commuting screw motions about an axis parallel to the plane of x and y.
     Screw,
 }
 
-/// Curvatures below this, over one by the unit of length, do not make the unit of the direction larger: there it has no meaning.
+/// Least curvature, in units of the inverse of the unit length, that is used for the unit of the axis direction: near
+/// zero curvature the direction has no effect, and its unit would grow without bound.
 const STRAIGHT: f64 = 1e-8;
 
-/// Derivatives of a point: `vertex` with respect to the vertex, `shared` with respect to the shared coordinates.
+/// Derivatives of a point with respect to its vertex (`vertex`) and to the shared coordinates (`shared`).
 struct Placed {
     vertex: Matrix3<f64>,
     shared: SharedMatrix,
 }
 
 impl Domain {
-    /// Number of shared coordinates.
+    /// Returns the number of shared coordinates.
     pub fn shared(&self) -> usize {
         match self {
             Self::Patch | Self::FixedTorus(_) => 0,
@@ -60,13 +62,13 @@ impl Domain {
         }
     }
 
-    /// The shared ones of all coordinates.
+    /// Returns the shared coordinates, which are the last of all coordinates.
     #[inline]
     fn shared_of<'a>(&self, x: &'a [f64]) -> &'a [f64] {
         &x[x.len() - self.shared()..]
     }
 
-    /// Where a site is. `x` holds all coordinates, the shared ones last.
+    /// Returns the position of a site. `x` holds all coordinates, the shared ones last.
     #[inline]
     pub(crate) fn point(&self, x: &[f64], site: Site) -> Vec3 {
         let v = vertex(x, site);
@@ -102,7 +104,7 @@ impl Domain {
         Placed { vertex: vertex_part, shared: shared_part }
     }
 
-    /// Velocity of a site when all coordinates have these rates.
+    /// Returns the velocity of a site for given rates of all coordinates.
     pub(crate) fn velocity(&self, x: &[f64], site: Site, rates: &[f64]) -> Vec3 {
         let placed = self.place(x, site);
         let shared = &rates[rates.len() - self.shared()..];
@@ -110,14 +112,16 @@ impl Domain {
         placed.vertex * vertex(rates, site) + by_shared
     }
 
-    /// A site on the path `x[0] + a x[1] + a^2 x[2]` of all coordinates. Not for screws, whose maps are not linear.
+    /// Returns the Taylor series of a site along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates. It is not
+    /// valid for screws, whose maps are not linear in the coordinates.
     pub(crate) fn path(&self, x: &[&[f64]; 3], site: Site) -> Path {
         let start = self.point(x[0], site);
         let [first, second] = [x[1], x[2]].map(|rates| self.velocity(x[0], site, rates));
         std::array::from_fn(|axis| Taylor([start[axis], first[axis], second[axis], 0.0, 0.0]))
     }
 
-    /// Appends to `out` the gradient in the element's coordinates of a function whose gradient in its points is `g`.
+    /// Appends to `out` the gradient of a function in the element's coordinates (those of its points, then the shared
+    /// ones); `g` is its gradient in the element's points.
     pub(crate) fn pull_gradient<const N: usize, const D: usize>(
         &self,
         x: &[f64],
@@ -137,8 +141,9 @@ impl Domain {
         out.extend_from_slice(&shared.as_slice()[..self.shared()]);
     }
 
-    /// Turns `lower`, the lower triangle, row by row, of the Hessian of a function in its points, where its gradient is `g`, into the
-    /// one in the element's coordinates: `J^T H J` plus the curvature of the map itself, weighted by `g`.
+    /// Replaces `lower` by the Hessian of a function in the element's coordinates: `J^T H J` plus the second
+    /// derivative of the map, weighted by `g`. On entry `lower` is the Hessian `H` of the function in the element's
+    /// points, and `g` its gradient there. Both Hessians are stored as lower triangles, row by row.
     pub(crate) fn pull_hessian<const N: usize, const D: usize>(
         &self,
         x: &[f64],
@@ -179,12 +184,13 @@ impl Domain {
         }
     }
 
-    /// The screw motions of a state; `None` where there are none.
+    /// Returns the screw motions of a state; `None` for domains without screw motions.
     pub(crate) fn turns(&self, x: &[f64]) -> Option<Turns> {
         matches!(self, Self::Screw).then(|| Turns::new(self.shared_of(x)))
     }
 
-    /// Gives the axis of a screw this direction; nothing else changes.
+    /// Sets the direction of the axis of a screw, in radians from x; all other coordinates stay. Does nothing for
+    /// other domains.
     pub(crate) fn point_axis(&self, x: &mut [f64], direction: f64) {
         if matches!(self, Self::Screw) {
             let first = x.len() - self.shared();
@@ -192,7 +198,8 @@ impl Domain {
         }
     }
 
-    /// Gives a screw an axis of this direction and this curvature; its lattice and its vertices stay.
+    /// Sets the direction (radians from x) and the curvature of a screw; its lattice and vertices stay. Does nothing
+    /// for other domains.
     pub(crate) fn bend(&self, x: &mut [f64], direction: f64, kappa: f64) {
         if matches!(self, Self::Screw) {
             let first = x.len() - self.shared();
@@ -200,26 +207,28 @@ impl Domain {
         }
     }
 
-    /// Sizes of the shared coordinates in which they weigh as much as a `length` in the position of a point, or as
-    /// little as nothing else: then all unknowns are lengths, whatever the unit. Empty where the coordinates are lengths themselves.
+    /// Returns the scale factors of the shared coordinates that turn them into lengths, so that all unknowns have the
+    /// same unit. Changing a scaled coordinate by `length` moves points about as much as moving a vertex by `length`.
+    /// Empty for domains whose shared coordinates are lengths already.
     ///
-    /// Curvature moves points by the square of lengths. The direction of the axis moves them as much, times the curvature; as long as
-    /// that is not next to nothing it counts, so that both are known with the same error.
+    /// A change of the curvature moves points in proportion to the square of lengths, and a change of the axis
+    /// direction by that times the curvature. The factor of the direction is therefore bounded at curvatures below
+    /// [`STRAIGHT`]; above, both coordinates are found with the same error.
     pub(crate) fn units(&self, x: &[f64], length: f64) -> Vec<f64> {
         let Some(Turns { kappa, .. }) = self.turns(x) else { return vec![] };
         let curvature = 1.0 / (length * length);
         vec![curvature / f64::max(kappa.abs(), STRAIGHT / length), curvature, 1.0, 1.0, 1.0, 1.0]
     }
 
-    /// Keeps the chart of a screw away from its singular places; returns whether coordinates were changed. The sheet stays
-    /// the same, but for its place in space.
+    /// Moves the coordinates of a screw away from the singular places of the chart, and returns whether they were
+    /// changed. The sheet moves only as a rigid body.
     ///
-    /// At the axis `kappa` is infinite: moving all z by `d` and `1/kappa` with them changes nothing (`theta = kappa b`
-    /// stays). Done when the axis comes nearer to z = 0 than `length`; then it is put at twice that. A rotation
-    /// that has wound once round would need an infinite `b` where the sheet stretches out again: `theta` is
-    /// taken back by `2 pi` where it is clearly larger than `pi`; so is the direction of the axis. And the first lattice
-    /// vector, whose y is held while the sheet moves, must not come to lie across x, where that would not keep the sheet
-    /// from turning in the plane: then all is turned.
+    /// There are three such places. At the axis `kappa` is infinite: shifting all z and `1/kappa` by the same `d`
+    /// leaves the sheet as it is (`theta = kappa b` stays), which is done when the axis is nearer to z = 0 than
+    /// `length`; then its distance becomes twice that. A rotation by more than a whole turn would need an infinite
+    /// `b` when the sheet flattens: `2 pi` is subtracted from `theta` when it is clearly larger than `pi`, and
+    /// likewise from the direction of the axis. And the first lattice vector, whose y component is held, must not lie
+    /// across x, where holding y does not prevent rotations in the plane: then the whole sheet is rotated.
     pub(crate) fn recentre(&self, x: &mut [f64], length: f64) -> bool {
         if !matches!(self, Self::Screw) {
             return false;
@@ -230,18 +239,19 @@ impl Domain {
         turn_back(points, shared) || raised || unwound
     }
 
-    /// All points of one element.
+    /// Returns all points of one element.
     #[inline]
     pub fn points<const N: usize>(&self, x: &[f64], sites: &[Site; N]) -> [Vec3; N] {
         match self {
-            // asked once for all points: a patch takes two fifths of the time (`cargo bench --bench iteration -- assembly`, evaluate)
+            // matched once for all points: a patch takes two fifths of the time (`cargo bench --bench iteration --
+            // assembly`, evaluate)
             Self::Patch => sites.map(|site| vertex(x, site)),
             _ => sites.map(|site| self.point(x, site)),
         }
     }
 }
 
-/// Adds a block whose first entry is at `(row, column)`.
+/// Adds `block` to `to`, with its first entry at `(row, column)`.
 fn add<const R: usize, const C: usize>(to: &mut Pulled, (row, column): (usize, usize), block: SMatrix<f64, R, C>) {
     let mut place = to.fixed_view_mut::<R, C>(row, column);
     place += block;

@@ -1,4 +1,4 @@
-//! Terms: elements of one measure, each with a spring law.
+//! Terms of the energy: lists of elements with the same measure, each element with a spring law.
 
 use super::domain::{Domain, Site};
 use super::measure::Measure;
@@ -6,33 +6,33 @@ use crate::math::taylor::Taylor;
 use std::f64::consts::{PI, TAU};
 use std::marker::PhantomData;
 
-/// The spring law `E = stiffness (value - rest)^2 / 2`; infinite stiffness: `value = rest` exactly.
+/// The spring law `E = stiffness (value - rest)^2 / 2`; infinite stiffness means `value = rest` exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
-    /// Spring constant: force per length for a bar, torque per radian for a hinge. May be infinite.
+    /// Spring constant: force per length for a bar, torque per radian for a hinge; may be infinite.
     pub stiffness: f64,
-    /// Value without force, in units of the measure.
+    /// Value without force: a length, or an angle in radians.
     pub rest: f64,
 }
 
-/// What a term is made of. Whoever treats terms differently names every kind here.
+/// The kind of the elements of a term. Code that treats kinds differently must match all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TermKind {
-    /// The bars, one along every edge.
+    /// Bars, one along every edge.
     Bars,
-    /// The hinges over creases.
+    /// Hinges at creases.
     Creases,
-    /// The hinges over the diagonals of polygons.
+    /// Hinges at the diagonals of polygons.
     Facets,
-    /// The hinges that keep a given angle.
+    /// Hinges locked at a given angle.
     Locks,
 }
 
 impl TermKind {
-    /// Every kind, in the order of a scene.
+    /// All kinds, in the order in which a scene lists them.
     pub(crate) const ALL: [Self; 4] = [Self::Bars, Self::Creases, Self::Facets, Self::Locks];
 
-    /// The name that the scene has for this kind.
+    /// Returns the name of this kind in a scene.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Bars => "bars",
@@ -43,21 +43,21 @@ impl TermKind {
     }
 }
 
-/// One element: its points, its law, and the edge of the sheet to which it belongs.
+/// One element: its points, its spring law, and the edge of the sheet to which it belongs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Element<const N: usize> {
-    /// Its points in the order that the measure wants.
+    /// The points, in the order of the measure's arguments.
     pub sites: [Site; N],
-    /// Its law.
+    /// The spring law.
     pub spring: Spring,
-    /// Number of the edge in the list of edges of the model.
+    /// Number of the element's edge in the tiling.
     pub edge: usize,
 }
 
-/// Elements with one measure.
+/// A term: a list of elements with the same measure `M` of `N` points, which have `D = 3 N` coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Term<M, const N: usize, const D: usize> {
-    /// What its elements are.
+    /// The kind of the elements.
     pub kind: TermKind,
     /// The elements.
     pub elements: Vec<Element<N>>,
@@ -66,19 +66,21 @@ pub(crate) struct Term<M, const N: usize, const D: usize> {
     measure: PhantomData<M>,
 }
 
-/// A measure of one element in the element's coordinates.
+/// The measure of one element with its derivatives in the element's coordinates: those of its points, then the shared
+/// ones.
 #[derive(Default)]
 pub struct Local {
     /// Value of the measure, continued from the last accepted state.
     pub value: f64,
     /// Gradient in the element's coordinates.
     pub gradient: Vec<f64>,
-    /// Lower triangle of the Hessian of the measure; empty where not asked for.
+    /// Lower triangle of the Hessian of the measure, row by row; empty if it was not asked for.
     pub hessian: Vec<f64>,
 }
 
 impl Local {
-    /// Derivatives by shared unknowns of these sizes instead of by the shared coordinates; none: as they are.
+    /// Converts the derivatives by the shared coordinates to derivatives by the shared unknowns. `units` holds the
+    /// size of each shared unknown in its coordinate; an empty list leaves everything as it is.
     pub(crate) fn measure_in(&mut self, units: &[f64]) {
         if units.is_empty() {
             return;
@@ -91,48 +93,49 @@ impl Local {
     }
 }
 
-/// What the model asks of a term, whatever its measure.
+/// The interface of a term to the model, independent of its measure.
 pub trait Elements: Send + Sync {
-    /// What its elements are.
+    /// Returns the kind of the elements.
     fn kind(&self) -> TermKind;
-    /// Gives the name of its kind in the scene.
+    /// Returns the name of the kind in a scene.
     fn name(&self) -> &'static str {
         self.kind().name()
     }
-    /// Number of elements.
+    /// Returns the number of elements.
     fn len(&self) -> usize;
-    /// Whether there is none.
+    /// Whether there are no elements.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
-    /// Whether values are angles.
+    /// Whether the values are angles.
     fn is_angle(&self) -> bool;
-    /// Whether its elements are hinges, see [`Measure::HINGE`].
+    /// Whether the elements are hinges; see [`Measure::HINGE`].
     fn is_hinge(&self) -> bool;
-    /// Points of element `k`.
+    /// Returns the points of element `k`.
     fn sites(&self, k: usize) -> &[Site];
-    /// Law of element `k`.
+    /// Returns the spring law of element `k`.
     fn spring(&self, k: usize) -> Spring;
-    /// Changes the law of element `k`.
+    /// Replaces the spring law of element `k`.
     fn set_spring(&mut self, k: usize, spring: Spring);
-    /// Number of the edge to which element `k` belongs.
+    /// Returns the number of the edge to which element `k` belongs.
     fn edge(&self, k: usize) -> usize;
-    /// Value of element `k`, continued from the last accepted state.
+    /// Returns the value of element `k` at the coordinates `x`; angles continue from the last accepted state.
     fn value(&self, k: usize, domain: &Domain, x: &[f64]) -> f64;
-    /// Puts value and gradient of element `k` into `out`, and its Hessian where wanted.
+    /// Puts value and gradient of element `k` at the coordinates `x` into `out`, and its Hessian if it is wanted.
     fn local(&self, k: usize, domain: &Domain, x: &[f64], want_hessian: bool, out: &mut Local);
-    /// Element `k` on the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not on screws.
+    /// Returns the Taylor series of element `k` along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates; not
+    /// valid for screws.
     fn along(&self, k: usize, domain: &Domain, x: &[&[f64]; 3]) -> Taylor;
-    /// Makes `x` the state from which angles continue.
+    /// Makes `x` the accepted state, from which angles continue.
     fn accept(&mut self, domain: &Domain, x: &[f64]);
-    /// Angles of the last accepted state; empty for lengths.
+    /// Returns the angles of the last accepted state; empty for lengths.
     fn angles(&self) -> &[f64];
     /// Sets the angles from which values continue.
     fn set_angles(&mut self, angles: &[f64]);
 }
 
 impl<M: Measure<N, D>, const N: usize, const D: usize> Term<M, N, D> {
-    /// A term of these elements; angles continue from their values at `x`.
+    /// Makes a term of these elements; angles continue from their values at the coordinates `x`.
     pub(crate) fn new(kind: TermKind, elements: Vec<Element<N>>, domain: &Domain, x: &[f64]) -> Self {
         let mut term = Self { kind, elements, last: Vec::new(), measure: PhantomData };
         if M::ANGLE {

@@ -1,27 +1,29 @@
-//! Gauge: which coordinates to hold so that a free sheet does not drift, without holding anything else.
+//! The gauge: the choice of coordinates that are held so that a free sheet cannot drift, without constraining its
+//! shape.
 //!
-//! Rigid motions that no pin prevents cost nothing, so the energy's Hessian is singular along them. Holding one
-//! coordinate for each removes the drift and changes no shape. The coordinates are chosen greedily so that the rigid
-//! motions are well separated by them (Gram-Schmidt with pivoting on the rows of the matrix of rigid motions).
+//! Rigid motions that no pin prevents cost no energy, so the Hessian of the energy is singular along them. Holding
+//! one coordinate for each of them removes the drift and changes no shape. The coordinates are chosen greedily so
+//! that they separate the rigid motions well (Gram-Schmidt with pivoting on the rows of the matrix of rigid motions).
 
 use super::domain::Domain;
 use crate::math::Vec3;
 use crate::numerics::dense::small::{reciprocal_condition, symmetric_eigen_3};
 use nalgebra::{Matrix3, Rotation3, SVector};
 
-/// Most turns towards the orientation in which loads do the most work.
+/// Largest number of Newton steps towards the orientation in which the loads do the most work.
 const TURNS: usize = 30;
-/// Torques below this part of what forces and arms could make are rounding errors, and so are stiffnesses.
+/// Bounds relative to the sum of the products of forces and lever arms: torques below `BALANCED` and rotational
+/// stiffnesses below `NEUTRAL` count as rounding errors.
 const BALANCED: f64 = 1e-15;
 const NEUTRAL: f64 = 1e-9;
 
-/// Rates of a coordinate under the rigid motions.
+/// Rates of one coordinate under the six rigid motions.
 pub(crate) type Motion = SVector<f64, 6>;
 
-/// Rates of every coordinate under the rigid motions: translations in columns 0 to 2, rotations about the centroid,
-/// scaled by the size of the sheet, in columns 3 to 5 (zero where not wanted or where the
-/// domain cannot turn). A screw can turn in the plane of its axis alone: what stands against that, like vertex 0, is held
-/// by the drawn state itself.
+/// Returns the rates of every coordinate under the rigid motions: translations in columns 0 to 2, rotations about the
+/// centroid, divided by the size of the sheet, in columns 3 to 5. The columns of rotations are zero if `rotations` is
+/// false or the domain does not allow them. A screw can rotate only in the plane of its axis; the coordinates against
+/// that rotation, like those of vertex 0, are held by the drawn state itself.
 pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
     let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
@@ -43,7 +45,7 @@ pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<
     rows
 }
 
-/// Velocity of a point: `translation + omega x arm`, one row a component.
+/// Returns the velocity of a point, `translation + omega x arm`, as one row for each component.
 fn rows_of(translation: f64, arm: Vec3) -> [Motion; 3] {
     let cross = -arm.cross_matrix();
     [0, 1, 2].map(|axis| {
@@ -54,7 +56,7 @@ fn rows_of(translation: f64, arm: Vec3) -> [Motion; 3] {
     })
 }
 
-/// Coordinates to hold, besides those already `held`, so that no rigid motion is left.
+/// Returns the coordinates to hold, in addition to those already `held`, so that no rigid motion remains.
 pub(crate) fn choose(motions: &[Motion], held: &[bool]) -> Vec<usize> {
     let mut rows = motions.to_vec();
     let scale = rows.iter().map(|r| r.norm()).fold(0.0, f64::max);
@@ -71,14 +73,14 @@ pub(crate) fn choose(motions: &[Motion], held: &[bool]) -> Vec<usize> {
     chosen
 }
 
-/// The longest row among those that are held, or among those that are not.
+/// Returns the longest row, and its index, among those whose coordinate is held (`wanted`) or is not held.
 fn largest(rows: &[Motion], held: &[bool], wanted: bool) -> Option<(usize, Motion)> {
     let candidates = rows.iter().enumerate().filter(|(k, _)| held[*k] == wanted);
     candidates.max_by(|a, b| a.1.norm().total_cmp(&b.1.norm())).map(|(k, row)| (k, *row))
 }
 
-/// How well holding these coordinates separates the rigid motions: least over largest singular value of their rows, motions that the
-/// domain does not have left out.
+/// Returns how well holding these coordinates separates the rigid motions: the ratio of the least to the largest
+/// singular value of their rows, without the motions that the domain does not have.
 pub(crate) fn separation(motions: &[Motion], held: &[bool]) -> f64 {
     let had: Vec<usize> = (0..6).filter(|&motion| motions.iter().any(|row| row[motion] != 0.0)).collect();
     let kept: Vec<&Motion> = motions.iter().zip(held).filter_map(|(row, held)| held.then_some(row)).collect();
@@ -88,8 +90,9 @@ pub(crate) fn separation(motions: &[Motion], held: &[bool]) -> f64 {
     reciprocal_condition(&rows)
 }
 
-/// Turn about the origin of the arms after which these forces do the most work on them, by Newton's method: the nearest one. Turns that
-/// change nothing are not made. `None` where the forces have no torque.
+/// Returns the nearest rotation about the origin after which the forces do the most work on their arms, by Newton's
+/// method. `arms` holds pairs of a lever arm and its force. Directions of rotation without rotational stiffness are
+/// left out of the steps. `None` if the forces have no torque.
 pub(crate) fn turn_along(mut arms: Vec<(Vec3, Vec3)>) -> Option<Rotation3<f64>> {
     let most: f64 = arms.iter().map(|(arm, force)| arm.norm() * force.norm()).sum();
     let mut turn = None;
@@ -113,7 +116,7 @@ pub(crate) fn turn_along(mut arms: Vec<(Vec3, Vec3)>) -> Option<Rotation3<f64>> 
     turn
 }
 
-/// Second derivative by a turn of what a force costs on an arm.
+/// Returns the rotational stiffness of a force on a lever arm: the second derivative of its potential by a rotation.
 fn stiffness_of(arm: &Vec3, force: &Vec3) -> Matrix3<f64> {
     let product = arm * force.transpose();
     Matrix3::identity() * arm.dot(force) - 0.5 * (product + product.transpose())

@@ -1,26 +1,27 @@
-//! Measures: scalars of a few points, with gradient and Hessian.
+//! Measures: scalar functions of a few points, the length of a bar and the fold angle of a hinge, with gradient and
+//! Hessian.
 
 use crate::math::taylor::{Path, Taylor, difference, dot};
 use crate::math::{Vec3, fold_angle};
 use nalgebra::SVector;
 
-/// A scalar of `N` points. `D = 3 N` is the number of their coordinates.
+/// A scalar function of `N` points, which have `D = 3 N` coordinates.
 pub(crate) trait Measure<const N: usize, const D: usize> {
-    /// Whether values are angles, known modulo 2 pi, that must continue from the last accepted state.
+    /// Whether values are angles, determined modulo 2 pi, that must continue from the last accepted state.
     const ANGLE: bool;
-    /// Whether its points are `[i, j, left, right]` of a hinge and its Hessian does not couple `left` with `right`.
+    /// Whether the points are `[i, j, left, right]` of a hinge and the Hessian does not couple `left` with `right`.
     const HINGE: bool;
-    /// The scalar.
+    /// Returns the scalar.
     fn value(points: &[Vec3; N]) -> f64;
-    /// The scalar and its gradient.
+    /// Returns the scalar and its gradient.
     fn gradient(points: &[Vec3; N]) -> (f64, SVector<f64, D>);
-    /// The scalar and its gradient; puts the lower triangle of its Hessian, row by row, in the place of what is in `lower`.
+    /// Returns the scalar and its gradient, and replaces `lower` by the lower triangle of its Hessian, row by row.
     fn hessian(points: &[Vec3; N], lower: &mut Vec<f64>) -> (f64, SVector<f64, D>);
-    /// The scalar while its points move.
+    /// Returns the Taylor series of the scalar while its points move along these paths.
     fn along(points: &[Path; N]) -> Taylor;
 }
 
-/// Length of the bar between two points; not differentiable where they coincide.
+/// The length of the bar between two points; not differentiable where they coincide.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Length;
 
@@ -68,7 +69,7 @@ impl Measure<2, 6> for Length {
     }
 }
 
-/// Fold angle of the hinge `[i, j, left, right]`, see [`crate::math::fold_angle`].
+/// The fold angle of the hinge `[i, j, left, right]`; see [`crate::math::fold_angle`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FoldAngle;
 

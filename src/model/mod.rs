@@ -1,9 +1,22 @@
-//! Bars and hinges as energies: measures, laws, terms and the domains in which their points stand.
+//! The mechanical model of a sheet: bars and hinges as energies, the boundary conditions, and the equations that the
+//! solver minimises.
 //!
-//! An energy is a *measure* (a scalar of some points: the length of a bar, the fold angle of a hinge) and a *law*
-//! (what a value of that scalar costs). A [`Term`](element::Term) is a list of elements with one measure. A
-//! [`Domain`] says where the points of an element come from; its chain rule stands in one place. The
-//! [`Model`] puts terms on a domain and is the [`crate::solver::Problem`] that the solver minimises.
+//! An [`Assembly`] is the starting point: a sheet with its boundary conditions, stiffnesses, rest angles, locks, pins
+//! and loads. Below it, the energy of an element is a spring law applied to a *measure*, a scalar function of a few
+//! points (the length of a bar, the fold angle of a hinge). A [`Term`] is a list of elements with the same measure. A
+//! [`Domain`] computes the points of an element from the coordinates of a state and applies the chain rule through
+//! that map. The [`Model`] combines terms and a domain to the [`crate::solver::Problem`] that the solver minimises.
+//!
+//! ```
+//! use foldwell::{Assembly, Pattern, RIGID, generate};
+//!
+//! let sheet = generate(&Pattern::named("miura")?)?;
+//! let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).build()?;
+//! // every list with one value for each edge has this length; boundary edges have no hinge and the angle NaN
+//! assert_eq!(assembly.drawn_angles().len(), assembly.edges());
+//! assert!(assembly.drawn_angles().iter().any(|angle| angle.is_nan()));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod assemble;
 mod assembly;

@@ -1,4 +1,4 @@
-//! The model: terms on a domain, as the problem that the solver minimises.
+//! The model: terms on a domain, with pins, loads and a gauge, as the problem that the solver minimises.
 
 use super::domain::Domain;
 use super::element::{Elements, Spring};
@@ -14,27 +14,30 @@ mod energy;
 mod reference_state;
 mod turning;
 
-/// Places of the coordinates of a hinge's wings among those of its element.
+/// Ranges of the coordinates of a hinge's two wings among the coordinates of its element.
 pub(super) const LEFT_WING: Range<u32> = 6..9;
 pub(super) const RIGHT_WING: Range<u32> = 9..12;
 
-/// Rigid motions that the held coordinates cannot tell apart, against the largest one.
+/// Singular value of the matrix of rigid motions on the held coordinates, relative to the largest one, below which
+/// rigid motions count as dependent.
 const DEPENDENT: f64 = 1e-9;
-/// Separation of the rigid motions, over that of a new choice, below which what is held may hold a shape too.
+/// Least separation of the rigid motions by the held coordinates, relative to that of newly chosen ones; below it the
+/// held coordinates may constrain the shape too.
 const LEAST_SEPARATION_RATIO: f64 = 1e-3;
 
-/// Bars and hinges of a sheet, with what is held and what pulls.
+/// The mechanical model of a sheet: its terms on a domain, with held coordinates and loads.
 pub struct Model {
     domain: Domain,
-    /// Coordinates of the drawn state, or of the one put in its place; those held keep these values.
+    /// Coordinates of the reference state: the drawn state, or the one that replaced it. Held coordinates keep these
+    /// values.
     base: Vec<f64>,
     pinned: Vec<usize>,
-    /// Coordinate of each unknown.
+    /// Index of the coordinate of each unknown.
     free: Vec<u32>,
     soft: Vec<Box<dyn Elements>>,
     stiff: Vec<Box<dyn Elements>>,
     loads: Vec<f64>,
-    /// Unknowns that would have to be held to keep the sheet from turning where loads pull.
+    /// Unknowns that would have to be held to prevent rotations of the sheet under loads.
     turning: Vec<u32>,
     layout: Arc<Layout>,
     compliance: Vec<f64>,
@@ -42,44 +45,44 @@ pub struct Model {
     edges: usize,
     mean_edge: f64,
     gauge: Gauge,
-    /// Sizes of the shared unknowns in units of their coordinates; empty: both are the same.
+    /// Sizes of the shared unknowns in units of their coordinates; empty if unknowns and coordinates are the same.
     units: Vec<f64>,
 }
 
-/// What is done about the rigid motions that no pin prevents.
+/// The treatment of the rigid motions that no pin prevents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gauge {
-    /// As many coordinates are held: for minimisation. Rotations stay free where loads pull; translations are held,
-    /// since loads must balance along them.
+    /// For minimisation: one coordinate is held for each rigid motion. Under loads rotations stay free; translations
+    /// are held, since loads must balance along them.
     Held,
-    /// Nothing is held: for spectra and ranks.
+    /// For spectra and ranks: no coordinate is held in addition to pins.
     Free,
 }
 
-/// What a model is made of.
+/// The parts of a model, the argument of [`Model::new`].
 pub(crate) struct Parts {
-    /// Where points come from.
+    /// The map from coordinates to points.
     pub domain: Domain,
     /// Coordinates of the drawn state.
     pub drawn: Vec<f64>,
     /// Terms that enter with their energy.
     pub soft: Vec<Box<dyn Elements>>,
-    /// Terms that enter with a tension for each element.
+    /// Terms that enter with a tension as an unknown for each element.
     pub stiff: Vec<Box<dyn Elements>>,
-    /// Coordinates held by pins.
+    /// Indices of the coordinates held by pins and by the boundary conditions.
     pub pinned: Vec<usize>,
-    /// Force on each coordinate; empty: none.
+    /// Force on each coordinate; empty without loads.
     pub loads: Vec<f64>,
-    /// Number of edges that elements may name.
+    /// Number of edges of the tiling; the edge numbers of elements are below it.
     pub edges: usize,
-    /// Unit of length for gaps of lengths: the mean edge.
+    /// Unit of length to which the gaps of bars are relative: the mean edge length.
     pub mean_edge: f64,
-    /// What is done about rigid motions.
+    /// The treatment of rigid motions.
     pub gauge: Gauge,
 }
 
 impl Model {
-    /// Puts the parts together.
+    /// Makes a model of its parts.
     pub(crate) fn new(parts: Parts) -> Self {
         let Parts { domain, drawn, soft, stiff, pinned, loads, edges, mean_edge, gauge } = parts;
         let springs = || stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term.is_angle(), term.spring(k))));
@@ -108,7 +111,7 @@ impl Model {
         model
     }
 
-    /// Chooses what is held in the state that stands in the place of the drawn one, and numbers the rest.
+    /// Chooses the held coordinates at the reference state, and numbers the other ones as unknowns.
     fn choose_unknowns(&mut self) {
         let held = self.chosen(&gauge::rigid_motions(&self.domain, &self.base, self.loads.is_empty()));
         self.free = (0..held.len() as u32).filter(|&k| !held[k as usize]).collect();
@@ -118,7 +121,8 @@ impl Model {
         self.layout = layout(&self.domain, &self.base, &self.free, &number, &self.soft, &self.stiff);
     }
 
-    /// Which coordinates are held where these are the rigid motions: those that are pinned, and what the gauge adds.
+    /// Returns which coordinates are held if these are the rigid motions: the pinned ones, and those that the gauge
+    /// adds.
     fn chosen(&self, motions: &[gauge::Motion]) -> Vec<bool> {
         let mut held = vec![false; motions.len()];
         self.pinned.iter().for_each(|&k| held[k] = true);
@@ -128,8 +132,9 @@ impl Model {
         held
     }
 
-    /// Whether what is held takes away the rigid motions of this state nearly as well as what would be chosen in it. Where it does
-    /// not, it may hold a shape, and what looks like an equilibrium is none.
+    /// Whether the held coordinates remove the rigid motions of the state `x` nearly as well as newly chosen ones
+    /// would. If they do not, they may constrain the shape, and a state that seems to be an equilibrium need not be
+    /// one.
     pub(crate) fn gauge_is_valid(&self, x: &[f64]) -> bool {
         if self.gauge == Gauge::Free {
             return true;
@@ -139,8 +144,8 @@ impl Model {
         separation(&self.held()) >= LEAST_SEPARATION_RATIO * separation(&self.chosen(&motions))
     }
 
-    /// Puts another state in the place of the drawn one, and chooses in it what is held against rigid motions. Returns its unknowns:
-    /// others than before.
+    /// Makes `coordinates` the reference state and chooses the held coordinates anew at that state. Returns its
+    /// unknowns, which are numbered differently than before.
     pub(crate) fn rebase_gauge(&mut self, coordinates: Vec<f64>) -> Vec<f64> {
         self.base = coordinates;
         self.choose_unknowns();
@@ -149,36 +154,37 @@ impl Model {
         x
     }
 
-    /// The unknowns of the drawn state.
+    /// Returns the unknowns of the reference state.
     pub fn start(&self) -> Vec<f64> {
         self.unknowns(&self.base)
     }
 
-    /// The unknowns among all coordinates, or among rates of all coordinates.
+    /// Extracts the unknowns from all coordinates, or their rates from the rates of all coordinates.
     pub fn unknowns(&self, coordinates: &[f64]) -> Vec<f64> {
         self.free.iter().map(|&k| coordinates[k as usize] / self.unit(k as usize)).collect()
     }
 
-    /// Sizes of the shared unknowns of a state. Spectra and ranks are those of the coordinates themselves.
+    /// Returns the sizes of the shared unknowns at a state. With [`Gauge::Free`] there are none, since spectra and
+    /// ranks are those of the coordinates themselves.
     fn units_at(&self, coordinates: &[f64]) -> Vec<f64> {
         if self.gauge == Gauge::Free { vec![] } else { self.domain.units(coordinates, self.mean_edge) }
     }
 
-    /// Size of an unknown in units of its coordinate.
+    /// Returns the size of an unknown in units of its coordinate.
     fn unit(&self, coordinate: usize) -> f64 {
         let first = self.base.len() - self.units.len();
         coordinate.checked_sub(first).map_or(1.0, |shared| self.units[shared])
     }
 
-    /// Rates of all coordinates when the unknowns have these rates: zero where a coordinate is held.
+    /// Returns the rates of all coordinates for given rates of the unknowns; zero where a coordinate is held.
     pub fn velocity(&self, rates: &[f64]) -> Vec<f64> {
         let mut all = vec![0.0; self.base.len()];
         self.free.iter().zip(rates).for_each(|(&k, rate)| all[k as usize] = *rate * self.unit(k as usize));
         all
     }
 
-    /// Velocities of all coordinates less the rigid motion of the drawn state that comes nearest to them on the held coordinates:
-    /// where these are held only against drift, they stand still.
+    /// Subtracts from velocities of all coordinates the rigid motion of the reference state that is closest to them
+    /// on the held coordinates. If coordinates are held only against drift, they have zero velocity afterwards.
     pub(crate) fn without_drift(&self, velocity: &[f64]) -> Vec<f64> {
         let motions = gauge::rigid_motions(&self.domain, &self.base, true);
         let held: Vec<usize> = (0..velocity.len()).zip(self.held()).filter(|(_, held)| *held).map(|(k, _)| k).collect();
@@ -189,8 +195,9 @@ impl Model {
         velocity.iter().zip(moved).map(|(v, drift)| v - drift).collect()
     }
 
-    /// Puts another state in the place of the drawn one: the gauge holds it where it is (also the height of a screw's
-    /// vertex 0, which moves with the axis), pins stay as drawn, angles continue from the last accepted state. Returns its
+    /// Makes `coordinates` the reference state without choosing the held coordinates anew. Coordinates held by the
+    /// gauge take their values from `coordinates` (also the height of a screw's vertex 0, which moves with the axis),
+    /// pinned ones keep those of the drawn state, and angles continue from the last accepted state. Returns the
     /// unknowns.
     pub fn start_from(&mut self, mut coordinates: Vec<f64>) -> Vec<f64> {
         if !matches!(self.domain, Domain::Screw) {
@@ -202,57 +209,58 @@ impl Model {
         x
     }
 
-    /// Which coordinates are held.
+    /// Returns for every coordinate whether it is held.
     pub(crate) fn held(&self) -> Vec<bool> {
         let mut held = vec![true; self.base.len()];
         self.free.iter().for_each(|&k| held[k as usize] = false);
         held
     }
 
-    /// All coordinates of a state.
+    /// Returns all coordinates of a state, given its unknowns.
     pub fn coordinates(&self, x: &[f64]) -> Vec<f64> {
         let mut all = self.base.clone();
         self.free.iter().zip(x).for_each(|(&k, value)| all[k as usize] = *value * self.unit(k as usize));
         all
     }
 
-    /// Whether forces pull at vertices, or pins hold some of them.
+    /// Whether there are loads, or pins other than the coordinates that a screw holds.
     pub(crate) fn held_or_loaded(&self) -> bool {
         !self.loads.is_empty() || (!matches!(self.domain, Domain::Screw) && !self.pinned.is_empty())
     }
 
-    /// Where points come from.
+    /// Returns the map from coordinates to points.
     pub fn domain(&self) -> &Domain {
         &self.domain
     }
 
-    /// The number of edges of the tiling, of which elements name some.
+    /// Returns the number of edges of the tiling; not every edge needs to have an element.
     pub(crate) fn edges(&self) -> usize {
         self.edges
     }
 
-    /// Terms that enter with their energy.
+    /// Returns the terms that enter with their energy.
     pub fn soft(&self) -> &[Box<dyn Elements>] {
         &self.soft
     }
 
-    /// Terms that enter with tensions.
+    /// Returns the terms that enter with tensions.
     pub fn stiff(&self) -> &[Box<dyn Elements>] {
         &self.stiff
     }
 
-    /// Rest values of all elements, soft terms first.
+    /// Returns the rest values of all elements, soft terms first.
     pub(crate) fn rests(&self) -> Vec<f64> {
         self.terms().flat_map(|term| (0..term.len()).map(|k| term.spring(k).rest)).collect()
     }
 
-    /// Values of the measures of all elements at `x`, soft terms first.
+    /// Returns the values of the measures of all elements at the unknowns `x`, soft terms first.
     pub fn values(&self, x: &[f64]) -> Vec<f64> {
         let all = self.coordinates(x);
         self.terms().flat_map(|term| (0..term.len()).map(|k| term.value(k, &self.domain, &all))).collect()
     }
 
-    /// Sets the rest values to `origin + part (target - origin)`; the targets themselves at `part = 1`.
+    /// Sets the rest values to `origin + part (target - origin)`, and exactly to `target` if `part` is 1. Both lists
+    /// have one value for each element, soft terms first.
     pub(crate) fn set_rests(&mut self, origin: &[f64], target: &[f64], part: f64) {
         let mut at = 0;
         for term in self.soft.iter_mut().chain(&mut self.stiff) {
@@ -264,7 +272,7 @@ impl Model {
         }
     }
 
-    /// Multiplies the stiffness of every element of the soft terms by its factor.
+    /// Multiplies the stiffness of each element of the soft terms by its factor.
     pub fn scale_soft(&mut self, factors: &[f64]) {
         let mut factors = factors.iter();
         for term in &mut self.soft {
@@ -275,12 +283,12 @@ impl Model {
         }
     }
 
-    /// Angles of the last accepted state, from which angles continue.
+    /// Returns the angles of the last accepted state, from which angles continue.
     pub(crate) fn angles(&self) -> Vec<f64> {
         self.terms().flat_map(|term| term.angles().iter().copied()).collect()
     }
 
-    /// Sets the angles from which angles continue.
+    /// Sets the angles from which angles continue, in the order of [`Model::angles`].
     pub fn set_angles(&mut self, angles: &[f64]) {
         let mut at = 0;
         for term in self.soft.iter_mut().chain(&mut self.stiff) {
@@ -295,7 +303,7 @@ impl Model {
     }
 }
 
-/// Members of element `k`: the coordinates of its points, then the shared ones, as unknowns.
+/// Returns the unknowns on which element `k` depends: those of the coordinates of its points, then the shared ones.
 fn members(term: &dyn Elements, k: usize, domain: &Domain, number: &[u32]) -> Vec<u32> {
     let points = term.sites(k).iter().flat_map(|site| 3 * site.vertex..3 * site.vertex + 3);
     let shared = number.len() - domain.shared()..number.len();

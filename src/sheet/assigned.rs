@@ -1,18 +1,18 @@
-//! What the edges of a sheet are meant to be: by its file, or by its drawing.
+//! The assignment of an edge, from the file or from the drawing.
 
 use super::assignment::Assignment;
 use super::cell::{Edge, EdgeKind, Sheet};
 
-/// Drawing fold angles below this many degrees count as flat.
+/// Largest magnitude in degrees of a drawn fold angle that counts as flat.
 pub(crate) const FLAT: f64 = 1e-9;
 
 impl Sheet {
-    /// What an edge is meant to be: the letter of its file, or what the drawing shows where the file gives none.
+    /// Returns the assignment of an edge: that of the file, or what the drawing shows if the file gives none.
     pub fn assignment(&self, edge: &Edge) -> Assignment {
         self.assignments.get(&edge.key).copied().unwrap_or_else(|| self.drawn_assignment(edge))
     }
 
-    /// What the drawing alone shows: a boundary, part of a polygon, a mountain, a valley, or an edge that lies flat.
+    /// Returns the assignment that the drawing alone shows: boundary, joint of a polygon, mountain, valley or flat.
     pub(crate) fn drawn_assignment(&self, edge: &Edge) -> Assignment {
         match (edge.kind, self.drawn_angle(edge).unwrap_or(0.0).to_degrees()) {
             (EdgeKind::Boundary, _) => Assignment::Boundary,

@@ -1,23 +1,23 @@
-//! The letters of FOLD that say what an edge is meant to be.
+//! Edge assignments, the letters of FOLD that say how an edge folds.
 
 use std::fmt;
 
-/// What an edge is meant to be, as FOLD 1.2 assigns it.
+/// The assignment of an edge in FOLD 1.2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Assignment {
     /// `B`: the edge has one face only.
     Boundary,
     /// `M`: the edge is to fold as a mountain, to negative angles.
     Mountain,
-    /// `V`: the edge is to fold as a valley, to positive angles.
+    /// `M`: the edge folds as a mountain, to negative angles.
     Valley,
-    /// `F`: the edge is a crease that stays unfolded.
+    /// `V`: the edge folds as a valley, to positive angles.
     Flat,
     /// `U`: the edge is a crease, and nothing is said about its side.
     Unassigned,
-    /// `C`: the edge is a cut, and its two faces are not joined.
+    /// `U`: the edge is a crease whose direction of folding is not given.
     Cut,
-    /// `J`: the edge joins two parts of one polygon, and is no crease.
+    /// `J`: the edge joins two parts of one polygon and is not a crease.
     Join,
 }
 
@@ -32,12 +32,12 @@ impl Assignment {
         (Self::Join, "J"),
     ];
 
-    /// The assignment with this letter, if FOLD has it.
+    /// Returns the assignment with this letter; `None` if FOLD has no such letter.
     pub(crate) fn from_letter(letter: &str) -> Option<Self> {
         Self::LETTERS.iter().find(|(_, known)| *known == letter).map(|(assignment, _)| *assignment)
     }
 
-    /// The letter that FOLD has for it.
+    /// Returns the letter of the assignment in FOLD.
     pub(crate) fn letter(self) -> &'static str {
         Self::LETTERS.iter().find(|(known, _)| *known == self).map_or("U", |(_, letter)| letter)
     }

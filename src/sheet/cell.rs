@@ -1,4 +1,4 @@
-//! The cell: vertices, lattice, polygons, their triangles, and the edges between them.
+//! The types of a sheet: vertices, lattice vectors, polygons, their triangles, and the edges between them.
 
 use std::collections::BTreeMap;
 
@@ -6,12 +6,12 @@ use super::assignment::Assignment;
 use super::record::FileRecord;
 use crate::math::{Vec3, fold_angle::fold_angle};
 
-/// A vertex of the cell together with the lattice translate in which it stands.
+/// A vertex of the cell together with the lattice translation of the copy that is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Corner {
     /// Number of the vertex in the cell.
     pub vertex: usize,
-    /// Cell `(n1, n2)` of this copy, in lattice vectors.
+    /// Cell `(n1, n2)` of this copy: its translation in lattice vectors.
     pub shift: [i32; 2],
 }
 
@@ -25,18 +25,18 @@ pub struct EdgeKey {
     pub i: usize,
     /// Second vertex.
     pub j: usize,
-    /// Cell of the second vertex.
+    /// Cell of the second vertex, in lattice vectors.
     pub shift: [i32; 2],
 }
 
-/// What an edge is in the sheet.
+/// The kind of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum EdgeKind {
-    /// Between two polygons: it folds.
+    /// An edge between two polygons, which folds.
     Crease,
-    /// Diagonal of a polygon: it bends, or is locked where polygons are rigid.
+    /// A diagonal of a polygon, which bends, or is locked if polygons are rigid.
     Facet,
-    /// One face only: the rim of a finite sheet or of an opening.
+    /// An edge of one face only, on the rim of a finite sheet or of an opening.
     Boundary,
 }
 
@@ -51,7 +51,7 @@ pub enum EdgeKind {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Its name.
+    /// The name of the edge.
     pub key: EdgeKey,
     /// Crease, facet or boundary.
     pub kind: EdgeKind,
@@ -64,16 +64,16 @@ pub struct Edge {
 pub struct Triangle {
     /// Its corners.
     pub corners: [Corner; 3],
-    /// The polygon of which it is a part.
+    /// Number of the polygon to which the triangle belongs.
     pub polygon: usize,
 }
 
 /// A side of a [`Triangle`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriangleSide {
-    /// The edge.
+    /// Name of the edge.
     pub key: EdgeKey,
-    /// The triangle lies on its left (0) or on its right (1).
+    /// Side of the edge on which the triangle lies: 0 for left, 1 for right.
     pub side: usize,
     /// The edge's vertex `i`, as a corner of the triangle.
     pub base: Corner,
@@ -81,7 +81,7 @@ pub struct TriangleSide {
     pub opposite: Corner,
 }
 
-/// A sheet: one cell drawn in full and, where it is periodic, two lattice vectors.
+/// A sheet: one cell drawn in full and, if it is periodic, its two lattice vectors.
 ///
 /// Vertices are numbered by first appearance in the file; edges by first appearance along the polygons (`(a, b)`,
 /// `(b, c)`, `(c, a)` of each), the diagonals of polygons after them.
@@ -89,42 +89,43 @@ pub struct TriangleSide {
 pub struct Sheet {
     /// Name of the sheet.
     pub title: String,
-    /// Where it comes from, and its units.
+    /// Origin of the sheet, and its units.
     pub description: String,
-    /// Positions of the cell's vertices as drawn, each in the cell where it first appears.
+    /// Drawn positions of the cell's vertices, each where it first appears in the file.
     pub vertices: Vec<Vec3>,
-    /// The two lattice vectors; `None`: a finite sheet.
+    /// The two lattice vectors; `None` for a finite sheet.
     pub lattice: Option<[Vec3; 2]>,
-    /// Faces as the file has them, counter-clockwise.
+    /// The faces of the file, counter-clockwise.
     pub polygons: Vec<Vec<Corner>>,
-    /// Polygons split by their shorter diagonals.
+    /// The triangles into which the polygons are split by their shorter diagonals.
     pub triangles: Vec<Triangle>,
-    /// Edges, diagonals of polygons included.
+    /// The edges, diagonals of polygons included.
     pub edges: Vec<Edge>,
-    /// Declared openings of a periodic sheet (`foldwell:holes`), each the round of its vertices.
+    /// Declared openings of a periodic sheet (`foldwell:holes`), each as the vertices around it.
     pub holes: Vec<Vec<Corner>>,
-    /// For each of the last vertices, which a cut has made, the vertex that it was part of.
+    /// Origins of the vertices made by cuts, which are the last ones of `vertices`: the vertex from which each was
+    /// split off.
     pub cut_from: Vec<usize>,
-    /// Assignments of the file where they are others than the drawing shows; see [`Sheet::assignment`].
+    /// Assignments of the file that differ from what the drawing shows; see [`Sheet::assignment`].
     pub assignments: BTreeMap<EdgeKey, Assignment>,
-    /// What the file says beside the shape.
+    /// Content of the file other than the shape.
     pub record: FileRecord,
 }
 
 impl Corner {
-    /// Vertex `vertex` of cell (0, 0).
+    /// Returns vertex `vertex` of cell (0, 0).
     pub fn home(vertex: usize) -> Self {
         Self { vertex, shift: [0, 0] }
     }
 
-    /// The copy of this corner `shift` cells further.
+    /// Returns the copy of this corner that is translated by `shift` cells.
     pub(crate) fn translated(self, shift: [i32; 2]) -> Self {
         Self { vertex: self.vertex, shift: [self.shift[0] + shift[0], self.shift[1] + shift[1]] }
     }
 }
 
 impl EdgeKey {
-    /// The name of the edge from corner `a` to corner `b`, and whether it runs from `b` to `a`.
+    /// Returns the name of the edge from corner `a` to corner `b`, and whether the name runs from `b` to `a`.
     pub fn new(a: Corner, b: Corner) -> (Self, bool) {
         let shift = [b.shift[0] - a.shift[0], b.shift[1] - a.shift[1]];
         let reversed = (b.vertex, shift) < (a.vertex, [0, 0]);
@@ -135,14 +136,14 @@ impl EdgeKey {
         }
     }
 
-    /// The two ends of the edge.
+    /// Returns the two ends of the edge, the first in cell (0, 0).
     pub fn ends(&self) -> [Corner; 2] {
         [Corner::home(self.i), Corner { vertex: self.j, shift: self.shift }]
     }
 }
 
 impl Triangle {
-    /// Its sides `(a, b)`, `(b, c)`, `(c, a)`.
+    /// Returns the sides `(a, b)`, `(b, c)`, `(c, a)` of the triangle `(a, b, c)`.
     pub fn sides(&self) -> [TriangleSide; 3] {
         std::array::from_fn(|k| {
             let [a, b, opposite] = [0, 1, 2].map(|d| self.corners[(k + d) % 3]);
@@ -155,33 +156,33 @@ impl Triangle {
 }
 
 impl Sheet {
-    /// The corner as it was before the sheet was cut.
+    /// Returns the corner that this corner was before the sheet was cut.
     pub(crate) fn uncut(&self, corner: Corner) -> Corner {
         let drawn = self.vertices.len() - self.cut_from.len();
         let vertex = corner.vertex.checked_sub(drawn).map_or(corner.vertex, |made| self.cut_from[made]);
         Corner { vertex, ..corner }
     }
 
-    /// The number of the crease of this name, in either direction; `None` where there is no such crease.
+    /// Returns the number of the crease with this name, in either direction; `None` if there is no such crease.
     pub fn crease(&self, key: EdgeKey) -> Option<usize> {
         let [a, b] = key.ends();
         let (key, _) = EdgeKey::new(a, b);
         self.edges.iter().position(|edge| edge.key == key && edge.kind == EdgeKind::Crease)
     }
 
-    /// The edges that are diagonals of polygons.
+    /// Returns the numbers of the edges that are diagonals of polygons.
     pub(crate) fn facets(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.edges.len()).filter(|&edge| self.edges[edge].kind == EdgeKind::Facet)
     }
 
-    /// Fold angle of an edge in the drawn state, in radians, valley positive; `None` on a boundary.
+    /// Returns the fold angle of an edge in the drawn state, in radians, valley positive; `None` for a boundary edge.
     pub fn drawn_angle(&self, edge: &Edge) -> Option<f64> {
         let [left, right] = [edge.wings[0]?, edge.wings[1]?];
         let [i, j] = edge.key.ends();
         Some(fold_angle([i, j, left, right].map(|corner| self.position(corner))))
     }
 
-    /// Where a corner is in the drawn state.
+    /// Returns the position of a corner in the drawn state.
     pub fn position(&self, corner: Corner) -> Vec3 {
         let home = self.vertices[corner.vertex];
         match self.lattice {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A drawn edge, by the file's numbers of its ends.
+/// An edge of a drawn mesh, named by the numbers that the file gives to its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrawnEdge(pub usize, pub usize);
 

@@ -1,22 +1,22 @@
-//! What can be wrong with a mesh, where, and what would be right.
+//! The errors of a mesh: what is wrong, where, and what would be right.
 
 use std::path::PathBuf;
 
 use super::assignment_fault::AssignmentFault;
 pub use super::drawn_edge::DrawnEdge;
 
-/// Why a file gave no sheet.
+/// The reason why a file gives no sheet.
 #[derive(Debug, thiserror::Error)]
 pub enum SheetError {
-    /// The file could not be read at all.
+    /// The file cannot be read at all.
     #[error("{}: {source}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// The file was read and is no mesh of a sheet.
+    /// The file can be read, but is not the mesh of a sheet.
     #[error("{name}:{line}:{column}: {problem}")]
     Bad {
         /// Name of the file.
@@ -30,7 +30,7 @@ pub enum SheetError {
     },
 }
 
-/// The part of a drawn mesh that a [`Defect`] is about, numbered from 0 whatever the file does.
+/// The part of a drawn mesh to which a [`Defect`] refers, numbered from 0 whatever the file does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshPart {
     /// The mesh as a whole.
@@ -47,101 +47,101 @@ pub enum MeshPart {
     Hole(usize),
 }
 
-/// A [`Problem`] with the part of the mesh where it sits.
+/// A [`Problem`] together with the part of the mesh that has it.
 #[derive(Debug, thiserror::Error)]
 #[error("{problem}")]
 pub struct Defect {
-    /// Where.
+    /// The part of the mesh.
     pub place: MeshPart,
-    /// What.
+    /// The problem of that part.
     pub problem: Box<Problem>,
 }
 
 impl Defect {
-    /// `problem` at `place`.
+    /// Makes the defect of `place` that has this problem.
     pub(crate) fn new(place: MeshPart, problem: Problem) -> Self {
         Self { place, problem: Box::new(problem) }
     }
 }
 
-/// What is wrong with a mesh, and what would be right. Vertices and faces carry the file's own numbers.
+/// A problem of a mesh; the message says what would be right. Vertices and faces carry the file's own numbers.
 #[derive(Debug, PartialEq, thiserror::Error)]
 pub enum Problem {
-    /// Not JSON, or a key twice.
+    /// The text is not JSON, or has a key twice.
     #[error("not a FOLD file: {message}; a FOLD file is one JSON object")]
     Syntax {
         /// The parser's message.
         message: String,
     },
-    /// A key that must be there is not.
+    /// A required key is missing.
     #[error("`{key}` is missing; {right}")]
     Missing {
         /// The key.
         key: &'static str,
-        /// What it should hold.
+        /// Value that the key should have.
         right: &'static str,
     },
-    /// Something of another type.
+    /// A value has another type than it should have.
     #[error("{what} is `{found}`; it should be {right}")]
     Type {
-        /// Which value.
+        /// Name of the value.
         what: String,
         /// Its text, shortened.
         found: String,
-        /// What belongs there.
+        /// Type that it should have.
         right: &'static str,
     },
     /// Two lists that belong together differ in length.
     #[error("`{key}` has {found} entries; it should have {right}, one per entry of `edges_vertices`")]
     Length {
-        /// The key.
+        /// Name of the key.
         key: &'static str,
-        /// Its entries.
+        /// Number of its entries.
         found: usize,
-        /// Entries of the other list.
+        /// Number of entries of the other list.
         right: usize,
     },
-    /// A line of an OBJ file that cannot be read.
+    /// A line of an OBJ file cannot be read.
     #[error("`{found}` is no {what}; it should be {right}")]
     ObjLine {
-        /// The text.
+        /// The word that cannot be read.
         found: String,
-        /// What it should be.
+        /// Kind of value that it should be.
         what: &'static str,
         /// An example.
         right: &'static str,
     },
-    /// A number of a vertex that does not exist.
+    /// A vertex number is outside the range of the file's vertices.
     #[error("{what} names vertex {found}; {}", numbering(*first, *last))]
     Index {
-        /// Which face, edge or opening.
+        /// Name of the face, edge or opening that has the number.
         what: String,
-        /// The number found.
+        /// The number, as it is in the file.
         found: String,
-        /// First number.
+        /// Number of the first vertex.
         first: usize,
-        /// Last number.
+        /// Number of the last vertex.
         last: usize,
     },
-    /// No vertices or no faces.
+    /// The mesh has no vertices or no faces.
     #[error("the mesh has no {what}; a sheet needs at least one face of three vertices")]
     Empty {
-        /// vertices or faces
+        /// The word `vertices` or `faces`.
         what: &'static str,
     },
-    /// Vertices in the plane and in space.
+    /// Some vertices have two coordinates and others three.
     #[error(
         "vertex {vertex} has {found} coordinates where the vertices before it have {right}; all should have 2, or all 3"
     )]
     Dimension {
         /// The vertex.
         vertex: usize,
-        /// Its coordinates.
+        /// Number of its coordinates.
         found: usize,
-        /// Coordinates of vertex 0.
+        /// Number of coordinates of vertex 0.
         right: usize,
     },
-    /// A coordinate that is not finite or beyond all use.
+    /// A coordinate is not finite or larger than 1e50.
     #[error("vertex {vertex} has the coordinate {value:e}; coordinates should be finite and at most 1e50 in magnitude")]
     Coordinate {
         /// The vertex.
@@ -149,7 +149,7 @@ pub enum Problem {
         /// The coordinate.
         value: f64,
     },
-    /// A lattice that spans no cell.
+    /// The lattice vectors do not span a cell.
     #[error(
         "the lattice vectors span an area of {area:e} with lengths {lengths:?}; they should be finite, between 1e-50 \
          and 1e50 long, and neither parallel nor so skew \
@@ -161,7 +161,7 @@ pub enum Problem {
         /// The two lengths.
         lengths: [f64; 2],
     },
-    /// Two drawn vertices at one place.
+    /// Two drawn vertices have the same position.
     #[error(
         "vertex {vertex} stands where vertex {other} stands; every place should have one vertex, shared by its faces"
     )]
@@ -171,39 +171,39 @@ pub enum Problem {
         /// The earlier one.
         other: usize,
     },
-    /// A copy of a vertex a million cells away.
+    /// A copy of a vertex is more than a million cells away from it.
     #[error("vertex {vertex} is a copy of vertex {other} in cell ({n1:e}, {n2:e}); copies should be within 1e6 cells")]
     FarAway {
         /// The vertex.
         vertex: usize,
-        /// The vertex it copies.
+        /// The vertex of which it is a copy.
         other: usize,
         /// First number of the cell.
         n1: f64,
         /// Second number of the cell.
         n2: f64,
     },
-    /// A vertex in no face.
+    /// A vertex belongs to no face.
     #[error("vertex {vertex} belongs to no face; remove it, or add its faces")]
     UnusedVertex {
         /// The vertex.
         vertex: usize,
     },
-    /// Faces round a vertex that form more than one fan.
+    /// The faces around a vertex form more than one fan.
     #[error("vertex {vertex} joins separate fans of faces; give each fan its own vertex")]
     NonManifoldVertex {
         /// The vertex.
         vertex: usize,
     },
-    /// A face with less than three corners.
+    /// A face has less than three corners.
     #[error("face {face} has {corners} corners; it should have at least 3")]
     FewCorners {
         /// The face.
         face: usize,
-        /// Its corners.
+        /// Number of its corners.
         corners: usize,
     },
-    /// A face that passes twice through a vertex.
+    /// A face passes twice through a vertex.
     #[error("face {face} names vertex {vertex} twice; every corner should be another vertex")]
     RepeatedVertex {
         /// The face.
@@ -211,17 +211,17 @@ pub enum Problem {
         /// The vertex.
         vertex: usize,
     },
-    /// The same face twice, perhaps as a copy in another cell.
+    /// A face is drawn twice, perhaps as a copy in another cell.
     #[error("face {face} is face {other} again{}; every face of the cell should be drawn once", translated(*cell))]
     DuplicateFace {
         /// The later one.
         face: usize,
         /// The earlier one.
         other: usize,
-        /// Where the later one is drawn, relative to the earlier one.
+        /// Translation in cells of the later face from the earlier one.
         cell: [i32; 2],
     },
-    /// A face without area.
+    /// A face has a triangle without area.
     #[error(
         "face {face} has a triangle {triangle:?} of area {area:e} with a side of {longest:e}; the area should be over 1e-12 \
          of the side squared"
@@ -229,14 +229,14 @@ pub enum Problem {
     ZeroArea {
         /// The face.
         face: usize,
-        /// Its flat triangle.
+        /// The triangle without area.
         triangle: [usize; 3],
-        /// Area of that.
+        /// Area of the triangle.
         area: f64,
-        /// Its longest side.
+        /// Longest side of the triangle.
         longest: f64,
     },
-    /// A polygon that has no triangulation by its own corners.
+    /// A polygon cannot be split into triangles by its own corners.
     #[error(
         "face {face} crosses itself or has no area, so it cannot be split into triangles; its outline should be simple"
     )]
@@ -244,15 +244,15 @@ pub enum Problem {
         /// The face.
         face: usize,
     },
-    /// A diagonal that is already an edge.
+    /// A diagonal that would split a face is already an edge.
     #[error("face {face} would be split along {edge}, which is an edge already; draw its triangles instead")]
     DiagonalIsEdge {
         /// The face.
         face: usize,
-        /// Its diagonal.
+        /// The diagonal.
         edge: DrawnEdge,
     },
-    /// An edge of more than two faces.
+    /// An edge belongs to more than two faces.
     #[error("edge {edge} belongs to the faces {faces:?}; an edge should have at most two")]
     NonManifoldEdge {
         /// The edge.
@@ -260,7 +260,7 @@ pub enum Problem {
         /// Its faces.
         faces: Vec<usize>,
     },
-    /// Two neighbours of opposite orientation.
+    /// Two neighbouring faces have opposite orientations.
     #[error(
         "faces {faces:?} run along edge {edge} in the same direction; all faces should be counter-clockwise from one \
          side"
@@ -271,7 +271,7 @@ pub enum Problem {
         /// The two faces.
         faces: [usize; 2],
     },
-    /// An edge of one face in a periodic sheet.
+    /// An edge of a periodic sheet has only one face.
     #[error(
         "edge {edge} has only face {face}; with `foldwell:lattice` every edge should have two faces (is its copy missing \
          or out of place?), or be on a rim listed in `foldwell:holes`"
@@ -282,7 +282,7 @@ pub enum Problem {
         /// Its face.
         face: usize,
     },
-    /// A side of an opening that is not an edge of exactly one face.
+    /// A side of an opening is not an edge of exactly one face.
     #[error(
         "opening {hole} passes along {edge}, which is an edge of {faces} faces; its sides should be edges of one face"
     )]
@@ -291,29 +291,29 @@ pub enum Problem {
         hole: usize,
         /// The side.
         edge: DrawnEdge,
-        /// Faces there.
+        /// Number of faces at the side.
         faces: usize,
     },
-    /// An opening with less than three corners.
+    /// An opening has less than three corners.
     #[error("opening {hole} has {corners} corners; it should go round, with at least 3")]
     SmallHole {
         /// The opening.
         hole: usize,
-        /// Its corners.
+        /// Number of its corners.
         corners: usize,
     },
-    /// Openings of a sheet that is not periodic.
+    /// Openings are listed for a sheet that is not periodic.
     #[error("`foldwell:holes` without `foldwell:lattice`; a finite sheet needs no list of its openings")]
     HolesWithoutLattice,
-    /// An edge from a vertex to itself.
+    /// An edge runs from a vertex to itself.
     #[error("edge {edge} of the list runs from vertex {vertex} to itself; it should join two vertices")]
     Loop {
-        /// Entry of `edges_vertices`.
+        /// Index in `edges_vertices`.
         edge: usize,
         /// The vertex.
         vertex: usize,
     },
-    /// An edge twice in the list.
+    /// An edge is listed twice.
     #[error("edge {edge} of the list is edge {other} again, {ends}; every edge should be listed once")]
     DuplicateEdge {
         /// The later one.
@@ -323,15 +323,15 @@ pub enum Problem {
         /// Its ends.
         ends: DrawnEdge,
     },
-    /// A listed edge that is no side of a face.
+    /// A listed edge is not a side of a face.
     #[error("edge {edge} of the list, {ends}, is a side of no face; every edge should bound a face")]
     LooseEdge {
-        /// Entry of `edges_vertices`.
+        /// Index in `edges_vertices`.
         edge: usize,
         /// Its ends.
         ends: DrawnEdge,
     },
-    /// Two edges that meet outside their ends, seen along z.
+    /// Two edges cross or touch outside their ends, seen along z.
     #[error("edges {a} and {b} cross or touch in the plane; edges should meet at common vertices only")]
     Crossing {
         /// One edge.
@@ -339,16 +339,16 @@ pub enum Problem {
         /// The other.
         b: DrawnEdge,
     },
-    /// An edge that stands upright where faces had to be rebuilt.
+    /// An edge is parallel to z, and faces cannot be rebuilt from it.
     #[error("edge {edge} has no length seen along z; give `faces_vertices`, which cannot be rebuilt for it")]
     Upright {
         /// The edge.
         edge: DrawnEdge,
     },
-    /// Edges that do not hang together, where faces had to be rebuilt.
+    /// The edges are not connected, and faces cannot be rebuilt from them.
     #[error("the edges fall into {pieces} separate pieces; give `faces_vertices`, which cannot be rebuilt for them")]
     Pieces {
-        /// How many.
+        /// Number of connected pieces.
         pieces: usize,
     },
     /// An assignment that contradicts the mesh.
@@ -360,13 +360,13 @@ pub enum Problem {
          (valley positive); give the drawn angle or null"
     )]
     FoldAngle {
-        /// Entry of `edges_vertices`.
+        /// Index in `edges_vertices`.
         edge: usize,
         /// Its ends.
         ends: DrawnEdge,
-        /// The file's angle.
+        /// Fold angle of the file, in degrees.
         given: f64,
-        /// The angle of the geometry.
+        /// Fold angle that the vertices draw, in degrees.
         drawn: f64,
     },
 }

@@ -1,4 +1,4 @@
-//! What there is to know about a sheet before anything is computed with it.
+//! Counts and measures of a sheet, available before anything is computed with it.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use super::assignment::Assignment;
 use super::cell::{Corner, EdgeKind, Sheet};
 use crate::math::Vec3;
 
-/// Largest angle defect of a sheet that is called developable.
+/// Largest angle defect, in radians, of a sheet that is called developable.
 const DEVELOPABLE: f64 = 1e-9;
 
 /// Counts and measures of one cell, or of a finite sheet.
@@ -16,50 +16,52 @@ const DEVELOPABLE: f64 = 1e-9;
 pub struct Info {
     /// Name of the sheet.
     pub title: String,
-    /// Whether it has lattice vectors.
+    /// Whether the sheet has lattice vectors.
     pub periodic: bool,
-    /// Vertices `Nv`.
+    /// Number of vertices `Nv`.
     pub vertices: usize,
-    /// Edges `Ne`, diagonals of polygons included.
+    /// Number of edges `Ne`, diagonals of polygons included.
     pub edges: usize,
-    /// Edges that fold.
+    /// Number of creases, the edges that fold.
     pub creases: usize,
-    /// Diagonals of polygons.
+    /// Number of diagonals of polygons.
     pub facets: usize,
-    /// Edges of one face.
+    /// Number of edges of one face.
     pub boundary: usize,
-    /// Edges of one face that a cut has made, two for every cut.
+    /// Number of edges of one face that cuts have made, two for each cut edge.
     pub cut: usize,
-    /// Triangles.
+    /// Number of triangles.
     pub faces: usize,
-    /// Polygons.
+    /// Number of polygons.
     pub polygons: usize,
-    /// Parts that no edge joins.
+    /// Number of connected pieces.
     pub pieces: usize,
     /// `vertices - edges + faces`: 0 for a cell of a periodic sheet without openings, 1 for a disc, 0 for a ring.
     pub euler_characteristic: i64,
-    /// Columns minus rows of the bars' rigidity matrix: `3 Nv - Ne`, on a fixed torus or with free edges.
+    /// Columns minus rows of the bars' rigidity matrix, `3 Nv - Ne`, with a fixed lattice or free edges.
     pub maxwell_count: i64,
-    /// The same for the screw domain with vertex 0 pinned: `3 (Nv - 1) + 5 - Ne`. Only of a periodic sheet.
+    /// The same count for screw boundary conditions with vertex 0 held, `3 (Nv - 1) + 5 - Ne`; `None` for a finite
+    /// sheet.
     pub maxwell_count_screw: Option<i64>,
-    /// The same on a torus with free lattice vectors: `3 Nv + 6 - Ne`. Only of a periodic sheet.
+    /// The same count for a torus with free lattice vectors, `3 Nv + 6 - Ne`; `None` for a finite sheet.
     pub maxwell_count_free_torus: Option<i64>,
-    /// Whether no vertex inside has an angle defect over 1e-9, so that the sheet can be flattened without stretching.
+    /// Whether no inner vertex has an angle defect above 1e-9, so that the sheet can be flattened without stretching.
     pub developable: bool,
-    /// Largest `|2 pi - sum of the angles of triangles|` over vertices inside, in radians.
+    /// Largest `|2 pi - sum of the angles of triangles|` over inner vertices, in radians.
     pub largest_angle_defect: f64,
     /// Length of the shortest edge.
     pub shortest_edge: f64,
     /// Length of the longest edge.
     pub longest_edge: f64,
-    /// Least `4 sqrt(3) area / (sum of squared sides)` of a triangle: 1 equilateral, 0 without area.
+    /// Least `4 sqrt(3) area / (sum of squared sides)` of a triangle: 1 for equilateral triangles, 0 for those
+    /// without area.
     pub worst_triangle_quality: f64,
-    /// Frames of the file beyond the first one, which alone is read.
+    /// Number of frames of the file after the first one, which alone is read.
     pub further_frames: usize,
 }
 
 impl Info {
-    /// Looks at `sheet`.
+    /// Counts and measures `sheet`.
     pub fn new(sheet: &Sheet) -> Self {
         let count = |kind| sheet.edges.iter().filter(|e| e.kind == kind).count();
         let free = 3 * sheet.vertices.len() as i64 - sheet.edges.len() as i64;
@@ -169,8 +171,8 @@ mod tests {
     use super::*;
     use crate::sheet::{Pattern, fold, generate};
 
-    /// Claim: the counts of a triangulated cell (contract: Ne = 3 Nv, Nf = 2 Nv, Maxwell counts 0, 2, 6); an unfolded
-    /// star has angle defects.
+    /// Claim: the counts of a triangulated cell are right, and an unfolded star has angle defects. Source: Ne = 3 Nv,
+    /// Nf = 2 Nv, Maxwell counts 0, 2, 6.
     #[test]
     fn triangulated_cell() {
         let star = fold::parse(include_str!("../../tests/cases/open-star.fold"), "open-star.fold").unwrap();
@@ -184,8 +186,8 @@ mod tests {
         assert!(info.to_string().contains("fixed torus"));
     }
 
-    /// Claim: a folded Miura-ori is developable and an eggbox is not: four angles of 60 degrees at its tops leave
-    /// a defect of 2 pi / 3. Tolerance: rounding of a sum of eight angles.
+    /// Claim: a folded Miura-ori is developable and an eggbox is not. Source: four angles of 60 degrees at the tops
+    /// of the eggbox leave a defect of 2 pi / 3. Tolerance: rounding of a sum of eight angles.
     #[test]
     fn developable_or_not() {
         let miura = Info::new(&generate(&Pattern::named("miura").unwrap()).unwrap());
@@ -195,7 +197,7 @@ mod tests {
         assert!((eggbox.largest_angle_defect - std::f64::consts::TAU / 3.0).abs() < 1e-14, "{eggbox}");
     }
 
-    /// Claim: an equilateral triangle has quality 1, a right isosceles one sqrt(3)/2.
+    /// Claim: the quality is 1 for an equilateral triangle and sqrt(3)/2 for a right isosceles one.
     #[test]
     fn qualities() {
         let h = 3.0f64.sqrt() / 2.0;

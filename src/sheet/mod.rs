@@ -1,4 +1,16 @@
-//! One cell of a sheet on the torus (or a finite sheet), with its files and its generators.
+//! Sheets: the cell of a periodic sheet, or a finite sheet, with its file formats and pattern generators.
+//!
+//! A [`Sheet`] has vertices, polygons, their triangles and the edges between them. It comes from a file ([`fold`],
+//! [`obj`]) or from a generator ([`mod@generate`]), both by way of the same checks ([`build`]). [`tile`] makes `n1 x
+//! n2` cells of it.
+//!
+//! ```
+//! let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/meshes/open-star.fold"))?;
+//! let sheet = foldwell::sheet::fold::parse(&text, "open-star.fold")?;
+//! assert!(sheet.lattice.is_some());
+//! assert_eq!((sheet.vertices.len(), sheet.edges.len(), sheet.triangles.len()), (4, 12, 8));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod assigned;
 pub(crate) mod assignment;

@@ -1,7 +1,7 @@
 //! Wavefront OBJ files: vertices and faces, with the lattice kept in comments.
 //!
-//! `v x y z` and `f a b c ...` are read, also `a/t/n` corners and negative numbers that count back from the last
-//! vertex. Other keywords are ignored. What OBJ has no word for stands in comments:
+//! Lines `v x y z` and `f a b c ...` are read, also corners `a/t/n` and negative numbers, which count back from the
+//! last vertex. Other keywords are ignored. What OBJ cannot express is kept in comments:
 //!
 //! ```text
 //! # foldwell:lattice x y z            (twice, for the two lattice vectors)
@@ -22,18 +22,18 @@ use super::error::{Defect, MeshPart, Problem, SheetError};
 use super::text;
 use crate::math::Vec3;
 
-/// The sheet in the file at `path`.
+/// Reads the sheet of the file at `path`.
 ///
 /// # Errors
-/// [`SheetError::Read`] when there is no such file or it cannot be read, else as [`parse`].
+/// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse`].
 pub fn read(path: &Path) -> Result<Sheet, SheetError> {
     let bytes = text::read_bytes(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
     // names and comments may be in any encoding
     parse(&String::from_utf8_lossy(&bytes), &path.display().to_string())
 }
 
-/// The sheet in an OBJ text; `name` is that of its file, for messages, and for the title where the file has no `o`
-/// line. Messages number vertices and faces from 1, as OBJ does.
+/// Reads the sheet of an OBJ text. `name` is the name of its file: it appears in messages, and is the title if the
+/// file has no `o` line. Messages number vertices and faces from 1, as OBJ does.
 ///
 /// # Errors
 /// [`SheetError::Bad`] with the line, and the vertex, face or edge that is wrong.
@@ -51,7 +51,7 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     Ok(sheet)
 }
 
-/// Lines with their numbers; one that ends in a backslash goes on in the next.
+/// Returns the lines with their numbers; a line that ends in a backslash continues in the next one.
 fn joined_lines(text: &str) -> Vec<(usize, Cow<'_, str>)> {
     let mut lines: Vec<(usize, Cow<str>)> = Vec::new();
     let mut goes_on = false;
@@ -73,7 +73,7 @@ fn bad(name: &str, line: usize, problem: Problem) -> SheetError {
     SheetError::Bad { name: name.to_owned(), line: line.max(1), column: 1, problem: Box::new(problem) }
 }
 
-/// The mesh read so far, and the lines of its parts.
+/// The mesh read so far, and the line numbers of its parts.
 #[derive(Default)]
 struct Reader {
     line: usize,
@@ -142,7 +142,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Vertices named by a face or an opening, counted from 0.
+    /// Returns the vertices of a face or an opening, counted from 0.
     fn corners(&self, list: &str, what: &str, number: usize) -> Result<Vec<usize>, Problem> {
         let count = self.drawn.coords.len();
         let corner = |word: &str| {
@@ -197,8 +197,8 @@ fn point(words: &str) -> Result<Vec3, Problem> {
     }
 }
 
-/// `sheet` as an OBJ text, one cell drawn in full. [`parse`] gives the same sheet back; a title keeps its words, but
-/// not the white space between them.
+/// Returns `sheet` as an OBJ text, one cell drawn in full. [`parse`] gives the same sheet back, except that white
+/// space in the title becomes single spaces.
 pub fn write(sheet: &Sheet) -> String {
     let drawn = draw(sheet);
     let mut text = format!("o {}\n", drawn.title.split_whitespace().collect::<Vec<_>>().join(" "));
@@ -232,7 +232,7 @@ mod tests {
     use super::*;
     use crate::sheet::{Pattern, fold, generate};
 
-    /// Claim: writing and reading gives the same sheet, bit by bit, also for polygons and for finite sheets.
+    /// Claim: writing and reading gives the same sheet, bit by bit, also with polygons and for finite sheets.
     #[test]
     fn round_trip() {
         let star = fold::parse(include_str!("../../tests/cases/open-star.fold"), "open-star.fold").unwrap();
@@ -243,7 +243,7 @@ mod tests {
         }
     }
 
-    /// Claim: texture and normal numbers, numbers from the end, and unknown words are read as OBJ means them.
+    /// Claim: texture and normal numbers, negative numbers and unknown keywords are read as OBJ defines them.
     #[test]
     fn forms_of_corners() {
         let text = "mtllib a.mtl\nv 0 0 0 1.0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1/1 -2//1 3/2/1\nv 1 1 0\nf 2 -1 -2\n";

@@ -1,7 +1,8 @@
-//! The pieces of a sheet: parts that no edge joins.
+//! The connected pieces of a sheet.
 
-/// The vertices of every piece that has a face, given all edges by their ends and all faces by one of their corners. A vertex without an
-/// edge, or edges without a face, are no piece.
+/// Returns the vertices of every connected piece that has a face. `vertices` is the number of vertices, `edges` gives
+/// the two ends of each edge and `faces` one corner of each face. A vertex without an edge is not a piece, nor are
+/// edges without a face.
 pub fn pieces(
     vertices: usize,
     edges: impl Iterator<Item = [usize; 2]>,
@@ -19,7 +20,7 @@ pub fn pieces(
     of_root.into_iter().zip(has_face).filter_map(|(piece, face)| face.then_some(piece)).collect()
 }
 
-/// The least vertex of the piece of a vertex; halves the way to it.
+/// Returns the least vertex of the piece of a vertex, and halves the path to it in `root`.
 fn find(root: &mut [usize], mut vertex: usize) -> usize {
     while root[vertex] != vertex {
         root[vertex] = root[root[vertex]];

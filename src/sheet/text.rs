@@ -1,17 +1,17 @@
-//! Reading whole files without waiting for ever and without filling the memory.
+//! Reading whole files, with a limit on their size and without waiting for devices or pipes.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// Bytes of the longest file that is read.
+/// Size in bytes of the longest file that is read.
 const MOST_BYTES: u64 = 1 << 30;
 
-/// The bytes of a file, which is a regular one or standard input (`/dev/stdin`).
+/// Returns the bytes of a regular file or of standard input (`/dev/stdin`).
 ///
 /// # Errors
-/// What the operating system says; [`ErrorKind::InvalidData`] for devices and pipes, which may never end, and for more
-/// than 1 GiB.
+/// The error of the operating system; [`ErrorKind::InvalidData`] for devices and pipes, which may never end, and for
+/// files of more than 1 GiB.
 pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let standard_input = ["/dev/stdin", "/dev/fd/", "/proc/self/fd/"];
     let named = path.to_string_lossy();
@@ -32,10 +32,10 @@ pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     }
 }
 
-/// The text of a file.
+/// Returns the text of a file.
 ///
 /// # Errors
-/// As [`read_bytes`]; [`ErrorKind::InvalidData`] with the line where it is not UTF-8.
+/// As [`read_bytes`], and [`ErrorKind::InvalidData`] with the line number if the file is not UTF-8.
 pub(crate) fn read_text(path: &Path) -> io::Result<String> {
     String::from_utf8(read_bytes(path)?).map_err(|error| {
         let good = error.utf8_error().valid_up_to();

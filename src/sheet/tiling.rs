@@ -1,35 +1,36 @@
-//! `n1 x n2` cells of a sheet, as a patch with free edges or as a torus.
+//! Tilings: `n1 x n2` cells of a sheet, as a patch with free edges or as a torus.
 
 use super::cell::{Corner, EdgeKey, EdgeKind, Sheet, TriangleSide};
 use crate::math::Vec3;
 
-/// A vertex of a [`Tiling`] and the copy of it that is meant.
+/// A vertex of a [`Tiling`] together with the translation of the copy that is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Site {
     /// Number in [`Tiling::positions`].
     pub vertex: usize,
-    /// Copy, in superlattice vectors `(n1 l1, n2 l2)`; always `[0, 0]` on a patch.
+    /// Translation of the copy in superlattice vectors `(n1 l1, n2 l2)`; always `[0, 0]` on a patch.
     pub shift: [i32; 2],
 }
 
-/// An edge of a [`Tiling`]: bar, and hinge where it has both wings.
+/// An edge of a [`Tiling`], which carries a bar, and a hinge if it has both wings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TiledEdge {
-    /// The edge of the cell of which it is a copy.
+    /// Number of the cell's edge of which it is a copy.
     pub edge: usize,
-    /// Cell of its first vertex.
+    /// Cell of its first vertex `i`.
     pub cell: [usize; 2],
-    /// As in the cell, but a crease that lacks a wing here is a boundary. A diagonal always has both.
+    /// Kind of the edge: that of the cell's edge, but a crease that lacks a wing is a boundary. A diagonal always has
+    /// both wings.
     pub kind: EdgeKind,
-    /// Its ends `i`, `j`.
+    /// The ends `i`, `j`.
     pub ends: [Site; 2],
-    /// Opposite vertices of the left and of the right triangle, where these exist.
+    /// Opposite vertices of the left and the right triangle; `None` if the triangle is missing.
     pub wings: [Option<Site>; 2],
 }
 
 impl TiledEdge {
-    /// The sites of its hinge: its ends, then the opposite vertices of the left and of the right triangle. `None` where a
-    /// triangle is missing.
+    /// Returns the sites of the hinge: the two ends, then the opposite vertices of the left and the right triangle.
+    /// `None` if a triangle is missing.
     pub fn hinge(&self) -> Option<[Site; 4]> {
         Some([self.ends[0], self.ends[1], self.wings[0]?, self.wings[1]?])
     }
@@ -38,36 +39,37 @@ impl TiledEdge {
 /// A triangle of a [`Tiling`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TiledTriangle {
-    /// The triangle of the cell of which it is a copy.
+    /// Number of the cell's triangle of which it is a copy.
     pub triangle: usize,
-    /// Cells by which it was moved from where the sheet has it: the first corner of its polygon is then in the patch.
+    /// Translation in cells from the triangle of the sheet; it puts the first corner of the triangle's polygon into
+    /// the patch.
     pub cell: [i32; 2],
-    /// Its corners, counter-clockwise.
+    /// The corners, counter-clockwise.
     pub corners: [Site; 3],
 }
 
 /// `n1 x n2` cells of a sheet.
 ///
-/// **Patch**: exactly `n1 n2 Nv` vertices and no copies; an edge exists when both its vertices do; a polygon exists
-/// when all its vertices do, and its diagonals and triangles with it; a wing exists when its polygon does. **Torus**:
-/// everything exists, and vertices beyond the last cell are copies, shifted by superlattice vectors. A finite sheet is
-/// the patch of one cell.
+/// **Patch**: exactly `n1 n2 Nv` vertices and no copies. An edge exists if both its vertices do; a polygon exists,
+/// with its diagonals and triangles, if all its vertices do; a wing exists if its polygon does. **Torus**: everything
+/// exists, and vertices beyond the last cell are copies, translated by superlattice vectors. A finite sheet is a
+/// patch of one cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tiling {
-    /// `[n1, n2]`.
+    /// Numbers of cells `[n1, n2]` along the two lattice vectors.
     pub cells: [usize; 2],
-    /// A torus, not a patch.
+    /// Whether the tiling is a torus; otherwise it is a patch.
     pub periodic: bool,
-    /// Drawing positions; vertex `v` of cell `(c1, c2)` has number `(c2 n1 + c1) Nv + v`.
+    /// Drawn positions of the vertices; vertex `v` of cell `(c1, c2)` has the number `(c2 n1 + c1) Nv + v`.
     pub positions: Vec<Vec3>,
-    /// Edges, cell by cell (`c1` runs faster), in each cell in the order of the sheet.
+    /// The edges, cell by cell (`c1` runs faster), in each cell in the order of the sheet.
     pub edges: Vec<TiledEdge>,
-    /// Triangles, cell by cell in the same way.
+    /// The triangles, cell by cell in the same way.
     pub triangles: Vec<TiledTriangle>,
 }
 
-/// The `cells[0] x cells[1]` cells of `sheet`, joined to a torus when `periodic`. A sheet without lattice is one cell
-/// and not periodic, whatever is asked.
+/// Makes `cells[0] x cells[1]` cells of `sheet`, joined to a torus if `periodic`. A sheet without lattice gives one
+/// cell that is not periodic, whatever the arguments say.
 pub fn tile(sheet: &Sheet, cells: [usize; 2], periodic: bool) -> Tiling {
     let finite = sheet.lattice.is_none();
     let grid = CellGrid {
@@ -80,16 +82,16 @@ pub fn tile(sheet: &Sheet, cells: [usize; 2], periodic: bool) -> Tiling {
 }
 
 impl Tiling {
-    /// The edges that are diagonals of polygons.
+    /// Returns the numbers of the edges that are diagonals of polygons.
     pub fn facets(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.edges.len()).filter(|&edge| self.edges[edge].kind == EdgeKind::Facet)
     }
 }
 
-/// The polygon on one side of an edge, seen from the edge's first vertex.
+/// The polygon on one side of an edge, with cells counted from that of the edge's first vertex.
 struct Flank {
     polygon: usize,
-    /// Cell of the polygon's frame when the first vertex is in cell (0, 0).
+    /// Translation of the polygon when the edge's first vertex is in cell (0, 0).
     frame: [i32; 2],
     opposite: Corner,
 }
@@ -114,7 +116,7 @@ impl CellGrid {
         (0..n2).flat_map(move |c2| (0..n1).map(move |c1| [c1, c2]))
     }
 
-    /// Where a corner stands when its frame is moved by `cell`; `None` outside of a patch.
+    /// Returns the site of a corner that is translated by `cell`; `None` if it is outside a patch.
     fn site(&self, corner: Corner, cell: [i32; 2]) -> Option<Site> {
         let at = corner.translated(cell).shift;
         let n = self.cells.map(|n| n as i32);
@@ -201,8 +203,8 @@ mod tests {
         tiling.positions[site.vertex] + l1 * s1 + l2 * s2
     }
 
-    /// Claim: on a torus every cell has all its edges and triangles, and every one is a translated copy of the cell's:
-    /// ends and wings stand where the lattice puts them. Also for cells narrower than a face. Tolerance: sums of a few
+    /// Claim: on a torus, also of cells narrower than a face, every cell has all its edges and triangles, and each is
+    /// a translated copy of the sheet's: ends and wings are where the lattice puts them. Tolerance: sums of a few
     /// vectors of length 10.
     #[test]
     fn torus_is_complete_and_in_place() {
@@ -232,8 +234,9 @@ mod tests {
         }
     }
 
-    /// Claim: a patch keeps the triangles whose corners all exist, an edge's wing exactly where such a triangle is, and
-    /// satisfies Euler's formula of a disc, V - E + F = 1 (loose edges at its corners hang on and change nothing).
+    /// Claim: a patch has the triangles whose corners all exist, an edge has a wing exactly if that triangle exists,
+    /// and the patch satisfies V - E + F = 1. Source: Euler's formula of a disc; loose edges at the corners do not
+    /// change it.
     #[test]
     fn patch_is_a_disc() {
         let sheet = star();
@@ -247,8 +250,9 @@ mod tests {
         }
     }
 
-    /// Claim: a triangle goes with its polygon: here three corners of each parallelogram are in the patch and the
-    /// fourth is not, so that three sides stay as bars and there is no diagonal, no triangle, no wing.
+    /// Claim: a triangle exists only with its whole polygon. Here three corners of each parallelogram are in the
+    /// patch and the fourth is not, so that three sides remain as bars and there is no diagonal, no triangle and no
+    /// wing.
     #[test]
     fn a_polygon_is_whole_or_absent() {
         let text = r#"{"vertices_coords": [[0, 0, 0], [1, 0, 0], [1.2, 1, 0], [0.2, 1, 0]],

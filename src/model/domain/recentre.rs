@@ -1,14 +1,15 @@
-//! Keeps the chart of a screw away from its singular places; the sheet stays the same, but for its place in space.
+//! Moves the chart of a screw away from its singular places; the sheet moves only as a rigid body.
 
 use super::screw::I;
 use super::shared::seen_along;
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 
-/// Rotation angles above this are taken back by a turn; above pi, so that an angle that stays near pi is left alone.
+/// Rotation angle of a lattice vector above which whole turns are subtracted; it is above pi, so that an angle that
+/// stays near pi is not changed back and forth.
 const UNWINDING_ANGLE_RAD: f64 = 4.0;
 
-/// Puts the axis at twice `length` above z = 0 where it is nearer than that; returns whether it was.
+/// Moves the axis to the height twice `length` above z = 0 if it is nearer than `length`; returns whether it was.
 pub(super) fn raise_axis(points: &mut [f64], shared: &mut [f64], length: f64) -> bool {
     let kappa = shared[1];
     if kappa.abs() * length <= 1.0 {
@@ -23,7 +24,7 @@ pub(super) fn raise_axis(points: &mut [f64], shared: &mut [f64], length: f64) ->
     true
 }
 
-/// Takes whole turns off the rotations and off the direction of the axis; returns whether there were any.
+/// Subtracts whole turns from the rotations and from the direction of the axis; returns whether there were any.
 pub(super) fn unwind(shared: &mut [f64]) -> bool {
     let around = shared[0].abs() > UNWINDING_ANGLE_RAD;
     if around {
@@ -39,7 +40,8 @@ pub(super) fn unwind(shared: &mut [f64]) -> bool {
     true
 }
 
-/// Turns all so that the first lattice vector lies along x again where it lies rather across; returns whether it did.
+/// Rotates the sheet in the plane so that the first lattice vector lies along x again, if it lies more across x than
+/// along it; returns whether it did.
 pub(super) fn turn_back(points: &mut [f64], shared: &mut [f64]) -> bool {
     let first = Complex::new(shared[4], shared[2]);
     if first.im.abs() <= first.re.abs() {
@@ -58,7 +60,7 @@ pub(super) fn turn_back(points: &mut [f64], shared: &mut [f64]) -> bool {
     true
 }
 
-/// Sets the lattice to vectors along the axis and across.
+/// Sets the lattice to vectors that are given by their components along and across the axis.
 fn lay(lattice: [Complex<f64>; 2], shared: &mut [f64]) {
     let forth = Complex::new(shared[0].cos(), shared[0].sin());
     for (k, l) in lattice.into_iter().enumerate() {
@@ -74,8 +76,8 @@ mod tests {
     use crate::model::{Domain, Site, Turns};
     use nalgebra::Rotation3;
 
-    /// Claim (theory of the screw chart): the gauge moves every copy of every vertex by the same height, whatever the
-    /// curvature; so lengths and fold angles stay. Tolerance: rounding of numbers of size 1.
+    /// Claim: moving the axis shifts every copy of every vertex by the same height, whatever the curvature, so that
+    /// lengths and fold angles stay. Source: theory of the screw chart. Tolerance: rounding of numbers of size 1.
     #[test]
     fn recentring_moves_all_points_by_the_same_height() {
         for kappa in [3.0, -2.5, 1e4, 1e-3] {
@@ -95,8 +97,8 @@ mod tests {
         }
     }
 
-    /// Claim: a turn more or less of a lattice rotation is the same map, and after it no rotation is larger than pi by much,
-    /// whatever the direction of the axis. Tolerance: rounding of numbers of size 50.
+    /// Claim: subtracting a whole turn from a lattice rotation leaves the map unchanged, and afterwards no rotation
+    /// is much larger than pi, whatever the direction of the axis. Tolerance: rounding of numbers of size 50.
     #[test]
     fn whole_turns_are_taken_back() {
         let cases =
@@ -119,8 +121,8 @@ mod tests {
         }
     }
 
-    /// Claim: where the first lattice vector lies across x all points are turned about z, all by the same angle, until it
-    /// lies along x; elsewhere nothing is. Tolerance: rounding of numbers of size 10.
+    /// Claim: if the first lattice vector lies across x, all points are rotated about z by the same angle until it
+    /// lies along x; otherwise no point moves. Tolerance: rounding of numbers of size 10.
     #[test]
     fn the_first_lattice_vector_is_kept_along_x() {
         for (x1, y1) in [(1.0, 0.9), (0.3, -1.0), (-0.2, 1.4), (-1.0, 0.1)] {
@@ -140,9 +142,9 @@ mod tests {
         }
     }
 
-    /// Claim: near zero curvature a turn of the axis by an angle of any size moves points by no more than the curvature
-    /// times the square of the distances, with all digits: the part that bends is the same, to rounding, as with a thousand
-    /// times the curvature, a thousand times smaller. Tolerance: the next order in the curvature.
+    /// Claim: near zero curvature a rotation of the axis by any angle moves points by no more than the curvature
+    /// times the square of the distances, with all digits: the displacement by bending equals, to rounding, a
+    /// thousandth of that at a thousand times the curvature. Tolerance: the next order in the curvature.
     #[test]
     fn what_bends_keeps_its_digits_near_zero_curvature() {
         let coordinates = |kappa: f64| vec![0.0, 0.0, 0.0, 0.7, -0.2, 0.4, 0.6, kappa, 0.0, 1.5, 1.2, 0.4];

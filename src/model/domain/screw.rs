@@ -5,26 +5,27 @@ use crate::math::{Vec3, sinc};
 use crate::sheet::tiling::Site;
 use nalgebra::{Complex, Matrix3};
 
-/// The screw motion of one cell, seen along the axis: complex numbers are places across it, imaginary is z.
+/// The screw motion of one cell. Points are seen along the axis: a complex number is a position across the axis (real
+/// part) and along z (imaginary part).
 pub(super) struct ScrewMotion {
     kappa: f64,
-    /// Shift of the cell: across the axis and along it.
+    /// Translation of the cell across (`b`) and along (`h`) the axis.
     b: f64,
     h: f64,
     n: [f64; 2],
-    /// Direction of the axis.
+    /// Unit vector along the axis, in the plane of x and y.
     e: [f64; 2],
-    /// The same shift in the plane of x and y.
+    /// Translation of the cell in the plane of x and y.
     l: [f64; 2],
     turn: Complex<f64>,
     phi: sinc::Phi,
 }
 
-/// A point of the cell `(0, 0)` and the screw motion that it takes part in.
+/// A point of cell `(0, 0)` together with a screw motion that is applied to it.
 pub(super) struct Screwed {
     screw: ScrewMotion,
     v: Vec3,
-    /// Its place along the axis and across.
+    /// Coordinate of the point along the axis; `w` is its position across.
     along: f64,
     w: Complex<f64>,
 }
@@ -48,7 +49,8 @@ impl ScrewMotion {
     }
 }
 
-/// Derivatives of the bend `d` of a point: by its place across the axis (times `i`: by z), by `kappa`, by `b`.
+/// The bending displacement `d` of a point and its derivatives: by the position `w` across the axis (times `i`: by
+/// z), by `kappa` and by `b`.
 struct Bend {
     value: Complex<f64>,
     by_w: Complex<f64>,
@@ -68,12 +70,13 @@ impl Screwed {
         }
     }
 
-    /// Derivative of the bend by the direction: places across the axis change by minus those along it.
+    /// Derivative of the bending displacement by the direction of the axis: coordinates across the axis change by
+    /// minus those along it.
     fn bend_by_direction(&self, bend: &Bend) -> Complex<f64> {
         -(bend.by_w * self.along + bend.by_b * self.screw.h)
     }
 
-    /// A place across the axis as a vector.
+    /// Returns the vector of a position across the axis.
     fn across(&self, w: Complex<f64>) -> Vec3 {
         let [cosine, sine] = self.screw.e;
         Vec3::new(-sine * w.re, cosine * w.re, w.im)
@@ -98,8 +101,8 @@ impl Screwed {
         SharedMatrix::from_columns(&columns)
     }
 
-    /// Adds `force . d^2 P` to the lower triangle: the block of this point's vertex (at `at`) and of the shared coordinates
-    /// (at `shared`, behind it).
+    /// Adds the second derivative of `force . P` to the lower triangle, `P` being the position of this point: the
+    /// block of the point's vertex (at `at`) and that of the shared coordinates (at `shared`, which come after it).
     pub(super) fn add_curvature(&self, force: &Vec3, at: usize, shared: usize, hessian: &mut Pulled) {
         let (ScrewMotion { kappa, b, h, n, e: [cosine, sine], turn, phi, .. }, w) = (&self.screw, self.w);
         let (m, e) = ([-sine, *cosine], [*cosine, *sine]);
@@ -113,7 +116,7 @@ impl Screwed {
         let by_kappa_kappa = (phi.second * *b - turn * w) * (*b * *b);
         let [by_x, by_y, by_z] = [Complex::from(m[0]), Complex::from(m[1]), I];
         let mut add = |row: usize, column: usize, value: f64| hessian[(row, column)] += value;
-        // the vertex with direction, curvature and lattice
+        // the vertex with the direction, the curvature and the lattice
         let lattice = [n[0] * m[1], n[1] * m[1], n[0] * m[0], n[1] * m[0]];
         for (axis, place) in [by_x, by_y, by_z].into_iter().enumerate() {
             let turned = if axis < 2 { e[axis] * across(bend.by_w) } else { 0.0 };
@@ -121,7 +124,7 @@ impl Screwed {
             add(shared + 1, at + axis, across(place * by_w_kappa));
             (0..4).for_each(|k| add(shared + 2 + k, at + axis, lattice[k] * across(place * by_w_b)));
         }
-        // direction and curvature
+        // the direction and the curvature
         let by_direction = self.bend_by_direction(&bend);
         let x = self.along;
         let twice = by_w_b * (2.0 * x * h) + by_b_b * (h * h) - bend.by_w * w.re - bend.by_b * *b;

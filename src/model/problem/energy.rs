@@ -7,11 +7,11 @@ use crate::numerics::vector::max_abs;
 use crate::solver::{HessianKind, Layout, Linearization, Problem, SoftElement};
 use std::sync::Arc;
 
-/// Angle whose torque is the least unit in which unbalanced forces are measured, in radians: where every hinge is
-/// closer to rest than that, residuals are relative to the force of a milliradian instead of to round-off.
+/// Angle in radians whose torque is the least force to which residuals are relative: if every hinge is closer to rest
+/// than that, residuals are relative to the force of a milliradian instead of to round-off.
 const LEAST_ANGLE: f64 = 1e-3;
 
-/// Terms with the number of their first element among all of them.
+/// Returns the terms, each with the number of its first element among the elements of all terms.
 fn numbered(terms: &[Box<dyn Elements>]) -> impl Iterator<Item = (usize, &dyn Elements)> {
     let mut end = 0;
     terms.iter().map(move |term| {
@@ -138,7 +138,8 @@ impl Model {
         }
     }
 
-    /// Puts the measure of an element of this term at these coordinates, by the unknowns, in its place.
+    /// Returns a function that puts the measure of an element of this term, with its derivatives by the unknowns,
+    /// into a [`Local`].
     fn locals<'a>(
         &'a self,
         term: &'a dyn Elements,

@@ -1,8 +1,8 @@
-//! What accepted steps change in a model, to come back to a state.
+//! The reference state of a model: all that accepted steps change in it, to be saved and restored.
 
 use super::Model;
 
-/// What a model knows of the state at which it is.
+/// The saved reference state of a model.
 #[derive(Clone, Debug)]
 pub struct ReferenceState {
     base: Vec<f64>,
@@ -11,12 +11,12 @@ pub struct ReferenceState {
 }
 
 impl Model {
-    /// Where the model is: unknowns found from here mean the same after [`Model::go_to`].
+    /// Saves the reference state: unknowns computed now have the same meaning after [`Model::go_to`].
     pub(crate) fn place(&self) -> ReferenceState {
         ReferenceState { base: self.base.clone(), units: self.units.clone(), angles: self.angles() }
     }
 
-    /// Goes back to a place. What is held against rigid motions must not have been chosen anew since.
+    /// Restores a saved reference state. The held coordinates must not have been chosen anew since it was saved.
     pub(crate) fn go_to(&mut self, place: &ReferenceState) {
         self.base.clone_from(&place.base);
         self.units.clone_from(&place.units);

@@ -1,7 +1,7 @@
-//! Turns of a whole sheet under loads: they cost nothing but what the loads resist them with.
+//! Rotations of a whole sheet under loads, against which only the loads have a stiffness.
 //!
-//! Between the steps of a minimisation the sheet is turned to where its loads do the most work; in a step turns have a small stiffness of
-//! their own, so that those which no load resists leave the Hessian regular.
+//! Between the steps of a minimisation the sheet is rotated to where its loads do the most work. In a Newton step
+//! rotations have a small artificial stiffness, so that those which no load resists leave the Hessian regular.
 
 use super::{Gauge, Model};
 use crate::math::Vec3;
@@ -11,13 +11,15 @@ use crate::numerics::sparse::FIXED;
 use crate::numerics::vector::max_abs;
 use crate::solver::Linearization;
 
-/// What turning the whole sheet costs in a Newton step: so many times the unbalanced force, which may favour a turn, and at least this
-/// part of the largest stiffness.
+/// Artificial stiffness of rotations in a Newton step: `TURNING` times the unbalanced force per mean edge length,
+/// which may favour a rotation, and at least the fraction `LEAST_TURNING` of the largest diagonal entry of the
+/// Hessian.
 const TURNING: f64 = 10.0;
 const LEAST_TURNING: f64 = 1e-6;
 
 impl Model {
-    /// Unknowns, numbered like this, that would hold the rotations that pins leave; none where no loads pull: then they are held.
+    /// Returns the unknowns, numbered as in `number`, that would have to be held to prevent the rotations that pins
+    /// leave free. Empty without loads, since the gauge holds rotations then.
     pub(super) fn turning_unknowns(&self, number: &[u32]) -> Vec<u32> {
         if self.gauge == Gauge::Free || self.loads.is_empty() {
             return vec![];
@@ -27,8 +29,9 @@ impl Model {
         gauge::choose(&motions, &held).into_iter().map(|k| number[k]).collect()
     }
 
-    /// Makes turning the sheet cost something in the Hessian, and nothing in the force: turns that no load resists have no other stiffness
-    /// in balance, and a stiffness that means nothing out of it. Those that loads resist are made by [`Problem::relieve`] too.
+    /// Adds the artificial stiffness of rotations to the Hessian, and no force: a rotation that no load resists has
+    /// no other stiffness in balance, and a meaningless one out of balance. Rotations that loads resist are also made
+    /// by [`Problem::relieve`].
     pub(super) fn hold_rotations(&self, tension: &[f64], out: &mut Linearization) {
         if self.turning.is_empty() {
             return;
@@ -39,7 +42,8 @@ impl Model {
         self.turning.iter().for_each(|&k| out.add_to_diagonal(k as usize, amount));
     }
 
-    /// The point about which the whole sheet can turn: its only pinned vertex, the centre where none is. `None` where more are pinned.
+    /// Returns the point about which the whole sheet can rotate: its only pinned vertex, or the centroid without
+    /// pins. `None` if more than one vertex is pinned.
     fn pivot(&self, all: &[f64]) -> Option<Vec3> {
         let vertices = (all.len() - self.domain.shared()) / 3;
         let point = |k: usize| Vec3::from_column_slice(&all[3 * k..3 * k + 3]);
@@ -49,7 +53,8 @@ impl Model {
         }
     }
 
-    /// Turns the whole sheet to where its loads do the most work, by the shortest way; returns by how much the energy falls.
+    /// Rotates the whole sheet by the shortest way to where its loads do the most work. Returns the decrease of the
+    /// energy.
     pub(super) fn turn_along_loads(&mut self, x: &mut [f64]) -> f64 {
         if self.turning.is_empty() || !matches!(self.domain, Domain::Patch) {
             return 0.0;

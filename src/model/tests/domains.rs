@@ -1,4 +1,4 @@
-//! The chain rule of every domain: gradient and Hessian in an element's coordinates.
+//! Tests of the chain rule of every domain: gradient and Hessian in an element's coordinates.
 
 use super::{Numbers, symmetric};
 use crate::math::Vec3;
@@ -8,7 +8,7 @@ use crate::model::{Domain, Site};
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
 use std::f64::consts::TAU;
 
-/// Vertices of a cell and, after them, shared coordinates.
+/// The coordinates of four vertices of a cell, followed by the shared coordinates.
 fn state(numbers: &mut Numbers, domain: &Domain, kappa: f64) -> Vec<f64> {
     let mut x: Vec<f64> = [0.0, 0.0, 0.0, 0.9, 0.1, 0.2, 0.2, 0.8, -0.1, 1.1, 1.0, 0.1].to_vec();
     x.iter_mut().for_each(|c| *c += numbers.within(0.1));
@@ -20,14 +20,15 @@ fn state(numbers: &mut Numbers, domain: &Domain, kappa: f64) -> Vec<f64> {
     x
 }
 
-/// The element's coordinates among all: those of its points, in their order, then the shared ones.
+/// The element's coordinates: those of its points in their order, then the shared ones.
 fn local<const N: usize>(domain: &Domain, x: &[f64], sites: &[Site; N]) -> Vec<f64> {
     let points = sites.iter().flat_map(|site| x[3 * site.vertex..3 * site.vertex + 3].to_vec());
     points.chain(x[x.len() - domain.shared()..].to_vec()).collect()
 }
 
-/// Checks gradient and Hessian of a measure through a domain, and that the Hessian of a hinge does not couple its wings. Every
-/// point of the element is given a vertex of its own, since the chain rule speaks of element coordinates, one triple for each point.
+/// Checks gradient and Hessian of a measure through a domain, and that the Hessian of a hinge does not couple its
+/// wings. Every point of the element gets a vertex of its own, since element coordinates are one triple for each
+/// point.
 fn check<M: Measure<N, D>, const N: usize, const D: usize>(domain: &Domain, x: &[f64], sites: [Site; N], what: &str) {
     let local = local(domain, x, &sites);
     let mut own = sites;
@@ -64,7 +65,7 @@ fn site(vertex: usize, shift: [i32; 2]) -> Site {
     Site { vertex, shift }
 }
 
-/// A bar and a hinge inside of the cell, across its sides, far away, and with one vertex in two of its copies.
+/// Checks a bar and a hinge inside the cell, across its sides, far away, and with one vertex in two of its copies.
 fn check_all(domain: &Domain, x: &[f64], what: &str) {
     let copies = !matches!(domain, Domain::Patch);
     let shift = |n: [i32; 2]| if copies { n } else { [0, 0] };
@@ -80,7 +81,8 @@ fn check_all(domain: &Domain, x: &[f64], what: &str) {
     }
 }
 
-/// Claim: patch and both tori. On the patch and the fixed torus points are vertices and a constant.
+/// Claim: gradient and Hessian of bars and hinges are right on a patch and on both tori. Source: extrapolated
+/// differences.
 #[test]
 fn patch_and_tori() {
     let lattice = [Vec3::new(2.0, 0.1, 0.05), Vec3::new(0.3, 1.9, -0.1)];
@@ -92,8 +94,9 @@ fn patch_and_tori() {
     }
 }
 
-/// Claim: screw motions at every curvature: none at all, where the chart's formulas are 0/0, 1e-9, 1e-4, moderate ones
-/// of both signs, and one at which a cell turns by 2 rad and its third copy by a whole turn.
+/// Claim: they are right for screw motions of every curvature: zero, where the chart's formulas are 0/0, 1e-9, 1e-4,
+/// moderate values of both signs, and one at which a cell rotates by 2 rad and its third copy by a whole turn.
+/// Source: extrapolated differences.
 #[test]
 fn screws_of_any_curvature() {
     for kappa in [0.0, 1e-9, -1e-9, 1e-4, 0.07, -0.3, 0.8, 1.1] {
@@ -104,9 +107,9 @@ fn screws_of_any_curvature() {
     }
 }
 
-/// Claim: the chart is that of theory: for `kappa != 0` every map is the turn by `kappa b` about the line along the axis
-/// at the height `1/kappa` with the shift `h`, and at `kappa = 0` the translation by the lattice. Tolerance: rounding of
-/// the radius.
+/// Claim: for `kappa != 0` every map is the rotation by `kappa b` about the line along the axis at the height
+/// `1/kappa` with the translation `h`, and at `kappa = 0` the translation by the lattice. Source: theory of the screw
+/// chart. Tolerance: rounding of the radius.
 #[test]
 fn screws_turn_about_their_axis() {
     let mut numbers = Numbers::new(9);

@@ -1,4 +1,4 @@
-//! Length and fold angle: every entry of gradient and Hessian, also where elements are nearly degenerate.
+//! Tests of length and fold angle: every entry of gradient and Hessian, also for nearly degenerate elements.
 
 use super::{Numbers, symmetric};
 use crate::math::Vec3;
@@ -13,7 +13,8 @@ fn points<const N: usize>(x: &[f64]) -> [Vec3; N] {
     std::array::from_fn(|k| Vec3::from_column_slice(&x[3 * k..3 * k + 3]))
 }
 
-/// A measure, its gradient and its whole Hessian; what was in the place of its triangle before makes no difference.
+/// Returns a measure, its gradient and its full Hessian. The list for the triangle is not empty before: its content
+/// must not matter.
 fn hessian<M: Measure<N, D>, const N: usize, const D: usize>(
     points: &[Vec3; N],
 ) -> (f64, SVector<f64, D>, SMatrix<f64, D, D>) {
@@ -41,9 +42,9 @@ fn check<M: Measure<N, D>, const N: usize, const D: usize>(x: &[f64], what: &str
         .unwrap_or_else(|error| panic!("{what}, Hessian: {error}"));
 }
 
-/// Checks the series of a measure along a random path: its first two powers against gradient and Hessian, to rounding; the
-/// third and the fourth against central differences over a hundredth of the element's smallest distance, which leave the
-/// square of that and some rounding.
+/// Checks the Taylor series of a measure along a random path: the first two coefficients against gradient and
+/// Hessian, to rounding; the third and the fourth against central differences with a step of a hundredth of the
+/// element's smallest distance, whose error is the square of that and some rounding.
 fn check_along<M: Measure<N, D>, const N: usize, const D: usize>(
     x: &[f64],
     (gradient, hessian): (&[f64], &SMatrix<f64, D, D>),
@@ -64,7 +65,7 @@ fn check_along<M: Measure<N, D>, const N: usize, const D: usize>(
     let second = along(&w) + 0.5 * (v.transpose() * hessian * v)[0];
     let off = [found[0] - M::value(&points), found[1] - along(&v), found[2] - second];
     assert!(off.iter().all(|off| off.abs() <= 1e-9 * (scale + found[0].abs())), "{what}: {off:?} {found:?}");
-    // the path itself has a second power: after a step h its velocity is v + 2 h w
+    // the path is quadratic: after a step h its velocity is v + 2 h w
     let acceleration = |h: f64| -> f64 {
         let moved: Vec<f64> = (0..D).map(|k| x[k] + h * v[k] + h * h * w[k]).collect();
         let speed = v + 2.0 * h * w;
@@ -79,8 +80,8 @@ fn check_along<M: Measure<N, D>, const N: usize, const D: usize>(
     assert!(close(found[4], fourth, 1e-2), "{what}: fourth power {} and {fourth}", found[4]);
 }
 
-/// The hinge `[i, j, left, right]` with an edge of length `edge`, wings at these heights above their feet, and a fold
-/// angle, somewhere in space.
+/// The hinge `[i, j, left, right]` at a random place, with an edge of length `edge`, wings of these heights over the
+/// edge, and a given fold angle.
 fn hinge(numbers: &mut Numbers, edge: f64, heights: [f64; 2], angle: f64) -> Vec<f64> {
     let feet = [0.5 + numbers.within(0.4), 0.5 + numbers.within(0.4)];
     let half = 0.5 * angle;
@@ -95,8 +96,9 @@ fn hinge(numbers: &mut Numbers, edge: f64, heights: [f64; 2], angle: f64) -> Vec
     local.iter().flat_map(|p| <[f64; 3]>::from(turn * p + shift)).collect()
 }
 
-/// Claim: gradient and Hessian of a length are right in every entry, for bars of any direction, of length 1e-3 among
-/// coordinates of size 1, and along an axis, where two thirds of the gradient vanish.
+/// Claim: gradient and Hessian of a length are right in every entry, for bars of any direction, of length 1e-3
+/// between coordinates of size 1, and along an axis, where two thirds of the gradient vanish. Source: extrapolated
+/// differences.
 #[test]
 fn lengths() {
     let mut numbers = Numbers::new(1);
@@ -109,7 +111,7 @@ fn lengths() {
     check::<Length, 2, 6>(&[0.0, 0.0, 0.0, 2.0, 0.0, 0.0], "along an axis");
 }
 
-/// Claim: the same of fold angles at random points.
+/// Claim: gradient and Hessian of fold angles are right at random points. Source: extrapolated differences.
 #[test]
 fn fold_angles_at_random() {
     let mut numbers = Numbers::new(2);
@@ -118,8 +120,9 @@ fn fold_angles_at_random() {
     }
 }
 
-/// Claim: the same where a formula with `acos` or without care would fail: flat, 1e-9 from flat, 1e-6 from fully folded
-/// (differences reach across pi and are continued), and a right angle.
+/// Claim: they are right where a formula with `acos` or a careless one would fail: flat, 1e-9 from flat, 1e-6 from
+/// fully folded (differences reach across pi and are continued), and at a right angle. Source: extrapolated
+/// differences.
 #[test]
 fn fold_angles_flat_and_folded() {
     let mut numbers = Numbers::new(3);
@@ -133,8 +136,8 @@ fn fold_angles_flat_and_folded() {
     }
 }
 
-/// Claim: the same for needles: wings a hundredth as high as the edge is long, one wing or both, and edges a hundredth
-/// as long as the wings are high.
+/// Claim: they are right for needles: wings a hundredth as high as the edge is long, one wing or both, and edges a
+/// hundredth as long as the wings are high. Source: extrapolated differences.
 #[test]
 fn fold_angles_of_needles() {
     let mut numbers = Numbers::new(4);
@@ -146,7 +149,8 @@ fn fold_angles_of_needles() {
     }
 }
 
-/// The fold angle by the parts of the wings across the edge, `atan2(u . (a x b), -a . b)`: not the formula of the code.
+/// The fold angle by the components `a`, `b` of the wings across the edge, `atan2(u . (a x b), -a . b)`, which is not
+/// the formula of the code.
 fn by_wings(x: &[Taylor; 12]) -> Taylor {
     let minus = |p: usize, q: usize| [0, 1, 2].map(|k| x[3 * p + k] - x[3 * q + k]);
     let dot = |a: [Taylor; 3], b: [Taylor; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -161,9 +165,9 @@ fn by_wings(x: &[Taylor; 12]) -> Taylor {
     dot(unit, cross).atan2(Taylor::default() - dot(a, b))
 }
 
-/// Claim: value, gradient and Hessian of the fold angle are those of power series through another formula: along a unit vector
-/// the series has the first derivative and half the second one, along the sum of two the mixed one too. Tolerance: rounding of
-/// both, of terms up to the square (gradient) and cube (Hessian) of the inverse height of a wing.
+/// Claim: value, gradient and Hessian of the fold angle are right. Source: dual numbers through another formula.
+/// Tolerance: rounding of both, of terms up to the square (gradient) and the cube (Hessian) of the inverse height of
+/// a wing.
 #[test]
 fn fold_angles_by_power_series() {
     let mut numbers = Numbers::new(5);

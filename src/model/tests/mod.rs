@@ -1,4 +1,4 @@
-//! Every derivative of the model, entry by entry, against extrapolated central differences.
+//! Tests of every derivative of the model, entry by entry, against extrapolated central differences.
 
 mod domains;
 mod measures;
@@ -16,7 +16,7 @@ impl Numbers {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
-    /// Between `-size` and `size`.
+    /// Returns a random number between `-size` and `size`.
     fn within(&mut self, size: f64) -> f64 {
         size * (2.0 * self.0.random::<f64>() - 1.0)
     }
@@ -26,7 +26,7 @@ impl Numbers {
     }
 }
 
-/// The full symmetric matrix of a lower triangle, row by row.
+/// Returns the full symmetric matrix of a lower triangle that is stored row by row.
 fn symmetric(size: usize, lower: &[f64]) -> crate::numerics::DenseMatrix {
     let entry = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
     crate::numerics::DenseMatrix::from_fn(size, size, entry)

@@ -1,19 +1,19 @@
-//! Terms: angles go on from the last accepted state.
+//! Tests of terms: angles continue from the last accepted state.
 
 use crate::model::element::{Element, Elements, Local, Spring, Term, TermKind};
 use crate::model::measure::FoldAngle;
 use crate::model::{Domain, Site};
 use std::f64::consts::{PI, TAU};
 
-/// A hinge along x with both wings of length 1, folded by an angle: `[i, j, left, right]`.
+/// A hinge `[i, j, left, right]` along x with both wings of length 1, folded by an angle.
 fn hinge(angle: f64) -> Vec<f64> {
     let (sin, cos) = (0.5 * angle).sin_cos();
     vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.5, cos, sin, 0.5, -cos, sin]
 }
 
-/// Claim (contract: a fold angle is continuous through pi): in steps of less than half a turn the angle is followed over
-/// two turns and back, value and gradient call alike; without a step in between it is the one next to the last
-/// accepted state. Tolerance: rounding.
+/// Claim: in steps of less than half a turn the angle is followed over two turns and back, by the functions for the
+/// value and for the gradient alike; without accepted steps it is the angle nearest to the last accepted state.
+/// Source: the definition that a fold angle is continuous through pi. Tolerance: rounding.
 #[test]
 fn angles_continue_through_pi() {
     let sites = [0, 1, 2, 3].map(|vertex| Site { vertex, shift: [0, 0] });

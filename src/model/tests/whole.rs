@@ -1,4 +1,4 @@
-//! The whole model on every domain: gradient, Jacobian and Hessian against its own energy and gaps.
+//! Tests of the whole model on every domain: gradient, Jacobian and Hessian against its own energy and gaps.
 
 use super::Numbers;
 use crate::math::Vec3;
@@ -9,7 +9,7 @@ use crate::sheet::generate::{Miura, MiuraPatch, Pattern};
 use crate::sheet::{EdgeKind, generate};
 use crate::solver::{HessianKind, Linearization, Problem};
 
-/// Miura-ori on a domain: the smallest tiling that has creases and facets there.
+/// Miura-ori with the given boundary conditions: the smallest tiling that has creases and facets.
 fn sheet(boundary: Boundary) -> Assembly {
     let pattern = match boundary {
         Boundary::Patch => Pattern::MiuraPatch(MiuraPatch { cells: [1, 1], fold: 0.4, ..MiuraPatch::default() }),
@@ -20,7 +20,7 @@ fn sheet(boundary: Boundary) -> Assembly {
     Assembly::without_terms(sheet, cells, boundary).unwrap()
 }
 
-/// Bars, creases, facets, two locks, and on a patch a pin and loads.
+/// Terms with bars, creases, facets and two locks, and on a patch a pin and loads.
 fn terms(assembly: &Assembly, numbers: &mut Numbers, creases: f64, facets: f64) -> Terms {
     let (tiling, angles) = (assembly.tiling(), assembly.drawn_angles());
     let rest: Vec<f64> = angles.iter().map(|angle| angle + numbers.within(0.2)).collect();
@@ -45,7 +45,7 @@ fn linearized(model: &Model, x: &[f64], tension: &[f64], kind: HessianKind) -> L
 
 fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
     let x: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.05)).collect();
-    // where the unknowns of a screw have the sizes that belong to the state
+    // the sizes of a screw's unknowns belong to this state
     let x = model.start_from(model.coordinates(&x));
     let model = &*model;
     let rows = model.layout().stiff.len();
@@ -66,8 +66,9 @@ fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
     check_jacobian(pull, &x, &hessian, TOLERANCE).unwrap_or_else(|e| panic!("{what}, Hessian: {e}"));
 }
 
-/// Claim: on every domain, free or held, with soft hinges and with hinges that carry tensions, the gradient is the
-/// derivative of the energy, the Jacobian that of the gaps, and the Hessian that of gradient plus tensions.
+/// Claim: on every domain, with held or free coordinates, with soft hinges and with hinges that carry tensions, the
+/// gradient is the derivative of the energy, the Jacobian that of the gaps, and the Hessian that of gradient plus
+/// tensions. Source: extrapolated differences.
 #[test]
 fn derivatives_on_every_domain() {
     use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
@@ -85,7 +86,7 @@ fn derivatives_on_every_domain() {
     }
 }
 
-/// Claim: a curved screw: kappa among the unknowns is moved away from the drawn 0 by a step at which cells turn.
+/// Claim: the same holds for a curved screw, whose kappa is moved from the drawn 0 so far that cells rotate visibly.
 #[test]
 fn derivatives_on_a_curved_screw() {
     let assembly = sheet(Boundary::Screw);
@@ -101,8 +102,8 @@ fn derivatives_on_a_curved_screw() {
     }
 }
 
-/// Claim: the Gauss-Newton Hessian is the sum of `k g g^T` over the soft hinges (plus the tensions' part, here none):
-/// with rest angles at the state itself it is the full Hessian. Tolerance: rounding.
+/// Claim: with rest angles equal to those of the state, the Gauss-Newton Hessian is the full Hessian, since it is the
+/// sum of `k g g^T` over the soft hinges plus the part of the tensions, which are zero here. Tolerance: rounding.
 #[test]
 fn gauss_newton_is_exact_at_rest() {
     let assembly = sheet(Boundary::FreeTorus);
@@ -118,10 +119,10 @@ fn gauss_newton_is_exact_at_rest() {
     assert_eq!(metric, half.hessian);
 }
 
-/// Claim: gaps of bars are measured in the mean edge and gaps of hinges in radians; forces in that of the most loaded
-/// element, but no less than that of a hinge off by a milliradian, so that a sheet at rest has a unit too. Rest angles
-/// off by the same angle everywhere: below a milliradian the unit does not change, at 0.1 it is a hundred times that.
-/// Tolerance: rounding, of a difference of angles where the unit is theirs.
+/// Claim: gaps of bars are relative to the mean edge and gaps of hinges in radians; forces are relative to that of
+/// the most loaded element, but at least to that of a hinge that is off by a milliradian, so that a sheet at rest has
+/// a unit too. With all rest angles off by the same angle, the unit does not change below a milliradian, and at 0.1
+/// rad it is a hundred times as large. Tolerance: rounding, of a difference of angles where the unit depends on them.
 #[test]
 fn residuals_have_their_units() {
     let oblong = MiuraPatch { cells: [1, 1], fold: 0.4, a: 1.5, ..MiuraPatch::default() };

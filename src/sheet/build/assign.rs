@@ -1,4 +1,4 @@
-//! Assignments of edges, held against the mesh and kept with the sheet.
+//! Checks the assignments of edges against the mesh and stores them in the sheet.
 
 use std::collections::BTreeMap;
 
@@ -7,11 +7,11 @@ use crate::sheet::assignment::Assignment;
 use crate::sheet::assignment_fault::AssignmentFault;
 use crate::sheet::cell::{Edge, EdgeKey, EdgeKind, Sheet};
 
-/// Fold angles this many degrees from 0 and from 180 have a side.
+/// Least distance in degrees of a fold angle from 0 and from 180 at which it is a mountain or a valley.
 const SIDE_TOLERANCE: f64 = 1e-3;
 
-/// Gives every edge of `sheet` what the file assigns to it: joined parts of a polygon become facets, what contradicts
-/// the mesh is refused, and letters that the drawing alone would not give are kept.
+/// Applies the assignments of the file to the edges of `sheet`: joined parts of a polygon become facets, assignments
+/// that contradict the mesh are refused, and those that the drawing alone would not give are stored.
 pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) -> Result<(), Defect> {
     if drawn.assignments.is_empty() {
         return Ok(());
@@ -30,7 +30,7 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
                 sheet.edges[number].kind = EdgeKind::Facet;
             }
             let edge = &sheet.edges[number];
-            // the outline of a drawn cell is no boundary of a periodic sheet
+            // the outline of the drawn cell is not a boundary of a periodic sheet
             if assignment == Assignment::Boundary && rim.get(&sorted(ends)) == Some(&1) && drawn.lattice.is_some() {
                 continue;
             }
@@ -69,7 +69,8 @@ fn fault(
     }
 }
 
-/// Numbers of the edges that a drawn edge has become, by the names that they had before the sheet was cut.
+/// Returns the numbers of the edges that each drawn edge has become, keyed by the edge's name before the sheet was
+/// cut.
 pub(crate) fn edges_by_drawn_name(sheet: &Sheet) -> BTreeMap<EdgeKey, Vec<usize>> {
     let mut known: BTreeMap<EdgeKey, Vec<usize>> = BTreeMap::new();
     for (number, edge) in sheet.edges.iter().enumerate() {
@@ -83,7 +84,7 @@ fn sorted([a, b]: [usize; 2]) -> [usize; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// How many drawn faces every drawn edge has.
+/// Returns the number of drawn faces of every drawn edge.
 fn drawn_rim(drawn: &Drawing) -> BTreeMap<[usize; 2], usize> {
     let mut faces = BTreeMap::new();
     for face in &drawn.faces {

@@ -1,8 +1,8 @@
-//! Cuts: where the faces on the two sides of an edge are not joined.
+//! Cuts: edges whose two faces are not joined.
 //!
-//! A vertex where cuts, or a cut and the rim, part the faces round it into several fans is made one vertex for each
-//! fan. The fan of the face that is listed first keeps the vertex; the others get new ones, numbered after all drawn
-//! ones by vertex and then by face. An end of a cut inside the sheet stays one vertex.
+//! If cuts, or a cut and the rim, divide the faces around a vertex into several fans, the vertex is replaced by one
+//! vertex for each fan. The fan of the face that is listed first keeps the vertex; the others get new ones, numbered
+//! after all drawn vertices by vertex and then by face. An end of a cut inside the sheet stays one vertex.
 
 use std::collections::BTreeMap;
 
@@ -11,13 +11,14 @@ use crate::sheet::assignment::Assignment;
 use crate::sheet::assignment_fault::AssignmentFault;
 use crate::sheet::cell::{Corner, EdgeKey};
 
-/// Cut edges by name, with their entry of the list.
+/// Cut edges by name, each with its index in the list of edges.
 type Cuts = BTreeMap<EdgeKey, usize>;
 
-/// A corner of a face: the face, and the place of the corner in it.
+/// A corner of a face: the number of the face, and the index of the corner in it.
 type Wedge = (usize, usize);
 
-/// Parts the polygons along the cuts of `drawn`; for every new vertex, the one that it was before.
+/// Separates the polygons along the cuts of `drawn`. Returns for every new vertex the vertex from which it was split
+/// off.
 pub(super) fn cut(
     drawn: &Drawing,
     identified: &mut Identified,
@@ -28,7 +29,7 @@ pub(super) fn cut(
     let mut moved = Vec::new();
     for (vertex, wedges) in wedges_at_cuts(&cuts, polygons) {
         if fans(polygons, &wedges, &Cuts::new()).len() > 1 {
-            continue; // separate fans that no cut has made, which are refused later
+            continue; // these fans were not made by a cut; they are refused later
         }
         for fan in fans(polygons, &wedges, &cuts).into_iter().skip(1) {
             moved.extend(fan.into_iter().map(|wedge| (wedge, identified.homes.len())));
@@ -43,7 +44,7 @@ pub(super) fn cut(
     Ok(origins)
 }
 
-/// The cuts between two faces; a cut along the rim is a rim.
+/// Returns the cuts between two faces; a cut along the rim has no effect.
 fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]) -> Result<Cuts, Defect> {
     let mut cuts = Cuts::new();
     for (e, (ends, assignment)) in drawn.assignments.iter().enumerate() {
@@ -77,7 +78,7 @@ fn sides(polygon: &[Corner]) -> impl Iterator<Item = EdgeKey> + '_ {
     (0..polygon.len()).map(|k| EdgeKey::new(polygon[k], polygon[(k + 1) % polygon.len()]).0)
 }
 
-/// The corners of faces at every vertex where a cut ends.
+/// Returns the corners of faces at every vertex where a cut ends.
 fn wedges_at_cuts(cuts: &Cuts, polygons: &[Vec<Corner>]) -> BTreeMap<usize, Vec<Wedge>> {
     let mut at: BTreeMap<usize, Vec<Wedge>> = cuts.keys().flat_map(|key| [(key.i, vec![]), (key.j, vec![])]).collect();
     if at.is_empty() {
@@ -93,8 +94,8 @@ fn wedges_at_cuts(cuts: &Cuts, polygons: &[Vec<Corner>]) -> BTreeMap<usize, Vec<
     at
 }
 
-/// Corners of faces at a vertex, in groups that hang together by edges that are not cut; groups and their members in
-/// the order of faces.
+/// Groups the corners of faces at a vertex into fans that are connected by edges without cuts. Fans and their members
+/// are in the order of faces.
 fn fans(polygons: &[Vec<Corner>], wedges: &[Wedge], cuts: &Cuts) -> Vec<Vec<Wedge>> {
     let mut fans: Vec<(Vec<Wedge>, Vec<EdgeKey>)> = Vec::new();
     for &(f, k) in wedges {
@@ -118,7 +119,7 @@ fn fans(polygons: &[Vec<Corner>], wedges: &[Wedge], cuts: &Cuts) -> Vec<Vec<Wedg
     fans
 }
 
-/// The two sides of every cut have become two edges.
+/// Checks that the two sides of every cut have become two edges.
 fn check_open(
     drawn: &Drawing,
     identified: &Identified,

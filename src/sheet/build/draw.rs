@@ -1,4 +1,4 @@
-//! From a sheet back to a mesh that draws its cell in full.
+//! The step from a sheet back to a mesh that draws its cell in full.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,8 +6,8 @@ use super::Drawing;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
 
-/// The mesh that draws `sheet`: its vertices in their order, then the copies that faces and openings need, by first
-/// appearance. [`build`](super::build) makes the same sheet of it.
+/// Returns the mesh that draws `sheet`: its vertices in their order, then the copies that faces and openings need, by
+/// first appearance. [`build`](super::build) makes the same sheet from it.
 pub fn draw(sheet: &Sheet) -> Drawing {
     let drawn_count = sheet.vertices.len() - sheet.cut_from.len();
     let mut numbers: BTreeMap<Corner, usize> = (0..drawn_count).map(|v| (Corner::home(v), v)).collect();
@@ -37,7 +37,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
     }
 }
 
-/// Sides of faces whose assignment the drawing does not show by itself.
+/// Returns the sides of faces whose assignment cannot be seen in the drawing, with that assignment.
 fn assignments(sheet: &Sheet, faces: &[Vec<usize>]) -> Vec<([usize; 2], Assignment)> {
     let joined = |edge: &&Edge| edge.kind == EdgeKind::Facet || sheet.assignments.contains_key(&edge.key);
     let told: BTreeMap<EdgeKey, Assignment> =

@@ -1,27 +1,27 @@
-//! A mesh as a file draws it.
+//! A mesh as a file draws it, before it becomes a sheet.
 
 use crate::math::Vec3;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::error::DrawnEdge;
 
-/// A mesh as a file draws it.
+/// A mesh as a file draws it, before it becomes a sheet.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing {
     /// Name of the sheet.
     pub title: String,
-    /// Source and units.
+    /// Origin of the sheet, and its units.
     pub description: String,
     /// Positions of the drawn vertices, copies included.
     pub coords: Vec<Vec3>,
-    /// Whether the mesh is drawn in the plane, where edges must not cross.
+    /// Whether the mesh is drawn in the plane, so that edges must not cross.
     pub planar: bool,
-    /// Faces by numbers into `coords`, counter-clockwise.
+    /// Faces, counter-clockwise, as indices into `coords`.
     pub faces: Vec<Vec<usize>>,
     /// The two lattice vectors.
     pub lattice: Option<[Vec3; 2]>,
-    /// Openings by numbers into `coords`.
+    /// Openings, as indices into `coords`.
     pub holes: Vec<Vec<usize>>,
-    /// Assignments of drawn edges, by numbers into `coords`.
+    /// Assignments of drawn edges; the ends are indices into `coords`.
     pub assignments: Vec<([usize; 2], Assignment)>,
     /// Number that the file gives to its first vertex and face: 0 in FOLD, 1 in OBJ. Only messages use it.
     pub first: usize,

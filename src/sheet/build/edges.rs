@@ -1,4 +1,4 @@
-//! Edges of the cell: found along the polygons, checked for their faces, given their wings.
+//! The edges of the cell: they are found along the polygons, checked for their faces, and given their wings.
 
 use std::collections::BTreeMap;
 
@@ -6,17 +6,17 @@ use super::split::Part;
 use super::{Defect, Drawing, MeshPart, Problem};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, TriangleSide};
 
-/// An edge along the polygons: its name, and where it is a side.
+/// An edge along the polygons, and the polygons of which it is a side.
 pub(super) struct Side {
     key: EdgeKey,
-    /// Ends in the drawing where it first appears.
+    /// The drawn vertices of its ends where it first appears.
     drawn: [usize; 2],
-    /// Polygon, and whether it runs from `j` to `i` there.
+    /// Each polygon that has this side, and whether it runs from `j` to `i` there.
     uses: Vec<(usize, bool)>,
 }
 
-/// Sides of polygons in order of first appearance, each of one polygon or of two that run along it in opposite
-/// directions.
+/// Returns the sides of polygons in order of first appearance. Each side belongs to one polygon, or to two that run
+/// along it in opposite directions.
 pub(super) fn sides(drawn: &Drawing, polygons: &[Vec<Corner>]) -> Result<Vec<Side>, Defect> {
     let mut numbers: BTreeMap<EdgeKey, usize> = BTreeMap::new();
     let mut sides: Vec<Side> = Vec::new();
@@ -49,7 +49,7 @@ fn check_uses(drawn: &Drawing, side: &Side) -> Result<(), Defect> {
     }
 }
 
-/// In a periodic sheet, the edges of one face are exactly the sides of the listed openings.
+/// Checks that in a periodic sheet the edges of one face are exactly the sides of the listed openings.
 pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>]) -> Result<(), Defect> {
     if drawn.lattice.is_none() {
         return Ok(());
@@ -75,7 +75,7 @@ pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>])
     }
 }
 
-/// The edges of the cell: sides first, then diagonals, with the opposite vertices of their triangles.
+/// Returns the edges of the cell, sides first, then diagonals, with the opposite vertices of their triangles.
 pub(super) fn with_wings(drawn: &Drawing, sides: Vec<Side>, parts: &[Part]) -> Result<Vec<Edge>, Defect> {
     let mut edges: Vec<Edge> = sides.iter().map(bare).collect();
     let mut numbers: BTreeMap<EdgeKey, usize> = edges.iter().enumerate().map(|(e, edge)| (edge.key, e)).collect();

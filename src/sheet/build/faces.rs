@@ -1,4 +1,4 @@
-//! Checks of faces one by one, and of the fans that they form round vertices.
+//! Checks of single faces, and of the fans that they form around vertices.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,8 @@ use super::planar::PlacedSide;
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::cell::{Corner, Sheet};
 
-/// Corners exist, no vertex twice in a face, no face twice in the cell, every vertex in a face.
+/// Checks that all corners exist, that no face has a vertex twice, that no face is drawn twice, and that every vertex
+/// belongs to a face.
 pub(super) fn check(drawn: &Drawing, identified: &Identified) -> Result<(), Defect> {
     for (h, hole) in drawn.holes.iter().enumerate() {
         check_indices(drawn, hole, MeshPart::Hole(h), || format!("opening {h}"))?;
@@ -66,8 +67,9 @@ fn check_corners(drawn: &Drawing, f: usize, face: &[usize]) -> Result<(), Defect
     }
 }
 
-/// The corners sorted, moved so that one of the lowest vertices is in cell (0, 0); the cell it came from. The same for
-/// every copy, every first corner and both directions of a face.
+/// Returns the sorted corners, translated so that one of the lowest vertices is in cell (0, 0), and the cell from
+/// which they were translated. The result is the same for every copy, every first corner and both directions of a
+/// face.
 fn canonical(corners: &[Corner]) -> (Vec<Corner>, [i32; 2]) {
     let lowest = corners.iter().map(|c| c.vertex).min().unwrap_or_default();
     let candidates = corners.iter().filter(|c| c.vertex == lowest).map(|base| {
@@ -79,7 +81,7 @@ fn canonical(corners: &[Corner]) -> (Vec<Corner>, [i32; 2]) {
     candidates.min().unwrap_or_default()
 }
 
-/// Drawing sides of all faces, each once, in file order.
+/// Returns the drawn sides of all faces, each once, in the order of the file.
 pub(crate) fn sides(drawn: &Drawing) -> Vec<PlacedSide> {
     let mut seen = BTreeSet::new();
     let mut sides = Vec::new();
@@ -94,7 +96,7 @@ pub(crate) fn sides(drawn: &Drawing) -> Vec<PlacedSide> {
     sides
 }
 
-/// The triangles round every vertex form one fan, open at a rim and closed elsewhere.
+/// Checks that the triangles around every vertex form one fan, open at a rim and closed elsewhere.
 pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, sheet: &Sheet) -> Result<(), Defect> {
     for (v, steps) in fans(sheet).iter().enumerate() {
         let ends: BTreeSet<_> = steps.values().collect();
@@ -114,8 +116,8 @@ pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, sheet: &Sheet
     Ok(())
 }
 
-/// For every vertex, seen from its copy in cell (0, 0): the step from one neighbour to the next that each triangle
-/// makes, counter-clockwise.
+/// Returns for every vertex the map from one neighbour to the next that its triangles make, counter-clockwise, seen
+/// from the vertex's copy in cell (0, 0).
 fn fans(sheet: &Sheet) -> Vec<BTreeMap<Corner, Corner>> {
     let mut fans = vec![BTreeMap::new(); sheet.vertices.len()];
     for triangle in &sheet.triangles {

@@ -1,8 +1,8 @@
-//! Which drawn vertices are the same vertex of the cell.
+//! Identifies drawn vertices that are the same vertex of the cell.
 //!
-//! Two drawn vertices that differ by a lattice vector within 1e-6 of the shorter lattice vector are one vertex; the one
-//! that comes first in the file stands in cell (0, 0) and gives the position. In a finite sheet no two vertices
-//! may stand within 1e-9 of the sheet's extent.
+//! Two drawn vertices that differ by a lattice vector, within 1e-6 of the shorter lattice vector, are one vertex; the
+//! one that comes first in the file is in cell (0, 0) and gives the position. In a finite sheet no two vertices may
+//! be closer than 1e-9 of the sheet's extent.
 
 use std::collections::HashMap;
 
@@ -10,20 +10,20 @@ use super::{Defect, Drawing, MeshPart, Problem};
 use crate::math::Vec3;
 use crate::sheet::cell::Corner;
 
-/// Largest number of cells between a drawn vertex and its first appearance.
+/// Largest number of cells, along either lattice vector, between a drawn vertex and its first appearance.
 const FARTHEST: f64 = 1e6;
 
 /// The corner of every drawn vertex, and the first appearance of every vertex of the cell.
 #[derive(Clone, Debug)]
 pub(crate) struct Identified {
-    /// Corner in which a drawn vertex stands.
+    /// Corner that each drawn vertex represents.
     pub corner: Vec<Corner>,
-    /// Drawing vertex that is the first appearance of a vertex of the cell.
+    /// Drawn vertex that is the first appearance of each vertex of the cell.
     pub homes: Vec<usize>,
 }
 
 impl Identified {
-    /// The corners of a list of drawn vertices.
+    /// Returns the corners of a list of drawn vertices.
     pub(crate) fn corners(&self, drawn: &[usize]) -> Vec<Corner> {
         drawn.iter().map(|&v| self.corner[v]).collect()
     }
@@ -56,7 +56,8 @@ pub(super) fn identify(drawn: &Drawing) -> Result<Identified, Defect> {
     Ok(found)
 }
 
-/// The corner of drawn vertex `v`, a copy of vertex `c` of the cell, which first appears as drawn vertex `home`.
+/// Returns the corner of drawn vertex `v`, a copy of vertex `c` of the cell, which first appears as drawn vertex
+/// `home`.
 fn copy_corner(drawn: &Drawing, metric: &Metric, v: usize, c: usize, home: usize) -> Result<Corner, Defect> {
     let [n1, n2] = metric.shift(drawn, drawn.coords[v], home).unwrap_or([0.0, 0.0]);
     if n1.abs() > FARTHEST || n2.abs() > FARTHEST {
@@ -66,14 +67,14 @@ fn copy_corner(drawn: &Drawing, metric: &Metric, v: usize, c: usize, home: usize
     Ok(Corner { vertex: c, shift: [n1 as i32, n2 as i32] })
 }
 
-/// Coordinates in which close vertices fall into the same or neighbouring buckets.
+/// A grid of buckets for vertices in which close vertices fall into the same or neighbouring buckets.
 struct Metric {
     tolerance: f64,
-    /// Three covectors: lattice coordinates and height, or x, y, z.
+    /// Three covectors that give the coordinates: lattice coordinates and height, or x, y, z.
     axes: [Vec3; 3],
     /// Width of a bucket along each covector.
     width: [f64; 3],
-    /// Number of buckets after which a periodic coordinate repeats.
+    /// Number of buckets after which a periodic coordinate repeats; `None` for other coordinates.
     period: [Option<i64>; 3],
 }
 
@@ -125,7 +126,7 @@ impl Metric {
         all
     }
 
-    /// Whole numbers of lattice vectors from the drawn vertex `home` to `x`, if `x` is a copy of it.
+    /// Returns the numbers of lattice vectors from the drawn vertex `home` to `x`; `None` if `x` is not a copy of it.
     fn shift(&self, drawn: &Drawing, x: Vec3, home: usize) -> Option<[f64; 2]> {
         let d = x - drawn.coords[home];
         let n: [f64; 2] = match drawn.lattice {
@@ -149,8 +150,8 @@ mod tests {
         }
     }
 
-    /// Claim: copies are found across the wrap of a skew lattice, inside the tolerance and not outside
-    /// (contract: 1e-6 of the shorter vector, here 1).
+    /// Claim: copies are found across the wrap of a skew lattice, inside the tolerance and not outside. Source: the
+    /// tolerance is 1e-6 of the shorter lattice vector, which is 1 here.
     #[test]
     fn copies_within_the_tolerance() {
         let lattice = Some([[1.0, 0.0, 0.0], [0.9, 3.0, 0.0]]);
@@ -163,7 +164,7 @@ mod tests {
         assert_eq!(identify(&far).unwrap().homes, [0, 1]);
     }
 
-    /// Claim: two vertices at one place are refused, with and without a lattice.
+    /// Claim: two vertices at the same position are refused, with and without a lattice.
     #[test]
     fn one_place_one_vertex() {
         for lattice in [None, Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])] {

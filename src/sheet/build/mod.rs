@@ -1,7 +1,8 @@
-//! From a drawn mesh to a sheet: one builder and one set of checks for every file format and every generator.
+//! The step from a drawn mesh to a sheet: one builder and one set of checks for all file formats and generators.
 //!
-//! Vertices are identified by lattice vectors (`identify`), faces become polygons of the cell (`faces`), which are
-//! parted along cuts (`cuts`) and split (`split`); edges with their wings (`edges`) and assignments (`assign`) follow.
+//! Vertices are identified by lattice vectors (`identify`); faces become polygons of the cell (`faces`), which are
+//! separated along cuts (`cuts`) and split into triangles (`split`); then edges get their wings (`edges`) and
+//! assignments (`assign`).
 
 mod assign;
 mod cuts;
@@ -22,15 +23,15 @@ pub use drawing::Drawing;
 pub(crate) use faces::sides as drawn_sides;
 pub(crate) use identify::Identified;
 
-/// The sheet that `drawn` draws.
+/// Builds the sheet that `drawn` draws.
 ///
 /// # Errors
-/// A [`Defect`] with the vertex, face, edge or opening that is wrong: see [`Problem`] for all of them.
+/// [`Defect`] with the vertex, face, edge or opening that is wrong; see [`Problem`] for all of them.
 pub fn build(drawn: &Drawing) -> Result<Sheet, Defect> {
     build_identified(drawn).map(|(sheet, _)| sheet)
 }
 
-/// As [`build`], together with the corner of the cell in which every drawn vertex stands.
+/// Does the same as [`build`], and also returns the corner of the cell that each drawn vertex represents.
 pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), Defect> {
     check_numbers(drawn)?;
     let mut identified = identify::identify(drawn)?;
@@ -63,7 +64,7 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
     Ok((sheet, identified))
 }
 
-/// Everything is there, finite, and the lattice spans an area.
+/// Checks that there are vertices and faces, that coordinates are finite, and that the lattice spans an area.
 fn check_numbers(drawn: &Drawing) -> Result<(), Defect> {
     if drawn.coords.is_empty() {
         return Err(Defect::new(MeshPart::Mesh, Problem::Empty { what: "vertices" }));

@@ -1,4 +1,4 @@
-//! Edges seen along z: whether they cross, and which faces they bound.
+//! Edges seen along z: finds crossings, and the faces that edges bound.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -6,13 +6,13 @@ use std::collections::BTreeMap;
 use super::{Defect, Drawing, MeshPart, Problem};
 use crate::math::Vec3;
 
-/// Sine of the angle below which three points count as lying on one line.
+/// Sine of the angle below which three points count as collinear.
 const ALIGNED: f64 = 1e-12;
 
-/// A side to be compared with all others: its ends and what to blame.
+/// A side that is compared with all others: its ends, and the part of the mesh that messages name.
 pub(crate) type PlacedSide = ([usize; 2], MeshPart);
 
-/// No two edges meet in the plane other than at common ends.
+/// Checks that no two edges meet in the plane other than at common ends.
 pub(crate) fn check_crossings(drawn: &Drawing, sides: &[PlacedSide]) -> Result<(), Defect> {
     let span = |s: &PlacedSide, k: usize| {
         let [a, b] = s.0.map(|v| drawn.coords[v][k]);
@@ -34,7 +34,7 @@ pub(crate) fn check_crossings(drawn: &Drawing, sides: &[PlacedSide]) -> Result<(
     Ok(())
 }
 
-/// -1, 0 or 1: the turn from `a` over `b` to `c` seen from above, 0 within [`ALIGNED`].
+/// Returns the orientation of the corner `a`, `b`, `c` seen from above, -1, 0 or 1; it is 0 within [`ALIGNED`].
 fn turn(a: Vec3, b: Vec3, c: Vec3) -> f64 {
     let (u, v) = ((b - a).xy(), (c - a).xy());
     let area = u.perp(&v);
@@ -57,13 +57,14 @@ fn meet(x: &[Vec3], p: [usize; 2], q: [usize; 2]) -> bool {
     crosses || touches(a, b, c) || touches(a, b, d) || touches(c, d, a) || touches(c, d, b)
 }
 
-/// The faces that `edges` bound, counter-clockwise seen from above.
+/// Returns the faces that `edges` bound, counter-clockwise seen from above.
 ///
 /// Every edge is walked once in both directions, turning as far left as possible; the one walk that runs clockwise is
-/// the outside. Edges must hang together, must not cross, and must separate two faces (or a face from the outside).
+/// the outer boundary. Edges must be connected, must not cross, and must separate two faces (or a face from the
+/// outside).
 ///
 /// # Errors
-/// A [`Defect`] that names the edge.
+/// [`Defect`] that names the edge.
 pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<usize>>, Defect> {
     let x = &drawn.coords;
     let placed: Vec<_> = edges.iter().enumerate().map(|(e, &ends)| (ends, MeshPart::Edge(e))).collect();
@@ -83,7 +84,7 @@ pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<
     }
 }
 
-/// Neighbours of every vertex, counter-clockwise.
+/// Returns the neighbours of every vertex, counter-clockwise.
 fn rounds(x: &[Vec3], edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
     let mut rounds = vec![Vec::new(); x.len()];
     for &[a, b] in edges {
@@ -96,7 +97,7 @@ fn rounds(x: &[Vec3], edges: &[[usize; 2]]) -> Vec<Vec<usize>> {
     rounds
 }
 
-/// Order of directions in the plane by angle in `[0, 2 pi)`, without trigonometry.
+/// Compares directions in the plane by their angle in `[0, 2 pi)`, without trigonometry.
 fn by_angle(a: Vec3, b: Vec3) -> Ordering {
     let lower = |d: Vec3| d.y < 0.0 || (d.y == 0.0 && d.x < 0.0);
     lower(a).cmp(&lower(b)).then_with(|| 0.0f64.total_cmp(&a.xy().perp(&b.xy())))
@@ -104,7 +105,7 @@ fn by_angle(a: Vec3, b: Vec3) -> Ordering {
 
 type Owner = BTreeMap<(usize, usize), usize>;
 
-/// All closed walks that turn as far left as possible, and the walk that owns every directed edge.
+/// Returns all closed walks that turn as far left as possible, and the walk to which each directed edge belongs.
 fn walks(rounds: &[Vec<usize>], edges: &[[usize; 2]]) -> (Vec<Vec<usize>>, Owner) {
     let mut place = BTreeMap::new();
     for (v, round) in rounds.iter().enumerate() {
@@ -131,7 +132,7 @@ fn walks(rounds: &[Vec<usize>], edges: &[[usize; 2]]) -> (Vec<Vec<usize>>, Owner
     (walks, owner)
 }
 
-/// Area of a closed walk seen from above, counter-clockwise positive.
+/// Returns the area of a closed walk seen from above, counter-clockwise positive.
 fn area(x: &[Vec3], walk: &[usize]) -> f64 {
     let origin = x[walk[0]];
     let pairs = walk.iter().zip(walk.iter().cycle().skip(1));
@@ -146,7 +147,7 @@ mod tests {
         Drawing { coords: xy.iter().map(|p| Vec3::new(p[0], p[1], 0.0)).collect(), ..Drawing::default() }
     }
 
-    /// Claim: the two triangles and nothing else, counter-clockwise, although one edge is listed against its direction.
+    /// Claim: the faces are the two triangles, counter-clockwise, although one edge is listed against its direction.
     #[test]
     fn faces_of_a_split_square() {
         let square = drawn(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
@@ -154,7 +155,7 @@ mod tests {
         assert_eq!(faces, [vec![0, 1, 2], vec![2, 3, 0]]);
     }
 
-    /// Claim: crossing, a vertex on an edge, and one edge along another are all found; neighbours are not.
+    /// Claim: crossing edges, a vertex on an edge, and two overlapping edges are found; neighbours are not reported.
     #[test]
     fn crossings() {
         let five = drawn(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0]]);
@@ -165,7 +166,7 @@ mod tests {
         assert!(!meet(&five.coords, [0, 1], [4, 2]));
     }
 
-    /// Claim: an edge with the outside on both sides bounds no face, and two islands are not one sheet.
+    /// Claim: an edge with the outside on both sides bounds no face, and two unconnected parts are not one sheet.
     #[test]
     fn loose_edges_and_islands() {
         let xy = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [5.0, 0.0], [6.0, 0.0], [5.0, 1.0]];

@@ -1,28 +1,29 @@
-//! Polygons into triangles, by their shorter diagonals.
+//! Splits polygons into triangles by their shorter diagonals.
 //!
-//! A quadrilateral is split by the shorter of its diagonals; a tie (1e-9 relative) goes to the diagonal through the
-//! vertex listed first. Larger polygons lose, again and again, the ear with the shortest diagonal, by the same tie
-//! rule. An ear is a corner that turns left seen along the polygon's normal and whose triangle holds no other corner.
+//! A quadrilateral is split by the shorter of its diagonals; in a tie (1e-9 relative) by the diagonal through the
+//! vertex that is listed first. From a larger polygon the ear with the shortest diagonal is cut repeatedly, with the
+//! same rule for ties. An ear is a corner that turns left, seen along the polygon's normal, and whose triangle
+//! contains no other corner.
 
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Triangle};
 
-/// Area below this fraction of the longest side squared is no area.
+/// Least area of a triangle, relative to the square of its longest side.
 const THINNEST: f64 = 1e-12;
 
-/// A triangle, and the diagonal that cut it from its polygon.
+/// A triangle, and the diagonal that separates it from its polygon.
 pub(super) struct Part {
     pub triangle: Triangle,
-    /// Its diagonal, by corners of the polygon and by drawn vertices; the last triangle of a polygon has none.
+    /// The diagonal, by corners of the polygon and by drawn vertices; `None` for the last triangle of a polygon.
     pub diagonal: Option<([Corner; 2], [usize; 2])>,
 }
 
-/// All triangles of all polygons, in file order.
+/// Returns all triangles of all polygons, in the order of the file.
 pub(super) fn triangles(drawn: &Drawing, cell: &Identified, polygons: &[Vec<Corner>]) -> Result<Vec<Part>, Defect> {
     let mut parts = Vec::new();
     for (f, polygon) in polygons.iter().enumerate() {
-        // The positions of the cell, not those of the drawn copies, so that a file and its copy split alike.
+        // the positions of the cell, not those of the drawn copies, so that a file and its copy split alike
         let points: Vec<Vec3> = polygon.iter().map(|&c| position(drawn, cell, c)).collect();
         let not_simple = || Defect::new(MeshPart::Face(f), Problem::NotSimple { face: drawn.name(f) });
         let cut = ears(&points).ok_or_else(not_simple)?;
@@ -53,7 +54,7 @@ fn check_area(drawn: &Drawing, f: usize, points: &[Vec3], corners: [usize; 3]) -
     Err(Defect::new(MeshPart::Face(f), Problem::ZeroArea { face: drawn.name(f), triangle, area, longest }))
 }
 
-/// Triangles of the polygon with these corners as `[before, tip, after]`; `None` where no ear is left.
+/// Returns the triangles `[before, tip, after]` of the polygon with these corners; `None` if a step finds no ear.
 fn ears(points: &[Vec3]) -> Option<Vec<[usize; 3]>> {
     let mut left: Vec<usize> = (0..points.len()).collect();
     let mut cut = Vec::with_capacity(points.len() - 2);
@@ -79,7 +80,7 @@ fn ears(points: &[Vec3]) -> Option<Vec<[usize; 3]>> {
     Some(cut)
 }
 
-/// Twice the vector area of a polygon, about its first corner.
+/// Returns twice the vector area of a polygon, about its first corner.
 fn newell(points: &[Vec3]) -> Vec3 {
     points.windows(2).map(|w| (w[0] - points[0]).cross(&(w[1] - points[0]))).sum()
 }
@@ -88,12 +89,12 @@ fn around(left: &[usize], k: usize) -> [usize; 3] {
     [left[(k + left.len() - 1) % left.len()], left[k], left[(k + 1) % left.len()]]
 }
 
-/// Twice the area of a triangle seen along `normal`, times the length of that.
+/// Returns twice the area of a triangle seen along `normal`, times the length of `normal`.
 fn doubled(points: &[Vec3], [a, b, c]: [usize; 3], normal: Vec3) -> f64 {
     (points[b] - points[a]).cross(&(points[c] - points[a])).dot(&normal)
 }
 
-/// Length of the diagonal that cuts corner `k`, if `k` is an ear.
+/// Returns the length of the diagonal that cuts off corner `k`; `None` if `k` is not an ear.
 fn ear(points: &[Vec3], left: &[usize], k: usize, normal: Vec3) -> Option<f64> {
     let [a, tip, b] = around(left, k);
     let inside = |p: usize| {
@@ -106,7 +107,8 @@ fn ear(points: &[Vec3], left: &[usize], k: usize, normal: Vec3) -> Option<f64> {
     good.then(|| (points[b] - points[a]).norm())
 }
 
-/// Position in `left` of the ear with the shortest diagonal; among equals one whose diagonal ends at corner 0.
+/// Returns the position in `left` of the ear with the shortest diagonal; in a tie the one whose diagonal ends at
+/// corner 0.
 fn shortest(left: &[usize], lengths: &[Option<f64>]) -> Option<usize> {
     let least = lengths.iter().flatten().copied().reduce(f64::min)?;
     let equal = |k: &usize| lengths[*k].is_some_and(|l| l <= least * (1.0 + 1e-9));
@@ -123,7 +125,7 @@ mod tests {
         xy.iter().map(|p| Vec3::new(p[0], p[1], 0.0)).collect()
     }
 
-    /// Claim (contract): the shorter diagonal, and at a tie the one through the first vertex.
+    /// Claim: a quadrilateral is split by the shorter diagonal, in a tie by the one through the first vertex.
     #[test]
     fn quadrilaterals() {
         let square = points(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
@@ -132,14 +134,14 @@ mod tests {
         assert_eq!(ears(&lean).unwrap(), [[3, 0, 1], [1, 2, 3]]);
     }
 
-    /// Claim: at a reflex corner the diagonal inside is taken though the one outside is shorter.
+    /// Claim: at a reflex corner the inner diagonal is taken although the outer one is shorter.
     #[test]
     fn arrowhead() {
         let arrow = points(&[[0.0, 0.0], [4.0, -1.0], [3.5, 0.1], [4.0, 1.2]]);
         assert_eq!(ears(&arrow).unwrap(), [[0, 1, 2], [0, 2, 3]]);
     }
 
-    /// Claim: the parts of a spiral of ten corners have its area (13 unit squares, counted by hand).
+    /// Claim: the triangles of a spiral of ten corners have its area. Source: 13 unit squares, counted by hand.
     #[test]
     fn spiral() {
         let outline = [[0, 0], [5, 0], [5, 4], [1, 4], [1, 2], [3, 2], [3, 3], [4, 3], [4, 1], [0, 1]];
@@ -150,7 +152,7 @@ mod tests {
         assert!((area - 13.0).abs() < 1e-12, "{area}");
     }
 
-    /// Claim: an outline that crosses itself has no ears to the end.
+    /// Claim: an outline that crosses itself cannot be split into ears.
     #[test]
     fn bow_tie() {
         assert!(ears(&points(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])).is_none());

@@ -1,4 +1,4 @@
-//! The list of edges of a FOLD file, and what it says about them.
+//! Reads the list of edges of a FOLD file, with their fold angles and assignments.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,23 +11,23 @@ use crate::sheet::build::{Identified, edges_by_drawn_name};
 use crate::sheet::cell::{Corner, EdgeKey, Sheet};
 use crate::sheet::error::{DrawnEdge, Problem, SheetError};
 
-/// Largest difference, in degrees, between a fold angle given and the one drawn.
+/// Largest difference in degrees between a fold angle of the file and the one that the coordinates draw.
 const ANGLE_TOLERANCE: f64 = 1e-3;
 
-/// What the file says about its edges; the lists are empty where it says nothing.
+/// The edges of a file; the lists are empty if the file does not have the keys.
 #[derive(Default)]
 pub(super) struct Edges<'a> {
-    /// Where each edge stands in the text.
+    /// Each edge as it stands in the text, for the line of messages.
     pub rows: Vec<&'a RawValue>,
-    /// The vertices that it joins.
+    /// Numbers of the two vertices of each edge.
     pub ends: Vec<[usize; 2]>,
-    /// Fold angles in degrees, and where they stand.
+    /// Fold angle in degrees of each edge, `None` for null, together with its place in the text.
     angles: Vec<(&'a RawValue, Option<f64>)>,
-    /// What the edges are meant to be.
+    /// Assignment of each edge.
     pub assignments: Vec<Assignment>,
 }
 
-/// Reads the list of edges, for a mesh of `count` drawn vertices.
+/// Reads the list of edges of a mesh with `count` drawn vertices.
 pub(super) fn read<'a>(source: &Source<'a>, keys: &Keys<'a>, count: usize) -> Result<Edges<'a>, SheetError> {
     let mut edges = Edges::default();
     if let Some(value) = keys.edges_vertices {
@@ -94,7 +94,7 @@ fn check_length(
     if found == right { Ok(()) } else { Err(source.at(value, Problem::Length { key, found, right })) }
 }
 
-/// Every listed edge is a side of a face, and every fold angle given is the one drawn.
+/// Checks that every listed edge is a side of a face, and that every fold angle of the file is the drawn one.
 pub(super) fn check(source: &Source, edges: &Edges, sheet: &Sheet, identified: &Identified) -> Result<(), SheetError> {
     let known = edges_by_drawn_name(sheet);
     let sides = sides(sheet);
@@ -115,7 +115,7 @@ pub(super) fn check(source: &Source, edges: &Edges, sheet: &Sheet, identified: &
     Ok(())
 }
 
-/// Edges that polygons have as sides, and not as diagonals.
+/// Returns the edges that are sides, and not diagonals, of polygons.
 fn sides(sheet: &Sheet) -> BTreeSet<EdgeKey> {
     let sides = |polygon: &Vec<Corner>| {
         (0..polygon.len()).map(|k| EdgeKey::new(polygon[k], polygon[(k + 1) % polygon.len()]).0).collect::<Vec<_>>()

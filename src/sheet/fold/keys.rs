@@ -1,9 +1,9 @@
-//! The keys of a FOLD file that make its sheet, as they stand in the text.
+//! The keys of a FOLD file that define the sheet, as unparsed text.
 
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
-/// The keys that are read, not yet looked into.
+/// Values of the keys that are read, not parsed yet.
 #[derive(Deserialize)]
 #[serde(expecting = "a FOLD file, one JSON object in braces")]
 pub(super) struct Keys<'a> {

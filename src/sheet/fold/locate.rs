@@ -1,23 +1,23 @@
-//! Values of a JSON text that know where they stand.
+//! Reading JSON values with their position in the text, for messages that give line and column.
 
 use serde_json::value::RawValue;
 
 use crate::sheet::error::{Problem, SheetError};
 
-/// A text and its name, for messages.
+/// A text and the name of its file.
 pub(super) struct Source<'a> {
     pub name: &'a str,
     pub text: &'a str,
 }
 
 impl<'a> Source<'a> {
-    /// `problem` at a value of the text.
+    /// Returns the error that a value of the text has this problem.
     pub(crate) fn at(&self, value: &RawValue, problem: Problem) -> SheetError {
         let offset = (value.get().as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
         self.at_offset(offset.min(self.text.len()), problem)
     }
 
-    /// `problem` at the start of the text.
+    /// Returns the error that the text as a whole has this problem.
     pub(crate) fn at_start(&self, problem: Problem) -> SheetError {
         self.at_offset(0, problem)
     }
@@ -30,7 +30,7 @@ impl<'a> Source<'a> {
         SheetError::Bad { name: self.name.to_owned(), line, column, problem: Box::new(problem) }
     }
 
-    /// The parser's own complaint, where it has a position.
+    /// Returns the error of the JSON parser, without the position in its message.
     pub(crate) fn syntax(&self, error: &serde_json::Error) -> SheetError {
         let full = error.to_string();
         let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned();
@@ -38,7 +38,8 @@ impl<'a> Source<'a> {
         SheetError::Bad { name: self.name.to_owned(), line: error.line(), column: error.column(), problem }
     }
 
-    /// The value as a `T`.
+    /// Reads the value as a `T`; `what` is the name of the value in messages, and `right` describes what it should
+    /// be.
     pub(crate) fn typed<T: serde::Deserialize<'a>>(
         &self,
         value: &'a RawValue,
@@ -48,12 +49,12 @@ impl<'a> Source<'a> {
         serde_json::from_str(value.get()).map_err(|_| self.mistyped(value, what(), right))
     }
 
-    /// `value` is of the right kind of JSON and yet not what it should be.
+    /// Returns the error that `value` is not what it should be, although its JSON type may be right.
     pub(crate) fn mistyped(&self, value: &RawValue, what: String, right: &'static str) -> SheetError {
         self.at(value, Problem::Type { what, found: shortened(value.get()), right })
     }
 
-    /// The entries of a list.
+    /// Returns the entries of a list.
     pub(crate) fn list(
         &self,
         value: &'a RawValue,
@@ -63,7 +64,7 @@ impl<'a> Source<'a> {
         self.typed(value, what, right)
     }
 
-    /// A list of numbers of vertices, out of `count`.
+    /// Reads a list of vertex numbers below `count`.
     pub(crate) fn indices(
         &self,
         value: &'a RawValue,
@@ -90,7 +91,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// A value's text on one line of at most 40 characters.
+/// Returns a value's text on one line, cut after 40 characters.
 fn shortened(text: &str) -> String {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     match words.char_indices().nth(40) {

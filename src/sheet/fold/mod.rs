@@ -1,14 +1,25 @@
-//! FOLD 1.2 files with the periodic keys `foldwell:lattice` and `foldwell:holes`.
+//! FOLD 1.2 files with the additional keys `foldwell:lattice` and `foldwell:holes` for periodic sheets.
 //!
-//! One cell is drawn in full: the vertices of the cell and the copies that its faces need. `faces_vertices` is rebuilt
-//! from `edges_vertices` where it is absent, seen along z. Angles in these files are degrees, valley positive; angles
-//! and assignments of edges are optional. An angle that is given must be the one that the coordinates draw (within 1e-3
-//! degrees, full turns aside).
+//! One cell is drawn in full: the vertices of the cell and the copies that its faces need. If `faces_vertices` is
+//! absent, the faces are rebuilt from `edges_vertices`, seen along z. Angles in these files are in degrees, valley
+//! positive; angles and assignments of edges are optional. An angle that is given must agree with the coordinates
+//! within 1e-3 degrees, up to full turns.
 //!
-//! Letters of `edges_assignment` mean what FOLD 1.2 says. `C` cuts a finite sheet along the edge, `J` joins the two faces
-//! to one polygon, of which the edge is a diagonal. `B` has one face only: a rebuilt face between boundaries alone is a
-//! hole. `M` and `V` may be flat, as in a crease pattern, but not folded to the other side. Of several frames the first
-//! is read. Keys about the file and its frame are kept, others are listed as left out.
+//! The letters of `edges_assignment` have their meaning in FOLD 1.2. `C` cuts a finite sheet along the edge. `J`
+//! joins the two faces to one polygon, of which the edge is a diagonal. An edge with `B` has one face only: a rebuilt
+//! face whose sides are all boundaries is a hole. An edge with `M` or `V` may be flat, as in a crease pattern, but
+//! not folded to the other side. Of several frames only the first is read. Keys about the file and its frame are
+//! kept, others are listed as left out.
+//!
+//! ```
+//! use foldwell::sheet::fold::{parse, write};
+//!
+//! let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/meshes/open-star.fold"))?;
+//! let sheet = parse(&text, "open-star.fold")?;
+//! // what is written reads back as the same sheet, bit by bit
+//! assert_eq!(parse(&write(&sheet), "copy.fold")?, sheet);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod edges;
 mod keys;

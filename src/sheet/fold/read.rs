@@ -1,4 +1,4 @@
-//! Reading FOLD.
+//! Reading sheets from FOLD files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,7 +16,7 @@ use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
 use crate::sheet::text;
 
-/// Where the parts of the mesh stand in the text.
+/// The parts of the mesh as they stand in the text, for the line of messages.
 #[derive(Default)]
 struct Rows<'a> {
     vertices: Vec<&'a RawValue>,
@@ -24,16 +24,17 @@ struct Rows<'a> {
     holes: Vec<&'a RawValue>,
 }
 
-/// The sheet in the file at `path`.
+/// Reads the sheet of the file at `path`.
 ///
 /// # Errors
-/// [`SheetError::Read`] when there is no such file or it cannot be read, else as [`parse`].
+/// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse`].
 pub fn read(path: &Path) -> Result<Sheet, SheetError> {
     let text = text::read_text(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
     parse(&text, &path.display().to_string())
 }
 
-/// The sheet in a FOLD text; `name` is that of its file, for messages, and for the title where the file has none.
+/// Reads the sheet of a FOLD text. `name` is the name of its file: it appears in messages, and is the title if the
+/// file has none.
 ///
 /// # Errors
 /// [`SheetError::Bad`] with line, column, and the vertex, face or edge that is wrong.
@@ -144,7 +145,7 @@ fn read_holes<'a>(
     Ok(())
 }
 
-/// Takes away rebuilt faces that are listed as openings.
+/// Removes rebuilt faces that are listed as openings.
 fn drop_openings(drawn: &mut Drawing) {
     let sorted = |list: &Vec<usize>| {
         let mut list = list.clone();
@@ -155,8 +156,8 @@ fn drop_openings(drawn: &mut Drawing) {
     drawn.faces.retain(|face| !holes.contains(&sorted(face)));
 }
 
-/// Takes away rebuilt faces that the file shows to be holes: all their sides are boundaries, and every one has a face
-/// on its other side.
+/// Removes rebuilt faces that the assignments show to be holes: all their sides are boundaries, and every side has a
+/// face on its other side.
 fn drop_holes(drawn: &mut Drawing) {
     let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
     let boundary = drawn.assignments.iter().filter(|(_, assignment)| *assignment == Assignment::Boundary);
@@ -169,7 +170,7 @@ fn drop_holes(drawn: &mut Drawing) {
     drawn.faces.retain(|face| !sides(face).iter().all(|side| boundary.contains(side) && faces[side] == 2));
 }
 
-/// A defect of the mesh with the line of the text that draws it.
+/// Adds to a defect of the mesh the line of the text that has the defective part.
 fn located(source: &Source, keys: &Keys, rows: &Rows, edges: &Edges, defect: Defect) -> SheetError {
     let row = match defect.place {
         MeshPart::Mesh => None,

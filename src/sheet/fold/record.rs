@@ -1,4 +1,4 @@
-//! Keys of a FOLD file that do not make its sheet.
+//! The keys of a FOLD file that do not define its sheet.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use super::locate::Source;
 use crate::sheet::error::SheetError;
 use crate::sheet::record::FileRecord;
 
-/// Keys about the file and its frame, which are kept as they are.
+/// Keys about the file and its frame, whose values are kept.
 const KEPT: [&str; 8] = [
     "file_author",
     "file_classes",
@@ -21,7 +21,7 @@ const KEPT: [&str; 8] = [
     "frame_unit",
 ];
 
-/// Keys that the sheet is made of, or that a program writes anew.
+/// Keys that define the sheet, or that are written anew.
 const USED: [&str; 11] = [
     "file_spec",
     "file_creator",
@@ -36,7 +36,7 @@ const USED: [&str; 11] = [
     "foldwell:holes",
 ];
 
-/// Keys that follow from the others.
+/// Keys whose values follow from other keys.
 const DERIVED: [&str; 9] = [
     "vertices_vertices",
     "vertices_edges",
@@ -49,11 +49,11 @@ const DERIVED: [&str; 9] = [
     "frame_parent",
 ];
 
-/// What stands in [`KEPT`] keys of every file that this program writes, and so says nothing.
+/// Values of two [`KEPT`] keys in every file that this program writes; they carry no information.
 pub(super) const CLASSES: &str = "[\"singleModel\"]";
 pub(super) const ATTRIBUTES: &str = "[\"3D\"]";
 
-/// What the text says beside the shape of its sheet.
+/// Reads the content of the text other than the shape of its sheet.
 pub(super) fn read(source: &Source) -> Result<FileRecord, SheetError> {
     let keys: BTreeMap<String, &RawValue> = serde_json::from_str(source.text).map_err(|e| source.syntax(&e))?;
     let mut record = FileRecord::default();
@@ -73,8 +73,8 @@ pub(super) fn read(source: &Source) -> Result<FileRecord, SheetError> {
     Ok(record)
 }
 
-/// The value as it is written again; empty where a file of this program has it anyway. Coordinates are always written
-/// in space, whatever they were.
+/// Returns the value as it is to be written again; empty if every written file has it. The attribute `2D` becomes
+/// `3D`, since coordinates are always written in three dimensions.
 fn kept(key: &str, text: &str) -> String {
     let Ok(mut value) = serde_json::from_str::<Value>(text) else { return String::new() };
     if key == "frame_attributes"

@@ -1,4 +1,4 @@
-//! Claims about reading and writing that need a whole file.
+//! Tests of reading and writing whole files.
 
 use super::*;
 use crate::sheet::cell::{EdgeKind, Sheet};
@@ -16,8 +16,8 @@ fn names(sheet: &Sheet) -> Vec<[i64; 4]> {
     sheet.edges.iter().map(|e| name(e.key)).collect()
 }
 
-/// Claim: vertices and edges are numbered as in the reference's list for these cells, which other programs name them
-/// by.
+/// Claim: vertices and edges are numbered as in the reference's list for these cells, since other programs name them
+/// by these numbers. Source: `open-star.json` and `open-flat.json`.
 #[test]
 fn edges_are_numbered_as_in_the_reference() {
     let star = parse(STAR, "open-star.fold").unwrap();
@@ -28,8 +28,8 @@ fn edges_are_numbered_as_in_the_reference() {
     assert!(star.edges.iter().all(|e| e.kind == EdgeKind::Crease));
 }
 
-/// Claim: the drawn fold angles are the reference's, valley positive. Source: `rest_fold_angles` of the case, computed
-/// by closure of vertices. Tolerance: both are a few roundings from the same coordinates.
+/// Claim: the drawn fold angles are those of the reference, valley positive. Source: `rest_fold_angles` of the case,
+/// computed by closure of vertices. Tolerance: a few roundings of the same coordinates.
 #[test]
 fn drawn_angles_are_the_references() {
     let case: serde_json::Value = serde_json::from_str(include_str!("../../../tests/cases/open-star.json")).unwrap();
@@ -40,7 +40,7 @@ fn drawn_angles_are_the_references() {
     }
 }
 
-/// Claim: what is written reads as the same sheet, bit by bit.
+/// Claim: a written sheet reads as the same sheet, bit by bit.
 #[test]
 fn round_trip() {
     for text in [STAR, FLAT] {
@@ -50,7 +50,7 @@ fn round_trip() {
     }
 }
 
-/// Claim: the faces rebuilt from the edges of a drawing are those it had, up to order and first corner.
+/// Claim: the faces rebuilt from the edges of a drawing are its faces, up to order and first corner.
 #[test]
 fn faces_rebuilt_from_edges() {
     let sheet = parse(&write(&parse(STAR, "open-star.fold").unwrap()), "open-star.fold").unwrap();

@@ -1,4 +1,4 @@
-//! Writing FOLD.
+//! Writing sheets to FOLD files.
 
 use std::fmt::{Display, Write};
 
@@ -8,9 +8,9 @@ use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, draw, drawn_sides, edges_by_drawn_name};
 use crate::sheet::cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet};
 
-/// `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with assignment and
-/// drawn fold angle, lattice and openings. Always in three dimensions, since a sheet folded flat has edges that cross.
-/// Numbers are written so that [`parse`](super::parse) gives the same sheet back, bit by bit.
+/// Returns `sheet` as a FOLD text: the whole cell with the copies of vertices that its faces need, edges with
+/// assignment and drawn fold angle, lattice and openings. Coordinates are always three-dimensional, since the edges
+/// of a sheet folded flat cross each other. [`parse`](super::parse) reads the text as the same sheet, bit by bit.
 pub fn write(sheet: &Sheet) -> String {
     let drawn = draw(sheet);
     let mut text = String::from("{\n");
@@ -59,7 +59,7 @@ fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
     field(text, "edges_foldAngle", &format!("[{}]", angles.join(", ")));
 }
 
-/// The corner in which every drawn vertex stands.
+/// Returns the corner that each drawn vertex represents.
 fn corners(sheet: &Sheet, drawn: &Drawing) -> Vec<Corner> {
     let mut corners: Vec<_> = (0..drawn.coords.len()).map(Corner::home).collect();
     let lists = drawn.faces.iter().chain(&drawn.holes).zip(sheet.polygons.iter().chain(&sheet.holes));
@@ -69,8 +69,8 @@ fn corners(sheet: &Sheet, drawn: &Drawing) -> Vec<Corner> {
     corners
 }
 
-/// Drawing fold angle to 9 decimals, which is more than the reader compares and less than mathematical libraries differ
-/// in.
+/// Returns the drawn fold angle in degrees, rounded to 9 decimals: finer than the reader's tolerance, and coarser
+/// than the differences between mathematical libraries. `None` for a boundary edge.
 fn degrees(sheet: &Sheet, edge: &Edge) -> Option<f64> {
     let angle = sheet.drawn_angle(edge).filter(|_| edge.kind != EdgeKind::Boundary)?.to_degrees();
     Some(if angle.abs() < FLAT { 0.0 } else { (angle * 1e9).round() / 1e9 })

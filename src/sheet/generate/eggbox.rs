@@ -1,4 +1,4 @@
-//! The eggbox: Miura's parallelograms put together so that they never lie flat.
+//! The eggbox: parallelograms as in Miura-ori, joined so that they never lie flat.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
@@ -16,8 +16,8 @@ const SOURCE: &str = "Eggbox: M. Schenk, S. D. Guest, PNAS 110, 3276 (2013); H. 
 /// One cell of the eggbox, 2 x 2 parallelograms with sides `a`, `b` and acute angle `sector`.
 ///
 /// Vertex `(i, j)` is `(a cos(f) i, b cos(e) j, -a sin(f) [i odd] - b sin(e) [j odd])`: zigzags of slope `f` along x
-/// and of slope `e` along y, with `sin(f) sin(e) = cos(sector)` so that the angle between the sides is kept. Tops and
-/// bottoms have four acute or four obtuse angles: the sheet is not developable and has no flat state.
+/// and of slope `e` along y, with `sin(f) sin(e) = cos(sector)` so that the angle between the sides is kept. Top and
+/// bottom vertices have four acute or four obtuse angles: the sheet is not developable and has no flat state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Eggbox {
@@ -27,7 +27,8 @@ pub struct Eggbox {
     pub b: f64,
     /// Acute angle of the parallelograms, in `(0, pi/2)`. Default pi/3.
     pub sector: f64,
-    /// Slope `f` of the sides `a`, in `(pi/2 - sector, pi/2)`; at both ends one direction is shut. Default pi/4.
+    /// Slope `f` of the sides `a` in radians, in `(pi/2 - sector, pi/2)`; the cell is closed along one direction at
+    /// either limit. Default pi/4.
     pub fold: f64,
 }
 

@@ -1,11 +1,11 @@
-//! Why a pattern has no sheet for its parameters, and the ranges of parameters.
+//! The errors of the generators, and the checks of parameters against their ranges.
 
 use crate::sheet::error::Defect;
 
-/// Why a pattern has no sheet for its parameters.
+/// The reason why a pattern has no sheet for its parameters.
 #[derive(Debug, thiserror::Error)]
 pub enum GenerateError {
-    /// A name that no pattern has.
+    /// No pattern has this name.
     #[error("there is no pattern `{name}`; there are {}", known.join(", "))]
     Unknown {
         /// The name.
@@ -13,7 +13,7 @@ pub enum GenerateError {
         /// The names of all patterns.
         known: &'static [&'static str],
     },
-    /// A number out of its range.
+    /// A number is outside its range.
     #[error("`{name}` is {value}; it should be {} {low} and below {high}", if *closed { "at least" } else { "above" })]
     Number {
         /// The parameter.
@@ -24,10 +24,10 @@ pub enum GenerateError {
         low: f64,
         /// Whether the lower end belongs to the range.
         closed: bool,
-        /// Upper end of the range, which never belongs to it.
+        /// Upper end of the range, which does not belong to it.
         high: f64,
     },
-    /// A count out of its range.
+    /// A count is outside its range.
     #[error("`{name}` is {value}; it should be from {low} to {high}")]
     Count {
         /// The parameter.
@@ -36,27 +36,27 @@ pub enum GenerateError {
         value: usize,
         /// Least count.
         low: usize,
-        /// Largest count.
+        /// Smallest count.
         high: usize,
     },
-    /// Parameters, each in its range, that together give a degenerate mesh.
+    /// The parameters are in their ranges, but together they give a degenerate mesh.
     #[error("these parameters together give no sheet: {0}")]
     Mesh(#[from] Defect),
 }
 
-/// `low < value < high`.
+/// Checks `low < value < high`.
 pub(super) fn between(name: &'static str, value: f64, low: f64, high: f64) -> Result<f64, GenerateError> {
     let good = low < value && value < high;
     if good { Ok(value) } else { Err(GenerateError::Number { name, value, low, closed: false, high }) }
 }
 
-/// `low <= value < high`.
+/// Checks `low <= value < high`.
 pub(super) fn from(name: &'static str, value: f64, low: f64, high: f64) -> Result<f64, GenerateError> {
     let good = low <= value && value < high;
     if good { Ok(value) } else { Err(GenerateError::Number { name, value, low, closed: true, high }) }
 }
 
-/// A length: above zero, below 1e6.
+/// Checks that a length is above zero and below 1e6.
 pub(super) fn length(name: &'static str, value: f64) -> Result<f64, GenerateError> {
     between(name, value, 0.0, 1e6)
 }

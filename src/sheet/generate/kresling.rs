@@ -1,4 +1,4 @@
-//! Kresling's pattern: twisted prisms on top of each other.
+//! Kresling's pattern: a stack of twisted prisms.
 
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
@@ -13,7 +13,7 @@ use crate::sheet::cell::{Corner, Sheet};
 const SOURCE: &str = "Kresling pattern: B. Kresling, Natural twist buckling in shells: from the hawkmoth's bellows to \
                       the deployable Kresling-pattern and cylindrical Miura-ori, IASS-IACM (2008).";
 
-/// A finite ring of Kresling's pattern about the z axis, with both ends open; no lattice.
+/// A finite ring of Kresling's pattern about the z axis, open at both ends and without lattice.
 ///
 /// Vertex `(k, j)` is at radius `radius`, angle `2 pi k / sides + j twist` and height `j height`. Each storey has the
 /// edges `(k, j)`-`(k, j+1)` and the diagonals `(k+1, j)`-`(k, j+1)`; face normals point outwards. A twist of `pi /
@@ -21,13 +21,13 @@ const SOURCE: &str = "Kresling pattern: B. Kresling, Natural twist buckling in s
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Kresling {
-    /// Corners of the polygons, 3 to 1000. Default 6.
+    /// Number of sides of the polygons, 3 to 1000. Default 6.
     pub sides: usize,
-    /// Storeys, 1 to 1000. Default 3.
+    /// Number of storeys, 1 to 1000. Default 3.
     pub levels: usize,
     /// Height of a storey. Default 0.8.
     pub height: f64,
-    /// Turn of a storey, in `(-pi, pi)`. Default pi/6.
+    /// Rotation of a storey against the one below in radians, in `(-pi, pi)`. Default pi/6.
     pub twist: f64,
     /// Radius of the polygons. Default 1.
     pub radius: f64,

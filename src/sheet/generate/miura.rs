@@ -1,4 +1,4 @@
-//! Miura-ori: equal parallelograms, one way to fold rigidly.
+//! Miura-ori: equal parallelograms with one degree of freedom of rigid folding.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
@@ -13,7 +13,7 @@ use crate::sheet::cell::Sheet;
 const SOURCE: &str = "Miura-ori: K. Miura, Method of packaging and deployment of large membranes in space, ISAS Report \
                       618 (1985); coordinates as in M. Schenk, S. D. Guest, PNAS 110, 3276 (2013).";
 
-/// One cell of Miura-ori, 2 x 2 parallelograms, partially folded.
+/// One cell of Miura-ori, 2 x 2 parallelograms, partly folded.
 ///
 /// Vertex `(i, j)` is `(s i, l j + v [i odd], h [j odd])` with `h = a sin t sin g`, `q = sqrt(1 + cos^2 g tan^2 t)`,
 /// `s = b cos g tan t / q`, `v = b / q`, `l = a sqrt(1 - sin^2 g sin^2 t)`.
@@ -24,14 +24,13 @@ pub struct Miura {
     pub a: f64,
     /// Side `b` of the parallelograms, along the zigzags. Default 1.
     pub b: f64,
-    /// Acute angle `t` of the parallelograms, in `(0, pi/2)`. Default pi/3.
+    /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
     pub sector: f64,
-    /// Angle `g` between the faces and the plane of the sheet, in `[0, pi/2)`; 0 is flat. Default pi/12.
+    /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
     pub fold: f64,
 }
 
-/// A finite Miura-ori of `cells` cells with finished edges: `(2 n1 + 1) x (2 n2 + 1)` vertices, parameters as
-/// [`Miura`].
+/// A finite Miura-ori of `cells` whole cells, `(2 n1 + 1) x (2 n2 + 1)` vertices, with the parameters of [`Miura`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MiuraPatch {
@@ -39,11 +38,11 @@ pub struct MiuraPatch {
     pub a: f64,
     /// Side `b` of the parallelograms, along the zigzags. Default 1.
     pub b: f64,
-    /// Acute angle `t` of the parallelograms, in `(0, pi/2)`. Default pi/3.
+    /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
     pub sector: f64,
-    /// Angle `g` between the faces and the plane of the sheet, in `[0, pi/2)`; 0 is flat. Default pi/12.
+    /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
     pub fold: f64,
-    /// Cells along the two directions, 1 to 500 each. Default `[5, 5]`.
+    /// Numbers of cells along the two directions, 1 to 500 each. Default `[5, 5]`.
     pub cells: [usize; 2],
 }
 
@@ -60,7 +59,7 @@ impl Default for MiuraPatch {
     }
 }
 
-/// The four lengths that place every vertex.
+/// The four lengths from which every vertex is computed; see [`Miura`].
 struct Shape {
     s: f64,
     l: f64,

@@ -1,7 +1,15 @@
-//! Patterns of sheets, made from numbers.
+//! Generators of origami patterns: each makes a sheet from a few parameters.
 //!
-//! Every parameter has a default; lengths are in the user's unit, angles in radians. The same parameters give the same
-//! coordinates, bit by bit, on every machine: sines come from `libm`, random numbers from ChaCha8.
+//! Every parameter has a default; lengths are in the user's unit, angles in radians. The same parameters give the
+//! same coordinates, bit by bit, on every machine: sines come from `libm`, random numbers from ChaCha8.
+//!
+//! ```
+//! use foldwell::sheet::generate::{Pattern, Random, generate};
+//!
+//! let cell = generate(&Pattern::Random(Random { size: [3, 4], seed: 7, ..Random::default() }))?;
+//! assert_eq!((cell.vertices.len(), cell.edges.len(), cell.triangles.len()), (12, 36, 24));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod eggbox;
 mod error;
@@ -30,7 +38,7 @@ pub use square_twist::SquareTwist;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
-/// A pattern with its parameters; `pattern = "miura"` and so on in a file, beside the parameters.
+/// A pattern with its parameters. In a file, the key `pattern = "miura"` and so on stands next to the parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "pattern", rename_all = "kebab-case")]
 pub enum Pattern {
@@ -55,7 +63,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// The names of all patterns.
+    /// Returns the names of all patterns.
     pub(crate) fn names() -> &'static [&'static str] {
         &[
             "miura",
@@ -70,10 +78,10 @@ impl Pattern {
         ]
     }
 
-    /// The pattern of this name with the default of every parameter.
+    /// Returns the pattern of this name with the default of every parameter.
     ///
     /// # Errors
-    /// [`GenerateError::Unknown`] where no pattern has this name.
+    /// [`GenerateError::Unknown`] if no pattern has this name.
     pub fn named(name: &str) -> Result<Self, GenerateError> {
         let pair = [("pattern", name)].into_iter();
         Self::deserialize(IntoDeserializer::<serde::de::value::Error>::into_deserializer(
@@ -83,10 +91,11 @@ impl Pattern {
     }
 }
 
-/// The sheet of a pattern.
+/// Makes the sheet of a pattern.
 ///
 /// # Errors
-/// A [`GenerateError`] with the number and its range.
+/// [`GenerateError`] with the parameter and its range if a parameter is outside it, or with the defect of the mesh if
+/// the parameters together give none.
 pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
     match pattern {
         Pattern::Miura(p) => p.sheet(),

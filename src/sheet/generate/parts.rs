@@ -1,14 +1,14 @@
-//! From what a generator knows to a sheet.
+//! The step from the vertices and polygons of a generator to a sheet.
 
 use super::error::GenerateError;
 use crate::math::Vec3;
 use crate::sheet::build::{Drawing, build, draw};
 use crate::sheet::cell::{Corner, Sheet};
 
-/// What a generator knows of a sheet; edges and triangles follow.
+/// The parts of a sheet that a generator gives; edges and triangles are computed from them.
 pub(super) struct Parts {
     pub title: &'static str,
-    /// Source of the pattern.
+    /// Literature from which the pattern is taken.
     pub source: &'static str,
     pub vertices: Vec<Vec3>,
     pub lattice: Option<[Vec3; 2]>,

@@ -14,9 +14,10 @@ use crate::sheet::cell::{Corner, Sheet};
 const SOURCE: &str = "Random triangulated cell as in J. McInerney, B. G. Chen, L. Theran, C. D. Santangelo, \
                       D. Z. Rocklin, PNAS 117, 30252 (2020).";
 
-/// A generic random cell that cannot be flattened: `size[0] x size[1]` vertices on a skew lattice of unit spacing,
-/// each moved in the plane by at most `jitter` of the spacing along both lattice directions and by at most `height`
-/// along z (vertex 0 back to the origin, with all others), quadrilaterals split along a random diagonal.
+/// A generic random cell that cannot be flattened: `size[0] x size[1]` vertices on a skew lattice of unit spacing.
+/// Each is displaced in the plane by at most `jitter` of the spacing along both lattice directions and by at most
+/// `height` along z; then all are translated so that vertex 0 is at the origin. Quadrilaterals are split along a
+/// random diagonal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Random {
@@ -24,10 +25,10 @@ pub struct Random {
     pub size: [usize; 2],
     /// Largest displacement along z, in `[0, 100)`. Default 0.3.
     pub height: f64,
-    /// Largest displacement in the plane, in `[0, 0.25)`: below a quarter every triangle keeps a positive area seen
-    /// from above, whichever diagonal splits it. Default 0.2.
+    /// Largest displacement in the plane, in `[0, 0.25)`: below a quarter every triangle has a positive area seen
+    /// from above, whichever diagonal splits its quadrilateral. Default 0.2.
     pub jitter: f64,
-    /// How far a row is moved along x against the row below, in `(-10, 10)`. Default 0.3.
+    /// Displacement of each row along x relative to the row below, in `(-10, 10)`. Default 0.3.
     pub skew: f64,
     /// Seed of the random numbers. Default 0.
     pub seed: u64,
@@ -41,7 +42,7 @@ pub struct RandomDevelopable {
     pub size: [usize; 2],
     /// Largest displacement in the plane, in `[0, 0.25)`. Default 0.2.
     pub jitter: f64,
-    /// How far a row is moved along x against the row below, in `(-10, 10)`. Default 0.3.
+    /// Displacement of each row along x relative to the row below, in `(-10, 10)`. Default 0.3.
     pub skew: f64,
     /// Seed of the random numbers. Default 0.
     pub seed: u64,

@@ -1,4 +1,4 @@
-//! Square twists: small squares that turn while parallelograms between them fold under.
+//! Square twists: small squares that rotate while the parallelograms between them fold.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -24,18 +24,19 @@ const SOURCE: &str = "Square twists: J. L. Silverberg et al., Nature Materials (
 /// f = b ( -sin t,       cos t cos w,   cos t sin w )                         (0, a, 0) + f
 /// ```
 ///
-/// so that the parallelograms keep their angles, and square `b` keeps its right angle when
-/// `tan t (cos w - cos u) + sin u sin w = 0`. `fold` is `u`, and `w` follows; 0 is the crease pattern.
+/// so that the parallelograms keep their angles, and square `b` keeps its right angle if `tan t (cos w - cos u) + sin
+/// u sin w = 0`. The parameter `fold` is `u`, and `w` follows; 0 is the flat crease pattern.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SquareTwist {
     /// Side of the squares that twist. Default 1.
     pub a: f64,
-    /// Side of the squares between. Default 2.
+    /// Side of the squares between them. Default 2.
     pub b: f64,
-    /// Acute angle of the parallelograms, in `(0, pi/2)`. Default pi/4.
+    /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/4.
     pub twist: f64,
-    /// Fold angle between the squares `a` and the parallelograms on their right, in `[0, pi/2)`. Default 0.3.
+    /// Fold angle between the squares `a` and the parallelograms on their right in radians, in `[0, pi/2)`. Default
+    /// 0.3.
     pub fold: f64,
 }
 
@@ -45,8 +46,8 @@ impl Default for SquareTwist {
     }
 }
 
-/// The root `w` of `T cos w + sin u sin w = T cos u` that starts from 0 at `u = 0` and has the opposite sign of `u`;
-/// the other root that starts there folds the pattern seen in a mirror.
+/// Returns the root `w` of `T cos w + sin u sin w = T cos u` that starts from 0 at `u = 0` and has the opposite sign
+/// of `u`. The other root that starts there folds the mirror image of the pattern.
 fn partner(u: f64, tangent: f64) -> f64 {
     let s = libm::sin(u);
     let lead = libm::atan2(s, tangent);

@@ -1,4 +1,4 @@
-//! Claims about all patterns, and the files in `meshes/`.
+//! Tests of all patterns, and of the files in `meshes/`.
 
 use crate::math::Vec3;
 use std::f64::consts::{FRAC_PI_3, PI};
@@ -11,7 +11,7 @@ fn edge_lengths(sheet: &Sheet) -> Vec<f64> {
     sheet.edges.iter().map(|e| e.key.ends().map(|c| sheet.position(c))).map(|[i, j]| (j - i).norm()).collect()
 }
 
-/// The pattern with some parameters, as a scene gives them.
+/// Reads a pattern with some of its parameters, as a scene gives them.
 fn with(json: &str) -> Pattern {
     serde_json::from_str(json).unwrap()
 }
@@ -35,7 +35,8 @@ fn folded_states_are_isometric() {
     }
 }
 
-/// Claim: the polygons are planar (fold angles of their diagonals vanish). Tolerance: rounding, over heights of 0.1.
+/// Claim: the polygons are planar, so that the fold angles of their diagonals vanish. Tolerance: rounding, over
+/// heights of 0.1.
 #[test]
 fn polygons_are_planar() {
     for name in Pattern::names() {
@@ -62,7 +63,7 @@ fn sector_angles_and_sides() {
     }
 }
 
-/// Claim: rigidly folded square twists do fold: the creases round the square are neither flat nor all equal, and `fold`
+/// Claim: the creases around the square of a rigidly folded square twist are neither flat nor all equal, and `fold`
 /// is the angle of the right one.
 #[test]
 fn square_twist_folds() {
@@ -72,8 +73,8 @@ fn square_twist_folds() {
     assert!(angles.iter().all(|a| a.abs() > 0.1), "{angles:?}");
 }
 
-/// Claim: random cells are triangulated, generic where they should be and flat where they should be, differ by seed,
-/// and keep positive areas seen from above up to the largest jitter.
+/// Claim: random cells are triangulated, generic or flat as their pattern says, differ by seed, and have positive
+/// areas seen from above up to the largest jitter.
 #[test]
 fn random_cells() {
     for seed in 0..50 {
@@ -92,7 +93,7 @@ fn random_cells() {
     assert_ne!(sheet(r#"{"pattern": "random", "seed": 1}"#).vertices, sheet(r#"{"pattern": "random"}"#).vertices);
 }
 
-/// Claim: every pattern has the Euler characteristic of its surface: torus and ring 0, disc 1.
+/// Claim: every pattern has the Euler characteristic of its surface: 0 for a torus and a ring, 1 for a disc.
 #[test]
 fn euler_characteristics() {
     for name in Pattern::names() {
@@ -102,7 +103,7 @@ fn euler_characteristics() {
     }
 }
 
-/// Claim: every name is a pattern, and the pattern says its own name.
+/// Claim: every listed name is that of a pattern, and the pattern writes the same name.
 #[test]
 fn names() {
     for name in Pattern::names() {
@@ -114,7 +115,7 @@ fn names() {
     assert!(serde_json::from_str::<Pattern>(r#"{"pattern": "miura", "angle": 1}"#).is_err());
 }
 
-/// Claim: parameters out of range are refused with the number and the range.
+/// Claim: parameters outside their range are refused with the number and the range.
 #[test]
 fn bad_parameters() {
     let cases = [
@@ -139,7 +140,8 @@ fn mesh_path(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("meshes/{name}.fold"))
 }
 
-/// Claim: the files in `meshes/` are what the generators make now, byte by byte, and read back as the same sheets.
+/// Claim: the files in `meshes/` are equal to what the generators make, byte by byte, and read back as the same
+/// sheets.
 #[test]
 fn mesh_files_are_up_to_date() {
     for name in Pattern::names() {
@@ -150,7 +152,7 @@ fn mesh_files_are_up_to_date() {
     }
 }
 
-/// Writes the files in `meshes/` anew.
+/// Rewrites the files in `meshes/`.
 #[test]
 #[ignore = "changes files of the repository"]
 fn write_mesh_files() {

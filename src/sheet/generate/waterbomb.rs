@@ -1,4 +1,4 @@
-//! The waterbomb tessellation: rows of waterbomb bases, each row moved by half a base.
+//! The waterbomb tessellation: rows of waterbomb bases, each row displaced by half a base.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,8 +12,8 @@ use crate::sheet::cell::{Corner, Sheet};
 const SOURCE: &str = "Waterbomb tessellation: traditional; Y. Chen, H. Feng, J. Ma, R. Peng, Z. You, Proc. R. Soc. A \
                       472, 20150846 (2016).";
 
-/// One cell of the waterbomb tessellation: two bases of `2a x 2b`, one above the other and moved by `a`; every vertex
-/// has six creases.
+/// One cell of the waterbomb tessellation: two bases of `2a x 2b`, one above the other and displaced by `a`; every
+/// vertex has six creases.
 ///
 /// ```text
 ///     x---x---x       a base: two diagonals and the upright middle line; rows alternate between bases
@@ -23,9 +23,9 @@ const SOURCE: &str = "Waterbomb tessellation: traditional; Y. Chen, H. Feng, J. 
 ///     x---x---x
 /// ```
 ///
-/// Folded evenly this sheet rolls up to a cylinder, and no drawing with a flat lattice can show that: with equal
-/// square bases, each its own mirror image, the six edge lengths leave the flat state alone. `fold` is therefore the
-/// fold that a flat lattice allows, pleats along the lines between rows; 0 is the crease pattern.
+/// Folded evenly this sheet rolls up to a cylinder, which no drawing with a flat lattice can show: if all bases are
+/// equal, square and mirror-symmetric, the six edge lengths allow the flat state only. `fold` is therefore the fold
+/// that a flat lattice allows, pleats along the lines between rows; 0 is the flat crease pattern.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Waterbomb {
@@ -33,7 +33,7 @@ pub struct Waterbomb {
     pub a: f64,
     /// Half the height of a base. Default 1.
     pub b: f64,
-    /// Slope of the rows, alternately up and down, in `[0, pi/2)`. Default 0.
+    /// Slope of the rows in radians, alternately up and down, in `[0, pi/2)`. Default 0.
     pub fold: f64,
 }
 
@@ -43,13 +43,14 @@ impl Default for Waterbomb {
     }
 }
 
-/// Vertex at `a k` on the line below row `r`; each row has vertices 3 r (k even), 3 r + 1 (k odd), 3 r + 2 (centre).
+/// Returns the vertex at `a k` on the line below row `r`; each row has the vertices 3 r (k even), 3 r + 1 (k odd) and
+/// 3 r + 2 (centre).
 fn on_line(k: i32, r: i32) -> Corner {
     let vertex = 3 * r.rem_euclid(2) + k.rem_euclid(2);
     Corner { vertex: vertex as usize, shift: [k.div_euclid(2), r.div_euclid(2)] }
 }
 
-/// The six triangles of the base in row `r`, whose middle line is at `a r`.
+/// Returns the six triangles of the base in row `r`, whose middle line is at `a r`.
 fn base(r: i32) -> impl Iterator<Item = Vec<Corner>> {
     let centre = Corner::home(3 * r as usize + 2);
     let round = [(-1, 0), (0, 0), (1, 0), (1, 1), (0, 1), (-1, 1)].map(|(k, up)| on_line(r + k, r + up));

@@ -13,11 +13,11 @@ const SOURCE: &str = "Yoshimura pattern: Y. Yoshimura, On the mechanism of buckl
                       under axial compression, NACA TM 1390 (1955).";
 
 /// One cell of the Yoshimura pattern: two rows of isosceles triangles with base `a` and height `b`, every other row
-/// moved by `a / 2`.
+/// displaced by `a / 2`.
 ///
-/// Folded evenly this sheet rolls up to a cylinder, which a drawing with a flat lattice cannot show. `fold` is the fold
-/// that a flat lattice allows, pleats along the bases; 0 is the crease pattern. As rings of a cylinder see
-/// [`Kresling`](super::Kresling) with a twist of `pi / sides`.
+/// Folded evenly this sheet rolls up to a cylinder, which a drawing with a flat lattice cannot show. `fold` is the
+/// fold that a flat lattice allows, pleats along the bases; 0 is the flat crease pattern.
+/// [`Kresling`](super::Kresling) with a twist of `pi / sides` gives the pattern as rings of a cylinder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Yoshimura {
@@ -25,7 +25,7 @@ pub struct Yoshimura {
     pub a: f64,
     /// Height of the triangles. Default 1.
     pub b: f64,
-    /// Slope of the rows, alternately up and down, in `[0, pi/2)`. Default 0.
+    /// Slope of the rows in radians, alternately up and down, in `[0, pi/2)`. Default 0.
     pub fold: f64,
 }
 
