@@ -1,12 +1,12 @@
-//! The words of the command line and the exit status.
+//! The command line: its arguments, the output of commands, and the exit status.
 //!
 //! | status | meaning |
 //! |---|---|
-//! | 0 | every study gave its answer |
-//! | 1 | a study failed; what was computed is on disk and `summary.json` says which and why |
+//! | 0 | every study has its answer |
+//! | 1 | a study failed; the computed files are written and `summary.json` names the study and the reason |
 //! | 2 | the input is wrong; nothing is written |
-//! | 3 | reading or writing an existing place failed |
-//! | 130 | stopped by Ctrl-C; what is finished is on disk |
+//! | 3 | reading or writing an existing file or folder failed |
+//! | 130 | stopped by Ctrl-C; finished studies are written |
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -119,7 +119,7 @@ enum Described {
     Summary,
 }
 
-/// Why a command did not give its answer.
+/// The reasons for which a command failed.
 enum Failure {
     Run(RunError),
     Validation(ValidationError),
@@ -171,7 +171,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         }
         Command::Convert { from, to } => {
             for note in run::convert(&from, &to)? {
-                // there is nobody left to tell where standard error is closed
+                // an error is ignored: there is no other place for the message if standard error is closed
                 let _ = writeln!(io::stderr(), "{}: {note}", to.display());
             }
             Ok(0)
@@ -197,7 +197,7 @@ fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Res
         },
     };
     for note in report.notes.iter().filter(|_| !quiet) {
-        // there is nobody left to tell where standard error is closed
+        // an error is ignored: there is no other place for the message if standard error is closed
         let _ = writeln!(io::stderr(), "note: {note}");
     }
     if json {
@@ -212,7 +212,7 @@ fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Res
     })
 }
 
-/// Checks the claims; each is a line on standard error once it is decided.
+/// Checks the claims; prints a line on standard error for each as soon as it is decided.
 fn validate(options: &ValidateOptions) -> Result<u8, Failure> {
     let watch = Arc::new(Watch::new(false));
     let options = options.clone();
@@ -234,7 +234,7 @@ fn announce(case: &Case) {
     case.failure.iter().for_each(|failure| eprintln!("       {failure}"));
 }
 
-/// Prints on standard output; a reader that has gone away is no failure.
+/// Prints on standard output; it is not an error if the reader has closed it.
 fn say(text: &str) -> Result<u8, Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -249,7 +249,7 @@ fn completions(shell: Shell) -> String {
     String::from_utf8_lossy(&script).into_owned()
 }
 
-/// Prints a failure on standard error: what is wrong, the place in the scene, what would be right.
+/// Prints a failure on standard error: description, place in the scene and proposed correction.
 fn report(failure: &Failure) {
     let text = match failure {
         Failure::Run(error) => fancy(error),
@@ -258,11 +258,12 @@ fn report(failure: &Failure) {
         Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),
         Failure::Thread(error) => format!("Error: no thread can be had for the work: {error}\n"),
     };
-    // there is nobody left to tell where standard error is closed
+    // an error is ignored: there is no other place for the message if standard error is closed
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
-/// With a drawing of the place; lines are not wrapped, so that `file:line:column` stays in one piece.
+/// Returns the description of an error with an excerpt of the scene at its place. Lines are not wrapped, so that
+/// `file:line:column` stays in one piece.
 fn fancy(error: &dyn Diagnostic) -> String {
     let terminal = io::IsTerminal::is_terminal(&io::stderr()) && std::env::var_os("NO_COLOR").is_none();
     let theme = if terminal { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() };
@@ -278,13 +279,13 @@ fn fancy(error: &dyn Diagnostic) -> String {
 mod tests {
     use super::*;
 
-    /// clap finds nothing to complain about in the definition itself.
+    /// Claim: clap finds no error in the definition of the command line.
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
     }
 
-    /// Parameters of patterns and `-o` reach the pattern wherever they stand.
+    /// Claim: parameters of patterns and `-o` reach the pattern at any position.
     #[test]
     fn parameters_pass_through() {
         let cli = Cli::try_parse_from("foldwell new miura --height -0.5 -o a.fold".split(' ')).ok().unwrap();
@@ -292,7 +293,7 @@ mod tests {
         assert_eq!((pattern.as_str(), parameters.join(" ").as_str()), ("miura", "--height -0.5 -o a.fold"));
     }
 
-    /// No threads at all cannot be asked for.
+    /// Claim: zero threads are refused.
     #[test]
     fn there_is_at_least_one_thread() {
         assert!(Cli::try_parse_from("foldwell run a.toml --threads 0".split(' ')).is_err());

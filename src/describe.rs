@@ -1,4 +1,4 @@
-//! What `foldwell run` says on standard output: a line or a few for every study.
+//! The standard output of `foldwell run`: a line or a few for every study.
 
 use foldwell::output::summary::{
     BranchesSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
@@ -6,7 +6,7 @@ use foldwell::output::summary::{
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
 
-/// The studies of a run, one after the other.
+/// Returns the descriptions of the studies of a run, one after the other.
 pub(crate) fn describe_run(report: &RunReport) -> String {
     let mut text = String::new();
     for study in &report.summary.studies {
@@ -18,7 +18,8 @@ pub(crate) fn describe_run(report: &RunReport) -> String {
     text
 }
 
-/// Energy and residuals, and what is easily overlooked: that the state is not stable, that faces pass through each other.
+/// Describes energy and residuals, and warns if the state is unstable, if faces pass through each other, or if other
+/// branches leave the start.
 fn describe_relaxation(relax: &RelaxSummary) -> String {
     let unstable = match relax.negative_eigenvalues {
         None | Some(0) => String::new(),
@@ -43,7 +44,8 @@ fn describe_relaxation(relax: &RelaxSummary) -> String {
     format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}{branching}", relax.energy.total)
 }
 
-/// The folding modes have their own count, by fold angles: it is not a part of that of the zero modes.
+/// Describes the linear modes. Folding modes are counted separately, by fold angles: they are not a part of the zero
+/// modes.
 fn describe_modes(modes: &ModesSummary) -> String {
     format!(
         "{}, of which {} {} rigid; {}; {}",
@@ -59,12 +61,12 @@ fn describe_modes(modes: &ModesSummary) -> String {
     )
 }
 
-/// `1 well`, `2 wells`.
+/// Returns a number with its noun: `1 well`, `2 wells`.
 fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Number of rays, and whether these are all directions in which the sheet folds.
+/// Describes the number of rays, and whether these are all directions in which the sheet folds.
 fn describe_branches(branches: &BranchesSummary) -> String {
     let rays = match branches.directions.as_str() {
         "continuum" => {
@@ -79,7 +81,7 @@ fn describe_branches(branches: &BranchesSummary) -> String {
     format!("{rays}, {} complex solutions of {}", branches.complex_solutions, branches.expected)
 }
 
-/// How many random starts ended in no minimum, and how many failed and why, where some did.
+/// Describes how many random starts ended in no minimum, and how many failed with the reasons; empty if there are none.
 fn describe_failures(found: &WellsSummary) -> String {
     let saddles = match found.saddles {
         0 => String::new(),
@@ -92,7 +94,7 @@ fn describe_failures(found: &WellsSummary) -> String {
     format!("{saddles}; {} of {} failed ({})", found.failed, counted(found.starts, "start"), reasons.join("; "))
 }
 
-/// How every trajectory ended, and whether there are directions that none follows.
+/// Describes the end of every trajectory, and whether there are directions that no trajectory follows.
 fn describe_trace(traced: &TraceSummary) -> String {
     let ends = traced.branches.iter().map(|one| match one.branch {
         Some(_) => format!("{} at {:.6}", one.end, one.arc_length),

@@ -1,10 +1,11 @@
 //! Energy wells of folding sheets.
 //!
-//! A triangulated origami sheet is a network of bars (its edges) and hinges (its creases, and the diagonals of its polygons,
-//! called facets). `foldwell` finds the equilibria of such a network with a Newton method that treats every stiffness alike,
-//! the exactly rigid sheet included, and compares what it finds with the theory of rigid folding.
+//! A triangulated origami sheet is a network of bars (its edges) and hinges (its creases, and the diagonals of its
+//! polygons, called facets). `foldwell` computes the equilibria of such a network with a Newton method that works for
+//! every stiffness, including the exactly rigid sheet, and compares them with the theory of rigid folding.
 //!
-//! This program relaxes nine cells of Miura-ori with rigid bars whose creases rest flat, and writes a file that ParaView opens:
+//! The following program relaxes nine cells of Miura-ori with rigid bars whose creases are flat at rest, and writes a
+//! file that ParaView opens:
 //!
 //! ```
 //! use foldwell::{Assembly, Pattern, Picture, RIGID, Rest, generate, relax, write_vtu};
@@ -19,48 +20,48 @@
 //! }
 //! ```
 //!
-//! Lengths are in the unit of the sheet, angles in radians, valley folds positive; a crease of stiffness `k` and length `l` has
-//! the energy `k l (angle - rest)^2 / 2`, a bar of stiffness `EA` and rest length `L` the energy `EA L strain^2 / 2`. The folder
-//! `examples` has longer programs: a relaxation, a trajectory of rigid folding until it closes, an energy landscape, a map of
-//! Bloch modes, and a custom energy.
+//! Lengths are in the unit of the sheet, angles in radians, valley folds positive. A crease of stiffness `k` and length
+//! `l` has the energy `k l (angle - rest)^2 / 2`, a bar of stiffness `EA` and rest length `L` the energy
+//! `EA L strain^2 / 2`. The folder `examples` has longer programs: a relaxation, a trajectory of rigid folding until it
+//! closes, an energy landscape, a map of Bloch modes, and a custom energy.
 //!
-//! # Words
+//! # Terms
 //!
-//! One idea has one name, in code, messages and documents:
+//! Each concept has one name in code, messages and documents:
 //!
-//! | word | meaning |
+//! | term | meaning |
 //! |---|---|
 //! | sheet, cell | one period of a triangulated surface with its two lattice vectors, or a finite piece |
-//! | tiling | the cells of a sheet that a study works on |
-//! | boundary conditions | patch (free edges), torus (periodic, lattice fixed or free), screw (one cell repeated by screw motions) |
+//! | tiling | the cells of a sheet that a study uses |
+//! | boundary conditions | patch (free edges), torus (periodic), screw (one cell repeated by screw motions) |
 //! | assembly | a sheet with its boundary conditions and terms |
 //! | terms | stiffnesses and rest angles of bars, creases and facets; locks, pins, loads |
 //! | bar, crease, facet, hinge | an edge; an edge between polygons; a diagonal of a polygon; a crease or a facet |
 //! | drawn state | the positions in the file |
 //! | state | positions with the fold angle, strain, force and energy of every edge |
 //! | equilibrium, minimum, saddle point | a state without net force; with no negative eigenvalue; with at least one |
-//! | tension | force of a bar or torque of a hinge that is an unknown of its own |
+//! | tension | force of a bar or torque of a hinge that is an unknown itself |
 //! | rigid | a bar that keeps its length, a facet that keeps its angle: infinite stiffness |
-//! | closure | the conditions that fold angles around a vertex come back to where they began |
-//! | trajectory, branch | a curve of rigidly folded states; one of those that leave the drawn state |
-//! | well, barrier | a minimum; the lowest saddle point between two |
-//! | residual, tolerance | what is left of an equation; the bound on it at which a solver stops |
+//! | closure | the condition that rotations by the fold angles around a vertex multiply to the identity |
+//! | trajectory, branch | a curve of rigidly folded states; a trajectory that leaves the drawn state |
+//! | well, barrier | a minimum; the lowest saddle point between two minima |
+//! | residual, tolerance | the error of an equation; its largest value at which a solver stops |
 //!
 //! # Modules
 //!
-//! The modules stand on floors; each imports only from lower ones:
+//! The modules form layers; each imports only from lower ones:
 //!
-//! | floor | modules | what stands there |
+//! | layer | modules | content |
 //! |---|---|---|
-//! | 6 | [`run`] | the pipeline: read a scene, answer its studies, write their files |
-//! | 5 | [`study`] | the kinds of study: a question of a scene in, an answer out, nothing written |
-//! | 4 | [`scene`], [`output`] | what the user writes, what the user gets |
-//! | 3 | [`analysis`] | questions about states: equilibria, modes, spectra |
+//! | 6 | [`run`] | the pipeline: reads a scene, computes its studies, writes their files |
+//! | 5 | [`study`] | the kinds of study, each of which computes an answer and writes no file |
+//! | 4 | [`scene`], [`output`] | the input files and the output files |
+//! | 3 | [`analysis`] | analyses of states: equilibria, modes, spectra |
 //! | 2 | [`model`], [`kinematics`] | energies of bars and hinges; exact folding by closure of vertices |
-//! | 1 | [`sheet`], [`solver`] | cells, lattices and files of sheets; a Newton method that knows no origami |
+//! | 1 | [`sheet`], [`solver`] | cells, lattices and files of sheets; a Newton method independent of origami |
 //! | 0 | [`math`], [`numerics`] | rotations and the sinc family; sparse matrices and factorizations |
 #![cfg_attr(test, allow(clippy::unwrap_used))]
-// pages of public modules link to private parts too, which `cargo doc --document-private-items` shows
+// pages of public modules link to private items too, which `cargo doc --document-private-items` shows
 #![allow(rustdoc::private_intra_doc_links)]
 
 pub mod analysis;

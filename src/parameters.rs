@@ -5,33 +5,33 @@ use std::path::PathBuf;
 use thiserror::Error;
 use toml::{Table, Value};
 
-/// What is wrong with the words after a pattern.
+/// The errors in the words after a pattern.
 #[derive(Debug, Error, PartialEq, Eq)]
 pub(crate) enum ParameterError {
-    /// A word where a key should stand.
+    /// A word is not a key, at a position where a key is expected.
     #[error("`{0}` stands where a parameter was expected; write --key value, and -o FILE for the mesh")]
     NoKey(String),
-    /// A key at the end.
+    /// A key at the end has no value.
     #[error("parameter `--{0}` has no value; write --{0} value")]
     NoValue(String),
-    /// `-o` at the end.
+    /// `-o` at the end has no file name.
     #[error("`-o` has no file; write -o FILE.fold")]
     NoFile,
-    /// A whole number beyond 64 bits with a sign.
+    /// A whole number does not fit into 64 bits with a sign.
     #[error("`{0}` is too large; whole numbers go up to 9223372036854775807")]
     TooLarge(String),
-    /// A key that was given before.
+    /// A key is given twice.
     #[error("parameter `--{0}` is given twice")]
     Twice(String),
-    /// No place for the mesh.
+    /// No file for the mesh is given.
     #[error("there is no file for the mesh; add -o FILE.fold")]
     NoOutput,
 }
 
-/// The table `{ pattern, key = value, .. }` and the file of `-o`.
+/// Returns the table `{ pattern, key = value, .. }` and the file of `-o`.
 ///
-/// Keys may have `-` for `_` and `=` before the value. A value is a whole number, a number, `true`, `false`, a list with
-/// commas between, or else a word.
+/// Keys may contain `-` instead of `_`, and may be separated from the value by `=`. A value is a whole number, a
+/// number, `true`, `false`, a list separated by commas, or otherwise a word.
 pub(crate) fn parse(pattern: &str, words: &[String]) -> Result<(Table, PathBuf), ParameterError> {
     let mut table = Table::new();
     table.insert("pattern".into(), pattern.into());
@@ -58,7 +58,7 @@ pub(crate) fn parse(pattern: &str, words: &[String]) -> Result<(Table, PathBuf),
     Ok((table, output.ok_or(ParameterError::NoOutput)?))
 }
 
-/// `--key`, `--key=value` or `-o`.
+/// Splits `--key`, `--key=value` or `-o` into the key and the value, if the word contains one.
 fn split(word: &str) -> Result<(String, Option<&str>), ParameterError> {
     if word == "-o" || word == "--output" {
         return Ok(("o".into(), None));
@@ -89,7 +89,7 @@ mod tests {
         text.split(' ').map(str::to_owned).collect()
     }
 
-    /// Every form of a value, negative numbers included, becomes what a scene would say.
+    /// Claim: every form of a value, including negative numbers, becomes the value that a scene would have.
     #[test]
     fn parameters_become_a_table() {
         let (table, out) =
@@ -98,7 +98,7 @@ mod tests {
         assert_eq!((table, out), (expected.parse().unwrap(), PathBuf::from("a.fold")));
     }
 
-    /// What is missing or too much is named.
+    /// Claim: the error names the missing or superfluous word.
     #[test]
     fn wrong_parameters_are_named() {
         let fault = |text: &str| parse("miura", &words(text)).unwrap_err();

@@ -1,10 +1,10 @@
 //! Progress on standard error, and Ctrl-C.
 //!
-//! Nothing is shown where standard error is no terminal, and nothing during the first second of a study. The time left
-//! is an estimate from the number of steps where that is known.
+//! Nothing is shown if standard error is not a terminal, nor during the first second of a study. The remaining time is
+//! estimated from the number of steps if that is known.
 //!
-//! Work is done on a thread of its own ([`Watch::over`]): it stops between two steps where it is asked to, and where a step
-//! takes long the program ends without it.
+//! The work runs on a separate thread ([`Watch::over`]). After Ctrl-C it stops between two steps; if a step takes long,
+//! the program ends without waiting for it.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -18,13 +18,13 @@ use foldwell::run::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How long work may go on after Ctrl-C until its step ends, and how often it is looked at meanwhile.
+/// Time for which the program waits after Ctrl-C for the current step to end, and interval between two checks.
 const GRACE: Duration = Duration::from_millis(600);
 const GLANCE: Duration = Duration::from_millis(20);
-/// Memory for the calls of the work, in bytes: what the first thread of a program usually has.
+/// Stack size of the working thread in bytes: the usual one of the first thread of a program.
 const STACK: usize = 8 << 20;
 
-/// Shows how far a run is, and stops it after Ctrl-C.
+/// Shows the progress of a run, and stops it after Ctrl-C.
 pub(crate) struct Watch {
     interrupted: Arc<AtomicBool>,
     shown: Option<Mutex<Shown>>,
@@ -37,11 +37,11 @@ struct Shown {
 }
 
 impl Watch {
-    /// Begins to listen for Ctrl-C; `quiet`: shows nothing.
+    /// Starts to listen for Ctrl-C; shows nothing if `quiet`.
     pub(crate) fn new(quiet: bool) -> Self {
         let interrupted = Arc::new(AtomicBool::new(false));
         let flag = interrupted.clone();
-        // where no handler can be set, Ctrl-C ends the program at once, as it does by default
+        // if no handler can be set, Ctrl-C ends the program at once, as by default
         let _ = ctrlc::set_handler(move || {
             if flag.swap(true, Ordering::Relaxed) {
                 std::process::exit(130); // the second Ctrl-C does not wait for the step to end
@@ -56,8 +56,8 @@ impl Watch {
         self.interrupted.load(Ordering::Relaxed)
     }
 
-    /// Does some work on a thread of its own and gives what comes of it; `None` where Ctrl-C was pressed and the work does
-    /// not end soon after it. A panic of the work is one here.
+    /// Runs some work on a separate thread and returns its result; `None` if Ctrl-C was pressed and the work does not
+    /// end soon after that. A panic of the work is passed on.
     pub(crate) fn over<T: Send + 'static>(
         self: &Arc<Self>,
         work: impl FnOnce(&Self) -> T + Send + 'static,
@@ -65,7 +65,7 @@ impl Watch {
         let (sender, receiver) = channel();
         let watch = self.clone();
         let work = move || {
-            // nobody waits for it any more where this fails
+            // fails if the result is no longer awaited
             let _ = sender.send(work(&watch));
         };
         let worker = thread::Builder::new().name("run".into()).stack_size(STACK).spawn(work)?;
@@ -87,7 +87,7 @@ impl Watch {
         }
     }
 
-    /// Takes note of a step; breaks after Ctrl-C.
+    /// Shows a step; returns `Break` after Ctrl-C.
     pub(crate) fn step(&self, progress: &Progress) -> ControlFlow<()> {
         if let Some(shown) = &self.shown {
             shown.lock().unwrap_or_else(PoisonError::into_inner).step(progress);
@@ -95,7 +95,7 @@ impl Watch {
         if self.interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// Removes what is shown.
+    /// Removes the progress bar.
     pub(crate) fn finish(&self) {
         if let Some(shown) = &self.shown {
             shown.lock().unwrap_or_else(PoisonError::into_inner).bar.finish_and_clear();
@@ -129,7 +129,7 @@ impl Shown {
     }
 }
 
-/// Study and residual.
+/// Returns the text of the progress bar: study and residual.
 fn message(progress: &Progress) -> String {
     if progress.residual.is_finite() {
         format!("{}  residual {:.1e}", progress.study, progress.residual)
@@ -138,14 +138,14 @@ fn message(progress: &Progress) -> String {
     }
 }
 
-/// A bar with the time left where the number of steps is known, otherwise a spinner with the time so far.
+/// Returns a bar with the remaining time if the number of steps is known, otherwise a spinner with the elapsed time.
 fn bar(steps: Option<usize>) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(steps.map(|steps| steps as u64), ProgressDrawTarget::hidden());
     let template = match steps {
         Some(_) => "{msg}  [{bar:30}] {pos}/{len}  {eta} left",
         None => "{spinner} {msg}  step {pos}, {elapsed}",
     };
-    // a template that is not understood leaves the default style
+    // if the template is invalid, the default style is kept
     bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar
 }
@@ -154,7 +154,7 @@ fn bar(steps: Option<usize>) -> ProgressBar {
 mod tests {
     use super::*;
 
-    /// Without a terminal nothing is shown; a step goes on until Ctrl-C was pressed, and no longer.
+    /// Claim: without a terminal nothing is shown; steps go on until Ctrl-C is pressed and stop then.
     #[test]
     fn a_watch_stops_after_an_interrupt() {
         let watch = Watch { interrupted: Arc::default(), shown: Some(Mutex::new(Shown::new())) };
@@ -165,8 +165,8 @@ mod tests {
         assert_eq!(watch.step(&progress), ControlFlow::Break(()));
     }
 
-    /// Claim: what the work gives comes back; a panic of the work is not lost; work that goes on after Ctrl-C is left alone,
-    /// and what it sees of it is that it should stop. Without leaving it alone the second one here would never end.
+    /// Claim: the result of the work is returned; a panic of the work is passed on; work that goes on after Ctrl-C is
+    /// left alone and is told to stop. If it were not left alone, the second work here would never end.
     #[test]
     fn work_is_waited_for_unless_interrupted() {
         let watch = Arc::new(Watch { interrupted: Arc::default(), shown: None });
@@ -183,7 +183,7 @@ mod tests {
         assert_eq!(watch.over(|watch| watch.interrupted()).unwrap(), Some(true), "it ends soon");
     }
 
-    /// The residual is shown where there is one.
+    /// Claim: the residual is shown if there is one.
     #[test]
     fn messages() {
         let progress = Progress { study: "a".into(), step: 2, of: None, residual: 1e-3 };
@@ -191,7 +191,7 @@ mod tests {
         assert_eq!(message(&Progress { residual: f64::NAN, ..progress }), "a");
     }
 
-    /// Both templates are understood.
+    /// Claim: both templates are valid.
     #[test]
     fn templates_are_right() {
         for steps in [None, Some(7)] {

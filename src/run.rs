@@ -1,4 +1,4 @@
-//! The pipeline: read a scene, build it, study it, write files.
+//! The pipeline: reads a scene, builds its sheet and model, computes its studies and writes their files.
 
 use std::path::Path;
 
@@ -27,12 +27,13 @@ use runner::Runner;
 /// Reads a scene, computes its studies and writes their files.
 ///
 /// # Errors
-/// [`RunError`] where nothing could be computed; a study that fails is part of the report instead.
+/// [`RunError`] if nothing could be computed; a study that fails is reported in the [`RunReport`] instead.
 pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Result<RunReport, RunError> {
     run_with_ledger(scene, options, observer, &Ledger::default())
 }
 
-/// Does what [`run_scene`] does and keeps the ledger, so that another thread can end the run without waiting for it.
+/// Does the same as [`run_scene`] and records the run in `ledger`, so that another thread can end the run without
+/// waiting for it.
 ///
 /// # Errors
 /// [`RunError`], as [`run_scene`].
@@ -71,10 +72,10 @@ fn run_on_these_threads(
     runner.finish()
 }
 
-/// Generates a pattern, `{ pattern = "miura", .. }`, and writes it as a FOLD file.
+/// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it as a FOLD file.
 ///
 /// # Errors
-/// [`RunError`] where a parameter is wrong or the file cannot be written.
+/// [`RunError`] if a parameter is wrong or the file cannot be written.
 pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
     let pattern: Pattern = table.clone().try_into().map_err(|error: toml::de::Error| RunError::Pattern {
         message: error.message().to_owned(),
@@ -85,10 +86,10 @@ pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
     Ok(files::write(out, fold::write(&sheet))?)
 }
 
-/// Counts and measures of the sheet of a mesh or a scene.
+/// Returns counts and measures of the sheet of a mesh or a scene.
 ///
 /// # Errors
-/// [`RunError`] where the file cannot be read or is wrong.
+/// [`RunError`] if the file cannot be read or is wrong.
 pub fn info(mesh_or_scene: &Path) -> Result<Info, RunError> {
     let sheet = match ending(mesh_or_scene).as_str() {
         "toml" => crate::scene::build::sheet(&crate::scene::read(mesh_or_scene)?)?,
@@ -97,10 +98,11 @@ pub fn info(mesh_or_scene: &Path) -> Result<Info, RunError> {
     Ok(Info::new(&sheet))
 }
 
-/// Converts a mesh between FOLD, OBJ and VTU, by the endings of the names; says what the new file does not keep.
+/// Converts a mesh between FOLD, OBJ and VTU, which are recognised by the endings of the file names. Returns a sentence
+/// for each part of the mesh that the new file does not keep.
 ///
 /// # Errors
-/// [`RunError`] where a file cannot be read, is wrong, has an unknown ending or cannot be written.
+/// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written.
 pub fn convert(from: &Path, to: &Path) -> Result<Vec<String>, RunError> {
     let sheet = read_mesh(from, MESHES)?;
     match MeshKind::of(to) {
@@ -114,7 +116,7 @@ pub fn convert(from: &Path, to: &Path) -> Result<Vec<String>, RunError> {
 
 const MESHES: &str = ".fold, .obj or .vtu";
 
-/// Kinds of files that hold a mesh, told by the endings of their names.
+/// The kinds of files that hold a mesh, recognised by the endings of their names.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum MeshKind {
     Fold,
@@ -159,7 +161,8 @@ mod tests {
     use crate::scene::SceneError;
     use std::io;
 
-    /// A file that is not there is wrong input (2); one that cannot be read, or written, is not the user's scene (3).
+    /// Claim: a file that does not exist is wrong input (status 2); a file that cannot be read or written is a failure
+    /// of the system, not of the user's scene (status 3).
     #[test]
     fn exit_statuses() {
         let read = |kind: io::ErrorKind| SceneError::Read { path: "a".into(), source: kind.into() };

@@ -1,33 +1,33 @@
-//! The closure conditions as equations of a solver, in the fold angles of the folding edges.
+//! The closure conditions as equations of a solver, with the fold angles of the folding edges as unknowns.
 
 use super::Closure;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::continuation::Curve;
 
-/// `residual(angles) = 0`; the unknowns are the angles of the folding edges, the others stay as they are given.
+/// The equations `residual(angles) = 0`. The unknowns are the angles of the folding edges; all other angles are fixed.
 pub struct Closing<'a> {
     closure: &'a Closure,
     angles: Vec<f64>,
 }
 
 impl<'a> Closing<'a> {
-    /// `angles` holds the fold angle of every edge; edges that do not fold keep theirs.
+    /// Makes the equations; `angles` holds the fold angle of every edge in radians, also those that stay fixed.
     pub fn new(closure: &'a Closure, angles: Vec<f64>) -> Self {
         Self { closure, angles }
     }
 
-    /// The entries of the folding edges.
+    /// Extracts the entries of the folding edges from a list with one number for every edge.
     pub fn folding(&self, all: &[f64]) -> Vec<f64> {
         self.closure.folding_edges().iter().map(|&edge| all[edge]).collect()
     }
 
-    /// The fold angles of all edges.
+    /// Returns the fold angles of all edges for given unknowns.
     pub(crate) fn angles(&self, x: &[f64]) -> Vec<f64> {
         self.spread(x, &self.angles)
     }
 
-    /// Rates of all edges from those of the folding ones.
+    /// Returns the rates of all edges for given rates of the folding ones; the others are zero.
     pub(crate) fn rates(&self, x: &[f64]) -> Vec<f64> {
         self.spread(x, &vec![0.0; self.angles.len()])
     }
@@ -54,5 +54,5 @@ impl Implicit for Closing<'_> {
     }
 }
 
-/// Where folding has one degree of freedom, a trajectory on which nothing is watched.
+/// A one-parameter family of solutions, followed without indicators, if folding has one degree of freedom.
 impl Curve for Closing<'_> {}

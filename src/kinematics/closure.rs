@@ -1,11 +1,11 @@
 //! Closure of the faces around vertices: the exact conditions on fold angles.
 //!
 //! Around an interior vertex, counter-clockwise seen from the side of the face normals, edges with fold angles `rho_k`
-//! alternate with sectors `alpha_k` of the faces. A frame with x along an edge and z along the normal of the face
-//! before it goes over into that of the next edge by `R_x(rho_k) R_z(alpha_k)`; going round, the product is the
-//! identity (s.-m. belcastro and T. C. Hull, "Modelling the folding of paper into three dimensions using affine
-//! transformations", Linear Algebra and its Applications 348 (2002) 273-282). Nothing but the sectors of the drawn
-//! faces enters; positions follow from the angles.
+//! alternate with sectors of angle `alpha_k` of the faces. Take a frame with x along an edge and z along the normal of
+//! the face before that edge. It is taken to the corresponding frame of the next edge by `R_x(rho_k) R_z(alpha_k)`, and
+//! the product of these rotations around the vertex is the identity (s.-m. belcastro and T. C. Hull, "Modelling the
+//! folding of paper into three dimensions using affine transformations", Linear Algebra and its Applications 348 (2002)
+//! 273-282). The conditions contain the sectors of the drawn faces only; positions follow from the angles.
 
 use super::KinematicsError;
 use crate::math::{Vec3, rotation};
@@ -18,23 +18,24 @@ mod second_derivative;
 
 /// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
 ///
-/// Corners may stand in any cell, those of one edge in the same frame.
+/// The corners may be in any cells; those of one edge refer to the same frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct HingedEdge {
     /// First and second end.
     pub ends: [Corner; 2],
-    /// Opposite vertices of the left and of the right face; without one of them the edge does not fold.
+    /// Opposite vertices of the left and of the right face; if one of them is missing, the edge does not fold.
     pub wings: [Option<Corner>; 2],
 }
 
 /// The closure conditions of the interior vertices of a sheet: three for each.
 ///
-/// A vertex is interior when each of its edges has two faces. On a torus these are all; on a finite sheet those off
-/// the rim, and there the conditions are complete only where [`unchecked_loops`](Self::unchecked_loops) is zero.
+/// A vertex is interior if each of its edges has two faces. On a torus all vertices are interior, on a finite sheet
+/// those that are not on the rim. On a finite sheet the conditions are complete only if
+/// [`unchecked_loops`](Self::unchecked_loops) is zero.
 #[derive(Clone, Debug)]
 pub struct Closure {
     rounds: Vec<Round>,
-    /// Edge of every column of the Jacobian.
+    /// Number of the edge of every column of the Jacobian.
     folding: Vec<usize>,
     edges: usize,
     unchecked_loops: usize,
@@ -50,23 +51,23 @@ struct Round {
 #[derive(Clone, Copy, Debug)]
 struct Spoke {
     edge: usize,
-    /// Column of the Jacobian; `None` where the edge is locked.
+    /// Column of the Jacobian; `None` if the edge is locked.
     column: Option<usize>,
     /// Sine and cosine of the angle from this edge to the next.
     sector: (f64, f64),
 }
 
-/// An edge seen from one of its ends, which stands in cell (0, 0).
+/// An edge as seen from one of its ends, with that end in cell (0, 0).
 #[derive(Clone, Copy, Debug)]
 struct HalfEdge {
     edge: usize,
     to: Corner,
-    /// The other end of the next edge counter-clockwise, and of the one before.
+    /// The other end of the next edge counter-clockwise, and of the previous one.
     wings: [Option<Corner>; 2],
 }
 
 impl HingedEdge {
-    /// The edge seen from its first (0) or second (1) end.
+    /// Returns the edge as seen from its first (0) or second (1) end.
     fn half(&self, edge: usize, side: usize) -> HalfEdge {
         let back = self.ends[side].shift.map(|n| -n);
         let seen = |corner: Corner| corner.translated(back);
@@ -93,16 +94,16 @@ impl From<&TiledEdge> for HingedEdge {
 }
 
 impl Closure {
-    /// The closure of one cell of a periodic sheet, or of a finite sheet; edges are numbered as in the sheet.
+    /// Returns the closure of one cell of a periodic sheet, or of a finite sheet; edges are numbered as in the sheet.
     ///
     /// # Errors
-    /// [`KinematicsError`] where the faces at an interior vertex do not form one round.
+    /// [`KinematicsError`] if the faces at an interior vertex do not form one closed cycle.
     pub fn of_cell(sheet: &Sheet) -> Result<Self, KinematicsError> {
         let edges: Vec<HingedEdge> = sheet.edges.iter().map(HingedEdge::from).collect();
         Self::of_edges(&edges, |corner| sheet.position(corner))
     }
 
-    /// The closure of several cells of a sheet; edges and vertices are numbered as in the tiling.
+    /// Returns the closure of several cells of a sheet; edges and vertices are numbered as in the tiling.
     ///
     /// # Errors
     /// [`KinematicsError`] as [`of_cell`](Self::of_cell).
@@ -115,11 +116,11 @@ impl Closure {
         })
     }
 
-    /// The closure of any list of edges, numbered as in the list; vertices are numbered as in
-    /// their corners. `position` says where a corner is in a state in which the faces have their shape.
+    /// Returns the closure of any list of edges, which are numbered as in the list; vertices are numbered as in their
+    /// corners. `position` returns the position of a corner in any state in which the faces have their shape.
     ///
     /// # Errors
-    /// [`KinematicsError`] where the faces at an interior vertex do not form one round.
+    /// [`KinematicsError`] if the faces at an interior vertex do not form one closed cycle.
     pub(crate) fn of_edges(edges: &[HingedEdge], position: impl Fn(Corner) -> Vec3) -> Result<Self, KinematicsError> {
         let halves = halves_by_vertex(edges);
         let mut rounds = Vec::new();
@@ -135,13 +136,13 @@ impl Closure {
         Ok(Self { rounds, folding, edges: edges.len(), unchecked_loops }.with_columns())
     }
 
-    /// The same conditions with some edges kept from folding: their columns are left out.
+    /// Returns the same conditions with some edges locked: the Jacobian has no columns for these.
     pub fn with_locked(mut self, locked: &[usize]) -> Self {
         self.folding.retain(|edge| !locked.contains(edge));
         self.with_columns()
     }
 
-    /// Tells every spoke the column of its edge.
+    /// Assigns to every edge at a vertex its column of the Jacobian.
     fn with_columns(mut self) -> Self {
         let mut columns = vec![None; self.edges];
         self.folding.iter().enumerate().for_each(|(column, &edge)| columns[edge] = Some(column));
@@ -150,37 +151,40 @@ impl Closure {
         self
     }
 
-    /// Edge of every column of the Jacobian: those with two faces that are not locked, ascending.
+    /// Returns the edge of every column of the Jacobian: those with two faces that are not locked, in increasing order.
     pub fn folding_edges(&self) -> &[usize] {
         &self.folding
     }
 
-    /// The interior vertices, in the order of their rows.
+    /// Returns the interior vertices, in the order of their rows.
     pub(crate) fn vertices(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
         self.rounds.iter().map(|round| round.vertex)
     }
 
-    /// Number of independent loops that no interior vertex closes, the two of a torus apart: openings of a connected
-    /// sheet beyond the one rim that a finite sheet has. Where it is not zero, more conditions exist than these.
+    /// Number of independent loops that are not closed by the interior vertices, except for the two of a torus: the
+    /// openings of a connected sheet in addition to the one rim that a finite sheet has. If it is not zero, the
+    /// conditions are incomplete.
     pub(crate) fn unchecked_loops(&self) -> usize {
         self.unchecked_loops
     }
 
-    /// How far the faces are from closing: the rotation vector of the product, three numbers per interior vertex.
+    /// Returns the closure residual: the rotation vector of the product around each vertex, three numbers per interior
+    /// vertex.
     ///
     /// `angles` holds the fold angle of every edge, valley positive, in radians; those of the rim are not read.
     /// # Panics
-    /// Where `angles` has another length than the list of edges.
+    /// If the length of `angles` is not the number of edges.
     pub fn residual(&self, angles: &[f64]) -> DVector<f64> {
         let mut residual = DVector::zeros(3 * self.rounds.len());
         self.residual_into(angles, residual.as_mut_slice());
         residual
     }
 
-    /// The derivative of [`residual`](Self::residual): three rows per interior vertex, a column per folding edge.
+    /// Returns the derivative of [`residual`](Self::residual): three rows per interior vertex, a column per folding
+    /// edge.
     ///
-    /// Where the faces close, a column holds the direction of the edge, seen from the vertices at its ends in the frame
-    /// of their first edge: null vectors are self stresses of the edges.
+    /// If the faces close, a column holds the direction of the edge in the frame of the first edge of each vertex at
+    /// its ends: null vectors are self stresses of the edges.
     /// # Panics
     /// As [`residual`](Self::residual).
     pub fn jacobian(&self, angles: &[f64]) -> DenseMatrix {
@@ -190,9 +194,9 @@ impl Closure {
         jacobian
     }
 
-    /// Writes the [`residual`](Self::residual) into a slice of three numbers per interior vertex; nothing is allocated.
+    /// Writes the [`residual`](Self::residual) into a slice of three numbers per interior vertex, without allocation.
     /// # Panics
-    /// Where `angles` or `residual` has another length.
+    /// If `angles` or `residual` has the wrong length.
     pub fn residual_into(&self, angles: &[f64], residual: &mut [f64]) {
         self.check(angles, residual);
         for (round, rows) in self.rounds.iter().zip(residual.chunks_exact_mut(3)) {
@@ -201,9 +205,9 @@ impl Closure {
         }
     }
 
-    /// Writes [`residual`](Self::residual) and [`jacobian`](Self::jacobian), in one walk; nothing is allocated.
+    /// Writes [`residual`](Self::residual) and [`jacobian`](Self::jacobian) at once, without allocation.
     /// # Panics
-    /// Where `angles` or `residual` has another length, or `jacobian` another shape.
+    /// If `angles` or `residual` has the wrong length, or `jacobian` the wrong shape.
     pub fn linearize_into(&self, angles: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
         self.check(angles, residual);
         assert_eq!(jacobian.shape(), (residual.len(), self.folding.len()), "shape of the Jacobian");
@@ -245,9 +249,11 @@ impl Round {
         if spokes.len() == halves.len() { Ok(Self { vertex, spokes }) } else { Err(broken()) }
     }
 
-    /// Goes round once, shows every edge with its direction in the frame of the first, and returns the product.
+    /// Passes once around the vertex, calls `visit` with every edge and its direction in the frame of the first edge,
+    /// and returns the product of the rotations.
     ///
-    /// The frame's axes are the columns of the product so far: `R_x(rho)` turns y and z, `R_z(alpha)` then x and y.
+    /// The axes of the current frame are the columns of the product so far: `R_x(rho)` rotates y and z, then
+    /// `R_z(alpha)` rotates x and y.
     fn walk(&self, angles: &[f64], mut visit: impl FnMut(&Spoke, &Vec3)) -> Matrix3<f64> {
         let [mut x, mut y, mut z] = [Vec3::x(), Vec3::y(), Vec3::z()];
         for spoke in &self.spokes {
@@ -258,7 +264,7 @@ impl Round {
         Matrix3::from_columns(&[x, y, z])
     }
 
-    /// Columns hold directions of edges: makes them rates of the rotation vector, each column once.
+    /// Converts the columns from directions of edges to rates of the rotation vector, each column once.
     fn put_into_chart(&self, chart: &Matrix3<f64>, row: usize, jacobian: &mut DenseMatrix) {
         for (number, spoke) in self.spokes.iter().enumerate() {
             let Some(column) = spoke.column else { continue };
@@ -271,12 +277,12 @@ impl Round {
     }
 }
 
-/// Two axes turned in their plane, from the first to the second, by an angle with this sine and cosine.
+/// Returns two axes rotated in their plane, from the first to the second, by an angle with this sine and cosine.
 fn turned(a: Vec3, b: Vec3, (sin, cos): (f64, f64)) -> (Vec3, Vec3) {
     (cos * a + sin * b, cos * b - sin * a)
 }
 
-/// Fold angles of all edges of a sheet as drawn, in radians, valley positive; zero on the rim.
+/// Returns the fold angles of all edges of a sheet as drawn, in radians, valley positive; zero on the rim.
 pub fn drawn_fold_angles(sheet: &Sheet) -> Vec<f64> {
     sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).unwrap_or(0.0)).collect()
 }
@@ -292,7 +298,8 @@ fn halves_by_vertex(edges: &[HingedEdge]) -> Vec<Vec<HalfEdge>> {
     halves
 }
 
-/// From the Euler characteristic: 0 for a torus, 1 for a disk, one less for every opening.
+/// Returns the number of unchecked loops from the Euler characteristic, which is 0 for a torus and 1 for a disk, and
+/// smaller by one for every opening.
 fn unchecked_loops(edges: &[HingedEdge], vertices: usize) -> usize {
     let sides = edges.iter().flat_map(|edge| edge.wings).flatten().count();
     let periodic = edges.iter().any(|edge| edge.ends[0].shift != edge.ends[1].shift);
@@ -316,8 +323,7 @@ mod tests {
         null_space(&closure.jacobian(angles)).unwrap().basis.ncols()
     }
 
-    /// Claim: drawn sheets close, in one cell and in several, and so do finite ones. Tolerance: rounding of products of
-    /// some six rotations.
+    /// Claim: drawn sheets close, periodic and finite ones. Tolerance: rounding of products of some six rotations.
     #[test]
     fn drawn_sheets_close() {
         for sheet in [open_star(), open_flat(), miura(), finite_grid(3, 4, 0.3)] {
@@ -327,9 +333,10 @@ mod tests {
         }
     }
 
-    /// Claim: the drawn fold angles, and the folded cylinders that an independent program found, are solutions, in that
-    /// program's sign and order; and the null space there has dimension 3, on the cylinders 2 (theory: 3 at a generic
-    /// spatially periodic state, 2 on a cylinder). Tolerance 1e-12: what that program asked of its states.
+    /// Claim: the drawn fold angles, and the folded cylinders that an independent program found, are solutions, in the
+    /// sign convention and order of that program; the null space has dimension 3 at the drawn state and 2 on the
+    /// cylinders. Source: theory (3 at a generic spatially periodic state, 2 on a cylinder). Tolerance 1e-12: that of
+    /// the states of that program.
     #[test]
     fn stored_states_of_open_star() {
         let (sheet, reference) = (open_star(), open_star_reference());
@@ -350,7 +357,7 @@ mod tests {
         }
     }
 
-    /// Claim: Nv + 2 null vectors at a flat developable state; each lock takes one away.
+    /// Claim: a flat developable state has Nv + 2 null vectors; each lock removes one.
     #[test]
     fn flat_sheet_has_two_more_than_vertices() {
         let sheet = open_flat();
@@ -362,8 +369,8 @@ mod tests {
         assert_eq!(nullity(&locked, &flat), sheet.vertices.len() + 1);
     }
 
-    /// Claim: a finite sheet without flat vertices has as many folding modes as rim vertices less three: each interior
-    /// vertex takes three, and E = 3 V - 3 - b for a triangulated disk with b rim vertices.
+    /// Claim: a finite sheet without flat vertices has as many folding modes as rim vertices minus three: each interior
+    /// vertex gives three conditions, and E = 3 V - 3 - b for a triangulated disk with b rim vertices.
     #[test]
     fn finite_sheet_counts_its_rim() {
         let sheet = finite_grid(4, 5, 0.3);
@@ -373,9 +380,9 @@ mod tests {
         assert_eq!(nullity(&closure, &drawn_fold_angles(&sheet)), 18 - 3);
     }
 
-    /// Claim: several cells close with the angles of one cell in each. As a torus of two by two they have the three modes
-    /// of one cell: no mode of open-star has a wavelength of just two cells. As a patch every interior vertex takes
-    /// three of the folding edges, as it does where no vertex is flat.
+    /// Claim: several cells close with the angles of one cell repeated. A torus of two by two cells has the three modes
+    /// of one cell: no mode of open-star has a wavelength of just two cells. On a patch every interior vertex gives
+    /// three independent conditions on the folding edges, as it does if no vertex is flat.
     #[test]
     fn several_cells() {
         let sheet = open_star();
@@ -392,7 +399,7 @@ mod tests {
     }
 
     /// Claim: every entry of the Jacobian is the derivative of the residual, at closed states and at random angles,
-    /// where nothing closes; on a torus, on a finite sheet, in a cell so narrow that edges lead from a vertex to its own
+    /// which do not close; on a torus, on a finite sheet, in a cell so narrow that edges lead from a vertex to its own
     /// copy, and with locked edges.
     #[test]
     fn jacobian_is_the_derivative() {
@@ -436,7 +443,7 @@ mod tests {
         }
     }
 
-    /// Claim: a vertex where two rounds touch is refused by number; an opening is counted as a loop.
+    /// Claim: a vertex at which two cycles of faces touch is refused with its number; an opening is counted as a loop.
     #[test]
     fn broken_rounds_and_openings() {
         let mut edges: Vec<HingedEdge> = finite_grid(2, 2, 0.3).edges.iter().map(HingedEdge::from).collect();

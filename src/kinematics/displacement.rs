@@ -1,10 +1,10 @@
-//! Displacement fields of linear foldings: from rates of fold angles to velocities, and back.
+//! Displacement fields of linear foldings: the velocities that belong to rates of fold angles.
 //!
-//! The walk over the faces is differentiated by the product rule of motions ([`Moving`]): every face gets its twist, the
-//! lattice motions get theirs, and a vertex `x` of the cell `n` moves with the derivative of `A1^n1 A2^n2 x`, in
-//! spatially periodic and in screw-periodic states alike. Back again, the velocities of its three corners give the
-//! angular velocity of a face, and the difference of those on both sides of an edge, along the edge, is the rate of its
-//! fold angle. For rates in the null space of closure this way round changes nothing.
+//! The walk over the faces is differentiated by the product rule of motions ([`Moving`]): every face and both lattice
+//! motions have their twist, and a vertex `x` of the cell `n` moves with the derivative of `A1^n1 A2^n2 x`, in
+//! spatially periodic and in screw-periodic states. Conversely, the velocities of its three corners give the angular
+//! velocity of a face, and the component along an edge of the difference between the angular velocities on both sides
+//! is the rate of the fold angle. For rates in the null space of closure the two maps are inverse to each other.
 
 use super::embedding::Embedding;
 use super::motion::{Moving, Rigid};
@@ -13,30 +13,30 @@ use crate::math::Vec3;
 use crate::numerics::larger;
 use crate::sheet::Corner;
 
-/// Velocities of a sheet whose fold angles change at some rates, per unit of these, in the frame of the
-/// [embedding](super::embedding): vertex 0 and the first face with it stand still.
+/// Velocities of a sheet per unit of the given rates of its fold angles, in the frame of the
+/// [embedding](super::embedding): vertex 0 and the first face that has it do not move.
 #[derive(Clone, Debug)]
 pub struct Displacement {
-    /// Vertices of cell (0, 0).
+    /// Positions of the vertices of cell (0, 0).
     pub positions: Vec<Vec3>,
-    /// Their velocities.
+    /// Velocities of these vertices.
     pub velocities: Vec<Vec3>,
-    /// The lattice motions with their twists; `None` for a finite sheet. The twist of the first has the angular velocity
-    /// `Omega_1` at which a cell turns against the one before.
+    /// The lattice motions with their twists; `None` for a finite sheet. The twist of the first has the angular
+    /// velocity `Omega_1` of a cell relative to the previous one.
     pub lattice: Option<[Moving; 2]>,
-    /// Largest difference, over the edges that the walk has not crossed, between the angular velocity of the way over the
-    /// edge and the one that the lattice motions give: zero but for rounding where the rates close.
+    /// Largest difference, over the edges that the walk does not cross, between the angular velocity along the path
+    /// across the edge and the one that the lattice motions give: zero except for rounding if the rates close.
     pub disagreement: f64,
     #[cfg(test)]
     walked: Walked<Moving>,
 }
 
 impl Displacement {
-    /// The velocities at fold angles, for rates of them; both one number per edge, in radians.
+    /// Computes the velocities at given fold angles and rates, each with one number per edge, in radians.
     ///
-    /// Angles and rates that do not close are walked along the tree.
+    /// For angles and rates that do not close, the velocities are those along the tree of the walk.
     /// # Panics
-    /// Where one of the two has another length than the edges.
+    /// If the length of `angles` or `rates` is not the number of edges.
     pub fn new(embedding: &Embedding, angles: &[f64], rates: &[f64]) -> Self {
         assert!(angles.len() == embedding.edges() && rates.len() == embedding.edges(), "one number for every edge");
         let turn = |step: &Crossing| Moving::about(&step.line, embedding.turn(step.edge, angles), rates[step.edge]);
@@ -61,14 +61,14 @@ impl Displacement {
         }
     }
 
-    /// Where a corner is, and its velocity; of a finite sheet only in cell (0, 0).
+    /// Returns position and velocity of a corner; for a finite sheet only in cell (0, 0).
     pub fn corner(&self, corner: Corner) -> (Vec3, Vec3) {
         let (place, velocity) = (&self.positions[corner.vertex], &self.velocities[corner.vertex]);
         let there = self.to_cell(corner.shift);
         (there.motion.apply(place), there.carry(place, velocity))
     }
 
-    /// From cell (0, 0) to another; a finite sheet has no other.
+    /// Returns the motion from cell (0, 0) to another cell; the identity for a finite sheet.
     fn to_cell(&self, cell: [i32; 2]) -> Moving {
         self.lattice.as_ref().map_or_else(Moving::identity, |lattice| Moving::lattice_power(lattice, cell))
     }
@@ -85,14 +85,16 @@ mod tests {
     use crate::sheet::Sheet;
 
     impl Displacement {
-        /// Angular velocity of a triangle of the sheet, moved by `cell` from where the sheet lists it.
+        /// Returns the angular velocity of a triangle of the sheet, translated by `cell` from the position in the
+        /// sheet's list.
         fn angular_velocity(&self, embedding: &Embedding, face: usize, cell: [i32; 2]) -> Vec3 {
             let home = embedding.walk.cells[face];
             let there = self.to_cell([cell[0] - home[0], cell[1] - home[1]]);
             (there * self.walked.faces[face]).twist.angular
         }
 
-        /// The rates of all fold angles, from the velocities of the vertices and of the lattice alone; zero on the rim.
+        /// Returns the rates of all fold angles, from the velocities of the vertices and of the lattice alone; zero on
+        /// the rim.
         fn fold_rates(&self, embedding: &Embedding) -> Vec<f64> {
             let spins: Vec<Vec3> = embedding.faces.iter().map(|face| self.spin(&face.corners)).collect();
             let mut rates = vec![0.0; embedding.edges()];
@@ -113,13 +115,13 @@ mod tests {
         }
     }
 
-    /// The `w` with `w x p = dp` and `w x q = dq`, for two sides of a triangle and their rates.
+    /// Returns the `w` with `w x p = dp` and `w x q = dq`, for two sides of a triangle and their rates.
     fn angular_velocity([p, q]: [Vec3; 2], [dp, dq]: [Vec3; 2]) -> Vec3 {
         let normal = p.cross(&q);
         (dq.dot(&normal) * p - dp.dot(&normal) * q + dp.dot(&q) * normal) / normal.norm_squared()
     }
 
-    /// Sheets at closed states, with one null vector of closure each: periodic, flat, cylinders, finite.
+    /// Returns sheets at closed states, with one null vector of closure each: periodic, flat, cylinders, finite.
     fn moving() -> Vec<(Sheet, Vec<f64>, Vec<f64>)> {
         let star = open_star();
         let cylinders = open_star_reference().cylinders(&star).into_iter().map(|angles| (star.clone(), angles));
@@ -140,8 +142,8 @@ mod tests {
         states.collect()
     }
 
-    /// Claim (duality): from fold rates to velocities of vertices, to angular velocities of faces, and back to fold
-    /// rates returns the null vectors of closure. Tolerance: rounding over the height of a face.
+    /// Claim (duality): the maps from fold rates to velocities of vertices, to angular velocities of faces, and back to
+    /// fold rates reproduce the null vectors of closure. Tolerance: rounding divided by the height of a face.
     #[test]
     fn there_and_back() {
         for (sheet, angles, rates) in moving() {
@@ -154,7 +156,8 @@ mod tests {
         }
     }
 
-    /// Claim: null vectors stretch no bar, to first order, and rates that do not close are reported. Tolerance: rounding.
+    /// Claim: null vectors stretch no bar to first order, and rates that do not close are reported. Tolerance:
+    /// rounding.
     #[test]
     fn bars_keep_their_lengths() {
         for (sheet, angles, mut rates) in moving() {
@@ -170,8 +173,8 @@ mod tests {
         }
     }
 
-    /// Claim: vertices of far cells move, and their faces turn, as the derivative along exact motions says (angles moved
-    /// along the rates and closed again, positions by the closed sums). At the cylinders, where closure is smooth.
+    /// Claim: the velocities of vertices in far cells are the derivatives along exact motions (angles moved along the
+    /// rates and closed again, positions by the closed sums). Tested at the cylinders, where closure is smooth.
     #[test]
     fn far_cells_move_as_they_should() {
         for (sheet, angles, rates) in moving().into_iter().take(4) {
@@ -191,8 +194,8 @@ mod tests {
         }
     }
 
-    /// Claim: a face turns as its corners move, in any cell: `v_b - v_a = w x (b - a)`; and the angular velocity from the
-    /// corners alone is that of the walk. Tolerance: rounding at a distance of some ten cells.
+    /// Claim: a face rotates as its corners move, in any cell: `v_b - v_a = w x (b - a)`; and the angular velocity from
+    /// the corners alone is that of the walk. Tolerance: rounding at a distance of some ten cells.
     #[test]
     fn faces_turn_as_their_corners_move() {
         for (sheet, angles, rates) in moving().into_iter().filter(|(sheet, ..)| sheet.lattice.is_some()) {
@@ -212,9 +215,9 @@ mod tests {
     }
 
     /// Claim (duality): null vectors of closure are self stresses of the bars of the cell, in periodic and in
-    /// screw-periodic states: rate times unit direction of the edges adds up to zero around every vertex, the pull of an
-    /// edge on a vertex of another cell turned back by the lattice rotations. Not turned back it does not, on a
-    /// cylinder. Tolerance: rounding of some six terms.
+    /// screw-periodic states: rate times unit direction of the edges adds up to zero around every vertex, if the force
+    /// of an edge on a vertex of another cell is rotated back by the lattice rotations. If it is not rotated back, the
+    /// sum is not zero on a cylinder. Tolerance: rounding of some six terms.
     #[test]
     fn null_vectors_are_self_stresses() {
         for (sheet, angles, rates) in moving().into_iter().filter(|(sheet, ..)| sheet.lattice.is_some()) {

@@ -1,10 +1,10 @@
-//! The embedding: where the vertices are, and how cells follow each other, from fold angles alone.
+//! The embedding: positions of the vertices and motions from cell to cell, computed from fold angles alone.
 //!
-//! **Frame.** Vertex 0 of cell (0, 0) is the origin, and the first face that has this vertex stays turned as it is drawn:
-//! the drawn fold angles give the drawn sheet, moved so that vertex 0 is at the origin. A walk over the faces gives
-//! everything else as products of rigid motions; the copy in the cell `(n1, n2)` of the point `x` is at
-//! `A1^n1 A2^n2 x`, with the lattice motions `A_a x = S_a x + l_a`. So `l_a` is the chord from vertex 0 to its copy. A
-//! finite sheet has positions only.
+//! **Frame.** Vertex 0 of cell (0, 0) is the origin, and the first face that has this vertex keeps its drawn
+//! orientation: the drawn fold angles give the drawn sheet, translated so that vertex 0 is at the origin. All other
+//! positions are products of rigid motions along a walk over the faces. The copy in the cell `(n1, n2)` of the point
+//! `x` is at `A1^n1 A2^n2 x`, with the lattice motions `A_a x = S_a x + l_a`, so that `l_a` is the chord from vertex 0
+//! to its copy. A finite sheet has positions only.
 
 use super::motion::{Motion, Rigid};
 use super::walk::{FaceWalk, Walked, relative};
@@ -13,7 +13,7 @@ use crate::math::Vec3;
 use crate::numerics::larger;
 use crate::sheet::{Corner, EdgeKey, Sheet};
 
-/// What is needed of a sheet to place it at any fold angles; made once.
+/// The precomputed data from which a sheet is placed at any fold angles.
 #[derive(Clone, Debug)]
 pub struct Embedding {
     pub(super) walk: FaceWalk,
@@ -31,13 +31,13 @@ pub struct Embedding {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seat {
     pub(super) face: usize,
-    /// Where the corner is drawn.
+    /// Drawn position of the corner.
     pub(super) drawn: Vec3,
-    /// The cell in which it stands.
+    /// The cell of the corner.
     pub(super) cell: [i32; 2],
 }
 
-/// A face as drawn, in the cell in which the walk meets it.
+/// A face as drawn, in the cell in which the walk reaches it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DrawnFace {
     pub(super) corners: [Corner; 3],
@@ -45,44 +45,46 @@ pub(super) struct DrawnFace {
     pub(super) area: Vec3,
 }
 
-/// A sheet at some fold angles; see the module for the frame.
+/// A sheet at some fold angles, in the frame defined on the [module](self)'s page.
 #[derive(Clone, Debug)]
 pub struct Placement {
-    /// The vertices of cell (0, 0).
+    /// Positions of the vertices of cell (0, 0).
     pub positions: Vec<Vec3>,
     /// The lattice motions; `None` for a finite sheet.
     pub lattice: Option<[Motion; 2]>,
-    /// How well the angles close.
+    /// The errors of closure of the angles.
     pub compatibility: Compatibility,
     pub(super) walked: Walked<Motion>,
 }
 
-/// How far different ways over the faces lead apart; all zero but for rounding where the angles close.
+/// The largest differences between different paths over the faces; all are zero except for rounding if the angles
+/// close.
 ///
-/// Lengths count in units of the longest edge, rotations by their largest matrix entry.
+/// Lengths are in units of the longest edge; the difference of rotations is that of their largest matrix entry.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Compatibility {
-    /// `S1 S2 - S2 S1`.
+    /// Size of `S1 S2 - S2 S1`.
     pub rotations: f64,
-    /// `S1 l2 + l1 - S2 l1 - l2`.
+    /// Size of `S1 l2 + l1 - S2 l1 - l2`.
     pub positions: f64,
-    /// Every edge that the walk has not crossed: the motion of the way over it, less the one the lattice motions give.
+    /// Largest difference, over the edges that the walk does not cross, between the motion of the path across the edge
+    /// and the one that the lattice motions give.
     pub ways: f64,
 }
 
 impl Compatibility {
-    /// The largest of the three; not a number where one of them is none.
+    /// Returns the largest of the three; NaN if one of them is NaN.
     pub fn largest(&self) -> f64 {
         [self.rotations, self.positions, self.ways].into_iter().fold(0.0, larger)
     }
 }
 
 impl Embedding {
-    /// Plans how to place a sheet.
+    /// Plans the placement of a sheet.
     ///
     /// # Errors
-    /// [`KinematicsError::Disconnected`] where the walk does not reach all faces and vertices, in both directions of
-    /// the lattice where there is one.
+    /// [`KinematicsError::Disconnected`] if the walk does not reach all faces and vertices, or, on a periodic sheet,
+    /// not both directions of the lattice.
     pub fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
         let walk = FaceWalk::new(sheet)?;
         let faces: Vec<DrawnFace> = (0..walk.cells.len()).map(|face| DrawnFace::new(sheet, &walk, face)).collect();
@@ -103,18 +105,18 @@ impl Embedding {
         self.edges.len()
     }
 
-    /// The fold angles of the drawn sheet, zero on the rim.
+    /// Returns the fold angles of the drawn sheet in radians, valley positive; zero on the rim.
     pub fn drawn_angles(&self) -> &[f64] {
         &self.drawn_angles
     }
 
-    /// Places the sheet: `angles` holds the fold angle of every edge in radians, valley positive; those of the rim are
+    /// Places the sheet. `angles` holds the fold angle of every edge in radians, valley positive; those of the rim are
     /// not read.
     ///
-    /// Angles that do not close are placed too, by the walk's tree, and
-    /// [`compatibility`](Placement::compatibility) tells.
+    /// Angles that do not close are accepted: the positions are those along the tree of the walk, and
+    /// [`compatibility`](Placement::compatibility) holds the errors.
     /// # Panics
-    /// Where `angles` has another length than the edges.
+    /// If the length of `angles` is not the number of edges.
     pub fn place(&self, angles: &[f64]) -> Placement {
         let walked = Walked { faces: Vec::new(), loops: Vec::new(), lattice: None };
         let compatibility = Compatibility::default();
@@ -123,7 +125,7 @@ impl Embedding {
         placement
     }
 
-    /// The same into a placement of an earlier call, which is overwritten; nothing is allocated.
+    /// Does the same as [`place`](Self::place), but overwrites an earlier placement, without allocation.
     /// # Panics
     /// As [`place`](Self::place).
     pub fn place_into(&self, angles: &[f64], placement: &mut Placement) {
@@ -144,7 +146,7 @@ impl Embedding {
         placement.compatibility = self.compatibility(walked);
     }
 
-    /// Largest relative error of the length of an edge, against the drawn one.
+    /// Returns the largest error of the length of an edge, relative to the drawn length.
     pub fn bar_error(&self, placement: &Placement) -> f64 {
         let bars = self.edges.iter().zip(&self.lengths);
         let errors = bars.map(|(key, length)| {
@@ -154,12 +156,12 @@ impl Embedding {
         errors.fold(0.0, larger)
     }
 
-    /// Sum of the drawn areas of the faces times their normals.
+    /// Returns the sum of the drawn areas of the faces times their normals.
     pub(super) fn drawn_area(&self) -> Vec3 {
         self.faces.iter().map(|face| face.area).sum()
     }
 
-    /// How far an edge has turned since it was drawn.
+    /// Returns the difference of the fold angle of an edge from the drawn one, in radians.
     pub(super) fn turn(&self, edge: usize, angles: &[f64]) -> f64 {
         angles[edge] - self.drawn_angles[edge]
     }
@@ -179,7 +181,8 @@ impl Embedding {
 }
 
 impl Placement {
-    /// Where a corner is, by doing the lattice motions one by one; of a finite sheet only in cell (0, 0).
+    /// Returns the position of a corner, by applying the lattice motions one by one; for a finite sheet only in cell
+    /// (0, 0).
     pub(crate) fn corner(&self, corner: Corner) -> Vec3 {
         let home = self.positions[corner.vertex];
         match &self.lattice {
@@ -197,7 +200,8 @@ impl DrawnFace {
     }
 }
 
-/// A seat for every vertex, in cell (0, 0) where the walk passes there; `None` where a vertex has no face.
+/// Returns a corner of a face for every vertex, in cell (0, 0) if the walk has it there; `None` if a vertex has no
+/// face.
 fn seats(sheet: &Sheet, faces: &[DrawnFace]) -> Option<Vec<Seat>> {
     let far = |cell: [i32; 2]| cell.map(i32::abs).iter().sum::<i32>();
     let mut seats: Vec<Option<Seat>> = vec![None; sheet.vertices.len()];
@@ -223,8 +227,8 @@ mod tests {
     use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
     use std::f64::consts::TAU;
 
-    /// Claim: the drawn fold angles give the drawn sheet, vertex 0 at the origin, the lattice motions translations, in
-    /// periodic and finite sheets, and in those that closure does not know whole. No arithmetic but of positions.
+    /// Claim: the drawn fold angles give the drawn sheet with vertex 0 at the origin and translations as lattice
+    /// motions, for periodic and finite sheets, also for sheets with openings. Tolerance: rounding of positions.
     #[test]
     fn drawn_angles_give_the_drawn_sheet() {
         for sheet in [open_star(), open_flat(), miura(), finite_grid(3, 4, 0.3), narrow(), ring()] {
@@ -241,7 +245,7 @@ mod tests {
         }
     }
 
-    /// Folded states of several sheets, closed to rounding.
+    /// Folded states of several sheets, closed up to rounding.
     fn folded() -> Vec<(Sheet, Vec<f64>)> {
         let star = open_star();
         let states = open_star_reference().cylinders(&star);
@@ -260,9 +264,9 @@ mod tests {
         open.into_iter().map(close).collect()
     }
 
-    /// Claim: where the angles close, all ways over the faces agree, bars keep their lengths, and the fold angles of
-    /// the placed vertices are those put in, but for whole turns. Tolerances: 1e-13 as the project promises; the fold angle of four points
-    /// has the rounding of positions over the height of a face.
+    /// Claim: if the angles close, all paths over the faces agree, bars keep their lengths, and the fold angles of the
+    /// placed vertices are the given ones up to multiples of 2 pi. Tolerances: 1e-13, that of the project; the fold
+    /// angle of four points has the rounding error of positions divided by the height of a face.
     #[test]
     fn closed_angles_are_compatible() {
         for (sheet, angles) in folded() {
@@ -280,8 +284,8 @@ mod tests {
         }
     }
 
-    /// Claim: cells -2 to 2 stand where faces put together one by one, from points and not from motions, come to stand.
-    /// Both begin with face 0, as drawn. Tolerance: rounding over some twenty faces.
+    /// Claim: the vertices of cells -2 to 2 are at the positions found by attaching faces one by one, from points and
+    /// not from motions. Both constructions begin with face 0 as drawn. Tolerance: rounding over some twenty faces.
     #[test]
     fn faces_put_together_one_by_one_agree() {
         for (sheet, angles) in folded() {
@@ -295,9 +299,9 @@ mod tests {
         }
     }
 
-    /// Claim: it does not matter in which cell a vertex is drawn. Where one is listed two cells away, so that no face of the
-    /// walk has it in cell (0, 0), the same fold angles place it there, and it moves as it should.
-    /// Tolerance: stored angles close to 1e-12, and the two walks differ.
+    /// Claim: the cell in which a vertex is drawn has no influence. If a vertex is listed two cells away, so that no
+    /// face of the walk has it in cell (0, 0), the same fold angles give the same positions and velocities. Tolerance:
+    /// stored angles close to 1e-12, and the two walks differ.
     #[test]
     fn vertices_may_be_drawn_far_away() {
         let star = open_star();
@@ -321,7 +325,7 @@ mod tests {
         }
     }
 
-    /// Claim: angles that do not close are reported: one of them changed by 1e-6 shows at that size.
+    /// Claim: angles that do not close are reported: a change of one of them by 1e-6 gives errors of that size.
     #[test]
     fn open_angles_are_reported() {
         for (sheet, angles) in folded() {
@@ -335,8 +339,9 @@ mod tests {
         }
     }
 
-    /// Claim: every entry of the derivative of positions, lattice rotations and chords in the fold angles is that of the
-    /// displacement with that rate, also where angles do not close; an overwritten placement is as a new one.
+    /// Claim: every entry of the derivative of positions, lattice rotations and chords by the fold angles is that of
+    /// the displacement with that rate, also if the angles do not close; an overwritten placement is equal to a new
+    /// one.
     #[test]
     fn displacements_are_the_derivative() {
         for (sheet, angles) in folded() {
@@ -366,8 +371,8 @@ mod tests {
         }
     }
 
-    /// Claim: what does not hang together is refused: faces apart, rows of faces that meet only along one lattice vector,
-    /// a vertex without face.
+    /// Claim: sheets that are not connected are refused: separate faces, rows of faces that meet along one lattice
+    /// vector only, a vertex without face.
     #[test]
     fn what_does_not_hang_together() {
         let refused = |sheet: &Sheet, faces: usize| {

@@ -1,15 +1,15 @@
-//! Linear folding modes of a periodic sheet, and the curvature tensor each of them makes.
+//! Linear folding modes of a periodic sheet, and the curvature tensor of each mode.
 //!
 //! A mode is a null vector of the closure Jacobian at the drawn state: a rate of the fold angle of every edge of the
-//! cell. Walking over the faces, crossing an edge from its right to its left face turns the face at that rate about the
-//! edge (valley positive); after one lattice vector `l_a` the faces turn at `Omega_a` relative to where one started.
-//! The sheet as a whole then bends by the curvature tensor
+//! cell. On a walk over the faces, each crossing of an edge from its right to its left face adds a rotation about the
+//! edge at that rate (valley positive); after one lattice vector `l_a` the faces rotate at `Omega_a` relative to those
+//! at the start. The sheet as a whole then bends with the curvature tensor
 //!
 //! `K = a^-T M a^-1`, `M_ab = (Omega_a x l_b) . n`, `a` upper triangular with `a^T a` the metric of the lattice,
 //!
 //! which is symmetric because the lattice motions commute to first order. `K` refers to x along the first lattice
-//! vector and y in the plane of the lattice towards the second; the displacement along the unit normal `n`, on the
-//! side of the face normals, is `(k11 x^2 + k22 y^2 + 2 k12 x y)/2`.
+//! vector and y in the plane of the lattice towards the second; the displacement along the unit normal `n`, on the side
+//! of the face normals, is `(k11 x^2 + k22 y^2 + 2 k12 x y)/2`.
 
 use super::metric::LatticeFrame;
 use super::{Closure, Displacement, Embedding, KinematicsError};
@@ -20,37 +20,40 @@ use crate::numerics::dense::{NullSpace, null_space, singular_values};
 use crate::sheet::Sheet;
 use nalgebra::{DVector, Matrix2, Matrix3};
 
-/// Largest condition number of the map from modes to curvature tensors with which curvatures still name a mode.
+/// Largest condition number of the map from modes to curvature tensors for which curvatures name a mode.
 const LARGEST_CONDITION: f64 = 1e8;
 
-/// Largest disagreement between two ways over the faces, for a mode of norm 1.
+/// Largest difference between two paths over the faces, for a mode of norm 1.
 const LARGEST_DIFFERENCE: f64 = 1e-9;
 
 /// The linear folding modes of one cell of a periodic sheet in the drawn state.
 #[derive(Clone, Debug)]
 pub struct FoldingModes {
-    /// Orthonormal modes as columns, `Ne x m`: rates of the fold angles of the cell's edges, diagonals included.
+    /// Orthonormal modes as columns, `Ne x m`: rates of the fold angles of the cell's edges, including diagonals.
     pub basis: DenseMatrix,
     /// Curvature tensors of the modes as columns, `3 x m`: `k11`, `k22`, `k12`, each per unit of the mode's amplitude,
     /// in radians per length.
     pub curvatures: DenseMatrix,
-    /// Angular velocities at which the faces turn from a cell to the next along the two lattice vectors, by mode.
+    /// Angular velocities of the faces relative to those of the previous cell, along the two lattice vectors, for each
+    /// mode.
     pub lattice_rotations: Vec<[Vec3; 2]>,
-    /// Smallest kept over largest dropped singular value of the closure Jacobian.
+    /// Ratio of the smallest singular value of the closure Jacobian that counts as nonzero to the largest one that
+    /// counts as zero.
     pub gap: f64,
 }
 
-/// The linear folding modes of a sheet with a lattice, no edge locked.
+/// Computes the linear folding modes of a sheet with a lattice, without locked edges.
 ///
-/// Three of them at a generic spatially periodic state, `Nv + 2` at a flat developable one.
+/// There are three modes at a generic spatially periodic state, `Nv + 2` at a flat developable one.
 ///
 /// # Errors
-/// [`KinematicsError`] for a finite sheet, for one with openings, and where the number of modes is not clear.
+/// [`KinematicsError`] for a finite sheet, for one with openings, and if the number of modes is not clear.
 pub fn folding_modes(sheet: &Sheet) -> Result<FoldingModes, KinematicsError> {
     folding_modes_with_locked(sheet, &[])
 }
 
-/// The linear folding modes that leave the `locked` edges as they are: rigid polygons have their diagonals locked.
+/// Computes the linear folding modes in which the `locked` edges keep their angles; a rigid polygon has its diagonals
+/// locked.
 ///
 /// The rates of locked edges are zero.
 ///
@@ -73,7 +76,7 @@ pub fn folding_modes_with_locked(sheet: &Sheet, locked: &[usize]) -> Result<Fold
     Ok(FoldingModes { basis, curvatures, lattice_rotations, gap })
 }
 
-/// Rates of all edges, zero for those that are not among `folding`.
+/// Returns the rates of all edges, zero for those that are not in `folding`.
 fn with_zero_rates(edges: usize, folding: &[usize], rates: &DenseMatrix) -> DenseMatrix {
     let mut all = DenseMatrix::zeros(edges, rates.ncols());
     folding.iter().enumerate().for_each(|(row, &edge)| all.set_row(edge, &rates.row(row)));
@@ -86,10 +89,10 @@ impl FoldingModes {
         self.basis.ncols()
     }
 
-    /// The fold rates of the mode that makes the curvature tensor `[k11, k22, k12]`.
+    /// Returns the fold rates of the mode with the curvature tensor `[k11, k22, k12]`.
     ///
     /// # Errors
-    /// [`KinematicsError`] where there are not three modes, and where they do not map one to one onto curvature
+    /// [`KinematicsError`] if the number of modes is not three, or if the modes do not map one to one onto curvature
     /// tensors.
     pub fn named(&self, curvature: [f64; 3]) -> Result<Vec<f64>, KinematicsError> {
         if self.count() != 3 {
@@ -109,7 +112,7 @@ fn condition(map: &DenseMatrix) -> Result<f64, KinematicsError> {
     Ok(values[0] / values[values.len() - 1])
 }
 
-/// Curvature tensors `[k11, k22, k12]` of modes with these lattice rotations.
+/// Returns the curvature tensors `[k11, k22, k12]` of modes with these lattice rotations.
 fn curvatures(embedding: &Embedding, lattice: &[Vec3; 2], rotations: &[[Vec3; 2]]) -> Vec<[f64; 3]> {
     let (upwards, area) = (lattice[0].cross(&lattice[1]), embedding.drawn_area());
     let normal = upwards.normalize() * area.dot(&upwards).signum();
@@ -118,7 +121,8 @@ fn curvatures(embedding: &Embedding, lattice: &[Vec3; 2], rotations: &[[Vec3; 2]
     rotations.iter().map(tensor).collect()
 }
 
-/// Angular velocities from a cell to the next, along both lattice vectors, for fold rates at the drawn state.
+/// Returns the angular velocities from a cell to the next, along both lattice vectors, for fold rates at the drawn
+/// state.
 fn lattice_rotations(embedding: &Embedding, rates: &[f64]) -> Result<[Vec3; 2], KinematicsError> {
     let Displacement { lattice, disagreement, .. } = Displacement::new(embedding, embedding.drawn_angles(), rates);
     let closes = disagreement <= LARGEST_DIFFERENCE;
@@ -136,8 +140,8 @@ mod tests {
     use crate::numerics::dense::least_squares;
     use crate::sheet::{Corner, EdgeKey};
 
-    /// Curvature tensor by fitting `c + bx + dy + (k11 x^2 + k22 y^2 + 2 k12 xy)/2` to the normal displacements of the
-    /// copies of vertex 0, and the largest misfit.
+    /// Returns the curvature tensor from a fit of `c + bx + dy + (k11 x^2 + k22 y^2 + 2 k12 xy)/2` to the normal
+    /// displacements of the copies of vertex 0, and the largest residual of the fit.
     fn fitted_curvature(sheet: &Sheet, rates: &[f64]) -> (Vec3, f64) {
         let step = 1e-4;
         let drawn = drawn_fold_angles(sheet);
@@ -173,9 +177,9 @@ mod tests {
         })
     }
 
-    /// Claim: curvature tensors have the contract's sign and factor: faces put together one by one with fold angles a
-    /// little beside the drawn ones displace the copies of vertex 0 by the quadratic form. Tolerance 1e-5: the step is
-    /// 1e-4, the error of central differences its square times the size of the patch.
+    /// Claim: curvature tensors have the documented sign and factor: if faces are attached one by one with fold angles
+    /// close to the drawn ones, the displacements of the copies of vertex 0 are the quadratic form. Tolerance 1e-5: the
+    /// step is 1e-4, the error of central differences its square times the size of the patch.
     #[test]
     fn curvature_is_that_of_faces_put_together() {
         let sheet = open_star();
@@ -200,9 +204,9 @@ mod tests {
         }
     }
 
-    /// Claim: the rays along which an independent program left the drawn state are linear modes with curvature tensors of
-    /// rank one, of the sign of the curvature that program found further on. Tolerance 1e-8: its directions satisfy the
-    /// quadratic condition to 7e-9.
+    /// Claim: the rays along which an independent program left the drawn state are linear modes with curvature tensors
+    /// of rank one, with the sign of the curvature that the program found later on the ray. Tolerance 1e-8: its
+    /// directions satisfy the quadratic condition to 7e-9.
     #[test]
     fn rays_are_on_the_cone_of_cylinders() {
         let sheet = open_star();
@@ -233,15 +237,15 @@ mod tests {
         }
     }
 
-    /// Edges that are drawn flat: in [`miura`] the diagonals of its parallelograms.
+    /// Returns the edges that are drawn flat: in [`miura`] the diagonals of its parallelograms.
     fn flat_edges(sheet: &Sheet) -> Vec<usize> {
         let angles = drawn_fold_angles(sheet);
         (0..angles.len()).filter(|&edge| angles[edge].abs() < 1e-9).collect()
     }
 
     /// Claim: with rigid parallelograms Miura-ori has one mode (M. Schenk, S. D. Guest, PNAS 110, 3276 (2013)). Its two
-    /// fold angles obey `tan(a/2) = cos(sector) tan(b/2)`, so that `a' sin(b) = b' sin(a)`; it stays periodic: nothing
-    /// turns from a cell to the next, and the mode has no name. Tolerance: rounding.
+    /// fold angles satisfy `tan(a/2) = cos(sector) tan(b/2)`, so that `a' sin(b) = b' sin(a)`. The sheet stays
+    /// periodic: cells do not rotate relative to each other, and the mode has no name. Tolerance: rounding.
     #[test]
     fn rigid_parallelograms_leave_miura_ori_one_mode() {
         let sheet = miura();
@@ -258,9 +262,9 @@ mod tests {
         assert_eq!(modes.named([1.0, 0.0, 0.0]).unwrap_err(), KinematicsError::NotThreeModes { modes: 1 });
     }
 
-    /// Claim: locking is a condition on the modes: those of the locked sheet are those of the free one that leave the
-    /// locked edges alone. A flat cell of 4 vertices has 6 modes; three locks leave three, which name all curvatures, and
-    /// the named mode is one of the free sheet. Source: the free modes and linear algebra. Tolerance: rounding.
+    /// Claim: the modes of the locked sheet are the modes of the free sheet that keep the angles of the locked edges. A
+    /// flat cell of 4 vertices has 6 modes; three locks leave three, which name all curvatures, and the named mode is
+    /// one of the free sheet. Source: the free modes and linear algebra. Tolerance: rounding.
     #[test]
     fn locked_modes_are_free_modes() {
         let sheet = open_flat();
@@ -276,9 +280,9 @@ mod tests {
         assert!((&free.curvatures * amplitudes - DVector::from_row_slice(&[0.3, -0.2, 0.9])).amax() <= 1e-10);
     }
 
-    /// Claim: names do not know which side one looks from. Turning the sheet over (faces listed the other way round) turns
-    /// all fold angles and the normal over, so that valleys still bend it positively: the same rates have the same
-    /// name. With the lattice vectors `l1, -l2` x stays and y turns round: only `k12` changes sign.
+    /// Claim: names do not depend on the side from which the sheet is seen. Reversing the order of corners of all faces
+    /// reverses all fold angles and the normal, so that valleys still bend the sheet positively: the same rates have
+    /// the same name. With the lattice vectors `l1, -l2` x stays and y is reversed: only `k12` changes sign.
     #[test]
     fn names_follow_the_face_normals() {
         let sheet = open_star();
@@ -311,8 +315,9 @@ mod tests {
         turned
     }
 
-    /// Claim: what cannot be named says why: a flat sheet has Nv + 2 modes, triangulated Miura-ori has three that do
-    /// not make all curvature tensors, a finite sheet and one with openings have no modes of this kind.
+    /// Claim: errors name the reason for which a mode cannot be named: a flat sheet has Nv + 2 modes, the three modes
+    /// of triangulated Miura-ori do not give all curvature tensors, a finite sheet and one with openings have no modes
+    /// of this kind.
     #[test]
     fn what_cannot_be_named() {
         let flat = folding_modes(&open_flat()).unwrap();

@@ -1,6 +1,7 @@
-//! The drawn lattice as a frame: x along the first lattice vector, y in the plane of the lattice towards the second.
+//! The frame of the drawn lattice: x along the first lattice vector, y in the plane of the lattice towards the second.
 //!
-//! In this frame the lattice vectors are the columns of `a`, upper triangular with `a^T a = g`, `g_ij = l_i . l_j`.
+//! In this frame the lattice vectors are the columns of `a`, which is upper triangular with `a^T a = g`,
+//! `g_ij = l_i . l_j`.
 
 use crate::math::Vec3;
 use nalgebra::{Matrix2, Vector2};
@@ -15,7 +16,7 @@ pub struct LatticeFrame {
 }
 
 impl LatticeFrame {
-    /// The frame of two lattice vectors that are not parallel.
+    /// Returns the frame of two lattice vectors that are not parallel.
     pub fn new([l1, l2]: &[Vec3; 2]) -> Self {
         let along = l1.normalize();
         let vectors = Matrix2::new(l1.norm(), along.dot(l2), 0.0, along.cross(l2).norm());
@@ -24,25 +25,27 @@ impl LatticeFrame {
         Self { vectors, inverse }
     }
 
-    /// `[t11, t22, t12]` of the symmetric tensor `a^-T m a^-1`, for a matrix `m` of numbers per pair of lattice vectors.
+    /// Returns `[t11, t22, t12]` of the symmetric part of the tensor `a^-T m a^-1`; `m` has one entry for each pair of
+    /// lattice vectors.
     pub fn tensor(&self, m: &Matrix2<f64>) -> [f64; 3] {
         let tensor = self.inverse.transpose() * m * self.inverse;
         [tensor.m11, tensor.m22, 0.5 * (tensor.m12 + tensor.m21)]
     }
 
-    /// Strain `[strain11, strain22, strain12]` of chords against the drawn lattice: `a^-T g a^-1 - I`, without a half.
+    /// Returns the strain `[strain11, strain22, strain12]` of the `chords` relative to the drawn lattice,
+    /// `a^-T g a^-1 - I` with the metric `g` of the chords, without the factor 1/2.
     pub(crate) fn strain(&self, chords: &[Vec3; 2]) -> [f64; 3] {
         let metric = Matrix2::from_fn(|i, j| chords[i].dot(&chords[j]));
         let [e11, e22, e12] = self.tensor(&metric);
         [e11 - 1.0, e22 - 1.0, e12]
     }
 
-    /// How fast the strain changes when chords change at some rates.
+    /// Returns the rate of the strain for given rates of the chords.
     pub fn strain_rate(&self, chords: &[Vec3; 2], rates: &[Vec3; 2]) -> [f64; 3] {
         self.tensor(&Matrix2::from_fn(|i, j| rates[i].dot(&chords[j]) + chords[i].dot(&rates[j])))
     }
 
-    /// The line in the drawn plane along `n1 l1 + n2 l2`: its angle to x in radians, in `(-pi/2, pi/2]`.
+    /// Returns the angle of the line along `n1 l1 + n2 l2` in the drawn plane to x, in radians, in `(-pi/2, pi/2]`.
     pub(crate) fn line_angle(&self, n: [f64; 2]) -> f64 {
         let [x, y]: [f64; 2] = (self.vectors * Vector2::from(n)).into();
         let flipped = x < 0.0 || (x == 0.0 && y < 0.0);
@@ -56,9 +59,9 @@ mod tests {
 
     const LATTICE: [[f64; 3]; 2] = [[2.0, 0.0, 0.0], [0.6, 2.0, 0.0]];
 
-    /// Claim: the drawn lattice has no strain; stretched along the first lattice vector by 10 per cent, 21 per cent in
-    /// `strain11` alone; sheared along it by an angle of tangent 0.1, `strain12 = 0.1` and `strain22 = 0.01`, wherever
-    /// it lies in space. Tolerance: rounding.
+    /// Claim: the drawn lattice has no strain. Stretched along the first lattice vector by 10 per cent, it has a strain
+    /// of 21 per cent in `strain11` only; sheared along that vector by an angle of tangent 0.1, it has `strain12 = 0.1`
+    /// and `strain22 = 0.01`. This holds for every orientation in space. Tolerance: rounding.
     #[test]
     fn strains_of_simple_changes() {
         let turn = crate::math::rotation::exp(&Vec3::new(0.3, -1.0, 0.2));
@@ -74,7 +77,7 @@ mod tests {
         close(strained(&|l| l + 0.1 * x * y.dot(&l)), [0.0, 0.01, 0.1]);
     }
 
-    /// Claim: lines are told by their angle to the first lattice vector, whichever way along them one goes.
+    /// Claim: the angle of a line to the first lattice vector does not depend on the direction along the line.
     #[test]
     fn lines_have_angles() {
         let frame = LatticeFrame::new(&LATTICE.map(Vec3::from));

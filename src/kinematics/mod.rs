@@ -1,7 +1,7 @@
-//! Exact folding in fold angles alone: closure of the faces around every vertex, the embedding that follows from the
-//! angles, its screw lattice, and the linear folding modes.
+//! Exact rigid folding in terms of fold angles: closure of the faces around every vertex, the embedding computed from
+//! the angles, its screw lattice, and the linear folding modes.
 //!
-//! Nothing here knows bars or energies, so that it can judge what the energies find.
+//! This module does not use bars or energies, so that it is an independent check of the results of the energies.
 
 pub(crate) mod closing;
 pub(crate) mod closure;

@@ -1,58 +1,58 @@
-//! Rigid motions `x -> S x + l`, and the velocities of motions that change.
+//! Rigid motions `x -> S x + l`, and their velocities.
 //!
-//! While a motion changes, the point that it has brought to `x` moves with the velocity `w x x + u`: the twist `(w, u)`
-//! of the motion. The product rule is `twist(A B) = twist(A) + twist(B) carried by A`, and carrying turns `w` and `u`
-//! with `S` and adds `l x (S w)` to `u` (R. M. Murray, Z. Li and S. S. Sastry, "A Mathematical Introduction to Robotic
-//! Manipulation", 1994, section 2.4: spatial velocities and the adjoint). Whatever is built from motions by products and
-//! inverses is differentiated by building it from [`Moving`] ones.
+//! While a motion changes, the point that it has moved to `x` has the velocity `w x x + u`: the twist `(w, u)` of the
+//! motion. The product rule is `twist(A B) = twist(A) + twist(B) carried by A`, where carrying rotates `w` and `u` by
+//! `S` and adds `l x (S w)` to `u` (R. M. Murray, Z. Li and S. S. Sastry, "A Mathematical Introduction to Robotic
+//! Manipulation", 1994, section 2.4: spatial velocities and the adjoint). A quantity that is built from motions by
+//! products and inverses is differentiated by building it from [`Moving`] ones.
 
 use crate::math::Vec3;
 use nalgebra::Matrix3;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// What composes as rigid motions do; `A * B` is `B` first and `A` after it.
+/// Types with the composition of rigid motions; `A * B` applies `B` first and `A` after it.
 pub(crate) trait Rigid: Copy + Mul<Output = Self> {
-    /// The motion that adds a vector to every point.
+    /// Returns the motion that adds a vector to every point.
     fn shift(by: Vec3) -> Self;
-    /// The motion that undoes this one.
+    /// Returns the inverse motion.
     fn inverse(&self) -> Self;
 
-    /// The motion that leaves every point where it is.
+    /// Returns the motion that leaves every point unchanged.
     fn identity() -> Self {
         Self::shift(Vec3::zeros())
     }
 
-    /// The motion done `n` times, undone where `n` is negative.
+    /// Returns the motion applied `n` times, or its inverse `-n` times if `n` is negative.
     fn power(&self, n: i32) -> Self {
         let once = if n < 0 { self.inverse() } else { *self };
         (0..n.unsigned_abs()).fold(Self::identity(), |done, _| done * once)
     }
 
-    /// `n1` times the first of two motions after `n2` times the second.
+    /// Returns the motion that applies the second motion `n2` times and then the first `n1` times.
     fn lattice_power([first, second]: &[Self; 2], [n1, n2]: [i32; 2]) -> Self {
         first.power(n1) * second.power(n2)
     }
 }
 
-/// A straight line with a direction, to turn about.
+/// A straight line with a direction, the axis of a rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Line {
-    /// A point on it.
+    /// A point on the line.
     pub point: Vec3,
-    /// Its direction, of length 1.
+    /// Direction of the line, of length 1.
     pub direction: Vec3,
 }
 
-/// `x -> S x + l`.
+/// The rigid motion `x -> S x + l`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// The rotation `S`.
     pub rotation: Matrix3<f64>,
-    /// The translation `l`: where the origin goes.
+    /// The translation `l`, the image of the origin.
     pub translation: Vec3,
 }
 
-/// The velocities `w x x + u` of the points of a rigid body, per unit of whatever the body moves with.
+/// The velocities `w x x + u` of the points of a rigid body, per unit of the parameter of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
     /// The angular velocity `w`.
@@ -66,12 +66,13 @@ pub struct Twist {
 pub struct Moving {
     /// The motion.
     pub motion: Motion,
-    /// The velocities of the points where the motion has brought them.
+    /// The velocities of the points at their positions after the motion.
     pub twist: Twist,
 }
 
 impl Motion {
-    /// The turn about a line by an angle in radians, counter-clockwise looking against its direction.
+    /// Returns the rotation about a line by an angle in radians, counter-clockwise seen against the direction of the
+    /// line.
     pub(crate) fn about(line: &Line, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         let [x, y, z] = (sin * line.direction).into();
@@ -80,7 +81,7 @@ impl Motion {
         Self { rotation, translation: line.point - rotation * line.point }
     }
 
-    /// Where a point goes.
+    /// Returns the image of a point.
     pub fn apply(&self, x: &Vec3) -> Vec3 {
         self.rotation * x + self.translation
     }
@@ -106,23 +107,23 @@ impl Mul for Motion {
 }
 
 impl Twist {
-    /// Nothing moves.
+    /// Returns the twist of a body at rest.
     pub(crate) fn zero() -> Self {
         Self { angular: Vec3::zeros(), linear: Vec3::zeros() }
     }
 
-    /// Turning about a line at an angular speed.
+    /// Returns the twist of a rotation about a line at an angular speed.
     pub(crate) fn about(line: &Line, speed: f64) -> Self {
         let angular = speed * line.direction;
         Self { angular, linear: line.point.cross(&angular) }
     }
 
-    /// The velocity of the point at `x`.
+    /// Returns the velocity of the point at `x`.
     pub fn at(&self, x: &Vec3) -> Vec3 {
         self.angular.cross(x) + self.linear
     }
 
-    /// The same velocities in a body that a motion has carried elsewhere.
+    /// Returns the same velocities for a body that was displaced by a motion.
     pub(crate) fn carried_by(&self, motion: &Motion) -> Self {
         let angular = motion.rotation * self.angular;
         Self { angular, linear: motion.rotation * self.linear + motion.translation.cross(&angular) }
@@ -154,12 +155,12 @@ impl Sub for Twist {
 }
 
 impl Moving {
-    /// The turn about a line by an angle that changes at an angular speed.
+    /// Returns the rotation about a line by an angle that changes at an angular speed.
     pub(crate) fn about(line: &Line, angle: f64, speed: f64) -> Self {
         Self { motion: Motion::about(line, angle), twist: Twist::about(line, speed) }
     }
 
-    /// The velocity of the image of a point that itself moves.
+    /// Returns the velocity of the image of a point that itself moves with `velocity`.
     pub(crate) fn carry(&self, x: &Vec3, velocity: &Vec3) -> Vec3 {
         self.twist.at(&self.motion.apply(x)) + self.motion.rotation * velocity
     }
@@ -199,7 +200,7 @@ mod tests {
         }
     }
 
-    /// Claim: a turn leaves its line where it is, turns as the rotation vector says, and inverses and powers undo each
+    /// Claim: a rotation keeps its axis fixed and rotates as the rotation vector says; inverses and powers cancel each
     /// other. Tolerance: rounding of products of ten motions.
     #[test]
     fn motions_are_a_group() {
@@ -215,7 +216,7 @@ mod tests {
         assert!((back.apply(&there.apply(&x)) - x).norm() <= 1e-14);
     }
 
-    /// Claim: the twist of products, inverses and powers is the derivative of where they bring a point that moves too.
+    /// Claim: the twist of products, inverses and powers is the derivative of the image of a moving point.
     #[test]
     fn twists_are_derivatives() {
         let (speeds, velocity) = ([0.7, -1.3], Vec3::new(0.2, 0.5, -0.4));

@@ -1,10 +1,12 @@
 //! The rays along which folding leaves a state: the real solutions of the obstruction quadrics.
 //!
-//! With as many quadrics as motions less one the complex solutions are points, `2^m` with multiplicity, and every real one is a
-//! line of motions: two rays, `v` and `-v`. With more quadrics there are fewer solutions, mostly none. With fewer they are
-//! curves or more: their degree is counted on a random linear space, and single rays exist only where a real point has no
-//! real ones beside it; such a point is singular, as the one where two conjugate lines meet. A simple real ray extends to a finite
-//! fold (implicit function theorem after division by the square of the amplitude); of a multiple one second order says no more.
+//! If the number `m` of quadrics is one less than that of motions, the complex solutions are points, `2^m` with
+//! multiplicity, and every real one is a line of motions: two rays, `v` and `-v`. With more quadrics there are fewer
+//! solutions, mostly none. With fewer quadrics the solutions form curves or sets of higher dimension: their degree is
+//! counted on a random linear space, and isolated rays exist only if a real point has no real points near it. Such a
+//! point is singular, like the intersection of two conjugate lines. A simple real ray extends to a finite fold
+//! (implicit function theorem after division by the square of the amplitude); for a multiple ray the second order does
+//! not decide this.
 
 use super::{KinematicsError, SecondOrder, signature};
 use crate::numerics::DenseMatrix;
@@ -12,19 +14,19 @@ use crate::numerics::dense::symmetric_eigen;
 use crate::numerics::homotopy::{Section, SingularPoint, Solution, meets_real_points, real_singular_points, solve_any};
 use nalgebra::DVector;
 
-/// Singular points of curves of more quadrics are not looked for: `k 2^k` paths take minutes.
+/// Largest number of quadrics of a curve whose singular points are computed: `k 2^k` paths for more take minutes.
 const MOST_QUADRICS: usize = 7;
 
-/// Number of random linear spaces on which real points of curves of several quadrics are looked for.
+/// Number of random linear spaces on which real points of curves of several quadrics are sought.
 const SLICES: usize = 8;
 
-/// Entries of directions are compared in units of this.
+/// Unit of rounding in which entries of directions are compared.
 const GRAIN: f64 = 1e-6;
 
 /// A direction in which folding leaves a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ray {
-    /// Rays `v` and `-v` have one branch number.
+    /// Number of the branch, the same for the rays `v` and `-v`.
     pub branch: usize,
     /// 1 for the ray whose first entry beyond 1e-6 is positive, -1 for the other.
     pub sign: i8,
@@ -36,39 +38,40 @@ pub struct Ray {
     pub error: f64,
 }
 
-/// What is established about the real directions in which folding leaves a state.
+/// The completeness of the list of real directions in which folding leaves a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RealDirections {
-    /// Every one of them is a listed ray. A list without a ray then means that there is none.
+    /// Every real direction is a listed ray. If the list is empty, there is none.
     Listed,
-    /// They are infinitely many: they fill curves, surfaces or more. Listed are only those that stand alone.
+    /// There are infinitely many real directions: they form curves, surfaces or more. Only isolated ones are listed.
     Continuum,
-    /// Others than the listed rays were neither found nor excluded.
+    /// Other directions than the listed rays were neither found nor excluded.
     NotEstablished,
 }
 
-/// The complex solutions, counted, and the real rays.
+/// The numbers of complex solutions, and the real rays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rays {
-    /// Dimension of the set of solutions in projective space: 0 where they are points.
+    /// Dimension of the set of solutions in projective space: 0 if they are points.
     pub dimension: usize,
-    /// Bezout's number: of all solutions, of those on a random linear space, or of random combinations of the quadrics.
+    /// Bezout's number of all solutions, of those on a random linear space, or of random combinations of the quadrics.
     pub expected: usize,
-    /// Isolated complex solutions, with multiplicity; where `dimension` is not 0, on the random linear space.
+    /// Number of isolated complex solutions with multiplicity; if `dimension` is not 0, on the random linear space.
     pub complex_solutions: usize,
-    /// The same without multiplicity.
+    /// Number of isolated complex solutions without multiplicity.
     pub distinct: usize,
-    /// Ends of paths on curves or more of solutions, where single ones are expected.
+    /// Number of paths that end on curves or larger sets of solutions, where isolated ones are expected.
     pub on_continua: usize,
-    /// Solutions of random combinations that do not satisfy all quadrics.
+    /// Number of solutions of random combinations that do not satisfy all quadrics.
     pub extraneous: usize,
-    /// Number of real singular points of the set of solutions: of a curve of at most 7 quadrics, and of one quadric; `None`
-    /// elsewhere, and where they are not single points.
+    /// Number of real singular points of the set of solutions, computed for a curve of at most 7 quadrics and for one
+    /// quadric; `None` in other cases, and if the singular points are not isolated.
     pub singular: Option<usize>,
-    /// What is established about all real directions, beside the rays that stand alone.
+    /// The completeness of the listed rays among all real directions.
     pub directions: RealDirections,
-    /// The isolated real rays, by branch, sign 1 first. Branches are numbered from 0 by the directions of sign 1, rounded
-    /// to 1e-6: the one with the larger first entry comes first, of equal ones that with the larger second, and so on.
+    /// The isolated real rays, by branch, sign 1 first. Branches are numbered from 0 by their directions of sign 1,
+    /// rounded to 1e-6: the direction with the larger first entry comes first, among equal ones that with the larger
+    /// second entry, and so on.
     pub rays: Vec<Ray>,
 }
 
@@ -101,10 +104,11 @@ impl Rays {
     }
 }
 
-/// What the solutions establish about the real ones.
+/// Determines the completeness of the real solutions.
 ///
-/// Points are all counted. One quadric says by its signature whether it has real points, and whether these are one line. A curve, or more, of
-/// several quadrics has infinitely many real points where a random real linear space meets it in one; where none does, nothing follows.
+/// If the solutions are points, all are counted. For one quadric, the signature tells whether there are real points,
+/// and whether these form one line. A curve, or a set of several quadrics, has infinitely many real points if a random
+/// real linear space meets it in one; if none does, nothing follows.
 fn established(
     quadrics: &[DenseMatrix],
     unknowns: usize,
@@ -142,7 +146,8 @@ impl From<&Solution> for Line {
     }
 }
 
-/// The real solutions that are alone among the complex ones of a curve or more, and the number of real singular points.
+/// Returns the real solutions that are isolated among the complex solutions on a curve or larger set, and the number of
+/// real singular points.
 fn among_continua(quadrics: &[DenseMatrix], dimension: usize) -> Result<(Vec<Line>, Option<usize>), KinematicsError> {
     if let [quadric] = quadrics {
         return vertex_of_cone(quadric);
@@ -159,7 +164,8 @@ fn among_continua(quadrics: &[DenseMatrix], dimension: usize) -> Result<(Vec<Lin
     Ok((points.iter().filter(|point| point.isolated).map(line).collect(), Some(points.len())))
 }
 
-/// The vertex of the cone of one quadric with one zero eigenvalue: alone where the others have one sign.
+/// Returns the vertex of the cone of one quadric with one zero eigenvalue, which is isolated if the other eigenvalues
+/// have one sign, and the number of singular points.
 fn vertex_of_cone(quadric: &DenseMatrix) -> Result<(Vec<Line>, Option<usize>), KinematicsError> {
     let [positive, negative, zero] = signature(quadric)?;
     if zero != 1 {
@@ -173,7 +179,7 @@ fn vertex_of_cone(quadric: &DenseMatrix) -> Result<(Vec<Line>, Option<usize>), K
     Ok((smallest.filter(|_| alone).map(line).into_iter().collect(), Some(1)))
 }
 
-/// Two rays for each line, in the order of their numbers.
+/// Returns two rays for each line, in the order of their numbers.
 fn numbered(modes: &DenseMatrix, lines: &[Line]) -> Vec<Ray> {
     let grains =
         |direction: &DVector<f64>| -> Vec<i64> { direction.iter().map(|x| (x / GRAIN).round() as i64).collect() };
@@ -191,7 +197,7 @@ fn numbered(modes: &DenseMatrix, lines: &[Line]) -> Vec<Ray> {
     rays.collect()
 }
 
-/// The one of `v` and `-v`, of norm 1, whose first entry beyond the grain is positive.
+/// Returns the one of `v` and `-v`, scaled to norm 1, whose first entry beyond `GRAIN` is positive.
 fn positive(direction: DVector<f64>) -> DVector<f64> {
     let first = direction.iter().find(|entry| entry.abs() > GRAIN).copied().unwrap_or(1.0);
     direction.normalize() * first.signum()
@@ -216,8 +222,8 @@ mod tests {
         sheet.edges.iter().position(|edge| named(&edge.key)).unwrap()
     }
 
-    /// Claim: with edge (0, 1, 0, 0) locked four rays leave open-star, those along which an independent program started its
-    /// trajectories. Tolerance 1e-8: its directions satisfy the quadratic condition to 7e-9.
+    /// Claim: with edge (0, 1, 0, 0) locked four rays leave open-star, those along which an independent program started
+    /// its trajectories. Tolerance 1e-8: its directions satisfy the quadratic condition to 7e-9.
     #[test]
     fn rays_of_open_star() {
         let sheet = open_star();
@@ -235,7 +241,7 @@ mod tests {
         }
     }
 
-    /// Claim: rays are numbered in pairs; sign 1 has its first entry beyond 1e-6 positive, and comes first.
+    /// Claim: rays are numbered in pairs; the ray of sign 1 has its first entry beyond 1e-6 positive, and comes first.
     #[test]
     fn rays_are_numbered() {
         let sheet = open_flat();
@@ -251,9 +257,10 @@ mod tests {
         assert!(first.windows(2).all(|pair| pair[0] >= pair[1] - GRAIN), "{first:?}");
     }
 
-    /// Claim: without a lock the solutions of open-star are a conic, of degree 2, and no ray is alone; of triangulated Miura-ori
-    /// too, but its conic is a pair of conjugate lines, and the only real direction is the point where they meet: the folding of
-    /// Miura-ori, all of whose diagonals keep their angle. Source: theory. Tolerance: rounding.
+    /// Claim: without a lock the solutions of open-star are a conic, of degree 2, and no ray is isolated. The same
+    /// holds for triangulated Miura-ori, but its conic is a pair of conjugate lines, and the only real direction is
+    /// their intersection: the folding of Miura-ori in which all diagonals keep their angle. Source: theory. Tolerance:
+    /// rounding.
     #[test]
     fn without_a_lock_they_are_a_curve() {
         let star = rays(&open_star(), &[]);
@@ -268,7 +275,8 @@ mod tests {
         assert!(diagonals.map(|edge| found.rays[0].direction[edge].abs()).fold(0.0, f64::max) <= 1e-9);
     }
 
-    /// Claim: without a lock the solutions of a flat cell are a curve of degree 2^Nv = 16, and for a generic cell it is smooth.
+    /// Claim: without a lock the solutions of a flat cell are a curve of degree 2^Nv = 16, which is smooth for a
+    /// generic cell.
     #[test]
     fn a_flat_cell_without_a_lock() {
         let flat = rays(&open_flat(), &[]);
@@ -276,9 +284,9 @@ mod tests {
         assert_eq!((flat.singular, flat.rays.len()), (Some(0), 0));
     }
 
-    /// Claim: the flat square twist without a lock is a curve of degree 16 with two real points that are alone: the two ways
-    /// to fold it with rigid squares and trapezoids, which a lock on all diagonals finds as simple solutions. Tolerance: the
-    /// place of a multiple solution, 1e-8.
+    /// Claim: the solutions of the flat square twist without a lock are a curve of degree 16 with two isolated real
+    /// points: the two ways to fold it with rigid squares and trapezoids, which are simple solutions if all diagonals
+    /// are locked. Tolerance: the error of a multiple solution, 1e-8.
     #[test]
     fn rays_alone_on_a_curve_of_several_quadrics() {
         let flat = generate(&Pattern::SquareTwist(SquareTwist { fold: 0.0, ..SquareTwist::default() })).unwrap();
@@ -294,7 +302,7 @@ mod tests {
 
     /// Claim: a lock on a crease of Miura-ori leaves no real ray, one on a diagonal leaves its folding. Two locks of
     /// open-star leave one motion, which does not extend; three leave none. On a folded cylinder with its lock, the
-    /// trajectory goes on both ways.
+    /// trajectory continues in both directions.
     #[test]
     fn locks() {
         let sheet = miura();

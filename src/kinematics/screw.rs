@@ -1,15 +1,15 @@
 //! The screw lattice: two commuting motions about one axis, which move vertex 0 on a cylinder.
 //!
-//! With the rotation vectors `theta_a s` of the lattice rotations, `s` the common axis, and the chords `l_a` from vertex 0
-//! (at the origin) to its copies, split into `s (s . l_a)` along and `p_a` across the axis:
+//! Let `theta_a s` be the rotation vectors of the lattice rotations with the common axis `s`, and `l_a` the chords from
+//! vertex 0 (at the origin) to its copies, split into `s (s . l_a)` along and `p_a` across the axis:
 //!
-//! - **Towards the axis.** `k = sum of (1 - cos theta_a) p_a + sin theta_a s x p_a, over sum of |p_a|^2`. It points from
-//!   vertex 0 to the axis, and its length is one over the distance: for a point at `c` from the axis both lattice
-//!   motions give `p = c - S c`. It goes smoothly through zero where the sheet becomes spatially periodic, and needs no
-//!   more than a rotation vector, which is safe there.
-//! - **Any cell.** The sum of `S^k l` over `k < n` is, in the complex plane across the axis,
-//!   `(e^(i n theta) - 1)/(e^(i theta) - 1) p = n phi(n theta)/phi(theta) p` with `phi(t) = (e^(it) - 1)/(it)`, which is
-//!   `n` at `theta = 0` and has no singular point up to `|theta| = pi`. Copies of `x` are at
+//! - **Towards the axis.** `k = sum of (1 - cos theta_a) p_a + sin theta_a s x p_a, over sum of |p_a|^2`. It points
+//!   from vertex 0 to the axis, and its length is the inverse of the distance: for a point at `c` from the axis both
+//!   lattice motions give `p = c - S c`. It passes smoothly through zero where the sheet becomes spatially periodic,
+//!   and its computation needs only a rotation vector, which is accurate there.
+//! - **Motion to any cell.** The sum of `S^k l` over `k < n` is, in the complex plane across the axis,
+//!   `(e^(i n theta) - 1)/(e^(i theta) - 1) p = n phi(n theta)/phi(theta) p` with `phi(t) = (e^(it) - 1)/(it)`, which
+//!   is `n` at `theta = 0` and has no singular point up to `|theta| = pi`. Copies of `x` are at
 //!   `S1^n1 S2^n2 x + sum over k < n1 of S1^k l1 + S1^n1 sum over k < n2 of S2^k l2` (J. McInerney, B. G. Chen, L.
 //!   Theran, C. D. Santangelo and D. Z. Rocklin, "Hidden symmetries generate rigid folding mechanisms in periodic
 //!   origami", PNAS 117, 30252 (2020), appendix on vertex positions, where the last term has its powers interchanged).
@@ -18,34 +18,34 @@ use super::motion::{Motion, Moving};
 use crate::math::{Vec3, rotation, sinc::phi};
 use nalgebra::Complex;
 
-/// Two commuting screw motions, seen from vertex 0.
+/// Two commuting screw motions, relative to vertex 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Screw {
-    /// Direction of the common axis, of length 1, such that the larger in magnitude of the two angles is positive; `None`
-    /// where nothing turns. Near there it is as uncertain as the angles are small.
+    /// Direction of the common axis, of length 1, such that the angle of larger absolute value is positive; `None` if
+    /// there is no rotation. The error of the direction grows as the angles become small.
     pub axis: Option<Vec3>,
-    /// Rotation angles about the axis from a cell to the next, in radians: the larger in `[0, pi]`, the other not
-    /// larger in magnitude.
+    /// Rotation angles about the axis from a cell to the next, in radians: the larger one in `[0, pi]`, the other one
+    /// not larger in absolute value.
     pub theta: [f64; 2],
     /// Chords from vertex 0 to its two copies.
     pub chords: [Vec3; 2],
 }
 
-/// Rates of a screw that turns.
+/// Rates of a screw with nonzero rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ScrewRate {
-    /// Of the direction of the axis, in the embedding's frame.
+    /// Rate of the direction of the axis, in the frame of the embedding.
     pub axis: Vec3,
-    /// Of the two angles.
+    /// Rates of the two angles.
     pub theta: [f64; 2],
-    /// Of the chords.
+    /// Rates of the chords.
     pub chords: [Vec3; 2],
-    /// Of [`Screw::towards_axis`].
+    /// Rate of [`Screw::towards_axis`].
     pub towards_axis: Vec3,
 }
 
 impl Screw {
-    /// The screw of two lattice motions that commute up to rounding.
+    /// Returns the screw of two lattice motions that commute up to rounding.
     pub(crate) fn new(lattice: &[Motion; 2]) -> Self {
         let turns = lattice.map(|motion| rotation::log(&motion.rotation));
         let larger = turns[dominant(&turns)];
@@ -55,9 +55,9 @@ impl Screw {
         Self { axis, theta, chords: lattice.map(|motion| motion.translation) }
     }
 
-    /// From vertex 0 towards the axis, of length one over the distance.
+    /// Returns the vector from vertex 0 towards the axis, whose length is the inverse of the distance.
     ///
-    /// Zero where nothing turns; not a number where vertex 0 is on the axis.
+    /// It is zero if there is no rotation, and NaN if vertex 0 is on the axis.
     pub fn towards_axis(&self) -> Vec3 {
         let Some(axis) = self.axis else { return Vec3::zeros() };
         let parts = [0, 1].map(|a| {
@@ -68,12 +68,12 @@ impl Screw {
         (parts[0].0 + parts[1].0) / (parts[0].1 + parts[1].1)
     }
 
-    /// How far a cell is moved along the axis against the cell before, along both lattice vectors.
+    /// Returns the translations along the axis from a cell to the next, along both lattice vectors.
     pub fn rise(&self) -> [f64; 2] {
         self.chords.map(|chord| self.axis.map_or(0.0, |axis| axis.dot(&chord)))
     }
 
-    /// What brings cell (0, 0) onto the cell `[n1, n2]`, by closed sums.
+    /// Returns the motion from cell (0, 0) to the cell `[n1, n2]`, by closed sums.
     pub fn motion(&self, [n1, n2]: [i32; 2]) -> Motion {
         let [n1, n2] = [f64::from(n1), f64::from(n2)];
         let turn = |angle: f64| self.axis.map_or_else(Vec3::zeros, |axis| axis * angle);
@@ -84,7 +84,7 @@ impl Screw {
         }
     }
 
-    /// The sum of `S^k l` over `k < n`, where `n` may be negative.
+    /// Returns the sum of `S^k l` over `k < n`, where `n` may be negative.
     fn sum(&self, a: usize, n: f64) -> Vec3 {
         let (chord, theta) = (self.chords[a], self.theta[a]);
         let Some(axis) = self.axis else { return n * chord };
@@ -93,10 +93,10 @@ impl Screw {
         n * along + ratio.re * (chord - along) + ratio.im * axis.cross(&chord)
     }
 
-    /// Rates of everything, from those of the lattice motions; `None` where nothing turns.
+    /// Returns all rates, from those of the lattice motions; `None` if there is no rotation.
     ///
-    /// A rotation vector changes by the inverse left Jacobian of the rotation group times the angular velocity. For the
-    /// axis alone this is `(1 - S) ds = W x s` across the axis (appendix on displacements of the paper above).
+    /// The rate of a rotation vector is the inverse left Jacobian of the rotation group times the angular velocity. For
+    /// the axis alone this is `(1 - S) ds = W x s` across the axis (appendix on displacements of the paper above).
     pub(crate) fn rate(&self, lattice: &[Moving; 2]) -> Option<ScrewRate> {
         let s = self.axis?;
         let turns = lattice.map(|moving| rotation::log(&moving.motion.rotation));
@@ -120,7 +120,7 @@ impl Screw {
     }
 }
 
-/// The longer of two vectors.
+/// Returns the index of the longer vector.
 fn dominant(turns: &[Vec3; 2]) -> usize {
     usize::from(turns[1].norm_squared() > turns[0].norm_squared())
 }
@@ -131,14 +131,14 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Screw motions about an axis at some distance from the origin.
+    /// Returns screw motions about an axis at some distance from the origin.
     fn about(distance: f64, theta: [f64; 2], rise: [f64; 2]) -> [Motion; 2] {
         let direction = Vec3::new(0.6, -0.64, 0.48);
         let line = Line { point: distance * Vec3::new(0.8, 0.48, -0.36), direction };
         [0, 1].map(|a| Motion::about(&line, theta[a]) * Motion::shift(rise[a] * direction))
     }
 
-    /// The same cylinder seen from chords of length about one: the radius grows as the angles fall.
+    /// Returns cylinders with chords of length about one: the radius grows as the angles decrease.
     fn unrolled(scale: f64) -> [Motion; 2] {
         if scale == 0.0 {
             return [Vec3::new(1.0, 0.2, 0.3), Vec3::new(-0.3, 1.0, 0.1)].map(Motion::shift);
@@ -146,9 +146,9 @@ mod tests {
         about(1.0 / scale, [scale, -0.3 * scale], [0.5, 0.7])
     }
 
-    /// Claim: axis, angles, distance and rise are those with which the motions were made, at angles from 1e-9 to next to
-    /// a half turn, the axis turned round where the larger angle is negative; the vector ends on the axis. Tolerance:
-    /// rounding of the motions over the angle.
+    /// Claim: axis, angles, distance and rise are those from which the motions were made, at angles from 1e-9 to nearly
+    /// a half turn, with the axis reversed if the larger angle is negative; the vector ends on the axis. Tolerance:
+    /// rounding of the motions divided by the angle.
     #[test]
     fn screw_is_as_made() {
         for (theta, sign) in [([0.3, -0.2], 1.0), ([0.2, -0.3], -1.0), ([PI - 1e-9, 1.0], 1.0), ([1e-9, -2e-9], -1.0)] {
@@ -162,7 +162,7 @@ mod tests {
         }
     }
 
-    /// Claim: a lattice that does not turn has no axis and no curvature, and cells stand where the lattice puts them.
+    /// Claim: a lattice without rotation has no axis and no curvature, and cells are translated by the lattice vectors.
     #[test]
     fn nothing_turns() {
         let motions = unrolled(0.0);
@@ -174,9 +174,9 @@ mod tests {
         assert!((far.translation - expected).norm() <= 1e-15);
     }
 
-    /// Claim: the closed sums give what doing the motions one by one gives, up to 50 cells each way, where nothing turns,
-    /// where hardly anything does, at an angle of one and at half turns. Tolerance: rounding of an angle, 2e-16, times
-    /// the cells, times the way of as many cells; both ways have it.
+    /// Claim: the closed sums agree with the motions applied one by one, up to 50 cells each way, without rotation,
+    /// with very small rotations, at an angle of one and at half turns. Tolerance: rounding of an angle, 2e-16, times
+    /// the number of cells, times the distance of as many cells; both computations have this error.
     #[test]
     fn closed_sums_are_the_motions_done_one_by_one() {
         let half = |scale: f64| about(1.0, [PI, scale], [0.5, 0.7]);

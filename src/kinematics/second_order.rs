@@ -1,10 +1,11 @@
-//! Which linear folding motions extend to second order: the obstruction quadrics of a state.
+//! The obstruction quadrics of a state, which linear folding motions must satisfy to extend to second order.
 //!
-//! A linear motion `v = N x`, `N` a basis of the null space of the closure Jacobian `J`, moves the angles by `s v + s^2 w`. The
-//! faces close to second order where `J w + B(v, v) = 0`, `B` the second-order closure. Some `w` does this where every left
-//! null vector `y`, `y^T J = 0`, finds nothing: `x^T A_y x = 0` with `A_y = sum_row y_row N^T B_row N`. At a spatially periodic
-//! state that is not flat there are 3 modes and one independent quadric, the loop: `Omega_1 x Omega_2` along the normal. At a
-//! flat developable state there are `Nv + 2` modes and `Nv` quadrics, one for each vertex; the loop is their sum.
+//! A linear motion `v = N x`, `N` a basis of the null space of the closure Jacobian `J`, moves the angles by
+//! `s v + s^2 w`. The faces close to second order if `J w + B(v, v) = 0` with the second-order closure `B`. A solution
+//! `w` exists if the left null vectors `y`, `y^T J = 0`, satisfy `x^T A_y x = 0` with
+//! `A_y = sum_row y_row N^T B_row N`. A spatially periodic state that is not flat has 3 modes and one independent
+//! quadric, that of the loop: `Omega_1 x Omega_2` along the normal. A flat developable state has `Nv + 2` modes and
+//! `Nv` quadrics, one for each vertex; the loop is their sum.
 
 use super::{Closure, KinematicsError};
 use crate::numerics::DenseMatrix;
@@ -12,34 +13,35 @@ use crate::numerics::dense::small::orthonormal_triangular;
 use crate::numerics::dense::{Svd, full_svd, null_space, rank_at_largest_gap, symmetric_eigenvalues};
 use crate::numerics::vector::max_abs;
 
-/// Largest closure residual of a state whose directions mean something.
+/// Largest closure residual of a state whose directions are computed.
 const CLOSURE_RESIDUAL: f64 = 1e-9;
 
-/// Eigenvalues below this part of the largest are zero in a signature.
+/// Eigenvalues below this fraction of the largest one count as zero in a signature.
 const ZERO: f64 = 1e-9;
 
-/// The linear motions of a state, and the quadrics that they must satisfy to extend.
+/// The linear motions of a state, and the quadrics that they must satisfy to extend to second order.
 #[derive(Clone, Debug)]
 pub struct SecondOrder {
     /// Orthonormal linear motions as columns, `Ne x n`: rates of all fold angles, zero at locked edges and on the rim.
     pub modes: DenseMatrix,
-    /// The obstruction along each of an orthonormal basis of left null vectors: symmetric `n x n` matrices.
+    /// The obstruction along each vector of an orthonormal basis of left null vectors: symmetric `n x n` matrices.
     pub forms: Vec<DenseMatrix>,
     /// Orthonormal matrices (as vectors of their entries) with the same span as the forms: the independent quadrics.
     pub quadrics: Vec<DenseMatrix>,
-    /// Smallest kept over largest dropped singular value, of the closure Jacobian and of the list of forms.
+    /// Ratio of the smallest singular value that counts as nonzero to the largest one that counts as zero, of the
+    /// closure Jacobian and of the list of forms.
     pub gaps: [f64; 2],
 }
 
 impl SecondOrder {
-    /// The motions and quadrics of a closed state, `angles` in radians for every edge, locked edges of the closure left as
-    /// they are.
+    /// Computes the motions and quadrics of a closed state. `angles` holds the fold angle of every edge in radians; the
+    /// locked edges of the closure keep their angles.
     ///
     /// # Errors
-    /// [`KinematicsError`] where the state does not close to 1e-9, and where a rank is not clear.
+    /// [`KinematicsError`] if the state does not close to 1e-9, or if a rank is not clear.
     ///
     /// # Panics
-    /// Where `angles` has another length than the list of edges.
+    /// If the length of `angles` is not the number of edges.
     pub fn new(closure: &Closure, angles: &[f64]) -> Result<Self, KinematicsError> {
         let residual = closure.residual(angles).amax();
         let closed = closure.vertices().len() == 0 || residual <= CLOSURE_RESIDUAL;
@@ -69,10 +71,11 @@ impl SecondOrder {
     }
 }
 
-/// Orthonormal matrices with the span of the forms, and the gap between kept and dropped singular values.
+/// Returns orthonormal matrices with the span of the forms, and the gap between the singular values that count as
+/// nonzero and as zero.
 ///
-/// The motions have norm 1 and the directions of edges too, so forms that count are of the order of 1; the rank is read off
-/// the singular values with a 1 before them, so that forms which are all rounding have rank 0.
+/// The motions and the directions of edges have norm 1, so that nonzero forms are of the order of 1. The rank is
+/// determined from the singular values preceded by a 1, so that forms which consist of rounding errors have rank 0.
 fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), KinematicsError> {
     let entries = forms.first().map_or(0, DenseMatrix::len);
     if entries == 0 {
@@ -90,13 +93,14 @@ fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), Kinemat
     Ok(((0..found.rank - 1).map(combined).collect(), found.gap))
 }
 
-/// How many eigenvalues of a symmetric matrix are positive, negative and zero, the last up to 1e-9 of the largest.
+/// Returns the numbers of positive, negative and zero eigenvalues of a symmetric matrix; an eigenvalue counts as zero
+/// up to 1e-9 of the largest one.
 ///
-/// Of the one quadric of a periodic state: `[2, 1, 0]` or `[1, 2, 0]` is a cone of real directions, `[3, 0, 0]` has none, and
-/// `[2, 0, 1]` has one, of multiplicity two.
+/// For the one quadric of a periodic state, `[2, 1, 0]` or `[1, 2, 0]` is a cone of real directions, `[3, 0, 0]` has
+/// none, and `[2, 0, 1]` has one, of multiplicity two.
 ///
 /// # Errors
-/// [`KinematicsError`] on entries that are not finite.
+/// [`KinematicsError`] if an entry is not finite.
 pub(crate) fn signature(quadric: &DenseMatrix) -> Result<[usize; 3], KinematicsError> {
     let values = symmetric_eigenvalues(quadric)?;
     let threshold = ZERO * max_abs(&values);
@@ -122,8 +126,8 @@ mod tests {
         generate(&Pattern::RandomDevelopable(RandomDevelopable { size, seed, ..RandomDevelopable::default() })).unwrap()
     }
 
-    /// A flat cell of 3 x 2 vertices with one vertex lifted: it and its neighbours are not flat, vertex 5 is, with all six
-    /// around it.
+    /// A flat cell of 3 x 2 vertices with one vertex lifted: this vertex and its neighbours are not flat; vertex 5 is
+    /// flat with all six edges around it.
     fn mixed_cell() -> Sheet {
         let mut sheet = flat_cell([4, 3], 2);
         sheet.vertices[0].z += 0.3;
@@ -135,7 +139,8 @@ mod tests {
         SecondOrder::new(&closure, &drawn_fold_angles(sheet)).unwrap()
     }
 
-    /// Entry by entry, the second derivative of the residual along the modes by central differences, extrapolated.
+    /// Returns the second derivative of the residual along the modes, entry by entry, by extrapolated central
+    /// differences.
     fn by_differences(closure: &Closure, angles: &[f64], modes: &DenseMatrix) -> Vec<DenseMatrix> {
         let residual = |x: &DVector<f64>| {
             let moved: Vec<f64> = angles.iter().zip((modes * x).iter()).map(|(angle, rate)| angle + rate).collect();
@@ -155,9 +160,10 @@ mod tests {
         parts
     }
 
-    /// Claim: every entry of the second-order closure is the second derivative of the residual, at flat, folded and mixed
-    /// states, also where a vertex meets its own copy, and with locks. Tolerance 2e-9: differences of step 2e-3 cost
-    /// rounding 1e-16 / h^2 = 3e-11 and h^4 = 2e-11, for matrices of size 1 with factors up to some ten.
+    /// Claim: every entry of the second-order closure is the second derivative of the residual, at flat, folded and
+    /// mixed states, also if a vertex is adjacent to its own copy, and with locks. Tolerance 2e-9: differences of step
+    /// 2e-3 have a rounding error of 1e-16 / h^2 = 3e-11 and a truncation error of h^4 = 2e-11, for matrices of size 1
+    /// with factors up to some ten.
     #[test]
     fn second_order_is_the_second_derivative() {
         for sheet in [open_star(), open_flat(), miura(), mixed_cell(), random_cell([1, 1], 3), finite_grid(3, 3, 0.4)] {
@@ -173,8 +179,9 @@ mod tests {
         }
     }
 
-    /// Claim: 3 modes and one independent quadric at periodic states that are not flat, the others 1e-8 of it or less, and
-    /// it is the loop quadric `(Omega_1 x Omega_2) . n` up to a factor. Source: theory. Tolerance: rounding.
+    /// Claim: periodic states that are not flat have 3 modes and one independent quadric, with the other singular
+    /// values at most 1e-8 of its own, and it is the loop quadric `(Omega_1 x Omega_2) . n` up to a factor. Source:
+    /// theory. Tolerance: rounding.
     #[test]
     fn periodic_states_have_the_loop_quadric() {
         let sheets = [open_star(), miura()].into_iter().chain((0..20).map(|seed| random_cell([2, 2], seed)));
@@ -198,8 +205,8 @@ mod tests {
         }
     }
 
-    /// Claim: eigenvalues of Miura-ori's loop quadric have two of one sign and a zero; a generic cell has a cone of real
-    /// directions. Source: theory (-0.125, -0.117, 0 for another normalisation: their quotient is 0.936).
+    /// Claim: the loop quadric of Miura-ori has two eigenvalues of one sign and a zero; a generic cell has a cone of
+    /// real directions. Source: theory (-0.125, -0.117, 0 for another normalisation, with the quotient 0.936).
     #[test]
     fn signatures() {
         let miura = of(&miura(), &[]).quadrics[0].clone();
@@ -211,7 +218,8 @@ mod tests {
         assert_eq!(star, [1, 2, 0]);
     }
 
-    /// Claim: Nv + 2 modes and Nv independent quadrics at flat developable states, one mode fewer with a lock. Source: theory.
+    /// Claim: flat developable states have Nv + 2 modes and Nv independent quadrics, and one mode fewer with a lock.
+    /// Source: theory.
     #[test]
     fn flat_states_have_a_quadric_for_each_vertex() {
         let sheets = [open_flat(), flat_cell([3, 2], 1), flat_cell([3, 3], 4), flat_cell([2, 1], 0)];
@@ -223,8 +231,8 @@ mod tests {
         }
     }
 
-    /// Claim: on the folded cylinders of open-star two motions are left, and both extend: the states are a smooth surface
-    /// there. With the lock that was held one is left.
+    /// Claim: on the folded cylinders of open-star two motions exist, and both extend: the states form a smooth surface
+    /// there. States that do not close are refused.
     #[test]
     fn nothing_obstructs_on_a_cylinder() {
         let sheet = open_star();

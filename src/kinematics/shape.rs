@@ -1,14 +1,15 @@
 //! The shape of a periodic sheet at some fold angles: positions, screw, signed curvature, strain.
 //!
-//! The vector `k` from vertex 0 towards the axis (see [`Screw`]) has the length of the curvature. Along a trajectory or over a
-//! surface the sign of the curvature is continuous: it changes only where `k` passes zero. Seen from the first face at
-//! vertex 0, which the embedding holds still, `k` goes to the other side there, so that a state takes its sign from a near
-//! one by `k . k_last` ([`Shape::continue_from`]).
+//! The length of the vector `k` from vertex 0 towards the axis (see [`Screw`]) is the absolute value of the curvature.
+//! Along a trajectory or over a surface the signed curvature is continuous: the sign changes only where `k` passes
+//! through zero. There `k` reverses its direction relative to the first face at vertex 0, which the embedding holds
+//! fixed, so that a state takes its sign from a nearby one by `k . k_last` ([`Shape::continue_from`]).
 //!
-//! A state for which no way is known has the sign of `h1 theta2 - h2 theta1`, with the rotation angles and the shifts of
-//! the two lattice vectors along one direction of the axis (either direction gives the same), times -1 where the drawn
-//! lattice vectors turn clockwise seen from the side of the face normals. Where folding leaves a spatially periodic state both
-//! agree, and the curvature is positive where the axis lies on the side of the face normals.
+//! A state that is not connected to another by a known path has the sign of `h1 theta2 - h2 theta1`, with the rotation
+//! angles and the translations of the two lattice vectors along one direction of the axis (either direction gives the
+//! same sign), times -1 if the drawn lattice vectors turn clockwise seen from the side of the face normals. Where
+//! folding leaves a spatially periodic state both rules agree, and the curvature is positive if the axis is on the side
+//! of the face normals.
 
 use super::KinematicsError;
 use super::embedding::{Compatibility, Embedding, Placement};
@@ -18,63 +19,66 @@ use super::screw::{Screw, ScrewRate};
 use crate::math::Vec3;
 use std::f64::consts::TAU;
 
-/// Below this rotation angle there is no axis: its direction would be off by the rounding error over the angle.
+/// Rotation angle in radians below which the sheet counts as having no axis: the error of the axis direction is the
+/// rounding error divided by the angle.
 const NO_TURN: f64 = 1e-8;
-/// Most times that a way between two states is halved.
+/// Largest number of times that a path between two states is halved.
 const HALVINGS: usize = 10;
-/// Largest incompatibility of a state between two others, over its curvature times the length of the cell.
+/// Largest incompatibility of an intermediate state, relative to its curvature times the length of the cell.
 const OPEN: f64 = 0.1;
 
 /// A periodic sheet at some fold angles, in the frame of the [embedding](super::embedding).
 #[derive(Clone, Debug)]
 pub struct Shape {
-    /// The vertices of cell (0, 0).
+    /// Positions of the vertices of cell (0, 0).
     pub positions: Vec<Vec3>,
     /// The lattice motions.
     pub motions: [Motion; 2],
-    /// Axis, angles and chords; where any cell is.
+    /// Axis, angles and chords, from which the motion to any cell follows.
     pub screw: Screw,
-    /// Rotation angles from a cell to the next about the common axis, directed so that the larger is positive.
+    /// Rotation angles from a cell to the next about the common axis, in radians; the axis is directed so that the
+    /// larger one is positive.
     pub theta: [f64; 2],
-    /// Signed curvature of the cylinder of vertex 0: one over its distance from the axis, with the sign that the
-    /// [module](self) defines. Not a number where vertex 0 is on the axis.
+    /// Signed curvature of the cylinder of vertex 0: the inverse of its distance from the axis, with the sign that the
+    /// [module](self) defines. NaN if vertex 0 is on the axis.
     pub curvature: f64,
-    /// `[strain11, strain22, strain12]` of the chords from vertex 0 against the drawn lattice.
+    /// Strain `[strain11, strain22, strain12]` of the chords from vertex 0 relative to the drawn lattice.
     pub strain: [f64; 3],
-    /// The axis in the plane of the drawn sheet: along the direction `n1 l1 + n2 l2` with `n1 theta1 + n2 theta2 = 0`,
-    /// which stays straight. Its angle to the first lattice vector in radians, as a line, in `(-pi/2, pi/2]`; `None`
-    /// where nothing turns.
+    /// Direction of the axis in the plane of the drawn sheet: that of `n1 l1 + n2 l2` with `n1 theta1 + n2 theta2 = 0`,
+    /// which stays straight. Given as the angle of the line to the first lattice vector in radians, in `(-pi/2, pi/2]`;
+    /// `None` if there is no rotation.
     pub axis_angle: Option<f64>,
-    /// How well the angles close.
+    /// The errors of closure of the angles.
     pub compatibility: Compatibility,
 }
 
 /// Rates of a shape that is a cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ShapeRate {
-    /// Of axis, angles and chords.
+    /// Rates of axis, angles and chords.
     pub screw: ScrewRate,
-    /// Of the signed curvature.
+    /// Rate of the signed curvature.
     pub curvature: f64,
-    /// Of the strain.
+    /// Rate of the strain.
     pub strain: [f64; 3],
 }
 
 impl Shape {
-    /// The shape at fold angles of every edge, in radians, valley positive.
+    /// Computes the shape at the fold angles of every edge, in radians, valley positive.
     ///
-    /// Angles that do not close have a shape too, which means little; [`compatibility`](Self::compatibility) tells.
+    /// Angles that do not close are accepted, but their shape has no clear meaning;
+    /// [`compatibility`](Self::compatibility) holds the errors.
     ///
     /// # Errors
     /// [`KinematicsError`] for a finite sheet.
     ///
     /// # Panics
-    /// Where `angles` has another length than the edges.
+    /// If the length of `angles` is not the number of edges.
     pub fn at(embedding: &Embedding, angles: &[f64]) -> Result<Self, KinematicsError> {
         Self::of(embedding, embedding.place(angles))
     }
 
-    /// The shape of a placement.
+    /// Computes the shape of a placement.
     ///
     /// # Errors
     /// [`KinematicsError`] for a finite sheet.
@@ -91,25 +95,26 @@ impl Shape {
         Ok(Self { positions, motions, screw, theta: screw.theta, curvature, strain, axis_angle, compatibility })
     }
 
-    /// Whether the lattice turns by so much that curvature and axis are more than rounding errors.
+    /// Whether the rotations of the lattice are so large that curvature and axis are more than rounding errors.
     pub(crate) fn turns(&self) -> bool {
         self.theta.iter().any(|theta| theta.abs() >= NO_TURN)
     }
 
-    /// Whether the angles close well enough for the axis to mean something: next to a state without curvature, angles halfway between
-    /// two states leave more open than the curvature closes.
+    /// Whether the angles close well enough for the axis to be defined. Near a state without curvature, angles halfway
+    /// between two states have closure errors that are larger than the effect of the curvature.
     fn closes(&self) -> bool {
         self.compatibility.largest() <= OPEN * self.screw.towards_axis().norm() * self.cell()
     }
 
-    /// The longer chord from vertex 0 to its copies.
+    /// Returns the length of the longer chord from vertex 0 to its copies.
     fn cell(&self) -> f64 {
         self.screw.chords.iter().map(|chord| chord.norm()).fold(0.0, f64::max)
     }
 
-    /// Gives the curvature the sign that it has after a small step from `last`. Nothing changes where one of the two does not turn.
+    /// Sets the sign of the curvature to the one after a small step from `last`. Does nothing if one of the two states
+    /// has no rotation.
     ///
-    /// The axis that passes close by vertex 0 goes to its other side as well, but there the curvature is large and keeps
+    /// If the axis passes close by vertex 0, `k` changes its side as well, but there the curvature is large and keeps
     /// its sign.
     pub fn continue_from(&mut self, last: &Self) {
         let (before, now) = (last.screw.towards_axis(), self.screw.towards_axis());
@@ -121,8 +126,8 @@ impl Shape {
         self.curvature = self.curvature.abs() * sign;
     }
 
-    /// The same over a longer way: the fold angles of `last` and of this shape, between which steps are halved until `k` does
-    /// not turn by more than a sixth of a turn in one.
+    /// Does the same for a longer path, given the fold angles of `last` and of this shape. Steps are halved until `k`
+    /// turns by at most a sixth of a turn in each.
     pub(crate) fn continue_over(&mut self, embedding: &Embedding, last: &Self, angles: [&[f64]; 2]) {
         self.continue_halving(embedding, last, angles, HALVINGS);
     }
@@ -142,7 +147,7 @@ impl Shape {
         self.continue_from(last);
     }
 
-    /// Rates of the shape, from its lattice motions with their rates; `None` where nothing turns.
+    /// Returns the rates of the shape, from its lattice motions with their rates; `None` if there is no rotation.
     pub(crate) fn rate(&self, embedding: &Embedding, lattice: &[Moving; 2]) -> Option<ShapeRate> {
         let screw = self.screw.rate(lattice)?;
         let frame = LatticeFrame::new(embedding.lattice.as_ref()?);
@@ -152,7 +157,7 @@ impl Shape {
     }
 }
 
-/// The curvature of a state for which no way is known.
+/// Returns the curvature of a state that is not connected to another by a known path.
 fn signed_curvature(embedding: &Embedding, screw: &Screw) -> f64 {
     let ([h1, h2], [theta1, theta2]) = (screw.rise(), screw.theta);
     let side = embedding.lattice.map_or(1.0, |[l1, l2]| l1.cross(&l2).dot(&embedding.drawn_area()));
@@ -173,9 +178,9 @@ mod tests {
         found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= tolerance)
     }
 
-    /// Claim: curvature, rotation angles and strain are those that an independent program found, in size, sign and order;
-    /// the mirror image has the same strain and the opposite curvature. Tolerance 1e-9: the project's promise; that
-    /// program's states close to 1e-12. Mirrored: rounding.
+    /// Claim: curvature, rotation angles and strain are those that an independent program found, in size, sign and
+    /// order; the mirror image has the same strain and the opposite curvature. Tolerance 1e-9, that of the project; the
+    /// states of that program close to 1e-12. Mirrored: rounding.
     #[test]
     fn stored_states_of_open_star() {
         let sheet = open_star();
@@ -192,7 +197,7 @@ mod tests {
         }
     }
 
-    /// A cylinder, and the rates of a combination of its two linear motions.
+    /// Returns cylinders, each with the rates of a combination of its two linear motions.
     fn moving_cylinders(sheet: &Sheet) -> Vec<(Vec<f64>, Vec<f64>)> {
         let closure = Closure::of_cell(sheet).unwrap();
         let states = open_star_reference().cylinders(sheet).into_iter().map(|angles| closed(&closure, angles));
@@ -231,8 +236,8 @@ mod tests {
         }
     }
 
-    /// Claim: the axis itself turns as the paper's last formula on displacements says, `(1 - S) ds = W x s` across the
-    /// axis, for both lattice rotations. Tolerance: rounding over the rotation angle.
+    /// Claim: the axis itself rotates as the paper's last formula on displacements says, `(1 - S) ds = W x s` across
+    /// the axis, for both lattice rotations. Tolerance: rounding divided by the rotation angle.
     #[test]
     fn axis_turns_as_published() {
         let sheet = open_star();
@@ -249,10 +254,10 @@ mod tests {
         }
     }
 
-    /// Claim: through the spatially periodic state the curvature goes straight through zero, at the rate that the
-    /// curvature tensor of the ray says (its trace, the tensor having rank one), and the axis there lies along the line
-    /// that the tensor does not bend. Central differences of step 1e-3: tolerance 1e-5, their error being its square
-    /// times third derivatives.
+    /// Claim: through the spatially periodic state the curvature passes linearly through zero, at the rate given by the
+    /// curvature tensor of the ray (its trace, since the tensor has rank one), and the axis there is along the line
+    /// that the tensor does not bend. Tolerance 1e-5: the error of central differences of step 1e-3 is its square times
+    /// third derivatives.
     #[test]
     fn curvature_goes_through_zero() {
         let sheet = open_star();
@@ -276,7 +281,7 @@ mod tests {
         }
     }
 
-    /// Claim: a finite sheet has no shape of this kind.
+    /// Claim: a finite sheet is refused.
     #[test]
     fn finite_sheets_are_refused() {
         let embedding = Embedding::new(&finite_grid(2, 2, 0.3)).unwrap();

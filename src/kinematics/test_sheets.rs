@@ -1,4 +1,4 @@
-//! Sheets for the tests of this folder.
+//! Sheets for the tests of this module.
 
 use super::Closure;
 use crate::math::Vec3;
@@ -10,10 +10,10 @@ use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 use std::collections::{HashMap, VecDeque};
 
-/// Fold angles, curvature, rotation angles and strain.
+/// Fold angles, curvature, rotation angles and strain of a folded cylinder.
 pub(crate) type Cylinder = (Vec<f64>, f64, Vec<f64>, Vec<f64>);
 
-/// Numbers of [-1, 1).
+/// Returns random numbers in [-1, 1).
 pub(crate) fn random_numbers(seed: u64, count: usize) -> Vec<f64> {
     let mut rng = rand_chacha::ChaCha8Rng::seed_from_u64(seed);
     (0..count).map(|_| rng.random_range(-1.0..1.0)).collect()
@@ -27,7 +27,7 @@ pub(crate) fn open_flat() -> Sheet {
     from_fold(include_str!("../../tests/cases/open-flat.fold"))
 }
 
-/// Miura-ori, one cell of four triangulated parallelograms (sides 2, angle 60 degrees, folded by 15 degrees).
+/// Returns Miura-ori, one cell of four triangulated parallelograms (sides 2, angle 60 degrees, folded by 15 degrees).
 pub(crate) fn miura() -> Sheet {
     let (a, t, g) = (2.0, 60f64.to_radians(), 15f64.to_radians());
     let (q, h) = ((1.0 + (g.cos() * t.tan()).powi(2)).sqrt(), a * t.sin() * g.sin());
@@ -44,7 +44,7 @@ pub(crate) fn miura() -> Sheet {
     sheet("miura", vertices, Some([place(2, 0), place(0, 2)]), &faces)
 }
 
-/// `m` x `n` squares, each of two triangles, with heights at random; no lattice.
+/// Returns `m` x `n` squares, each of two triangles, with random heights; no lattice.
 pub(crate) fn finite_grid(m: usize, n: usize, height: f64) -> Sheet {
     let heights = random_numbers(5, (m + 1) * (n + 1));
     let number = |i: usize, j: usize| i + (m + 1) * j;
@@ -57,13 +57,13 @@ pub(crate) fn finite_grid(m: usize, n: usize, height: f64) -> Sheet {
     sheet("grid", (0..(m + 1) * (n + 1)).map(place).collect(), None, &faces)
 }
 
-/// A random cell one vertex wide: some of its edges have the same vertex, of two cells, at both ends.
+/// Returns a random cell one vertex wide: some of its edges join copies of the same vertex in two cells.
 pub(crate) fn narrow() -> Sheet {
     let pattern = Random { size: [1, 3], height: 0.4, ..Random::default() };
     generate(&Pattern::Random(pattern)).unwrap()
 }
 
-/// A ring of six triangles: an opening that no vertex closes.
+/// Returns a ring of six triangles, with an opening that no vertex closes.
 pub(crate) fn ring() -> Sheet {
     let place = |k: usize| {
         let turn = std::f64::consts::TAU * k as f64 / 6.0;
@@ -76,7 +76,7 @@ pub(crate) fn ring() -> Sheet {
     sheet("ring", (0..6).map(place).collect(), None, &[0, 1, 2, 3, 4, 5].map(face))
 }
 
-/// A sheet of triangles.
+/// Returns a sheet of triangles.
 pub fn sheet(title: &str, vertices: Vec<Vec3>, lattice: Option<[Vec3; 2]>, faces: &[[Corner; 3]]) -> Sheet {
     let triangles: Vec<Triangle> =
         faces.iter().enumerate().map(|(polygon, &corners)| Triangle { corners, polygon }).collect();
@@ -144,7 +144,7 @@ impl Reference {
         floats(&self.0[key])
     }
 
-    /// Numbers per edge in the order of the reference, brought into that of the sheet.
+    /// Converts numbers per edge from the order of the reference to that of the sheet.
     pub(crate) fn in_sheet_order(&self, sheet: &Sheet, numbers: &[f64]) -> Vec<f64> {
         let list = self.0["edge_list"].as_array().unwrap();
         let find = |edge: &Edge| {
@@ -155,7 +155,7 @@ impl Reference {
         sheet.edges.iter().map(find).collect()
     }
 
-    /// Folded cylinders.
+    /// Returns the folded cylinders.
     pub(crate) fn states(&self, sheet: &Sheet) -> Vec<Cylinder> {
         let read = |state: &Value| {
             let kappa = state["kappa"].as_f64().unwrap();
@@ -165,13 +165,14 @@ impl Reference {
         self.0["states"].as_array().unwrap().iter().map(read).collect()
     }
 
-    /// Fold angles of folded cylinders.
+    /// Returns the fold angles of the folded cylinders.
     pub(crate) fn cylinders(&self, sheet: &Sheet) -> Vec<Vec<f64>> {
         let states = self.0["states"].as_array().unwrap();
         states.iter().map(|state| self.in_sheet_order(sheet, &floats(&state["fold_angles"]))).collect()
     }
 
-    /// The directions in which folding leaves the drawn state, with the signs of the curvature they lead to.
+    /// Returns the directions in which folding leaves the drawn state, with the signs of the curvature to which they
+    /// lead.
     pub(crate) fn rays(&self, sheet: &Sheet) -> Vec<(Vec<f64>, f64)> {
         let loops = self.0["loops"].as_array().unwrap();
         let states = self.0["states"].as_array().unwrap();
@@ -184,14 +185,15 @@ impl Reference {
     }
 }
 
-/// The three positions of a face, the third beyond the edge from the first to the second.
+/// A face, and the cell into which it is translated from the sheet's list.
 struct Placed {
     face: usize,
     cell: [i32; 2],
 }
 
-/// Positions of the vertices of cells -2 to 2, from the shapes of the faces and fold angles alone: each new face is put
-/// onto an edge of one that stands, the first one as it is drawn. Points, not motions: another way than the program's.
+/// Returns the positions of the vertices of cells -2 to 2, from the shapes of the faces and fold angles alone: each new
+/// face is attached to an edge of a placed one, the first face is as drawn. The construction uses points, not motions,
+/// and is therefore independent of the program's.
 pub(crate) fn put_together(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec3> {
     let first = sheet.triangles[0];
     let mut places: HashMap<Corner, Vec3> = first.corners.map(|c| (c, sheet.position(c))).into_iter().collect();
@@ -215,8 +217,8 @@ pub(crate) fn put_together(sheet: &Sheet, angles: &[f64]) -> HashMap<Corner, Vec
     places
 }
 
-/// Where the vertex `across` comes to stand when the edge from `a` to `b`, with the known face on its left, has a
-/// fold angle: its foot on the edge and its distance are as drawn.
+/// Returns the position of the vertex `across` if the edge from `a` to `b`, with the known face on its left, has a
+/// given fold angle: the foot of the vertex on the edge and its distance are as drawn.
 fn hinge(sheet: &Sheet, [a, b, known, across]: [Corner; 4], at: &HashMap<Corner, Vec3>, angle: f64) -> Vec3 {
     let drawn = sheet.position(across) - sheet.position(a);
     let drawn_along = (sheet.position(b) - sheet.position(a)).normalize();
@@ -241,7 +243,7 @@ fn find_face(sheet: &Sheet, corners: [Corner; 3]) -> Placed {
     panic!("no face with corners {corners:?}")
 }
 
-/// Fold angles brought to closure by steps of least norm, none longer than 0.2.
+/// Returns fold angles brought to closure by steps of least norm, none longer than 0.2.
 pub(crate) fn closed(closure: &Closure, mut angles: Vec<f64>) -> Vec<f64> {
     for _ in 0..200 {
         let residual = closure.residual(&angles);

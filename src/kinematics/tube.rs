@@ -1,19 +1,19 @@
 //! Tubes: screw-periodic sheets that close on themselves.
 //!
-//! A sheet rolls up to a tube with the seam `(n1, n2)` where cell `(n1, n2)` comes to lie on cell (0, 0):
+//! A sheet rolls up to a tube with the seam `(n1, n2)` if cell `(n1, n2)` coincides with cell (0, 0):
 //!
 //! `n1 theta1 + n2 theta2 = 2 pi` and `n1 h1 + n2 h2 = 0`,
 //!
-//! `theta_a` the rotation angles from cell to cell about the common axis and `h_a` the ways along it (J. McInerney, B.
-//! G. Chen, L. Theran, C. D. Santangelo and D. Z. Rocklin, PNAS 117, 30252 (2020), who say that the ratios are
-//! rational, which alone does not close). Of the two motions that a folded sheet has, each condition takes one. With
-//! the first alone the seam slips along itself (F. Feng, P. Plucinsky and R. D. James, Phys. Rev. E 101, 033002
-//! (2020)).
+//! with the rotation angles `theta_a` from cell to cell about the common axis and the translations `h_a` along it (J.
+//! McInerney, B. G. Chen, L. Theran, C. D. Santangelo and D. Z. Rocklin, PNAS 117, 30252 (2020), who say that the
+//! ratios are rational, which alone does not close the tube). Each condition removes one of the two motions that a
+//! folded sheet has. With the first condition alone the seam slips along itself (F. Feng, P. Plucinsky and R. D. James,
+//! Phys. Rev. E 101, 033002 (2020)).
 //!
-//! In rotation vectors `w_a` of the lattice rotations and chords `l_a`, with `W = n1 w1 + n2 w2`, `l = n1 l1 + n2 l2`
-//! and the length `L` of the drawn seam, the conditions are `|W| = 2 pi` and `W . l / (2 pi L) = 0`. The second is
-//! smooth where nothing turns, so that a tube is found by rolling up the periodic sheet with the second condition kept
-//! until the first is met.
+//! In terms of the rotation vectors `w_a` of the lattice rotations and the chords `l_a`, with `W = n1 w1 + n2 w2`,
+//! `l = n1 l1 + n2 l2` and the length `L` of the drawn seam, the conditions are `|W| = 2 pi` and
+//! `W . l / (2 pi L) = 0`. The second condition is smooth where there is no rotation. A tube is therefore found by
+//! rolling up the periodic sheet with the second condition satisfied until the first one is met.
 
 mod cut;
 
@@ -27,11 +27,11 @@ use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, CurveOptions, End, Point, Trajectory, follow};
 use std::f64::consts::TAU;
 
-/// Largest closure residual and defect of a tube.
+/// Tolerance of the closure residual and of the defects of a tube.
 const CLOSURE_RESIDUAL: f64 = 4e-15;
-/// Newton steps from the end of the rolling to a tube.
+/// Largest number of Newton steps from the end of the rolling to a tube.
 const STEPS: usize = 10;
-/// Most points of a rolling that is still expected to end.
+/// Largest number of points of a rolling.
 const MOST_POINTS: usize = 2000;
 
 /// One of the two conditions on a tube.
@@ -39,7 +39,7 @@ const MOST_POINTS: usize = 2000;
 pub enum Condition {
     /// The seam turns by `2 pi`.
     Turn,
-    /// The seam does not rise along the axis.
+    /// The seam has no translation along the axis.
     Rise,
 }
 
@@ -65,10 +65,10 @@ struct SeamMotion {
 }
 
 impl<'a> Tube<'a> {
-    /// Plans a tube in which cell `seam` comes to lie on cell (0, 0).
+    /// Plans a tube in which cell `seam` coincides with cell (0, 0).
     ///
     /// # Errors
-    /// [`KinematicsError`] for a finite sheet, for one whose faces do not hang together, and for the seam `[0, 0]`.
+    /// [`KinematicsError`] for a finite sheet, for one whose faces are not connected, and for the seam `[0, 0]`.
     pub fn new(sheet: &'a Sheet, seam: [i32; 2]) -> Result<Self, KinematicsError> {
         let [l1, l2] = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
         if seam == [0, 0] {
@@ -79,21 +79,22 @@ impl<'a> Tube<'a> {
         Ok(Self { sheet, closure, embedding, seam, length })
     }
 
-    /// How far fold angles, one per edge in radians, are from a tube: `|W| - 2 pi` in radians and `W . l / (2 pi L)`,
-    /// which is the rise of the seam over its drawn length where it turns by `2 pi`.
+    /// Returns the errors of the two conditions at fold angles, given with one number per edge in radians: `|W| - 2 pi`
+    /// in radians and `W . l / (2 pi L)`, which is the rise of the seam relative to its drawn length if it turns by
+    /// `2 pi`.
     ///
-    /// Angles that do not close are walked along the tree of the [embedding](super::embedding), like everywhere.
+    /// For angles that do not close, the motions are those along the tree of the [embedding](super::embedding).
     /// # Panics
-    /// Where `angles` has another length than the edges.
+    /// If the length of `angles` is not the number of edges.
     pub fn defects(&self, angles: &[f64]) -> [f64; 2] {
         let SeamMotion { turn, chord } =
             self.seam_of(&Displacement::new(&self.embedding, angles, &self.still()).lattice).0;
         [turn.norm() - TAU, turn.dot(&chord) / (TAU * self.length)]
     }
 
-    /// The derivative of [`defects`](Self::defects): two rows, a column per edge.
+    /// Returns the derivative of [`defects`](Self::defects): two rows, a column per edge. NaN if there is no rotation.
     /// # Panics
-    /// As [`defects`](Self::defects); not a number where nothing turns.
+    /// As [`defects`](Self::defects).
     pub(crate) fn rates(&self, angles: &[f64]) -> DenseMatrix {
         let mut rates = DenseMatrix::zeros(2, angles.len());
         let mut moving = self.still();
@@ -107,8 +108,8 @@ impl<'a> Tube<'a> {
         rates
     }
 
-    /// The closure Jacobian with a row for each of some conditions below it: its null vectors are the motions within
-    /// screw-periodic sheets that keep these.
+    /// Returns the closure Jacobian followed by a row for each condition in `kept`: its null vectors are the motions
+    /// through screw-periodic sheets that satisfy these conditions.
     pub fn jacobian(&self, angles: &[f64], kept: &[Condition]) -> DenseMatrix {
         let (closure, rates) = (self.closure.jacobian(angles), self.rates(angles));
         let rows = closure.nrows();
@@ -118,14 +119,13 @@ impl<'a> Tube<'a> {
         })
     }
 
-    /// Fold angles of a tube, closed to rounding: the drawn sheet rolled up about the line across the seam, towards its
-    /// face normals (`inwards`) or away from them.
+    /// Computes the fold angles of a tube, closed up to rounding: the drawn sheet rolled up about the line across the
+    /// seam, towards its face normals (`inwards`) or away from them.
     ///
-    /// The drawn sheet is spatially periodic and not flat.
-    /// The tube may go through itself.
+    /// The drawn sheet must be spatially periodic and not flat. The tube may intersect itself.
     ///
     /// # Errors
-    /// [`KinematicsError::NoTube`] where the sheet cannot be rolled up so far, and as
+    /// [`KinematicsError::NoTube`] if the sheet cannot be rolled up so far, and as
     /// [`folding_modes()`](super::folding_modes()) and [`FoldingModes::named`](super::FoldingModes::named).
     pub fn rolled_up(&self, inwards: bool) -> Result<Vec<f64>, KinematicsError> {
         let tensor = self.bending(if inwards { 1.0 } else { -1.0 })?;
@@ -141,11 +141,11 @@ impl<'a> Tube<'a> {
         self.closed(&rolled.ok_or_else(missed)?.x)
     }
 
-    /// The one motion of a tube whose seam turns by `2 pi` and may rise: followed from the tube's angles for a length
-    /// in fold angles, forwards where the seam's rise grows (`rising`) or where it falls.
+    /// Follows the one motion of a tube whose seam turns by `2 pi` and may rise, from the tube's angles for a length in
+    /// fold angles, in the direction in which the rise of the seam grows (`rising`) or decreases.
     ///
     /// # Errors
-    /// [`KinematicsError::NotOneMotion`] where the tube has none or more than one.
+    /// [`KinematicsError::NotOneMotion`] if the tube has no such motion or more than one.
     pub fn slip(&self, tube: &[f64], rising: bool, length: f64) -> Result<Trajectory, KinematicsError> {
         let null = null_space(&self.jacobian(tube, &[Condition::Turn]))?.basis;
         let motions = null.ncols();
@@ -164,7 +164,7 @@ impl<'a> Tube<'a> {
         TubeCurve { tube: self, kept, closure }
     }
 
-    /// The curvature tensor `[k11, k22, k12]` of size 1 that bends along the seam and not across it.
+    /// Returns the curvature tensor `[k11, k22, k12]` of size 1 that bends along the seam and not across it.
     fn bending(&self, sign: f64) -> Result<[f64; 3], KinematicsError> {
         let lattice = self.sheet.lattice.ok_or(KinematicsError::NoLattice)?;
         let frame = super::metric::LatticeFrame::new(&lattice);
@@ -173,7 +173,7 @@ impl<'a> Tube<'a> {
         Ok([sign * x * x, sign * y * y, sign * x * y])
     }
 
-    /// Newton's method on closure and both conditions.
+    /// Solves closure and both conditions by Newton's method.
     fn closed(&self, start: &[f64]) -> Result<Vec<f64>, KinematicsError> {
         let mut angles = start.to_vec();
         let mut residual = f64::INFINITY;
@@ -195,7 +195,7 @@ impl<'a> Tube<'a> {
         vec![0.0; self.embedding.edges()]
     }
 
-    /// The seam and its rate, from the lattice motions.
+    /// Returns the seam and its rate, from the lattice motions.
     fn seam_of(&self, lattice: &Option<[Moving; 2]>) -> (SeamMotion, SeamMotion) {
         let zero = SeamMotion { turn: Vec3::zeros(), chord: Vec3::zeros() };
         let moving = lattice.iter().flatten().zip(self.seam);
@@ -208,7 +208,7 @@ impl<'a> Tube<'a> {
     }
 }
 
-/// Screw-periodic sheets that keep one condition, as a curve; its indicator is the defect of the other one.
+/// The curve of screw-periodic sheets that satisfy one condition; its indicator is the defect of the other one.
 struct TubeCurve<'t, 'a> {
     tube: &'t Tube<'a>,
     kept: Condition,
@@ -258,8 +258,8 @@ mod tests {
         }
     }
 
-    /// Claim: what is no tube is refused: a seam of no cells, a finite sheet, a seam so short that the sheet cannot
-    /// turn by a whole turn within it.
+    /// Claim: invalid tubes are refused: the seam `[0, 0]`, a finite sheet, and a seam so short that the sheet cannot
+    /// turn by a whole turn along it.
     #[test]
     fn refused() {
         let sheet = open_star();

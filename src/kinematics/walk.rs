@@ -1,12 +1,12 @@
-//! A walk over the faces: from fold angles to the rigid motion of every face, and of one cell to the next.
+//! A walk over the faces: the rigid motions of every face and from one cell to the next, computed from fold angles.
 //!
-//! Every face goes from where it is drawn to where it is by a rigid motion `M`. Behind an edge with the fold angle `rho`,
-//! drawn with `rho0`, the next face also turns by `rho - rho0` about the edge, as drawn:
-//! `M_next = M * turn(edge, rho - rho0)` (valley positive; counter-clockwise about the edge from its first to its second
-//! end where one crosses from the right to the left face). A tree of such steps reaches every face of the cell once. Each
-//! edge left over leads from a face `f` to the copy of a face `g` in the cell `n`, and closes a loop: what brings the
-//! sheet onto its copy there is `A = M_f * turn * shift(n) * M_g^-1`. Products of a few loops make the two lattice
-//! motions; all other loops have to agree with them, which is the compatibility of the angles.
+//! Every face is moved from its drawn position to its present one by a rigid motion `M`. Across an edge with the fold
+//! angle `rho`, drawn with `rho0`, the next face is rotated in addition by `rho - rho0` about the edge as drawn:
+//! `M_next = M * turn(edge, rho - rho0)` (valley positive; counter-clockwise about the edge from its first to its
+//! second end if the step is from the right to the left face). A tree of such steps reaches every face of the cell
+//! once. Each remaining edge leads from a face `f` to the copy of a face `g` in the cell `n`, and closes a loop: the
+//! motion from the sheet to its copy there is `A = M_f * turn * shift(n) * M_g^-1`. Products of a few loops give the
+//! two lattice motions; all other loops must agree with them, which is the compatibility of the angles.
 
 use super::KinematicsError;
 use super::motion::{Line, Rigid};
@@ -14,54 +14,55 @@ use crate::math::Vec3;
 use crate::sheet::{Corner, EdgeKey, Sheet};
 use std::collections::{HashMap, VecDeque};
 
-/// The step from a face over an edge to the next, with the edge as drawn.
+/// The step from a face across an edge to the next face, with the edge as drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossing {
     /// Number of the edge.
     pub edge: usize,
-    /// Face before and behind the edge.
+    /// Faces before and behind the edge.
     pub faces: [usize; 2],
-    /// The edge; turning about it counter-clockwise folds it up as a valley.
+    /// The line of the edge; a counter-clockwise rotation about it folds the edge to a valley.
     pub line: Line,
 }
 
 /// An edge that is not in the tree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Loop {
-    /// The step over it.
+    /// The step across the edge.
     pub crossing: Crossing,
-    /// Cell of the copy of the face behind it.
+    /// Cell of the copy of the face behind the edge.
     pub cell: [i32; 2],
     /// Drawn translation of that cell.
     pub shift: Vec3,
 }
 
-/// The tree, the loops and how the loops make the lattice motions. Drawn positions have vertex 0 as origin.
+/// The tree, the loops, and the products of loops that give the lattice motions. Drawn positions have vertex 0 as
+/// origin.
 #[derive(Clone, Debug)]
 pub(crate) struct FaceWalk {
-    /// Cell into which every face, as the sheet lists it, is moved so that the faces hang together. The walk starts at the
-    /// first face with vertex 0, moved so that this vertex is in cell (0, 0).
+    /// Cell into which every face of the sheet's list is translated so that the faces are connected. The walk starts at
+    /// the first face with vertex 0, translated so that this vertex is in cell (0, 0).
     pub cells: Vec<[i32; 2]>,
-    /// Steps of the tree, in an order in which every face is reached before it is left.
+    /// Steps of the tree, ordered so that a face is reached before steps start from it.
     pub steps: Vec<Crossing>,
-    /// Edges not in the tree.
+    /// Edges that are not in the tree.
     pub loops: Vec<Loop>,
-    /// Loops whose product, from left to right, is a lattice motion, the inverse of a loop where `true`.
+    /// Loops whose product, from left to right, is a lattice motion; `true` denotes the inverse of a loop.
     words: Option<[Vec<(usize, bool)>; 2]>,
 }
 
 /// The result of a walk.
 #[derive(Clone, Debug)]
 pub(crate) struct Walked<M> {
-    /// From drawn to present, for every face.
+    /// Motions from the drawn to the present position, for every face.
     pub faces: Vec<M>,
-    /// From the sheet to its copy, for every loop.
+    /// Motions from the sheet to its copy, for every loop.
     pub loops: Vec<M>,
-    /// From a cell to the next, along both lattice vectors; `None` for a finite sheet.
+    /// Motions from a cell to the next, along both lattice vectors; `None` for a finite sheet.
     pub lattice: Option<[M; 2]>,
 }
 
-/// A face beside an edge, and the cell of the edge's first vertex when the face is as the sheet lists it.
+/// A face at an edge, and the cell of the edge's first vertex if the face is in the position of the sheet's list.
 #[derive(Clone, Copy)]
 struct Seat {
     face: usize,
@@ -71,7 +72,7 @@ struct Seat {
 impl FaceWalk {
     /// Plans a walk over a sheet.
     ///
-    /// Fails where the faces do not hang together, in both directions of the lattice where there is one.
+    /// Fails if the faces are not connected, or, on a periodic sheet, not along both directions of the lattice.
     pub(crate) fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
         let faces = sheet.triangles.len();
         let disconnected = || KinematicsError::Disconnected { faces };
@@ -93,14 +94,14 @@ impl FaceWalk {
         Ok(Self { cells, steps, loops, words })
     }
 
-    /// Walks, with the motion of each turn about a drawn edge as given.
+    /// Walks over the faces; `turn` returns the motion of the rotation about a drawn edge.
     pub(crate) fn walk<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M) -> Walked<M> {
         let mut walked = Walked { faces: Vec::new(), loops: Vec::new(), lattice: None };
         self.walk_into(turn, &mut walked);
         walked
     }
 
-    /// The same, into what an earlier walk of this plan has left: nothing is allocated.
+    /// Does the same as [`walk`](Self::walk), but overwrites the result of an earlier walk, without allocation.
     pub(crate) fn walk_into<M: Rigid>(&self, turn: impl Fn(&Crossing) -> M, walked: &mut Walked<M>) {
         let Walked { faces, loops, lattice } = walked;
         faces.clear();
@@ -122,7 +123,7 @@ impl FaceWalk {
     }
 }
 
-/// A plan in the making.
+/// A plan under construction.
 struct WalkBuilder<'a> {
     sheet: &'a Sheet,
     seats: &'a [[Option<Seat>; 2]],
@@ -131,7 +132,7 @@ struct WalkBuilder<'a> {
 }
 
 impl WalkBuilder<'_> {
-    /// Breadth first from a face to all that hang together with it.
+    /// Extends the tree breadth first from a face to all faces that are connected with it.
     fn spread(&mut self, root: usize) {
         let mut doors = vec![Vec::new(); self.cells.len()];
         for (edge, sides) in self.seats.iter().enumerate() {
@@ -154,7 +155,7 @@ impl WalkBuilder<'_> {
         }
     }
 
-    /// The edges with two faces that the tree has not used, from right to left.
+    /// Returns the edges with two faces that are not in the tree, with steps from right to left.
     fn loops(&self) -> Vec<Loop> {
         let mut used = vec![false; self.seats.len()];
         self.steps.iter().for_each(|step| used[step.edge] = true);
@@ -171,7 +172,7 @@ impl WalkBuilder<'_> {
         loops
     }
 
-    /// The step over an edge from its left (0) or right (1) side, with its first vertex in the cell `base`.
+    /// Returns the step across an edge from its left (0) or right (1) side, with its first vertex in the cell `base`.
     fn crossing(&self, edge: usize, side: usize, base: [i32; 2], faces: [usize; 2]) -> Crossing {
         let [i, j] = self.sheet.edges[edge].key.ends().map(|end| relative(self.sheet, end.translated(base)));
         let along = (j - i).normalize();
@@ -179,19 +180,20 @@ impl WalkBuilder<'_> {
     }
 }
 
-/// Where a corner is drawn, from vertex 0.
+/// Returns the drawn position of a corner relative to vertex 0.
 pub(crate) fn relative(sheet: &Sheet, corner: Corner) -> Vec3 {
     sheet.position(corner) - sheet.position(Corner::home(0))
 }
 
-/// The first face that has vertex 0, and the cell into which it moves so that this vertex is in cell (0, 0).
+/// Returns the first face that has vertex 0, and the cell into which it is translated so that this vertex is in cell
+/// (0, 0).
 fn first_with_vertex_0(sheet: &Sheet) -> Option<(usize, [i32; 2])> {
     let find = |corners: &[Corner; 3]| corners.iter().find(|corner| corner.vertex == 0).map(|corner| corner.shift);
     let mut faces = sheet.triangles.iter().enumerate();
     faces.find_map(|(face, triangle)| find(&triangle.corners).map(|shift| (face, shift.map(|n| -n))))
 }
 
-/// The faces on the left and on the right of every edge.
+/// Returns the faces on the left and on the right of every edge.
 fn seats(sheet: &Sheet) -> Vec<[Option<Seat>; 2]> {
     let number: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
     let mut seats = vec![[None; 2]; sheet.edges.len()];
@@ -205,9 +207,9 @@ fn seats(sheet: &Sheet) -> Vec<[Option<Seat>; 2]> {
     seats
 }
 
-/// Loops, in turn, that lead into a cell, with as few of them as there is: breadth first over the cells.
+/// Returns the shortest sequence of loops that leads to the cell `target`, by a breadth-first search over the cells.
 ///
-/// Steps can be put in an order that does not stray further from the straight way than twice the longest of them.
+/// Steps can be ordered so that they stay as close to the straight line as twice the longest of them.
 fn word(shifts: &[[i32; 2]], target: [i32; 2]) -> Option<Vec<(usize, bool)>> {
     let reach = 1 + 2 * shifts.iter().flatten().map(|n| n.abs()).max().unwrap_or(0);
     let mut words = HashMap::from([([0, 0], Vec::new())]);
@@ -241,8 +243,8 @@ fn difference(a: [i32; 2], b: [i32; 2]) -> [i32; 2] {
 mod tests {
     use super::*;
 
-    /// Claim: loops that only together reach a neighbour are combined, as few as possible; where they reach only every
-    /// other cell there is no way.
+    /// Claim: if only several loops together reach a neighbour, as few as possible are combined; if they reach only
+    /// every other cell, there is no sequence.
     #[test]
     fn words_reach_the_neighbours() {
         assert_eq!(word(&[[0, 0], [1, 0], [0, 1]], [0, 1]), Some(vec![(2, false)]));

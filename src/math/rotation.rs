@@ -18,7 +18,7 @@ pub fn exp(v: &Vec3) -> Matrix3<f64> {
 ///
 /// All digits are kept at 0 and near pi. At pi itself the axis is one of the two opposite ones. The matrix has to be a
 /// rotation up to rounding; for any other the result means nothing (it is not a number where an entry is none).
-pub(crate) fn log(rotation: &Matrix3<f64>) -> Vec3 {
+pub fn log(rotation: &Matrix3<f64>) -> Vec3 {
     let (scalar, vector) = quaternion(rotation);
     let (scalar, vector) = if scalar < 0.0 { (-scalar, -vector) } else { (scalar, vector) };
     let length = vector.norm();

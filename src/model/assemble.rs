@@ -3,7 +3,6 @@
 //! A term that is absent is not built. Bars always have tensions as unknowns. Hinges have tensions too if they are
 //! rigid, or so much stiffer than the softest term that the rounding errors of `k (angle - rest)` would hide their
 //! forces.
-//! errors of theirs.
 
 use super::boundary::Drawn;
 use super::element::{Element, Elements, Spring, Term, TermKind};

@@ -3,7 +3,7 @@
 //!
 //! An [`Assembly`] is the starting point: a sheet with its boundary conditions, stiffnesses, rest angles, locks, pins
 //! and loads. Below it, the energy of an element is a spring law applied to a *measure*, a scalar function of a few
-//! points (the length of a bar, the fold angle of a hinge). A [`Term`] is a list of elements with the same measure. A
+//! points (the length of a bar, the fold angle of a hinge). A `Term` is a list of elements with the same measure. A
 //! [`Domain`] computes the points of an element from the coordinates of a state and applies the chain rule through
 //! that map. The [`Model`] combines terms and a domain to the [`crate::solver::Problem`] that the solver minimises.
 //!

@@ -1,4 +1,5 @@
-//! The files of each study in the folder of a run: what is left of an earlier run, and a record of what is there.
+//! The files of each study in the folder of a run: removal of those of an earlier run, and a record of those that
+//! exist.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fs;
@@ -10,17 +11,17 @@ use crate::output::summary::Files;
 use crate::scene::outputs::{is_one_of, outputs, owned};
 use crate::scene::{Fingerprint, SceneFile};
 
-/// Which file belongs to which study.
+/// The assignment of files to studies.
 pub(crate) struct Belongings {
     out: PathBuf,
-    /// The study that can write a file, for files outside of the folders of studies.
+    /// Name of the study that can write a file, for files outside the folders of studies.
     writers: HashMap<String, String>,
-    /// Files that the scene reads: they belong to nobody.
+    /// Files that the scene reads; they belong to no study.
     read: HashSet<PathBuf>,
 }
 
 impl Belongings {
-    /// Of the studies of a scene in the folder `out`.
+    /// Collects the files of the studies of a scene in the folder `out`.
     pub(crate) fn new(file: &SceneFile, out: &Path) -> Self {
         let studies = file.scene.studies.iter();
         let writers =
@@ -28,7 +29,7 @@ impl Belongings {
         Self { out: out.into(), writers, read: super::inputs::real_paths(file) }
     }
 
-    /// The files there are that a study of this name has written, in order.
+    /// Returns the existing files that a study of this name has written, in order.
     fn present(&self, name: &str) -> Vec<String> {
         let own = owned(name);
         let entries = fs::read_dir(self.out.join(name)).into_iter().flatten().flatten();
@@ -44,11 +45,11 @@ impl Belongings {
         beside.chain(inside).filter(is_own).collect::<BTreeSet<_>>().into_iter().collect()
     }
 
-    /// Removes files that an earlier run wrote for a study of this name and this run did not, and its folder where nothing
-    /// else is in it.
+    /// Removes the files that an earlier run wrote for a study of this name and this run did not write, and the study's
+    /// folder if it is then empty.
     ///
     /// # Errors
-    /// [`OutputError::Write`]: a file that stays would pass for one of this run.
+    /// [`OutputError::Write`] if a file cannot be removed, since it would be taken for one of this run.
     pub(crate) fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) -> Result<(), OutputError> {
         let old = self.present(name).into_iter().map(|file| self.out.join(file));
         let old: Vec<PathBuf> = old.filter(|path| !written.contains(path)).collect();
@@ -61,16 +62,16 @@ impl Belongings {
             }
         }
         if !old.is_empty() {
-            // fails where something is left in it, as it should
+            // fails, as intended, if the folder is not empty
             let _ = fs::remove_dir(self.out.join(name));
         }
         Ok(())
     }
 
-    /// The record of the files of a study: another one when any of them is missing, cut or changed.
+    /// Returns the record of the files of a study, which changes if any of them is missing, truncated or changed.
     ///
     /// # Errors
-    /// [`OutputError::Read`].
+    /// [`OutputError::Read`] if one of the files cannot be read.
     pub(crate) fn record(&self, name: &str) -> Result<Files, OutputError> {
         let (mut digest, mut files) = (Fingerprint::default(), Files::default());
         for file in self.present(name) {

@@ -1,9 +1,9 @@
-//! What a converted mesh does not keep of its file.
+//! The parts of a mesh file that a conversion does not keep.
 
 use super::MeshKind;
 use crate::sheet::{EdgeKind, Sheet};
 
-/// A sentence for everything in the file of `sheet` that is not in the new file.
+/// Returns a sentence for each part of the file of `sheet` that is not in the new file.
 pub(super) fn not_kept(sheet: &Sheet, from: Option<MeshKind>, to: Option<MeshKind>) -> Vec<String> {
     let mut notes = Vec::new();
     match sheet.record.further_frames {

@@ -1,4 +1,4 @@
-//! Why a run gives no answer.
+//! The errors of a run.
 
 use crate::output::OutputError;
 use crate::scene::SceneError;
@@ -9,7 +9,7 @@ use miette::Diagnostic;
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why there is no answer.
+/// The reasons for which a run, a conversion or a generator has no result.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RunError {
     /// The scene is wrong.
@@ -19,7 +19,7 @@ pub enum RunError {
     /// A file could not be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// A mesh stands where a scene should.
+    /// A mesh was given as the scene.
     #[error("{}: this is a mesh, not a scene", path.display())]
     #[diagnostic(help("name it in a scene, a .toml file: under [sheet], mesh = \"{}\"", path.display()))]
     NoScene {
@@ -29,30 +29,30 @@ pub enum RunError {
     /// A mesh is wrong.
     #[error(transparent)]
     Mesh(#[from] SheetError),
-    /// The triangles of a VTU file make no sheet.
+    /// The triangles of a VTU file do not form a sheet.
     #[error("{}: {defect}", path.display())]
     NoSheet {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The defect.
         defect: Defect,
     },
-    /// A pattern has no sheet for its parameters.
+    /// A pattern does not exist for its parameters.
     #[error("{message}")]
     #[diagnostic(help("the patterns are {names}; angles are radians"))]
     Pattern {
-        /// What is wrong.
+        /// Description of the error.
         message: String,
-        /// The patterns there are.
+        /// The names of the known patterns.
         names: String,
     },
-    /// A file of a kind that is not known.
+    /// The kind of a file is unknown.
     #[error("{}: {}", path.display(), unknown_ending(ending))]
     #[diagnostic(help("expected one of {expected}"))]
     Ending {
         /// The file.
         path: PathBuf,
-        /// Its ending; empty where it has none.
+        /// Its ending; empty if it has none.
         ending: String,
         /// The endings that are known.
         expected: &'static str,
@@ -69,7 +69,8 @@ impl From<StudyError> for RunError {
 }
 
 impl RunError {
-    /// The exit status of the program: 2 where the input is wrong, 3 where an existing place cannot be read or written.
+    /// Returns the exit status of the program: 2 if the input is wrong, 3 if an existing file or folder cannot be read
+    /// or written.
     pub fn exit_status(&self) -> u8 {
         match self {
             Self::Scene(SceneError::Read { source, .. } | SceneError::Mesh(SheetError::Read { source, .. }))
@@ -87,7 +88,7 @@ impl RunError {
     }
 }
 
-/// What is wrong with an ending that is not known.
+/// Returns the message about an unknown ending.
 fn unknown_ending(ending: &str) -> String {
     if ending.is_empty() {
         "a file without an ending".to_owned()
@@ -96,7 +97,7 @@ fn unknown_ending(ending: &str) -> String {
     }
 }
 
-/// Whether a file could not be read because of what was named: nothing is there, or it is no text.
+/// Whether a file could not be read because of its name: it does not exist, or it is not a text file.
 fn wrong_input(error: &std::io::Error) -> bool {
     use std::io::ErrorKind::{InvalidData, IsADirectory, NotADirectory, NotFound};
     matches!(error.kind(), NotFound | InvalidData | IsADirectory | NotADirectory)

@@ -1,4 +1,4 @@
-//! The files that a scene reads: a run that would write one of them is refused before it writes anything.
+//! The files that a scene reads: a run that would overwrite one of them is refused before it writes anything.
 
 use std::collections::HashSet;
 use std::fs;
@@ -8,7 +8,7 @@ use crate::scene::outputs::{is_one_of, outputs};
 use crate::scene::spec::StudySpec;
 use crate::scene::{SceneError, SceneFile, named_files};
 
-/// A file that is read: where it really is, and where its name is, which differs for a link.
+/// A file that is read: its name, its real path, and the folders and file names of both, which differ for a link.
 struct Input {
     named: PathBuf,
     real: PathBuf,
@@ -25,7 +25,8 @@ impl Input {
         Some(Self { named, real, places })
     }
 
-    /// Whether writing one of these files into the folder `out` would replace it. `name`: the folder of a study in it.
+    /// Whether writing one of these files into the folder `out` would replace this input. `name` is that of a study,
+    /// whose folder is in `out`.
     fn is_among(&self, out: &Path, name: Option<&str>, files: &[String]) -> bool {
         let within = |(prefix, folder): (String, PathBuf)| {
             let folder = fs::canonicalize(folder).ok()?;
@@ -44,15 +45,15 @@ fn inputs(file: &SceneFile) -> Vec<Input> {
     named.filter_map(Input::new).collect()
 }
 
-/// Where the files that a scene reads really are, the scene itself among them.
+/// Returns the real paths of the files that a scene reads, including that of the scene.
 pub(crate) fn real_paths(file: &SceneFile) -> HashSet<PathBuf> {
     inputs(file).into_iter().map(|input| input.real).collect()
 }
 
-/// Refuses a run into the folder `out` that would overwrite a file which the scene reads.
+/// Checks that a run into the folder `out` would not overwrite a file that the scene reads.
 ///
 /// # Errors
-/// [`SceneError::At`] the study that would write it.
+/// [`SceneError::At`] with the place of the study that would overwrite it.
 pub(crate) fn check(file: &SceneFile, out: &Path) -> Result<(), SceneError> {
     if !out.exists() {
         return Ok(());

@@ -1,9 +1,9 @@
-//! What of a run is finished, for whoever cannot wait until it ends.
+//! The ledger of a run: a record of its finished studies, available before the run ends.
 //!
-//! A run looks at its observer between the steps of its work, and some of them take long: a large sheet is built, a large
-//! matrix is factorized. Whoever has asked such a run to stop and does not want to wait for the end of the step closes its
-//! ledger instead: that writes what is finished, and the study at work as interrupted, and from then on the run writes
-//! its summary no more.
+//! A run calls its observer between the steps of its work, and some steps take long, such as building a large sheet or
+//! factorizing a large matrix. A caller that has asked a run to stop and does not want to wait for the end of the step
+//! closes the ledger instead. This writes the finished studies, and the current study as interrupted; afterwards the
+//! run no longer writes its summary.
 
 use super::{RunError, RunReport};
 use crate::output::files;
@@ -12,24 +12,24 @@ use crate::scene::spec::StudySpec;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How many times as long as writing the summary took passes before it is written again: with many studies it is long, and
-/// writing it after each would take most of the time.
+/// Least time between two writings of the summary, as a multiple of the time that the last one took. With many studies
+/// the summary is long, and writing it after each study would take most of the time.
 const PATIENCE: u32 = 20;
 
-/// The books of a run: its finished studies and the one at work. Clones share them.
+/// The record of a run: its finished studies and the current one. Clones share the same record.
 #[derive(Clone, Debug, Default)]
 pub struct Ledger(Arc<Mutex<Entries>>);
 
 #[derive(Debug, Default)]
 struct Entries {
     closed: bool,
-    /// What is finished; none before the run has begun to write.
+    /// The finished studies; `None` before the run has begun to write.
     report: Option<RunReport>,
-    /// Places in the scene of the finished studies, in order.
+    /// Positions of the finished studies in the scene, in increasing order.
     places: Vec<usize>,
-    /// The study at work, not answered, and its place in the scene.
+    /// The current study, not yet computed, and its position in the scene.
     at_work: Option<(StudySummary, usize)>,
-    /// When the summary was written, and how long that took.
+    /// Time at which the summary was last written, and how long that took.
     written: Option<(Instant, Duration)>,
 }
 
@@ -38,19 +38,20 @@ impl Ledger {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Begins the books with what is finished already, studies of these places in the scene, and writes the summary.
+    /// Starts the record with the studies that are finished already, given with their positions in the scene, and
+    /// writes the summary.
     pub(super) fn open(&self, report: RunReport, places: Vec<usize>) -> Result<(), RunError> {
         let mut entries = self.entries();
         (entries.report, entries.places) = (Some(report), places);
         entries.write()
     }
 
-    /// Notes the study that is worked on now, and its place in the scene.
+    /// Records the study that is computed now, and its position in the scene.
     pub(super) fn begin(&self, study: &StudySpec, place: usize) {
         self.entries().at_work = Some((StudySummary::unanswered(&study.name.0, study.kind.name()), place));
     }
 
-    /// Notes a finished study and its place in the scene, and writes the summary unless that was just done.
+    /// Records a finished study and its position in the scene, and writes the summary unless that was just done.
     pub(super) fn finished(&self, study: StudySummary, place: usize) -> Result<(), RunError> {
         let mut entries = self.entries();
         entries.at_work = None;
@@ -66,7 +67,7 @@ impl Ledger {
         self.entries().write()
     }
 
-    /// Ends the books: writes the summary and gives the report.
+    /// Ends the record: writes the summary and returns the report.
     pub(super) fn end(&self, interrupted: bool) -> Result<RunReport, RunError> {
         let mut entries = self.entries();
         entries.write()?;
@@ -74,14 +75,14 @@ impl Ledger {
         Ok(RunReport { interrupted, ..report })
     }
 
-    /// Ends the books of a run that works on: writes `summary.json` with the finished studies and the one at work, which is
-    /// interrupted. `None` where the run has not begun to write.
+    /// Ends the record while the run is still working: writes `summary.json` with the finished studies and with the
+    /// current one as interrupted. Returns `None` if the run has not begun to write.
     ///
-    /// What the run has on its way is removed from its folder; a file that it begins to write later is not. This is for a
-    /// program that ends at once.
+    /// Unfinished files of the run are removed from its folder, but not those that it begins to write later. This
+    /// function is for a program that ends immediately afterwards.
     ///
     /// # Errors
-    /// [`RunError`] where the summary cannot be written.
+    /// [`RunError`] if the summary cannot be written.
     pub fn close(&self) -> Result<Option<RunReport>, RunError> {
         let mut entries = self.entries();
         let at_work = entries.at_work.take();
@@ -113,7 +114,7 @@ impl Entries {
         }
     }
 
-    /// Writes the summary, unless the books are closed.
+    /// Writes the summary, unless the ledger is closed.
     fn write(&mut self) -> Result<(), RunError> {
         let Some(report) = self.report.as_ref().filter(|_| !self.closed) else { return Ok(()) };
         let start = Instant::now();
@@ -123,5 +124,5 @@ impl Entries {
     }
 }
 
-/// Why a study that was stopped gave no answer.
+/// The reason in the summary of a study that was stopped.
 pub(crate) const INTERRUPTED: &str = "interrupted";

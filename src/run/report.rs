@@ -1,30 +1,30 @@
-//! What the command line can change about a run, and what a run did.
+//! The options of a run and its report.
 
 use crate::output::summary::Summary;
 use std::path::PathBuf;
 
-/// What the command line can change about a run.
+/// The options of a run that the command line sets.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RunOptions {
-    /// Folder for the files; `None`: the scene's name without its ending, in the current folder.
+    /// Folder for the files; `None` for a folder in the current one, named like the scene without its ending.
     pub out: Option<PathBuf>,
-    /// Number of threads; `None`: as many as the machine has.
+    /// Number of threads; `None` for as many as the machine has.
     pub threads: Option<usize>,
-    /// Keep the studies that an interrupted run finished.
+    /// Whether to keep the studies that an interrupted run finished.
     pub resume: bool,
 }
 
-/// What a run did.
+/// The report of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunReport {
-    /// What is in `summary.json`.
+    /// The content of `summary.json`.
     pub summary: Summary,
-    /// Where the files are.
+    /// The folder of the files.
     pub out: PathBuf,
-    /// Studies that an earlier run had finished and that were not computed again.
+    /// Names of the studies that an earlier run had finished and that were not computed again.
     pub kept: Vec<String>,
-    /// Whether the observer stopped it.
+    /// Whether the observer stopped the run.
     pub interrupted: bool,
-    /// What is to be said about the scene.
+    /// Remarks about the scene for the user.
     pub notes: Vec<String>,
 }

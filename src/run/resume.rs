@@ -1,9 +1,9 @@
-//! What an earlier run into the same folder left, and what of it can be kept.
+//! The results of an earlier run into the same folder, and the decision which of them can be kept.
 //!
-//! A study enters `summary.json` only after all its files are whole, so what is listed there as converged is done. It is
-//! kept where the digest of the scene and of every file it names is the same, and its own files are those on record. A
-//! study from which a later one starts leaves its state in `NAME.state.json`, every number in the digits that give it back
-//! exactly, so that the later one begins where it would have begun.
+//! A study enters `summary.json` only after all its files are complete, so a study that is listed there as converged is
+//! finished. It is kept if the digest of the scene and of every file that the scene names is the same, and if the
+//! study's own files are those on record. A study from which a later one starts leaves its state in `NAME.state.json`,
+//! every number with enough digits to be read back exactly, so that the later study starts from the same state.
 
 use super::RunError;
 use super::belongings::Belongings;
@@ -21,29 +21,30 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
-/// The parts of an earlier `summary.json` that matter here.
+/// The parts of an earlier `summary.json` that are needed to resume.
 #[derive(Default, Deserialize)]
 pub(crate) struct PreviousRun {
     digest: String,
-    /// One by one: what cannot be read of one study, such as a number that is none, costs no other.
+    /// The studies, each parsed separately: one that cannot be read, such as one with an invalid number, does not
+    /// affect the others.
     studies: Vec<Box<RawValue>>,
 }
 
 impl PreviousRun {
-    /// The earlier run into this folder, where it was of the scene with this digest; otherwise nothing.
+    /// Reads the earlier run into this folder; the result is empty if there is none or its digest is another one.
     pub(crate) fn read(out: &Path, digest: &str) -> Self {
         let text = std::fs::read_to_string(out.join("summary.json")).unwrap_or_default();
         let found: Option<Self> = serde_json::from_str(&text).ok();
         found.filter(|earlier| earlier.digest == digest).unwrap_or_default()
     }
 
-    /// Whether there was one.
+    /// Whether there was an earlier run of this scene.
     pub(crate) fn is_of_this_scene(&self) -> bool {
         !self.digest.is_empty()
     }
 
-    /// What the earlier run found for a study, and the state it left where later studies start from it; `None` where it
-    /// has to be computed.
+    /// Returns the summary of a study in the earlier run, and its final state if later studies start from it; `None` if
+    /// the study must be computed.
     pub(crate) fn study(
         &self,
         file: &SceneFile,
@@ -72,11 +73,11 @@ pub(crate) fn is_start(file: &SceneFile, name: &str) -> bool {
     })
 }
 
-/// The trajectories that a study of an earlier run followed, in the space of lattice strains, from its table; `None` of studies
-/// that follow none.
+/// Returns the trajectories that a study of an earlier run followed, in the space of lattice strains, read from its
+/// table; `None` for studies that follow no trajectories.
 ///
 /// # Errors
-/// [`OutputError`] where the table cannot be read.
+/// [`OutputError`] if the table cannot be read.
 pub(crate) fn paths(out: &Path, study: &StudySpec) -> Result<Option<Vec<Vec<PathPoint>>>, OutputError> {
     const COLUMNS: [&str; 8] = ["branch", "sign", "curvature", "strain11", "strain22", "strain12", "theta1", "theta2"];
     if !matches!(*study.kind, StudyKind::Trace(_)) {
@@ -100,12 +101,12 @@ fn read_state(out: &Path, name: &str) -> Option<SavedState> {
     serde_json::from_str(&std::fs::read_to_string(state_path(out, name)).ok()?).ok()
 }
 
-/// Writes the state of a study if a later one starts from it.
+/// Writes the final state of a study if a later one starts from it.
 pub(crate) fn write_state(file: &SceneFile, out: &Path, name: &str, state: &SavedState) -> Result<(), RunError> {
     if !is_start(file, name) {
         return Ok(());
     }
-    // a list of finite numbers: nothing in it can fail
+    // a list of finite numbers, so that serialization cannot fail
     let text = serde_json::to_string(state).unwrap_or_default();
     Ok(files::write(&state_path(out, name), text)?)
 }
@@ -114,7 +115,8 @@ pub(crate) fn write_state(file: &SceneFile, out: &Path, name: &str, state: &Save
 mod tests {
     use super::*;
 
-    /// A state comes back bit by bit, also where it is not the shortest decimal; a state that is cut off does not.
+    /// Claim: a state is read back bit by bit, also if its numbers have no short decimal form; a truncated file is
+    /// rejected.
     #[test]
     fn a_state_comes_back_exactly() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! The loop of a run: studies are checked, computed, timed, written, and kept for those that start from them.
+//! The loop of a run: studies are checked, computed, timed and written, and their states are kept for later studies.
 
 use super::belongings::Belongings;
 use super::ledger::{INTERRUPTED, Ledger};
@@ -20,20 +20,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// One run.
+/// A run in progress.
 pub(crate) struct Runner<'a> {
     file: &'a SceneFile,
     assembly: &'a Assembly,
     view: ShownCells,
-    /// Where files go.
+    /// The folder of the files.
     out: PathBuf,
     resumed: bool,
     earlier: PreviousAnswers,
     kept: Vec<String>,
-    /// Places of studies in the scene.
+    /// Positions of the studies in the scene.
     order: HashMap<&'a str, usize>,
     belongings: Belongings,
-    /// Files of the study that is computed.
+    /// Files written by the current study.
     written: Mutex<BTreeSet<PathBuf>>,
     observer: Observer<'a>,
     interrupted: AtomicBool,
@@ -41,10 +41,10 @@ pub(crate) struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    /// Checks what is left to check and makes the folder ready; nothing is written before this.
+    /// Performs the remaining checks and prepares the folder; nothing is written before.
     ///
-    /// The summary is written at once, with what is kept: a later run must not take files of this one for those of an
-    /// earlier scene.
+    /// The summary is written at once, with the studies that are kept, so that a later run cannot take files of this
+    /// run for those of an earlier scene.
     pub(crate) fn new(
         file: &'a SceneFile,
         assembly: &'a Assembly,
@@ -81,7 +81,7 @@ impl<'a> Runner<'a> {
         Ok(runner)
     }
 
-    /// Takes over what an earlier run finished, and removes what it left half-written.
+    /// Takes over the studies that an earlier run finished, and removes its unfinished files.
     fn take_over(&mut self, mut summary: Summary, previous: &PreviousRun) -> Result<(), RunError> {
         files::remove_drafts(&self.out);
         for study in &self.file.scene.studies {
@@ -98,7 +98,8 @@ impl<'a> Runner<'a> {
         self.ledger.open(RunReport { summary, out, kept, interrupted: false, notes }, places)
     }
 
-    /// Computes one study and writes its files; what an earlier run left of it goes. A study that is kept is left as it is.
+    /// Computes one study and writes its files; files that an earlier run wrote for it are removed. Does nothing if the
+    /// study is kept.
     pub(crate) fn study(&mut self, study: &StudySpec) -> Result<(), RunError> {
         if self.kept.contains(&study.name.0) {
             return Ok(());
@@ -107,7 +108,7 @@ impl<'a> Runner<'a> {
         self.ledger.begin(study, self.order[study.name.0.as_str()]);
         match self.compute(study).and_then(|found| self.finished(study, found)) {
             Ok(()) => Ok(()),
-            // the studies before it stay done
+            // the studies before this one remain recorded as finished
             Err(error) => self.ledger.write().and(Err(error)),
         }
     }
@@ -131,12 +132,13 @@ impl<'a> Runner<'a> {
         Context { file, assembly, view, study, earlier, checkpoints: self, observer: *observer, interrupted }
     }
 
-    /// Takes in what a study found. A run that was stopped removes nothing: what it would have written is not there.
+    /// Records the result of a study. A run that was stopped removes no files of earlier runs, since its own are
+    /// incomplete.
     fn finished(&self, study: &StudySpec, mut found: StudySummary) -> Result<(), RunError> {
         if !self.interrupted() {
             self.belongings.remove_others(&found.name, &self.take_written())?;
         } else if !found.converged {
-            found.reason = Some(INTERRUPTED.to_owned()); // each method has its own words for being stopped
+            found.reason = Some(INTERRUPTED.to_owned()); // each method describes an interruption differently
         }
         found.files = Some(self.belongings.record(&found.name)?);
         self.ledger.finished(found, self.order[study.name.0.as_str()])
@@ -146,7 +148,7 @@ impl<'a> Runner<'a> {
         std::mem::take(&mut *self.written.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Keeps the state in which a study ended for those that start from it.
+    /// Keeps the final state of a study for the studies that start from it.
     fn keep_state(&mut self, study: &StudySpec, state: SavedState) -> Result<(), RunError> {
         if resume::is_start(self.file, &study.name.0) {
             self.path(format!("{}.state.json", study.name.0));
@@ -161,14 +163,14 @@ impl<'a> Runner<'a> {
         self.interrupted.load(Ordering::Relaxed)
     }
 
-    /// A file in the folder that the present study writes.
+    /// Returns the path of a file in the folder of the run, and records that the current study writes it.
     fn path(&self, name: impl AsRef<Path>) -> PathBuf {
         let path = self.out.join(name);
         self.written.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
         path
     }
 
-    /// Ends the run.
+    /// Ends the run and returns its report.
     pub(crate) fn finish(self) -> Result<RunReport, RunError> {
         self.ledger.end(self.interrupted())
     }
@@ -209,7 +211,7 @@ fn summary(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
     }
 }
 
-/// The terms that are built, and those that this scene made unnecessary, each with its reason.
+/// Returns the terms of the model, and those that it does not have, each with the reason.
 fn built_terms(assembly: &Assembly) -> (Vec<String>, Vec<String>) {
     let terms = assembly.terms();
     let no_facets = if assembly.tiling().facets().next().is_some() { "" } else { "facets: every face is a triangle" };

@@ -1,7 +1,7 @@
 //! Tables of rest angles and of fold-angle rates: CSV, one row per edge.
 //!
 //! The header is `i,j,n1,n2,angle`, one row per crease of the cell, or `cell1,cell2,i,j,n1,n2,angle`, one row per
-//! crease of a patch; tables of rates have `rate` for the last column. Angles are radians.
+//! crease of a patch; in tables of rates the last column is `rate`. Angles are in radians.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -13,17 +13,17 @@ use crate::sheet::EdgeKey;
 /// A row of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct AngleRow {
-    /// The cell in which the crease `key` starts (at its vertex `key.i`); `None`: every cell.
+    /// The cell in which the crease `key` starts (at its vertex `key.i`); `None` if the row holds for every cell.
     pub cell: Option<[usize; 2]>,
-    /// The edge, by its canonical name.
+    /// Canonical name of the edge.
     pub key: EdgeKey,
     /// The angle in radians, or the rate.
     pub value: f64,
-    /// The line of the table, for messages about it.
+    /// Line of the table, for messages about it.
     pub line: usize,
 }
 
-/// Reads a table of rest angles, last column `angle`.
+/// Reads a table of rest angles, whose last column is `angle`.
 ///
 /// # Errors
 /// [`SceneError::Read`], or [`SceneError::Table`] with the line.
@@ -31,7 +31,7 @@ pub(crate) fn read_angles(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
     read(path, "angle")
 }
 
-/// Reads a table of fold-angle rates, last column `rate`.
+/// Reads a table of fold-angle rates, whose last column is `rate`.
 ///
 /// # Errors
 /// As [`read_angles`].
@@ -64,7 +64,7 @@ fn parse(text: &str, value: &'static str) -> Result<Vec<AngleRow>, Fault> {
     if rows.is_empty() { Err((at, TableFault::Empty)) } else { Ok(rows) }
 }
 
-/// The columns of a header, or `None` where it is not one of the two that there are.
+/// Returns the columns of a header; `None` if it is not one of the two valid headers.
 fn columns(header: &str, value: &'static str) -> Option<&'static [&'static str]> {
     const ANGLE: [&str; 7] = ["cell1", "cell2", "i", "j", "n1", "n2", "angle"];
     const RATE: [&str; 7] = ["cell1", "cell2", "i", "j", "n1", "n2", "rate"];
@@ -108,7 +108,8 @@ fn finite(field: &str, column: &'static str) -> Result<f64, TableFault> {
     number.ok_or_else(|| TableFault::Number { field: field.into(), column })
 }
 
-/// The cell where the canonical name starts: the cell of the other end, when the row names the edge backwards.
+/// Returns the cell in which the canonical name starts: if the row names the edge in the opposite direction, this is
+/// the cell of the other end.
 fn start_cell([c1, c2]: [i64; 2], [.., n1, n2]: [i64; 4], reversed: bool) -> Result<[usize; 2], TableFault> {
     let [s1, s2] = if reversed { [c1.saturating_add(n1), c2.saturating_add(n2)] } else { [c1, c2] };
     match (usize::try_from(s1), usize::try_from(s2)) {
@@ -125,8 +126,8 @@ mod tests {
         parse(text, "angle")
     }
 
-    /// Both headers; the backward name [2, 0, 1, 0] of cell (3, 4) starts at vertex 2 of (3, 4), so the canonical
-    /// [0, 2, -1, 0] starts at vertex 0 of cell (4, 4).
+    /// Claim: both headers are read. The backward name [2, 0, 1, 0] of cell (3, 4) starts at vertex 2 of (3, 4), so the
+    /// canonical [0, 2, -1, 0] starts at vertex 0 of cell (4, 4).
     #[test]
     fn rows_come_back_with_their_lines() {
         let key = EdgeKey { i: 0, j: 2, shift: [-1, 0] };
@@ -136,7 +137,7 @@ mod tests {
         assert_eq!(patch, [AngleRow { cell: Some([4, 4]), key, value: -1e-3, line: 3 }]);
     }
 
-    /// Each fault with its line.
+    /// Claim: each error names its line.
     #[test]
     fn faults_name_the_line() {
         let cases: [(&str, usize, &str); 9] = [

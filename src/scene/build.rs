@@ -1,4 +1,4 @@
-//! From a scene to what is computed: reads the mesh, and checks everything that a scene says about its sheet.
+//! The assembly of a scene: reads the mesh, and checks every value of the scene that refers to the sheet.
 
 use super::angles::{AngleRow, read_angles, read_rates};
 use super::error::TableFault;
@@ -14,10 +14,10 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
 
-/// Reads the mesh of a scene and puts together what its studies are about.
+/// Reads the mesh of a scene and assembles the sheet, boundary conditions and terms of its studies.
 ///
 /// # Errors
-/// [`SceneError`] where the mesh cannot be read, or the scene says something about the sheet that does not hold.
+/// [`SceneError`] if the mesh cannot be read, or the scene refers to a part of the sheet that does not exist.
 pub fn assembly(file: &SceneFile) -> Result<Assembly, SceneError> {
     let sheet = sheet(file)?;
     let boundary = boundary(file, &sheet)?;
@@ -28,23 +28,23 @@ pub fn assembly(file: &SceneFile) -> Result<Assembly, SceneError> {
     Ok(bare.with_terms(terms).with_best_axis())
 }
 
-/// What is to be said about a scene before its studies.
+/// Returns remarks about a scene for the user, made before its studies.
 pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
     super::turns::notes(file, assembly.terms())
 }
 
-/// Rates of a mode from its table, for every edge of the tiling; NaN where the table has none.
+/// Returns the rates of a mode from its table, for every edge of the tiling; NaN if the table has none.
 ///
 /// # Errors
-/// [`SceneError`] where the table cannot be read, names an edge that does not fold, or lacks a crease.
+/// [`SceneError`] if the table cannot be read, names an edge that does not fold, or lacks a crease.
 pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
     Reader::new(file, assembly).rates(name)
 }
 
-/// The sheet of a scene, from its mesh or its generator.
+/// Returns the sheet of a scene, from its mesh or its generator.
 ///
 /// # Errors
-/// [`SceneError`] where the mesh cannot be read, or the pattern has no sheet for its parameters.
+/// [`SceneError`] if the mesh cannot be read, or the pattern does not exist for its parameters.
 pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let spec = &file.scene.sheet;
     if let Some(mesh) = &spec.mesh {
@@ -79,14 +79,14 @@ fn names(sheet: &Sheet) -> HashMap<EdgeKey, usize> {
     sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect()
 }
 
-/// Reads the terms of a scene about its sheet.
+/// The reader of the terms of a scene, which refer to its sheet.
 struct Reader<'a> {
     file: &'a SceneFile,
     sheet: &'a Sheet,
     tiling: &'a Tiling,
-    /// Number of each edge of the cell.
+    /// Number of each edge of the cell by its name.
     names: HashMap<EdgeKey, usize>,
-    /// Drawn fold angle of every edge of the tiling; NaN where there is no hinge.
+    /// Drawn fold angle of every edge of the tiling; NaN for an edge that is not a hinge.
     angles: &'a [f64],
 }
 
@@ -117,18 +117,18 @@ impl<'a> Reader<'a> {
         Ok(terms)
     }
 
-    /// Left out, polygons are rigid.
+    /// Returns the stiffness of the facets; infinite, that is rigid, if the scene gives none.
     fn facet_stiffness(&self) -> f64 {
         self.file.scene.energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0)
     }
 
-    /// Diagonals of the cell's polygons where these are rigid.
+    /// Returns the diagonals of the cell's polygons if these are rigid; none otherwise.
     fn rigid_facets(&self) -> Vec<usize> {
         let rigid = self.facet_stiffness().is_infinite();
         self.sheet.facets().filter(|_| rigid).collect()
     }
 
-    /// Rest angle of every edge of the tiling.
+    /// Returns the rest angle of every edge of the tiling.
     fn rest(&self, rest: Option<&Located<RestSpec>>) -> Result<Vec<f64>, SceneError> {
         let Some(rest) = rest else { return Ok(self.angles.to_vec()) };
         match &**rest {
@@ -165,12 +165,12 @@ impl<'a> Reader<'a> {
 
     fn rates(&self, name: &RatesFile) -> Result<Vec<f64>, SceneError> {
         let path = self.file.resolve(&name.rates);
-        // soft facets fold as creases do; those without a row are left open
+        // soft facets fold as creases do; those without a row have no rate
         self.table(&path, &read_rates(&path)?, &[EdgeKind::Crease, EdgeKind::Facet], name.rates.span())
     }
 
-    /// Values of a table on the edges of the tiling: every hinge of the first of these kinds must have one, those of the
-    /// others may.
+    /// Returns the values of a table on the edges of the tiling. Every hinge of the first of these kinds must have a
+    /// value, hinges of the other kinds may have one.
     fn table(
         &self,
         path: &Path,
@@ -208,7 +208,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Number of an edge of the cell that is a hinge of one of these kinds.
+    /// Returns the number of an edge of the cell that is a hinge of one of these kinds.
     fn hinge(&self, key: EdgeKey, kinds: &[EdgeKind]) -> Option<usize> {
         self.names.get(&key).copied().filter(|&k| kinds.contains(&self.sheet.edges[k].kind))
     }
@@ -265,7 +265,7 @@ impl<'a> Reader<'a> {
         loads.iter().map(load).collect()
     }
 
-    /// Loads must balance along every axis on which no vertex is pinned: otherwise there is no equilibrium.
+    /// Checks that the loads balance along every axis on which no vertex is pinned: otherwise there is no equilibrium.
     fn balance(&self, terms: &Terms) -> Result<(), SceneError> {
         let Some((axis, force)) = terms.unbalanced_axis() else { return Ok(()) };
         let span = self.file.scene.loads[0].force.span();

@@ -1,4 +1,4 @@
-//! What values of a scene get wrong together, as far as the scene alone can tell.
+//! Checks of combinations of values of a scene that need no more than the scene itself.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -10,12 +10,12 @@ use super::spec::{BlochSpec, DomainSpec, LandscapeSpec, RelaxSpec, StopSpec, Stu
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
 
-/// The longest name of a study: with what is added to it, names of files stay under 255 bytes.
+/// Largest length of the name of a study: names of files, which add to it, stay under 255 bytes.
 const LONGEST_NAME: usize = 200;
 
 type Checked = Result<(), SceneError>;
 
-/// Refuses the first combination of values that cannot be meant.
+/// Checks a scene; returns an error for the first invalid combination of values.
 pub(super) fn check(file: &SceneFile) -> Checked {
     sheet(file)?;
     locks(file)?;
@@ -45,7 +45,7 @@ fn sheet(file: &SceneFile) -> Checked {
     }
 }
 
-/// The bytes of `[sheet]`, for faults of the whole table.
+/// Returns the bytes of the header `[sheet]`, the place of errors of the whole table.
 fn sheet_header(file: &SceneFile) -> Range<usize> {
     let start = file.text().find("[sheet]").unwrap_or(0);
     start..(start + "[sheet]".len()).min(file.text().len())
@@ -59,7 +59,8 @@ fn domain_name(file: &SceneFile) -> &'static str {
     }
 }
 
-/// Refuses the second of two equal keys, with a message made for the key.
+/// Checks that the keys differ from each other; returns an error at the second of two equal keys, with the message for
+/// that key.
 fn unique<K: Eq + Hash>(
     file: &SceneFile,
     keys: impl Iterator<Item = (K, Range<usize>)>,
@@ -137,7 +138,7 @@ fn studies(file: &SceneFile) -> Checked {
     studies.iter().enumerate().try_for_each(|(at, study)| kind(file, study, &studies[..at]))
 }
 
-/// Refuses studies of different names that would write the same file, also where capital letters make no difference.
+/// Checks that no two studies would write the same file, also on systems where capital letters make no difference.
 fn files(file: &SceneFile) -> Checked {
     let of_study = |study: &StudySpec| {
         let span = study.name.span();
@@ -180,7 +181,7 @@ fn earlier_study(file: &SceneFile, start: &Located<StartSpec>, earlier: &[StudyS
     Err(file.error_at(start.span(), message, help))
 }
 
-/// Whether studies of a kind end in a state from which another can start.
+/// Whether studies of a kind end in a state from which another study can start.
 fn has_states(kind: &StudyKind) -> bool {
     matches!(kind, StudyKind::Relax(_) | StudyKind::Trace(_) | StudyKind::Surface(_))
 }
@@ -194,7 +195,7 @@ fn some_condition(file: &SceneFile, stop: &Located<StopSpec>) -> Checked {
     if none { Err(file.error_at(stop.span(), "no condition to stop at", help)) } else { Ok(()) }
 }
 
-/// Keys that say how the rigid states are sampled need `rigid`.
+/// Checks that keys about the sampling of rigid states are given only together with `rigid`.
 fn of_rigid(file: &SceneFile, wells: &WellsSpec) -> Checked {
     let given = [
         ("resolution", wells.resolution.as_ref().map(Located::span)),

@@ -1,4 +1,4 @@
-//! A short name for everything that a run depends on: the scene and the files it names.
+//! A digest of the input of a run: of the scene and the files that it names.
 
 use std::fmt;
 use std::fs;
@@ -8,13 +8,13 @@ use super::forms::{Mode, RestSpec, StartSpec};
 use super::spec::StudyKind;
 use super::{SceneError, SceneFile};
 
-/// Sixteen hexadecimal digits that change with the version of this program, the text of the scene and the bytes of every
-/// file it names: the mesh, tables of angles and rates, states to start from.
+/// Returns sixteen hexadecimal digits that change with the version of this program, the text of the scene and the bytes
+/// of every file that the scene names: the mesh, tables of angles and rates, states to start from.
 ///
-/// It tells apart what was edited, by the hash FNV-1a of 64 bits; it is no protection against forgery.
+/// The digest detects edited input, by the 64-bit hash FNV-1a; it does not protect against forgery.
 ///
 /// # Errors
-/// [`SceneError::Read`] where one of the files cannot be read.
+/// [`SceneError::Read`] if one of the files cannot be read.
 pub(crate) fn digest(file: &SceneFile) -> Result<String, SceneError> {
     let mut hash = Fingerprint::default();
     hash.add(env!("CARGO_PKG_VERSION").as_bytes());
@@ -25,7 +25,7 @@ pub(crate) fn digest(file: &SceneFile) -> Result<String, SceneError> {
     Ok(hash.to_string())
 }
 
-/// The hash FNV-1a of 64 bits; written as sixteen hexadecimal digits.
+/// The 64-bit hash FNV-1a, written as sixteen hexadecimal digits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fingerprint(u64);
 
@@ -36,7 +36,7 @@ impl Default for Fingerprint {
 }
 
 impl Fingerprint {
-    /// Takes in bytes, their number first, so that bytes moved from one file to the next make a difference.
+    /// Adds bytes to the hash, preceded by their number, so that moving bytes from one file to the next changes it.
     pub(crate) fn add(&mut self, bytes: &[u8]) {
         for &byte in (bytes.len() as u64).to_le_bytes().iter().chain(bytes) {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
@@ -50,7 +50,7 @@ impl fmt::Display for Fingerprint {
     }
 }
 
-/// The files that a scene names, in the order in which it names them.
+/// Returns the files that a scene names, in the order in which it names them.
 pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
     let scene = &file.scene;
     let rates = |mode: &Mode| match mode {
@@ -82,7 +82,8 @@ mod tests {
     use super::super::parse;
     use super::*;
 
-    /// A letter more in the scene, or another byte in a file that it names, is another digest; nothing else is.
+    /// Claim: the digest changes with every additional letter in the scene and every changed byte in a file that the
+    /// scene names, and with nothing else.
     #[test]
     fn every_byte_counts() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, and where.
+//! The errors of a scene, with their places in the text.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use thiserror::Error;
 
-/// Why a scene, or a table that it names, was refused.
+/// The reasons for which a scene, or a table that it names, is refused.
 #[derive(Debug, Error, Diagnostic)]
 pub enum SceneError {
     /// A file cannot be read.
@@ -15,7 +15,7 @@ pub enum SceneError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// Cause of the error.
         source: io::Error,
     },
     /// A place in the scene is wrong.
@@ -27,15 +27,15 @@ pub enum SceneError {
         line: usize,
         /// Column in characters, counted from 1.
         column: usize,
-        /// What is wrong.
+        /// Description of the error.
         message: String,
-        /// What would be right.
+        /// Proposed correction.
         #[help]
         help: Option<String>,
         /// The text of the scene.
         #[source_code]
         text: Arc<NamedSource<String>>,
-        /// The bytes in question.
+        /// The bytes to which the error refers.
         #[label]
         span: SourceSpan,
     },
@@ -49,15 +49,15 @@ pub enum SceneError {
         path: PathBuf,
         /// Line, counted from 1.
         line: usize,
-        /// What is wrong.
+        /// Description of the error.
         fault: TableFault,
     },
 }
 
-/// What is wrong with a line of a table of angles or rates.
+/// The errors in a line of a table of angles or rates.
 #[derive(Debug, Error, PartialEq)]
 pub enum TableFault {
-    /// The first line names other columns.
+    /// The header has other column names.
     #[error("the header is `{found}`, expected `i,j,n1,n2,{value}` or `cell1,cell2,i,j,n1,n2,{value}`")]
     Header {
         /// The first line.
@@ -68,48 +68,48 @@ pub enum TableFault {
     /// A line has too few or too many fields.
     #[error("the line has {found} fields, expected {expected} as in the header")]
     Fields {
-        /// Fields in this line.
+        /// Number of fields in this line.
         found: usize,
-        /// Fields in the header.
+        /// Number of fields in the header.
         expected: usize,
     },
-    /// A field that should be a whole number.
+    /// A field that should be a whole number is not one.
     #[error("`{field}` in column `{column}` is not a whole number")]
     Whole {
-        /// The text.
+        /// Text of the field.
         field: String,
-        /// The column.
+        /// Name of the column.
         column: &'static str,
     },
-    /// A field that should be a finite number.
+    /// A field that should be a finite number is not one.
     #[error("`{field}` in column `{column}` is not a finite number")]
     Number {
-        /// The text.
+        /// Text of the field.
         field: String,
-        /// The column.
+        /// Name of the column.
         column: &'static str,
     },
-    /// An angle of more than a turn.
+    /// The absolute value of an angle is larger than 2 pi.
     #[error("{message}; {help}")]
     Turns {
-        /// What is wrong.
+        /// Description of the error.
         message: String,
-        /// What would be right.
+        /// Proposed correction.
         help: String,
     },
-    /// The numbers name no edge.
+    /// The sheet has no edge with this name.
     #[error("{0}")]
     Edge(String),
-    /// The edge starts or ends in a cell with a negative number.
+    /// The edge starts or ends in a cell with a negative index.
     #[error("the edge leaves the patch at cell [{0}, {1}]: cells are counted from 0")]
     Outside(i64, i64),
     /// The same edge was given before.
     #[error("the edge is given twice, first in line {first}")]
     Twice {
-        /// Line of the first row.
+        /// Line in which the edge was given first.
         first: usize,
     },
-    /// The table has a header only.
+    /// The table has a header and no rows.
     #[error("the table has no rows")]
     Empty,
 }

@@ -1,4 +1,4 @@
-//! From the text of a scene to its types, keeping the text for messages.
+//! The types of a scene read from its text, which is kept for messages.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -23,23 +23,24 @@ pub struct SceneFile {
 }
 
 impl SceneFile {
-    /// The scene in a text, not checked yet; `path` stands in messages and is what paths in the scene are relative to.
+    /// Reads a scene from a text, without checking it. `path` is used in messages, and paths in the scene are relative
+    /// to it.
     pub(super) fn unchecked(text: &str, path: &Path) -> Result<Self, SceneError> {
         let source = Arc::new(NamedSource::new(path.display().to_string(), text.to_owned()).with_language("TOML"));
         Ok(Self { scene: deserialize(&source)?, path: path.to_path_buf(), text: source })
     }
 
-    /// The scene file, as it was named to [`read`](super::read) or [`parse`](super::parse).
+    /// Returns the path of the scene file, as it was passed to [`read`](super::read) or [`parse`](super::parse).
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// A path of the scene, which is relative to the scene file.
+    /// Returns a path of the scene, which is relative to the scene file, as one relative to the current folder.
     pub fn resolve(&self, path: &Path) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(path)
     }
 
-    /// The title, or the name of the file without its ending.
+    /// Returns the title of the scene, or the name of its file without the ending.
     pub(crate) fn title(&self) -> String {
         let stem = || self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         self.scene.title.clone().unwrap_or_else(stem)
@@ -49,12 +50,13 @@ impl SceneFile {
         self.text.inner()
     }
 
-    /// The line of a byte offset, counted from 1.
+    /// Returns the line of a byte offset, counted from 1.
     pub(super) fn line_of(&self, offset: usize) -> usize {
         line_and_column(self.text(), offset).0
     }
 
-    /// An error that points at a place of the scene ([`super::Located::span`]): what is wrong and what would be right.
+    /// Returns an error that points at a place of the scene ([`super::Located::span`]); `message` describes the error,
+    /// `help` proposes a correction.
     pub fn error_at(&self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> SceneError {
         error_at(&self.text, span, message.into(), Some(help.into()))
     }
@@ -67,10 +69,10 @@ fn error_at(text: &Arc<NamedSource<String>>, span: Range<usize>, message: String
     SceneError::At { file: text.name().into(), line, column, message, help, text, span: span.into() }
 }
 
-/// Characters of a line, and of a message, that are printed whole.
+/// Largest number of characters of a line or message that are printed.
 const LONGEST_PRINTED_LINE: usize = 400;
 
-/// A message that quotes no more than can be read.
+/// Truncates a message to a readable length.
 fn cut(message: &str) -> String {
     match message.char_indices().nth(LONGEST_PRINTED_LINE) {
         Some((end, _)) => format!("{}...", &message[..end]),
@@ -78,8 +80,8 @@ fn cut(message: &str) -> String {
     }
 }
 
-/// The text to show for a place: the text itself, or, where the line of the place or a neighbour is very long, the text with
-/// long lines cut around the place.
+/// Returns the text to be shown around a place and the place in it: the whole text, or, if one of its lines is very
+/// long, the text with long lines truncated, the line of the place to a part around it.
 fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSource<String>>, Range<usize>) {
     if text.inner().lines().all(|line| line.len() <= LONGEST_PRINTED_LINE) {
         return (text.clone(), span);
@@ -109,12 +111,12 @@ fn excerpt(text: &Arc<NamedSource<String>>, span: Range<usize>) -> (Arc<NamedSou
     (Arc::new(NamedSource::new(text.name(), short).with_language("TOML")), moved)
 }
 
-/// The last start of a character at or before a byte.
+/// Returns the last start of a character at or before a byte.
 fn floor(line: &str, at: usize) -> usize {
     (0..=at.min(line.len())).rev().find(|&k| line.is_char_boundary(k)).unwrap_or(0)
 }
 
-/// Line and column of a byte offset, both counted from 1, the column in characters.
+/// Returns line and column of a byte offset, both counted from 1; the column counts characters.
 fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = &text.as_bytes()[..offset.min(text.len())];
     let line_start = before.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
@@ -134,8 +136,8 @@ fn deserialize(text: &Arc<NamedSource<String>>) -> Result<Scene, SceneError> {
     Scene::deserialize(toml::de::Deserializer::from(root)).map_err(|fault| from_toml(text, &fault))
 }
 
-/// Turns `kind = "relax"` and the keys of that kind into `kind = { relax = { .. } }`, the form that serde can read
-/// without losing places. A missing kind is left for serde to refuse; one that is no word gives its place.
+/// Replaces `kind = "relax"` and the keys of that kind by `kind = { relax = { .. } }`, the form that serde can read
+/// without losing places. A missing kind is left for serde to refuse; the error of one that is not a word is its place.
 fn nest_kind(study: &mut DeTable<'_>) -> Result<(), Range<usize>> {
     let common = common_study_keys();
     let (mut kept, mut own) = (DeTable::new(), DeTable::new());
@@ -158,7 +160,7 @@ fn not_a_kind(text: &Arc<NamedSource<String>>, span: Range<usize>) -> SceneError
     error_at(text, span, "the kind of a study is a word".into(), Some(help))
 }
 
-/// Says a fault found by the TOML reader or by serde in the words of this program.
+/// Converts an error of the TOML reader or of serde to one in the terms of this program.
 fn from_toml(text: &Arc<NamedSource<String>>, fault: &toml::de::Error) -> SceneError {
     let span = fault.span().unwrap_or(0..0);
     let (wrong, right) = match fault.message().split_once(", expected ") {
@@ -184,7 +186,7 @@ fn quoted_after(text: &str, start: &str) -> Option<String> {
     Some(text.strip_prefix(start)?.strip_prefix('`')?.split_once('`')?.0.to_owned())
 }
 
-/// Which keys there are, and which kinds of study have the unknown one.
+/// Returns a text with the allowed keys, and with the kinds of study that have the unknown one.
 fn unknown_key_help(key: &str, right: Option<String>) -> String {
     let here = right.map_or("no keys are expected here".into(), |right| {
         format!("the keys here are {}", right.trim_start_matches("one of "))
@@ -214,7 +216,7 @@ fn plain_words(expected: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Columns count characters, so that an accent before the place does not move it; counted by hand.
+    /// Claim: columns count characters, so that an accent before the place does not shift it. Source: counted by hand.
     #[test]
     fn line_and_column_of_an_offset() {
         let text = "a = 1\n# \u{e9}\u{e9} b = 2\n";

@@ -1,4 +1,4 @@
-//! Values of a scene that can be written in more than one form: a word, a number or a table.
+//! Values of a scene that have more than one written form: a word, a number or a table.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -17,7 +17,7 @@ use super::values::{Finite, Positive, Triple};
 pub enum RestSpec {
     /// The drawn fold angles.
     Drawn,
-    /// Zero.
+    /// Zero, the flat state.
     Flat,
     /// One angle for all creases, in radians.
     Angle(f64),
@@ -72,7 +72,7 @@ pub struct Wave {
     pub wave: Located<[i32; 2]>,
 }
 
-/// The two tables of [`Mode`] in one, to see which of them was meant.
+/// The two tables of [`Mode`] in one, used to find out which of them was given.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ModeTable {
@@ -83,7 +83,7 @@ struct ModeTable {
 /// The state from which a relaxation starts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum StartSpec {
-    /// As drawn.
+    /// The drawn state.
     #[default]
     Drawn,
     /// The last state of an earlier study of the same scene.
@@ -107,10 +107,10 @@ pub struct RandomStart {
 /// The branches that a trace follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BranchChoice {
-    /// Every one.
+    /// All branches.
     #[default]
     All,
-    /// The one with this number.
+    /// The branch with this number.
     Number(usize),
 }
 
@@ -149,7 +149,7 @@ impl<'de> Deserialize<'de> for RestSpec {
     }
 }
 
-/// The two tables of [`RestSpec`] in one, to see which of them was meant.
+/// The two tables of [`RestSpec`] in one, used to find out which of them was given.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RestTable {
@@ -254,7 +254,7 @@ impl<'de> Deserialize<'de> for BranchChoice {
     }
 }
 
-/// Gives a type the schema "any of these", next to the visitor that reads them.
+/// Implements the schema "any of these forms" for a type, to match the visitor that reads the forms.
 macro_rules! schema_any_of {
     ($type:ident as $name:literal, $generator:ident, $forms:tt) => {
         impl JsonSchema for $type {

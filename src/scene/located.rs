@@ -6,7 +6,7 @@ use std::ops::{Deref, Range};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer};
 
-/// A value and the bytes of the scene file from which it was read; it dereferences to the value.
+/// A value with the bytes of the scene file from which it was read; it dereferences to the value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located<T> {
     value: T,
@@ -14,7 +14,7 @@ pub struct Located<T> {
 }
 
 impl<T> Located<T> {
-    /// Where the value stands: byte offsets into the text of the scene.
+    /// Returns the place of the value: byte offsets into the text of the scene.
     pub fn span(&self) -> Range<usize> {
         self.span.clone()
     }
@@ -35,7 +35,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
     }
 }
 
-/// The schema of the value: a place is nothing the user writes.
+/// The schema is that of the value, since places are not written by the user.
 impl<T: JsonSchema> JsonSchema for Located<T> {
     fn inline_schema() -> bool {
         T::inline_schema()

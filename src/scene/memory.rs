@@ -1,4 +1,4 @@
-//! How much memory a scene needs at least, from its numbers alone and before anything is built.
+//! A lower bound of the memory that a scene needs, from its numbers alone, before anything is built.
 
 use std::ops::Range;
 
@@ -6,13 +6,13 @@ use super::spec::{DomainSpec, MapSpec, StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::sheet::Sheet;
 
-/// Vertices beyond this would overflow the indices of the sparse matrices.
+/// Largest number of vertices: more would overflow the indices of the sparse matrices.
 const MOST_VERTICES: u64 = 30_000_000;
 
-/// Bytes that are assumed to be free where the operating system does not say.
+/// Bytes that are assumed to be free if the operating system does not report them.
 const USUAL_MEMORY: u64 = 16 << 30;
 
-/// Bytes that the numbers of a study may ask for on any machine.
+/// Largest number of bytes that the numbers of a study may require on any machine.
 const MOST_OF_STUDY: u64 = 24 << 30;
 
 /// Bytes for each vertex of the model: its edges and triangles, once for the studies and once for pictures.
@@ -26,18 +26,18 @@ const START: u64 = 32;
 /// Bytes for each sample of a map: its direction, its triangles and its row.
 const SAMPLE: u64 = 160;
 
-/// Something that needs memory.
+/// A part of a scene that needs memory.
 struct Need {
-    /// What there is so many of.
+    /// Description of the part and its size, for messages.
     what: String,
-    /// Bytes.
+    /// Number of bytes.
     bytes: u64,
-    /// The key that would have to be smaller, and where it stands.
+    /// The key whose value would have to be smaller, and its place.
     key: &'static str,
     span: Range<usize>,
 }
 
-/// Refuses a scene with more than the indices or the memory of this machine hold.
+/// Checks that the scene fits the index range and the free memory of this machine.
 pub(super) fn check(file: &SceneFile, sheet: &Sheet) -> Result<(), SceneError> {
     let spec = &file.scene.sheet;
     let span = || spec.cells.as_ref().map_or(0..0, Located::span);
@@ -71,7 +71,7 @@ fn relaxes(kind: &StudyKind) -> bool {
     matches!(kind, StudyKind::Relax(_) | StudyKind::Wells(_))
 }
 
-/// The size that a study is given by a number of its own.
+/// Returns the memory that a study needs for the numbers among its own settings.
 fn of_study(study: &StudySpec) -> Option<Need> {
     let name = &study.name.0;
     match &*study.kind {
@@ -97,13 +97,13 @@ fn of_map(name: &str, map: &MapSpec) -> Option<Need> {
     Some(Need { what, bytes: samples.saturating_mul(SAMPLE), key: "rings", span: rings.span() })
 }
 
-/// Bytes of memory that programs can still have.
+/// Returns the number of bytes of memory that are available to programs.
 fn free_memory() -> u64 {
     let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
     available(&text).unwrap_or(USUAL_MEMORY)
 }
 
-/// The line `MemAvailable: N kB` of `/proc/meminfo`.
+/// Reads the line `MemAvailable: N kB` of `/proc/meminfo`.
 fn available(text: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     Some(line.split_whitespace().next()?.parse::<u64>().ok()?.saturating_mul(1024))
@@ -113,7 +113,7 @@ fn available(text: &str) -> Option<u64> {
 mod tests {
     use super::*;
 
-    /// Claim: the kernel's line is read in kB, and nothing is read from other texts.
+    /// Claim: the line of the kernel is read in kB, and other texts give no number.
     #[test]
     fn what_the_kernel_says() {
         assert_eq!(available("MemTotal: 9 kB\nMemAvailable:    2048 kB\n"), Some(2 << 20));

@@ -1,7 +1,7 @@
-//! What the user writes: scene files, their checks and the tables of angles they name.
+//! Scene files, which the user writes: their types, their checks and the tables of angles that they name.
 //!
-//! A scene is TOML. [`read`] gives a [`SceneFile`]: typed values ([`spec`]), each with its place in the text, so that
-//! whoever finds a fault later can point at it with [`SceneFile::error_at`].
+//! A scene is written in TOML. [`read`] returns a [`SceneFile`]: typed values ([`spec`]), each with its place in the
+//! text, so that code that detects an error later can point at that place with [`SceneFile::error_at`].
 
 pub(crate) mod angles;
 pub mod build;

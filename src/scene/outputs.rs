@@ -1,10 +1,11 @@
-//! The files that a study writes, by its name and kind: one list for all who ask what belongs to a study.
+//! The files that a study writes, by its name and kind: the only list of the files that belong to a study.
 //!
-//! Names are relative to the folder of the run, with `/` between folder and file; `#` stands for a number of four digits or more.
+//! Names are relative to the folder of the run, with `/` between folder and file; `#` is a number of four or more
+//! digits.
 
 use super::spec::{StudyKind, StudySpec};
 
-/// Endings of the files that a study of any kind may write; `@` stands for its name.
+/// Names of the files that a study of any kind may write; `@` is the name of the study.
 const ANY: [&str; 5] = ["@.csv", "@.svg", "@.pvd", "@.state.json", "@/@_#.vtu"];
 const TRACE: &[&str] = &["@-strain.svg"];
 const SURFACE: &[&str] = &["@/@_#.vtp"];
@@ -13,7 +14,7 @@ const BLOCH: &[&str] = &["@/@_determinant.vti", "@/@_zero_lines.vtp", "@/@_mode_
 const BANDS: &[&str] = &["@_bands.csv"];
 const WELLS: &[&str] = &["@-barriers.csv"];
 
-/// The files that a study can write as the scene asks for it.
+/// Returns the files that a study with these settings can write.
 pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
     let own: [&[&str]; 2] = match &*study.kind {
         StudyKind::Trace(_) => [TRACE, &[]],
@@ -27,7 +28,7 @@ pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
     named(&study.name.0, ANY.iter().chain(own[0]).chain(own[1]))
 }
 
-/// The files that a study of this name can have written, whatever its kind was.
+/// Returns the files that a study of this name can have written, whatever its kind was.
 pub(crate) fn owned(name: &str) -> Vec<String> {
     let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS].into_iter().flatten();
     named(name, ANY.iter().chain(others))
@@ -37,7 +38,7 @@ fn named<'a>(name: &str, files: impl Iterator<Item = &'a &'a str>) -> Vec<String
     files.map(|file| file.replace('@', name)).collect()
 }
 
-/// Whether a file is one of a list, a number in the place of `#`.
+/// Whether a file is in a list, with a number instead of `#`.
 pub(crate) fn is_one_of(files: &[String], file: &str) -> bool {
     files.iter().any(|listed| match listed.split_once('#') {
         None => listed == file,
@@ -52,7 +53,7 @@ pub(crate) fn is_one_of(files: &[String], file: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Numbers stand for `#` and nothing else does; what a study writes is always among what its name owns.
+    /// Claim: only numbers match `#`; the files that a study writes are always among those that belong to its name.
     #[test]
     fn names_are_told_apart() {
         let own = owned("a");

@@ -1,4 +1,4 @@
-//! From a scene file, or its text, to a checked scene.
+//! Reading of a scene file, or of its text, with all checks that need only the scene.
 
 use super::checks::check;
 use super::error::SceneError;
@@ -9,16 +9,16 @@ use std::path::Path;
 /// Reads and checks a scene file.
 ///
 /// # Errors
-/// [`SceneError::Read`] when the file cannot be read, [`SceneError::At`] for everything that is wrong in it.
+/// [`SceneError::Read`] if the file cannot be read, [`SceneError::At`] with the place of the first error in it.
 pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
     let text = read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     parse(&text, path)
 }
 
-/// Reads and checks the text of a scene; `name` stands in messages and is what paths in the scene are relative to.
+/// Reads and checks the text of a scene. `name` is used in messages, and paths in the scene are relative to it.
 ///
 /// # Errors
-/// [`SceneError::At`] for the first thing that is wrong.
+/// [`SceneError::At`] with the place of the first error.
 pub fn parse(text: &str, name: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
     let file = SceneFile::unchecked(text, name.as_ref())?;
     check(&file)?;

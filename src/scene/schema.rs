@@ -1,26 +1,26 @@
-//! The JSON schema of a scene, made from the types that read it, so that it cannot fall behind them.
+//! The JSON schema of a scene, generated from the types that read it, so that both always agree.
 
 use schemars::{JsonSchema, SchemaGenerator, schema_for};
 use serde_json::Value;
 
 use super::spec::{self, Scene};
 
-/// The JSON schema of a scene file, pretty-printed; editors with a TOML language server take it as it is.
+/// Returns the JSON schema of a scene file, pretty-printed, in the form that editors with a TOML language server use.
 pub fn schema() -> String {
     format!("{:#}\n", schema_for!(Scene).to_value())
 }
 
-/// The keys that every study has.
+/// Returns the keys that every study has.
 pub(super) fn common_study_keys() -> [&'static str; 4] {
     ["name", "kind", "check", "draw"]
 }
 
-/// The kinds of studies.
+/// Returns the kinds of studies.
 pub(super) fn kinds() -> [&'static str; 8] {
     keys_of_kinds().map(|(kind, _)| kind)
 }
 
-/// The kinds of studies that have a key.
+/// Returns the kinds of studies that have a key.
 pub(super) fn kinds_with_key(key: &str) -> Vec<&'static str> {
     keys_of_kinds().into_iter().filter(|(_, keys)| keys.iter().any(|k| k == key)).map(|(kind, _)| kind).collect()
 }
@@ -52,7 +52,7 @@ mod tests {
         schema["properties"].as_object().unwrap().keys().map(String::as_str).collect()
     }
 
-    /// Every table of the scene is there under the name that the file uses.
+    /// Claim: the schema contains every table of the scene under the name that scene files use.
     #[test]
     fn schema_names_the_tables_of_a_scene() {
         let schema: Value = serde_json::from_str(&schema()).unwrap();
@@ -60,7 +60,7 @@ mod tests {
         assert_eq!(schema["required"], serde_json::json!(["sheet"]));
     }
 
-    /// The keys set aside before a kind is read are those that the type of a study has.
+    /// Claim: the keys that are separated before a kind is read are those of the type of a study.
     #[test]
     fn common_keys_are_the_keys_of_a_study() {
         let mut found = keys::<spec::StudySpec>();
@@ -71,7 +71,7 @@ mod tests {
         assert_eq!(found, expected);
     }
 
-    /// Kinds and keys as the documentation of the scene lists them.
+    /// Claim: kinds and keys are those that the documentation of the scene lists.
     #[test]
     fn keys_of_kinds() {
         assert_eq!(kinds_with_key("tolerance"), ["relax", "trace"]);

@@ -1,8 +1,8 @@
-//! The scene as its file says it: one type per table, one field per key.
+//! The scene as its file gives it: one type per table, one field per key.
 //!
-//! Paths are relative to the scene file ([`crate::scene::SceneFile::resolve`]). What a value alone can get wrong is
-//! refused by its type ([`super::values`], [`super::forms`]); what values get wrong together, by the checks that
-//! [`crate::scene::parse`] ends with.
+//! Paths are relative to the scene file ([`crate::scene::SceneFile::resolve`]). Values that are invalid alone are
+//! refused by their types ([`super::values`], [`super::forms`]); invalid combinations of values are refused by the
+//! checks at the end of [`crate::scene::parse`].
 
 mod study;
 

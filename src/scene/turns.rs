@@ -1,4 +1,5 @@
-//! Angles that are more than a turn, which are degrees, and angles beyond pi, at which faces have passed through each other.
+//! Angles beyond 2 pi, which are taken for degrees and refused, and angles beyond pi, at which faces have passed
+//! through each other.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -8,7 +9,7 @@ use super::spec::{StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::Terms;
 
-/// What is wrong with an angle of more than a turn, and what would be right.
+/// Returns description and correction of the error if the absolute value of an angle is larger than 2 pi.
 pub(super) fn fault(angle: f64) -> Option<[String; 2]> {
     (angle.abs() > TAU).then(|| {
         let radians = angle.to_radians();
@@ -19,7 +20,7 @@ pub(super) fn fault(angle: f64) -> Option<[String; 2]> {
     })
 }
 
-/// Refuses angles of a scene that are more than a turn.
+/// Checks that no angle of a scene is larger than 2 pi in absolute value.
 pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     let scene = &file.scene;
     let at = |angle: f64, span: Range<usize>| match fault(angle) {
@@ -42,7 +43,7 @@ fn stop_angle(study: &StudySpec) -> Option<&Located<super::values::Finite>> {
     Some(&trace.stop.as_ref()?.crease_angle.as_ref()?.angle)
 }
 
-/// What is to be said about rest angles and locks beyond pi, which are allowed.
+/// Returns remarks about rest angles and locks beyond pi, which are allowed.
 pub(super) fn notes(file: &SceneFile, terms: &Terms) -> Vec<String> {
     let beyond = |angle: &f64| angle.abs() > PI;
     let through = "beyond pi (angles are radians), where the faces of a crease have passed through each other";

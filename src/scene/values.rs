@@ -1,6 +1,6 @@
-//! Values that a scene can get wrong: each type here can only hold what is right.
+//! Values of a scene that are checked alone: each type here can hold valid values only.
 //!
-//! Every message has the form `what is wrong, expected what would be right`; [`crate::scene::SceneError`] prints the
+//! Every message has the form `description of the error, expected valid value`; [`crate::scene::SceneError`] prints the
 //! second half as help.
 
 use std::borrow::Cow;
@@ -12,54 +12,54 @@ use thiserror::Error;
 
 use crate::sheet::{Corner, EdgeKey};
 
-/// Why a value of a scene is refused.
+/// The reasons for which a value of a scene is refused.
 #[derive(Debug, Error)]
 pub enum ValueError {
-    /// A list that is too short or too long.
+    /// A list is too short or too long.
     #[error("the list has {0} values, expected {1}")]
     Length(usize, usize),
-    /// A stiffness that is zero, negative or not a number.
+    /// A stiffness is zero, negative or NaN.
     #[error("the stiffness is {0}, expected a positive number or `inf` (exactly rigid)")]
     Stiffness(f64),
-    /// Infinity or NaN where a finite number is needed.
+    /// A number that must be finite is infinite or NaN.
     #[error("the number is {0}, expected a finite number")]
     NotFinite(f64),
-    /// A number that has to be positive and finite.
+    /// A number that must be positive and finite is not.
     #[error("the number is {0}, expected a finite number above 0")]
     NotPositive(f64),
-    /// A count that is zero, negative or too large.
+    /// A count is zero, negative or too large.
     #[error("the number is {0}, expected a whole number from 1 to {max}", max = u32::MAX)]
     NoCount(i64),
-    /// Fewer than one cell.
+    /// A number of cells is less than one.
     #[error("there are {0} x {1} cells, expected at least 1 in either direction")]
     NoCells(i64, i64),
-    /// More cells than indices.
+    /// There are more cells than can be numbered.
     #[error("{0} x {1} cells are more than can be numbered, expected at most {max} in all", max = Cells::MOST)]
     TooManyCells(i64, i64),
-    /// Characters that do not go into a file name everywhere.
+    /// A name contains characters that some systems do not allow in file names.
     #[error("`{0}` is not a name for a study, expected letters, digits, `_` and `-` only")]
     Name(String),
-    /// A name that means something else.
+    /// A name has another meaning in a scene.
     #[error("`{0}` cannot name a study because `start = \"{0}\"` means the drawn state, expected another name")]
     ReservedName(String),
-    /// Axes other than x, y, z, or one of them twice, or none.
+    /// A text is not a list of axes: it is empty, or has letters other than x, y, z, or one of them twice.
     #[error("`{0}` names no axes, expected one or more of the letters x, y, z, each once, as in \"xz\"")]
     Axes(String),
-    /// A negative vertex number in the name of an edge.
+    /// A vertex number in the name of an edge is negative.
     #[error("an edge cannot start or end at vertex {0}, expected [i, j, n1, n2] with i and j counted from 0")]
     Vertex(i64),
-    /// A shift of an edge out of range.
+    /// The shift in the name of an edge is out of range.
     #[error("cell {0} of an edge is out of range, expected n1 and n2 of [i, j, n1, n2] to be small whole numbers")]
     Shift(i64),
-    /// A well and itself.
+    /// A barrier is between a well and itself.
     #[error("the barrier is sought from well {0} to itself, expected two different wells in [a, b]")]
     OneWell(usize),
-    /// An edge from a vertex to itself.
+    /// An edge runs from a vertex to itself.
     #[error("the edge runs from vertex {0} to itself, expected two different ends in [i, j, n1, n2]")]
     Loop(usize),
 }
 
-/// A list of exactly `N` values: arrays alone would leave out what is too much without a word.
+/// A list of exactly `N` values: an array alone would silently ignore additional values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Exactly<T, const N: usize>(pub [T; N]);
 
@@ -205,7 +205,7 @@ impl TryFrom<Exactly<usize, 2>> for WellPair {
 pub struct Cells(pub [usize; 2]);
 
 impl Cells {
-    /// The largest number of cells: their indices fit into 32 bits, signs included.
+    /// Largest number of cells: their indices fit into 32 bits, signs included.
     pub(crate) const MOST: i64 = i32::MAX as i64;
 }
 
@@ -278,7 +278,7 @@ impl TryFrom<Exactly<i64, 4>> for EdgeName {
     }
 }
 
-/// The edge `[i, j, n1, n2]` and whether its canonical name runs the other way.
+/// Returns the name of the edge `[i, j, n1, n2]`, and whether its canonical form has the opposite direction.
 pub(super) fn directed_edge([i, j, n1, n2]: [i64; 4]) -> Result<(EdgeKey, bool), ValueError> {
     let vertex = |v: i64| usize::try_from(v).map_err(|_| ValueError::Vertex(v));
     let shift = |n: i64| match i32::try_from(n) {

@@ -1,4 +1,4 @@
-//! What a study found: its part of the summary, its files, and what later studies can start from or draw.
+//! The answer of a study: its part of the summary, its files, and the data that later studies start from or draw.
 
 use crate::output::artifact::Artifact;
 use crate::output::figure::surface::PathPoint;
@@ -6,46 +6,46 @@ use crate::output::summary::{StudyResult, StudySummary};
 use crate::scene::spec::StudySpec;
 use serde::{Deserialize, Serialize};
 
-/// What a study found. Nothing of it has been written.
+/// The answer of a study, not yet written to files.
 #[derive(Debug)]
 pub struct Answer {
-    /// Its part of `summary.json`; the time that it took is left open.
+    /// The study's part of `summary.json`; its computing time is filled in later.
     pub summary: StudySummary,
-    /// Its files: names relative to the folder of the run, in the order in which they are to be written.
+    /// The study's files: names relative to the folder of the run, in the order in which they are to be written.
     pub files: Vec<(String, Artifact)>,
-    /// The state in which it ended, from which later studies can start.
+    /// The state in which the study ended, from which later studies can start.
     pub state: Option<SavedState>,
-    /// The trajectories that it followed, in the space of lattice strains; later surfaces show them.
+    /// The trajectories that the study followed, in the space of lattice strains; later surface studies draw them.
     pub paths: Vec<Vec<PathPoint>>,
 }
 
-/// A state that later studies may start from.
+/// A state from which later studies can start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SavedState {
-    /// All coordinates.
+    /// All coordinates of the state.
     pub coordinates: Vec<f64>,
-    /// Angles from which angles continue, see [`crate::model::Model::angles`].
+    /// The angles from which later angles continue without jumps of `2 pi`; see [`crate::model::Model::angles`].
     pub angles: Vec<f64>,
-    /// Tensions of the stiff measures; `None` where the study knows none.
+    /// Tensions of the stiff elements; `None` if the study does not compute them.
     #[serde(default)]
     pub tension: Option<Vec<f64>>,
 }
 
 impl Answer {
-    /// An answer that says nothing yet, of a study that did not converge.
+    /// Returns an answer without content, of a study that did not converge.
     pub fn empty(study: &StudySpec) -> Self {
         let summary = StudySummary::unanswered(&study.name.0, study.kind.name());
         Self { summary, files: Vec::new(), state: None, paths: Vec::new() }
     }
 
-    /// An answer that says why there is none.
+    /// Returns an answer without result, with the reason for that.
     pub fn failed(study: &StudySpec, reason: impl ToString) -> Self {
         let mut answer = Self::empty(study);
         answer.summary.reason = Some(reason.to_string());
         answer
     }
 
-    /// Takes in what was found: converged where there is no reason against it.
+    /// Records the result and its error estimate. The study counts as converged if there is no `reason` against it.
     pub fn conclude(&mut self, result: StudyResult, error: Option<f64>, reason: Option<String>) {
         self.summary.converged = reason.is_none();
         self.summary.error = error;
@@ -53,7 +53,7 @@ impl Answer {
         self.summary.result = Some(result);
     }
 
-    /// Adds a file.
+    /// Adds a file. `name` is relative to the folder of the run.
     pub fn add(&mut self, name: impl Into<String>, artifact: impl Into<Artifact>) {
         self.files.push((name.into(), artifact.into()));
     }

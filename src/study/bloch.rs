@@ -1,4 +1,4 @@
-//! `kind = "bloch"`: spatially varying modes of the drawn state, or of one that an earlier study found.
+//! `kind = "bloch"`: spatially varying modes of the drawn state, or of a state that an earlier study found.
 
 use super::answer::{Answer, SavedState};
 use super::context::Context;
@@ -24,18 +24,18 @@ use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKind;
 use std::f64::consts::TAU;
 
-/// Wavenumbers along each direction where the scene says nothing.
+/// Numbers of wavenumbers along the two directions, unless the scene gives others.
 const GRID: [usize; 2] = [256, 256];
-/// Wavenumbers of decay rates where the scene says nothing.
+/// Number of wavenumbers at which decay rates are computed, unless the scene gives a list.
 const DECAYS: usize = 32;
-/// Wavenumbers over which the polarization is averaged.
+/// Number of wavenumbers over which the polarization is averaged.
 const AVERAGED: usize = 64;
-/// Wavenumbers from each corner of a path to the next.
+/// Number of wavenumbers from each corner of a path to the next.
 const STEPS: usize = 50;
-/// Wavenumbers of decay rates in the picture.
+/// Number of wavenumbers at which the picture shows decay rates.
 const DRAWN: usize = 240;
 
-/// Spatially varying modes need a lattice, and as many conditions as coordinates.
+/// Checks that the sheet has a lattice and as many constraints as coordinates.
 pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> {
     let (file, assembly) = (context.file, context.assembly);
     if let Some(start) = &spec.start {
@@ -57,7 +57,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
     }
 }
 
-/// A state of one cell that an earlier study found.
+/// Checks that the start is the drawn state, or a state of one cell that an earlier study found.
 fn check_start(context: &Context<'_>, spec: &BlochSpec, start: &Located<StartSpec>) -> Result<(), StudyError> {
     let wrong = |message: &str, help: &str| Err(context.file.error_at(start.span(), message, help).into());
     let assembly = context.assembly;
@@ -79,15 +79,15 @@ fn check_start(context: &Context<'_>, spec: &BlochSpec, start: &Located<StartSpe
     }
 }
 
-/// The state of which modes are wanted.
+/// The state whose modes are computed.
 struct Ground {
-    /// Bars, and the locks of polygons that are rigid.
+    /// The bars, and the locks of rigid polygons.
     rigidity: Rigidity,
-    /// All coordinates of the state of an earlier study; `None`: as drawn.
+    /// All coordinates of the state of an earlier study; `None` for the drawn state.
     folded: Option<Vec<f64>>,
 }
 
-/// The state that the scene names; `None` where the study that should have found it did not.
+/// Returns the state that the scene names; `None` if the study that should have found it did not.
 fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<Ground>, BlochError> {
     let assembly = context.assembly;
     let Some(StartSpec::Study(name)) = spec.start.as_deref() else {
@@ -101,18 +101,18 @@ fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<Ground>, Blo
     Ok(Some(Ground { rigidity, folded: Some(saved.coordinates.clone()) }))
 }
 
-/// Stiffness of the diagonals of polygons, which are rigid where the scene says nothing. The model of a patch does not
-/// have those that its rim cuts.
+/// Returns the stiffness of the diagonals of polygons; infinite, that is rigid, unless the scene gives one. It is read
+/// from the scene since the model of a patch lacks the diagonals that are cut by its rim.
 fn facet_stiffness(file: &SceneFile) -> f64 {
     file.scene.energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0)
 }
 
-/// Bars of the drawn state, and the locks of polygons that are rigid.
+/// Returns the bars of the drawn state, and the locks of rigid polygons.
 fn rigidity(file: &SceneFile, assembly: &Assembly) -> Result<Rigidity, BlochError> {
     Rigidity::of_sheet(assembly.sheet(), facet_stiffness(file).is_infinite())
 }
 
-/// Stiffnesses of the energy; `None` where it has no bars, or a term is rigid.
+/// Returns the stiffnesses of the energy; `None` if it has no bars or a term is rigid.
 fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
     let creases = assembly.terms().creases.as_ref().map_or(0.0, |creases| creases.stiffness);
     let has_facets = assembly.sheet().edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
@@ -121,7 +121,7 @@ fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
     [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
 }
 
-/// What the analysis found.
+/// The results of the analysis.
 struct FoundModes {
     ground: Ground,
     survey: Survey,
@@ -135,7 +135,7 @@ struct Bands {
     values: Vec<f64>,
 }
 
-/// Surveys the modes of the state that the scene names.
+/// Computes the modes of the state that the scene names.
 pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     let found = match ground(context, spec) {
         Ok(Some(ground)) => find(context, spec, ground),
@@ -159,7 +159,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     answer
 }
 
-/// All answers; `None` where the observer asked to stop.
+/// Computes the survey and the bands; `None` if the observer asked to stop.
 fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Option<FoundModes>, BlochError> {
     let options = SurveyOptions {
         wavenumbers: wavenumbers(spec),
@@ -172,7 +172,7 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Optio
     Ok(Some(FoundModes { ground, survey, grid: options.grid, bands: bands(context, spec)? }))
 }
 
-/// The bands along the path of the scene.
+/// Returns the bands along the path of the scene.
 fn bands(context: &Context<'_>, spec: &BlochSpec) -> Result<Vec<Bands>, BlochError> {
     let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(context.file, context.assembly)) else {
         return Ok(Vec::new());
@@ -189,7 +189,7 @@ fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
     }
 }
 
-/// A row for every root at every wavenumber.
+/// Returns a row for every root at every wavenumber.
 fn table(decays: &[Decay]) -> Table {
     let names = ["q1", "root", "kappa2", "q2", "condition", "on_circle", "multiplicity"];
     let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
@@ -204,7 +204,7 @@ fn table(decays: &[Decay]) -> Table {
     table
 }
 
-/// A row for every wavenumber of the path: its length so far, the wavenumber, and the bands.
+/// Returns a row for every wavenumber of the path: the length of the path up to it, the wavenumber, and the bands.
 fn band_table(bands: &[Bands]) -> Table {
     let count = bands.iter().map(|at| at.values.len()).max().unwrap_or(0);
     let names = ["length", "q1", "q2"].map(str::to_owned);
@@ -218,7 +218,7 @@ fn band_table(bands: &[Bands]) -> Table {
     table
 }
 
-/// Adds the map, the lines of zero modes and the displacements of modes, where the study asks for them.
+/// Adds the map of the determinant, the lines of zero modes and the displacements of modes, if the study asks for them.
 fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
     if !context.draws(Draw::Vtk) {
         return;
@@ -252,7 +252,7 @@ fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
     answer.add(format!("{name}.pvd"), Artifact::Series(files));
 }
 
-/// Adds the picture of determinant and decay rates, where the study asks for it.
+/// Adds the picture of determinant and decay rates, if the study asks for it.
 fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
     if !context.draws(Draw::Svg) {
         return;
@@ -269,7 +269,8 @@ fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
     answer.add(format!("{}.svg", context.name()), figure::svg(&plot, &context.caption(state)));
 }
 
-/// A mode on the cells that are shown, in the frame of the mesh file, as velocities of the state of which it is.
+/// Returns the picture of a mode on the cells that are shown, in the frame of the mesh file, as velocities of its
+/// state.
 fn moving_picture(context: &Context<'_>, folded: Option<&Vec<f64>>, mode: &ModeShape) -> Picture {
     let (drawn, places) = (context.assembly.drawn(), &context.view.places);
     let displacement = mode.at(places);
@@ -282,14 +283,15 @@ fn moving_picture(context: &Context<'_>, folded: Option<&Vec<f64>>, mode: &ModeS
     Picture { displacement, ..states::picture_at(context, x.clone()) }
 }
 
-/// Rotation angles from a cell of the state to the next; `None` of the drawn state.
+/// Returns the rotation angles from a cell of the state to the next along the two lattice vectors, in radians; `None`
+/// for the drawn state.
 fn theta(assembly: &Assembly, ground: &Ground) -> Option<[f64; 2]> {
     let x = ground.folded.as_ref()?;
     cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, x).map(|cylinder| cylinder.theta)
 }
 
-/// `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers; those at which the determinant vanishes for
-/// all `z2` are left out.
+/// Returns `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers, without those at which the
+/// determinant vanishes for all `z2`.
 fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
     let decays = (0..DRAWN).filter_map(|k| Decay::new(determinant, 0, wavenumber(k, DRAWN)).ok());
     decays

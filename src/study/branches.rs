@@ -9,10 +9,10 @@ use crate::model::{Assembly, Boundary};
 use crate::output::summary::{BranchesSummary, RaySummary, StudyResult};
 use crate::output::table::{Table, Value};
 
-/// A lock within this of the drawn angle keeps the drawn state.
+/// Largest difference between the angle of a lock and the drawn angle, in radians, at which both count as equal.
 const AS_DRAWN: f64 = 1e-9;
 
-/// Branches leave the drawn state of a screw or a patch: refuses a torus, and locks at other angles.
+/// Checks that the sheet is a screw or a patch and that locks hold the drawn angles.
 pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     let assembly = context.assembly;
     if matches!(assembly.boundary(), Boundary::FixedTorus | Boundary::FreeTorus) {
@@ -31,10 +31,11 @@ pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     }
 }
 
-/// Number of rays that leave the drawn state of a rigid cell with locks, where more than one motion passes through it: what is relaxed
-/// from there may end in other equilibria.
+/// Returns the number of rays that leave the drawn state of a rigid cell with locks, if it is larger than two. Then
+/// more than one motion passes through the drawn state, and a relaxation that starts there may reach one of several
+/// equilibria.
 ///
-/// Beside it what is established about these directions; `None` where they were not looked for.
+/// The second value tells whether all real directions are known; `None` if they were not computed.
 pub(crate) fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDirections>) {
     let rigid = assembly.terms().bars.is_some_and(f64::is_infinite);
     if !rigid || assembly.boundary() != Boundary::Screw || assembly.terms().locks.is_empty() {
@@ -48,7 +49,7 @@ pub(crate) fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDi
     }
 }
 
-/// The word of the summary for what is established about directions.
+/// Returns the word of the summary for the completeness of the directions.
 pub(crate) fn word(directions: RealDirections) -> String {
     let word = match directions {
         RealDirections::Listed => "listed",
@@ -58,7 +59,7 @@ pub(crate) fn word(directions: RealDirections) -> String {
     word.to_owned()
 }
 
-/// Finds the branches.
+/// Computes the branches.
 pub(crate) fn compute(context: &Context<'_>) -> Answer {
     let mut answer = Answer::empty(context.study);
     context.step(0, None);
@@ -73,7 +74,8 @@ pub(crate) fn compute(context: &Context<'_>) -> Answer {
     }
 }
 
-/// A row for each ray, with the rate of every fold angle. On a patch of several cells columns also name the cell.
+/// Returns a row for each ray, with the rate of every fold angle. On a patch of several cells the names of columns
+/// contain the cell.
 fn table(assembly: &Assembly, branches: &Branches) -> Table {
     let several = assembly.tiling().cells != [1, 1];
     let rate = assembly.tiling().edges.iter().map(|edge| {

@@ -1,4 +1,4 @@
-//! What a study is asked about, and by whom it is watched.
+//! The input of a study: its scene and sheet, the answers of earlier studies, and the observer of the run.
 
 use super::answer::SavedState;
 use crate::analysis::intersections::SelfIntersection;
@@ -14,47 +14,48 @@ use std::collections::HashMap;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How far a study is.
+/// The progress of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
     /// Name of the study.
     pub study: String,
-    /// Steps taken.
+    /// Number of steps taken.
     pub step: usize,
-    /// Steps in all, where that is known.
+    /// Total number of steps, if it is known.
     pub of: Option<usize>,
-    /// The residual that has to become small; not a number where there is none.
+    /// The residual to be reduced below its tolerance; NaN if there is none.
     pub residual: f64,
 }
 
-/// Whoever watches a run: called after every step, it says whether to go on.
+/// The observer of a run: called after every step, it returns whether to go on.
 pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
 
-/// What the studies before this one found, by their names.
+/// The results of the studies before this one, by the names of the studies.
 #[derive(Clone, Debug, Default)]
 pub struct PreviousAnswers {
-    /// States in which studies ended.
+    /// The states in which the studies ended.
     pub states: HashMap<String, SavedState>,
-    /// The trajectories that they followed, in the space of lattice strains.
+    /// The trajectories that the studies followed, in the space of lattice strains.
     pub paths: HashMap<String, Vec<Vec<PathPoint>>>,
 }
 
-/// Where a long study keeps what it has so far, so that an interrupted run can go on from there.
+/// Storage for the partial results of a long study, from which an interrupted run can continue.
 pub trait Checkpoints: Sync {
-    /// The rows of a table that an interrupted run kept, by the names of these columns; none where it kept none.
+    /// Returns the rows of a table that an interrupted run kept, with the values of the named columns; no rows if it
+    /// kept none.
     ///
     /// # Errors
-    /// [`OutputError`] where there is a table that cannot be read.
+    /// [`OutputError`] if there is a table that cannot be read.
     fn rows(&self, file: &str, columns: &[&str]) -> Result<Vec<Vec<f64>>, OutputError>;
 
     /// Keeps a table.
     ///
     /// # Errors
-    /// [`OutputError`] where it cannot be kept.
+    /// [`OutputError`] if the table cannot be kept.
     fn keep(&self, file: &str, table: &Table) -> Result<(), OutputError>;
 }
 
-/// A study in its scene.
+/// A study in its scene, the argument of [`super::check`] and [`super::compute`].
 pub struct Context<'a> {
     /// The scene.
     pub file: &'a SceneFile,
@@ -62,40 +63,40 @@ pub struct Context<'a> {
     pub assembly: &'a Assembly,
     /// The cells that pictures show.
     pub view: &'a ShownCells,
-    /// What is asked.
+    /// The study to be computed.
     pub study: &'a StudySpec,
-    /// What the studies before it found.
+    /// The results of the studies before it.
     pub earlier: &'a PreviousAnswers,
-    /// Where parts of the answer are kept.
+    /// Storage for partial results.
     pub checkpoints: &'a dyn Checkpoints,
-    /// Whoever watches.
+    /// The observer of the run.
     pub observer: Observer<'a>,
     /// Whether the observer has asked to stop.
     pub interrupted: &'a AtomicBool,
 }
 
 impl Context<'_> {
-    /// The name of the study.
+    /// Returns the name of the study.
     pub fn name(&self) -> &str {
         &self.study.name.0
     }
 
-    /// The title of a picture, and what it shows.
+    /// Returns the caption of a picture: the title of the scene, and the given description of the state.
     pub fn caption(&self, state: impl Into<String>) -> Caption {
         Caption { title: self.file.title(), state: state.into() }
     }
 
-    /// A message at the kind of this study.
+    /// Returns an error that points at the kind of this study in the scene.
     pub fn refuse(&self, message: impl AsRef<str>, help: impl AsRef<str>) -> SceneError {
         self.file.error_at(self.study.kind.span(), message.as_ref(), help.as_ref())
     }
 
-    /// Tells the observer of a step without a residual; false: stop.
+    /// Reports a step without a residual to the observer; returns whether to go on.
     pub fn step(&self, step: usize, of: Option<usize>) -> bool {
         self.step_with_residual(step, of, f64::NAN)
     }
 
-    /// Tells the observer of a step with its residual; false: stop.
+    /// Reports a step and its residual to the observer; returns whether to go on.
     pub fn step_with_residual(&self, step: usize, of: Option<usize>, residual: f64) -> bool {
         let progress = Progress { study: self.name().to_owned(), step, of, residual };
         let go_on = (self.observer)(&progress).is_continue();
@@ -103,7 +104,7 @@ impl Context<'_> {
         go_on
     }
 
-    /// Whether the observer asked to stop.
+    /// Whether the observer has asked to stop.
     pub fn interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
@@ -113,7 +114,7 @@ impl Context<'_> {
         self.study.draw.contains(&draw)
     }
 
-    /// What finds self-intersection in the states of the study; `None` where that is not asked.
+    /// Returns a finder of self-intersections; `None` if the study does not ask for that check.
     pub fn self_intersection(&self) -> Option<SelfIntersection> {
         self.study.check.contains(&Check::SelfIntersection).then(|| SelfIntersection::new(self.assembly))
     }

@@ -1,16 +1,16 @@
-//! Why a study cannot be asked.
+//! The errors of a study.
 
 use crate::output::OutputError;
 use crate::scene::SceneError;
 use thiserror::Error;
 
-/// Why a study cannot be asked.
+/// The reasons for which a study cannot be computed.
 #[derive(Debug, Error)]
 pub enum StudyError {
-    /// The scene asks for what its sheet has not.
+    /// The scene asks for something that its sheet does not allow.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A file that the study starts from cannot be read, or a checkpoint cannot be kept.
+    /// A file from which the study starts cannot be read, or a checkpoint cannot be kept.
     #[error(transparent)]
     Output(#[from] OutputError),
 }

@@ -1,4 +1,4 @@
-//! `kind = "landscape"`: the energy of a patch or a torus along folding modes, fitted and compared with the prediction.
+//! `kind = "landscape"`: the energy of a patch or a torus along folding modes, with fits and the predicted expansion.
 
 use super::answer::Answer;
 use super::context::Context;
@@ -18,7 +18,7 @@ use crate::scene::forms::Mode;
 use crate::scene::spec::{Draw, LandscapeSpec};
 use crate::sheet::EdgeKey;
 
-/// Landscapes are those of patches and tori of periodic sheets, with bars and creases and nothing that holds or pulls.
+/// Checks that the sheet is a patch or torus of a periodic sheet with bars and creases, without locks, pins and loads.
 pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), StudyError> {
     let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
     let (file, assembly, terms) = (context.file, context.assembly, context.assembly.terms());
@@ -49,16 +49,16 @@ pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), S
     spec.modes.iter().try_for_each(|mode| rates(context, &held, mode).map(|_| ()))
 }
 
-/// Samples above rounding that a fit needs where others are below.
+/// Least number of samples above rounding for a fit, if others are below.
 const FITTED: usize = 2;
 
-/// What to do where there is no map.
+/// Advice for a map that cannot be computed.
 const NO_MAP: &str = "maps are of patches with three modes that curvatures name; leave out `map`";
 
-/// What to do where modes are missing.
+/// Advice for a mode that does not exist.
 const MODES: &str = "patches have modes named by curvatures, tori those of wavenumbers on zero lines";
 
-/// Rates of the rest angles of a mode.
+/// Returns the rates of the rest angles of a mode.
 fn rates(context: &Context<'_>, held: &HeldSheet, mode: &Located<Mode>) -> Result<Vec<f64>, StudyError> {
     let (file, assembly) = (context.file, context.assembly);
     let found = match &**mode {
@@ -70,7 +70,8 @@ fn rates(context: &Context<'_>, held: &HeldSheet, mode: &Located<Mode>) -> Resul
     Ok(found.map_err(|error| file.error_at(mode.span(), error.to_string(), MODES))?)
 }
 
-/// From all edges to those of the piece of sheet that repeats: a patch has the same rates in every cell.
+/// Converts rates of all edges to rates of the edges of the repeated piece. On a patch that piece is the cell, and the
+/// rates must be the same in every cell.
 fn uniform(context: &Context<'_>, mode: &Located<Mode>, all: &[f64]) -> Result<Vec<f64>, StudyError> {
     let assembly = context.assembly;
     if assembly.tiling().periodic {
@@ -89,7 +90,7 @@ fn uniform(context: &Context<'_>, mode: &Located<Mode>, all: &[f64]) -> Result<V
     Ok(cell)
 }
 
-/// Samples every mode, and the map where the scene asks for one.
+/// Computes the landscape of every mode, and the map if the scene asks for one.
 pub(crate) fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Answer, StudyError> {
     let found: Vec<Along> = spec.modes.iter().map(|mode| along(context, spec, mode)).collect::<Result<_, _>>()?;
     let mut answer = Answer::empty(context.study);
@@ -109,13 +110,13 @@ pub(crate) fn compute(context: &Context<'_>, spec: &LandscapeSpec) -> Result<Ans
 
 /// The landscape along one mode.
 struct Along {
-    /// As the scene names it.
+    /// The mode as the scene names it.
     mode: Mode,
     curvature: Option<[f64; 3]>,
     landscape: Result<Landscape, LandscapeError>,
 }
 
-/// The landscape along one mode, by rising amplitude.
+/// Computes the landscape along one mode, by increasing amplitude.
 fn along(context: &Context<'_>, spec: &LandscapeSpec, mode: &Located<Mode>) -> Result<Along, StudyError> {
     let refuse = |error: LandscapeError| context.file.error_at(mode.span(), error.to_string(), MODES);
     let mut held = HeldSheet::new(context.assembly).map_err(refuse)?;
@@ -139,7 +140,7 @@ impl Along {
         self.landscape.as_ref().map_or(&[], |landscape| &landscape.samples)
     }
 
-    /// Why samples are missing, or say nothing.
+    /// Returns the reason for which samples are missing or cannot be fitted; `None` if there is none.
     fn failure(&self) -> Option<String> {
         let why = match &self.landscape {
             Ok(landscape) => landscape.failure.as_ref().map(ToString::to_string).or_else(|| self.rounded())?,
@@ -156,7 +157,7 @@ impl Along {
         }
     }
 
-    /// The mode in the words of a legend.
+    /// Returns the name of the mode for the legend.
     fn legend(&self) -> String {
         match (&self.mode, self.curvature) {
             (Mode::Wave(wave), _) => format!("wave ({}, {})", wave.wave[0], wave.wave[1]),
@@ -168,7 +169,7 @@ impl Along {
         }
     }
 
-    /// That too few samples are above rounding for a fit, where some are not.
+    /// Returns a message if some samples are below rounding and fewer than `FITTED` are above it.
     fn rounded(&self) -> Option<String> {
         let (below, all) = (self.below_rounding(), self.samples().len());
         let least = self.samples().iter().map(|sample| sample.rounding).fold(0.0, f64::max);
@@ -184,7 +185,7 @@ impl Along {
         self.samples().iter().filter(|sample| sample.below_rounding()).count()
     }
 
-    /// Amplitudes and energies of the samples that are fitted: those above rounding, if they are enough.
+    /// Returns amplitudes and energies of the samples to be fitted: those above rounding, or none if these are too few.
     fn fitted(&self) -> Vec<(f64, f64)> {
         if self.rounded().is_some() {
             return Vec::new();
@@ -198,7 +199,7 @@ impl Along {
         worst(self.samples().iter().map(of))
     }
 
-    /// Amplitudes and energies.
+    /// Returns the amplitudes and energies of all samples.
     fn energies(&self) -> Vec<(f64, f64)> {
         self.samples().iter().map(|sample| (sample.amplitude, sample.relaxed.state.total())).collect()
     }
@@ -232,7 +233,7 @@ impl Along {
     }
 }
 
-/// Energies against amplitudes, a line for each mode, with the slope of those that have one.
+/// Returns the chart of energies against amplitudes, with a line for each mode and its fitted slope if there is one.
 fn energies(title: &str, found: &[Along]) -> Chart {
     let point = |sample: &Sample| Point { x: sample.amplitude, y: sample.relaxed.state.total(), label: String::new() };
     let series = |along: &Along| {
@@ -251,7 +252,8 @@ fn energies(title: &str, found: &[Along]) -> Chart {
     }
 }
 
-/// A row for each sample: the mode, the amplitude, the energies, and on patches the rest angles less those drawn.
+/// Returns a row for each sample: the mode, the amplitude, the energies, and on patches the rest angles minus the drawn
+/// ones.
 fn table(assembly: &Assembly, found: &[Along]) -> Table {
     let names = [
         "mode",

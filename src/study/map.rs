@@ -1,6 +1,6 @@
 //! The map of a landscape: energies over the sphere of curvature tensors, with the exact cone of cylinders.
 //!
-//! Samples are kept as they come, so that an interrupted map goes on where it stopped.
+//! Samples are stored as they are computed, so that an interrupted map continues where it stopped.
 
 use super::answer::Answer;
 use super::context::Context;
@@ -20,14 +20,15 @@ use crate::scene::spec::{Draw, MapSpec};
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Rings where the scene says nothing.
+/// Number of rings, unless the scene gives another.
 const RINGS: u32 = 8;
-/// Samples between two writings of the table.
+/// Number of samples between two writings of the table.
 const BATCH: usize = 64;
-/// Points of the exact cone on each nappe, and those where the zero of the energy is sought.
+/// Number of points of the exact cone on each nappe, and number of those at which the distance to a zero of the energy
+/// is computed.
 const CONE: usize = 96;
 const PROBES: usize = 8;
-/// Columns of the table; a sample that failed has no energy.
+/// Columns of the table; NaN is the energy of a sample that failed.
 const COLUMNS: [&str; 9] = [
     "k11",
     "k22",
@@ -44,15 +45,15 @@ const ITERATIONS: usize = 8;
 
 type Row = [f64; COLUMNS.len()];
 
-/// What a map found.
+/// The results of a map.
 pub(crate) struct Map {
-    /// For the summary.
+    /// The part of the summary.
     pub summary: MapSummary,
-    /// Why it is not whole.
+    /// The reason for which the map is incomplete; `None` if it is complete.
     pub reason: Option<String>,
 }
 
-/// Samples the map; adds its table and its pictures to an answer.
+/// Samples the map; adds its table and its pictures to `answer`.
 pub(crate) fn compute(context: &Context<'_>, spec: &MapSpec, answer: &mut Answer) -> Result<Map, StudyError> {
     let (amplitude, rings) = (spec.amplitude.0, spec.rings.as_ref().map_or(RINGS, |count| count.0) as usize);
     let net = sphere::Net::new(rings);
@@ -86,7 +87,8 @@ pub(crate) fn compute(context: &Context<'_>, spec: &MapSpec, answer: &mut Answer
     Ok(Map { summary, reason })
 }
 
-/// A row for every point, those of an interrupted run first; and why some are missing.
+/// Returns a row for every point, beginning with those kept by an interrupted run, and the reason for which some are
+/// missing.
 fn sampled(
     context: &Context<'_>,
     answer: &mut Answer,
@@ -141,7 +143,8 @@ fn table(rows: &[Row]) -> Table {
     table
 }
 
-/// The exact cone, as a closed curve on each nappe, and the largest angle to zeros of the energy.
+/// Returns the exact cone, as a closed curve on each nappe, and the largest angle between its points and the zeros of
+/// the energy, in radians.
 fn cone(assembly: &Assembly, amplitude: f64) -> Result<(Vec<Vec<Vec3>>, Option<f64>), SampleError> {
     let mut held = HeldSheet::new(assembly)?;
     let courses = TaylorPaths::new(&held)?;
@@ -174,7 +177,8 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, sphere: &Sphere<'_>, am
     }
 }
 
-/// The sphere in `(k11, k22, sqrt(2) k12)`, and on it the closed curves of the cone, where the energy is zero.
+/// Returns the sphere in the coordinates `(k11, k22, sqrt(2) k12)`, with the closed curves of the cone, on which the
+/// energy is zero.
 fn net(sphere: &Sphere<'_>) -> Net {
     let all: Vec<Vec3> = sphere.points.iter().chain(sphere.cone.iter().flatten()).copied().collect();
     let mut start = sphere.points.len();

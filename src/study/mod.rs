@@ -1,9 +1,9 @@
-//! The kinds of study: a question of a scene in, an [`Answer`] out. Nothing here writes a file.
+//! The kinds of study: each module computes the [`Answer`] to one kind of study of a scene. No file is written here.
 //!
-//! | kind | module | what is asked |
+//! | kind | module | result |
 //! |---|---|---|
 //! | `relax` | [`relax`] | the equilibrium that is reached from a start |
-//! | `modes` | [`modes`] | motions and stresses of the bars, the spectrum of the energy |
+//! | `modes` | [`modes`] | zero modes and self-stresses of the bars, the spectrum of the energy |
 //! | `branches` | [`branches`] | the rays along which rigid folding leaves the drawn state |
 //! | `trace` | [`trace`] | trajectories of rigid folding, and relaxations along them |
 //! | `surface` | [`surface`] | the two-dimensional surface of folded states of one cell |
@@ -11,7 +11,7 @@
 //! | `bloch` | [`bloch`] | spatially varying modes |
 //! | `wells` | [`wells`] | minima, and the barriers between them |
 //!
-//! [`check`] refuses what a scene asks wrongly before anything is computed; [`compute`] answers.
+//! [`check`] refuses a study that does not fit its sheet before anything is computed; [`compute`] returns its answer.
 
 pub mod answer;
 mod bloch;
@@ -35,10 +35,10 @@ pub use context::{Checkpoints, Context, Observer, PreviousAnswers, Progress};
 pub use error::StudyError;
 pub use surface::left_out;
 
-/// Checks what a study says about its sheet.
+/// Checks that the settings of a study fit its sheet.
 ///
 /// # Errors
-/// [`StudyError`] with the place in the scene and what would be right.
+/// [`StudyError`] with the place in the scene and a proposed correction.
 pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
     match &*context.study.kind {
         StudyKind::Relax(spec) => relax::check(context, spec),
@@ -52,10 +52,10 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
     }
 }
 
-/// Answers a study. An answer that was not found says why in its summary; it is no error.
+/// Computes the answer of a study. A study that finds no answer is not an error: its summary gives the reason.
 ///
 /// # Errors
-/// [`StudyError`] where the scene is wrong in a way that [`check`] does not see, and where files cannot be read or kept.
+/// [`StudyError`] if the scene is wrong in a way that [`check`] does not detect, or if files cannot be read or kept.
 pub fn compute(context: &Context<'_>) -> Result<Answer, StudyError> {
     match &*context.study.kind {
         StudyKind::Relax(spec) => relax::compute(context, spec),

@@ -1,4 +1,4 @@
-//! `kind = "modes"`: motions and stresses of the bars, linear foldings, the spectrum of the energy.
+//! `kind = "modes"`: zero modes and self-stresses of the bars, linear folding modes, the spectrum of the energy.
 
 use super::answer::Answer;
 use super::context::Context;
@@ -11,7 +11,7 @@ use crate::output::summary::{ModesSummary, StudyResult};
 use crate::output::table::{Table, Value};
 use crate::scene::spec::ModesSpec;
 
-/// A model has so many eigenvalues that the study can find.
+/// Checks that the model is not too large for the number of eigenvalues that the study asks for.
 pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {
     let Some(count) = &spec.eigenvalues else { return Ok(()) };
     let (drawn, terms) = (context.assembly.drawn(), context.assembly.terms());
@@ -26,7 +26,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), Study
     }
 }
 
-/// Finds the modes of the drawn state.
+/// Computes the modes of the drawn state.
 pub(crate) fn compute(context: &Context<'_>, spec: &ModesSpec) -> Answer {
     let (mut step, mut answer) = (0, Answer::empty(context.study));
     let eigenvalues = spec.eigenvalues.as_ref().map_or(0, |n| **n);
@@ -56,8 +56,8 @@ fn summary(modes: &Modes) -> ModesSummary {
     }
 }
 
-/// Adds a table of the eigenvalues, the drawn state with each mode as displacement, and a picture of the softest mode that is no
-/// rigid motion, drawn at a tenth of the sheet's size.
+/// Adds a table of the eigenvalues, the drawn state with each mode as displacement, and a picture of the softest mode
+/// that is not a rigid motion, drawn with an amplitude of a tenth of the sheet's size.
 fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes) {
     let mut table = Table::new(vec!["mode".into(), "eigenvalue".into()]);
     for (k, value) in modes.eigenvalues.iter().enumerate() {

@@ -1,16 +1,16 @@
-//! Why a relaxation did not converge, in the words of its scene.
+//! The reasons for which a relaxation did not converge, in the terms of the scene.
 
 use crate::analysis::state::State;
 use crate::model::Assembly;
 use crate::sheet::Info;
 use crate::solver::Failure;
 
-/// Quality of a triangle below which rounding errors of its shape can matter.
+/// Quality of a triangle below which rounding errors of its shape can matter; 1 for an equilateral triangle.
 const THIN: f64 = 1e-2;
-/// Largest difference, in radians, between a locked angle and its lock that is rounding.
+/// Largest difference between a locked angle and its prescribed value that counts as rounding, in radians.
 const MET: f64 = 1e-9;
 
-/// The failure, with the lock that is not met or the thin triangle that may be its cause.
+/// Returns a description of the failure, with its possible cause: a lock that is not satisfied or a thin triangle.
 pub(crate) fn reason(assembly: &Assembly, failure: Failure, state: &State) -> String {
     let cause = match failure {
         Failure::Infeasible { .. } => unmet_lock(assembly, state),
@@ -24,7 +24,7 @@ pub(crate) fn reason(assembly: &Assembly, failure: Failure, state: &State) -> St
     }
 }
 
-/// The lock that is farthest from its angle in the last state.
+/// Describes the lock whose crease has the largest difference from its prescribed angle in the last state.
 fn unmet_lock(assembly: &Assembly, state: &State) -> Option<String> {
     let off = |&(edge, angle): &(usize, f64)| {
         let here = *state.fold_angle.get(edge)?;

@@ -1,4 +1,4 @@
-//! `kind = "relax"`: the equilibrium that is reached from a start.
+//! `kind = "relax"`: the equilibrium that Newton's method reaches from a start.
 
 use super::answer::{Answer, SavedState};
 use super::context::Context;
@@ -23,7 +23,7 @@ use crate::scene::spec::RelaxSpec;
 use crate::solver::{Options, Step};
 use rand::SeedableRng;
 
-/// A relaxation needs an energy, and a start file that fits the sheet.
+/// Checks that the model has an energy and that a start file fits the sheet.
 pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
     if !context.assembly.terms().has_energy() {
         return Err(context.refuse("there is no energy to relax", "give bars, creases or facets a stiffness").into());
@@ -34,7 +34,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), Study
     }
 }
 
-/// Relaxes from the start that the scene names.
+/// Computes the equilibrium from the start that the scene names.
 pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer, StudyError> {
     let mut model = context.assembly.model(Gauge::Held);
     let Some((x, forces)) = start(context, spec, &mut model)? else { return Ok(start_unavailable(context)) };
@@ -52,7 +52,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer,
     }
 }
 
-/// The answer of a relaxation that converged.
+/// Returns the answer of a relaxation that converged.
 fn found(context: &Context<'_>, spec: &RelaxSpec, model: &Model, first: &State, relaxed: Relaxed) -> Answer {
     let (assembly, mut answer) = (context.assembly, Answer::empty(context.study));
     let residuals = Some([relaxed.residual_force, relaxed.residual_length]);
@@ -75,7 +75,7 @@ fn found(context: &Context<'_>, spec: &RelaxSpec, model: &Model, first: &State, 
     answer
 }
 
-/// The answer of one that did not, with its last state.
+/// Returns the answer of a relaxation that did not converge, with its last state.
 fn not_found(context: &Context<'_>, first: &State, error: &RelaxError) -> Answer {
     let mut answer = Answer::empty(context.study);
     let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
@@ -87,7 +87,7 @@ fn not_found(context: &Context<'_>, first: &State, error: &RelaxError) -> Answer
     answer
 }
 
-/// Shows the steps of a relaxation.
+/// Returns the observer of a relaxation, which reports its steps to the observer of the run.
 pub(crate) fn watcher<'a>(context: &'a Context<'_>) -> impl FnMut(&Step) -> bool + 'a {
     let mut step = 0;
     move |last| {
@@ -96,8 +96,8 @@ pub(crate) fn watcher<'a>(context: &'a Context<'_>) -> impl FnMut(&Step) -> bool
     }
 }
 
-/// Adds table and pictures of the start and the end of a relaxation, with the residuals at its end; gives whether that passes
-/// through itself, where it is asked.
+/// Adds the table and pictures of the first and last state of a relaxation, with the residuals of the last one. Returns
+/// whether the last state intersects itself; `None` if the study does not ask for that check.
 fn add_states(
     answer: &mut Answer,
     context: &Context<'_>,
@@ -117,8 +117,8 @@ fn add_states(
     both[1].marks.as_ref().map(|marks| marks.any)
 }
 
-/// The unknowns from which a relaxation starts, and what is known of their forces; `None` where the study to start from ended
-/// in no state.
+/// Returns the unknowns from which a relaxation starts, and the known forces at that state; `None` if the study to
+/// start from has no final state.
 fn start(context: &Context<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Option<(Vec<f64>, Forces)>, StudyError> {
     let Some(start) = &spec.start else { return Ok(Some((model.start(), Forces::Unknown))) };
     match &**start {
@@ -141,8 +141,8 @@ fn start(context: &Context<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<O
     }
 }
 
-/// The unknowns of a state that a VTU file gives, its angles continued from those of the file, and the forces that the file
-/// has.
+/// Returns the unknowns of the state in a VTU file and the forces that the file contains. Angles continue from those of
+/// the file.
 fn from_mesh(context: &Context<'_>, model: &mut Model, coordinates: Vec<f64>, mesh: &VtuMesh) -> (Vec<f64>, Forces) {
     let edges = context.assembly.edges();
     let on_edges = |values: &Option<Vec<f64>>| match values {
@@ -155,7 +155,7 @@ fn from_mesh(context: &Context<'_>, model: &mut Model, coordinates: Vec<f64>, me
     (model.start_from(coordinates), forces)
 }
 
-/// The coordinates that a VTU file gives, and the file; `None` where the start is no file.
+/// Returns the coordinates in the start file and the content of that file; `None` if the start is not a file.
 fn start_file(context: &Context<'_>, start: &Located<StartSpec>) -> Result<Option<(Vec<f64>, VtuMesh)>, StudyError> {
     let StartSpec::File(path) = &**start else { return Ok(None) };
     let mesh = vtk::read_vtu(&context.file.resolve(path))?;
@@ -168,7 +168,8 @@ fn start_file(context: &Context<'_>, start: &Located<StartSpec>) -> Result<Optio
     })
 }
 
-/// The drawn state with every unknown moved by a random amount up to the amplitude; the axis of a screw keeps its direction.
+/// Returns the unknowns of the drawn state, each displaced by a random amount up to the amplitude; the axis of a screw
+/// keeps its direction.
 fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
     let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(random.seed);
     let amplitude = random.random.0;
@@ -180,12 +181,12 @@ fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
     model.start_from(coordinates)
 }
 
-/// The answer of a study whose start study ended in no state.
+/// Returns the answer of a study whose start study has no final state.
 pub(crate) fn start_unavailable(context: &Context<'_>) -> Answer {
     Answer::failed(context.study, "the study from which it starts did not converge")
 }
 
-/// What a relaxation found; what is asked of the state besides is left open.
+/// Returns the summary of a relaxation, without the checks that the study asks for.
 fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
     RelaxSummary {
         energy: energies::summary(context.assembly.terms(), &relaxed.state),
@@ -201,7 +202,7 @@ fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
     }
 }
 
-/// Where a relaxation that failed ended, likewise.
+/// Returns the same summary of a relaxation that failed, from its last step.
 fn last_of(context: &Context<'_>, error: &RelaxError) -> RelaxSummary {
     let last = error.history.last();
     RelaxSummary {

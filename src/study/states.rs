@@ -11,31 +11,31 @@ use crate::output::picture::Picture;
 use crate::output::table::{StateRow, Table};
 use crate::scene::spec::Draw;
 
-/// A state with what else is known of it.
+/// A state to be written or drawn, with its residuals and self-intersections.
 pub(crate) struct Shown {
     /// The state, with the fold angles of all edges.
     pub state: State,
-    /// Scaled residuals of force and length; `None` where they were not computed.
+    /// Scaled residuals of force and length; `None` if they were not computed.
     pub residuals: Option<[f64; 2]>,
-    /// What passes through itself; `None` where that was not asked.
+    /// The faces that intersect others; `None` if the study does not ask for that check.
     pub marks: Option<Marks>,
 }
 
-/// The state with the fold angle of every edge between two faces, also of those that are no hinge of the model: these from
-/// its coordinates, in (-pi, pi].
+/// Returns the state with the fold angle of every edge between two faces. Angles of edges that are not hinges of the
+/// model are computed from the coordinates, in (-pi, pi].
 pub(crate) fn with_all_angles(context: &Context<'_>, state: &State) -> State {
     let angles = context.assembly.fold_angles_at(&state.coordinates);
     let known = |(known, other): (&f64, f64)| if known.is_nan() { other } else { *known };
     State { fold_angle: state.fold_angle.iter().zip(angles).map(known).collect(), ..state.clone() }
 }
 
-/// The table of states: one row each.
+/// Returns the table of states, with one row for each.
 pub(crate) fn table(context: &Context<'_>, states: &[Shown]) -> Table {
     let rows: Vec<StateRow> = states.iter().enumerate().map(|(step, shown)| row(context, step, shown)).collect();
     table_of_rows(context, &rows)
 }
 
-/// The table with these rows.
+/// Returns the table with these rows.
 pub(crate) fn table_of_rows(context: &Context<'_>, rows: &[StateRow]) -> Table {
     let keys: Vec<_> = context.assembly.sheet().edges.iter().map(|edge| edge.key).collect();
     Table::of_states(&keys, rows)
@@ -59,7 +59,7 @@ fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
     }
 }
 
-/// Fold angles of the edges of the cell: of a patch or a torus, those of the cell in its middle.
+/// Returns the fold angles of the edges of the cell; on a patch or a torus, those of its middle cell.
 fn cell_angles(context: &Context<'_>, state: &State) -> Vec<f64> {
     let tiling = context.assembly.tiling();
     let middle = tiling.cells.map(|n| (n - 1) / 2);
@@ -72,13 +72,13 @@ fn cell_angles(context: &Context<'_>, state: &State) -> Vec<f64> {
     angles
 }
 
-/// The picture of a state, with what passes through itself.
+/// Returns the picture of a state, with its self-intersections marked.
 pub fn picture(context: &Context<'_>, shown: &Shown) -> Picture {
     let picture = Picture::of_state(context.view, context.assembly.drawn(), &shown.state);
     shown.marks.iter().fold(picture, |picture, marks| picture.with_crossing(&marks.faces))
 }
 
-/// A state of which modes are velocities, from all its coordinates.
+/// Returns the picture of the state with these coordinates, onto which modes are drawn as velocities.
 pub(crate) fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Picture {
     let (assembly, edges) = (context.assembly, context.assembly.edges());
     let state = State { energy: vec![f64::NAN; edges], ..State::empty(coordinates, edges) };
@@ -88,7 +88,7 @@ pub(crate) fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Pictur
     picture(context, &Shown { state, residuals: None, marks })
 }
 
-/// Adds the VTK series of states, and the picture of one of them with what it is, as the study asks.
+/// Adds the VTK series of states, and the SVG picture of one of them with its description, as the study asks.
 pub(crate) fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], shown: Option<(usize, &str)>) {
     let pictures: Vec<Picture> = states.iter().map(|shown| picture(context, shown)).collect();
     let drawn = shown.and_then(|(number, state)| Some((pictures.get(number)?.clone(), state)));
@@ -98,7 +98,7 @@ pub(crate) fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], 
     }
 }
 
-/// Adds pictures as a VTK series, time being their number, where the study asks for it.
+/// Adds pictures as a VTK series if the study asks for it; the time of a picture is its number.
 pub(crate) fn add_series(answer: &mut Answer, context: &Context<'_>, pictures: Vec<Picture>) {
     if !context.draws(Draw::Vtk) {
         return;
@@ -113,7 +113,7 @@ pub(crate) fn add_series(answer: &mut Answer, context: &Context<'_>, pictures: V
     answer.add(format!("{name}.pvd"), Artifact::Series(entries));
 }
 
-/// Adds one picture as SVG, with what state it is, where the study asks for it.
+/// Adds one picture as SVG, with the description `state`, if the study asks for it.
 pub(crate) fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
     if context.draws(Draw::Svg) {
         answer.add(format!("{}.svg", context.name()), sheet::svg(picture, &context.caption(state)));

@@ -24,18 +24,19 @@ use crate::sheet::Edge;
 use crate::solver::atlas::{Coverage, KEPT};
 use std::f64::consts::TAU;
 
-/// States along each direction over a whole turn where the scene says nothing.
+/// Number of states over a whole turn, along each direction, unless the scene gives another.
 const RESOLUTION: u32 = 32;
-/// Finest resolution that is accepted: discs of 6e-5 rad.
+/// Largest resolution that is accepted: discs of 6e-5 rad.
 const MOST_RESOLUTION: u32 = 100_000;
-/// Bound on the closure residual.
+/// Tolerance of the closure residual.
 const TOLERANCE: f64 = 3e-14;
-/// States beyond which a surface is given up.
+/// Largest number of states of a surface.
 const MOST_POINTS: usize = 300_000;
-/// The observer is asked after so many states.
+/// Number of states between two calls of the observer.
 const OBSERVED: usize = 256;
 
-/// Surfaces are drawn in the space of lattice strains: refuses other domains than the screw.
+/// Checks that the sheet is a screw: surfaces are drawn in the space of lattice strains, which other domains do not
+/// have.
 pub(crate) fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), StudyError> {
     if let Some(resolution) = &spec.resolution {
         check_resolution(context.file, resolution)?;
@@ -47,7 +48,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), Stu
     Err(context.refuse(message, "use domain = \"screw\"").into())
 }
 
-/// Refuses a resolution at which states could not be told from each other.
+/// Returns an error if the resolution is so fine that states could not be told from each other.
 pub(crate) fn check_resolution(file: &SceneFile, resolution: &Located<Count>) -> Result<(), StudyError> {
     if resolution.0 <= MOST_RESOLUTION {
         return Ok(());
@@ -57,7 +58,7 @@ pub(crate) fn check_resolution(file: &SceneFile, resolution: &Located<Count>) ->
     Err(file.error_at(resolution.span(), &message, &help).into())
 }
 
-/// What this study does not use of the scene.
+/// Returns a text about the parts of the scene that this study does not use; `None` if it uses all.
 pub fn left_out(assembly: &Assembly, study: &StudySpec) -> Option<String> {
     let surface = matches!(*study.kind, StudyKind::Surface(_));
     let name = &study.name.0;
@@ -65,7 +66,7 @@ pub fn left_out(assembly: &Assembly, study: &StudySpec) -> Option<String> {
         .then(|| format!("locks in study `{name}`: the surface is what folds without them"))
 }
 
-/// Covers the surface, whatever is locked.
+/// Computes the surface of the sheet without its locks.
 pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
     let assembly = context.assembly;
     let unlocked = assembly.with_terms(Terms { locks: Vec::new(), ..assembly.terms().clone() });
@@ -86,12 +87,12 @@ pub(crate) fn compute(context: &Context<'_>, spec: &SurfaceSpec) -> Answer {
     answer
 }
 
-/// One over the square root of the area of the cell.
+/// Returns `1 / sqrt(A)` with the area `A` of the cell; 1 for a sheet without lattice.
 pub(crate) fn curvature_of_cell(assembly: &Assembly) -> f64 {
     assembly.sheet().lattice.map_or(1.0, |[first, second]| first.cross(&second).norm().sqrt().recip())
 }
 
-/// Why a surface is not whole; `None` where it is.
+/// Returns the reason for which a surface is incomplete; `None` if it is complete.
 fn reason(surface: &Surface) -> Option<String> {
     match surface.coverage {
         Coverage::Complete if surface.lost > 0 => Some(format!(
@@ -111,15 +112,15 @@ fn reason(surface: &Surface) -> Option<String> {
     }
 }
 
-/// The states of a surface as the model sees them.
+/// The states of a surface in the coordinates of the model.
 struct States {
     states: Vec<State>,
-    /// Whether each passes through itself; `None` where that was not asked, or not answered for all.
+    /// Whether each state intersects itself; `None` if the study does not ask for that check or it is incomplete.
     crossing: Option<Vec<bool>>,
 }
 
-/// The states of a surface. Where the observer asks to stop, the surface is cut down to those it has by then, or to the
-/// first few.
+/// Returns the states of a surface. If the observer asks to stop, the surface is reduced to the states computed by
+/// then, or to its first `KEPT` ones.
 fn states_of(context: &Context<'_>, unlocked: &Assembly, surface: &mut Surface) -> States {
     let mut model = unlocked.model(Gauge::Held);
     let mut finder = context.self_intersection();
@@ -145,8 +146,8 @@ fn states_of(context: &Context<'_>, unlocked: &Assembly, surface: &mut Surface) 
     States { states, crossing }
 }
 
-/// Adds the table of the states, the surface in the space of lattice strains and its picture; leaves the last state for studies
-/// that start from it.
+/// Adds the table of the states, the surface in the space of lattice strains and its picture; keeps the last state for
+/// studies that start from it.
 fn add_files(
     answer: &mut Answer,
     context: &Context<'_>,
@@ -184,7 +185,7 @@ fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRo
     }
 }
 
-/// The rows of the table as a surface.
+/// Returns the surface in the space of lattice strains, with the rows of the table as its data.
 fn mesh(assembly: &Assembly, surface: &Surface, rows: &[StateRow]) -> StrainSurface {
     let shapes = || surface.points.iter().map(|point| &point.shape);
     let fold = |(number, edge): (usize, &Edge)| {
@@ -201,7 +202,8 @@ fn mesh(assembly: &Assembly, surface: &Surface, rows: &[StateRow]) -> StrainSurf
     }
 }
 
-/// Adds the surface as triangles, and its picture with the trajectories of the studies before this one, as far as it goes.
+/// Adds the surface as triangles, and its picture, which also shows the trajectories of earlier studies up to the
+/// largest curvature of the surface.
 fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max_curvature: f64) {
     let name = context.name();
     if context.draws(Draw::Svg) {
@@ -218,7 +220,7 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
     }
 }
 
-/// The pieces of a trajectory whose curvature is at most this.
+/// Returns the pieces of a trajectory whose absolute curvature is at most `max_curvature`.
 fn within(path: &[PathPoint], max_curvature: f64) -> Vec<Vec<PathPoint>> {
     let outside = |point: &PathPoint| !(point.curvature.abs() <= max_curvature);
     let pieces = path.split(outside).filter(|piece| piece.len() > 1);

@@ -1,4 +1,4 @@
-//! `kind = "trace"`: trajectories of rigid folding from the drawn state, and relaxations along them.
+//! `kind = "trace"`: trajectories of rigid folding from the drawn state, and relaxations at their states.
 
 use super::answer::{Answer, SavedState};
 use super::context::Context;
@@ -26,15 +26,15 @@ use crate::sheet::EdgeKey;
 use crate::solver::continuation::{self, End};
 use crate::solver::{Failure, Options, Problem};
 
-/// Longest step and bound on the residual where the scene says nothing.
+/// Longest step, and tolerance of the closure residual, used unless the scene gives others.
 const MAX_STEP: f64 = 0.25;
 const TOLERANCE: f64 = 3e-14;
-/// States looked at for crossing faces between two questions whether to go on.
+/// Number of states examined for self-intersection between two calls of the observer.
 const OBSERVED: usize = 64;
-/// Most pictures of a trajectory.
+/// Largest number of pictures of a trajectory.
 const PICTURES: usize = 40;
 
-/// Trajectories start from the drawn state of one cell, or of a finite sheet.
+/// Checks that trajectories can start from the drawn state: that of one cell, or of a finite sheet.
 pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
     branches::check(context)?;
     let assembly = context.assembly;
@@ -93,7 +93,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer,
         traced.iter().enumerate().map(|(k, traced)| Path { traced, drive: drives.get(k) }).collect();
     let mut answer = Answer::empty(context.study);
     add_files(&mut answer, context, spec.engine, &paths);
-    // stopped while crossings were looked for, the table lacks them
+    // after an interruption during the search for self-intersections, the table lacks their entries
     let stopped = context.interrupted().then(|| "interrupted".to_owned());
     let reason = paths.iter().find_map(Path::failure).or(stopped);
     let error = worst(paths.iter().filter_map(Path::residual));
@@ -102,12 +102,12 @@ pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer,
     Ok(answer)
 }
 
-/// Whether self-intersection is looked for.
+/// Whether the study looks for self-intersections.
 fn is_asked(context: &Context<'_>, options: &TraceOptions) -> bool {
     options.stop.self_intersection || !context.study.check.is_empty()
 }
 
-/// Follows the trajectories, watched for self-intersection where the study or a stop asks for it.
+/// Follows the trajectories, and examines their states for self-intersections if the study or a stop asks for it.
 fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, TraceError> {
     let (assembly, asked) = (context.assembly, is_asked(context, options));
     let mut finder = asked.then(|| SelfIntersection::new(assembly));
@@ -125,14 +125,14 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
     trace(assembly, options, crosses, &mut observe)
 }
 
-/// The state of a model at coordinates, with the fold angles of all edges.
+/// Returns the state of a model at these coordinates, with the fold angles of all edges.
 pub(crate) fn state_at(model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
     let tension = vec![0.0; model.layout().stiff.len()];
     let state = State::new(model, &model.unknowns(&coordinates), &tension);
     State { coordinates, fold_angle: angles.to_vec(), ..state }
 }
 
-/// Relaxations beside every trajectory; none where the engine is kinematic.
+/// Returns the relaxations at the states of every trajectory; none if the engine is kinematic.
 fn relaxed(context: &Context<'_>, engine: Engine, traced: &[Traced]) -> Vec<Drive> {
     if engine == Engine::Kinematic {
         return Vec::new();
@@ -141,14 +141,14 @@ fn relaxed(context: &Context<'_>, engine: Engine, traced: &[Traced]) -> Vec<Driv
     traced.iter().map(|one| drive::drive(context.assembly, Options::default(), one, &mut watch)).collect()
 }
 
-/// A trajectory, with the relaxations beside it where there are.
+/// A trajectory, with the relaxations at its states if they were computed.
 struct Path<'a> {
     traced: &'a Traced,
     drive: Option<&'a Drive>,
 }
 
 impl Path<'_> {
-    /// Why it did not come to its end.
+    /// Returns the reason for which the trajectory did not reach its end; `None` if it did.
     fn failure(&self) -> Option<String> {
         let relaxation = self.drive.and_then(|drive| drive.failure);
         let (branch, sign) = self.traced.branch;
@@ -167,19 +167,20 @@ impl Path<'_> {
         Some(format!("branch {branch}, sign {sign}: {why}"))
     }
 
-    /// Whether the observer asked to stop.
+    /// Whether the observer asked to stop during the trajectory or its relaxations.
     fn interrupted(&self) -> bool {
         let relaxation = self.drive.and_then(|drive| drive.failure);
         self.traced.end == End::Interrupted || relaxation == Some(DriveFailure::Relaxation(Failure::Interrupted))
     }
 
-    /// Number of states: up to where a relaxation failed.
+    /// Number of states, up to the first at which a relaxation failed.
     fn len(&self) -> usize {
         let failed = self.drive.filter(|drive| drive.failure.is_some());
         failed.map_or(self.traced.states.len(), |drive| drive.states.len() + 1)
     }
 
-    /// The state of which there is a picture, and what it is: the last one, of a closed trajectory that half way along.
+    /// Returns the number of the state that the picture shows, and its description: the last state, or that half way
+    /// along a closed trajectory.
     fn shown(&self) -> (usize, String) {
         let (states, (branch, sign)) = (&self.traced.states[..self.len()], self.traced.branch);
         let all = states.last().map_or(0.0, |state| state.arc_length);
@@ -195,17 +196,18 @@ impl Path<'_> {
         (step, format!("branch {branch}, sign {}1, arc length {at}: {which}", if sign < 0 { '\u{2212}' } else { '+' }))
     }
 
-    /// One of how many states has a picture.
+    /// Returns `n` such that every `n`-th state has a picture.
     fn every(&self) -> usize {
         self.len().div_ceil(PICTURES)
     }
 
-    /// The relaxation beside a state; none beside the drawn state, where trajectories begin and close.
+    /// Returns the relaxation at a state; `None` at the drawn state, where trajectories begin and close.
     fn driven(&self, step: usize) -> Option<&Driven> {
         self.drive?.states.get(step.checked_sub(1)?)
     }
 
-    /// Largest residual: of closure, or scaled, of relaxations; `None` where there is no relaxation.
+    /// Returns the largest residual: the scaled residual of the relaxations if there are any, otherwise that of
+    /// closure. `None` if no relaxation has succeeded.
     fn residual(&self) -> Option<f64> {
         let of = |relaxed: &Relaxed| larger(relaxed.residual_force, relaxed.residual_length);
         match self.drive {
@@ -215,8 +217,8 @@ impl Path<'_> {
     }
 }
 
-/// Adds the table of all states, pictures of some, and the trajectories in the space of lattice strains; leaves the last state
-/// of the first trajectory for studies that start from it.
+/// Adds the table of all states, pictures of some, and the trajectories in the space of lattice strains. Keeps the last
+/// state of the first trajectory for studies that start from it.
 fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: &[Path<'_>]) {
     let assembly = context.assembly;
     let mut model = assembly.model(Gauge::Held);
@@ -251,7 +253,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: 
     answer.state = saved_state(&model, paths);
 }
 
-/// Adds the trajectories in the space of lattice strains, for a picture and for surfaces that show them.
+/// Adds the trajectories in the space of lattice strains, as a picture and for later surface studies, which draw them.
 fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut rows: &[StateRow]) {
     let mut lines = Vec::new();
     for path in paths {
@@ -268,14 +270,15 @@ fn add_paths(answer: &mut Answer, context: &Context<'_>, paths: &[Path<'_>], mut
     answer.paths = lines;
 }
 
-/// The place of a state in the space of lattice strains; `None` where it has none.
+/// Returns the point of a state in the space of lattice strains; `None` if strain, rotation angles or curvature are
+/// unknown.
 pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
     let ([a, b, c], [theta1, theta2]) = (row.strain, row.theta);
     let turn = larger(theta1?.abs(), theta2?.abs());
     Some(PathPoint { strain: Vec3::new(a?, b?, c?), curvature: row.curvature?, turn })
 }
 
-/// The last state of the first trajectory.
+/// Returns the last state of the first trajectory.
 fn saved_state(model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
     let path = paths.first()?;
     let driven = path.drive.and_then(|drive| drive.states.last());
@@ -287,7 +290,7 @@ fn saved_state(model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
     Some(SavedState { coordinates, angles: hinge_angles(model, angles), tension: None })
 }
 
-/// A relaxed state with the fold angles of all edges.
+/// Returns a relaxed state with the fold angles of all edges.
 fn relaxed_state(driven: &Driven) -> State {
     State { fold_angle: driven.angles.clone(), ..driven.relaxed.state.clone() }
 }

@@ -1,4 +1,5 @@
-//! `kind = "wells"`: minima from random starts, the barriers between them, and both in fold angles alone.
+//! `kind = "wells"`: minima reached from random starts, the barriers between them, and the landscape of the rigid
+//! sheet.
 
 use super::answer::Answer;
 use super::context::Context;
@@ -25,11 +26,11 @@ use crate::solver::Options;
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Starts, and states over a whole turn, where the scene says nothing.
+/// Number of starts, and of states over a whole turn, unless the scene gives others.
 const STARTS: u32 = 64;
 const RESOLUTION: u32 = 64;
 
-/// Wells are those of bars and creases, with nothing that holds or pulls.
+/// Checks that the energy is that of bars and creases, without pins or loads.
 pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), StudyError> {
     let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
     if let Some(resolution) = &spec.resolution {
@@ -46,10 +47,10 @@ pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), Study
     Ok(())
 }
 
-/// Why a pass that was found has no energy.
+/// The reason for which a pass that was found has no energy.
 const NO_LIMIT: &str = "the pass is singular in rigid bars, and its energies in stiff ones do not tell their limit";
 
-/// What came of the random starts.
+/// Counts of the outcomes of the random starts.
 struct Tally {
     starts: usize,
     failed: usize,
@@ -68,17 +69,17 @@ impl Tally {
         }
     }
 
-    /// How many of the starts failed and why.
+    /// Returns a text with the number of starts that failed, and the reasons.
     fn failed(&self) -> String {
         let reasons: Vec<String> = self.failures.iter().map(|(reason, count)| format!("{count}: {reason}")).collect();
         format!("{} of {} starts failed ({})", self.failed, self.starts, reasons.join("; "))
     }
 }
 
-/// What a study found.
+/// The results of a study of wells.
 struct FoundWells {
     tally: Tally,
-    /// Stiffness of the sheet's own bars.
+    /// Stiffness of the sheet's bars.
     stiffness: f64,
     wells: Vec<Well>,
     crossing: Vec<bool>,
@@ -86,7 +87,7 @@ struct FoundWells {
     rigid: Option<Result<RigidLandscape, RigidError>>,
 }
 
-/// Finds the wells and the barriers that the scene asks for.
+/// Finds the wells, and the barriers that the scene asks for.
 pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Answer {
     let assembly = context.assembly;
     let step = AtomicUsize::new(0);
@@ -125,7 +126,7 @@ fn sampling(assembly: &Assembly, spec: &WellsSpec) -> Sampling {
     Sampling { step: TAU / f64::from(resolution), max_curvature }
 }
 
-/// Whether faces of each well pass through each other.
+/// Whether each well intersects itself.
 fn crossing(assembly: &Assembly, wells: &[Well]) -> Vec<bool> {
     let mut finder = SelfIntersection::new(assembly);
     wells
@@ -134,14 +135,14 @@ fn crossing(assembly: &Assembly, wells: &[Well]) -> Vec<bool> {
         .collect()
 }
 
-/// The largest residual; `None` where nothing was found.
+/// Returns the largest residual; `None` if nothing was found.
 fn error(result: &WellsSummary) -> Option<f64> {
     let wells = result.wells.iter().map(|well| larger(well.residual_force, well.residual_length));
     worst(wells.chain(result.barriers.iter().filter_map(|barrier| barrier.residual)))
 }
 
 impl FoundWells {
-    /// Why the answer is not whole.
+    /// Returns the reason for which the answer is incomplete; `None` if it is complete.
     fn missing(&self, spec: &WellsSpec) -> Option<String> {
         let count = self.wells.len();
         if count == 0 {
@@ -168,7 +169,7 @@ impl FoundWells {
         failed.map(|(between, why)| format!("barrier {between:?}: {why}")).or_else(|| self.not_sampled())
     }
 
-    /// What of the rigid landscape is not there.
+    /// Returns a text about the missing parts of the rigid landscape; `None` if none is missing.
     fn not_sampled(&self) -> Option<String> {
         let RigidLandscape { lost, open, .. } = self.rigid.as_ref()?.as_ref().ok()?;
         let what = match (*lost, *open) {
@@ -184,7 +185,7 @@ impl FoundWells {
         Some(format!("{what}: the rigid sheet may have other wells and passes"))
     }
 
-    /// The number of a well among those of the rigid sheet.
+    /// Returns the number of a well among those of the rigid sheet; `None` if it is not one of them.
     fn among_rigid(&self, well: &Well) -> Option<usize> {
         let rigid = self.rigid.as_ref()?.as_ref().ok()?;
         let angles = &well.settled.relaxed.state.fold_angle;
@@ -246,7 +247,7 @@ impl FoundWells {
         }
     }
 
-    /// Energy of the lowest pass of the rigid sheet between two wells.
+    /// Returns the energy of the lowest pass of the rigid sheet between two wells.
     fn rigid_between(&self, wells: [usize; 2]) -> Option<f64> {
         let [a, b] = wells.map(|well| self.among_rigid(&self.wells[well]));
         Some(self.rigid.as_ref()?.as_ref().ok()?.between(a?, b?)?.energy)
@@ -270,8 +271,8 @@ fn rigid(found: &RigidLandscape) -> RigidSummary {
     }
 }
 
-/// Adds the wells and then the passes, as a table and as pictures; the energies of passes against stiffness; energies along
-/// the paths.
+/// Adds the wells and then the passes, as a table and as pictures; the energies of passes as a function of stiffness;
+/// the energies along the paths.
 fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
     let name = context.name();
     let passes: Vec<&Barrier> = found.barriers.iter().filter_map(|(_, found)| found.as_ref().ok()).collect();
@@ -305,7 +306,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, found: &FoundWells) {
     }
 }
 
-/// A row for each pass and stiffness on its way; rigid bars have the stiffness `inf`.
+/// Returns a row for each pass and each stiffness at which it was followed; rigid bars have the stiffness `inf`.
 fn heights(passes: &[&Barrier]) -> Table {
     let names = ["from", "to", "joins_a", "joins_b", "bars", "energy"];
     let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
@@ -318,7 +319,8 @@ fn heights(passes: &[&Barrier]) -> Table {
     table
 }
 
-/// Energies along the path on which a pass was found, which may be one in softer bars, with the pass itself.
+/// Returns the chart of energies along the path on which a pass was found, which may be a path with softer bars, and of
+/// the energy of the pass.
 fn path_chart(found: &FoundWells, barrier: &Barrier) -> Chart {
     let ([from, to], last) = (barrier.between, barrier.path.len() - 1);
     let label = |at: usize| match at {

@@ -1,24 +1,25 @@
-//! The second derivative of the closure, where the faces close.
+//! The second derivative of the closure at closed states.
 //!
-//! With `e_k` the direction of edge `k` in the frame of the first, fold angles `rho_k` beside those of a closed state turn the
-//! product round a vertex into `exp(rho_1 e_1) exp(rho_2 e_2) ...`, whose rotation vector is to second order
+//! With `e_k` the direction of edge `k` in the frame of the first, changes `rho_k` of the fold angles of a closed state
+//! change the product around a vertex to `exp(rho_1 e_1) exp(rho_2 e_2) ...`, whose rotation vector is to second order
 //!
 //! `sum_k rho_k e_k + 1/2 sum_{j<k} rho_j rho_k e_j x e_k`
 //!
-//! (Baker, Campbell and Hausdorff).
+//! (formula of Baker, Campbell and Hausdorff).
 
 use super::Closure;
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
 
 impl Closure {
-    /// The second-order part of [`residual`](Self::residual) along linear motions: for every row a symmetric matrix `B`, so
-    /// that angles moved by `modes * x` change the row by `J modes x + x^T B x` up to third order.
+    /// Returns the second-order part of [`residual`](Self::residual) along linear motions: for every row a symmetric
+    /// matrix `B` such that a change of the angles by `modes * x` changes the row by `J modes x + x^T B x` up to third
+    /// order.
     ///
-    /// `angles` is a closed state; `modes` has a row for every edge, of which those of locked edges should be zero, and a
+    /// `angles` is a closed state. `modes` has a row for every edge, which should be zero for locked edges, and a
     /// column for every motion.
     /// # Panics
-    /// Where `angles` or `modes` have another number of rows than the list of edges.
+    /// If the number of rows of `angles` or `modes` is not the number of edges.
     pub(crate) fn second_order(&self, angles: &[f64], modes: &DenseMatrix) -> Vec<DenseMatrix> {
         assert_eq!([angles.len(), modes.nrows()], [self.edges; 2], "a row for every edge");
         let count = modes.ncols();

@@ -1,8 +1,8 @@
-//! A piece of a tube: so many rows of whole cells, as a finite sheet whose two ends are open.
+//! A piece of a tube: a number of rows of whole cells, as a finite sheet with two open ends.
 //!
-//! With `g` the greatest common divisor of the seam and `p = (n1, n2) / g`, every cell is `i p + j m`, where `p1 m2 -
-//! p2 m1 = 1`; the seam makes `i` count modulo `g`. Row `j` has the `g` cells `i = 0 .. g-1`: a ring of cells where `p`
-//! is a lattice vector, and `g` strands that wind round the tube where it is not.
+//! With the greatest common divisor `g` of the seam and `p = (n1, n2) / g`, every cell is `i p + j m`, where
+//! `p1 m2 - p2 m1 = 1`; because of the seam `i` counts modulo `g`. Row `j` has the `g` cells `i = 0 .. g-1`: a ring of
+//! cells if `p` is one of the two lattice vectors, otherwise `g` strands that wind around the tube.
 
 use super::Tube;
 use crate::kinematics::{Motion, Shape};
@@ -13,12 +13,12 @@ use crate::sheet::{Corner, Sheet};
 use nalgebra::Matrix3;
 use std::collections::HashMap;
 
-/// How cells are counted modulo a seam.
+/// The numbering of cells modulo a seam.
 #[derive(Clone, Copy, Debug)]
 struct Rows {
-    /// `p` and `m`.
+    /// The cells `p` and `m`.
     basis: [[i32; 2]; 2],
-    /// `g`.
+    /// The greatest common divisor `g`.
     strands: i32,
 }
 
@@ -33,14 +33,14 @@ impl Rows {
         [0, 1].map(|a| strand * p[a] + row * m[a])
     }
 
-    /// The same cell of the tube with its strand in `0 .. g`.
+    /// Returns the same cell of the tube with its strand in `0 .. g`.
     fn home(&self, [c1, c2]: [i32; 2]) -> [i32; 2] {
         let [p, m] = self.basis;
         self.cell((c1 * m[1] - c2 * m[0]).rem_euclid(self.strands), p[0] * c2 - p[1] * c1)
     }
 }
 
-/// The greatest common divisor `g > 0` of two numbers, and `x`, `y` with `x a + y b = g`.
+/// Returns the greatest common divisor `g > 0` of two numbers, and `x`, `y` with `x a + y b = g`.
 fn bezout(a: i32, b: i32) -> (i32, i32, i32) {
     if b == 0 {
         return (a.abs(), a.signum(), 0);
@@ -50,16 +50,16 @@ fn bezout(a: i32, b: i32) -> (i32, i32, i32) {
 }
 
 impl Tube<'_> {
-    /// The tube with these fold angles, cut to `rows` rows of cells: a finite sheet, its axis along z, vertex 0 of the
-    /// first cell at height 0 in the half-plane `y = 0`, `x > 0`.
+    /// Returns the tube with these fold angles, cut to `rows` rows of cells: a finite sheet with its axis along z and
+    /// vertex 0 of the first cell at height 0 in the half-plane `y = 0`, `x > 0`.
     ///
     /// The faces of a cell are those that the sheet lists.
     ///
     /// # Errors
-    /// [`Defect`] where these do not make a sheet, as in a tube so narrow that a face meets itself.
+    /// [`Defect`] if the faces do not form a sheet, as in a tube so narrow that a face meets itself.
     ///
     /// # Panics
-    /// Where `angles` has another length than the edges.
+    /// If the length of `angles` is not the number of edges.
     pub fn cut(&self, angles: &[f64], rows: usize) -> Result<Sheet, Defect> {
         let (count, rows) = (Rows::new(self.seam), rows as i32);
         let mut drawn = Drawing { title: "tube".to_owned(), description: self.described(rows), ..Drawing::default() };
@@ -89,7 +89,7 @@ impl Tube<'_> {
         )
     }
 
-    /// Where corners are, in the frame of the tube; the seam is closed only up to rounding.
+    /// Returns the function from corners to positions in the frame of the tube; the seam is closed only up to rounding.
     fn placing(&self, angles: &[f64]) -> impl Fn(Corner) -> Vec3 {
         let shape = Shape::at(&self.embedding, angles).ok();
         move |corner| {
@@ -107,8 +107,8 @@ impl Tube<'_> {
 mod tests {
     use super::*;
 
-    /// Claim: every cell of the plane is one of the rows, cells that differ by the seam are the same, and a row has
-    /// `g`.
+    /// Claim: every cell of the plane is in one of the rows, cells that differ by the seam are the same, and a row has
+    /// `g` cells.
     #[test]
     fn cells_modulo_a_seam() {
         for (seam, strands) in [([0, 7], 7), ([1, 8], 1), ([4, -6], 2), ([-3, 0], 3), ([-5, -5], 5), ([0, -2], 2)] {

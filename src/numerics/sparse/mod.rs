@@ -13,5 +13,5 @@ mod slots;
 pub use cliques::{Cliques, FIXED};
 pub use pattern::{SparsityPattern, symmetric_product};
 pub use rows::Rows;
-pub use slots::RankOne;
-pub(crate) use slots::{ElementBlock, Slots};
+pub(crate) use slots::ElementBlock;
+pub use slots::{RankOne, Slots};

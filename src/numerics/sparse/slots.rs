@@ -29,14 +29,14 @@ pub(crate) struct ElementBlock<'a> {
 
 /// Where the entries of every clique's block stand in the values of a matrix.
 #[derive(Clone, Debug)]
-pub(crate) struct Slots {
+pub struct Slots {
     starts: Vec<usize>,
     slots: Vec<u32>,
 }
 
 impl Slots {
     /// Finds the slots of `cliques` in `pattern`. Couplings that the pattern does not contain are left out.
-    pub(crate) fn new(pattern: &SparsityPattern, cliques: &Cliques) -> Self {
+    pub fn new(pattern: &SparsityPattern, cliques: &Cliques) -> Self {
         let mut starts = vec![0];
         for members in cliques.iter() {
             starts.push(starts[starts.len() - 1] + members.len() * (members.len() + 1) / 2);
@@ -83,7 +83,7 @@ impl Slots {
     }
 
     /// Adds an outer product to the values.
-    pub(crate) fn add_outer(&self, clique: usize, outer: RankOne<'_>, values: &mut [f64]) {
+    pub fn add_outer(&self, clique: usize, outer: RankOne<'_>, values: &mut [f64]) {
         let g = outer.gradient;
         let mut slots = self.slots[self.starts[clique]..self.starts[clique + 1]].iter();
         for p in 0..g.len() {

@@ -35,7 +35,9 @@ pub(crate) fn regions(
     };
     for &[a, b, c] in triangles.iter().filter(known) {
         step([a, b, c]);
-        for [from, to] in [[a, b], [b, c], [c, a]] {
+        // a side that is outside altogether is crossed nowhere, on the rim or not
+        for [from, to] in [[a, b], [b, c], [c, a]].into_iter().filter(|side| side.iter().any(|&corner| inside(corner)))
+        {
             if !rim.remove(&[to, from]) {
                 rim.insert([from, to]);
             }
