@@ -1,13 +1,13 @@
-//! What spatially varying modes cost.
+//! Cost of spatially varying modes.
 //!
 //! ```text
 //! cargo bench --bench bloch
 //! ```
 //!
 //! Random cells of 4 to 16 vertices. `coefficients`: the determinant from the matrix; `map`: its values at 512 x 512
-//! wavenumbers from the coefficients; `zero lines`: all of them, every point to 1e-12; `decay`: the roots at one
-//! wavenumber. Times are medians of runs taken in turns, in milliseconds. At the end, the slowest zero lines of 200 random
-//! cells, each followed once.
+//! wavenumbers from the coefficients; `zero lines`: all lines of zeros, every point to 1e-12; `decay`: the roots at one
+//! wavenumber. Times are medians of runs taken by turns, in milliseconds. At the end, the slowest computation of the
+//! lines of zeros among 200 random cells, each run once.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -44,7 +44,7 @@ fn main() {
     println!("slowest zero lines of 200 cells: {:.2}", 1e3 * slowest(if measuring() { 200 } else { 1 }));
 }
 
-/// Seconds for the zero lines of the slowest of the random cells of `tests/integration/bloch.rs`.
+/// Returns the largest time in seconds of the lines of zeros among the random cells of `tests/integration/bloch.rs`.
 fn slowest(cells: u64) -> f64 {
     let sizes = (2..=4).flat_map(|a| (2..=4).map(move |b| [a, b])).cycle();
     let of = |(seed, size): (u64, [usize; 2])| {

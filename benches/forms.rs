@@ -1,5 +1,5 @@
-//! Three ways to treat a stiff measure, compared: as a tension in the factorization, as a weight with corrections, as
-//! a plain penalty.
+//! Comparison of three treatments of stiff terms: as a tension in the factorization, as a weight with corrections, and
+//! as a plain penalty.
 //!
 //! ```text
 //! cargo bench --bench forms                  all parts
@@ -7,14 +7,14 @@
 //! ```
 //!
 //! - `system`: the linear system of one Newton step, `[H R^T; R -C]`, at the same linearization, solved to a relative
-//!   residual of 1e-10 in both block rows. *Augmented*: `H + R^T w R` is factored, `w = min(k, gamma)`, and corrections
-//!   on the true residual do the rest (this is `solver::kkt`). *Block*: the whole matrix is factored, regularised to
-//!   `[H + e  R^T; R  -C - d]` so that it has pivots without pivoting, with the same corrections; tensions are nodes of
-//!   the graph that is ordered. *Penalty*: `H + k R^T R`, with the same corrections.
-//! - `weight`: corrections needed and accuracy reached against `gamma`, and against `d` of the block form; and, as in the steps near
-//!   a solution, where no gaps are open.
+//!   residual of 1e-10 in both block rows. *Augmented*: `H + R^T w R` with `w = min(k, gamma)` is factored, and the
+//!   solution is improved by corrections for the true residual (this is `solver::kkt`). *Block*: the whole matrix is
+//!   factored, regularised to `[H + e  R^T; R  -C - d]` so that it needs no pivoting, with the same corrections; the
+//!   tensions are nodes of the graph that is ordered. *Penalty*: `H + k R^T R`, with the same corrections.
+//! - `weight`: number of corrections and accuracy against `gamma`, and against `d` of the block form; also with closed
+//!   gaps, as in the steps near a solution.
 //!
-//! Whole relaxations by the penalty energy are compared with the program's by `foldwell validate stiffness-cost`.
+//! Whole relaxations with the penalty energy are compared with the program's by `foldwell validate stiffness-cost`.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -28,7 +28,8 @@ use foldwell::solver::kkt::KktSystem;
 use foldwell::solver::{HessianKind, Layout, Linearization, Options, Problem, minimize};
 use std::sync::Arc;
 
-/// Regularisation of the block form: `d` and `e`, over the same entry.
+/// Regularisation of the block form, `d` and `e`: `d` relative to the inverse of the largest diagonal entry of `H`, `e`
+/// relative to this entry.
 const DELTA: f64 = 1e-8;
 const LEAST: f64 = 1e-10;
 
@@ -52,7 +53,8 @@ struct System {
 }
 
 impl System {
-    /// At the drawn state, with the Gauss-Newton Hessian, or at the relaxed one of the rigid sheet, with the full one.
+    /// Makes the system at the drawn state with the Gauss-Newton Hessian, or at the relaxed state of the rigid sheet
+    /// with the full Hessian.
     fn new(star: &Star, relaxed: bool) -> Self {
         let mut model = star.model(f64::INFINITY);
         let (unknowns, measures) = size(&model);
@@ -71,7 +73,7 @@ impl System {
         self.model.layout()
     }
 
-    /// Another stiffness of the bars at the same linearization.
+    /// Changes the stiffness of the bars without changing the linearization.
     fn set_stiffness(&mut self, k: f64) {
         let model = &self.model;
         let lengths = model.stiff().iter().flat_map(|term| (0..term.len()).map(|e| term.spring(e).rest));
@@ -93,7 +95,7 @@ impl System {
     }
 }
 
-/// A factorization that solves the system, or nearly.
+/// A factorization that solves the system, exactly or approximately.
 trait Form {
     fn factor(&mut self, system: &System) -> Option<Inertia>;
     fn apply(&mut self, system: &System, right: &Pair) -> Pair;
@@ -113,7 +115,7 @@ impl NearlySolved for Solver<'_> {
     }
 }
 
-/// Solves with corrections; their number and the residual reached.
+/// Solves with corrections; returns their number and the residual reached.
 fn solve(form: &mut dyn Form, system: &System, tolerance: f64) -> (usize, f64) {
     let right = Pair(system.a.clone(), system.b.clone());
     let units = [norm(&system.a), norm(&system.b)];
@@ -123,7 +125,7 @@ fn solve(form: &mut dyn Form, system: &System, tolerance: f64) -> (usize, f64) {
     (corrected.corrections, f64::max(norm(&left.0) / units[0], norm(&left.1) / units[1]))
 }
 
-/// `H + R^T w R`, `w = min(k, gamma)`; a penalty where `gamma` is infinite.
+/// The matrix `H + R^T w R` with `w = min(k, gamma)`; a penalty if `gamma` is infinite.
 struct Weighted(KktSystem);
 
 impl Weighted {
@@ -147,13 +149,13 @@ impl Form for Weighted {
     }
 }
 
-/// `[H + e  R^T; R  -C - d]`.
+/// The matrix `[H + e  R^T; R  -C - d]`.
 struct Block {
     delta: f64,
     pattern: SparsityPattern,
     factor: Factor,
     values: Vec<f64>,
-    /// Place of every entry of the Hessian, of the Jacobian, of the tensions' diagonal.
+    /// Positions in `values` of the entries of the Hessian, of the Jacobian, and of the tensions' diagonal.
     hessian: Vec<usize>,
     jacobian: Vec<usize>,
     diagonal: Vec<usize>,
@@ -312,7 +314,8 @@ fn weight() {
     without_gaps(if measuring() { &[13, 24, 40, 57, 82] } else { &[3] });
 }
 
-/// Corrections to 1e-6 at the relaxed state, no gaps open, weight by weight: what the minimiser's solver makes of it.
+/// Prints the number of corrections to 1e-6 at the relaxed state with closed gaps for each weight, with the solver of
+/// the minimiser.
 fn without_gaps(sizes: &[usize]) {
     let weights = [1e5, 1e6, 3e6, 1e7, 1e8];
     let names = weights.map(|gamma| format!("{gamma:>5.0e}")).join(" ");

@@ -1,17 +1,18 @@
-//! What it costs to ask a sheet of 10,000 faces whether it goes through itself.
+//! Cost of testing a sheet of 10,082 faces for self-intersection.
 //!
 //! ```text
 //! cargo bench --bench intersections
 //! ```
 //!
-//! Sheets of 10,082 faces. `new`: the tree of boxes is built; `again`: it is refitted to another state of the same sheet. All
-//! times of a line are medians of runs taken in turns; the first two columns count pairs.
+//! `new`: the tree of bounding boxes is built; `again`: it is refitted to another state of the same sheet. All times of
+//! a line are medians of runs taken by turns; `crossings` is the number of pairs found.
 //!
-//! - `corrugated`: a patch with random heights, nothing crosses.
-//! - `flat`: all faces in one plane that is none of the axes', so that the volumes of neighbours are rounding errors.
-//! - `rolled`: two and a half turns through each other.
-//! - `stacked`: Miura-ori folded to 0.006 rad from flat, all faces of a row within each other's boxes.
-//! - `flat-folded`: the same folded flat and turned out of the axes: each face lies on many others, up to rounding errors.
+//! - `corrugated`: a patch with random heights and no crossings.
+//! - `flat`: all faces in one plane oblique to the axes, so that the volumes of neighbours are rounding errors.
+//! - `rolled`: two and a half turns that pass through each other.
+//! - `stacked`: Miura-ori folded to 0.006 rad from flat, with all faces of a row within each other's boxes.
+//! - `flat-folded`: the same folded flat and rotated obliquely to the axes: each face lies on many others, up to
+//!   rounding errors.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -43,7 +44,7 @@ fn main() {
     }
 }
 
-/// The two triangles of each of `n x n` parallelograms.
+/// Returns the two triangles of each of `n x n` parallelograms.
 fn triangles(n: usize) -> Vec<[usize; 3]> {
     let number = |i: usize, j: usize| j * (n + 1) + i;
     let pairs = (0..n * n).map(|k| (k % n, k / n)).map(|(i, j)| {
@@ -78,7 +79,8 @@ fn sheets(n: usize) -> [(&'static str, Points); 5] {
     ]
 }
 
-/// Miura-ori of unit sides with an angle of 60 degrees, its faces at `g` to the plane of the sheet.
+/// Returns the points of Miura-ori with unit sides and an angle of 60 degrees; its faces have the angle `g` to the
+/// plane of the sheet.
 fn miura(n: usize, g: f64) -> Points {
     let (sine, tangent) = (0.75f64.sqrt(), 3f64.sqrt());
     let q = (1.0 + (g.cos() * tangent).powi(2)).sqrt();

@@ -1,4 +1,4 @@
-//! What one Newton iteration costs, and where the time goes.
+//! Cost of one Newton iteration, and of its parts.
 //!
 //! ```text
 //! cargo bench --bench iteration                    all parts
@@ -6,17 +6,18 @@
 //! ```
 //!
 //! Patches of the reference cell with exactly rigid bars and random rest angles. All times of a line are medians of
-//! runs taken in turns; compare along a line, not between machines.
+//! runs taken by turns; compare along a line, not between machines.
 //!
-//! - `split`: against one factorization and one solve of the same matrix: one *plain* iteration near the solution
-//!   (assembly, filling and factoring the matrix, solving with corrections to 1e-6 for random forces, which takes so many `solves`, residuals, energy and
-//!   gaps of the new state); the same with one solve and the relative residual that this leaves; and one iteration as it comes out of
-//!   the run (the minimiser's time, less the set-up, over its accepted steps: refused shifts, retraction and shorter steps included),
-//!   and what that is made of. Comes last and ends with an error where the first one is more than 1.5.
-//! - `study`: what a whole relaxation adds to its iterations: analysis of the pattern, self stresses.
-//! - `assembly`: its cost against the number of unknowns; the exponent must be 1.
-//! - `threads`: assembly with one and two threads, in turns.
-//! - `dense`: below which size the dense factorization is faster than the sparse one.
+//! - `split`: times relative to one factorization and one solve of the same matrix. *plain*: one iteration near the
+//!   solution: assembly, filling and factoring the matrix, solving with corrections to a relative residual of 1e-6 for
+//!   random forces (the number of solves is `solves`), residuals, energy and gaps of the new state. *once*: the same
+//!   with one solve, and the relative residual `left` by it. *run*: one iteration of a whole run (the time of the
+//!   minimiser, without the set-up, divided by its accepted steps; refused shifts, retraction and shorter steps are
+//!   included), and its parts. This part runs last and ends with an error if *plain* is more than 1.5.
+//! - `study`: additional cost of a whole relaxation: analysis of the pattern, and self stresses.
+//! - `assembly`: cost against the number of unknowns; the exponent must be 1.
+//! - `threads`: assembly with one and two threads, by turns.
+//! - `dense`: the size below which the dense factorization is faster than the sparse one.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -33,13 +34,13 @@ use foldwell::solver::{
     Equilibrium, HessianKind, Layout, Linearization, NewtonError, Options, Problem, Residuals, minimize, tension,
 };
 
-/// Most that a plain iteration may take of one factorization and one solve.
+/// Largest cost of a plain iteration relative to one factorization and one solve.
 const MOST: f64 = 1.5;
-/// Relative residual that the linear system of a plain iteration is solved to.
+/// Relative residual to which the linear system of a plain iteration is solved.
 const SOLVED: f64 = 1e-6;
-/// Steps of a run whose parts are timed: what one costs is asked, not how many it takes.
+/// Number of steps of a run whose parts are timed; the cost of one step is measured, not their number.
 const SOME_STEPS: usize = 8;
-/// A part of the benchmark, at these numbers of cells a side.
+/// A part of the benchmark; the argument is the list of numbers of cells along each side.
 type Part = fn(&[usize]);
 
 fn main() {
@@ -58,7 +59,7 @@ fn rounds() -> usize {
     if measuring() { 5 } else { 1 }
 }
 
-/// Time of a minimisation and its parts; of the parts of the linear algebra there are counts.
+/// Run time of a minimisation and of its parts in seconds; for the parts of the linear algebra, their numbers.
 #[derive(Clone, Copy, Default)]
 struct Spent {
     whole: f64,
@@ -72,7 +73,7 @@ struct Spent {
     gap_counts: f64,
 }
 
-/// Minimises from the drawn state in at most so many steps.
+/// Minimises from the drawn state in at most `iterations` steps.
 fn minimise(star: &Star, iterations: usize) -> (Spent, Equilibrium) {
     let mut model = star.model(RIGID);
     let start = model.start();
@@ -101,7 +102,7 @@ fn minimise(star: &Star, iterations: usize) -> (Spent, Equilibrium) {
     (spent, found)
 }
 
-/// A linearization and its factorization, as the minimiser has them.
+/// A linearization and its factorization, as in the minimiser.
 struct Step {
     model: Model,
     at: Linearization,
@@ -119,7 +120,7 @@ impl Step {
         Self { model, at, system, right }
     }
 
-    /// Adding up `S` and factoring it.
+    /// Assembles `S` and factors it, and returns the time.
     fn factor(&mut self) -> f64 {
         let compliance = self.model.compliance();
         seconds(|| self.system.factor(&self.at, compliance, 0.0).unwrap())
@@ -129,8 +130,8 @@ impl Step {
         seconds(|| self.system.apply(&self.right.0, &self.right.1))
     }
 
-    /// One iteration without anything around it, its linear system solved to this relative residual, in at least one
-    /// solve: its time, and the relative residual that is left.
+    /// Makes one iteration without line search, with its linear system solved to the relative residual `tolerance` in
+    /// at least one solve. Returns the time and the relative residual reached.
     fn plain(&mut self, x: &[f64], tension: &[f64], tolerance: f64) -> (f64, f64) {
         let closed = vec![0.0; tension.len()];
         let mut left = f64::NAN;
@@ -146,7 +147,7 @@ impl Step {
     }
 }
 
-/// A factorization of a matrix of the same size and pattern, with nothing around it.
+/// A factorization of a matrix of the same size and pattern, without the rest of the solver.
 struct Bare {
     factor: TornFactor,
     weights: Vec<f64>,
@@ -154,7 +155,7 @@ struct Bare {
     right: Vec<f64>,
 }
 
-/// Seconds to analyse couplings and to make room, which a problem needs once.
+/// Returns the time of the set-up, which a problem needs once: analysis of the pattern and allocation.
 fn set_up(layout: &Layout) -> f64 {
     let fresh = Layout::new(layout.node.clone(), layout.soft.clone(), layout.stiff.clone());
     seconds(|| (KktSystem::new(&fresh).is_ok(), Linearization::new(&fresh)))
@@ -183,8 +184,8 @@ impl Bare {
     }
 }
 
-/// How often a sheet of this many cells a side is made and run, and how often the parts of an iteration are timed each
-/// time.
+/// Returns how often a sheet of `n` cells along each side is made and run, and how often the parts of an iteration are
+/// timed for each of these.
 fn repeats(n: usize) -> (usize, usize) {
     match n {
         _ if !measuring() => (1, 1),
@@ -230,8 +231,8 @@ fn split(sizes: &[usize]) {
         let (mut runs, mut left, mut solves) = (Vec::new(), f64::NAN, 0);
         let mut times = [const { Vec::new() }; 7];
         for _ in 0..rounds {
-            // made anew: where they lie in memory makes a few per cent, most of all with the smallest and the largest
-            // sheet
+            // made again in every round, because its place in memory changes the times by a few per cent, most for the
+            // smallest and the largest sheet
             let mut step = Step::new(star.model(RIGID), &found.x, &found.tension);
             step.factor();
             let mut bare = Bare::new(&step);
@@ -257,7 +258,7 @@ fn split(sizes: &[usize]) {
     assert!(most <= MOST || !measuring(), "a plain iteration takes {most:.2} of a factorization and a solve");
 }
 
-/// Prints a line of the table; returns what part of a factorization and a solve a plain iteration takes.
+/// Prints a line of the table; returns the cost of a plain iteration relative to a factorization and a solve.
 fn print_split(n: usize, unknowns: usize, runs: &mut [Spent], medians: [f64; 7], (solves, left): (usize, f64)) -> f64 {
     let [f, s, factor, solve, setup, plain, once] = medians;
     runs.sort_by(|a, b| a.whole.total_cmp(&b.whole));
@@ -342,7 +343,7 @@ fn assembly(sizes: &[usize]) {
     }
 }
 
-/// Seconds on the wall: several threads share the work.
+/// Returns the elapsed time in seconds (not processor time, since several threads share the work).
 fn elapsed(work: impl FnOnce()) -> f64 {
     let clock = std::time::Instant::now();
     work();

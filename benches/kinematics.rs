@@ -1,14 +1,14 @@
-//! What exact folding costs per state: closure with its Jacobian, placing the sheet, its shape, a displacement, a step.
+//! Cost of exact folding per state: closure with its Jacobian, positions, shape, displacement, and a step.
 //!
 //! ```text
 //! cargo bench --bench kinematics
 //! ```
 //!
-//! A folded state of the reference cell (four vertices, twelve edges, one of them held). Every figure is the median, over
-//! rounds taken in turns, of the mean time of many calls. `step` is one step of 0.02 along the loop through this state:
-//! prediction along the tangent, Newton's method across it to 1e-13, shape, and the next tangent, here by Cholesky
-//! factors of `J^T J + t t^T`, `t` the old tangent. Last the whole surface of folded states up to a curvature of 2, with its
-//! triangles, at three resolutions.
+//! The state is a folded one of the reference cell (four vertices, twelve edges, one of them held). Every number is the
+//! median, over rounds taken by turns, of the mean time of many calls. `step` is one step of 0.02 along the loop
+//! through this state: predictor along the tangent, Newton corrector perpendicular to it to 1e-13, shape, and the next
+//! tangent, here by Cholesky factors of `J^T J + t t^T` with the old tangent `t`. At last the whole surface of folded
+//! states up to a curvature of 2 is computed, with its triangles, at three resolutions.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -54,7 +54,7 @@ fn main() {
     cover(&sheet);
 }
 
-/// Covers the surface of the cell up to a curvature of 2, or a little of it where nothing is measured.
+/// Covers the surface of the cell up to a curvature of 2, or of 0.1 if nothing is measured.
 fn cover(sheet: &Sheet) {
     let cell = Assembly::without_terms(sheet.clone(), [1, 1], Boundary::Screw).unwrap();
     let resolutions = if measuring() { &[16, 24, 32][..] } else { &[16] };
@@ -83,7 +83,7 @@ struct Tracer {
 }
 
 impl Tracer {
-    /// The drawn state, left along a linear mode; a few steps settle on a loop.
+    /// Starts at the drawn state along a linear mode; after some steps the state is on a loop.
     fn new(closure: &Closure, embedding: &Embedding) -> Self {
         let angles = embedding.drawn_angles().to_vec();
         let jacobian = closure.jacobian(&angles);

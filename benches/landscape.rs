@@ -1,12 +1,13 @@
-//! What a map of a landscape costs, against relaxations of the same patch.
+//! Cost of a map of a landscape, relative to relaxations of the same patch.
 //!
 //! ```text
 //! cargo bench --bench landscape
 //! ```
 //!
-//! Patches of 6 x 6 reference cells with rigid bars. One relaxation: from the drawn sheet, its rest angles along a mode and fixed.
-//! A map: directions all over the sphere of curvature tensors, rest angles free across the modes, each sample from where third
-//! order says it is, on one thread and on two. In turns, medians of rounds; what counts are the ratios.
+//! Patches of 6 x 6 reference cells with rigid bars. A relaxation starts from the drawn sheet, with fixed rest angles
+//! displaced along a mode. A map has directions all over the sphere of curvature tensors, rest angles that are free
+//! across the modes, and starts each sample at the prediction of third order, on one thread and on two. Times are
+//! medians of rounds, taken by turns; only their ratios are meaningful.
 #![allow(clippy::unwrap_used)]
 
 mod common;

@@ -1,8 +1,9 @@
-//! Large patches: time, memory and iterations from 5,000 to 300,000 unknowns, and the powers with which they grow.
+//! Large patches: time, memory and iterations from 5,000 to 300,000 unknowns, and the exponents of their growth.
 //!
-//! Patches of rigid cells whose rest angles are off by at most 0.1 rad, at random for each hinge, relaxed to 1e-10; the
-//! smallest first, so that the most memory so far is that of the last one. Nested dissection of a sheet lets the factorization
-//! grow with the power 1.5, its numbers with 1.1 over this range, and everything else with 1.
+//! Patches of rigid cells, whose rest angles differ from the drawn angles by random numbers of at most 0.1 rad, are
+//! relaxed to 1e-10. The smallest comes first, so that the peak memory is that of the last patch. With nested
+//! dissection of a sheet the time of the factorization grows with the exponent 1.5, its number of entries with 1.1 over
+//! this range, and everything else with 1.
 //!
 //! ```text
 //! cargo bench --bench large
@@ -21,14 +22,14 @@ use std::time::Instant;
 const CELLS: [usize; 5] = [21, 36, 60, 100, 158];
 const TOLERANCE: f64 = 1e-10;
 
-/// Most memory that this process has had, in MB, where the system tells (Linux).
+/// Returns the peak memory of this process in MB; `None` if the system does not report it (only Linux does).
 fn most_memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(line.trim().trim_end_matches("kB").trim().parse::<f64>().ok()? / 1024.0)
 }
 
-/// The power of the first number with which the second grows, by the first and the last.
+/// Returns the exponent with which the second numbers grow with the first, from the first and the last pair.
 fn growth(points: &[[f64; 2]]) -> f64 {
     let ([first, last], logs) = ([points[0], points[points.len() - 1]], |a: f64, b: f64| (b / a).ln());
     logs(first[1], last[1]) / logs(first[0], last[0])

@@ -1,6 +1,6 @@
-//! Time from Ctrl-C until the program has ended, for each kind of study at sizes at which single steps take long.
+//! Time from Ctrl-C to the end of the program, for each kind of study, at sizes at which single steps take long.
 //!
-//! `cargo bench --bench stopping` prints a row for each; with `-- --test` only the shortest one.
+//! `cargo bench --bench stopping` prints a row for each case; with `-- --test` only the shortest case is run.
 #![allow(clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 const RELAXED: &str = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1, rest = { mode = [0, 0.05, 0], amplitude = 1 } }\n";
 const DRAWN: &str = "[energy]\nbars = { stiffness = inf }\ncreases = { stiffness = 1 }\n";
 
-/// What runs, its `[sheet]`, its energy or lock and its study, and seconds until Ctrl-C.
+/// Name, `[sheet]`, energy or lock, and study of each case, and the seconds until Ctrl-C.
 const CASES: [(&str, &str, &str, &str, f64); 7] = [
     ("bloch, grid 16000 x 16000", "", DRAWN, "kind = \"bloch\"\ngrid = [16000, 16000]", 3.0),
     ("relax, 158 x 158 cells", "cells = [158, 158]", RELAXED, "kind = \"relax\"", 6.0),
@@ -45,7 +45,7 @@ fn main() {
     }
 }
 
-/// The exit status and the time from the signal to the end.
+/// Returns the time from the signal to the end, and the exit status.
 fn stopped(folder: &Path, seconds: f64) -> String {
     let mut program = Command::new(env!("CARGO_BIN_EXE_foldwell"));
     program.current_dir(folder).args(["run", "scene.toml", "--quiet"]).stderr(Stdio::null()).stdout(Stdio::null());

@@ -1,4 +1,4 @@
-//! The two factorizations behind `numerics::factor`, each at any size, to see where they cross.
+//! The two factorizations of `numerics::factor`, each at any size, to find the size at which they are equally fast.
 
 use super::seconds;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -14,7 +14,7 @@ use faer::{Conj, MatMut, MatRef, Par, Side};
 use foldwell::numerics::{order, sparse::SparsityPattern};
 use foldwell::solver::Layout;
 
-/// Supernodal `L D L^T`, one thread, nested dissection.
+/// Supernodal `L D L^T` with nested dissection, on one thread.
 pub struct Sparse {
     columns: Vec<u32>,
     rows: Vec<u32>,
@@ -47,7 +47,7 @@ impl Sparse {
         Self { stored: vec![0.0; symbolic.len_val()], columns, rows, symbolic, memory }
     }
 
-    /// Seconds for one factorization and one solve.
+    /// Returns the time in seconds of one factorization and one solve.
     pub fn factor_and_solve(&mut self, values: &[f64], right: &[f64]) -> f64 {
         let n = right.len();
         let mut x = right.to_vec();
@@ -65,7 +65,7 @@ impl Sparse {
     }
 }
 
-/// Seconds for one Bunch-Kaufman factorization and one solve.
+/// Returns the time in seconds of one Bunch-Kaufman factorization and one solve.
 pub fn dense_factor_and_solve(pattern: &SparsityPattern, values: &[f64], right: &[f64]) -> f64 {
     let n = right.len();
     let mut x = right.to_vec();

@@ -1,4 +1,5 @@
-//! What the benchmarks share: patches of the reference cell with random rest angles, interleaved timing, tables.
+//! Shared parts of the benchmarks: patches of the reference cell with random rest angles, interleaved timing, and
+//! statistics.
 #![allow(dead_code)] // each benchmark uses a part
 
 pub mod kernels;
@@ -12,19 +13,20 @@ use foldwell::solver::{Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// A patch of the reference cell with rest angles within 0.1 rad of the drawn ones, at random, the same on every machine.
+/// A patch of the reference cell. The rest angles differ from the drawn angles by random numbers of at most 0.1 rad,
+/// which are the same on every machine.
 pub struct Star {
     drawn: Assembly,
     rest: Vec<f64>,
 }
 
 impl Star {
-    /// `n x n` cells.
+    /// Makes `n x n` cells.
     pub fn new(n: usize) -> Self {
         Self::oblong([n, n])
     }
 
-    /// `n1 x n2` cells.
+    /// Makes `n1 x n2` cells.
     pub fn oblong(cells: [usize; 2]) -> Self {
         let sheet = fold::parse(include_str!("../../meshes/open-star.fold"), "open-star.fold");
         let drawn = Assembly::patch(sheet.expect("the mesh of the repository"), cells).build();
@@ -33,59 +35,62 @@ impl Star {
         Self { drawn, rest }
     }
 
-    /// The model with this stiffness `EA` of every bar, over that of the creases, which is 1 per length.
+    /// Returns the model with bars of the stiffness `EA`, and creases of stiffness 1 (torque per radian and length).
     pub fn model(&self, stiffness: f64) -> Model {
         self.drawn.with_terms(Terms::bars_and_creases(stiffness, 1.0, self.rest.clone())).model(Gauge::Held)
     }
 
-    /// Relaxes `model` from the drawn state; `None` where it does not converge.
+    /// Relaxes `model` from the drawn state; `None` if it does not converge.
     pub fn relax(&self, model: &mut Model) -> Option<Relaxed> {
         let start = model.start();
         relax_from(model, start, Options::default(), &mut |_| true).ok()
     }
 }
 
-/// Unknowns and stiff measures of a model.
+/// Returns the numbers of unknowns and of stiff elements of a model.
 pub fn size(model: &Model) -> (usize, usize) {
     (model.layout().unknowns, model.layout().stiff.len())
 }
 
-/// Random numbers, the same on every machine.
+/// Returns a generator of random numbers, which are the same on every machine.
 pub fn random(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
 }
 
-/// A random number between `-most` and `most`.
+/// Returns a random number between `-most` and `most`.
 pub fn uniform(numbers: &mut ChaCha8Rng, most: f64) -> f64 {
     most * (2.0 * numbers.random::<f64>() - 1.0)
 }
 
-/// `count` random numbers between `-most` and `most`.
+/// Returns `count` random numbers between `-most` and `most`.
 pub fn vector(seed: u64, count: usize, most: f64) -> Vec<f64> {
     let mut numbers = random(seed);
     (0..count).map(|_| uniform(&mut numbers, most)).collect()
 }
 
-/// Whether to measure: `cargo bench`. `cargo test --benches` and `cargo bench -- --test` only run small sizes once.
+/// Whether to measure, as in `cargo bench`. `cargo test --benches` and `cargo bench -- --test` only run small sizes
+/// once.
 pub fn measuring() -> bool {
     let given = |name: &str| std::env::args().any(|argument| argument == name);
     given("--bench") && !given("--test")
 }
 
-/// Parts of the benchmark to run: those named in the arguments, or all.
+/// Whether to run a part of the benchmark: if it is named in the arguments, or none is named.
 pub fn wanted(part: &str) -> bool {
     let mut named = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).peekable();
     named.peek().is_none() || named.any(|name| name == part)
 }
 
-/// Processor time of this thread that `work` takes, in seconds: time for which other work has the processor is not in.
+/// Returns the processor time of this thread that `work` takes, in seconds; time in which the processor does other work
+/// does not count.
 pub fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
     let clock = ThreadTime::now();
     std::hint::black_box(work());
     clock.elapsed().as_secs_f64()
 }
 
-/// Medians of the times of several pieces of work, done in turns so that other load hits all alike.
+/// Returns the medians of the times of several pieces of work, run by turns so that other load affects all of them
+/// alike.
 pub fn in_turns(rounds: usize, work: &mut [&mut dyn FnMut() -> f64]) -> Vec<f64> {
     let mut times = vec![Vec::new(); work.len()];
     for _ in 0..rounds {
@@ -94,13 +99,13 @@ pub fn in_turns(rounds: usize, work: &mut [&mut dyn FnMut() -> f64]) -> Vec<f64>
     times.iter_mut().map(|times| median(times)).collect()
 }
 
-/// The middle one.
+/// Returns the median; of an even number of values, the larger one of the two in the middle.
 pub fn median(values: &mut [f64]) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values[values.len() / 2]
 }
 
-/// Exponent `p` of the power law `y ~ x^p` that fits best in logarithms.
+/// Returns the exponent `p` of the power law `y ~ x^p` that fits best in logarithms.
 pub fn exponent(points: &[(f64, f64)]) -> f64 {
     let count = points.len() as f64;
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
@@ -110,15 +115,15 @@ pub fn exponent(points: &[(f64, f64)]) -> f64 {
     above / below
 }
 
-/// Euclidean norm.
+/// Returns the Euclidean norm.
 pub fn norm(v: &[f64]) -> f64 {
     v.iter().map(|a| a * a).sum::<f64>().sqrt()
 }
 
-/// Largest difference of two lists; not a number where one of their numbers is none.
+/// Returns the largest difference of two lists; NaN if one of their numbers is NaN.
 ///
 /// # Panics
-/// Where there is nothing to compare, or one is longer than the other.
+/// If the lists are empty or their lengths differ.
 pub fn difference(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len(), "lists of one length");
     foldwell::numerics::worst(a.iter().zip(b).map(|(a, b)| (a - b).abs())).expect("something to compare")

@@ -1,4 +1,4 @@
-//! A model that says how long its parts take.
+//! A model that measures the run times of its parts.
 
 use super::seconds;
 use foldwell::model::Model;
@@ -6,7 +6,7 @@ use foldwell::solver::{HessianKind, Layout, Linearization, Problem};
 use std::cell::Cell;
 use std::sync::Arc;
 
-/// A model whose work is timed.
+/// A model whose calls are timed; times in seconds.
 pub struct Timed<'a> {
     model: &'a mut Model,
     pub linearize: Cell<f64>,
@@ -17,7 +17,7 @@ pub struct Timed<'a> {
 }
 
 impl<'a> Timed<'a> {
-    /// Nothing is timed yet.
+    /// Makes a timed model with all times zero.
     pub fn new(model: &'a mut Model) -> Self {
         let zero = || Cell::new(0.0);
         Self { model, linearize: zero(), energy: zero(), gaps: zero(), retractions: Cell::new(0), accept: 0.0 }

@@ -1,4 +1,4 @@
-//! The files of a study before they are written: tables, states, surfaces, maps, pictures.
+//! The files of a study before they are written: tables, states, surfaces, maps and drawings.
 
 use super::fault::ShapeError;
 use super::picture::Picture;
@@ -8,51 +8,51 @@ use super::{OutputError, files, vtk};
 use crate::math::Vec3;
 use std::path::Path;
 
-/// The content of a file.
+/// The content of one output file.
 #[derive(Clone, Debug)]
 pub enum Artifact {
-    /// A table, `.csv`.
+    /// A table (`.csv`).
     Table(Table),
-    /// A state of a sheet, `.vtu`.
+    /// A state of a sheet (`.vtu`).
     State(Picture),
-    /// A surface of states in the space of lattice strains, `.vtp`.
+    /// A surface of states in the space of lattice strains (`.vtp`).
     Surface(StrainSurface),
-    /// Triangles and curves between points, with arrays of numbers at the points, `.vtp`.
+    /// Triangles and curves between points, with arrays of numbers at the points (`.vtp`).
     Net(Net),
-    /// Curves in the plane, with arrays of numbers that belong to whole curves, `.vtp`.
+    /// Curves in the plane, with arrays of one number for each curve (`.vtp`).
     Curves {
-        /// The curves.
+        /// The points of each curve.
         curves: Vec<Vec<[f64; 2]>>,
-        /// Names and numbers.
+        /// Name of each array, and its number for each curve.
         arrays: Vec<(&'static str, Vec<i32>)>,
     },
-    /// Values on a grid, `.vti`.
+    /// Values at the points of a grid in the plane (`.vti`).
     Grid {
-        /// Number of points along each direction.
+        /// Numbers of points along the two axes.
         size: [usize; 2],
-        /// Position of the first point.
+        /// Coordinates of the first point.
         origin: [f64; 2],
-        /// Distance of points.
+        /// Distances between neighbouring points along the two axes.
         spacing: [f64; 2],
-        /// Names and numbers.
+        /// Name of each array, and its values at the points; the first axis runs faster.
         arrays: Vec<(&'static str, Vec<f64>)>,
     },
-    /// A list of files with increasing times, `.pvd`.
+    /// A list of pairs of a time and a file, with increasing times (`.pvd`).
     Series(Vec<(f64, String)>),
-    /// A picture, `.svg`, or what does not fit together in it.
+    /// A drawing (`.svg`), or the inconsistency that prevented it.
     Svg(Result<String, ShapeError>),
 }
 
-/// Triangles and curves between points.
+/// Triangles and curves between common points.
 #[derive(Clone, Debug, Default)]
 pub struct Net {
-    /// Positions.
+    /// Positions of the points.
     pub points: Vec<Vec3>,
-    /// Corners of triangles.
+    /// Points at the corners of each triangle.
     pub triangles: Vec<[usize; 3]>,
-    /// Points of curves.
+    /// Points of each curve.
     pub curves: Vec<Vec<usize>>,
-    /// Names and numbers at the points.
+    /// Name of each array, and its numbers at the points.
     pub arrays: Vec<(&'static str, Vec<f64>)>,
 }
 
@@ -60,7 +60,8 @@ impl Artifact {
     /// Writes the file.
     ///
     /// # Errors
-    /// [`OutputError::Shape`] where parts do not fit together, [`OutputError::Write`] where it cannot be written.
+    /// [`OutputError::Shape`] if the parts of the content are inconsistent, [`OutputError::Write`] if the file cannot
+    /// be written.
     pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
         match self {
             Self::Table(table) => table.write(path),

@@ -1,4 +1,4 @@
-//! Why a file could not be written or read.
+//! The errors of writing and reading files.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,39 +7,39 @@ use thiserror::Error;
 
 use super::fault::{ShapeError, VtuFault};
 
-/// Why a file could not be written or read.
+/// The reason why a file could not be written or read.
 #[derive(Debug, Error)]
 pub enum OutputError {
-    /// The file was not written; nothing of it is left.
+    /// The file was not written, and no part of it is left on the disk.
     #[error("{}: cannot be written: {source}", path.display())]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The file cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The file was read but is not what it should be.
+    /// The file was read, but its content is not a valid VTU file of triangles and lines.
     #[error("{}: {fault}", path.display())]
     Vtu {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Fault of the content.
         fault: VtuFault,
     },
-    /// What should be written does not fit together.
+    /// The file was not written, because the data for it are inconsistent.
     #[error("{}: not written: {fault}", path.display())]
     Shape {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// What does not fit.
+        /// Inconsistency of the data.
         fault: ShapeError,
     },
 }

@@ -1,8 +1,8 @@
-//! What can be wrong with a picture, a table, or a VTU file.
+//! The faults of a picture, a table or a VTU file.
 
 use thiserror::Error;
 
-/// Parts of a picture that do not fit together.
+/// Parts of a picture or a table that are inconsistent.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum ShapeError {
     /// An array has the wrong length.
@@ -12,67 +12,67 @@ pub enum ShapeError {
         array: &'static str,
         /// Its length.
         found: usize,
-        /// The length it should have.
+        /// Expected length.
         expected: usize,
     },
-    /// A triangle or a line names a point that is not there.
+    /// A triangle or a line uses a point that does not exist.
     #[error("point {point} is used, but there are {count}")]
     NoSuchPoint {
-        /// The point.
+        /// Index of the point.
         point: usize,
-        /// How many there are.
+        /// Number of points.
         count: usize,
     },
     /// A row of a table has the wrong length.
     #[error("row {row} has {found} values, expected {expected} as in the header")]
     Row {
-        /// The row, counted from 0.
+        /// Index of the row, counted from 0.
         row: usize,
-        /// Its length.
+        /// Number of its values.
         found: usize,
-        /// The number of columns.
+        /// Number of columns.
         expected: usize,
     },
 }
 
-/// What is wrong with a VTU file.
+/// A fault of the content of a VTU file.
 #[derive(Debug, Error, PartialEq, Eq)]
 pub enum VtuFault {
-    /// No XML file of VTK.
+    /// The content is not an XML file of VTK.
     #[error("not a readable VTU file: {0}")]
     Format(String),
-    /// Another kind of data set.
+    /// The data set is of another kind than an unstructured grid.
     #[error("not an unstructured grid")]
     NotUnstructured,
-    /// Points that are no numbers.
+    /// The coordinates of the points are not floating-point numbers.
     #[error("the coordinates of the points are no floating-point numbers")]
     Coordinates,
-    /// A cell other than a triangle or a line.
+    /// A cell is neither a triangle nor a line.
     #[error("cell {cell} is a {kind}, expected triangles and lines only")]
     CellKind {
-        /// The cell, counted from 0.
+        /// Index of the cell, counted from 0.
         cell: usize,
-        /// What it is.
+        /// Name of its VTK cell type.
         kind: String,
     },
-    /// Connectivity and offsets do not fit.
+    /// The number of points of a cell, by the arrays of connectivity and offsets, does not match its type.
     #[error("cell {cell} has {found} points, expected {expected}")]
     CellSize {
-        /// The cell, counted from 0.
+        /// Index of the cell, counted from 0.
         cell: usize,
-        /// Its number of points.
+        /// Number of its points.
         found: usize,
-        /// The number it should have.
+        /// Expected number of points.
         expected: usize,
     },
-    /// A cell names a point that is not there.
+    /// A cell uses a point that does not exist.
     #[error("cell {cell} uses point {point}, but there are {count}")]
     NoSuchPoint {
-        /// The cell, counted from 0.
+        /// Index of the cell, counted from 0.
         cell: usize,
-        /// The point.
+        /// Index of the point.
         point: u64,
-        /// How many there are.
+        /// Number of points.
         count: usize,
     },
 }

@@ -1,9 +1,9 @@
-//! Files that appear whole or not at all.
+//! Writing of files that appear complete or not at all.
 //!
-//! A file is written beside its place under a name of its own and then renamed, which is one step for whoever looks at
-//! the folder. What is on its way when a write fails is removed. (Nothing is forced to the disk: this guards against
-//! programs that stop, not against a loss of power.) Who writes a file holds a lock on it, which ends with the program,
-//! so that what a stopped program left can be told from what another one writes just now.
+//! A file is written in the folder of its destination under a temporary name, a *draft*, and then renamed in one atomic
+//! step. If a write fails, its draft is removed. (Data are not flushed to the disk: this protects against programs that
+//! stop, not against a loss of power.) The writer holds a lock on its draft; the lock ends with the program, so that
+//! drafts left by a stopped program can be distinguished from those that another program is writing.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write};
@@ -12,21 +12,22 @@ use tempfile::NamedTempFile;
 
 use super::OutputError;
 
-/// The ending of files on their way.
+/// File name extension of drafts.
 const DRAFT_ENDING: &str = ".part";
 
-/// Writes a file, with the folders it needs.
+/// Writes a file, and creates the folders on its path if they do not exist.
 ///
 /// # Errors
-/// [`OutputError::Write`]; then the file is as it was before.
+/// [`OutputError::Write`]; the file is then as it was before.
 pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<(), OutputError> {
     write_with(path, |file| file.write_all(contents.as_ref()))
 }
 
-/// Writes what `fill` puts into a file, with the folders it needs.
+/// Writes the bytes that `fill` writes to its argument into a file, and creates the folders on its path if they do not
+/// exist.
 ///
 /// # Errors
-/// [`OutputError::Write`], also where `fill` fails; then the file is as it was before.
+/// [`OutputError::Write`], also if `fill` fails; the file is then as it was before.
 pub(crate) fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
     replace(path, fill).map_err(|source| OutputError::Write { path: path.into(), source })
 }
@@ -43,14 +44,14 @@ fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> 
     Ok(())
 }
 
-/// A locked file beside `path`, with a name that nobody else uses; it is removed when dropped. Between its creation and its
-/// lock [`remove_drafts`] may take it: then there is another.
+/// Creates a locked draft in the folder of `path`, with a unique name; it is removed when dropped. If [`remove_drafts`]
+/// removes the draft between its creation and its locking, another one is created.
 fn draft(path: &Path) -> io::Result<NamedTempFile> {
     let name = path.file_name().ok_or_else(|| io::Error::from(io::ErrorKind::InvalidFilename))?;
     let prefix = format!(".{}.{}-", name.to_string_lossy(), std::process::id());
     let mut builder = tempfile::Builder::new();
     builder.prefix(&prefix).suffix(DRAFT_ENDING);
-    // files of results are for everybody whom the user lets read them
+    // the final file has these permissions, so that others can read it if the user's umask allows it
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     loop {
@@ -62,8 +63,8 @@ fn draft(path: &Path) -> io::Result<NamedTempFile> {
     }
 }
 
-/// Removes what programs that were stopped have left in a folder on its way; nothing else, and no folder is no fault. Where
-/// files cannot be locked, it stays.
+/// Removes the drafts that stopped programs have left in a folder, and no other file. It does nothing if the folder
+/// does not exist. On systems without file locks the drafts stay.
 pub(crate) fn remove_drafts(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         if is_draft(&entry.file_name().to_string_lossy()) {
@@ -72,7 +73,7 @@ pub(crate) fn remove_drafts(folder: &Path) {
     }
 }
 
-/// Removes what this program itself has on its way in a folder, before it ends without waiting for its other threads.
+/// Removes the drafts of this program in a folder, before it exits without waiting for its other threads.
 pub(crate) fn remove_own_drafts(folder: &Path) {
     let own = format!(".{}-", std::process::id());
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
@@ -83,14 +84,14 @@ pub(crate) fn remove_own_drafts(folder: &Path) {
     }
 }
 
-/// Removes a file that no program holds a lock on.
+/// Removes a file unless a program holds a lock on it.
 fn remove_unlocked(path: &Path) -> io::Result<()> {
     let file = File::open(path)?;
     file.try_lock()?;
     fs::remove_file(path)
 }
 
-/// Whether a name is one of [`draft`].
+/// Whether a name has the form of the names made by [`draft`].
 fn is_draft(name: &str) -> bool {
     let all = |text: &str, kind: fn(&u8) -> bool| !text.is_empty() && text.as_bytes().iter().all(kind);
     let middle = name.strip_prefix('.').and_then(|name| name.strip_suffix(DRAFT_ENDING));
@@ -108,7 +109,7 @@ mod tests {
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
     }
 
-    /// A write makes its folders and leaves one file.
+    /// A write creates missing folders, replaces an existing file, and leaves no other file.
     #[test]
     fn a_file_appears_whole() {
         let folder = tempfile::tempdir().unwrap();
@@ -119,7 +120,7 @@ mod tests {
         assert_eq!(names(&folder.path().join("a")), ["b.txt"]);
     }
 
-    /// A write that fails half-way leaves the old file and nothing else.
+    /// A write that fails half-way leaves the old file unchanged, and no draft.
     #[test]
     fn a_failed_write_leaves_nothing() {
         let folder = tempfile::tempdir().unwrap();
@@ -134,7 +135,7 @@ mod tests {
         assert_eq!(names(folder.path()), ["b.txt"]);
     }
 
-    /// What a stopped program leaves is removed, and nothing that only looks like it.
+    /// Drafts of a stopped program are removed, and files with similar names are not.
     #[test]
     fn drafts_are_removed() {
         let folder = tempfile::tempdir().unwrap();
@@ -149,7 +150,7 @@ mod tests {
         assert_eq!(names(folder.path()).len(), others.len());
     }
 
-    /// What is written just now is not removed, at whatever moment somebody clears the folder.
+    /// A draft that is being written is not removed by a simultaneous `remove_drafts`.
     #[test]
     fn drafts_of_others_stay() {
         let folder = tempfile::tempdir().unwrap();
@@ -174,7 +175,7 @@ mod tests {
         assert_eq!(names(folder.path()), ["b.txt"]);
     }
 
-    /// A folder in the place of the file, and a file in the place of a folder, are errors that name the file.
+    /// A folder at the path of the file, and a file at the path of a folder, are errors; the message names the file.
     #[test]
     fn places_that_cannot_be_written() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,6 +1,6 @@
-//! What the user gets: tables, files for ParaView, pictures and the summary of a run.
+//! Output: tables, files for ParaView, drawings, and the summary of a run.
 //!
-//! Every writer goes through [`files`]: a file appears whole or not at all.
+//! All files are written through [`files`], so that a file appears complete or not at all.
 
 pub(crate) mod artifact;
 pub(crate) mod error;

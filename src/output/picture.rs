@@ -1,4 +1,4 @@
-//! A state of a sheet as it is drawn or written: points, triangles, lines and what is known on them.
+//! A state of a sheet to be drawn or written: points, triangles, lines and the quantities on them.
 
 use super::fault::ShapeError;
 
@@ -9,46 +9,46 @@ use crate::model::{Assembly, Drawn};
 use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
 use std::collections::HashMap;
 
-/// A state of a sheet, flattened: no cells and no lattice any more.
+/// A state of a sheet as a mesh, in which copies of vertices in other cells are points of their own.
 ///
-/// Everything on lines has one entry per line, NaN where it does not apply.
+/// Arrays on lines have one entry for each line, NaN where a quantity is not defined.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
-    /// Positions in this state.
+    /// Positions of the points in this state.
     pub points: Vec<Vec3>,
-    /// This state minus the drawn one, at each point.
+    /// Position in this state minus position in the drawn state, for each point.
     pub displacement: Vec<Vec3>,
-    /// Triangles, counter-clockwise seen from the side of the face normals.
+    /// Points at the corners of each triangle, counter-clockwise seen from the side of the face normals.
     pub triangles: Vec<[usize; 3]>,
-    /// Whether a triangle passes through another one (1) or not (0); 0 where that was not asked.
+    /// 1 for triangles that pass through another one, 0 for the others; all 0 if self-intersection was not tested.
     pub self_intersecting: Vec<u8>,
-    /// Edges between two points.
+    /// Points at the ends of each edge.
     pub lines: Vec<[usize; 2]>,
-    /// What each edge is.
+    /// Kind of each edge: crease, facet or boundary.
     pub line_kinds: Vec<EdgeKind>,
-    /// The edge of the sheet's cell of which each line is a copy.
+    /// Index of the edge of the sheet's cell of which each line is a copy.
     pub line_edges: Vec<i32>,
-    /// Fold angle in radians, valley positive.
+    /// Fold angle of each edge in radians, valley positive.
     pub fold_angle: Vec<f64>,
-    /// Fold angle at which the hinge rests.
+    /// Fold angle in radians at which the hinge has no torque.
     pub rest_angle: Vec<f64>,
-    /// Relative change of length, L / L0 - 1.
+    /// Relative change of length of the bar, `L / L0 - 1`.
     pub strain: Vec<f64>,
-    /// Energy of bar and hinge together.
+    /// Energy of the bar and the hinge of each edge together.
     pub energy: Vec<f64>,
-    /// Force along the bar, positive where it is stretched.
+    /// Force along the bar, positive in tension.
     pub tension: Vec<f64>,
-    /// Torque of the hinge.
+    /// Torque of the hinge, the derivative of its energy by the fold angle.
     pub torque: Vec<f64>,
 }
 
 impl Picture {
-    /// A state of an assembly on the cells that pictures of it show.
+    /// Makes the picture of a state of an assembly, on the cells that pictures of this assembly show.
     pub fn new(assembly: &Assembly, state: &State) -> Self {
         Self::of_state(&ShownCells::new(assembly), assembly.drawn(), state)
     }
 
-    /// A state on the cells of a view.
+    /// Makes the picture of a state on the cells of `view`; displacements are relative to `drawn`.
     pub fn of_state(view: &ShownCells, drawn: &Drawn, state: &State) -> Self {
         let on_lines = |values: &[f64]| view.edges.iter().map(|&edge| values[edge]).collect();
         let points = view.positions(drawn, &state.coordinates);
@@ -70,12 +70,13 @@ impl Picture {
         }
     }
 
-    /// The picture with those triangles marked that pass through others.
+    /// Returns the picture with the triangles marked that pass through others; `faces` has one entry for each triangle.
     pub(crate) fn with_crossing(self, faces: &[bool]) -> Self {
         Self { self_intersecting: faces.iter().map(|&face| u8::from(face)).collect(), ..self }
     }
 
-    /// The drawn state of a sheet: one cell, or all of a finite sheet, with the images its faces need.
+    /// Makes the picture of the drawn state of a sheet: one cell, or the whole of a finite sheet, with the copies of
+    /// vertices that its faces need.
     pub(crate) fn drawn(sheet: &Sheet) -> Self {
         let mut corners: Vec<Corner> = sheet.triangles.iter().flat_map(|t| t.corners).collect();
         corners.sort_unstable_by_key(|corner| (corner.shift, corner.vertex));
@@ -112,7 +113,8 @@ impl Picture {
         }
     }
 
-    /// The picture with its points moved along their displacements, the largest of them by `part` of the sheet's size.
+    /// Returns the picture with its points moved along their displacements, scaled so that the largest displacement is
+    /// `part` times the size of the sheet (the largest distance of a point from the first one).
     pub(crate) fn displaced(&self, part: f64) -> Self {
         let size = self.points.iter().map(|p| (p - self.points[0]).norm()).fold(0.0, f64::max);
         let largest = self.displacement.iter().map(Vec3::norm).fold(f64::MIN_POSITIVE, f64::max);
@@ -120,10 +122,11 @@ impl Picture {
         Self { points: moved.collect(), ..self.clone() }
     }
 
-    /// Whether all arrays fit together: readers crash where they do not.
+    /// Checks that all arrays are consistent; programs that read files with inconsistent arrays crash.
     ///
     /// # Errors
-    /// The first array or index that does not fit.
+    /// [`ShapeError::Length`] for the first array of a wrong length, [`ShapeError::NoSuchPoint`] for the first invalid
+    /// index.
     pub(crate) fn check(&self) -> Result<(), ShapeError> {
         let (points, faces, lines) = (self.points.len(), self.triangles.len(), self.lines.len());
         let arrays = [
@@ -149,12 +152,12 @@ impl Picture {
     }
 }
 
-/// Sheets for the tests of writers.
+/// Pictures for the tests of writers.
 #[cfg(test)]
 pub(super) mod samples {
     use super::*;
 
-    /// Two triangles folded by `angle` along an edge of unit length: a crease and four edges of the boundary.
+    /// Returns two triangles folded by `angle` along an edge of unit length: one crease and four boundary edges.
     pub(crate) fn hinge(angle: f64) -> Picture {
         let points = vec![
             Vec3::zeros(),
@@ -185,7 +188,7 @@ pub(super) mod samples {
 mod tests {
     use super::*;
 
-    /// The check lets a right picture pass and names the array or point that is wrong.
+    /// The check accepts a consistent picture, and names an array of a wrong length or a point that does not exist.
     #[test]
     fn parts_that_do_not_fit_are_named() {
         let right = samples::hinge(0.3);

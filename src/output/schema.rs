@@ -1,8 +1,8 @@
-//! The JSON schema of `summary.json`, made from the types that write it ([`super::summary`]), so that it cannot fall behind
-//! them.
+//! The JSON schema of `summary.json`. It is generated from the types that are written ([`super::summary`]), so that
+//! both always agree.
 //!
-//! Keys that are not described are findings: every table is closed. The keys of a kind of study stand with it where it gave its
-//! answer; where it did not get so far all of them are missing.
+//! The schema allows no keys other than those described. A study that gave a result has all keys of its kind; the other
+//! studies have none of them.
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use super::summary::Summary;
 
-/// The JSON schema (draft 2020-12) of `summary.json`, pretty-printed.
+/// Returns the JSON schema (draft 2020-12) of `summary.json`, pretty-printed.
 pub fn schema() -> String {
     let generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
     let mut root = generator.into_root_schema_for::<Summary>();
@@ -21,7 +21,7 @@ pub fn schema() -> String {
     format!("{:#}\n", root.to_value())
 }
 
-/// Refuses keys that are not described.
+/// Forbids keys that are not described.
 fn close(table: &mut Schema) {
     let key = if table.get("allOf").is_some() { "unevaluatedProperties" } else { "additionalProperties" };
     table.insert(key.to_owned(), Value::Bool(false));

@@ -1,32 +1,33 @@
-//! A surface of folded states in the space of lattice strains, as it is drawn or written.
+//! A surface of folded states in the space of lattice strains, to be drawn or written.
 
 use super::fault::ShapeError;
 use crate::math::Vec3;
 
-/// States and their triangles. Everything has one entry per state.
+/// Folded states, and triangles between them. Arrays have one entry for each state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StrainSurface {
-    /// `(strain11, strain22, strain12)`.
+    /// Lattice strains `(strain11, strain22, strain12)` of each state.
     pub points: Vec<Vec3>,
-    /// Triangles of states.
+    /// Indices of the states at the corners of each triangle.
     pub triangles: Vec<[usize; 3]>,
-    /// Signed curvature, positive where the axis is on the side of the face normals.
+    /// Signed curvature, positive if the axis is on the side of the face normals.
     pub curvature: Vec<f64>,
-    /// Rotation angles from a cell to the next, along both lattice vectors.
+    /// Rotation angles from a cell to the next along the two lattice vectors, in radians.
     pub theta: Vec<[f64; 2]>,
-    /// Name and fold angles, in radians, of every edge of the cell.
+    /// Column name of every edge of the cell, and its fold angles in radians.
     pub folds: Vec<(String, Vec<f64>)>,
-    /// Energy in all, where there is one.
+    /// Total energy; `None` for a surface without energies.
     pub energy: Option<Vec<f64>>,
-    /// Whether faces pass through each other (1) or not (0), where that was asked.
+    /// 1 for states with faces that pass through each other, 0 for the others; `None` if this was not tested.
     pub self_intersecting: Option<Vec<u8>>,
 }
 
 impl StrainSurface {
-    /// Whether the arrays fit together.
+    /// Checks that the arrays are consistent.
     ///
     /// # Errors
-    /// The first array of a wrong length, or a triangle with a point that is not there.
+    /// [`ShapeError::Length`] for the first array of a wrong length, [`ShapeError::NoSuchPoint`] for a triangle with an
+    /// invalid index.
     pub(crate) fn check(&self) -> Result<(), ShapeError> {
         let expected = self.points.len();
         let folds = self.folds.iter().map(|(_, angles)| ("fold", angles.len()));
@@ -48,7 +49,7 @@ impl StrainSurface {
 pub(super) mod samples {
     use super::*;
 
-    /// `n` x `n` states on a saddle, its curvature along x.
+    /// Returns `n` x `n` states on a saddle, with a curvature proportional to x.
     pub(crate) fn cap(n: usize) -> StrainSurface {
         let place = |k: usize| [k % n, k / n].map(|k| 2.0 * k as f64 / (n - 1) as f64 - 1.0);
         let squares = (0..n * n).filter(|k| k % n + 1 < n && k / n + 1 < n);
@@ -69,7 +70,8 @@ pub(super) mod samples {
 mod tests {
     use super::*;
 
-    /// Claim: a surface whose arrays fit is accepted; one that is too short, or a point that is not there, is named.
+    /// Claim: a consistent surface is accepted; an array that is too short, and an index of no state, are named in the
+    /// error.
     #[test]
     fn arrays_have_to_fit() {
         let surface = samples::cap(3);

@@ -1,6 +1,7 @@
-//! Tables as CSV: a header, then a row per state.
+//! Tables in CSV format: a header, then one row for each state.
 //!
-//! Numbers are written with as many digits as reading them back exactly needs; what was not computed is empty.
+//! Numbers are written with the fewest digits that are read back exactly; values that were not computed are empty
+//! fields.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -10,8 +11,8 @@ use super::fault::ShapeError;
 use super::files;
 use crate::sheet::EdgeKey;
 
-/// Reads columns of a table that was written here: one row after the other, NaN where there is no number or no such
-/// column.
+/// Reads the named columns of a table that was written by this module. Returns one vector for each row, with NaN for
+/// empty fields and for columns that do not exist.
 ///
 /// # Errors
 /// [`OutputError::Read`].
@@ -33,13 +34,13 @@ pub(crate) fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>,
 pub(crate) enum Value {
     /// Not computed.
     Empty,
-    /// A whole number.
+    /// An integer.
     Whole(i64),
-    /// A number; NaN is written as not computed.
+    /// A number; NaN is written as an empty field.
     Number(f64),
 }
 
-/// A table on its way to a file.
+/// A table to be written to a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     header: Vec<String>,
@@ -47,13 +48,13 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table without rows.
+    /// Makes a table without rows.
     pub(crate) fn new(header: Vec<String>) -> Self {
         Self { header, rows: Vec::new() }
     }
 
-    /// The table of the states of a study: its columns are those of [`StateRow`], the edges of the cell last. The error to
-    /// the exact kinematics has a column where some state knows it.
+    /// Makes the table of the states of a study, with the columns of [`StateRow`] followed by the fold angles of the
+    /// edges of the cell. The column `error_to_kinematic` is present if at least one state has this value.
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
         let columns = StateRow::COLUMNS.iter().copied().chain(compared.then_some("error_to_kinematic"));
@@ -62,12 +63,12 @@ impl Table {
         Self { header, rows: states.iter().map(|state| state.values(compared)).collect() }
     }
 
-    /// The name of the column with the fold angle of an edge.
+    /// Returns the name of the column with the fold angle of an edge.
     pub(crate) fn fold_column(edge: &EdgeKey) -> String {
         format!("fold_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }
 
-    /// Adds a row.
+    /// Appends a row.
     pub(crate) fn push(&mut self, row: Vec<Value>) {
         self.rows.push(row);
     }
@@ -75,7 +76,7 @@ impl Table {
     /// Writes the table.
     ///
     /// # Errors
-    /// [`OutputError::Shape`] where a row does not have a value for every column, [`OutputError::Write`].
+    /// [`OutputError::Shape`] if the length of a row differs from the number of columns, [`OutputError::Write`].
     pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
         let text = self.to_csv().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
         files::write(path, text)
@@ -105,7 +106,8 @@ impl Value {
             Self::Empty => Ok(()),
             Self::Whole(number) => write!(text, "{number}"),
             Self::Number(number) if number.is_nan() => Ok(()),
-            // the shortest digits that read back exactly, with an exponent where the number is very large or small
+            // `{:?}` writes the fewest digits that are read back exactly, with an exponent for very large and small
+            // numbers
             Self::Number(number) => write!(text, "{number:?}"),
         };
     }
@@ -129,39 +131,39 @@ impl From<Option<i64>> for Value {
     }
 }
 
-/// A state in the table of a study; what is `None` was not computed.
+/// A row of the table of a study, which describes one state; values that were not computed are `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct StateRow {
     /// Number of the branch on which the state lies.
     pub branch: Option<i64>,
-    /// Which way along the branch, +1 or -1.
+    /// Direction along the branch, +1 or -1.
     pub sign: Option<i64>,
     /// Number of the state along its branch.
     pub step: Option<i64>,
-    /// Arc length in fold angles.
+    /// Arc length along the branch in the space of fold angles, in radians.
     pub arc_length: Option<f64>,
-    /// Curvature at vertex 0.
+    /// Signed curvature at vertex 0.
     pub curvature: Option<f64>,
-    /// Angles of the two lattice rotations.
+    /// Rotation angles along the two lattice vectors, in radians.
     pub theta: [Option<f64>; 2],
-    /// Strain: 11, 22, 12.
+    /// Components 11, 22 and 12 of the lattice strain.
     pub strain: [Option<f64>; 3],
-    /// Energy of bars, creases, facets, and in all.
+    /// Energies of the bars, the creases and the facets, and their sum.
     pub energy: [Option<f64>; 4],
-    /// Largest unbalanced force over the largest force of any term.
+    /// Largest unbalanced force, relative to the largest force of any term.
     pub residual_force: Option<f64>,
-    /// Largest error of a length over the mean edge.
+    /// Largest error of a length, relative to the mean edge length.
     pub residual_length: Option<f64>,
     /// Whether faces pass through each other.
     pub self_intersecting: Option<bool>,
-    /// Largest difference of a fold angle to the exact kinematics, in radians.
+    /// Largest difference between a fold angle and that of the exact kinematics, in radians.
     pub error_to_kinematic: Option<f64>,
-    /// Fold angles of the edges of the cell, NaN where there is none.
+    /// Fold angles of the edges of the cell in radians; NaN for edges without a hinge.
     pub fold: Vec<f64>,
 }
 
 impl StateRow {
-    /// The columns before the fold angles.
+    /// Names of the columns before the fold angles.
     pub(crate) const COLUMNS: [&str; 17] = [
         "branch",
         "sign",
@@ -198,7 +200,7 @@ impl StateRow {
 mod tests {
     use super::*;
 
-    /// Numbers read back bit for bit, over all magnitudes; what is not computed is empty.
+    /// Numbers of all magnitudes are read back bit for bit.
     #[test]
     fn numbers_read_back_exactly() {
         let numbers = [0.1, -1.0 / 3.0, 5e-324, f64::MAX, 1e16 + 2.0, -0.0, f64::INFINITY, 123_456_789.125];
@@ -209,7 +211,7 @@ mod tests {
         assert_eq!(back.iter().map(|x| x.to_bits()).collect::<Vec<_>>(), numbers.map(f64::to_bits));
     }
 
-    /// The columns of the contract, in its order, each value under its own name.
+    /// The columns have the documented order, and each value is in its own column.
     #[test]
     fn a_state_fills_its_columns() {
         let keys = [EdgeKey { i: 0, j: 1, shift: [0, -1] }, EdgeKey { i: 0, j: 3, shift: [0, 0] }];
@@ -233,7 +235,7 @@ mod tests {
         assert_eq!(lines[0].split(',').count(), lines[1].split(',').count());
     }
 
-    /// A row that is too short is refused, with its number.
+    /// A row that is too short is an error, which names the row.
     #[test]
     fn rows_have_a_value_for_every_column() {
         let keys = [EdgeKey { i: 0, j: 1, shift: [0, 0] }];

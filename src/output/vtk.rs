@@ -1,8 +1,8 @@
-//! Files for ParaView: VTU (one state), VTP (a surface of states, or curves), VTI (a map), PVD (the files of a study in their order), and
-//! reading VTU back.
+//! Files for ParaView: VTU (one state), VTP (a surface of states, or curves), VTI (a map), PVD (the files of a study in
+//! their order), and the reader of VTU files.
 //!
-//! Arrays are uncompressed, since ParaView has failed to open compressed files of several writers; their lengths are
-//! checked before, since a short one makes it crash.
+//! Arrays are written uncompressed, because ParaView has failed to open compressed files of several writers. Their
+//! lengths are checked first, because ParaView crashes on an array that is too short.
 
 use std::fmt::Write as _;
 use std::io;
@@ -20,30 +20,31 @@ use super::strain_space::StrainSurface;
 use super::{OutputError, files};
 use crate::math::Vec3;
 
-/// What a VTU file says about a sheet.
+/// The mesh of a sheet read from a VTU file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VtuMesh {
-    /// Positions.
+    /// Positions of the points.
     pub points: Vec<Vec3>,
-    /// Triangles.
+    /// Points at the corners of each triangle.
     pub triangles: Vec<[usize; 3]>,
-    /// Edges between two points.
+    /// Points at the ends of each edge.
     pub lines: Vec<[usize; 2]>,
-    /// Fold angle of each line, where the file has them.
+    /// Fold angle of each line in radians; `None` if the file has no such array.
     pub fold_angle: Option<Vec<f64>>,
-    /// Force along each line, where the file has them.
+    /// Force along each line, positive in tension; `None` if the file has no such array.
     pub tension: Option<Vec<f64>>,
-    /// Torque of the hinges over each line, where the file has them.
+    /// Torque of the hinge on each line; `None` if the file has no such array.
     pub torque: Option<Vec<f64>>,
 }
 
-/// Writes a state: triangles, then lines.
+/// Writes a state as a VTU file; its cells are the triangles, followed by the lines.
 ///
-/// Point array `displacement`; cell arrays `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN on triangles),
-/// `self_intersecting` (0 on lines) and `edge`, the edge of the cell of which a line is a copy (-1 on triangles).
+/// Point array: `displacement`. Cell arrays: `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN
+/// on triangles), `self_intersecting` (0 on lines), and `edge`, the index of the edge of the cell of which the line is
+/// a copy (-1 on triangles).
 ///
 /// # Errors
-/// [`OutputError::Shape`] where the picture's arrays do not fit together, [`OutputError::Write`].
+/// [`OutputError::Shape`] if the arrays of the picture are inconsistent, [`OutputError::Write`].
 pub fn write_vtu(path: &Path, picture: &Picture) -> Result<(), OutputError> {
     picture.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
     let piece = UnstructuredGridPiece {
@@ -54,13 +55,13 @@ pub fn write_vtu(path: &Path, picture: &Picture) -> Result<(), OutputError> {
     write(path, DataSet::inline(piece))
 }
 
-/// Writes a surface of states as triangles in the space of strains.
+/// Writes a surface of states as a VTP file of triangles in the space of lattice strains.
 ///
-/// Point arrays `curvature`, `theta` (2 components), one for each edge of the cell named like its column in the table
-/// (`fold_i_j_n1_n2`), `energy` and `self_intersecting` where they were computed.
+/// Point arrays: `curvature`, `theta` (2 components), one for each edge of the cell named like its column in the table
+/// (`fold_i_j_n1_n2`), and, if they were computed, `energy` and `self_intersecting`.
 ///
 /// # Errors
-/// [`OutputError::Shape`] where the arrays do not fit together, [`OutputError::Write`].
+/// [`OutputError::Shape`] if the arrays are inconsistent, [`OutputError::Write`].
 pub(crate) fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError> {
     surface.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
     let polys = VertexNumbers::XML {
@@ -84,10 +85,10 @@ pub(crate) fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), Outp
     write(path, DataSet::inline(piece))
 }
 
-/// Writes a surface of triangles and curves between its points, with numbers at the points.
+/// Writes triangles and curves between common points as a VTP file, with arrays of numbers at the points.
 ///
 /// # Errors
-/// [`OutputError::Shape`] where an array has not one number for each point, [`OutputError::Write`].
+/// [`OutputError::Shape`] if the length of an array is not the number of points, [`OutputError::Write`].
 pub(crate) fn write_surface(
     path: &Path,
     points: &[Vec3],
@@ -114,12 +115,10 @@ pub(crate) fn write_surface(
     write(path, DataSet::inline(piece))
 }
 
-/// Writes curves in the plane, one after the other, with numbers that belong to whole curves.
-///
-/// Points with z = 0; a cell array for each of `arrays`.
+/// Writes curves in the plane z = 0 as a VTP file, with arrays of one number for each curve.
 ///
 /// # Errors
-/// [`OutputError::Shape`] where an array has not one number for each curve, [`OutputError::Write`].
+/// [`OutputError::Shape`] if the length of an array is not the number of curves, [`OutputError::Write`].
 pub(crate) fn write_curves(
     path: &Path,
     curves: &[Vec<[f64; 2]>],
@@ -142,10 +141,11 @@ pub(crate) fn write_curves(
     write(path, DataSet::inline(piece))
 }
 
-/// Writes a map: values at the points `origin + (k1, k2) * spacing`, those of equal `k2` after each other.
+/// Writes a map as a VTI file: values at the points `origin + (k1, k2) * spacing`, in the order in which `k1` runs
+/// faster.
 ///
 /// # Errors
-/// [`OutputError::Shape`] where an array has not one number for each point, [`OutputError::Write`].
+/// [`OutputError::Shape`] if the length of an array is not the number of points, [`OutputError::Write`].
 pub(crate) fn write_vti(
     path: &Path,
     size: [usize; 2],
@@ -163,7 +163,7 @@ pub(crate) fn write_vti(
     write(path, DataSet::ImageData { extent, origin, spacing, meta: None, pieces })
 }
 
-/// Whether every array has the length that it should have.
+/// Checks that every array has the expected length.
 fn check_lengths<T>(path: &Path, arrays: &[(&'static str, Vec<T>)], expected: usize) -> Result<(), OutputError> {
     match arrays.iter().find(|(_, values)| values.len() != expected) {
         None => Ok(()),
@@ -183,9 +183,10 @@ fn write(path: &Path, data: DataSet) -> Result<(), OutputError> {
     files::write(path, with_signed_indices(text))
 }
 
-/// The file with connectivity and offsets as `Int64`, as VTK itself writes them: the bytes of the numbers are the same.
+/// Returns the file with the type of the arrays of connectivity and offsets changed to `Int64`, which VTK itself
+/// writes; the bytes of the numbers are the same.
 ///
-/// vtkio writes `UInt64`, and meshio adds signed numbers to these, which gives floating-point numbers.
+/// vtkio writes `UInt64`; meshio adds signed numbers to these, which makes them floating-point numbers.
 fn with_signed_indices(text: Vec<u8>) -> Vec<u8> {
     const WRITTEN: &[u8] = b"<DataArray type=\"UInt64\" Name=\"";
     const SIGNED: &[u8] = b"<DataArray type=\"Int64\" Name=\"";
@@ -250,7 +251,8 @@ fn array(name: &str, elem: ElementType, data: IOBuffer) -> Attribute {
     Attribute::DataArray(DataArray { name: name.into(), elem, data })
 }
 
-/// Writes a collection: times (any increasing numbers) and files relative to the collection.
+/// Writes a PVD collection. `states` holds pairs of a time (any increasing numbers) and the path of a file relative to
+/// the collection.
 ///
 /// # Errors
 /// [`OutputError::Write`].
@@ -273,14 +275,14 @@ fn pvd(states: &[(f64, String)]) -> String {
 /// Reads a VTU file of triangles and lines, uncompressed or compressed with zlib.
 ///
 /// # Errors
-/// [`OutputError::Read`] where there is no such file, [`OutputError::Vtu`] where it holds something else.
+/// [`OutputError::Read`] if the file cannot be read, [`OutputError::Vtu`] if its content is not valid.
 pub fn read_vtu(path: &Path) -> Result<VtuMesh, OutputError> {
     let bytes = std::fs::read(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
     parse_vtu(&bytes).map_err(|fault| OutputError::Vtu { path: path.into(), fault })
 }
 
 fn parse_vtu(bytes: &[u8]) -> Result<VtuMesh, VtuFault> {
-    // vtkio panics on a grid without points: it is not asked about one, nor trusted with what else may be missing
+    // vtkio panics on a grid without points, which is therefore excluded first; other panics are caught below
     if !bytes.windows(7).any(|tag| tag == b"<Points") {
         return Err(VtuFault::Format("it has no points".into()));
     }
@@ -307,7 +309,7 @@ fn parse_piece(bytes: &[u8]) -> Result<UnstructuredGridPiece, VtuFault> {
 }
 
 impl VtuMesh {
-    /// Sorts cells into triangles and lines; gives the cells that are lines.
+    /// Adds the cells to the triangles or the lines; returns the indices of the cells that are lines.
     fn add_cells(&mut self, cells: Cells) -> Result<Vec<usize>, VtuFault> {
         let types = cells.types;
         let (connectivity, offsets) = cells.cell_verts.into_xml();
@@ -340,7 +342,7 @@ impl VtuMesh {
     }
 }
 
-/// Numbers of an array on these cells, where the file has it.
+/// Returns the numbers of a cell array on the lines; `None` if the file has no such array.
 fn numbers_on(name: &str, data: &Attributes, line_cells: &[usize]) -> Option<Vec<f64>> {
     let array = data.cell.iter().find_map(|attribute| match attribute {
         Attribute::DataArray(array) if array.name == name => array.data.cast_into::<f64>(),
@@ -363,7 +365,7 @@ mod tests {
         std::fs::read(path).unwrap()
     }
 
-    /// What is written is read back bit for bit.
+    /// A state is read back bit for bit.
     #[test]
     fn a_state_reads_back() {
         let picture = samples::hinge(0.3);
@@ -375,7 +377,7 @@ mod tests {
         assert_eq!(bits(&mesh.torque.unwrap()), bits(&picture.torque));
     }
 
-    /// Every array of the contract is there with a value for every cell.
+    /// Every documented array is present, with a value for every cell.
     #[test]
     fn every_array_has_its_length() {
         let picture = samples::hinge(0.3);
@@ -393,7 +395,7 @@ mod tests {
         assert_eq!(lengths(&piece.data.cell), names.map(|name| (name.to_owned(), 7)));
     }
 
-    /// Types of the arrays that hold indices, in a file's text.
+    /// Returns the names and types of the arrays of indices in a file.
     fn index_types(path: &Path) -> Vec<(String, String)> {
         let text = String::from_utf8_lossy(&std::fs::read(path).unwrap()).into_owned();
         let value = |tag: &str, key: &str| Some(tag.split_once(&format!("{key}=\""))?.1.split_once('"')?.0.to_owned());
@@ -402,8 +404,8 @@ mod tests {
         types.filter(|(name, _)| ["connectivity", "offsets"].contains(&name.as_str())).collect()
     }
 
-    /// Claim: connectivity and offsets of every kind of file are `Int64`, as VTK's own writers have them: meshio turns `UInt64` into
-    /// floating-point numbers, with which nothing can be indexed.
+    /// Claim: the arrays of connectivity and offsets have the type `Int64` in every kind of file, as in the files of
+    /// VTK's own writers: meshio turns `UInt64` into floating-point numbers, which cannot be used as indices.
     #[test]
     fn indices_are_signed() {
         let folder = tempfile::tempdir().unwrap();
@@ -419,7 +421,7 @@ mod tests {
         }
     }
 
-    /// A picture whose arrays do not fit is not written.
+    /// A picture with inconsistent arrays is not written.
     #[test]
     fn a_short_array_is_not_written() {
         let folder = tempfile::tempdir().unwrap();
@@ -432,7 +434,7 @@ mod tests {
         assert!(!path.exists());
     }
 
-    /// An empty sheet is a file like any other.
+    /// A picture without points is written and read back like any other.
     #[test]
     fn an_empty_picture_reads_back() {
         assert_eq!(
@@ -441,7 +443,7 @@ mod tests {
         );
     }
 
-    /// Collections are XML with the states in their order; names are escaped.
+    /// Collections are XML files that list the states in their order; names are escaped.
     #[test]
     fn collections_list_their_states() {
         let text = pvd(&[(0.0, "a/0.vtu".into()), (0.5, "a/<&\".vtu".into())]);
@@ -450,7 +452,7 @@ mod tests {
         assert!(lines[4].contains("file=\"a/&lt;&amp;&quot;.vtu\""), "{}", lines[4]);
     }
 
-    /// Files that are something else are refused in words.
+    /// Files that are not VTU files of an unstructured grid are refused with an error.
     #[test]
     fn other_files_are_refused() {
         for bad in ["", "solid", "<VTKFile/>", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>"] {
@@ -461,8 +463,8 @@ mod tests {
         assert!(matches!(fault, VtuFault::Format(_) | VtuFault::NotUnstructured), "{fault}");
     }
 
-    /// Claim: a surface reads back with its triangles, and every array has a value for every point; what was not
-    /// computed has no array; arrays that do not fit are not written.
+    /// Claim: a surface is read back with its triangles, and every array has a value for every point; quantities that
+    /// were not computed have no array; inconsistent arrays are not written.
     #[test]
     fn a_surface_reads_back() {
         let folder = tempfile::tempdir().unwrap();
@@ -496,7 +498,8 @@ mod tests {
         assert!(matches!(error, OutputError::Shape { fault: found, .. } if found == fault));
     }
 
-    /// Claim: curves and maps read back with their points, numbers and places, and are not written where numbers are missing.
+    /// Claim: curves and maps are read back with their points, arrays, origin and spacing; arrays that are too short
+    /// are not written.
     #[test]
     fn curves_and_maps_read_back() {
         let folder = tempfile::tempdir().unwrap();
@@ -520,7 +523,7 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
 
-        /// A spoiled file is read or refused; nothing panics.
+        /// A file with random changes is read or refused; the reader does not panic.
         #[test]
         fn spoiled_files_do_not_panic(start in 0..6000usize, length in 0..30usize, new in "[0-9A-Za-z<>/=\" ]{0,12}") {
             let bytes = written(&samples::hinge(0.3));
@@ -529,7 +532,7 @@ mod tests {
             let _ = parse_vtu(&[&bytes[..start], new.as_bytes(), &bytes[end..]].concat());
         }
 
-        /// The same, aimed at the numbers that say how much there is.
+        /// The same for changes of the numbers and types in the headers of the arrays.
         #[test]
         fn wrong_counts_do_not_panic(which in 0..6usize, count in proptest::num::u64::ANY) {
             let text = String::from_utf8(written(&samples::hinge(0.3))).unwrap();

@@ -1,31 +1,31 @@
-//! A claim about the program, as its file in `validation/claims/` states it.
+//! A claim about the program, as stated in a file in `validation/claims/`.
 //!
 //! ```toml
 //! claim  = "what is claimed, in a sentence"
 //! source = "where the expected value comes from"
-//! quick  = true                                # also checked by `foldwell validate --quick`; left out: false
+//! quick  = true                                # also checked by `foldwell validate --quick`; default false
 //! scene  = "star-trace.toml"                   # a scene of meshes/; or  measurement = "tolerance"
-//! value  = "studies.loops.branches.*.arc_length" # path in what it gives; of a scene that is summary.json
+//! value  = "studies.loops.branches.*.arc_length" # path in the result, for a scene in summary.json
 //! expected  = [50.2037156, 9.9314250]          # or  at_most = 1e-10,  or  at_least = 5.9
 //! tolerance = 1e-6                             # of `expected`, absolute; or  relative_tolerance = 1e-6
-//! reason    = "why the tolerance, or the bound, is what it is"
+//! reason    = "why the tolerance, or the bound, has this value"
 //! ```
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A number or several.
+/// One number or several.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Numbers {
     /// One number.
     One(f64),
-    /// A list.
+    /// A list of numbers.
     Many(Vec<f64>),
 }
 
 impl Numbers {
-    /// The numbers.
+    /// Returns the numbers as a list.
     pub(crate) fn list(&self) -> &[f64] {
         match self {
             Self::One(number) => std::slice::from_ref(number),
@@ -34,75 +34,76 @@ impl Numbers {
     }
 }
 
-/// Where the value comes from.
+/// The experiment that gives the value of a claim.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Experiment {
-    /// A scene of `meshes/`, run as `foldwell run` does.
+    /// A scene of `meshes/`, run as by `foldwell run`.
     Scene(String),
-    /// A measurement of [`super::measure`].
+    /// Name of a measurement of [`super::measure`].
     Measurement(String),
 }
 
-/// What the value has to be.
+/// The requirement on the value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Wanted {
-    /// These numbers, each within `absolute + relative * |number|`.
+    /// The value equals these numbers, each within `absolute + relative * |number|`.
     Equal {
-        /// The numbers.
+        /// The expected numbers.
         numbers: Numbers,
         /// Absolute tolerance.
         absolute: f64,
         /// Relative tolerance.
         relative: f64,
     },
-    /// No number above this one.
+    /// No number is above this bound.
     AtMost(f64),
-    /// No number below this one.
+    /// No number is below this bound.
     AtLeast(f64),
 }
 
 /// A claim.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Claim {
-    /// Name of its file without ending.
+    /// Name of its file without extension.
     pub name: String,
-    /// What is claimed.
+    /// The statement, in a sentence.
     pub claim: String,
-    /// Where the expected value comes from.
+    /// Source of the expected value.
     pub source: String,
-    /// Whether it is among the quick ones.
+    /// Whether it is also checked by `foldwell validate --quick`.
     pub quick: bool,
-    /// What gives the value.
+    /// The experiment that gives the value.
     pub experiment: Experiment,
-    /// Which value of it.
+    /// Path of the value in the result of the experiment; see [`super::verdict::numbers_at`].
     pub value: String,
-    /// What it has to be.
+    /// The requirement on the value.
     pub wanted: Wanted,
-    /// Why the tolerance or the bound is what it is.
+    /// Reason for the size of the tolerance or the bound.
     pub reason: String,
 }
 
-/// Why a file states no claim.
+/// The reason why a file is not a valid claim.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub(crate) enum ClaimError {
-    /// It is no TOML, or has other keys.
+    /// The file is not TOML, or has unknown keys.
     #[error("{name}: {message}")]
     Form {
-        /// The claim.
+        /// Name of the claim.
         name: String,
-        /// What is wrong.
+        /// Message of the parser.
         message: String,
     },
-    /// There must be one of `scene` and `measurement`.
+    /// The file has not exactly one of `scene` and `measurement`.
     #[error("{name}: a claim names one scene or one measurement")]
     Experiment {
-        /// The claim.
+        /// Name of the claim.
         name: String,
     },
-    /// There must be one of `expected`, `at_most`, `at_least`, and tolerances belong to the first.
+    /// The file has not exactly one of `expected`, `at_most` and `at_least`, or has a tolerance without `expected`, or
+    /// `expected` without a tolerance.
     #[error("{name}: a claim has `expected` with a tolerance, or `at_most`, or `at_least`")]
     Wanted {
-        /// The claim.
+        /// Name of the claim.
         name: String,
     },
 }
@@ -130,7 +131,7 @@ impl Claim {
     /// Reads a claim.
     ///
     /// # Errors
-    /// [`ClaimError`] where the text is no claim.
+    /// [`ClaimError`] if the text is not a valid claim.
     pub(crate) fn parse(name: &str, text: &str) -> Result<Self, ClaimError> {
         let keys: Keys = toml::from_str(text)
             .map_err(|fault| ClaimError::Form { name: name.into(), message: fault.message().into() })?;
@@ -144,7 +145,7 @@ impl Claim {
         Ok(Self { name: name.into(), claim, source, quick, experiment, value, wanted, reason })
     }
 
-    /// The command that computes the value.
+    /// Returns the command that computes the value.
     pub(crate) fn command(&self) -> String {
         match &self.experiment {
             Experiment::Scene(scene) => format!("foldwell run meshes/{scene}"),
@@ -179,7 +180,7 @@ mod tests {
         Claim::parse("a", &format!("{HEAD}{rest}"))
     }
 
-    /// Claim: each way of stating a value is read as it is meant.
+    /// Claim: each way to state a value is read correctly.
     #[test]
     fn claims_are_read() {
         let claim =
@@ -192,8 +193,8 @@ mod tests {
         assert_eq!(parse("measurement = \"m\"\nat_least = 3").unwrap().wanted, Wanted::AtLeast(3.0));
     }
 
-    /// Claim: a file that leaves open what is claimed is refused: no or two experiments, no or two values, a value
-    /// without tolerance, a bound with one, unknown keys.
+    /// Claim: an ambiguous file is refused: with no or two experiments, no or two values, a value without tolerance, a
+    /// bound with a tolerance, or unknown keys.
     #[test]
     fn what_is_no_claim_is_refused() {
         for rest in ["at_most = 1", "scene = \"x\"\nmeasurement = \"m\"\nat_most = 1"] {

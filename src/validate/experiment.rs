@@ -1,4 +1,4 @@
-//! Experiments: a scene or a measurement, performed once however many claims ask for it.
+//! Experiments: runs of scenes and measurements, each performed once even if several claims use it.
 
 use super::claim::Experiment;
 use super::findings::{Bench, ExperimentError, Findings};
@@ -9,18 +9,18 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// An experiment that was performed.
+/// The result of an experiment.
 #[derive(Debug)]
 pub(crate) struct Performed {
-    /// What was found.
+    /// The values found, or the reason why there are none.
     pub found: Result<Findings, ExperimentError>,
-    /// Time it took.
+    /// Duration in seconds.
     pub seconds: f64,
-    /// Whether this is the first claim that asks for it.
+    /// Whether the current claim is the first that uses it.
     pub first: bool,
 }
 
-/// Where experiments are performed.
+/// Performs experiments, and keeps their results.
 pub(crate) struct Experiments<'a> {
     folder: PathBuf,
     quick: bool,
@@ -29,12 +29,12 @@ pub(crate) struct Experiments<'a> {
 }
 
 impl<'a> Experiments<'a> {
-    /// Experiments write into folders below this one.
+    /// Makes an empty collection; experiments write into folders inside `folder`.
     pub(crate) fn new(folder: PathBuf, quick: bool, observer: Observer<'a>) -> Self {
         Self { folder, quick, observer, performed: Vec::new() }
     }
 
-    /// Performs an experiment, or remembers it.
+    /// Performs an experiment, or returns its result if it was performed before.
     pub(crate) fn perform(&mut self, experiment: &Experiment) -> &Performed {
         let known = self.performed.iter().position(|(performed, _)| performed == experiment);
         let at = known.unwrap_or_else(|| {
@@ -52,7 +52,7 @@ impl<'a> Experiments<'a> {
         outcome
     }
 
-    /// Runs a scene of `meshes/`, laid out beside the reports, and gives its summary.
+    /// Runs a scene of `meshes/` from a copy in the folder of the reports, and returns its summary.
     fn run(&self, scene: &str) -> Result<Findings, ExperimentError> {
         for (name, text) in library::meshes() {
             files::write(&self.folder.join("meshes").join(name), text)?;

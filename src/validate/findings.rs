@@ -1,4 +1,4 @@
-//! What a measurement may use, and what it gives.
+//! The arguments and the results of a measurement.
 
 use super::precision::Diagram;
 use foldwell::analysis::relax::RelaxError;
@@ -12,7 +12,7 @@ use serde::Serialize;
 use serde_json::Value;
 use thiserror::Error;
 
-/// Why an experiment gives no value.
+/// The reason why an experiment gives no value.
 #[derive(Debug, Error)]
 pub(crate) enum ExperimentError {
     /// A scene could not be run.
@@ -21,10 +21,10 @@ pub(crate) enum ExperimentError {
     /// A file could not be written or read.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// A mesh is wrong.
+    /// A mesh is not valid.
     #[error(transparent)]
     Mesh(#[from] SheetError),
-    /// A sheet cannot be put together.
+    /// A mechanical model cannot be assembled.
     #[error(transparent)]
     Assembly(#[from] AssemblyError),
     /// A relaxation failed.
@@ -33,18 +33,18 @@ pub(crate) enum ExperimentError {
     /// A trajectory failed.
     #[error(transparent)]
     Trace(#[from] TraceError),
-    /// Something else.
+    /// Any other reason.
     #[error("{0}")]
     Other(String),
-    /// A study of a scene gave no answer.
+    /// A study of a scene did not converge.
     #[error("study {study}: {reason}")]
     Study {
-        /// The study.
+        /// Name of the study.
         study: String,
-        /// Why.
+        /// Reason given by the study.
         reason: String,
     },
-    /// There is no such experiment.
+    /// There is no experiment of this name.
     #[error("there is no experiment `{0}`")]
     Unknown(String),
     /// The observer asked to stop.
@@ -55,42 +55,42 @@ pub(crate) enum ExperimentError {
 /// A table of a report.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct ReportTable {
-    /// What it shows.
+    /// Title.
     pub title: String,
-    /// Names of its columns.
+    /// Names of the columns.
     pub header: Vec<String>,
-    /// Its rows.
+    /// Rows, with a text for each column.
     pub rows: Vec<Vec<String>>,
 }
 
-/// What an experiment gives.
+/// The results of an experiment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Findings {
-    /// Its values, among which claims choose.
+    /// Values, as a JSON table with paths that claims refer to.
     pub values: Value,
-    /// Its diagrams of error against run time.
+    /// Diagrams of error against run time.
     pub diagrams: Vec<Diagram>,
-    /// Its other charts.
+    /// Other charts.
     pub charts: Vec<Chart>,
-    /// Its tables.
+    /// Tables.
     pub tables: Vec<ReportTable>,
 }
 
-/// What a measurement may use.
+/// The arguments of a measurement.
 pub(crate) struct Bench<'a> {
-    /// Whether little time is allowed.
+    /// Whether to leave out the parts that take long.
     pub quick: bool,
-    /// The measurement.
+    /// Name of the measurement.
     pub name: &'a str,
-    /// Sees how far it is.
+    /// Receives the progress, and may ask to stop.
     pub observer: Observer<'a>,
 }
 
 impl Bench<'_> {
-    /// Tells how far it is.
+    /// Reports the progress: step `step` of `of`.
     ///
     /// # Errors
-    /// [`ExperimentError::Interrupted`] where the observer asks to stop.
+    /// [`ExperimentError::Interrupted`] if the observer asks to stop.
     pub(crate) fn step(&self, step: usize, of: usize) -> Result<(), ExperimentError> {
         let progress = Progress { study: self.name.into(), step, of: Some(of), residual: f64::NAN };
         if (self.observer)(&progress).is_continue() { Ok(()) } else { Err(ExperimentError::Interrupted) }

@@ -1,10 +1,12 @@
-//! Other ways to treat stiff measures, to compare the program's with: as a plain penalty, and by the method of multipliers.
+//! Two other formulations of stiff terms, to compare the program's with: the plain penalty and the method of
+//! multipliers.
 //!
-//! Both are Newton's method with backtracking on `E(x) + sum w (m + t0/gamma)^2 / 2` with `w = 1/(c + 1/gamma)`, `c = 1/k`: the
-//! proximal form of the tensions, which are `t = w (m + t0/gamma)`. With `1/gamma = 0` that is the plain penalty `k m^2 / 2`,
-//! whose forces carry a rounding error of `k` times that of a length. With a moderate `gamma` nothing large is ever
-//! multiplied; the minimisation is repeated with `t0 = t` until `m = c t` (augmented form; R. T. Rockafellar, Math. Oper.
-//! Res. 1, 97, 1976). The program's own way, tensions as unknowns beside `x`, is [`foldwell::solver::minimize`].
+//! Both are Newton's method with backtracking on `E(x) + sum w (m + t0/gamma)^2 / 2` with `w = 1/(c + 1/gamma)`, `c =
+//! 1/k`: the proximal form of the tensions, which are `t = w (m + t0/gamma)`. With `1/gamma = 0` this is the plain
+//! penalty `k m^2 / 2`, whose forces carry a rounding error of `k` times that of a length. With a moderate `gamma`
+//! nothing is ever multiplied by a large number; the minimisation is repeated with `t0 = t` until `m = c t` (augmented
+//! form; R. T. Rockafellar, Math. Oper. Res. 1, 97, 1976). The program itself treats the tensions as unknowns in
+//! addition to `x`; see [`foldwell::solver::minimize`].
 
 use foldwell::model::Model;
 use foldwell::numerics::factor::FactorError;
@@ -13,45 +15,45 @@ use foldwell::numerics::tearing::TornFactor;
 use foldwell::numerics::vector::max_abs;
 use foldwell::solver::{HessianKind, Linearization, Problem, Residuals};
 
-/// Most Newton steps in all, and most updates of the tensions.
+/// Largest total number of Newton steps, and largest number of updates of the tensions.
 const STEPS: usize = 200;
 const UPDATES: usize = 200;
 const TOLERANCE: f64 = 1e-12;
 const HALVINGS: i32 = 40;
-/// What the energy may rise by for rounding error, relative; a step that is expected to gain less than that, and does not
-/// make the force smaller, is the last.
+/// Relative increase of the energy that is attributed to rounding errors. The iteration ends if the expected decrease
+/// of the next step is smaller and the force is still more than half of that before the last step.
 const NOISE: f64 = 1e-14;
-/// First shift of a Hessian that is not that of a minimum, and its growth.
+/// First shift of a Hessian that is not positive definite, and the factor by which the shift grows.
 const FIRST_SHIFT: f64 = 1e-2;
 const RAISE: f64 = 4.0;
 const MOST_SHIFT: f64 = 1e30;
 
-/// How stiff measures enter.
+/// The formulation of stiff terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Form {
-    /// `k m^2 / 2`. Rigid measures are not possible.
+    /// The penalty `k m^2 / 2`. Infinite stiffnesses are not possible.
     Penalty,
-    /// With this weight `gamma`, force per length, and updates of the tensions.
+    /// The augmented form with this weight `gamma` (force per length) and updates of the tensions.
     Augmented(f64),
 }
 
-/// Where a minimisation ended.
+/// The state at which a minimisation ended.
 #[derive(Clone, Debug)]
 pub(crate) struct Minimised {
-    /// Unknowns.
+    /// Unknowns of the model.
     pub x: Vec<f64>,
-    /// Tensions.
+    /// Tensions of the stiff terms.
     pub tension: Vec<f64>,
-    /// Accepted Newton steps.
+    /// Number of accepted Newton steps.
     pub iterations: usize,
     /// Scaled residuals of force and length.
     pub residuals: [f64; 2],
 }
 
-/// A minimisation on its way.
+/// A minimisation in progress.
 struct Weighted<'a> {
     model: &'a mut Model,
-    /// `1/gamma`.
+    /// The inverse `1/gamma` of the weight; 0 for the plain penalty.
     softness: f64,
     before: Vec<f64>,
     at: Linearization,
@@ -60,10 +62,11 @@ struct Weighted<'a> {
     iterations: usize,
 }
 
-/// Minimises from the drawn state.
+/// Minimises the energy of a model from the drawn state.
 ///
 /// # Errors
-/// [`FactorError`] where the pattern cannot be analysed; a minimisation that gets stuck is an outcome.
+/// [`FactorError`] if the pattern of the matrix cannot be analysed; a minimisation that does not converge is not an
+/// error.
 pub(crate) fn minimize(model: &mut Model, form: Form) -> Result<Minimised, FactorError> {
     let at = Linearization::new(model.layout());
     let layout = model.layout();
@@ -109,7 +112,7 @@ impl Weighted<'_> {
         [force, length]
     }
 
-    /// Newton's method until the force is small or no step lowers the energy.
+    /// Makes Newton steps until the force is small or no step lowers the energy.
     fn descend(&mut self) {
         let mut last = f64::INFINITY;
         while self.iterations < STEPS {
@@ -131,7 +134,8 @@ impl Weighted<'_> {
         }
     }
 
-    /// The state after one step, and what a whole one is expected to gain; `None` where no fraction lowers the energy.
+    /// Returns the state after one step, and the expected decrease of the energy by the full step; `None` if no
+    /// fraction of the step lowers the energy.
     fn step(&mut self, force: &[f64]) -> Option<(Vec<f64>, f64)> {
         let mut matrix = self.at.hessian.clone();
         let weights: Vec<f64> = self.model.compliance().iter().map(|c| self.weight(*c)).collect();

@@ -1,10 +1,11 @@
-//! Claims about the program, checked by the program: `foldwell validate`.
+//! Validation: `foldwell validate` checks claims about the program.
 //!
-//! One case per claim. Each has a file in `validation/claims/` with its source, the expected value, and a tolerance with its
-//! reason ([`claim`]); all files are inside the program ([`library`]). A claim takes its value from an experiment: a scene
-//! of `meshes/`, run as `foldwell run` does, or a measurement coded in [`measure`]. What is found is compared ([`verdict`]) and
-//! reported as `report.json`, `report.md` and `report.html` ([`report`], [`page`]), after every case anew, so that an
-//! interrupted validation leaves what it found.
+//! There is one case for each claim. A claim is a file in `validation/claims/` with its source, the expected value, and
+//! a tolerance with the reason for it ([`claim`]); all these files are embedded in the program ([`library`]). The value
+//! comes from an experiment: a scene of `meshes/`, run as by `foldwell run`, or a measurement programmed in
+//! [`measure`]. It is compared with the expected value ([`verdict`]). The reports `report.json`, `report.md` and
+//! `report.html` ([`report`], [`page`]) are written again after every case, so that an interrupted validation leaves
+//! the results up to then.
 
 pub(crate) mod claim;
 pub(crate) mod experiment;
@@ -30,38 +31,38 @@ use report::{Case, Report};
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// What the command line can change about the validation.
+/// The options of `foldwell validate`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct ValidateOptions {
-    /// Leave out the claims that take long.
+    /// Whether to leave out the claims that take long.
     pub quick: bool,
-    /// Folder for the reports; `None`: `validation-report`.
+    /// Folder of the reports; `None` for `validation-report`.
     pub out: Option<PathBuf>,
-    /// Only these claims, by name, or of files ending in `.toml`; empty: all.
+    /// Names of the claims to check, or paths of files with claims, which end in `.toml`; empty for all claims.
     pub only: Vec<String>,
 }
 
-/// Why there is no report.
+/// The reason why there is no report.
 #[derive(Debug, Error, Diagnostic)]
 pub(crate) enum ValidationError {
-    /// A file of the program's own states no claim.
+    /// A file with a claim is not valid.
     #[error(transparent)]
     Claim(#[from] ClaimError),
     /// A file with a claim cannot be read.
     #[error("{}: cannot be read: {source}", path.display())]
     Read {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// There is no claim of this name.
     #[error("there is no claim `{name}`")]
     #[diagnostic(help("the claims are {known}"))]
     Unknown {
-        /// Asked for.
+        /// The requested name.
         name: String,
-        /// The claims there are.
+        /// Names of the existing claims.
         known: String,
     },
     /// A report could not be written.
@@ -70,16 +71,17 @@ pub(crate) enum ValidationError {
 }
 
 impl ValidationError {
-    /// The exit status of the program: 2 where the input is wrong, 3 where a place cannot be written.
+    /// Returns the exit status of the program: 2 for invalid input, 3 if a file cannot be written.
     pub(crate) fn exit_status(&self) -> u8 {
         if matches!(self, Self::Output(_)) { 3 } else { 2 }
     }
 }
 
-/// Checks the claims and writes the reports. `announce` sees every case once it is decided.
+/// Checks the claims and writes the reports. `announce` is called with every case once it is decided.
 ///
 /// # Errors
-/// [`ValidationError`]; a claim that fails, or an experiment that gives no value, is a case of the report instead.
+/// [`ValidationError`]. A claim that does not hold, and an experiment that gives no value, are not errors but cases of
+/// the report.
 pub(crate) fn validate(
     options: &ValidateOptions,
     observer: Observer,
@@ -89,7 +91,7 @@ pub(crate) fn validate(
     Threads::new(None).install(|| check(claims, options, observer, announce))
 }
 
-/// The claims that are asked for.
+/// Returns the claims selected by the options.
 fn chosen(mut claims: Vec<Claim>, options: &ValidateOptions) -> Result<Vec<Claim>, ValidationError> {
     for path in options.only.iter().filter(|name| name.ends_with(".toml")) {
         let text =
@@ -116,7 +118,7 @@ fn check(
     let mut laboratory = Experiments::new(out.clone(), options.quick, observer);
     let mut report = Report::new(options.quick, claims.len());
     let mut interrupted = false;
-    report.interrupted = true; // that is what a report says which is left here
+    report.interrupted = true; // reports written before the end are marked as interrupted
     report.write(&out)?;
     for claim in &claims {
         let outcome = laboratory.perform(&claim.experiment);

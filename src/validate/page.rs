@@ -1,4 +1,4 @@
-//! `report.html`: one file that needs nothing else, neither a script nor the network.
+//! The report as a page (`report.html`), a single file without scripts and external resources.
 
 use super::findings::ReportTable;
 use super::report::{Case, Report, cheapest};
@@ -11,7 +11,7 @@ vertical-align:top;padding:.35em .7em;border-bottom:1px solid #dcd9cf}th{border-
 .fails{background:#fbe9e6}.mark{font-weight:bold;white-space:nowrap}.holds .mark{color:#2c8a6b}.fails .mark{color:#c8372d}\
 code{font-size:13px}summary{cursor:pointer}small{color:#6a6760}svg{max-width:800px;height:auto}td.n{white-space:nowrap}";
 
-/// The text of the page.
+/// Returns the text of the page.
 pub(crate) fn html(report: &Report) -> String {
     let mut text = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\

@@ -1,45 +1,45 @@
-//! Error against run time: settings of one method with what they reach and what they cost.
+//! Error against run time of methods at several settings.
 
 use foldwell::output::figure::chart::{Chart, Point, Series};
 use serde::Serialize;
 use std::time::Instant;
 
-/// The errors for which the cheapest setting is named.
+/// The errors for which the cheapest setting is listed.
 const WANTED: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
 
-/// A setting, what it reached and what it cost.
+/// A setting of a method, with its error and its run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Setting {
-    /// The setting: `"k = 1e6"`.
+    /// Name of the setting, such as `"k = 1e6"`.
     pub label: String,
-    /// Error of its result; NaN where there is none.
+    /// Error of the result; NaN without a result.
     pub error: f64,
-    /// What it took.
+    /// Run time in seconds.
     pub seconds: f64,
 }
 
 /// A method at several settings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Method {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its settings.
+    /// Settings.
     pub settings: Vec<Setting>,
 }
 
 /// A diagram of error against run time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Diagram {
-    /// What is varied.
+    /// Title, which names the varied quantity.
     pub title: String,
-    /// Which error, and against what.
+    /// Definition of the error, and the reference.
     pub error: String,
-    /// The methods.
+    /// Methods to compare.
     pub methods: Vec<Method>,
 }
 
 impl Diagram {
-    /// As a chart.
+    /// Returns the diagram as a chart.
     pub(crate) fn chart(&self) -> Chart {
         let point = |s: &Setting| Point { x: s.error, y: s.seconds, label: s.label.clone() };
         let series = |m: &Method| Series { name: m.name.clone(), points: m.settings.iter().map(point).collect() };
@@ -52,7 +52,8 @@ impl Diagram {
         }
     }
 
-    /// For errors that one may want, the method and setting that reach them in the shortest time; `None`: none does.
+    /// Returns, for each error of a list, the method and setting that reach it in the shortest time; `None` if none
+    /// does.
     pub(crate) fn cheapest(&self) -> Vec<(f64, Option<(&str, &Setting)>)> {
         let all = || self.methods.iter().flat_map(|m| m.settings.iter().map(move |s| (m.name.as_str(), s)));
         let best = |wanted: f64| {
@@ -63,7 +64,8 @@ impl Diagram {
     }
 }
 
-/// Does several pieces of work in turns, so that other load on the machine hits all alike; the shortest time of each.
+/// Returns the shortest run time of each piece of `work` over `rounds` rounds. The pieces are run by turns, so that
+/// other load on the machine affects all of them alike.
 pub(crate) fn shortest(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
     let mut times = vec![f64::INFINITY; work.len()];
     for _ in 0..rounds {
@@ -80,8 +82,8 @@ pub(crate) fn shortest(rounds: usize, work: &mut [Box<dyn FnMut() + '_>]) -> Vec
 mod tests {
     use super::*;
 
-    /// Claim: the cheapest setting is the fastest of those that are good enough, of all methods; one without a result is
-    /// none.
+    /// Claim: the cheapest setting is the fastest of those with a small enough error, over all methods; a setting
+    /// without a result is ignored.
     #[test]
     fn the_cheapest_setting_is_named() {
         let setting = |label: &str, error, seconds| Setting { label: label.into(), error, seconds };

@@ -11,65 +11,65 @@ use serde::Serialize;
 /// A claim that was checked.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Case {
-    /// Its name.
+    /// Name of the claim.
     pub name: String,
-    /// What is claimed.
+    /// The statement, in a sentence.
     pub claim: String,
-    /// Where the expected value comes from.
+    /// Source of the expected value.
     pub source: String,
-    /// The command that computes it.
+    /// The command that computes the value.
     pub command: String,
-    /// Which value of what the command gives.
+    /// Path of the value in the result of the command.
     pub value: String,
     /// `equal`, `at most` or `at least`.
     pub comparison: &'static str,
-    /// What the value has to be.
+    /// Expected value, or the bound.
     pub expected: Numbers,
-    /// What it is; `None` where there is none.
+    /// Value found; `None` if there is none.
     pub found: Option<Numbers>,
-    /// What is allowed for the worst number.
+    /// Tolerance of the worst number.
     pub tolerance: f64,
-    /// How far the worst number is from what it has to be, or beyond its bound (negative: within it).
+    /// Distance of the worst number from its expected value, or beyond its bound (negative if within).
     pub miss: Option<f64>,
-    /// Why the tolerance, or the bound, is what it is.
+    /// Reason for the size of the tolerance or the bound.
     pub reason: String,
     /// Whether the claim holds.
     pub passed: bool,
-    /// Time of the experiment, which claims may share.
+    /// Duration of the experiment in seconds; several claims may share it.
     pub seconds: f64,
-    /// Why there is no value.
+    /// The reason why there is no value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<String>,
 }
 
-/// All that was checked.
+/// The results of a validation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub(crate) struct Report {
     /// Version of the program.
     pub version: &'static str,
-    /// Whether only the quick claims were asked for.
+    /// Whether only the quick claims were requested.
     pub quick: bool,
-    /// Whether it was stopped before all claims were checked.
+    /// Whether the validation was stopped before all claims were checked.
     pub interrupted: bool,
-    /// How many claims were to be checked.
+    /// Number of claims to check.
     pub claims: usize,
-    /// How many of `cases` passed.
+    /// Number of `cases` that passed.
     pub passed: usize,
-    /// Time of all experiments.
+    /// Total duration of all experiments in seconds.
     pub seconds: f64,
     /// The claims that were checked.
     pub cases: Vec<Case>,
     /// Diagrams of error against run time.
     pub diagrams: Vec<Diagram>,
-    /// Other charts; what they show stands in the tables.
+    /// Other charts; their numbers are also in the tables.
     #[serde(skip)]
     pub charts: Vec<Chart>,
-    /// Tables of what was measured besides.
+    /// Tables of the measurements.
     pub tables: Vec<ReportTable>,
 }
 
 impl Case {
-    /// Compares what an experiment gave with what a claim says.
+    /// Compares the result of an experiment with a claim.
     pub(crate) fn of(claim: &Claim, outcome: &Performed) -> Self {
         let (comparison, expected) = match &claim.wanted {
             Wanted::Equal { numbers, .. } => ("equal", numbers.clone()),
@@ -100,7 +100,7 @@ impl Case {
         }
     }
 
-    /// What has to be and what is allowed, in a few words.
+    /// Returns the expected value and its tolerance as a short text.
     pub(crate) fn expectation(&self) -> String {
         match self.comparison {
             "equal" => format!("{} \u{b1} {}", short(&self.expected), figure(self.tolerance)),
@@ -108,12 +108,12 @@ impl Case {
         }
     }
 
-    /// What was found, in a few words.
+    /// Returns the value found as a short text.
     pub(crate) fn finding(&self) -> String {
         self.found.as_ref().map_or_else(|| self.failure.clone().unwrap_or_default(), short)
     }
 
-    /// By how much it fails, or how far it is from failing.
+    /// Returns a text with the distance from the expected value or the bound.
     pub(crate) fn distance(&self) -> String {
         match (self.miss, self.comparison) {
             (None, _) => "no value".into(),
@@ -125,12 +125,12 @@ impl Case {
 }
 
 impl Report {
-    /// An empty report.
+    /// Makes an empty report.
     pub(crate) fn new(quick: bool, claims: usize) -> Self {
         Self { version: env!("CARGO_PKG_VERSION"), quick, claims, ..Self::default() }
     }
 
-    /// Adds a case, and what its experiment gave where it is the first to ask for it.
+    /// Adds a case, and the result of its experiment if this is given (it is given for the first claim that uses it).
     pub(crate) fn push(&mut self, case: Case, outcome: Option<&Performed>) {
         self.passed += usize::from(case.passed);
         self.cases.push(case);
@@ -149,7 +149,7 @@ impl Report {
         self.passed == self.claims
     }
 
-    /// Which claims were checked and how many hold, in a sentence.
+    /// Returns a sentence with the numbers of claims that hold, fail and were not checked.
     pub(crate) fn verdict(&self) -> String {
         let failed = self.cases.len() - self.passed;
         let left = match self.claims - self.cases.len() {
@@ -185,7 +185,7 @@ impl Report {
     }
 }
 
-/// The cheapest setting for errors that one may want.
+/// Returns a table of the cheapest setting for each error of a list.
 pub(crate) fn cheapest(diagram: &Diagram) -> ReportTable {
     let row = |(wanted, best): (f64, Option<(&str, &Setting)>)| match best {
         Some((method, setting)) => {
@@ -211,7 +211,7 @@ fn markdown_table(table: &ReportTable) -> String {
     format!("\n## {}\n\n{}{rule}{rows}", table.title, line(&table.header))
 }
 
-/// A few numbers in a few digits.
+/// Formats the first few of some numbers.
 fn short(numbers: &Numbers) -> String {
     const MOST: usize = 6;
     let list = numbers.list();
@@ -223,7 +223,7 @@ fn short(numbers: &Numbers) -> String {
     }
 }
 
-/// A number with at most ten digits, with an exponent where it is very large or small.
+/// Formats a number with at most ten digits, with an exponent if it is very large or small.
 pub(crate) fn figure(number: f64) -> String {
     let size = number.abs();
     if number == 0.0 || (1e-3..1e7).contains(&size) {

@@ -1,4 +1,4 @@
-//! The files of a report: `report.json`, `report.md`, and `report.html` ([`super::page`]).
+//! Writing of the reports `report.json`, `report.md` and `report.html` ([`super::page`]).
 
 use super::page;
 use super::report::Report;
@@ -7,7 +7,7 @@ use foldwell::output::{OutputError, files};
 use std::path::Path;
 
 impl Report {
-    /// Writes the three files.
+    /// Writes the three reports.
     ///
     /// # Errors
     /// [`OutputError::Write`].

@@ -1,4 +1,5 @@
-//! The driver: what holds passes, what does not fails and says by how much, and nothing is lost half-way.
+//! Tests of the validation: claims pass or fail correctly with their distance, and an interrupt keeps the results so
+//! far.
 
 use super::claim::Numbers;
 use super::*;
@@ -24,8 +25,8 @@ fn about_rays(wanted: &str) -> String {
     )
 }
 
-/// Claim: a planted wrong value fails with the size of the miss in all three reports, beside a right one that passes;
-/// a value that is not there fails as well.
+/// Claim: a claim with a wrong expected value fails with its distance in all three reports, while a correct one passes;
+/// a value that does not exist fails too.
 #[test]
 fn a_wrong_claim_fails_by_what_it_is_off() {
     let folder = tempfile::tempdir().unwrap();
@@ -54,7 +55,8 @@ fn a_wrong_claim_fails_by_what_it_is_off() {
     assert!(page.contains("rays &amp; more") && !page.contains("http://www.w3.org/1999") && !page.contains("<script"));
 }
 
-/// Claim: an experiment is performed once for all claims that need it, and a stopped validation leaves what it found.
+/// Claim: an experiment is performed once for all claims that use it, and an interrupted validation leaves its results
+/// so far.
 #[test]
 fn an_interrupt_leaves_what_is_finished() {
     let folder = tempfile::tempdir().unwrap();
@@ -73,7 +75,7 @@ fn an_interrupt_leaves_what_is_finished() {
     assert_eq!(json["cases"].as_array().unwrap().len(), 2);
 }
 
-/// Claim: names choose claims, `quick` leaves the long ones out, and an unknown name is wrong input.
+/// Claim: names select claims, `quick` leaves the long ones out, and an unknown name is an input error.
 #[test]
 fn claims_are_chosen() {
     let quick = about_rays("at_most = 30");

@@ -1,21 +1,21 @@
-//! Whether a value is what a claim says, and by how much it is not.
+//! Comparison of a value with the requirement of a claim.
 
 use super::claim::{Numbers, Wanted};
 use serde_json::Value;
 
-/// What comparing gave.
+/// The result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Verdict {
     /// Whether the claim holds.
     pub passed: bool,
-    /// How far the worst number is from its expected value, or beyond its bound (negative: within); NaN where numbers
+    /// Distance of the worst number from its expected value, or beyond its bound (negative if within); NaN if numbers
     /// are missing.
     pub miss: f64,
-    /// What is allowed for that number.
+    /// Tolerance of that number.
     pub tolerance: f64,
 }
 
-/// Compares. A number that is missing or not a number fails.
+/// Compares numbers with a requirement. A missing number and NaN fail.
 pub(crate) fn compare(wanted: &Wanted, found: &Numbers) -> Verdict {
     let bounded = |beyond: fn(f64, f64) -> f64, bound: f64| {
         let each = found.list().iter().map(|number| (beyond(*number, bound), 0.0));
@@ -32,7 +32,7 @@ pub(crate) fn compare(wanted: &Wanted, found: &Numbers) -> Verdict {
     }
 }
 
-/// The number that is worst, of misses and what is allowed for them; no number at all fails.
+/// Returns the verdict on the worst of pairs of a distance and its tolerance; an empty list fails.
 fn worst(each: Vec<(f64, f64)>) -> Verdict {
     let passed = !each.is_empty() && each.iter().all(|(miss, tolerance)| miss <= tolerance);
     let beyond = |(miss, tolerance): &(f64, f64)| if miss.is_nan() { f64::INFINITY } else { miss - tolerance };
@@ -41,10 +41,11 @@ fn worst(each: Vec<(f64, f64)>) -> Verdict {
     Verdict { passed, miss, tolerance }
 }
 
-/// The numbers at a path of a JSON value: `studies.loops.branches.*.arc_length`.
+/// Returns the numbers at a path in a JSON value, such as `studies.loops.branches.*.arc_length`.
 ///
-/// Steps between dots are keys of tables; places in lists; names of the entries of a list that have a `name`; `*`, all
-/// entries; `6..10`, those from 6 to 9. True is 1 and false is 0. `None` where there are no numbers.
+/// The steps between dots are keys of tables, indices in lists, names of the entries of a list that have a `name`, `*`
+/// for all entries of a list, or `6..10` for the entries 6 to 9. True counts as 1 and false as 0. `None` if there is no
+/// number at the path.
 pub(crate) fn numbers_at(value: &Value, path: &str) -> Option<Numbers> {
     let mut several = false;
     let mut values = vec![value];
@@ -95,7 +96,7 @@ mod tests {
         Wanted::Equal { numbers: Numbers::Many(numbers.to_vec()), absolute, relative }
     }
 
-    /// Claim: the worst number decides, and says by how much; by hand.
+    /// Claim: the worst number decides, and the verdict has its distance; expected values computed by hand.
     #[test]
     fn the_worst_number_decides() {
         let found = Numbers::Many(vec![1.25, 10.0, 3.0]);
@@ -108,7 +109,7 @@ mod tests {
         assert_eq!(compare(&Wanted::AtLeast(1.25), &found), Verdict { passed: true, miss: 0.0, tolerance: 0.0 });
     }
 
-    /// Claim: numbers that are missing, too many, or not numbers never pass.
+    /// Claim: missing numbers, too many numbers, and NaN never pass.
     #[test]
     fn what_is_no_number_fails() {
         for found in [vec![], vec![1.0], vec![1.0, 2.0, 3.0], vec![1.0, f64::NAN]] {
@@ -121,7 +122,7 @@ mod tests {
         }
     }
 
-    /// Claim: every kind of step finds what it says, and nothing is made up where there is nothing.
+    /// Claim: every kind of step finds its value; a path without value gives `None`.
     #[test]
     fn paths_lead_to_numbers() {
         let json = json!({ "studies": [{ "name": "a", "x": 1 }, { "name": "b", "list": [1, 2, 3, 4], "yes": true }] });

@@ -1,4 +1,4 @@
-//! What the tests of the engine share: sheets on domains, terms with random rest angles, and dense matrices.
+//! Shared helpers of the tests: sheets with boundary conditions, terms with random rest angles, and dense matrices.
 #![allow(dead_code)] // each test file uses a part
 
 use foldwell::analysis::modes::{Modes, ModesError, modes};
@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// Random numbers that are the same on every machine.
+/// A generator of random numbers, which are the same on every machine.
 pub struct Numbers(ChaCha8Rng);
 
 impl Numbers {
@@ -21,7 +21,7 @@ impl Numbers {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
-    /// Between `-size` and `size`.
+    /// Returns a number between `-size` and `size`.
     pub fn within(&mut self, size: f64) -> f64 {
         size * (2.0 * self.0.random::<f64>() - 1.0)
     }
@@ -36,35 +36,36 @@ pub fn mesh(name: &str) -> Sheet {
     fold::read(&path).expect("the repository's meshes can be read")
 }
 
-/// The same sheet in another unit of length.
+/// Returns the sheet in another unit of length.
 pub fn scaled(mut sheet: Sheet, by: f64) -> Sheet {
     sheet.vertices.iter_mut().for_each(|p| *p *= by);
     sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| l * by));
     sheet
 }
 
-/// A sheet with boundary conditions, without terms.
+/// Assembles a sheet with boundary conditions, without energy terms.
 pub fn on(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Assembly {
     Assembly::without_terms(sheet, cells, boundary).expect("a sheet that can have these boundary conditions")
 }
 
-/// Cells of a mesh of the repository as a patch, without terms.
+/// Assembles a patch of cells of a mesh of the repository, without energy terms.
 pub fn patch(name: &str, cells: [usize; 2]) -> Assembly {
     on(mesh(name), cells, Boundary::Patch)
 }
 
-/// What tests ask of a sheet with boundary conditions.
+/// Methods of a sheet with boundary conditions for tests.
 pub trait Testing {
     fn count(&self, kind: EdgeKind) -> usize;
-    /// Rest angles within `size` of the drawn ones, one random number for each hinge.
+    /// Returns rest angles that differ from the drawn angles by random numbers of at most `size`, one for each hinge.
     fn rest_per_hinge(&self, size: f64, seed: u64) -> Vec<f64>;
-    /// The same, one random number for each crease of the cell.
+    /// Returns rest angles that differ from the drawn angles by random numbers of at most `size`, one for each crease
+    /// of the cell.
     fn rest_per_cell(&self, size: f64, seed: u64) -> Vec<f64>;
-    /// Facets of this stiffness, at rest as drawn.
+    /// Returns facets of this stiffness with the drawn angles as rest angles.
     fn facets(&self, stiffness: f64) -> Option<Hinges>;
     fn model_of(&self, terms: &Terms, gauge: Gauge) -> Model;
     fn modes_of(&self, terms: &Terms, eigenvalues: usize) -> Result<Modes, ModesError>;
-    /// Relaxes from the drawn state.
+    /// Relaxes the sheet from the drawn state.
     fn relax(&self, terms: &Terms) -> Result<Relaxed, Box<RelaxError>>;
 }
 
@@ -108,12 +109,12 @@ pub fn linearized(model: &Model, x: &[f64], tension: &[f64]) -> Linearization {
     at
 }
 
-/// Jacobian of the stiff measures.
+/// Returns the Jacobian of the stiff terms.
 pub fn jacobian(model: &Model, at: &Linearization) -> DenseMatrix {
     dense::from_rows(&at.rows(), model.layout().unknowns)
 }
 
-/// Hessian of the whole energy, `H + R^T k R`, at a state without tensions. All stiffnesses must be finite.
+/// Returns the Hessian of the whole energy, `H + R^T k R`, at a state without tensions. All stiffnesses must be finite.
 pub fn energy_hessian(model: &Model, x: &[f64]) -> DenseMatrix {
     let at = linearized(model, x, &vec![0.0; model.layout().stiff.len()]);
     let mut rows = jacobian(model, &at);
@@ -122,20 +123,21 @@ pub fn energy_hessian(model: &Model, x: &[f64]) -> DenseMatrix {
     at.pattern().to_dense(&at.hessian) + rows.tr_mul(&rows)
 }
 
-/// Eigenvalues of a symmetric matrix, ascending, by nalgebra: another library than the program's.
+/// Returns the eigenvalues of a symmetric matrix in ascending order, by nalgebra, which the program does not use for
+/// this.
 pub fn eigenvalues(matrix: DenseMatrix) -> Vec<f64> {
     let mut values: Vec<f64> = matrix.symmetric_eigenvalues().iter().copied().collect();
     values.sort_by(f64::total_cmp);
     values
 }
 
-/// Largest absolute difference of two lists, where both have numbers.
+/// Returns the largest absolute difference of two lists over the entries where both are numbers.
 pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).filter(|d| !d.is_nan()).fold(0.0, f64::max)
 }
 
-/// A scene in a folder of its own is refused with this message and status 2, and nothing is written.
+/// Checks that a scene in a folder of its own is refused with this message and status 2, and that nothing is written.
 pub fn assert_refused(scene: impl Fn(&Path) -> PathBuf, expected: &str) {
     let folder = tempfile::tempdir().expect("a folder");
     let (scene, out) = (scene(folder.path()), folder.path().join("out"));

@@ -1,4 +1,4 @@
-//! A solver's problem made from closures.
+//! A problem for the solver that is defined by closures.
 #![allow(dead_code)] // each test file uses a part
 
 use foldwell::numerics::sparse::Cliques;
@@ -7,10 +7,11 @@ use foldwell::solver::{
 };
 use std::sync::Arc;
 
-/// A scalar with gradient and lower triangle (row by row) of its Hessian, in its own variables.
+/// A function that returns a scalar with its gradient and the lower triangle (row by row) of its Hessian, in its own
+/// variables.
 pub type Measure = Box<dyn Fn(&[f64]) -> (f64, Vec<f64>, Vec<f64>)>;
 
-/// `E = sum w m^2 / 2 - load . x` under stiff measures `m = c t`.
+/// The problem to minimise `E = sum w m^2 / 2 - load . x` under stiff measures `m = c t`.
 pub struct Textbook {
     layout: Arc<Layout>,
     soft: Vec<(f64, Measure)>,
@@ -111,7 +112,7 @@ impl Problem for Textbook {
     fn accept(&mut self, _x: &mut [f64]) {}
 }
 
-/// `a . x - rest`.
+/// Returns the measure `a . x - rest`.
 pub fn linear(a: &[f64], rest: f64) -> Measure {
     let a = a.to_vec();
     Box::new(move |x| {
@@ -120,7 +121,8 @@ pub fn linear(a: &[f64], rest: f64) -> Measure {
     })
 }
 
-/// Length from a fixed point of the plane, or between two moving points, less `rest`.
+/// Returns the measure of a length, minus `rest`: the distance from a fixed point of the plane, or between two moving
+/// points.
 pub fn length(from: Option<[f64; 2]>, rest: f64) -> Measure {
     Box::new(move |x| {
         let (a, b) = match from {

@@ -1,12 +1,12 @@
-//! Letters of `edges_assignment` mean what FOLD 1.2 says, are refused by name where they contradict the mesh, and are
-//! kept by `convert` together with what a file says about itself.
+//! Edge assignments: the letters of `edges_assignment` are interpreted as in FOLD 1.2, are refused with their edge if
+//! they contradict the mesh, and are kept by `convert` together with the metadata of the file.
 
 use std::path::Path;
 use std::process::Command;
 
 use foldwell::sheet::{Assignment, EdgeKind, Info, Sheet, fold, obj};
 
-/// Four unit squares round vertex 4; the ends of edges from line 4, their letters below.
+/// Returns four unit squares around vertex 4. The ends of the edges are on line 4, their letters on the line below.
 ///
 /// ```text
 /// 6 7 8
@@ -29,7 +29,7 @@ fn count(sheet: &Sheet, kind: EdgeKind) -> usize {
 }
 
 /// Claim (FOLD 1.2, `edges_assignment`): the two sides of C are separate boundaries. A cut from the rim to the middle
-/// makes one vertex more and leaves a disc of one crease less; one right through makes two pieces. Counted by hand.
+/// adds one vertex and leaves a disc with one crease less; a cut right through makes two pieces. Counted by hand.
 #[test]
 fn a_cut_parts_the_sheet() {
     let whole = fold::parse(&squares(&[], ""), "a.fold").unwrap();
@@ -48,7 +48,8 @@ fn a_cut_parts_the_sheet() {
     assert!(halves.polygons[0].iter().all(|corner| corner.vertex < 9));
 }
 
-/// Claim (FOLD 1.2): J is no crease, its faces are parts of one polygon; U and F are creases; all are kept as assigned.
+/// Claim (FOLD 1.2): J is not a crease, and its faces are parts of one polygon; U and F are creases; all letters are
+/// kept.
 #[test]
 fn joined_faces_have_no_crease() {
     let edges = [([1, 4], "J"), ([4, 7], "U"), ([3, 4], "F"), ([4, 5], "M")];
@@ -66,7 +67,7 @@ fn joined_faces_have_no_crease() {
     assert_eq!(letter(0, 1), (EdgeKind::Boundary, Assignment::Boundary));
 }
 
-/// Claim: letters that contradict the mesh are refused with the line of their edge and its number.
+/// Claim: letters that contradict the mesh are refused with the line and the number of their edge.
 #[test]
 fn contradictions_are_refused() {
     let lattice = "\"foldwell:lattice\": [[2,0,0],[0,2,0]],";
@@ -84,11 +85,11 @@ fn contradictions_are_refused() {
     for letter in ["V", "U", "F"] {
         fold::parse(&valley(letter), "a.fold").unwrap();
     }
-    // the outline of a drawn cell is no contradiction
+    // B on the outline of a drawn cell is not a contradiction
     fold::parse(&squares(&[([0, 1], "B"), ([7, 6], "B")], lattice), "a.fold").unwrap();
 }
 
-/// Two triangles that fold up by 45 degrees; the edge between them is on line 4.
+/// Returns two triangles that fold up by 45 degrees; the edge between them is on line 4.
 fn valley(letter: &str) -> String {
     format!(
         "{{\"vertices_coords\": [[0,0,0],[1,0,0],[0,1,0],[0,-1,1]],\n\"faces_vertices\": [[0,1,2],[1,0,3]],\n\
@@ -96,7 +97,7 @@ fn valley(letter: &str) -> String {
     )
 }
 
-/// A cut of one edge between two vertices inside: a triangle fan round each.
+/// Returns a cut of one edge between two inner vertices, with a triangle fan around each.
 fn inner_slit() -> String {
     String::from(
         "{\"vertices_coords\": [[0,0],[3,0],[3,3],[0,3],[1,1],[2,2]],\n\
@@ -105,8 +106,8 @@ fn inner_slit() -> String {
     )
 }
 
-/// Claim: a hole that is drawn with B edges stays a hole where the faces are rebuilt from the edges: a ring, whose
-/// Euler characteristic is 0, of four polygons.
+/// Claim: a hole that is drawn with B edges stays a hole if the faces are rebuilt from the edges: a ring of four
+/// polygons, whose Euler characteristic is 0.
 #[test]
 fn holes_are_not_filled() {
     let text = "{\"vertices_coords\": [[0,0],[3,0],[3,3],[0,3],[1,1],[2,1],[2,2],[1,2]],\n\
@@ -117,7 +118,7 @@ fn holes_are_not_filled() {
     assert_eq!(Info::new(&ring).euler_characteristic, 0);
 }
 
-/// Claim: what is written reads as the same sheet, cuts, joins and letters included, in FOLD and in OBJ.
+/// Claim: a written file is read back as the same sheet, including cuts, joins and letters, in FOLD and in OBJ.
 #[test]
 fn letters_come_back() {
     let edges = [([1, 4], "C"), ([4, 7], "J"), ([3, 4], "M"), ([4, 5], "V"), ([0, 1], "C")];
@@ -135,8 +136,8 @@ fn convert(from: &Path, to: &Path) -> (String, String) {
     (String::from_utf8(output.stderr).unwrap(), String::from_utf8_lossy(&std::fs::read(to).unwrap()).into_owned())
 }
 
-/// Claim: `convert` keeps the mountains and valleys of a flat pattern, its author and its frame's metadata, and says
-/// on standard error which frames and keys it does not keep.
+/// Claim: `convert` keeps the mountains and valleys of a flat pattern, its author and the metadata of its frame, and
+/// reports on standard error which frames and keys it does not keep.
 #[test]
 fn convert_keeps_letters_and_says_what_it_drops() {
     let folder = tempfile::tempdir().unwrap();
@@ -158,7 +159,7 @@ fn convert_keeps_letters_and_says_what_it_drops() {
     assert!(info.to_string().contains("2 more in the file"));
 }
 
-/// Claim: a file that this program has written is converted without a word.
+/// Claim: a file that was written by this program is converted without any message.
 #[test]
 fn nothing_is_said_where_nothing_is_lost() {
     let folder = tempfile::tempdir().unwrap();

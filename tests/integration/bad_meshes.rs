@@ -1,5 +1,4 @@
-//! Malformed meshes: each is refused with file, line, what is wrong and what would be right, and none makes the reader
-//! panic.
+//! Malformed meshes: each is refused with file, line, fault and remedy, and no file makes the reader panic.
 
 use foldwell::sheet::{Pattern, SheetError, fold, generate, obj};
 use proptest::prelude::*;
@@ -8,7 +7,7 @@ use proptest::prelude::*;
 const SQUARE: [&[&str]; 2] = [&["[0, 0, 0]", "[1, 0, 0]", "[1, 1, 0]", "[0, 1, 0]"], &["[0, 1, 2]", "[0, 2, 3]"]];
 const UNIT_LATTICE: &str = "\"foldwell:lattice\": [[1, 0, 0], [0, 1, 0]]";
 
-/// A FOLD text with one vertex, face or other key a line.
+/// Returns a FOLD text with one vertex, face or other key on each line.
 fn mesh(vertices: &[&str], faces: &[&str], others: &[&str]) -> String {
     let (vertices, faces) = (vertices.join(",\n"), faces.join(",\n"));
     let others: String = others.iter().map(|other| format!(", {other}\n")).collect();
@@ -19,12 +18,12 @@ fn square(others: &[&str]) -> String {
     mesh(SQUARE[0], SQUARE[1], others)
 }
 
-/// A FOLD text without faces: vertices from line 3, edges from line `5 + vertices`.
+/// Returns a FOLD text without faces: vertices from line 3, edges from line `5 + vertices`.
 fn wires(vertices: &[&str], edges: &[&str]) -> String {
     mesh(vertices, edges, &[]).replace("faces_vertices", "edges_vertices")
 }
 
-/// A text, the line that is to blame, and words of the message.
+/// A text, the line of its fault, and a part of the message.
 type Case = (String, usize, &'static str);
 
 fn check(cases: Vec<Case>, name: &str, parse: fn(&str, &str) -> Result<foldwell::sheet::Sheet, SheetError>) {
@@ -38,7 +37,7 @@ fn check(cases: Vec<Case>, name: &str, parse: fn(&str, &str) -> Result<foldwell:
     }
 }
 
-/// Claim: the meshes that the cases below spoil are good as they stand, so that each case shows its one fault.
+/// Claim: the meshes from which the cases below are made are valid, so that each case has exactly one fault.
 #[test]
 fn the_unspoilt_meshes_are_accepted() {
     fold::parse(&square(&[]), "good.fold").unwrap();
@@ -50,7 +49,7 @@ fn the_unspoilt_meshes_are_accepted() {
     obj::parse(OBJ, "good.obj").unwrap();
 }
 
-/// Claim: what is no FOLD file, or has values of the wrong type, is refused at the value.
+/// Claim: a text that is not FOLD, or has values of a wrong type, is refused at the value.
 #[test]
 fn wrong_texts_and_types() {
     let cases = vec![
@@ -92,7 +91,7 @@ fn wrong_texts_and_types() {
     check(cases, "bad.fold", fold::parse);
 }
 
-/// Claim: numbers that name no vertex, points at one place and coordinates that mean nothing are refused.
+/// Claim: indices without a vertex, coincident points and coordinates that are not finite numbers are refused.
 #[test]
 fn wrong_vertices() {
     let [vertices, faces] = SQUARE;
@@ -120,12 +119,12 @@ fn wrong_vertices() {
     check(cases, "bad.fold", fold::parse);
 }
 
-/// Two triangles that share a vertex only.
+/// Returns two triangles that share only a vertex.
 fn bow() -> String {
     mesh(&["[0, 0, 0]", "[1, 0, 0]", "[1, 1, 0]", "[2, 1, 0]", "[2, 2, 0]"], &["[0, 1, 2]", "[2, 3, 4]"], &[])
 }
 
-/// Claim: faces that are no polygons, or that do not fit together, are refused with their numbers.
+/// Claim: faces that are not polygons, or that do not fit together, are refused with their numbers.
 #[test]
 fn wrong_faces() {
     let [vertices, faces] = SQUARE;
@@ -156,7 +155,8 @@ fn wrong_faces() {
     check(cases, "bad.fold", fold::parse);
 }
 
-/// A 3 x 3 cell of squares whose middle is open; the faces are on lines 21 to 28, other keys from line 30.
+/// Returns a 3 x 3 cell of squares with an opening in the middle; the faces are on lines 21 to 28, other keys from line
+/// 30.
 fn ring(others: &[&str]) -> String {
     let vertices: Vec<String> = (0..16).map(|v| format!("[{}, {}, 0]", v % 4, v / 4)).collect();
     let corners = [0, 1, 2, 4, 6, 8, 9, 10];
@@ -170,7 +170,7 @@ fn ring(others: &[&str]) -> String {
 
 const RING_HOLE: &str = "\"foldwell:holes\": [[5, 6, 10, 9]]";
 
-/// Claim: a lattice that spans nothing, edges without a partner, and openings that are none, are refused.
+/// Claim: a degenerate lattice, edges without a partner, and invalid openings are refused.
 #[test]
 fn wrong_lattices() {
     let lattice = |l: &str| square(&[&format!("\"foldwell:lattice\": {l}")]);
@@ -208,7 +208,7 @@ fn wrong_lattices() {
     check(cases, "bad.fold", fold::parse);
 }
 
-/// Claim: edges that contradict the faces, or that bound no faces to rebuild, are refused with their numbers.
+/// Claim: edges that contradict the faces, or from which no faces can be rebuilt, are refused with their numbers.
 #[test]
 fn wrong_edges() {
     let vertices = SQUARE[0];
@@ -246,7 +246,7 @@ fn wrong_edges() {
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
 
-/// Claim: OBJ files have the same checks; their messages count from 1 as OBJ does.
+/// Claim: OBJ files are checked in the same way; their messages count from 1 as OBJ does.
 #[test]
 fn wrong_obj_files() {
     let line = |more: &str| format!("{OBJ}{more}\n");
@@ -268,7 +268,7 @@ fn wrong_obj_files() {
     check(cases, "bad.obj", obj::parse);
 }
 
-/// Claim: a file that is not there is another error than a file that is wrong.
+/// Claim: a missing file gives another error than a malformed one.
 #[test]
 fn missing_file() {
     let error = fold::read(std::path::Path::new("no/such/file.fold")).unwrap_err();
@@ -276,7 +276,7 @@ fn missing_file() {
     assert!(error.to_string().starts_with("no/such/file.fold: "), "{error}");
 }
 
-/// One way to spoil a text.
+/// A random change of a text.
 #[derive(Clone, Debug)]
 enum Damage {
     Flip(usize, u8),
@@ -300,7 +300,7 @@ fn damage() -> impl Strategy<Value = Damage> {
     ]
 }
 
-/// Places of the numbers of a text.
+/// Returns the positions of the numbers in a text.
 fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {
     let part = |c: char| c.is_ascii_digit() || ".-+e".contains(c);
     let mut ranges: Vec<std::ops::Range<usize>> = Vec::new();
@@ -341,7 +341,8 @@ fn spoil(text: &mut String, damage: &Damage) {
     }
 }
 
-/// Valid files to spoil: a cell of triangles, polygons of several sizes, a finite sheet, an opening, edges alone.
+/// Returns valid files to damage: a cell of triangles, polygons of several sizes, a finite sheet, an opening, and a
+/// file with edges only.
 fn good_files(n: usize) -> String {
     let of = |name: &str| fold::write(&generate(&Pattern::named(name).unwrap()).unwrap());
     match n % 6 {
@@ -357,7 +358,7 @@ fn good_files(n: usize) -> String {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Claim: no damage to a file makes the readers panic; what is still accepted can be written and read again.
+    /// Claim: no damage to a file makes the readers panic; a file that is still accepted can be written and read again.
     #[test]
     fn damaged_files_never_panic(n in 0usize..6, kinds in proptest::collection::vec(damage(), 1..4), as_obj in any::<bool>()) {
         let mut text = good_files(n);
@@ -373,8 +374,8 @@ proptest! {
     }
 }
 
-/// Claim: what other programs write into OBJ files is read: byte order marks, comments at the end of a line, lines that go
-/// on after a backslash, comments in Latin-1. A byte order mark in FOLD is no fault either.
+/// Claim: OBJ files of other programs are read: with byte order marks, comments at the end of a line, lines continued
+/// after a backslash, and comments in Latin-1. A byte order mark is also accepted in FOLD.
 #[test]
 fn texts_of_other_programs() {
     let plain = obj::parse(OBJ, "a.obj").unwrap();

@@ -1,4 +1,4 @@
-//! Barriers of structures whose wells exist only because their bars are as stiff as they are, and starts that fail.
+//! Barriers of structures whose wells exist only at their stiffness of bars, and random starts that fail.
 
 use approx::assert_relative_eq;
 use foldwell::output::summary::{StudyResult, StudySummary, WellsSummary};
@@ -7,7 +7,7 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-/// What a study of wells of a mesh in `tests/cases` finds, and its table of barriers.
+/// Returns the study of wells of a mesh in `tests/cases`, its results, and its table of barriers.
 fn wells(mesh: &str, sheet: &str, energy: &str, study: &str) -> (StudySummary, WellsSummary, String) {
     let folder = tempfile::tempdir().unwrap();
     let cases = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases").display().to_string();
@@ -25,10 +25,11 @@ fn wells(mesh: &str, sheet: &str, energy: &str, study: &str) -> (StudySummary, W
     (summary, found, table)
 }
 
-/// Claim: whether a barrier is found does not depend on the unit of energy: a closed drum of two hexagons and twelve triangles,
-/// its creases 1e-6 of its bars, has the same one in units 1e6 apart, to the tolerance of 1e-11 of a pass, at which
-/// its energy is known to ten digits. Distances of wells were compared with a fixed number once; then the smaller unit had
-/// no such wells. The pass is that of an independent program, 8.219153e-5 of the bars, to the seven digits given.
+/// Claim: whether a barrier is found does not depend on the unit of energy. A closed drum of two hexagons and twelve
+/// triangles, with creases 1e-6 of its bars, has the same barrier in units 1e6 apart, to the tolerance of 1e-11 of a
+/// pass, at which its energy is known to ten digits. With a fixed threshold for the distance of wells the smaller unit
+/// would have no such wells. The pass is that of an independent program, 8.219153e-5 of the bars, to the seven digits
+/// given.
 #[test]
 fn barriers_in_any_unit_of_energy() {
     for unit in [1.0, 1e-6] {
@@ -41,9 +42,9 @@ fn barriers_in_any_unit_of_energy() {
     }
 }
 
-/// Claim: the two wells of a square twist with soft facets exist only because bars are as stiff as they are, 1e4: in softer ones
-/// there is one. The barrier between them is found all the same, lies above both, holds for those bars and says so, also in
-/// the table.
+/// Claim: the two wells of a square twist with soft facets exist only with bars as stiff as 1e4; with softer bars there
+/// is one. The barrier between them is found nevertheless, lies above both, and is reported for those bars, also in the
+/// table.
 #[test]
 fn barriers_at_the_own_stiffness() {
     let energy = "bars = { stiffness = 1e4 }\ncreases = { stiffness = 1.0, rest = { file = \"CASES/twist-rest.csv\" } }\n\
@@ -57,9 +58,9 @@ fn barriers_at_the_own_stiffness() {
     assert!(table.lines().count() == 2 && table.lines().nth(1).unwrap().contains("10000"), "{table}");
 }
 
-/// Claim: a pass so steep that a descent from it steps across is found too: creases of 1e-8 of the bars of the drum. Its energy
-/// differs from that with creases of 1e-6, 8.219153e-5, by the energy of the creases in it, which lies between those in the
-/// two wells: 0 and 5.369354 times their stiffness, see the wells of the drum.
+/// Claim: a pass that is so steep that a descent from it steps across is found too: creases of 1e-8 of the bars of the
+/// drum. Its energy differs from that with creases of 1e-6, 8.219153e-5, by the energy of its creases, which lies
+/// between those of the two wells: 0 and 5.369354 times their stiffness, see the wells of the drum.
 #[test]
 fn steep_passes() {
     let energy = "bars = { stiffness = 1.0 }\ncreases = { stiffness = 1e-8 }";
@@ -67,13 +68,14 @@ fn steep_passes() {
     assert!(study.converged, "{:?}", study.reason);
     let barrier = &found.barriers[0];
     assert!(barrier.confirmed && barrier.joins.is_some_and(|[a, b]| a != b), "{barrier:?}");
-    // by how much energy rises with the stiffness of creases is their energy over it, to second order in 1e-6
+    // the derivative of the energy by the stiffness of the creases is their energy divided by it, to second order in
+    // 1e-6
     let slope = (8.219153e-5 - barrier.energy.unwrap()) / (1e-6 - 1e-8);
     assert!((0.0..5.369354).contains(&slope), "{slope}");
 }
 
-/// Claim: where the straight path between two wells is symmetric and leads over a state with two negative eigenvalues, a bent
-/// one finds the pass beside it: the square twist with bars of 1.5e4.
+/// Claim: if the straight path between two wells is symmetric and leads over a state with two negative eigenvalues, a
+/// bent path finds the pass next to it: the square twist with bars of 1.5e4.
 #[test]
 fn paths_leave_ridges() {
     let energy = "bars = { stiffness = 1.5e4 }\ncreases = { stiffness = 1.0, rest = { file = \"CASES/twist-rest.csv\" } }\n\
@@ -85,9 +87,9 @@ fn paths_leave_ridges() {
     assert!(barrier.height.unwrap().iter().all(|height| *height > 0.0), "{barrier:?}");
 }
 
-/// Claim: random starts fail where the sheet does, not where the random state cannot be found to many digits: every start of
-/// a folded eggbox of rigid bars on a screw ends in a well. Seven of these ten failed when crumpled states had to be as certain
-/// as equilibria.
+/// Claim: random starts fail only if the relaxation of the sheet itself fails, not if the random state cannot be found
+/// to many digits: every start of a folded eggbox of rigid bars on a screw ends in a well. Seven of these ten would
+/// fail if crumpled states had to be found as exactly as equilibria.
 #[test]
 fn crumpled_states_need_no_digits() {
     let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1.0), "starts = 10");
@@ -95,8 +97,8 @@ fn crumpled_states_need_no_digits() {
     assert_eq!(found.wells.iter().map(|well| well.reached).sum::<usize>() + found.saddles, 10);
 }
 
-/// Claim: where most starts fail the wells that were found are no answer, and it is counted why: facets of 1e-9 of the
-/// creases leave directions that cost next to nothing.
+/// Claim: if most starts fail, the wells found are not a result, and the reasons are counted: facets of 1e-9 of the
+/// creases leave directions of almost no stiffness.
 #[test]
 fn failed_starts_are_counted() {
     let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1e-9), "starts = 10");

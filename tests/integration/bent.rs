@@ -1,13 +1,13 @@
-//! Sheets bent along a linear folding mode: almost no force anywhere, on ever larger sheets.
+//! Sheets bent along a linear folding mode, with almost no forces, on increasingly large patches.
 
 use crate::common::{Testing, patch};
 use foldwell::kinematics::folding_modes::folding_modes;
 use foldwell::model::{Gauge, Terms};
 use foldwell::solver::{Options, minimize};
 
-/// Claim: rest angles along one linear mode of `open-star`, of amplitudes 0.06, 0.01 and 0 (at rest as drawn), relax to
-/// the usual tolerance in at most 25 steps on patches from 4 x 4 to 24 x 24 cells, also though fold angles are only
-/// known to the rounding of coordinates as large as the sheet.
+/// Claim: rest angles along one linear mode of `open-star`, of amplitudes 0.06, 0.01 and 0 (rest angles as drawn),
+/// relax to the usual tolerance in at most 25 steps on patches from 4 x 4 to 24 x 24 cells, although fold angles are
+/// known only to the rounding errors of coordinates as large as the sheet.
 #[test]
 fn bent_patches_converge() {
     let mut failed = Vec::new();

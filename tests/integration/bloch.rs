@@ -1,4 +1,4 @@
-//! Spatially varying modes: theory, section 8.
+//! Spatially varying modes (theory, section 8).
 
 use crate::common::{Numbers, mesh};
 use crate::theory::duality::{displacement, fold_rates};
@@ -25,7 +25,7 @@ fn random(size: [usize; 2], seed: u64) -> Sheet {
     generate(&Pattern::Random(Random { size, seed, ..Random::default() })).unwrap()
 }
 
-/// 200 random cells of 2 x 2 to 4 x 4 vertices.
+/// Returns 200 random cells of 2 x 2 to 4 x 4 vertices.
 fn random_cells() -> impl Iterator<Item = Sheet> {
     let sizes = (2..=4).flat_map(|a| (2..=4).map(move |b| [a, b]));
     (0..200).zip(sizes.cycle()).map(|(seed, size)| random(size, 1000 + seed))
@@ -35,9 +35,8 @@ fn determinant(sheet: &Sheet) -> Determinant {
     Determinant::new(&Rigidity::of_sheet(sheet, false).unwrap()).unwrap()
 }
 
-/// Claim: the coefficients of the reference cell are those that an independent program found (exact up to the sign),
-/// and its decay rates at q1 = 0.9 too. Tolerance: 1e-14 of coefficients of 0.05; 1e-13 for decay rates of condition
-/// below 100.
+/// Claim: the coefficients of the reference cell, and its decay rates at q1 = 0.9, are those of an independent program
+/// (exact up to the sign). Tolerance: 1e-14 for coefficients of 0.05; 1e-13 for decay rates of condition below 100.
 #[test]
 fn stored_numbers_of_open_star() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases/open-star.json");
@@ -67,9 +66,9 @@ fn stored_numbers_of_open_star() {
     }
 }
 
-/// Claim: on 200 random cells the centred determinant is symmetric and real to 1e-12, powers are whole numbers, decay
-/// rates pair to 1e-9 where they are well conditioned, and as many roots are inside as outside: no polarization. Of
-/// roots corrected on the matrix at most one in a hundred is ill-conditioned.
+/// Claim: on 200 random cells the centred determinant is symmetric and real to 1e-12, powers are integers, decay rates
+/// pair to 1e-9 if they are well conditioned, and as many roots are inside as outside the unit circle: no polarization.
+/// At most one in a hundred of the roots corrected on the matrix is ill-conditioned.
 #[test]
 fn random_cells_are_symmetric_and_not_polarized() {
     let (mut symmetry, mut imaginary, mut error, mut pairing) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
@@ -107,7 +106,7 @@ fn random_cells_are_symmetric_and_not_polarized() {
     assert!(100 * left_out <= pairs, "{left_out} roots of {pairs} are ill-conditioned");
 }
 
-/// Claim: at a flat state the determinant vanishes identically (theory, section 8): this is said, not computed with.
+/// Claim: at a flat state the determinant vanishes identically (theory, section 8), which is reported as an error.
 #[test]
 fn flat_sheets_have_no_determinant() {
     let refused = Determinant::new(&Rigidity::of_sheet(&mesh("open-flat"), false).unwrap());
@@ -115,8 +114,8 @@ fn flat_sheets_have_no_determinant() {
     assert!(message.contains("flat sheet"), "{message}");
 }
 
-/// Distance of real wavenumbers from a singular `R` along the gradient: the smallest singular value over its gradient,
-/// `u^H dR v`; what singular values may be by rounding, 1e-15 of the largest, is taken off.
+/// Returns the distance of real wavenumbers from a singular `R` along the gradient: the smallest singular value divided
+/// by its gradient, `u^H dR v`. The rounding error of singular values, 1e-15 of the largest, is subtracted.
 fn distance_from_singular(rigidity: &Rigidity, q: [f64; 2]) -> f64 {
     let z = q.map(|q| Complex::from_polar(1.0, q));
     let ComplexSvd { u, singular_values, v } = complex_svd(&rigidity.at(z)).unwrap();
@@ -125,16 +124,17 @@ fn distance_from_singular(rigidity: &Rigidity, q: [f64; 2]) -> f64 {
     (singular_values[last] - 1e-15 * singular_values[0]).max(0.0) / slope(0).norm().hypot(slope(1).norm())
 }
 
-/// Largest distance of a point of a line from its first.
+/// Returns the largest distance of a point of a line from its first point.
 fn extent(line: &ZeroLine) -> f64 {
     let from = |q: &[f64; 2]| (q[0] - line.points[0][0]).hypot(q[1] - line.points[0][1]);
     line.points.iter().map(from).fold(0.0, f64::max)
 }
 
-/// How far a line leaves `q = 0` off the nearest of some directions, in radians; 0 where it does not pass there.
+/// Returns the angle in radians between the line at `q = 0` and the nearest of some directions; 0 if the line does not
+/// pass there.
 fn off_directions(line: &ZeroLine, directions: &[f64]) -> f64 {
     let last = line.points.len() - 1;
-    // the second point is the first after q = 0, the one before the last comes back to it
+    // the line leaves q = 0 towards the second point, and returns to it from the last but one
     let ends = [line.points[1], [0, 1].map(|a| line.points[last - 1][a] - line.points[last][a])];
     let off = |q: &[f64; 2]| {
         let from = |angle: &f64| (q[1].atan2(q[0]) - angle).sin().abs();
@@ -143,11 +143,11 @@ fn off_directions(line: &ZeroLine, directions: &[f64]) -> f64 {
     if line.passes > 0 { ends.iter().map(off).fold(0.0, f64::max) } else { 0.0 }
 }
 
-/// Claim: the leading quartic that the strains of the three linear modes give is that of the determinant's expansion up
-/// to one factor (1e-8 of its largest coefficient; rounding of moments of some 100 coefficients), reciprocity of any
-/// two modes holds to 1e-12, the determinant vanishes to fourth order, and the traced lines leave `q = 0` in the
-/// directions of the real roots, which are 0, 2 or 4 in number: on 200 random cells. All lines agree with the signs on
-/// a grid (`ZeroLines` refuses others), and their points are zeros to 1e-12, by their own estimate and by the singular
+/// Claim: the leading quartic from the strains of the three linear modes is that of the determinant's expansion up to
+/// one factor (1e-8 of its largest coefficient; rounding errors of moments of some 100 coefficients), reciprocity of
+/// any two modes holds to 1e-12, the determinant vanishes to fourth order, and the traced lines leave `q = 0` in the
+/// directions of the real roots, of which there are 0, 2 or 4: on 200 random cells. All lines agree with the signs on a
+/// grid (`ZeroLines` refuses others), and their points are zeros to 1e-12, by their own estimate and by the singular
 /// values of the matrix.
 #[test]
 fn zero_lines_of_random_cells() {
@@ -205,12 +205,13 @@ fn zero_lines_of_random_cells() {
     assert!(reciprocity <= 1e-12 && counts[1] == 0 && counts[3] == 0);
     assert!(residuals[199] <= 1e-12 && by_matrix <= 1e-12 && checked > 5000);
     assert!(counts[0] > 0 && counts[2] > 0, "{counts:?}");
-    // the curves are 1e-4 away from q = 0 there
+    // the points of the lines are at 1e-4 from q = 0 there
     assert!(angles <= 1e-2, "{angles:e}");
 }
 
-/// The determinant `(cos q1 - cos s1)^2 + (cos q2 - cos s2)^2 - depth` without a sheet: zero on four closed lines round
-/// `(+-s1, +-s2)`, ellipses of the semiaxes `sqrt(depth) / sin s` up to terms of their cube; nowhere for negative depth.
+/// Returns the determinant `(cos q1 - cos s1)^2 + (cos q2 - cos s2)^2 - depth`, which does not belong to a sheet: zero
+/// on four closed lines around `(+-s1, +-s2)`, ellipses of the semiaxes `sqrt(depth) / sin s` up to terms of their
+/// cube; without zeros for negative depth.
 fn four_loops(s: [f64; 2], depth: f64) -> Determinant {
     let mut coefficients = DenseMatrix::zeros(5, 5);
     for (a, cosine) in s.map(f64::cos).into_iter().enumerate() {
@@ -224,9 +225,9 @@ fn four_loops(s: [f64; 2], depth: f64) -> Determinant {
     Determinant { polynomial, symmetric: true, symmetry_error: 0.0, imaginary_part: 0.0, error: none, magnitude: 8.0 }
 }
 
-/// Claim: closed lines a thousandth as large as the mesh of the grid are found, which no sign on the grid betrays, all
-/// four and nothing else, and they are where the polynomial has them; a determinant that nearly touches zero has none.
-/// Tolerance: 1e-4 of the semiaxes for the terms of their cube, and for lengths of polygons of turns of 0.15.
+/// Claim: closed lines a thousandth as large as the mesh of the grid, where no sign on the grid differs, are found, all
+/// four and no others, at the zeros of the polynomial; a determinant that nearly touches zero has none. Tolerance: 1e-4
+/// of the semiaxes for the terms of their cube, and for lengths of polygons of turns of 0.15.
 #[test]
 fn lines_smaller_than_the_mesh() {
     let mesh = TAU / 192.0;
@@ -253,10 +254,10 @@ fn lines_smaller_than_the_mesh() {
 }
 
 /// Claim: at every wavenumber there are as many zero modes as self stresses at the opposite one, and by the fold rates
-/// as many at the same one (duality): from a null vector of `R(z)` the fold rates are a self stress at `z`, whose
+/// as many at the same one (duality): the fold rates of a null vector of `R(z)` are a self stress at `z`, whose
 /// displacement is that null vector again; a left null vector is a self stress at `1/z`, and has a displacement there
-/// that stretches no bar. On roots of random cells and at a complex pair. Tolerance: 1e-9 for null vectors of roots
-/// known to 1e-10.
+/// that stretches no bar. Tested on roots of random cells and at a complex pair. Tolerance: 1e-9 for null vectors of
+/// roots known to 1e-10.
 #[test]
 fn duality_at_finite_wavenumber() {
     let mut worst = [0.0f64; 4];
@@ -290,15 +291,15 @@ fn duality_at_finite_wavenumber() {
     assert!(worst.iter().all(|error| *error <= 1e-9), "{worst:?}");
 }
 
-/// Forces on the vertices of tensions in some bars, multiplied by `z1` and `z2` from a cell to the next, put together
-/// vertex by vertex from the edges: `rows x columns` of coordinates by bars.
+/// Returns the matrix of forces on the vertices due to tensions in some bars, which are multiplied by `z1` and `z2`
+/// from a cell to the next; assembled vertex by vertex from the edges. Rows are coordinates, columns are bars.
 fn equilibrium(sheet: &Sheet, bars: &[usize], z: [Complex<f64>; 2]) -> ComplexMatrix {
     let mut matrix = ComplexMatrix::zeros(3 * sheet.vertices.len(), bars.len());
     for (column, &bar) in bars.iter().enumerate() {
         let key = sheet.edges[bar].key;
         let [i, j] = key.ends();
         let pull = (sheet.position(j) - sheet.position(i)).normalize();
-        // vertex j of cell (0, 0) ends the copy of the bar that starts `shift` before it
+        // vertex j of cell (0, 0) is the end of the copy of the bar that starts in cell -shift
         let there = z[0].powi(-key.shift[0]) * z[1].powi(-key.shift[1]);
         for axis in 0..3 {
             matrix[(3 * key.i + axis, column)] += Complex::from(pull[axis]);
@@ -308,7 +309,7 @@ fn equilibrium(sheet: &Sheet, bars: &[usize], z: [Complex<f64>; 2]) -> ComplexMa
     matrix
 }
 
-/// The number of singular values above 1e-9 of the largest, zeros added to make the matrix square.
+/// Returns the number of singular values above 1e-9 of the largest one, after adding zeros to make the matrix square.
 fn rank(matrix: &ComplexMatrix) -> usize {
     let n = matrix.nrows().max(matrix.ncols());
     let square = matrix.clone().resize(n, n, Complex::ZERO);
@@ -316,11 +317,11 @@ fn rank(matrix: &ComplexMatrix) -> usize {
     values.iter().filter(|value| **value > 1e-9 * values[0]).count()
 }
 
-/// Claim (index theorem): at every pair of factors the zero modes less the self stresses are coordinates less bars: of
-/// triangulated cells, where both numbers are those at `1/z` too (duality); of cells with a bar less; of one with an
-/// opening. At random real and complex wavenumbers, on zero lines, on complex roots and at `q = 0`; modes from the
-/// rigidity matrix at `z`, self stresses at `1/z` from forces put together on their own. The numbers found are printed:
-/// they are generic off the lines, and larger on them.
+/// Claim (index theorem): at every pair of factors the number of zero modes minus self stresses is the number of
+/// coordinates minus bars: for triangulated cells, where both numbers are also those at `1/z` (duality); for cells
+/// without one bar; for one with an opening. At random real and complex wavenumbers, on zero lines, at complex roots
+/// and at `q = 0`; modes from the rigidity matrix at `z`, self stresses at `1/z` from independently assembled forces.
+/// The numbers are printed: they are generic off the lines, and larger on them.
 #[test]
 fn index_theorem() {
     let mut numbers = Numbers::new(5);
@@ -355,7 +356,7 @@ fn index_theorem() {
     assert_eq!(found[&("triangulated", "zero line", 0)].keys().next(), Some(&[1, 1]));
 }
 
-/// Factors of all kinds: random ones, and for a triangulated cell on its zero lines and roots.
+/// Returns factors of all kinds: random ones and, for a triangulated cell, those on its zero lines and at its roots.
 fn places(sheet: &Sheet, numbers: &mut Numbers) -> Vec<(&'static str, [Complex<f64>; 2])> {
     let on_zone = |q: [f64; 2]| q.map(|q| Complex::from_polar(1.0, q));
     let mut places = vec![("q = 0", [Complex::ONE; 2])];
@@ -378,8 +379,8 @@ fn places(sheet: &Sheet, numbers: &mut Numbers) -> Vec<(&'static str, [Complex<f
     places
 }
 
-/// The roots `z2` at `q1` from the matrix itself: every row scaled by a power of `z2` to `A + z2 B`, whose roots are
-/// `mu - 1/w` with the eigenvalues `w` of `(A + mu B)^-1 B`. No determinant is computed.
+/// Returns the roots `z2` at `q1` from the matrix itself, without a determinant: every row is scaled by a power of `z2`
+/// to `A + z2 B`, whose roots are `mu - 1/w` with the eigenvalues `w` of `(A + mu B)^-1 B`.
 fn pencil_roots(rigidity: &Rigidity, q1: f64) -> Vec<Complex<f64>> {
     let z1 = Complex::from_polar(1.0, q1);
     let low = |row: usize| rigidity.rows[row].terms.iter().map(|(corner, _)| corner.shift[1]).min().unwrap();
@@ -402,7 +403,7 @@ fn pencil_roots(rigidity: &Rigidity, q1: f64) -> Vec<Complex<f64>> {
     found.map(|z| singular(rigidity, z1, z)).collect()
 }
 
-/// Newton's search for a singular `R(z1, z2)` from a root: `z2 - 1 / trace(R^-1 dR/dz2)`.
+/// Finds a singular `R(z1, z2)` near a root by Newton's method: `z2 - 1 / trace(R^-1 dR/dz2)`.
 fn singular(rigidity: &Rigidity, z1: Complex<f64>, mut z: Complex<f64>) -> Complex<f64> {
     for _ in 0..6 {
         let (matrix, slope) = (rigidity.at([z1, z]), rigidity.derivative([z1, z], 1));
@@ -414,7 +415,7 @@ fn singular(rigidity: &Rigidity, z1: Complex<f64>, mut z: Complex<f64>) -> Compl
     z
 }
 
-/// Claim: decay rates are those of a matrix pencil, which knows no determinant, to 1e-9 where roots are well
+/// Claim: decay rates agree with those of a matrix pencil, which uses no determinant, to 1e-9 if the roots are well
 /// conditioned.
 #[test]
 fn decay_rates_agree_with_the_matrix_pencil() {
@@ -437,8 +438,7 @@ fn decay_rates_agree_with_the_matrix_pencil() {
 }
 
 /// Claim: cells with an edge a millionth as long as the others, or stretched a million times along one lattice vector,
-/// have an answer that the matrix pencil confirms to 1e-6 where it calls itself well conditioned, or an error that says
-/// so.
+/// give roots that the matrix pencil confirms to 1e-6 if they are reported as well conditioned, or an error.
 #[test]
 fn ill_conditioned_cells() {
     let short = |seed: u64| {
@@ -475,14 +475,14 @@ fn ill_conditioned_cells() {
     assert!(worst <= 1e-6 && answers + refusals > 0);
 }
 
-/// A mesh with rigid polygons: its determinant.
+/// Returns the determinant of a mesh with rigid polygons.
 fn kirigami(sheet: &Sheet) -> Determinant {
     Determinant::new(&Rigidity::of_sheet(sheet, true).unwrap()).unwrap()
 }
 
-/// Claim: on a kirigami cell with one rigid quadrilateral and one hole the checks of origami fail: the determinant is
-/// not symmetric, decay rates do not pair, and the polarization is (1/2, 1/2), as an independent program (NumPy) found
-/// from the same coordinates with both diagonals of the skew quadrilateral as bars.
+/// Claim: on a kirigami cell with one rigid quadrilateral and one hole the symmetries of origami are broken: the
+/// determinant is not symmetric, decay rates do not pair, and the polarization is (1/2, 1/2), as found by an
+/// independent program (NumPy) from the same coordinates with both diagonals of the skew quadrilateral as bars.
 #[test]
 fn kirigami_is_polarized() {
     let found = kirigami(&mesh("kirigami"));
@@ -498,8 +498,8 @@ fn kirigami_is_polarized() {
     assert!(matches!(Zone::new(&found), Err(BlochError::NotSymmetric { .. })));
 }
 
-/// A random cell of which pairs of triangles are merged to `pairs` rigid quadrilaterals and as many openings; `None`
-/// where no two of them are apart, or the mesh is refused.
+/// Returns a random cell in which pairs of triangles are merged to `pairs` rigid quadrilaterals and as many openings;
+/// `None` if there are not enough pairs apart from each other, or if the mesh is refused.
 fn random_kirigami(size: [usize; 2], pairs: usize, seed: u64) -> Option<Sheet> {
     let mut numbers = Numbers::new(seed);
     let drawn = draw(&random(size, seed));
@@ -527,15 +527,15 @@ fn random_kirigami(size: [usize; 2], pairs: usize, seed: u64) -> Option<Sheet> {
     build(&Drawing { faces: [faces, quadrilaterals].concat(), holes, ..drawn }).ok()
 }
 
-/// The sheet with its rigid polygons and its openings exchanged.
+/// Returns the sheet with its rigid polygons and its openings exchanged.
 fn exchanged(sheet: &Sheet) -> Sheet {
     let drawn = draw(sheet);
     let (blocks, triangles): (Vec<_>, Vec<_>) = drawn.faces.iter().cloned().partition(|face| face.len() > 3);
     build(&Drawing { faces: [triangles, drawn.holes.clone()].concat(), holes: blocks, ..drawn }).unwrap()
 }
 
-/// How often the centred determinant goes round zero along both directions, at some other wavenumber; `None` where it
-/// is nearly zero on the way, or turns too far between neighbours to tell.
+/// Returns the winding numbers of the centred determinant around zero along both directions, at some value of the other
+/// wavenumber; `None` if it is nearly zero on the way, or turns too far between neighbouring points.
 fn winding(found: &Determinant) -> Option<[f64; 2]> {
     let steps = 2000;
     let along = |a: usize, other: f64| {
@@ -552,9 +552,9 @@ fn winding(found: &Determinant) -> Option<[f64; 2]> {
     Some([along(0, 0.37)?, along(1, 0.37)?])
 }
 
-/// Claim: random kirigami cells have polarizations of many values, printed here with how many cells have them; where no
-/// root is on the circle they are halves of whole numbers, and the winding numbers of the determinant round the zone;
-/// with faces and openings exchanged they change sign, as dual sheets must.
+/// Claim: random kirigami cells have polarizations of many values, printed with the number of cells that have them. If
+/// no root is on the circle they are multiples of 1/2, and equal the winding numbers of the determinant around the
+/// zone; with faces and openings exchanged they change sign, as for dual sheets.
 #[test]
 fn polarizations_of_random_kirigami() {
     let mut tables = BTreeMap::new();
@@ -587,7 +587,7 @@ fn polarizations_of_random_kirigami() {
     assert!(values.len() >= 15 && [[-2, 3], [0, 3], [2, 1], [-1, 0]].iter().all(|value| values.contains(value)));
 }
 
-/// Claim: the mesh of a strong polarization is the cell of that scan, and has it.
+/// Claim: the mesh of a strong polarization is the cell of this scan, and has this polarization.
 #[test]
 fn mesh_of_another_polarization() {
     let (sheet, cell) = (mesh("kirigami-polarized"), random_kirigami([3, 2], 1, 0).unwrap());
@@ -615,9 +615,9 @@ fn faces_and_holes_swap() {
 }
 
 /// Claim (theory, section 8): on a cylinder the determinant of screw-periodic modes is symmetric, vanishes to second
-/// order at `q = 0`, and at `+-(theta1, theta2)`, the rigid rotations about directions across the axis, and a zero line
-/// passes there; the roots pair as on a flat lattice. Tolerances: 1e-12 for symmetry; states close to 1e-12, and the
-/// zero is simple.
+/// order at `q = 0` and at `+-(theta1, theta2)`, the rigid rotations about directions perpendicular to the axis, where
+/// a zero line passes; the roots pair as on a flat lattice. Tolerances: 1e-12 for symmetry; states close to 1e-12, and
+/// the zero is simple.
 #[test]
 fn cylinders() {
     let sheet = mesh("open-star");
@@ -655,9 +655,9 @@ fn cylinders() {
 }
 
 /// Claim: the zero modes of a strip of 40 cells with free edges, periodic along the first lattice vector with
-/// wavenumber 0.9, grow and decay across it as the roots say: factors from a cell to the next, fitted to the modes of
-/// the strip alone, agree to 1e-3 (rounding of a null space: 1e-6 and better). The strip has as many zero modes as bars
-/// that its edges cut.
+/// wavenumber 0.9, grow and decay across it as predicted by the roots: factors from a cell to the next, fitted to the
+/// modes of the strip only, agree to 1e-3 (rounding errors of a null space: 1e-6 and better). The strip has as many
+/// zero modes as bars that its edges cut.
 #[test]
 fn strips_decay_as_predicted() {
     for (sheet, q1) in [(mesh("open-star"), 0.9), (random([2, 2], 3), 0.7), (random([2, 3], 5), 1.4)] {
@@ -706,9 +706,9 @@ fn strips_decay_as_predicted() {
     }
 }
 
-/// Claim: the dynamical matrix is that of the energies: along real wavenumbers its quadratic form is twice the energy
-/// per cell of the wave, checked as `R^H k R` for bars alone; its three lowest bands vanish at `q = 0`, and on a zero
-/// line of the bars one more vanishes without creases but not with them.
+/// Claim: the dynamical matrix agrees with the energies: at real wavenumbers its quadratic form is twice the energy per
+/// cell of the wave, checked as `R^H k R` for bars only; its three lowest bands vanish at `q = 0`, and on a zero line
+/// of the bars another one vanishes without creases but not with them.
 #[test]
 fn bands_of_the_energy() {
     let sheet = mesh("open-star");

@@ -1,4 +1,4 @@
-//! The study `bloch` from a scene to its files.
+//! The study `bloch`, from a scene to its files.
 
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::output::summary::{BlochSummary, StudyResult};
@@ -30,8 +30,8 @@ fn lines(path: &Path) -> usize {
     std::fs::read_to_string(path).unwrap().lines().count()
 }
 
-/// Claim: the scene of the reference cell writes all its files, its decay rates are the stored ones, nothing is
-/// polarized; and a run that resumes keeps the study, so that its summary reads back.
+/// Claim: the scene of the reference cell writes all its files, its decay rates are the stored ones, and the
+/// polarization is zero; a resumed run keeps the study, and its summary is read back.
 #[test]
 fn reference_cell() {
     let folder = tempfile::tempdir().unwrap();
@@ -60,7 +60,7 @@ fn reference_cell() {
     assert_eq!(result(&again), found);
 }
 
-/// Claim: on the kirigami cell the same study says that rates do not pair, and by how much; it has no zero lines.
+/// Claim: on the kirigami cell the study reports by how much the decay rates fail to pair; it has no zero lines.
 #[test]
 fn kirigami_cell() {
     let folder = tempfile::tempdir().unwrap();
@@ -74,8 +74,8 @@ fn kirigami_cell() {
     assert_eq!((found.zero_lines, found.positive_fraction, found.order_at_origin), (None, None, None));
 }
 
-/// Claim: a rigid polygon that the rim of one drawn cell cuts is as rigid as any: the second kirigami scene has a
-/// determinant, and the polarization that the scan of random cells found.
+/// Claim: a rigid polygon that is cut by the rim of the drawn cell is rigid like any other: the second kirigami scene
+/// has a determinant, and the polarization that the scan of random cells found.
 #[test]
 fn polygons_cut_by_the_rim_are_rigid() {
     let folder = tempfile::tempdir().unwrap();
@@ -83,9 +83,9 @@ fn polygons_cut_by_the_rim_are_rigid() {
     assert_eq!((result(&report).polarization, result(&report).on_circle), ([-1.0, 1.5], [0.0, 0.0]));
 }
 
-/// Claim: the scene of the cylinder gives modes of the rolled state: a determinant that vanishes to second order at `q =
-/// 0` and at the rotation angles of the lattice to 1e-12 (theory, section 8), symmetric, with rates that pair; mode
-/// shapes are velocities of the rolled cells; the rings are drawn; and a run that resumes knows the state still.
+/// Claim: the scene of the cylinder gives modes of the rolled state: a determinant that vanishes to second order at `q
+/// = 0` and at the rotation angles of the lattice to 1e-12 (theory, section 8), symmetric, with rates that pair; mode
+/// shapes are velocities of the rolled cells; the rings are drawn; and a resumed run still has the state.
 #[test]
 fn cylinder() {
     let folder = tempfile::tempdir().unwrap();
@@ -108,9 +108,9 @@ fn cylinder() {
     assert_eq!(again.summary.studies[1].result, report.summary.studies[1].result);
 }
 
-/// Claim: on triangulated Miura-ori at `q1 = 0.5` all four roots are double, which the study says; their rates are those of
-/// the double zeros of the determinant (found apart, by elimination with 60 digits on the same mesh) and pair.
-/// Tolerance: 1e-13, where a double root of the polynomial is known to 4e-8 only.
+/// Claim: on triangulated Miura-ori at `q1 = 0.5` all four roots are double, which the study reports; their rates are
+/// those of the double zeros of the determinant (found separately, by elimination with 60 digits on the same mesh) and
+/// pair. Tolerance: 1e-13, although a double root of the polynomial is known only to 4e-8.
 #[test]
 fn double_roots() {
     let folder = tempfile::tempdir().unwrap();
@@ -124,8 +124,8 @@ fn double_roots() {
     assert!(found.pairing_error.unwrap() <= 1e-13 && found.pairing_condition.unwrap() <= 1e3, "{found:?}");
 }
 
-/// Claim: where no root is known well enough to be compared, the pairing has no error rather than none to speak of. At
-/// `q1 = 0` the determinant has a root of multiplicity four at 1, and the matrix three null vectors there.
+/// Claim: if no root is known accurately enough to be compared, the pairing error is null instead of zero. At `q1 = 0`
+/// the determinant has a root of multiplicity four at 1, and the matrix three null vectors there.
 #[test]
 fn nothing_to_pair() {
     let folder = tempfile::tempdir().unwrap();
@@ -138,7 +138,7 @@ fn nothing_to_pair() {
     assert_eq!((found.pairing_error, found.pairing_condition), (None, None));
 }
 
-/// Claim: what cannot be done is refused before anything is written, and a sheet without a determinant is a study that
+/// Claim: an impossible study is refused before anything is written, and a sheet without a determinant is a study that
 /// failed.
 #[test]
 fn what_cannot_be_done() {

@@ -1,4 +1,4 @@
-//! All branches of flat and folded cells: counted with multiplicity, continued to finite folds, and refused elsewhere.
+//! The branches of flat and folded cells: counted with multiplicity, continued to finite folds, or refused.
 
 use crate::common::{Numbers, mesh, on};
 use foldwell::analysis::trace::{self, TraceOptions};
@@ -16,7 +16,7 @@ fn flat_cell(size: [usize; 2], seed: u64) -> Sheet {
     generate(&Pattern::RandomDevelopable(RandomDevelopable { size, seed, ..RandomDevelopable::default() })).unwrap()
 }
 
-/// A state with an edge locked: closure, quadrics, rays.
+/// A state with a locked edge: its closure, quadrics and rays.
 struct Locked {
     closure: Closure,
     second_order: SecondOrder,
@@ -30,7 +30,7 @@ fn locked(sheet: &Sheet, lock: usize) -> Locked {
     Locked { closure, second_order, rays }
 }
 
-/// Directions of the edges around a vertex of a flat cell, as angles, and the edges.
+/// Returns the directions of the edges around a vertex of a flat cell, as angles, with the edges.
 fn around(sheet: &Sheet, vertex: usize) -> Vec<(f64, usize)> {
     let mut list = Vec::new();
     for (number, edge) in sheet.edges.iter().enumerate() {
@@ -46,7 +46,7 @@ fn around(sheet: &Sheet, vertex: usize) -> Vec<(f64, usize)> {
     list
 }
 
-/// Whether the lock touches a vertex of degree 4, or two creases of a vertex are straight to 1e-4.
+/// Whether the lock touches a vertex of degree 4, or two creases of a vertex are collinear to 1e-4.
 fn special(sheet: &Sheet, lock: usize) -> bool {
     (0..sheet.vertices.len()).any(|vertex| {
         let edges = around(sheet, vertex);
@@ -56,8 +56,8 @@ fn special(sheet: &Sheet, lock: usize) -> bool {
     })
 }
 
-/// Claim: with one lock the cell of `open-flat.json` has 16 solutions for each of its 12 edges, as many distinct ones and
-/// real rays as an independent plain homotopy found.
+/// Claim: with one lock the cell of `open-flat.json` has 16 solutions for each of its 12 edges, with as many distinct
+/// ones and real rays as an independent plain homotopy found.
 #[test]
 fn one_lock_on_the_flat_reference_cell() {
     let sheet = mesh("open-flat");
@@ -75,9 +75,10 @@ fn one_lock_on_the_flat_reference_cell() {
     }
 }
 
-/// Claim: with one lock the multiplicities add up to 2^Nv, of 100 random flat cells of 4 vertices and of 6 cells of 6, no path
-/// lost; all are simple unless the lock touches a vertex of degree 4 or creases are straight to 1e-4. Where it does touch one,
-/// three creases are left there, one motion, and its square: every solution is double at least. Source: theory (Bezout).
+/// Claim: with one lock the multiplicities add up to 2^Nv, for 100 random flat cells of 4 vertices and 6 cells of 6,
+/// without losing a path; all solutions are simple unless the lock touches a vertex of degree 4 or creases are
+/// collinear to 1e-4. If it touches such a vertex, three creases remain there with one motion, and its square: every
+/// solution is at least double. Source: theory (Bezout).
 #[test]
 fn multiplicities_add_up() {
     let mut doubled = 0;
@@ -98,8 +99,8 @@ fn multiplicities_add_up() {
     assert!(doubled >= 3, "multiple solutions were among them: {doubled}");
 }
 
-/// The angles nearest to `start` that close, with prescribed components along the columns of `fixed`, by Gauss and Newton;
-/// with the largest entry of the residual.
+/// Returns the angles nearest to `start` that close, with prescribed components along the columns of `fixed`, by the
+/// Gauss-Newton method, and the largest entry of the residual.
 fn closed(closure: &Closure, start: &[f64], fixed: &DenseMatrix) -> (Vec<f64>, f64) {
     let mut angles = start.to_vec();
     for _ in 0..30 {
@@ -121,14 +122,14 @@ fn closed(closure: &Closure, start: &[f64], fixed: &DenseMatrix) -> (Vec<f64>, f
     (angles, residual)
 }
 
-/// Least squares by orthogonal factors: next to the flat state no rank stands out.
+/// Solves least squares by orthogonal factorization, because near the flat state no rank is well defined.
 fn solve(matrix: &DenseMatrix, right: &DenseMatrix) -> DenseMatrix {
     let factors = matrix.clone().qr();
     let parts = factors.q().transpose() * right;
     factors.r().solve_upper_triangular(&parts).unwrap()
 }
 
-/// Follows a ray until a fold angle has changed by `far`: the state and its residual there.
+/// Follows a ray until a fold angle has changed by `far`; returns the state and its residual there.
 fn continued(locked: &Locked, start: &[f64], ray: &Ray, far: f64) -> Option<(Vec<f64>, f64)> {
     let mut at = start.to_vec();
     let mut direction = DVector::from_column_slice(&ray.direction);
@@ -155,8 +156,9 @@ fn continued(locked: &Locked, start: &[f64], ray: &Ray, far: f64) -> Option<(Vec
     None
 }
 
-/// Claim: every simple real ray is a branch: it is continued by Newton steps on the closure alone until a fold angle has
-/// changed by 0.2 rad, closed there to 1e-12 and still on its own side. Rays of the reference cells and of random flat ones.
+/// Claim: every simple real ray is a branch: Newton steps on the closure only continue it until a fold angle has
+/// changed by 0.2 rad, where it closes to 1e-12 and is still on its own side. Rays of the reference cells and of random
+/// flat cells.
 #[test]
 fn simple_rays_extend_to_finite_folds() {
     let random = (0..6).map(|seed| (flat_cell([2, 2], seed), seed as usize));
@@ -177,8 +179,8 @@ fn simple_rays_extend_to_finite_folds() {
     assert!(followed >= 100, "{followed}");
 }
 
-/// Claim: a direction that is no solution does not extend: the closest that angles with this linear part come to closing
-/// grows as the square of the amplitude, with the obstruction as its coefficient. Tolerance 2%: the cubic terms at
+/// Claim: a direction that is not a solution does not extend: the least closure residual of angles with this linear
+/// part grows as the square of the amplitude, with the obstruction as its coefficient. Tolerance 2%: the cubic terms at
 /// amplitudes of 1e-3.
 #[test]
 fn other_directions_are_refused() {
@@ -204,7 +206,7 @@ fn other_directions_are_refused() {
     }
 }
 
-/// The second-order correction that closes all that can be closed.
+/// Returns the second-order correction that minimises the closure residual.
 fn corrected(closure: &Closure, drawn: &[f64], start: &[f64]) -> Vec<f64> {
     let residual = closure.residual(start);
     let right = DenseMatrix::from_column_slice(residual.len(), 1, (-residual).as_slice());
@@ -214,7 +216,8 @@ fn corrected(closure: &Closure, drawn: &[f64], start: &[f64]) -> Vec<f64> {
     angles
 }
 
-/// Directions, in the order of the mesh, in which an independent program left open-star, and the curvature it then had.
+/// Returns directions, in the order of the mesh, in which an independent program left open-star, and the curvature of
+/// each.
 fn rays_of_open_star() -> Vec<(Vec<f64>, f64)> {
     let sheet = mesh("open-star");
     let case: Value = serde_json::from_str(include_str!("../cases/open-star.json")).unwrap();
@@ -229,8 +232,8 @@ fn rays_of_open_star() -> Vec<(Vec<f64>, f64)> {
     case["loops"].as_array().unwrap().iter().map(ray).collect()
 }
 
-/// Claim: the study writes what the contract names, for a flat cell, for a cell with no real ray, and refuses a torus and a lock
-/// at another angle. No real ray is an answer: status 0.
+/// Claim: the study writes the documented files, for a flat cell and for a cell without real ray, and refuses a torus
+/// and a lock at another angle. No real ray is a result: status 0.
 #[test]
 fn the_study() {
     let run = |domain: &str, mesh: &str, lock: &str| {
@@ -281,10 +284,11 @@ fn the_study() {
     assert_eq!(run("screw", "open-flat.fold", "crease = [0, 1, 0, 0]\nangle = 0.1").0, Some(2));
 }
 
-/// Claim: a list without a ray says that there is none only where that is established. The folded cell of `open-star.fold`, nothing locked,
-/// folds along a cone of directions (its quadric has signature (2, 1)), the flat one of `open-flat.fold` along a curve of them: neither has a
-/// ray that stands alone, and `trace` refuses both instead of calling them unfoldable. With a lock all solutions are points, each counted.
-/// Source: theory, second order; the cone of the star is real because cylinders exist.
+/// Claim: an empty list of rays is reported as complete only if this is established. The folded cell of
+/// `open-star.fold`, without locks, folds along a cone of directions (its quadric has signature (2, 1)), the flat one
+/// of `open-flat.fold` along a curve of them: neither has an isolated ray, and `trace` refuses both instead of calling
+/// them rigid. With a lock all solutions are points, and each is counted. Source: theory, second order; the cone of the
+/// star is real because cylinders exist.
 #[test]
 fn no_ray_is_not_no_direction() {
     for name in ["open-star", "open-flat"] {
@@ -303,8 +307,8 @@ fn no_ray_is_not_no_direction() {
     }
 }
 
-/// Claim: the only direction of the triangulated Miura-ori without locks, planar folding, is listed as the only one: two of the three
-/// eigenvalues of its quadric have one sign and the third is zero (-0.125, -0.117, 0 in theory).
+/// Claim: the only direction of the triangulated Miura-ori without locks, planar folding, is listed as the only one:
+/// two of the three eigenvalues of its quadric have one sign and the third is zero (-0.125, -0.117, 0 in theory).
 #[test]
 fn a_single_direction_is_established() {
     let sheet = generate(&Pattern::Miura(foldwell::sheet::generate::Miura::default())).unwrap();

@@ -1,30 +1,31 @@
-//! No circle of files: where one file imports from another, no chain of imports leads back.
+//! No cyclic imports: if one file imports from another, no chain of imports leads back.
 //!
-//! A file imports from another where one of its `use` items, or a path written out (`crate::..`, `super::..`, `self::..`, or one
-//! that begins with a module of its own), leads to it. Re-exports are followed to the file where the item is, so that a page of
-//! re-exports ties nothing together. `mod x;` alone is no import, and test modules do not count.
+//! A file imports from another one if one of its `use` items, or a path in the code (`crate::..`, `super::..`,
+//! `self::..`, or one that begins with a module of its own), leads to it. Re-exports are followed to the file of the
+//! item, so that a file with only re-exports connects nothing. `mod x;` is not an import, and test modules do not
+//! count.
 
 use crate::floors::{root, sources, words};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// A module by the names that lead to it; those of the program stand below `main`.
+/// The path of a module; modules of the program are below `main`.
 type Module = Vec<String>;
 
 /// Modules that belong to the program, not to the library.
 const OF_THE_PROGRAM: &[&str] = &["cli", "describe", "parameters", "progress", "validate"];
-/// The longest chain of re-exports.
+/// Length of the longest chain of re-exports.
 const LONGEST_CHAIN: usize = 6;
 
-/// What a module imports: paths from the root, and the names by which some of them are known in it.
+/// The imports of a module: paths from the root, and the names under which some of them are known in it.
 #[derive(Default)]
 struct Imports {
     paths: Vec<Module>,
     names: BTreeMap<String, Module>,
 }
 
-/// The module of a source file; `None` for tests.
+/// Returns the module of a source file; `None` for tests.
 fn module(path: &Path) -> Option<Module> {
     let parts = path.with_extension("");
     let mut names: Module = parts.iter().map(|part| part.to_string_lossy().into_owned()).collect();
@@ -38,7 +39,7 @@ fn module(path: &Path) -> Option<Module> {
     Some(with_crate(names))
 }
 
-/// Names from the root of the library, or below `main` where they begin with a module of the program.
+/// Returns the path from the root of the library, or below `main` if it begins with a module of the program.
 fn with_crate(mut names: Module) -> Module {
     if names.first().is_some_and(|first| OF_THE_PROGRAM.contains(&first.as_str())) {
         names.insert(0, "main".into());
@@ -46,7 +47,7 @@ fn with_crate(mut names: Module) -> Module {
     names
 }
 
-/// The words before the first module that is compiled for tests only.
+/// Returns the words before the first module that is compiled for tests only.
 fn without_tests(words: &[String]) -> &[String] {
     let is = |at: usize, expected: &[&str]| {
         expected.iter().enumerate().all(|(k, e)| words.get(at + k).is_some_and(|w| w == e))
@@ -56,7 +57,7 @@ fn without_tests(words: &[String]) -> &[String] {
     &words[..end.unwrap_or(words.len())]
 }
 
-/// Reads the tree of a `use` item from `at`; returns where it ends.
+/// Reads the tree of a `use` item from `at`; returns its end.
 fn tree(words: &[String], mut at: usize, prefix: &[String], found: &mut Vec<(Module, Option<String>)>) -> usize {
     let mut path = prefix.to_vec();
     loop {
@@ -90,7 +91,7 @@ fn tree(words: &[String], mut at: usize, prefix: &[String], found: &mut Vec<(Mod
     }
 }
 
-/// A path as seen from a module, from the root; `None` where it leads out of the sources.
+/// Returns the path from the root for a path in a module; `None` if it leads out of the sources.
 fn from_root(from: &Module, path: &[String], modules: &BTreeSet<Module>) -> Option<Module> {
     let of_program = from.first().is_some_and(|first| first == "main");
     match path[0].as_str() {
@@ -135,7 +136,7 @@ fn imports(from: &Module, words: &[String], modules: &BTreeSet<Module>) -> Impor
     found
 }
 
-/// The module where the item of a path is.
+/// Returns the module that contains the item of a path.
 fn home(path: &[String], all: &BTreeMap<Module, Imports>, chain: usize) -> Module {
     let length = (0..=path.len()).rev().find(|&k| all.contains_key(&path[..k])).unwrap_or(0);
     let (module, rest) = path.split_at(length);
@@ -146,7 +147,7 @@ fn home(path: &[String], all: &BTreeMap<Module, Imports>, chain: usize) -> Modul
     }
 }
 
-/// For every module those from which it imports.
+/// Returns, for every module, the modules from which it imports.
 fn graph(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
     let files = sources(folder).into_iter().filter_map(|path| Some((module(&path)?, path)));
     let texts: BTreeMap<Module, Vec<String>> =
@@ -161,7 +162,7 @@ fn graph(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
     all.iter().map(|(from, imports)| (from.clone(), targets(from, imports))).collect()
 }
 
-/// Modules that can be reached from each of them.
+/// Returns the modules that can be reached from a module.
 fn reachable(graph: &BTreeMap<Module, BTreeSet<Module>>, from: &Module) -> BTreeSet<Module> {
     let (mut seen, mut next) = (BTreeSet::new(), vec![from]);
     while let Some(module) = next.pop() {
@@ -170,7 +171,7 @@ fn reachable(graph: &BTreeMap<Module, BTreeSet<Module>>, from: &Module) -> BTree
     seen
 }
 
-/// The circles: groups of modules each of which can be reached from the others.
+/// Returns the cycles: groups of modules in which each can be reached from the others.
 fn circles(folder: &Path) -> BTreeSet<Vec<String>> {
     let graph = graph(folder);
     let reach: BTreeMap<_, _> = graph.keys().map(|module| (module, reachable(&graph, module))).collect();
@@ -181,7 +182,7 @@ fn circles(folder: &Path) -> BTreeSet<Vec<String>> {
     reach.keys().map(|module| round(module)).filter(|group| !group.is_empty()).collect()
 }
 
-/// Claim: no file of the library or the program is part of a circle.
+/// Claim: no file of the library or the program is part of a cycle.
 #[test]
 fn no_circle_of_files() {
     let graph = graph(&root().join("src"));
@@ -189,8 +190,8 @@ fn no_circle_of_files() {
     assert_eq!(circles(&root().join("src")), BTreeSet::new());
 }
 
-/// Claim: the reader above finds circles. One is planted at a time in a small tree of sources, each in another way of writing;
-/// exactly that one is found, and none in what only looks like one.
+/// Claim: this test finds cycles. One at a time is planted in a small tree of sources, each in another notation;
+/// exactly that one is found, and none in sources that only look similar.
 #[test]
 fn planted_circles_are_found() {
     let base = [

@@ -1,4 +1,4 @@
-//! The command line from outside: exit statuses and which stream says what.
+//! The command line: exit statuses, and the contents of standard output and standard error.
 
 use std::process::Output;
 
@@ -9,7 +9,7 @@ fn foldwell(folder: &std::path::Path, words: &str) -> Output {
     command.current_dir(folder).args(words.split(' ')).output().expect("the binary starts")
 }
 
-/// A wrong scene: status 2, the place on standard error, nothing on standard output and nothing written.
+/// A malformed scene gives status 2 and its position on standard error, nothing on standard output, and writes nothing.
 #[test]
 fn a_wrong_scene_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
@@ -25,7 +25,7 @@ fn a_wrong_scene_writes_nothing() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
-/// A scene that is not there is wrong input; so is a command line that makes no sense.
+/// A missing scene, and an invalid command line, are input errors.
 #[test]
 fn wrong_words_are_wrong_input() {
     let folder = tempfile::tempdir().unwrap();
@@ -36,7 +36,7 @@ fn wrong_words_are_wrong_input() {
     }
 }
 
-/// A mesh in the place of a scene, and a file that is neither: the message says what would be right.
+/// A mesh instead of a scene, and a file that is neither, are refused with a remedy.
 #[test]
 fn files_of_the_wrong_kind() {
     let folder = tempfile::tempdir().unwrap();

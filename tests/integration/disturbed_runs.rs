@@ -1,5 +1,5 @@
-//! Runs that are killed, have no room on the disk, or meet another run in their folder: files are whole or not there, and a
-//! resumed run ends with the bytes of an undisturbed one.
+//! Runs that are killed, have no space on the disk, or write into the folder of another run: files are complete or
+//! missing, and a resumed run ends with the same bytes as an undisturbed one.
 #![cfg(unix)]
 
 use assert_cmd::cargo::cargo_bin;
@@ -12,24 +12,24 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// Runs that are killed; `FOLDWELL_KILLS=100` kills more.
+/// Number of runs that are killed; `FOLDWELL_KILLS=100` kills more.
 const KILLS: usize = 6;
-/// Sizes of files from which on there is no room.
+/// Number of file sizes at which the disk is full.
 const FULL_DISKS: usize = 4;
-/// Bytes in the unit of the shell's limit on files.
+/// Unit in bytes of the shell's limit on file sizes.
 const BLOCK: usize = 512;
 /// Exit status of a run that could not write.
 const CANNOT_WRITE: i32 = 3;
-/// A scene of several studies, each with files of all kinds, half a second in all.
+/// A scene of several studies with files of all kinds, which takes half a second in total.
 const SCENE: &str = "[sheet]\nmesh = \"open-star.fold\"\ndomain = \"screw\"\ncells = [8, 4]\n[energy]\n\
     bars = { stiffness = 1e8 }\ncreases = { stiffness = 1.0 }\n[[lock]]\ncrease = [0, 1, 0, 0]\n\
     [[study]]\nname = \"first\"\nkind = \"trace\"\n[[study]]\nname = \"both\"\nkind = \"trace\"\nengine = \"both\"\n\
     [[study]]\nname = \"last\"\nkind = \"relax\"\n";
 
-/// Every file below a folder.
+/// Contents of all files below a folder.
 type Files = BTreeMap<PathBuf, Vec<u8>>;
 
-/// A folder with the scene, what a run that nothing disturbs writes, and how long that takes.
+/// A folder with the scene, the files of an undisturbed run, and the duration of that run.
 struct Undisturbed {
     folder: tempfile::TempDir,
     files: Files,
@@ -48,12 +48,13 @@ impl Undisturbed {
         Self { folder, files, time }
     }
 
-    /// Looks at what a disturbed run left, resumes it, and looks again. Whether the disturbed one left something out.
+    /// Checks the files left by a disturbed run, resumes it, and checks again. Returns whether the disturbed run was
+    /// incomplete.
     fn check(&self, out: &str) -> bool {
         let place = self.folder.path().join(out);
         let left = read(&place);
         for (path, bytes) in &left {
-            // a summary need only be whole, since it grows with the studies
+            // a summary must only be complete JSON, since it grows with the studies
             let summary = path.extension().is_some_and(|ending| ending == "json");
             let whole =
                 if summary { serde_json::from_slice::<Value>(bytes).is_ok() } else { self.files[path] == *bytes };
@@ -87,7 +88,7 @@ fn finish(child: Child) {
     assert!(ended.status.success(), "{}: {}", ended.status, String::from_utf8_lossy(&ended.stderr));
 }
 
-/// All files below a folder, those on their way left out; none where there is no folder yet.
+/// Returns all files below a folder without drafts; none if the folder does not exist.
 fn read(root: &Path) -> Files {
     let (mut found, mut folders) = (Files::new(), vec![root.to_path_buf()]);
     while let Some(folder) = folders.pop() {
@@ -102,16 +103,16 @@ fn read(root: &Path) -> Files {
     found
 }
 
-/// A summary without its times, which no two runs share.
+/// Returns a summary without its times, which differ from run to run.
 fn timeless(bytes: &[u8]) -> Value {
     let mut summary: Value = serde_json::from_slice(bytes).unwrap();
     summary["studies"].as_array_mut().unwrap().iter_mut().for_each(|study| _ = study["seconds"].take());
     summary
 }
 
-/// Claim: runs that are killed at random moments (SIGKILL, which no program can handle) leave whole files or none, and resumed
-/// they end with the bytes of an undisturbed run. Source: the rule of the files. At least one of them is killed in the middle,
-/// so that the claim is about something.
+/// Claim: runs that are killed at random moments (SIGKILL, which no program can handle) leave complete files or none,
+/// and resumed they end with the bytes of an undisturbed run. Source: the rules for files. At least one run is killed
+/// before it is complete, so that the test is not empty.
 #[test]
 fn killed_runs_leave_whole_files_and_resume_to_the_same_bytes() {
     let undisturbed = Undisturbed::new();
@@ -128,9 +129,9 @@ fn killed_runs_leave_whole_files_and_resume_to_the_same_bytes() {
     assert!(unfinished.count() > 0, "no run was killed in the middle");
 }
 
-/// Claim: where there is no room for a file the run ends with status 3, no file is broken, and resumed with room it ends as an
-/// undisturbed run does. The shell's `ulimit -f` makes files at most as large as one of those that are written, less a block;
-/// its signal is ignored, so that writing fails as it does on a full disk.
+/// Claim: if there is no space for a file the run ends with status 3, no file is damaged, and resumed with space it
+/// ends like an undisturbed run. The shell's `ulimit -f` limits files to the size of one of those that are written,
+/// minus a block; its signal is ignored, so that writing fails as on a full disk.
 #[test]
 fn runs_without_room_say_so_and_break_nothing() {
     let undisturbed = Undisturbed::new();
@@ -148,7 +149,7 @@ fn runs_without_room_say_so_and_break_nothing() {
     }
 }
 
-/// Claim: two runs into one folder at once leave what one leaves.
+/// Claim: two simultaneous runs into one folder leave the files of one run.
 #[test]
 fn two_runs_in_one_folder_leave_what_one_leaves() {
     let undisturbed = Undisturbed::new();
@@ -157,8 +158,8 @@ fn two_runs_in_one_folder_leave_what_one_leaves() {
     undisturbed.assert_same(&read(&folder.join("shared")), "shared");
 }
 
-/// Claim: a run into a file, below a file, or into a folder where the user may not write ends with status 3: the place is at
-/// fault, not the input. The last is left out for a user who may write everywhere.
+/// Claim: a run into a file, below a file, or into a folder without write permission ends with status 3: the fault is
+/// in the destination, not in the input. The last case is skipped for a user who may write everywhere.
 #[test]
 fn places_where_nothing_can_be_written_end_with_status_3() {
     let undisturbed = Undisturbed::new();

@@ -1,5 +1,5 @@
-//! One sheet drawn in other ways relaxes to the same fold angles and energy: turned, moved, mirrored, in another unit, numbered,
-//! listed or cut into cells otherwise, or with a cell twice as large. `tests/differential` asks more of random sheets.
+//! Different drawings of one sheet relax to the same fold angles and energy: rotated, translated, mirrored, in another
+//! unit, with other numbers, orders or cells, or with a cell twice as large. `tests/differential` tests random sheets.
 
 use crate::common;
 use foldwell::analysis::relax::relax;
@@ -9,22 +9,24 @@ use foldwell::sheet::Sheet;
 use foldwell::sheet::build::{Drawing, build, draw};
 use nalgebra::Rotation3;
 
-/// Largest offset of a rest angle, the stiffness of the bars, and the factor between two units of length.
+/// Largest difference of a rest angle from the drawn angle, the stiffness of the bars, and the ratio of two units of
+/// length.
 const OFF: f64 = 0.05;
 const BARS: f64 = 1e6;
 const UNIT: f64 = 1000.0;
-/// Residuals of 1e-12 over the softest eigenvalue, about 0.01 on the largest patch, and the rounding of points at a distance of
-/// 100.
+/// Tolerance: residuals of 1e-12 divided by the softest eigenvalue, about 0.01 on the largest patch, and the rounding
+/// errors of points at a distance of 100.
 const ALLOWED: f64 = 1e-9;
 
-/// A way to draw the same sheet.
+/// Another drawing of the same sheet.
 struct Change {
     name: &'static str,
-    /// The other drawing.
+    /// The function that makes the other drawing.
     draw: fn(Drawing) -> Drawing,
     /// Whether patches of the other cell are the same patches.
     keeps_patches: bool,
-    /// How often each crease of the sheet occurs in the other cell, the unit of energy, and the sign of its fold angles.
+    /// Number of copies of each crease of the sheet in the other cell, the unit of energy, and the sign of the fold
+    /// angles.
     times: usize,
     energy: f64,
     sign: f64,
@@ -37,17 +39,17 @@ const CHANGES: [Change; 8] = [
     Change { name: "turned", draw: turned, ..SAME },
     Change { name: "moved by 100", draw: |drawn| mapped(drawn, |p| p + Vec3::new(60.0, -80.0, 0.0), false), ..SAME },
     Change { name: "mirrored", draw: |drawn| mapped(drawn, |p| Vec3::new(p.x, p.y, -p.z), true), sign: -1.0, ..SAME },
-    // EA and torque per length as before: energies of both grow as the unit
+    // EA and torque per length are unchanged: both energies are proportional to the unit
     Change { name: "unit 1000 times smaller", draw: |drawn| mapped(drawn, |p| p * UNIT, true), energy: UNIT, ..SAME },
-    // the first copy of a vertex in the file says in which cell it is: patches have other rims
+    // the first copy of a vertex in the file determines its cell: patches have other rims
     Change { name: "vertices numbered backwards", draw: renumbered, keeps_patches: false, ..SAME },
     Change { name: "faces listed backwards", draw: relisted, ..SAME },
     Change { name: "half of the faces one cell further", draw: shifted, keeps_patches: false, ..SAME },
     Change { name: "a cell twice as large", draw: doubled, keeps_patches: false, times: 2, energy: 2.0, ..SAME },
 ];
 
-/// The drawn angles and `off` times the sine of ten times the edge's length over the mean: the same however the sheet is turned,
-/// cut or numbered.
+/// Returns the drawn angles plus `off` times the sine of ten times the edge length divided by the mean one: the same
+/// rest angles for all drawings of the sheet.
 fn rest_by_length(assembly: &Assembly, off: f64) -> Vec<f64> {
     let sheet = assembly.sheet();
     let ends = sheet.edges.iter().map(|edge| edge.key.ends().map(|end| sheet.position(end)));
@@ -57,7 +59,7 @@ fn rest_by_length(assembly: &Assembly, off: f64) -> Vec<f64> {
     edges.map(|(angle, edge)| angle + off * (10.0 * lengths[edge.edge] / mean).sin()).collect()
 }
 
-/// Fold angles in ascending order and energy of the relaxed sheet.
+/// Returns the fold angles of the relaxed sheet in ascending order, and its energy.
 fn relaxed(change: &Change, boundary: Boundary, cells: [usize; 2]) -> (Vec<f64>, f64) {
     let sheet: Sheet = build(&(change.draw)(draw(&common::mesh("open-star")))).unwrap();
     let drawn = Assembly::without_terms(sheet, cells, boundary).unwrap();
@@ -68,8 +70,8 @@ fn relaxed(change: &Change, boundary: Boundary, cells: [usize; 2]) -> (Vec<f64>,
     (angles, found.state.total())
 }
 
-/// Claim: a sheet relaxes to the same fold angles and energy however it is drawn. Source: symmetry; rest angles depend on the
-/// lengths of the edges, which no drawing changes.
+/// Claim: all drawings of a sheet relax to the same fold angles and energy. Source: symmetry; rest angles depend on the
+/// lengths of the edges, which are the same in all drawings.
 #[test]
 fn every_drawing_of_a_sheet_relaxes_alike() {
     for (boundary, cells) in [(Boundary::Patch, [3, 3]), (Boundary::FreeTorus, [1, 1]), (Boundary::Screw, [1, 1])] {
@@ -85,7 +87,7 @@ fn every_drawing_of_a_sheet_relaxes_alike() {
     }
 }
 
-/// All points mapped; lattice vectors too where the map has a fixed origin.
+/// Maps all points, and the lattice vectors if `vectors`.
 fn mapped(mut drawn: Drawing, map: impl Fn(Vec3) -> Vec3, vectors: bool) -> Drawing {
     drawn.planar = false;
     drawn.coords.iter_mut().for_each(|p| *p = map(*p));
@@ -113,7 +115,7 @@ fn relisted(mut drawn: Drawing) -> Drawing {
     drawn
 }
 
-/// Copies of faces, moved by a lattice vector; vertices that are drawn there already are used again.
+/// Returns copies of faces, moved by a lattice vector; vertices that exist there already are used again.
 fn moved(drawn: &mut Drawing, faces: std::ops::Range<usize>, by: Vec3) -> Vec<Vec<usize>> {
     let mut copies = drawn.faces[faces].to_vec();
     for vertex in copies.iter_mut().flatten() {
@@ -135,7 +137,7 @@ fn shifted(mut drawn: Drawing) -> Drawing {
     without_unused(drawn)
 }
 
-/// Without the vertices that no face has.
+/// Removes the vertices that belong to no face.
 fn without_unused(mut drawn: Drawing) -> Drawing {
     let mut numbers = vec![None; drawn.coords.len()];
     let mut coords = Vec::new();

@@ -1,11 +1,11 @@
-//! Answers of which nothing was measured: they say so, and no maximum over nothing stands in them as a zero.
+//! Results for which nothing was measured: this is reported, and no maximum over an empty set appears as zero.
 
 use foldwell::run::{RunOptions, run_scene};
 use serde_json::Value;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-/// The studies in the summary of a scene with the star cell on a screw.
+/// Returns the studies in the summary of a scene with the star cell on a screw.
 fn studies(locks: &str, studies: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
@@ -20,9 +20,9 @@ fn studies(locks: &str, studies: &str) -> Value {
 const BRANCHES: &str = "[[study]]\nname = \"b\"\nkind = \"branches\"\n";
 const BOTH: &str = "[[study]]\nname = \"b\"\nkind = \"branches\"\n[[study]]\nname = \"t\"\nkind = \"trace\"\n";
 
-/// Claim: where a lock leaves no direction of folding, that is established (all complex solutions are counted and none is real), and the
-/// residuals and errors of the rays and trajectories that do not exist are null. Source: with some edges locked the star cell has no
-/// real branch (theory of the trajectories of one lock), of 2 complex solutions.
+/// Claim: if a lock leaves no direction of folding, this is established (all complex solutions are counted and none is
+/// real), and the residuals and errors of rays and trajectories that do not exist are null. Source: with some edges
+/// locked the star cell has no real branch (theory of the trajectories of one lock), of 2 complex solutions.
 #[test]
 fn residuals_of_nothing_are_null() {
     let edges = foldwell::sheet::fold::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold"));
@@ -42,7 +42,8 @@ fn residuals_of_nothing_are_null() {
     }
 }
 
-/// Claim: a trace of a cell that folds along infinitely many directions fails and says why; it is not called unfoldable.
+/// Claim: a trace of a cell that folds along infinitely many directions fails with this reason; the cell is not called
+/// rigid.
 #[test]
 fn a_continuum_is_not_called_absent() {
     let found = studies("", BOTH);
@@ -50,7 +51,7 @@ fn a_continuum_is_not_called_absent() {
     assert!(found[1]["reason"].as_str().unwrap().contains("infinitely many directions"), "{found}");
 }
 
-/// The summary of a scene beside a mesh of its own.
+/// Returns the summary of a scene with a mesh of its own.
 fn run(mesh: &str, text: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("cell.fold"), mesh).unwrap();
@@ -65,14 +66,14 @@ fn mesh(name: &str) -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes").join(name)).unwrap()
 }
 
-/// Four faces round a vertex, the third of which is folded through the first.
+/// Four faces around a vertex, the third of which passes through the first.
 const THROUGH: &str = r#"{"file_spec": 1.2, "vertices_coords": [[0, 0, 0], [1, 0, 0], [0.17364818, 0.98480775, 0],
     [0.76604444, 0.64278761, -0.3], [0.5, -0.2, 1]],
     "faces_vertices": [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]]}"#;
 
-/// Claim: where faces pass through each other from the beginning, a trajectory says so at arc length 0, and does not call the place
-/// where they come free the first crossing; nothing can end where they first cross. Where it was not asked, `self_intersecting` is
-/// null, and not a no. Source: the drawn face goes through another one by construction.
+/// Claim: if faces pass through each other from the beginning, a trajectory reports this at arc length 0, not at the
+/// state where they separate; stopping at the first crossing is refused. If self-intersection was not tested,
+/// `self_intersecting` is null, not false. Source: the drawn face passes through another one by construction.
 #[test]
 fn a_drawn_state_that_passes_through_itself() {
     let text =
@@ -94,9 +95,9 @@ fn a_drawn_state_that_passes_through_itself() {
     );
 }
 
-/// Claim: rigid wells of a surface that could not be followed everywhere, or of which some could not be made exact, are no whole
-/// answer, however many wells there are. Source: `surface` says of this cell that its surface is open, and random cells have many
-/// such places; the wells themselves are found.
+/// Claim: rigid wells of a surface that could not be followed everywhere, or that could not all be made exact, are not
+/// a complete result, whatever their number. Source: `surface` reports that the surface of this cell is open, and
+/// random cells have many such places; the wells themselves are found.
 #[test]
 fn wells_of_a_part_of_the_rigid_states() {
     let cell = foldwell::sheet::generate::Random { size: [2, 2], seed: 6, ..Default::default() };
@@ -114,8 +115,8 @@ fn wells_of_a_part_of_the_rigid_states() {
     assert!(found[0]["reason"].as_str().unwrap().contains("may have other wells and passes"), "{found}");
 }
 
-/// Claim: lines of zeros that were not looked for, since the determinant is not real, are not counted as none. Source: an opening makes
-/// the coefficients of opposite powers differ.
+/// Claim: zero lines that were not searched for, because the determinant is not real, are not counted as zero. Source:
+/// an opening makes the coefficients of opposite powers differ.
 #[test]
 fn zero_lines_that_were_not_looked_for() {
     let text = "[sheet]\nmesh = \"cell.fold\"\n[[study]]\nname = \"b\"\nkind = \"bloch\"\ndraw = []\n";
@@ -125,7 +126,7 @@ fn zero_lines_that_were_not_looked_for() {
     assert_eq!(closed[0]["zero_lines"], 1, "{closed}");
 }
 
-/// Claim: a fit of as many numbers as there are samples has no error that anything tells: it is null, and not zero.
+/// Claim: a fit of as many parameters as samples has no error estimate: it is null, not zero.
 #[test]
 fn errors_of_fits_without_spare_samples() {
     let landscape = |amplitudes: &str| {
@@ -143,8 +144,9 @@ fn errors_of_fits_without_spare_samples() {
     assert!(four["exponent_error"].is_number() && four["coefficient_error"].is_number(), "{four}");
 }
 
-/// Claim: a torus whose pieces hang together at no edge has motions that turn no crease; a landscape, which names motions by fold
-/// rates, says that, and takes none of them for a mode. Source: a pair of triangles in every cell can turn as it likes.
+/// Claim: a torus of pieces that are not connected by edges has motions without folding; a landscape, whose modes are
+/// given by fold rates, reports this and uses none of them. Source: a pair of triangles in every cell can rotate
+/// freely.
 #[test]
 fn motions_that_no_fold_rate_names() {
     let islands = r#"{"file_spec": 1.2, "vertices_coords": [[0, 0, 0], [0.5, 0, 0.1], [0.5, 0.5, 0], [0, 0.5, 0.1]],

@@ -1,4 +1,4 @@
-//! Trajectories by three ways that share no equation: closure of fold angles, relaxation of bars with a crease driven, and
+//! Trajectories by three independent formulations: closure of fold angles, relaxation of bars with a driven crease, and
 //! the lengths of rigid bars in the chart of screws.
 
 use crate::common::{self, Testing, jacobian, linearized, mesh, on, patch};
@@ -14,7 +14,7 @@ use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate};
 use foldwell::solver::continuation::{self, Curve, End, follow};
 use foldwell::solver::{Implicit, Options, Problem};
 
-/// A sheet with a crease kept at its drawn angle, rigid or soft bars, and creases that rest as drawn.
+/// A sheet with a crease locked at its drawn angle, rigid or soft bars, and drawn angles as rest angles.
 struct Scene(Assembly);
 
 impl Scene {
@@ -47,10 +47,11 @@ impl Scene {
     }
 }
 
-/// Claim: with rigid bars the relaxation meets the exact kinematics in every fold angle, at every step of both loops of
-/// the reference cell, along all four rays until they close: also where a lattice rotation winds round, where the
-/// axis passes vertex 0 and where angles pass pi. Signed curvature, strain and rotation angles agree as well, within
-/// what an error of 1e-10 in the fold angles makes of them. Tolerance: that of the issue, 1e-10; residuals of 1e-12 leave 1e-11.
+/// Claim: with rigid bars the relaxation agrees with the exact kinematics in every fold angle, at every step of both
+/// loops of the reference cell, along all four rays until they close: also where a lattice rotation exceeds a turn,
+/// where the axis passes vertex 0 and where angles pass pi. Signed curvature, strain and rotation angles agree as well,
+/// within the effect of an error of 1e-10 in the fold angles. Tolerance: the required 1e-10; residuals of 1e-12 give
+/// 1e-11.
 #[test]
 fn rigid_bars_meet_the_kinematics_on_both_loops() {
     let scene = Scene::open_star(f64::INFINITY);
@@ -70,8 +71,9 @@ fn rigid_bars_meet_the_kinematics_on_both_loops() {
     }
 }
 
-/// Claim: with rigid bars the relaxation also follows random cells along every ray, one crease locked, where single steps
-/// of these trajectories led to another state or to none. Tolerances 1e-9 (1e-8 for curvatures): residuals of 1e-12, and angles that move a thousand times as fast.
+/// Claim: with rigid bars the relaxation also follows random cells along every ray, with one crease locked, where
+/// single steps along these trajectories would lead to another state or to none. Tolerances 1e-9 (1e-8 for curvatures):
+/// residuals of 1e-12, and angles that move a thousand times as fast.
 #[test]
 fn rigid_bars_follow_random_cells() {
     for seed in [11, 25, 27] {
@@ -89,10 +91,10 @@ fn rigid_bars_follow_random_cells() {
     }
 }
 
-/// Claim (theory, section 7): creases that pull the sheet back to the star stretch its bars, and the distance to the exact
-/// kinematics falls as 1/k once k is large: at every step of the short loop `k` times distance at 1e8 is that at 1e10.
-/// Tolerance 0.5%: at 1e6, where the law sets in, they differ by up to a fifth, and the next term in 1/k is a hundredth
-/// of that at 1e8.
+/// Claim (theory, section 7): creases that pull the sheet back to the star stretch its bars, and the distance from the
+/// exact kinematics decreases as 1/k for large k: at every step of the short loop `k` times the distance at 1e8 is that
+/// at 1e10. Tolerance 0.5%: at 1e6, where the law begins to hold, they differ by up to a fifth, and the next term in
+/// 1/k is a hundredth of that at 1e8.
 #[test]
 fn soft_bars_approach_it_as_one_over_their_stiffness() {
     let scaled = |bars: f64| -> Vec<Vec<f64>> {
@@ -120,7 +122,7 @@ fn soft_bars_approach_it_as_one_over_their_stiffness() {
     assert!(apart[0] <= 0.5 && apart[1] <= 5e-3, "{apart:?}");
 }
 
-/// The lengths of rigid bars and the locked angle, in the unknowns of the chart.
+/// The equations of the lengths of rigid bars and the locked angle, in the unknowns of the chart.
 struct Bars(Model);
 
 impl Implicit for Bars {
@@ -139,7 +141,8 @@ impl Implicit for Bars {
 
 impl Curve for Bars {}
 
-/// The same screw turned in the plane so that its first lattice vector lies along x, as the model wants it, which holds its y.
+/// Rotates a screw in the plane so that its first lattice vector lies along x, as the model requires, which holds its y
+/// component.
 fn laid_along_x(mut screw: Vec<f64>) -> Vec<f64> {
     let first = screw.len() - 6;
     let (sin, cos) = (-screw[first + 2].atan2(screw[first + 4])).sin_cos();
@@ -152,9 +155,9 @@ fn laid_along_x(mut screw: Vec<f64>) -> Vec<f64> {
     screw
 }
 
-/// Claim: the curve of rigid bars in the chart of screws (theory, section 3) is the trajectory: its points have the fold
-/// angles that the kinematics has where its fastest crease has the same angle. Tolerance 1e-10: both are solved to
-/// 1e-13, and the crease moves at a third of the speed at least.
+/// Claim: the curve of rigid bars in the chart of screws (theory, section 3) is the trajectory: its points have the
+/// fold angles of the kinematics at the same angle of its fastest crease. Tolerance 1e-10: both are solved to 1e-13,
+/// and this crease moves at a third of the speed at least.
 #[test]
 fn the_chart_of_screws_is_a_third_way() {
     let scene = Scene::open_star(f64::INFINITY);
@@ -186,7 +189,7 @@ fn the_chart_of_screws_is_a_third_way() {
     }
 }
 
-/// Claim: a finite sheet, a vertex with four creases, is driven just as well. Tolerance as above.
+/// Claim: a finite sheet, a vertex with four creases, can be driven in the same way. Tolerance as above.
 #[test]
 fn a_finite_sheet_is_driven() {
     let scene = Scene::new("degree-four", None, f64::INFINITY);
@@ -199,10 +202,11 @@ fn a_finite_sheet_is_driven() {
     }
 }
 
-/// Claim: a relaxation ends where the exact kinematics, minimising the energy of the creases over the fold angles that
-/// close, ends as well: with rigid bars to rounding, at k = 1e6 and 1e8 off by an amount that falls as 1/k. Of a cell on a
-/// screw and of a finite sheet, rest angles off by up to 0.1 rad. The two share no equation. Tolerances: residuals of 1e-12
-/// over the softest stiffness, and the next term in 1/k, which is a hundredth at 1e6.
+/// Claim: a relaxation ends at the state of the exact kinematics, which minimises the energy of the creases over the
+/// fold angles that close: with rigid bars to rounding errors, at k = 1e6 and 1e8 with a difference that decreases as
+/// 1/k. For a cell on a screw and for a finite sheet, with rest angles up to 0.1 rad from the drawn angles. The two
+/// methods share no equation. Tolerances: residuals of 1e-12 divided by the softest stiffness, and the next term in
+/// 1/k, which is a hundredth at 1e6.
 #[test]
 fn relaxations_end_at_the_exact_equilibrium() {
     for (case, edges) in [(on(mesh("open-star"), [1, 1], Boundary::Screw), 12), (patch("open-star", [3, 3]), 88)] {

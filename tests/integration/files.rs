@@ -1,4 +1,4 @@
-//! The files of a run: every element of the model is in them once, and none of them is lost, stale or somebody else's.
+//! The files of a run: they contain every element of the model once, and none is lost, outdated or overwritten.
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use foldwell::output::vtk::read_vtu;
@@ -17,7 +17,7 @@ fn foldwell(folder: &Path, words: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
 }
 
-/// Runs a scene into `out` and gives the summary.
+/// Runs a scene into `out`; returns the summary and the standard output.
 fn run(folder: &Path, scene: &str, more: &[&str]) -> (Value, String) {
     fs::write(folder.join("scene.toml"), scene).unwrap();
     let ran = foldwell(folder, &[&["run", "scene.toml", "--out", "out"], more].concat());
@@ -26,7 +26,7 @@ fn run(folder: &Path, scene: &str, more: &[&str]) -> (Value, String) {
     (serde_json::from_slice(&fs::read(folder.join("out/summary.json")).unwrap()).unwrap(), said)
 }
 
-/// A scene that is refused with status 2: what it says.
+/// Returns the message for a scene that is refused with status 2.
 fn refused(folder: &Path, scene: &str, out: &str) -> String {
     fs::write(folder.join("scene.toml"), scene).unwrap();
     let ran = foldwell(folder, &["run", "scene.toml", "--out", out]);
@@ -48,7 +48,7 @@ fn study(name: &str, more: &str) -> String {
     format!("[[study]]\nname = \"{name}\"\n{more}\n")
 }
 
-/// An array of a file on its lines, which come after its triangles.
+/// Returns the values on the lines of an array of a file; lines come after triangles.
 fn on_lines(path: &Path, name: &str) -> Vec<f64> {
     let vtk = Vtk::parse_xml(&fs::read(path).unwrap()[..]).unwrap();
     let DataSet::UnstructuredGrid { .. } = &vtk.data else { panic!("a grid") };
@@ -60,7 +60,7 @@ fn on_lines(path: &Path, name: &str) -> Vec<f64> {
     array.unwrap().split_off(read_vtu(path).unwrap().triangles.len())
 }
 
-/// Names and bytes of all files below a folder, times left out of the summary.
+/// Returns names and bytes of all files below a folder, without the times in the summary.
 fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -77,9 +77,10 @@ fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     found
 }
 
-/// Claim: every face and every edge of the model is in a file once, with its energy: the star cell has 8 triangles and 12 edges, and
-/// the energies of the lines add up to that of the summary, on a screw for each cell that is shown. On narrow tori most faces reach
-/// over the seam. No point coincides with another one where the sheet is drawn. Tolerance: a sum of a few hundred numbers.
+/// Claim: every face and every edge of the model is in a file once, with its energy: the star cell has 8 triangles and
+/// 12 edges, and the energies of the lines add up to that of the summary, on a screw for each cell that is shown. On
+/// narrow tori most faces cross the seam. No two points coincide in the drawn state. Tolerance: the rounding error of a
+/// sum of a few hundred numbers.
 #[test]
 fn every_element_is_in_the_file_once() {
     let tori = [("domain = \"torus\"\nlattice = \"free\"", 1), ("domain = \"torus\"\nlattice = \"fixed\"", 1)];
@@ -103,14 +104,14 @@ fn every_element_is_in_the_file_once() {
         for (k, a) in drawn.points.iter().enumerate() {
             assert!(drawn.points[..k].iter().all(|b| (a - b).norm() > 1e-6), "{domain}: point {k}");
         }
-        // a line without a face beside it would hang in the air
+        // every line must belong to a face
         let beside = |line: &[usize; 2]| mesh.triangles.iter().any(|face| line.iter().all(|end| face.contains(end)));
         assert!(mesh.lines.iter().all(beside), "{domain}");
     }
 }
 
-/// Claim: a picture of a torus with fixed lattice is a state to start from, its images left out of the unknowns, and so is one
-/// without images, as earlier versions wrote it.
+/// Claim: the file of a torus with fixed lattice is a valid start, with the images not counted as unknowns, and so is a
+/// file without images, as written by earlier versions.
 #[test]
 fn a_torus_starts_from_its_picture() {
     let folder = tempfile::tempdir().unwrap();
@@ -127,8 +128,8 @@ fn a_torus_starts_from_its_picture() {
     assert!(history < first["studies"][0]["history"].as_array().unwrap().len(), "{history}");
 }
 
-/// Claim: a run that would replace a file its scene reads is refused before it writes anything: a table, the mesh, a start, the
-/// scene, also by way of links and of folders named in another way.
+/// Claim: a run that would overwrite a file that its scene reads is refused before it writes anything: a table, the
+/// mesh, a start, or the scene, also through links and folders with several names.
 #[test]
 fn files_that_are_read_are_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
@@ -158,12 +159,13 @@ fn files_that_are_read_are_not_overwritten() {
         fs::rename(path("out/a/a_0001.vtu"), path("kept.vtu")).unwrap();
         std::os::unix::fs::symlink(path("kept.vtu"), path("out/a/a_0001.vtu")).unwrap();
         assert!(refused(folder.path(), &(patch.clone() + &again), "out").contains("would overwrite"));
-        // a study that writes none of it may read it
+        // a study that writes none of these files may read them
         run(folder.path(), &(patch + &again.replace("name = \"a\"", "name = \"b\"")), &[]);
     }
 }
 
-/// Claim: studies whose files would have the same names are refused before anything is computed, and names too long for files.
+/// Claim: studies whose files would have the same names, and names too long for files, are refused before anything is
+/// computed.
 #[test]
 fn names_do_not_collide() {
     let folder = tempfile::tempdir().unwrap();
@@ -188,8 +190,8 @@ fn names_do_not_collide() {
     run(folder.path(), &(sheet + &relax(&"n".repeat(200)) + &relax("a-map") + &relax("a")), &[]);
 }
 
-/// Claim: a resumed run computes a study again when any of its files is missing, empty, cut or changed, or when what the summary
-/// says of it cannot be read, and then the folder is what it was, byte by byte; whole files are kept.
+/// Claim: a resumed run computes a study again if one of its files is missing, empty, cut or changed, or if its entry
+/// in the summary cannot be read, and then the folder is restored byte by byte; complete files are kept.
 #[test]
 fn a_resumed_run_makes_broken_files_good() {
     let folder = tempfile::tempdir().unwrap();
@@ -223,8 +225,8 @@ fn a_resumed_run_makes_broken_files_good() {
     assert_eq!(contents(&out), whole);
 }
 
-/// Claim: what an earlier run drew and this one does not is gone, and nothing else is: files of other studies, of the user, and
-/// folders in which something is left.
+/// Claim: the drawings of an earlier run that this run does not make are removed, and nothing else: files of other
+/// studies, of the user, and folders that are not empty stay.
 #[test]
 fn old_pictures_go() {
     let folder = tempfile::tempdir().unwrap();
@@ -252,9 +254,9 @@ fn old_pictures_go() {
     }
 }
 
-/// Claim: with many studies the summary is not written after each of them, and in the end all are in it, in their order, also
-/// where some were kept. 300 studies stand for more; the bound on time is wide, its source the 0.02 s of a study that is relaxed
-/// already.
+/// Claim: with many studies the summary is not written after each of them, and at the end it has all of them in their
+/// order, also if some were kept. 300 studies represent more; the bound on time is wide, from 0.02 s for a study that
+/// is already relaxed.
 #[test]
 fn many_studies_are_all_in_the_summary() {
     let folder = tempfile::tempdir().unwrap();

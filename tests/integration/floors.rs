@@ -1,12 +1,13 @@
-//! The house has floors: a module imports only from lower ones, and neighbours do not see each other.
+//! The layers of the library: a module imports only from lower layers, and modules of one layer do not import from each
+//! other.
 //!
-//! The sources are read as words, so that comments and strings do not count and no way of writing a path escapes:
-//! `use crate::a::b`, `use crate::{a, b}`, an inline `crate::a::b`, `super::super::a`, `foldwell::a` in the binary.
+//! The sources are read as words, so that comments and strings do not count and every notation of a path is found: `use
+//! crate::a::b`, `use crate::{a, b}`, an inline `crate::a::b`, `super::super::a`, `foldwell::a` in the binary.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Modules and their floors; two modules on one floor do not see each other.
+/// Modules and their layers; two modules of one layer do not import from each other.
 const FLOORS: &[(&str, u8)] = &[
     ("math", 0),
     ("numerics", 0),
@@ -27,7 +28,7 @@ const FLOORS: &[(&str, u8)] = &[
     ("main", 9),
 ];
 
-/// Crates that are named in one place only, and that place: a prefix of the path under `src`.
+/// Crates that are used in one place only, and that place: a prefix of the path under `src`.
 const OWNED: &[(&str, &[&str])] = &[
     ("faer", &["numerics/"]),
     ("parry3d_f64", &["analysis/intersections/"]),
@@ -37,8 +38,8 @@ const OWNED: &[(&str, &[&str])] = &[
     ("clap_complete", &["cli.rs"]),
 ];
 
-/// Decompositions that nalgebra offers as methods and as types: they are asked of `numerics::dense`, which says which
-/// library does it.
+/// Decompositions that nalgebra offers as methods and as types. They are called through `numerics::dense`, which
+/// chooses the library.
 const DECOMPOSITIONS: &[&str] = &[
     "svd",
     "lu",
@@ -62,7 +63,7 @@ const DECOMPOSITIONS: &[&str] = &[
     "Schur",
 ];
 
-/// Everything at the root beside dot files.
+/// All entries at the root except those that begin with a dot.
 const ROOT: &[&str] = &[
     "CHANGELOG.md",
     "CITATION.cff",
@@ -84,7 +85,7 @@ fn floor(module: &str) -> Option<u8> {
     FLOORS.iter().find(|(name, _)| *name == module).map(|(_, floor)| *floor)
 }
 
-/// All `.rs` files under `folder`, as paths relative to it.
+/// Returns all `.rs` files below `folder`, as paths relative to it.
 pub(crate) fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -102,7 +103,7 @@ pub(crate) fn sources(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// The names, `::` and other signs of a source, without comments, strings and characters.
+/// Returns the names, `::` and other signs of a source, without comments, strings and characters.
 pub(crate) fn words(text: &str) -> Vec<String> {
     let letters: Vec<char> = text.chars().collect();
     let starts = |at: usize, what: &str| what.chars().enumerate().all(|(k, c)| letters.get(at + k) == Some(&c));
@@ -140,14 +141,14 @@ pub(crate) fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// The place behind the next `end`.
+/// Returns the position after the next `end`.
 fn after(letters: &[char], from: usize, end: &str) -> usize {
     let end: Vec<char> = end.chars().collect();
     let at = letters[from..].windows(end.len()).position(|window| window == end);
     at.map_or(letters.len(), |at| from + at + end.len())
 }
 
-/// Length of a quoted text that starts here.
+/// Returns the length of a quoted text that starts here.
 fn string(letters: &[char], quote: char) -> usize {
     let mut at = 1;
     while at < letters.len() && letters[at] != quote {
@@ -156,7 +157,8 @@ fn string(letters: &[char], quote: char) -> usize {
     (at + 1).min(letters.len())
 }
 
-/// The modules under the root of the crate that a source names. `depth`: how many `super` lead to the root.
+/// Returns the modules under the root of the crate that a source names. `depth` is the number of `super` that lead to
+/// the root.
 fn named_modules(words: &[String], depth: usize) -> Vec<String> {
     let mut found = Vec::new();
     let word = |at: usize| words.get(at).map(String::as_str);
@@ -180,7 +182,7 @@ fn named_modules(words: &[String], depth: usize) -> Vec<String> {
     found
 }
 
-/// The first names of the paths that start here: one, or those of a group `{a::b, c}`.
+/// Returns the first names of the paths that start here: one, or those of a group `{a::b, c}`.
 fn heads(words: &[String]) -> Vec<String> {
     if words.first().map(String::as_str) != Some("{") {
         return words.first().cloned().into_iter().collect();
@@ -202,7 +204,7 @@ fn heads(words: &[String]) -> Vec<String> {
     found
 }
 
-/// Everything in the sources under `folder` that breaks the rules.
+/// Returns everything in the sources below `folder` that breaks the rules.
 fn violations(folder: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for path in sources(folder) {
@@ -236,8 +238,8 @@ fn violations(folder: &Path) -> Vec<String> {
     found
 }
 
-/// Decompositions outside of test modules: methods that are called, `.lu()`, and types that are named. Functions of
-/// `numerics` have some of these names too, but no dot before them; fields have no parenthesis after them.
+/// Returns decompositions outside of test modules: methods that are called, `.lu()`, and types that are named. Some
+/// functions of `numerics` have such names too, but no dot before them; fields have no parenthesis after them.
 fn decompositions(words: &[String]) -> impl Iterator<Item = &str> {
     let word = |at: usize| words.get(at).map_or("", String::as_str);
     let tests = (0..words.len()).find(|&at| (word(at), word(at + 1)) == ("mod", "tests")).unwrap_or(words.len());
@@ -253,7 +255,8 @@ pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Claim: no source names a module beside or above it, nor a crate that belongs elsewhere; every module has a floor.
+/// Claim: no source names a module of the same or a higher layer, nor a crate that belongs elsewhere; every module has
+/// a layer.
 #[test]
 fn modules_see_only_lower_floors() {
     assert!(sources(&root().join("src")).len() > 50, "the sources are there");
@@ -268,8 +271,8 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Claim: the reader above can find what it looks for. One violation at a time is planted in a copy of the sources,
-/// each in another way of writing; exactly that one is found. What only looks like one is not.
+/// Claim: this test finds violations. One violation at a time is planted in a copy of the sources, each in another
+/// notation; exactly that one is found, and none in sources that only look similar.
 #[test]
 fn planted_violations_are_found() {
     let plants = [
@@ -310,7 +313,7 @@ fn planted_violations_are_found() {
     }
 }
 
-/// What stands at the root: as the repository has it where it is one, otherwise as the folder has it.
+/// Returns the names at the root: those of the repository if there is one, otherwise those of the folder.
 fn names_at_root() -> Vec<String> {
     let listed = std::process::Command::new("git").args(["ls-files", "--full-name"]).current_dir(root()).output();
     let first = |path: &str| path.split('/').next().unwrap_or_default().to_owned();
@@ -329,7 +332,7 @@ fn names_at_root() -> Vec<String> {
     names
 }
 
-/// Claim: the root has the files that everybody looks for, and no others.
+/// Claim: the root has the expected files, and no others.
 #[test]
 fn nothing_lies_about_at_the_root() {
     let names = names_at_root();

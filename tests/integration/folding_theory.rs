@@ -1,6 +1,5 @@
-//! What the theory says of folding, shown along whole trajectories: vertices of degree four, cells with a
-//! quadrilateral, developable sheets, the axis, Poisson's ratios of Miura-ori, and the rays that triangulated Miura-ori
-//! does not have.
+//! Theorems on folding, tested along whole trajectories: vertices of degree four, cells with a quadrilateral,
+//! developable sheets, the axis, Poisson's ratios of Miura-ori, and the rays that triangulated Miura-ori does not have.
 
 use crate::common::{Testing, distance, mesh, on};
 use approx::{abs_diff_eq, assert_abs_diff_eq};
@@ -25,7 +24,7 @@ fn edge(sheet: &Sheet, [i, j, n1, n2]: [i32; 4]) -> usize {
     sheet.edges.iter().position(|edge| edge.key == key).unwrap()
 }
 
-/// A sheet with these edges locked as drawn; its polygons are rigid or bend.
+/// Assembles a sheet with these edges locked at their drawn angles, and with rigid or bending polygons.
 fn locked(sheet: &Sheet, locks: &[usize], rigid: bool) -> Assembly {
     let boundary = if sheet.lattice.is_some() { Boundary::Screw } else { Boundary::Patch };
     let drawn = on(sheet.clone(), [1, 1], boundary);
@@ -49,9 +48,9 @@ fn shape(state: &Folded) -> &Shape {
 }
 
 /// Claim: the vertex of `meshes/degree-four.fold`, a finite sheet of four rigid quadrilaterals, has two branches, each
-/// up and down; on all of them, until they come back, `cos rho2 = A cos rho0 + B` for both pairs of opposite creases,
-/// with `A = sin t3 sin t0 / (sin t1 sin t2)` and `B = (cos t1 cos t2 - cos t3 cos t0) / (sin t1 sin t2)` (the issue;
-/// both say how far the creases between are apart). Tolerance: the residual over the sines.
+/// in both directions; on all of them, until they close, `cos rho2 = A cos rho0 + B` for both pairs of opposite
+/// creases, with `A = sin t3 sin t0 / (sin t1 sin t2)` and `B = (cos t1 cos t2 - cos t3 cos t0) / (sin t1 sin t2)`
+/// (both sides give the angle between the other two creases). Tolerance: the residual divided by the sines.
 #[test]
 fn a_vertex_of_degree_four_all_the_way_round() {
     let sheet = mesh("degree-four");
@@ -76,10 +75,10 @@ fn a_vertex_of_degree_four_all_the_way_round() {
     }
 }
 
-/// Claim: what the paper's captions say of its two figures, of `meshes/quad-cell.fold` and `meshes/flat-quad.fold`. Six
-/// triangles and a quadrilateral, not developable: one-dimensional branches that fold upwards and downwards, pairs of
-/// which close into a loop. Developable: 6 solutions, so 6 closed branches, 3 with positive curvature where they start
-/// and end, 3 with negative curvature and the same strains.
+/// Claim: the statements of the paper's captions on its two figures hold for `meshes/quad-cell.fold` and
+/// `meshes/flat-quad.fold`. Six triangles and a quadrilateral, not developable: one-dimensional branches that fold
+/// upwards and downwards, which close into loops in pairs. Developable: 6 solutions, so 6 closed branches, 3 with
+/// positive curvature at their start and end, 3 with negative curvature and the same strains.
 #[test]
 fn cells_with_a_quadrilateral() {
     for (name, loops) in [("quad-cell", 2), ("flat-quad", 6)] {
@@ -97,8 +96,8 @@ fn cells_with_a_quadrilateral() {
     }
 }
 
-/// Flat cells, each with the edges that are locked one after the other: the reference cell, one with a quadrilateral,
-/// and random ones.
+/// Returns flat cells, each with the sets of edges that are locked one after the other: the reference cell, one with a
+/// quadrilateral, and random ones.
 fn flat_cells() -> Vec<(Sheet, Vec<Vec<usize>>)> {
     let one_each = |sheet: &Sheet| (0..sheet.edges.len()).map(|edge| vec![edge]).collect();
     let reference = mesh("open-flat");
@@ -113,8 +112,8 @@ fn flat_cells() -> Vec<(Sheet, Vec<Vec<usize>>)> {
     [(reference, locks), (mesh("flat-quad"), vec![vec![]])].into_iter().chain(random).collect()
 }
 
-/// Trajectories of all simple rays of flat cells, a moderate way: to 2 rad in fold angles. Multiple rays are left out,
-/// whose direction second order does not settle.
+/// Returns trajectories of all simple rays of flat cells, of moderate length: to 2 rad in fold angles. Multiple rays
+/// are left out, because second order does not determine their direction.
 fn folded_flat_cells() -> Vec<(Sheet, Traced)> {
     let mut found = Vec::new();
     for (sheet, locks) in flat_cells() {
@@ -137,13 +136,13 @@ fn folded_flat_cells() -> Vec<(Sheet, Traced)> {
     found
 }
 
-/// The folded states: neither the flat one at the start nor one at the end.
+/// Returns the folded states: all but the flat ones at the start and at the end.
 fn folded(one: &Traced) -> &[Folded] {
     let end = one.states.len() - usize::from(matches!(one.end, End::Closed(_)));
     &one.states[1..end]
 }
 
-/// Distance of the sheet from its axis: of the nearest point of a face.
+/// Returns the distance of the sheet from its axis, that of the nearest point of a face.
 fn innermost(sheet: &Sheet, shape: &Shape) -> f64 {
     let (axis, towards) = (shape.screw.axis.unwrap(), shape.screw.towards_axis());
     let centre = towards / towards.norm_squared();
@@ -175,9 +174,10 @@ fn distance_from_origin(corners: [Vector2<f64>; 3]) -> f64 {
 }
 
 /// Claim: on every branch of a flat sheet, away from flat, `strain11 < 0`, and chords to all copies of vertex 0 are
-/// shorter than the straight ways that were drawn there. So `strain22 < 0` too where the drawn lattice is rectangular,
-/// at any fold. Elsewhere strain22 compares no chords but `l2` less its part along `l1` (`strain = a^-T g a^-1 - I`),
-/// and can be positive, by the square of the fold, on branches that bend along `l1`: the paper says `< 0` of both.
+/// shorter than the straight lines of the drawn state. Hence `strain22 < 0` too if the drawn lattice is rectangular, at
+/// any fold. Otherwise strain22 does not compare chords but `l2` minus its part along `l1` (`strain = a^-T g a^-1 -
+/// I`), and can be positive, to second order in the fold, on branches that bend along `l1`: the paper says `< 0` of
+/// both.
 #[test]
 fn flat_sheets_get_shorter_on_every_branch() {
     let (mut followed, mut lengthened) = (0, 0);
@@ -201,10 +201,10 @@ fn flat_sheets_get_shorter_on_every_branch() {
     assert!(followed > 200 && lengthened > 0, "{followed} {lengthened}");
 }
 
-/// Claim: on an oblique lattice strain22 can be positive near the flat state, by the square of the fold: on the branch
-/// of the reference cell with edge (2, 3, 0, 0) locked that bends along `l1` the most, it is about 4.4e-4 times the
-/// square of the arc length, strain11 being -0.028 times that. Computed here, not in the paper. Tolerance: the next
-/// order at arc lengths of a hundredth.
+/// Claim: on an oblique lattice strain22 can be positive near the flat state, to second order in the fold: on the
+/// branch of the reference cell with edge (2, 3, 0, 0) locked that bends along `l1` the most, it is about 4.4e-4 times
+/// the square of the arc length, with strain11 -0.028 times that square. Computed here, not in the paper. Tolerance:
+/// the next order at arc lengths of a hundredth.
 #[test]
 fn strain_across_an_oblique_lattice_may_grow() {
     let sheet = mesh("open-flat");
@@ -221,10 +221,10 @@ fn strain_across_an_oblique_lattice_may_grow() {
 }
 
 /// Claim: unrolled at its innermost point, at the distance `r` from the axis, a flat sheet has become shorter in every
-/// direction of the lattice: `r^2 theta_a theta_b + h_a h_b` is at most the drawn metric, as quadratic forms. For the
-/// nearest point of the cylinder of radius `r` to a point of the sheet is no further from other such points than these
-/// are (projection onto a convex body), and straight ways of the flat sheet, from copy to copy, become ways on it. Both
-/// strains of that metric are then negative. Derived here. Tolerance: rounding.
+/// direction of the lattice: `r^2 theta_a theta_b + h_a h_b` is at most the drawn metric, as quadratic forms. The
+/// reason: the nearest points of the cylinder of radius `r` to two points of the sheet are not further apart than these
+/// points (projection onto a convex body), and straight lines of the flat sheet, from copy to copy, are mapped to paths
+/// on the cylinder. Both strains of that metric are then negative. Derived here. Tolerance: rounding errors.
 #[test]
 fn flat_sheets_get_shorter_along_the_cylinder() {
     for (sheet, one) in folded_flat_cells() {
@@ -242,7 +242,7 @@ fn flat_sheets_get_shorter_along_the_cylinder() {
 }
 
 /// Claim: the branches of a flat sheet come in pairs of equal strain and opposite curvature, rolled up and rolled down.
-/// Tolerance: rounding.
+/// Tolerance: rounding errors.
 #[test]
 fn branches_of_flat_sheets_come_in_pairs() {
     let mut pairs = 0;
@@ -264,7 +264,8 @@ fn branches_of_flat_sheets_come_in_pairs() {
     assert!(pairs > 60, "{pairs}");
 }
 
-/// The `ds` across the axis `s` with `(1 - S) ds = W x s` there, solved in a plane that is perpendicular to the axis.
+/// Returns the `ds` perpendicular to the axis `s` with `(1 - S) ds = W x s`, solved in the plane perpendicular to the
+/// axis.
 fn axis_rate(screw: &Screw, turning: &Vec3, a: usize) -> Vec3 {
     let s = screw.axis.unwrap();
     let x = s.cross(&Vec3::new(0.3, -0.5, 0.8)).normalize();
@@ -274,11 +275,12 @@ fn axis_rate(screw: &Screw, turning: &Vec3, a: usize) -> Vec3 {
     plane * map.lu().solve(&(plane.transpose() * turning.cross(&s))).unwrap()
 }
 
-/// Claim: along the trajectories of the reference cell and of a flat one the axis turns, in the frame of the first
-/// face, as its linear prediction says (the paper's last formula of Appendix G): `(1 - S_a) ds = W_a x s` across the
-/// axis, `W_a` the angular velocity from cell to cell that the null vector of closure makes, the same for both lattice
-/// rotations. Against central differences over steps of 4e-3 and 2e-3 in arc length along the trajectory, extrapolated.
-/// Tolerance 3e-7: what the arc length between neighbouring states is good to, relative, where steps are of 0.1.
+/// Claim: along the trajectories of the reference cell and of a flat one the axis rotates, in the frame of the first
+/// face, as its linear prediction says (the paper's last formula of Appendix G): `(1 - S_a) ds = W_a x s` perpendicular
+/// to the axis, where `W_a` is the angular velocity from cell to cell of the null vector of closure; `ds` is the same
+/// for both lattice rotations. Compared with central differences over steps of 4e-3 and 2e-3 in arc length along the
+/// trajectory, extrapolated. Tolerance 3e-7: the relative accuracy of the arc length between neighbouring states with
+/// steps of 0.1.
 #[test]
 fn the_axis_turns_as_predicted() {
     let star = mesh("open-star");
@@ -314,8 +316,8 @@ fn last(one: &Traced) -> &Shape {
     shape(one.states.last().unwrap())
 }
 
-/// Miura-ori and eggbox of several sectors and folds, with the ratio of their relative changes of length when they
-/// fold, second over first lattice vector, in closed form.
+/// Returns Miura-ori and eggboxes of several sectors and folds, with the ratio of the relative changes of length of the
+/// second and the first lattice vector when they fold, in closed form.
 fn folded_quads() -> Vec<(Sheet, f64)> {
     let mut found = Vec::new();
     for sector in [0.6, 1.0, FRAC_PI_3, 1.4_f64] {
@@ -331,7 +333,7 @@ fn folded_quads() -> Vec<(Sheet, f64)> {
     found
 }
 
-/// Strain rates `[e11, e22, e12]` of modes given as columns.
+/// Returns the strain rates `[e11, e22, e12]` of modes, which are given as columns.
 fn strain_rates(sheet: &Sheet, modes: &DenseMatrix) -> Vec<[f64; 3]> {
     let embedding = Embedding::new(sheet).unwrap();
     let frame = LatticeFrame::new(&sheet.lattice.unwrap());
@@ -345,10 +347,10 @@ fn strain_rates(sheet: &Sheet, modes: &DenseMatrix) -> Vec<[f64; 3]> {
 
 /// Claim: Poisson's ratios of Miura-ori in its plane and out of it are equal and opposite (M. Schenk and S. D. Guest,
 /// PNAS 110, 3276 (2013); Z. Y. Wei et al., PRL 110, 215501 (2013)): in the plane `-e22/e11 = -cos^2 g tan^2 t`, from
-/// the derivatives of the lengths of its cell; out of it `-k22/k11`, curvatures of the bending of its triangulation, is
-/// the opposite. So are the eggbox's, `tan^2 e / tan^2 f` with the slopes `f`, `e` of its sides, `sin f sin e = cos t`,
-/// in its plane. Of the three modes of the triangulation one has no curvature: folding. Tolerance: rounding over the
-/// smallest of the modes' curvatures.
+/// the derivatives of the lengths of its cell; out of it `-k22/k11`, from the curvatures of the bending of its
+/// triangulation, is the opposite. So are those of the eggbox, in its plane `tan^2 e / tan^2 f` with the slopes `f`,
+/// `e` of its sides, `sin f sin e = cos t`. One of the three modes of the triangulation has no curvature: folding.
+/// Tolerance: rounding errors divided by the least curvature of the modes.
 #[test]
 fn poisson_ratios_are_opposite() {
     for (sheet, ratio) in folded_quads() {
@@ -367,7 +369,7 @@ fn poisson_ratios_are_opposite() {
     }
 }
 
-/// The curvatures `[k11, k22, k12]` of the mode, of all that bend, with `k12 = 0`.
+/// Returns the curvatures `[k11, k22, k12]` of the mode with `k12 = 0` among all modes that bend.
 fn bending(modes: &FoldingModes) -> [f64; 3] {
     let twist = DenseMatrix::from_fn(1, 3, |_, mode| modes.curvatures[(2, mode)]);
     let untwisted = &modes.curvatures * null_space(&twist).unwrap().basis;
@@ -375,7 +377,8 @@ fn bending(modes: &FoldingModes) -> [f64; 3] {
     [0, 1, 2].map(|row| untwisted[(row, larger)])
 }
 
-/// The loop quadric `x -> (W_1 x W_2) . n` of the modes of a periodic sheet, in an orthonormal basis of fold rates.
+/// Returns the loop quadric `x -> (W_1 x W_2) . n` of the modes of a periodic sheet, in an orthonormal basis of fold
+/// rates.
 fn loop_quadric(sheet: &Sheet, modes: &FoldingModes) -> DenseMatrix {
     let [l1, l2] = sheet.lattice.unwrap();
     let (normal, w) = (l1.cross(&l2).normalize(), &modes.lattice_rotations);
@@ -384,13 +387,13 @@ fn loop_quadric(sheet: &Sheet, modes: &FoldingModes) -> DenseMatrix {
 }
 
 /// Claim: the out-of-plane linear modes of triangulated Miura-ori do not extend, as the paper says. Its loop quadric
-/// has two eigenvalues of one sign and a zero, along its folding, whatever the fold (here -0.418258, -0.297784, 0 of
-/// `meshes/miura.fold`); so no direction that bends the sheet is real: with any crease locked there are two complex
-/// solutions and no real ray, with a diagonal locked only the folding. The second-order closure of the vertices finds
-/// the same quadric, over the root of the number of vertices. The eggbox, triangulated, is the other way round: it
-/// bends with positive Gaussian curvature and twists with negative, its quadric has both signs, a locked crease leaves
-/// it four real rays, and a locked diagonal two motions that no quadric forbids. Tolerance: rounding; directions of
-/// multiple solutions 1e-9.
+/// has two eigenvalues of one sign and a zero, along its folding, at every fold (here -0.418258, -0.297784, 0 of
+/// `meshes/miura.fold`); hence no direction that bends the sheet is real: with any crease locked there are two complex
+/// solutions and no real ray, with a diagonal locked only the folding. The second-order closure of the vertices gives
+/// the same quadric, divided by the root of the number of vertices. The triangulated eggbox behaves in the opposite
+/// way: it bends with positive Gaussian curvature and twists with negative, its quadric has both signs, with a locked
+/// crease it has four real rays, and with a locked diagonal two motions without a quadric that excludes them.
+/// Tolerance: rounding errors; 1e-9 for directions of multiple solutions.
 #[test]
 fn triangulated_miura_does_not_bend() {
     for (sheet, ratio) in folded_quads() {
@@ -425,7 +428,7 @@ fn triangulated_miura_does_not_bend() {
     assert!(distance(&values, &[-0.418258, -0.297784, 0.0]) <= 1e-6, "{values:?}");
 }
 
-/// Size of the second-order closure of a sheet's vertices: of all forms together.
+/// Returns the norm of the second-order closure of a sheet's vertices: of all forms together.
 fn scale_of_closure(sheet: &Sheet) -> f64 {
     let closure = Closure::of_cell(sheet).unwrap();
     let second_order = SecondOrder::new(&closure, &drawn_fold_angles(sheet)).unwrap();

@@ -1,16 +1,16 @@
-//! What somebody meets who uses the library for the first time: the names at its root, rigid facets, short errors.
+//! First use of the library: the names at its root, rigid facets, and short errors.
 
 use foldwell::sheet::generate::SquareTwist;
 use foldwell::solver::NewtonError;
 use foldwell::{Assembly, Pattern, Picture, RIGID, Relaxed, Rest, generate, relax, write_vtu};
 use std::error::Error;
 
-/// The most that an error prints where `main` returns it: half a screen.
+/// Largest number of characters of an error that `main` returns: half a screen.
 const MOST_CHARACTERS: usize = 500;
 
-/// Claim: twelve lines with names of the root alone relax a Miura-ori of 3 x 3 cells, rigid bars, creases that rest elsewhere,
-/// and write a VTU that can be read back. Facets that nobody mentions are rigid: the polygons stay flat, and where they do the
-/// sheet unfolds without any energy. Tolerances: those of the solver, 1e-12 of the forces.
+/// Claim: twelve lines that use only names of the root relax a Miura-ori of 3 x 3 cells, with rigid bars and other rest
+/// angles than the drawn ones, and write a VTU file that can be read back. Facets that are not mentioned are rigid: the
+/// polygons stay flat, and the sheet then unfolds to zero energy. Tolerances: those of the solver, 1e-12 of the forces.
 #[test]
 fn twelve_lines_relax_a_miura_ori() {
     fn program(file: &std::path::Path) -> Result<(Assembly, Relaxed), Box<dyn Error>> {
@@ -31,8 +31,8 @@ fn twelve_lines_relax_a_miura_ori() {
     assert_eq!(read.points.len(), assembly.tiling().positions.len());
 }
 
-/// Claim: a relaxation that fails prints less than 500 characters, also by `{:?}`, as `main` prints what it returns: not the
-/// state and the history that it carries.
+/// Claim: the error of a relaxation that fails has less than 500 characters, also by `{:?}`, with which `main` prints
+/// it: its state and history are not printed.
 #[test]
 fn failures_print_few_characters() {
     let sheet = generate(&Pattern::SquareTwist(SquareTwist::default())).unwrap();

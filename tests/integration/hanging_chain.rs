@@ -1,7 +1,8 @@
-//! A hanging chain of rigid bars against its closed form: forces and places, from several starts.
+//! A hanging chain of rigid bars compared with its closed form: forces and positions, from several starts.
 //!
-//! `n` bars of length 1 between two points a distance of 0.7 n apart, a weight of 0.5 on each joint. Bar `k` pulls with
-//! `(H, V_k)`, `V_k = w (k - (n - 1)/2)`, and lies along that force; `H` is the force at which the bars span the distance.
+//! The chain has `n` bars of length 1 between two points at a distance of 0.7 n, and a weight of 0.5 at each joint. The
+//! force in bar `k` is `(H, V_k)` with `V_k = w (k - (n - 1)/2)`, along the bar; `H` is the force at which the bars
+//! span the distance.
 
 use crate::textbook::{Textbook, length, linear};
 use approx::abs_diff_eq;
@@ -37,7 +38,7 @@ impl Chain {
         self.force.hypot(self.vertical(k))
     }
 
-    /// Joints of the closed form.
+    /// Returns the positions of the joints in the closed form.
     fn joints(&self) -> Vec<[f64; 2]> {
         let mut place = [0.0, 0.0];
         let next = |k: usize| {
@@ -47,7 +48,8 @@ impl Chain {
         (0..self.bars - 1).map(next).collect()
     }
 
-    /// The problem; with springs that are slack in the closed form and hold the joints on their way there.
+    /// Returns the problem, with or without springs that are slack in the closed form and hold the joints on their way
+    /// there.
     fn problem(&self, springs: bool) -> Textbook {
         let joints = self.bars - 1;
         let span = REACH * self.bars as f64;
@@ -62,14 +64,14 @@ impl Chain {
         places.fold(problem, |problem, (k, place)| problem.soft(&[k as u32], 0.1, linear(&[1.0], place)))
     }
 
-    /// A half circle below the points, a little too long.
+    /// Returns a half circle below the points, a little too long.
     fn half_circle(&self) -> Vec<f64> {
         let span = REACH * self.bars as f64;
         let angle = |k: usize| PI * k as f64 / self.bars as f64;
         (1..self.bars).flat_map(|k| [0.5 * span * (1.0 - angle(k).cos()), -0.45 * span * angle(k).sin()]).collect()
     }
 
-    /// Two straight pieces.
+    /// Returns joints on two straight lines.
     fn v(&self) -> Vec<f64> {
         let depth = (1.0 - REACH * REACH).sqrt();
         (1..self.bars).flat_map(|k| [REACH * k as f64, -depth * k.min(self.bars - k) as f64]).collect()
@@ -93,8 +95,8 @@ impl Chain {
     }
 }
 
-/// Claim: the closed form, from a half circle, with slack springs. Tolerance: residual 1e-12 times the length of the
-/// chain over the softest stiffness.
+/// Claim: the closed form is found from a half circle, with slack springs. Tolerance: residual 1e-12 times the length
+/// of the chain divided by the softest stiffness.
 #[test]
 fn from_a_half_circle() {
     for bars in [4, 9] {
@@ -103,7 +105,7 @@ fn from_a_half_circle() {
     }
 }
 
-/// Claim: the same from a V, also with so many bars that the factorization is sparse.
+/// Claim: the same from two straight lines, also with so many bars that the factorization is sparse.
 #[test]
 fn from_a_v() {
     for bars in [4, 10, 40] {
@@ -112,7 +114,7 @@ fn from_a_v() {
     }
 }
 
-/// Claim: the same without anything soft: only the tensions hold the joints.
+/// Claim: the same without soft terms: only the tensions hold the joints.
 #[test]
 fn without_springs() {
     for bars in [4, 10, 40] {

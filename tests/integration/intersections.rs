@@ -1,8 +1,9 @@
-//! Crossings of triangles against an oracle in exact integers, and those in sheets whose shape is known.
+//! Crossings of triangles compared with exact integer arithmetic, and in sheets of known shape.
 //!
-//! The oracle shares nothing with the code: a point of a triangle is a convex combination of its corners, and whether two
-//! triangles have a point in common, or one that is interior to both, is a linear program in the weights. Coordinates become
-//! integers over a common power of two, and the simplex method runs on integers without division remainders.
+//! The reference shares no code with the library: a point of a triangle is a convex combination of its corners, and
+//! whether two triangles have a common point, or a point interior to both, is a linear program in the weights.
+//! Coordinates are converted to integers over a common power of two, and the simplex method runs on integers without
+//! division remainders.
 
 use foldwell::analysis::intersections::{self, Triangle, crossings};
 use foldwell::math::Vec3;
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 
 type Point = [BigInt; 3];
 
-/// The coordinates of six points as integers over a common power of two.
+/// Returns the coordinates of six points as integers over a common power of two.
 fn integers(points: &[Vec3]) -> Vec<Point> {
     let parts = |x: f64| {
         let bits = x.to_bits();
@@ -30,15 +31,15 @@ fn integers(points: &[Vec3]) -> Vec<Point> {
     points.iter().map(|p| [whole(p.x), whole(p.y), whole(p.z)]).collect()
 }
 
-/// Whether `sum x_j columns_j = right` has a solution with all `x_j >= 0`: the first phase of the simplex method with Bland's
-/// rule, on integers over a common denominator (pivots after J. Edmonds; every division leaves no remainder).
+/// Whether `sum x_j columns_j = right` has a solution with all `x_j >= 0`: the first phase of the simplex method with
+/// Bland's rule, on integers over a common denominator (pivots after J. Edmonds; every division is exact).
 fn feasible(columns: &[Vec<BigInt>], right: &[BigInt]) -> bool {
     let mut rows: Vec<Vec<BigInt>> = Vec::new();
     for (k, r) in right.iter().enumerate() {
         let row = columns.iter().map(|column| column[k].clone()).chain([r.clone()]);
         rows.push(if *r < BigInt::ZERO { row.map(|x| -x).collect() } else { row.collect() });
     }
-    // the last row is the sum of the artificial variables, which has to become zero
+    // the last row is the sum of the artificial variables, which must become zero
     rows.push((0..=columns.len()).map(|j| rows.iter().map(|row| &row[j]).sum()).collect());
     let (m, n) = (right.len(), columns.len());
     let mut basis: Vec<usize> = (n..n + m).collect();
@@ -72,18 +73,18 @@ fn cross(u: &Point, v: &Point) -> Point {
     [0, 1, 2].map(|k| &u[(k + 1) % 3] * &v[(k + 2) % 3] - &u[(k + 2) % 3] * &v[(k + 1) % 3])
 }
 
-/// How two closed triangles lie to each other.
+/// The relative position of two closed triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Contact {
-    /// No point in common.
+    /// No common point.
     Disjoint,
-    /// Points in common, but neither goes through the other.
+    /// Common points, but neither triangle passes through the other.
     Touching,
-    /// Each goes through the other.
+    /// Each triangle passes through the other.
     Crossing,
 }
 
-/// The contact of two triangles by its definition.
+/// Returns the relative position of two triangles by its definition.
 fn oracle(a: &Triangle, b: &Triangle) -> Contact {
     let points = integers(&[&a[..], &b[..]].concat());
     let (a, b) = points.split_at(3);
@@ -106,7 +107,7 @@ fn oracle(a: &Triangle, b: &Triangle) -> Contact {
     if !parallel && feasible(&columns, &right) { Contact::Crossing } else { Contact::Touching }
 }
 
-/// Pairs of one kind from random numbers.
+/// A generator of random pairs of triangles.
 struct Source {
     numbers: ChaCha8Rng,
 }
@@ -136,24 +137,24 @@ impl Source {
         [0; 2].map(|_| [0; 3].map(|_| self.grid_point(most)))
     }
 
-    /// A point of a triangle, also on its edges and beside it, as near as doubles come to its plane.
+    /// Returns a point of a triangle, on its edges or next to it, as near to its plane as double precision allows.
     fn near(&mut self, t: &Triangle) -> Vec3 {
         let weights = [0.0, 0.25, 0.5, 1.0, self.uniform(), 1.5];
         let (u, v) = (weights[self.below(6)], weights[self.below(6)]);
         t[0] + (t[1] - t[0]) * u + (t[2] - t[0]) * v
     }
 
-    /// Moved by up to two units in the last place in each coordinate.
+    /// Moves a point by up to two units in the last place in each coordinate.
     fn nudged(&mut self, p: Vec3) -> Vec3 {
         p.map(|x| (0..self.below(3)).fold(x, |x, _| if self.below(2) == 0 { x.next_up() } else { x.next_down() }))
     }
 
-    /// Moved by about 1e-15.
+    /// Moves a point by about 1e-15.
     fn shifted(&mut self, p: Vec3) -> Vec3 {
         p + self.point() * 2e-15
     }
 
-    /// A pair of this kind.
+    /// Returns a pair of this kind.
     fn pair(&mut self, kind: &str) -> [Triangle; 2] {
         let mut a = self.triangle();
         let mut b = self.triangle();
@@ -219,9 +220,10 @@ const KINDS: [&str; 14] = [
     "of very different sizes",
 ];
 
-/// Claim: no wrong verdict, over 14 kinds of pairs, each with nothing, a corner and an edge in common; the same for the pair
-/// turned round, its corners in another order, mirrored, and scaled by a power of two. Source: the oracle above. No tolerance.
-/// Every verdict has to occur, in all kinds together at least a hundred times for each number of common corners that allows it.
+/// Claim: all verdicts are right for 14 kinds of pairs, each with no common corner, one, and a common edge; also for
+/// the pair in reverse order, with its corners in another order, mirrored, and scaled by a power of two. Source: the
+/// reference above. No tolerance. Every verdict occurs, in all kinds together at least a hundred times for each number
+/// of common corners that allows it.
 #[test]
 fn no_wrong_verdict() {
     let mut counts: BTreeMap<(usize, String), usize> = BTreeMap::new();
@@ -259,8 +261,8 @@ fn no_wrong_verdict() {
     }
 }
 
-/// Claim: the oracle itself can be trusted where the answer is plain: a triangle against one that is pushed through it, laid on
-/// it, moved off it.
+/// Claim: the reference itself is right in evident cases: a triangle and another one that passes through it, lies on
+/// it, or lies apart from it.
 #[test]
 fn the_oracle_sees_what_the_eye_sees() {
     let base = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]].map(Vec3::from);
@@ -273,8 +275,8 @@ fn the_oracle_sees_what_the_eye_sees() {
     assert_eq!(oracle(&base, &other(-2.5)), Contact::Disjoint);
 }
 
-/// Claim: the search over boxes finds every pair that a search over all pairs finds, in random heaps of triangles some of
-/// which share corners. Source: the definition, pair by pair.
+/// Claim: the search over boxes finds every pair that a search over all pairs finds, in random heaps of triangles some
+/// of which share corners. Source: the definition, pair by pair.
 #[test]
 fn boxes_lose_no_pair() {
     let mut source = Source { numbers: ChaCha8Rng::seed_from_u64(77) };

@@ -1,4 +1,4 @@
-//! Nothing depends on the number of threads, and nothing is done that a scene does not need.
+//! Results do not depend on the number of threads, and nothing is computed that a scene does not need.
 
 use crate::common::{self, Testing, on, patch};
 use assert_cmd::Command;
@@ -10,7 +10,7 @@ use foldwell::solver::Options;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Runs a scene over `open-star` and returns what it wrote: path below the folder, bytes.
+/// Runs a scene with `open-star`; returns the path below the folder and the bytes of each file written.
 fn run(folder: &Path, sheet: &str, energy: &str, studies: &str, words: &[&str]) -> BTreeMap<PathBuf, Vec<u8>> {
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
     std::fs::copy(mesh, folder.join("star.fold")).unwrap();
@@ -36,7 +36,7 @@ fn collect(root: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
     }
 }
 
-/// The summary without its times.
+/// Returns the summary without its times.
 fn summary(files: &BTreeMap<PathBuf, Vec<u8>>) -> serde_json::Value {
     let mut summary: serde_json::Value = serde_json::from_slice(&files[Path::new("summary.json")]).unwrap();
     for study in summary["studies"].as_array_mut().unwrap() {
@@ -51,8 +51,9 @@ const BENT: &str =
 
 const SHALLOW: &str = "bars = { stiffness = 1e6 }\ncreases = { stiffness = 1.0, rest = { file = \"rest.csv\" } }";
 
-/// Claim: 16 x 16 cells, enough that elements are worked on in parallel, rest angles off the drawn ones by up to 0.1 rad, relaxed and their modes found with 1, 2 and 3
-/// threads: every file has the same bytes, the summary but for its times.
+/// Claim: 16 x 16 cells, enough for elements to be shared between threads, with rest angles up to 0.1 rad from the
+/// drawn ones, relaxed and with their modes, with 1, 2 and 3 threads: every file has the same bytes, and the summary
+/// except for its times.
 #[test]
 fn the_same_bits_for_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
@@ -82,7 +83,7 @@ fn the_same_bits_for_any_number_of_threads() {
     }
 }
 
-/// Claim: `draw = []` writes tables only, and neither the relaxation nor its table changes by it.
+/// Claim: `draw = []` writes tables only, and changes neither the relaxation nor its table.
 #[test]
 fn nothing_is_drawn_where_nothing_is_wanted() {
     let folder = tempfile::tempdir().unwrap();
@@ -97,8 +98,8 @@ fn nothing_is_drawn_where_nothing_is_wanted() {
     assert!(only.keys().all(|path| ["csv", "json", "svg"].contains(&path.extension().unwrap().to_str().unwrap())));
 }
 
-/// Claim: a cell, and a patch below the threshold, start no threads; a large one does (so that the question is answered
-/// by something that can say yes).
+/// Claim: a cell, and a patch below the threshold, start no threads; a large patch does (which shows that the test can
+/// detect threads).
 #[test]
 fn small_sheets_start_no_threads() {
     let threads = Threads::new(Some(2));
@@ -119,14 +120,14 @@ fn small_sheets_start_no_threads() {
     assert!(threads.started(), "a large sheet started none: the test shows nothing");
 }
 
-/// Names and sizes of a model's terms, soft and stiff.
+/// Returns names and sizes of a model's terms, soft and stiff.
 fn terms(case: &Assembly, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
     let model = case.model_of(terms, Gauge::Held);
     [model.soft(), model.stiff()].map(|list| list.iter().map(|term| (term.name(), term.len())).collect())
 }
 
-/// Claim: a model has the terms that its terms asks for and no others: no hinge for bars alone, no bars for hinges
-/// alone, no facets where there is no polygon, locks only where something is locked.
+/// Claim: a model has the requested terms and no others: no hinges for bars only, no bars for hinges only, no facets
+/// without polygons, and locks only for locked edges.
 #[test]
 fn only_what_is_asked_for_is_built() {
     let star = patch("open-star", [3, 3]);
@@ -145,7 +146,7 @@ fn only_what_is_asked_for_is_built() {
     assert_eq!(terms(&star, &locked), [vec![], vec![("bars", edges), ("locks", 1)]]);
 }
 
-/// Claim: what a scene leaves out is said, each with its reason, and what is built as well.
+/// Claim: the terms that a scene leaves out are reported, each with the reason, and so are the terms that are built.
 #[test]
 fn what_is_left_out_is_said() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
-//! Exact folding against closed forms and counts: null spaces, degree-four vertices, Miura-ori, the eggbox, developable
-//! sheets, and the closed loops of the reference cell.
+//! Exact folding compared with closed forms and counts: null spaces, degree-four vertices, Miura-ori, the eggbox,
+//! developable sheets, and the closed loops of the reference cell.
 
 use crate::common::{Numbers, distance, mesh};
 use approx::abs_diff_eq;
@@ -11,12 +11,12 @@ use foldwell::sheet::generate::{Eggbox, Miura, Random, RandomDevelopable};
 use foldwell::sheet::{EdgeKey, EdgeKind, Pattern, Sheet, fold, generate};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The longest step in fold angles that Newton's method may take here.
+/// Length in fold angles (radians) of the longest step of Newton's method.
 const LONGEST_STEP: f64 = 0.2;
-/// Rotations commute, positions close and bars keep their lengths to this: what the project promises.
+/// Tolerance within which rotations commute, positions close and bars keep their lengths, as the library promises.
 const COMPATIBLE: f64 = 1e-13;
 
-/// A sheet to be folded, some of its edges held.
+/// A sheet to be folded, with some of its edges held.
 struct Folding {
     sheet: Sheet,
     closure: Closure,
@@ -38,14 +38,14 @@ impl Folding {
         null_space(&self.closure.jacobian(angles)).unwrap().basis.ncols()
     }
 
-    /// `angles + step * rates`, rates given per folding edge.
+    /// Returns `angles + step * rates`, with a rate for each edge that folds.
     fn moved(&self, angles: &[f64], rates: &[f64], step: f64) -> Vec<f64> {
         let mut moved = angles.to_vec();
         self.closure.folding_edges().iter().zip(rates).for_each(|(&edge, rate)| moved[edge] += step * rate);
         moved
     }
 
-    /// Brings angles to closure, by steps of least norm; `None` where this does not end.
+    /// Makes angles close by steps of least norm; `None` if this does not converge.
     fn close(&self, mut angles: Vec<f64>) -> Option<Vec<f64>> {
         for _ in 0..100 {
             let residual = self.closure.residual(&angles);
@@ -59,7 +59,7 @@ impl Folding {
         None
     }
 
-    /// The shape, which must be compatible and have the drawn bars.
+    /// Returns the shape, after checking that it is compatible and has the drawn lengths of bars.
     fn shape(&self, angles: &[f64]) -> Shape {
         let placement = self.embedding.place(angles);
         let (ways, bars) = (placement.compatibility.largest(), self.embedding.bar_error(&placement));
@@ -68,14 +68,14 @@ impl Folding {
     }
 }
 
-/// Sizes of the random cells, in vertices along the two lattice vectors.
+/// Numbers of vertices of the random cells along the two lattice vectors.
 const SIZES: [[usize; 2]; 5] = [[2, 2], [2, 3], [3, 3], [4, 3], [4, 4]];
 const SEEDS: u64 = 40;
 
-/// Claim: closure of 200 random cells has 3 null vectors where they are drawn, spatially periodic, and 2 on a cylinder a
-/// little away from there, along a ray on the cone of cylinders, whose curvature is about what the ray says. Source:
-/// McInerney et al. (2020), "Folding motions and the index theorem": 3 in periodic states, 2 in screw-periodic ones. The
-/// curvature is asked for within a factor of two: the rays of some cells bend sharply.
+/// Claim: the closure of 200 random cells has 3 null vectors in the drawn, spatially periodic state, and 2 on a
+/// cylinder near it, along a ray on the cone of cylinders, whose curvature is about that of the ray. Source: McInerney
+/// et al. (2020), "Folding motions and the index theorem": 3 in periodic states, 2 in screw-periodic ones. The
+/// curvature is required within a factor of two, because the rays of some cells bend sharply.
 #[test]
 fn null_spaces_of_random_cells() {
     for size in SIZES {
@@ -95,7 +95,7 @@ fn null_spaces_of_random_cells() {
     }
 }
 
-/// Claim: closure of 200 random flat cells has Nv + 2 null vectors. Source: as above.
+/// Claim: the closure of 200 random flat cells has Nv + 2 null vectors. Source: as above.
 #[test]
 fn null_spaces_of_flat_cells() {
     for size in SIZES {
@@ -107,10 +107,11 @@ fn null_spaces_of_flat_cells() {
     }
 }
 
-/// Claim: whatever way a flat sheet folds, both chords get shorter (a chord is shorter than the way over the sheet); near
-/// the flat state these cells also have `strain22 < 0`, which on an oblique lattice is no length of anything and can be
-/// positive elsewhere (`tests/claims.rs`); and the mirror image has the same strain and the opposite curvature. States: Newton's method from random angles, where it ends. Tolerance of the
-/// mirror image: rounding.
+/// Claim: along every folding of a flat sheet both chords become shorter (a chord is shorter than the path on the
+/// sheet); near the flat state these cells also have `strain22 < 0`, which on an oblique lattice is not the strain of a
+/// length and can be positive elsewhere (`tests/integration/folding_theory.rs`); and the mirror image has the same
+/// strain and the opposite curvature. States: those to which Newton's method converges from random angles. Tolerance of
+/// the mirror image: rounding errors.
 #[test]
 fn developable_sheets_get_shorter() {
     let (mut folded, mut near) = (0, 0);
@@ -137,7 +138,7 @@ fn developable_sheets_get_shorter() {
     assert!(folded >= 50 && near >= 20, "{folded} {near}");
 }
 
-/// The four faces around a vertex with sectors between these directions, as a finite sheet.
+/// Returns the four faces around a vertex with sectors between these directions, as a finite sheet.
 fn fan(directions: &[Vec3; 4]) -> Sheet {
     let points: Vec<[f64; 3]> = [Vec3::zeros()].iter().chain(directions).map(|x| (*x).into()).collect();
     let text =
@@ -149,10 +150,11 @@ fn crease(sheet: &Sheet, i: usize, j: usize) -> usize {
     sheet.edges.iter().position(|edge| edge.key == EdgeKey { i, j, shift: [0, 0] }).unwrap()
 }
 
-/// Claim: at a vertex with four creases, opposite fold angles satisfy `cos rho2 = A cos rho0 + B`, with
-/// `A = sin t3 sin t0 / (sin t1 sin t2)` and `B = (cos t1 cos t2 - cos t3 cos t0) / (sin t1 sin t2)`, sector `t_k` between
-/// creases `k` and `k + 1`: both say how far crease 1 is from crease 3 (law of cosines on the sphere). Pyramids, saddles
-/// and flat ones. Tolerance: rounding over the sensitivity of closure, which grows where the cosine is near one.
+/// Claim: at a vertex with four creases, opposite fold angles satisfy `cos rho2 = A cos rho0 + B`, with `A = sin t3 sin
+/// t0 / (sin t1 sin t2)` and `B = (cos t1 cos t2 - cos t3 cos t0) / (sin t1 sin t2)` and the sector `t_k` between
+/// creases `k` and `k + 1`: both sides give the angle between crease 1 and crease 3 (law of cosines on the sphere).
+/// Pyramids, saddles and flat ones. Tolerance: rounding errors divided by the sensitivity of closure, which grows if
+/// the cosine is near one.
 #[test]
 fn vertices_of_degree_four() {
     let mut numbers = Numbers::new(7);
@@ -202,8 +204,8 @@ impl Quads {
         Self { folding: Folding::new(sheet, &held), creases, driven }
     }
 
-    /// Folds, from the state before, until every crease along x has the fold angle `along` and all others `across`, each
-    /// with its drawn sign. Returns the lengths of the cell.
+    /// Folds, from the previous state, until every crease along x has the fold angle `along` and all others `across`,
+    /// each with its drawn sign. Returns the lengths of the cell.
     fn check(&self, angles: &mut Vec<f64>, along: f64, across: f64) -> [f64; 2] {
         let drawn = self.folding.drawn();
         angles[self.driven] = along.copysign(drawn[self.driven]);
@@ -222,16 +224,16 @@ impl Quads {
     }
 }
 
-/// Between vertices of one row.
+/// Whether an edge connects vertices of one row.
 fn along_x(sheet: &Sheet, edge: usize) -> bool {
     sheet.edges[edge].key.i / 2 == sheet.edges[edge].key.j / 2
 }
 
-/// Claim: Miura-ori folds along `g` with zigzag creases `2 g` and straight ones of
-/// `tan(straight/2) = cos(sector) tan(zigzag/2)` (T. Tachi, "Generalization of rigid-foldable quadrilateral-mesh origami",
-/// 2009, equal sectors) and cells of `2 b cos g tan t / sqrt(1 + cos^2 g tan^2 t)` by `2 a sqrt(1 - sin^2 g sin^2 t)`
-/// (M. Schenk and S. D. Guest, PNAS 110, 3276, 2013), from nearly flat to nearly folded, and stays without curvature.
-/// Tolerance: the residual, 4e-15, over the softest singular value, smallest near the ends.
+/// Claim: Miura-ori folds along `g` with fold angles `2 g` of the zigzag creases and `tan(straight/2) = cos(sector)
+/// tan(zigzag/2)` of the straight ones (T. Tachi, "Generalization of rigid-foldable quadrilateral-mesh origami", 2009,
+/// equal sectors), its cells measure `2 b cos g tan t / sqrt(1 + cos^2 g tan^2 t)` by `2 a sqrt(1 - sin^2 g sin^2 t)`
+/// (M. Schenk and S. D. Guest, PNAS 110, 3276, 2013), from nearly flat to nearly folded, and it has no curvature.
+/// Tolerance: the residual, 4e-15, divided by the softest singular value, which is least near the ends.
 #[test]
 fn miura_along_the_whole_fold() {
     let pattern = Miura { a: 1.3, b: 0.8, sector: 1.1, fold: 0.3 };
@@ -249,10 +251,10 @@ fn miura_along_the_whole_fold() {
     }
 }
 
-/// Claim: the eggbox folds with slopes `f`, `e` of its sides, `sin f sin e = cos(sector)`; half the fold angles have the
-/// tangents `cos f tan e` along x and `cos e tan f` along y, from the right-angled spherical triangles around a top
-/// (Napier's rules), and cells measure `2 a cos f` by `2 b cos e` (Schenk and Guest as above). Nearly from end to end.
-/// Tolerance: as above.
+/// Claim: the eggbox folds with slopes `f`, `e` of its sides that satisfy `sin f sin e = cos(sector)`; half the fold
+/// angles have the tangents `cos f tan e` along x and `cos e tan f` along y, from the right-angled spherical triangles
+/// around a top (Napier's rules), and cells measure `2 a cos f` by `2 b cos e` (Schenk and Guest as above). Over nearly
+/// the whole range. Tolerance: as above.
 #[test]
 fn eggbox_along_the_whole_fold() {
     let pattern = Eggbox { a: 1.3, b: 0.8, sector: 1.0, fold: 1.0 };
@@ -273,7 +275,7 @@ fn eggbox_along_the_whole_fold() {
     }
 }
 
-/// The loops of `tests/cases/open-star.json`, found by an independent program: first direction and arc length.
+/// Returns the loops of `tests/cases/open-star.json`, found by an independent program: first direction and arc length.
 fn reference_loops(folding: &Folding) -> Vec<(Vec<f64>, f64)> {
     let text = include_str!("../cases/open-star.json");
     let reference: serde_json::Value = serde_json::from_str(text).unwrap();
@@ -290,11 +292,11 @@ fn reference_loops(folding: &Folding) -> Vec<(Vec<f64>, f64)> {
     reference["loops"].as_array().unwrap().iter().map(read).collect()
 }
 
-/// Claim: with edge (0, 1, 0, 0) held, every ray of the reference cell comes back to the drawn angles modulo 2 pi after
-/// the length that an independent program found; all the way rotations commute, positions close and bars keep their
-/// lengths to 1e-13, one motion is left, and the curvature changes smoothly, its sign too, also on the long
-/// loop, which passes through itself and comes back inside out. Tolerance of the length: the steps of 0.02 are
-/// counted straight, and the last one ends within one step.
+/// Claim: with edge (0, 1, 0, 0) held, every ray of the reference cell returns to the drawn angles modulo 2 pi after
+/// the length that an independent program found; along the whole way rotations commute, positions close and bars keep
+/// their lengths to 1e-13, one motion is left, and the curvature changes smoothly, including its sign, also on the long
+/// loop, along which the sheet passes through itself and ends inside out. Tolerance of the length: the steps of 0.02
+/// are measured as straight lines, and the last one ends within one step.
 #[test]
 fn loops_of_open_star_close() {
     const STEP: f64 = 0.02;

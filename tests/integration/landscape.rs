@@ -1,4 +1,4 @@
-//! What folding modes cost on patches: theory, section 6.
+//! Energies of folding modes on patches (theory, section 6).
 
 use crate::common::{self, Numbers, Testing, on, patch};
 use crate::theory::continuum;
@@ -14,7 +14,7 @@ use foldwell::sheet::{EdgeKey, Pattern, generate};
 use foldwell::solver::Problem;
 
 const MODES: [[f64; 3]; 3] = [[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
-/// `k11 k22 = k12^2`.
+/// Modes with `k11 k22 = k12^2`.
 const CYLINDERS: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.25, 1.0, 0.5]];
 
 fn patch_of(case: &Assembly, bars: f64) -> HeldSheet {
@@ -30,8 +30,8 @@ fn predicted(patch: &HeldSheet, prediction: &Prediction, mode: [f64; 3]) -> f64 
     prediction.coefficient(&patch.named(mode).unwrap())
 }
 
-/// Claim: the coefficient of rigid bars is the one that independent relaxations gave (theory, section 6, six digits),
-/// the same for all modes of equal Gaussian curvature to 1e-6, and on the cone of cylinders at most 1e-9 of it.
+/// Claim: the coefficient of rigid bars is that of independent relaxations (theory, section 6, six digits), the same
+/// for all modes of equal Gaussian curvature to 1e-6, and on the cone of cylinders at most 1e-9 of it.
 #[test]
 fn coefficients_of_open_star() {
     for (n, expected) in [(4, 10362.6), (6, 172_207.0), (8, 1_129_540.0), (16, 88_442_900.0)] {
@@ -49,7 +49,7 @@ fn coefficients_of_open_star() {
     }
 }
 
-/// A random mode off the cone, and its Gaussian curvature.
+/// Returns a random mode off the cone, and its Gaussian curvature.
 fn off_the_cone(numbers: &mut Numbers) -> ([f64; 3], f64) {
     loop {
         let mode = [0; 3].map(|_| numbers.within(1.0));
@@ -60,7 +60,7 @@ fn off_the_cone(numbers: &mut Numbers) -> ([f64; 3], f64) {
     }
 }
 
-/// How much the coefficient over the square of the Gaussian curvature varies over random modes.
+/// Returns the relative variation over random modes of the coefficient divided by the square of the Gaussian curvature.
 fn spread(patch: &HeldSheet, modes: usize, seed: u64) -> f64 {
     let prediction = Prediction::new(patch).unwrap();
     let mut numbers = Numbers::new(seed);
@@ -75,10 +75,10 @@ fn spread(patch: &HeldSheet, modes: usize, seed: u64) -> f64 {
     high / low - 1.0
 }
 
-/// Claim: the energy knows a mode only through its Gaussian curvature: coefficient over its square is the same to 1e-6 for
-/// 100 random modes of the reference cell and for 20 of each of 20 random cells, at rigid and at soft bars. In the middle one of
-/// these cells it is the same to 3e-11: were coefficients not stationary in what linear solves leave open, a relative 1e-13, it
-/// would be 3e-10 at rigid bars.
+/// Claim: the energy depends on a mode only through its Gaussian curvature: the coefficient divided by its square is
+/// the same to 1e-6 for 100 random modes of the reference cell and for 20 of each of 20 random cells, with rigid and
+/// with soft bars. For the median of these cells it is the same to 3e-11: if coefficients were not stationary in the
+/// errors of linear solves, a relative 1e-13, this would be 3e-10 with rigid bars.
 #[test]
 fn only_gaussian_curvature_counts() {
     for bars in [f64::INFINITY, 1e3] {
@@ -98,8 +98,8 @@ fn only_gaussian_curvature_counts() {
     }
 }
 
-/// Claim: relaxed patches cost what the prediction says, at every stiffness: the fitted coefficient is within 1e-3 of it
-/// and the exponent within 0.02 of 4. Modes with positive and negative curvature.
+/// Claim: the energies of relaxed patches are those predicted, at every stiffness: the fitted coefficient is within
+/// 1e-3 of the prediction and the exponent within 0.02 of 4. Modes with positive and negative curvature.
 #[test]
 fn relaxations_cost_what_is_predicted() {
     let amplitudes = [2e-4, 3e-4, 5e-4, 8e-4, 1.2e-3];
@@ -119,8 +119,9 @@ fn relaxations_cost_what_is_predicted() {
     }
 }
 
-/// Claim: on the cone of cylinders fourth order vanishes, and the energy goes as the sixth power, or a higher one: what the
-/// linear cone is off the exact one. Tolerance: the next term, at amplitudes of 1e-2.
+/// Claim: on the cone of cylinders the fourth order vanishes, and the energy increases as the sixth power or a higher
+/// one: the effect of the distance of the linear cone from the exact one. Tolerance: the next term, at amplitudes of
+/// 1e-2.
 #[test]
 fn cylinders_cost_sixth_order() {
     let mut patch = open_star(6, f64::INFINITY);
@@ -133,10 +134,10 @@ fn cylinders_cost_sixth_order() {
     assert!(found.failure.is_none() && slope.value >= 5.9, "{slope:?}");
 }
 
-/// Claim: the expansion predicts the next orders too: relaxed energies over `a^4` are `c4 + c5 a + c6 a^2` up to the third power,
-/// at rigid and at soft bars, for modes off the cone; and its fourth order is the quartic form's.
-/// Tolerance: twice the amplitude leaves eight times as much, within a factor of two by the powers behind; c5 and c6
-/// themselves, left out, would leave more than a hundred times the remainder.
+/// Claim: the expansion predicts the next orders too: relaxed energies divided by `a^4` are `c4 + c5 a + c6 a^2` up to
+/// the third power, with rigid and with soft bars, for modes off the cone; and its fourth order is that of the quartic
+/// form. Tolerance: at twice the amplitude the remainder is eight times as large, within a factor of two for the higher
+/// powers; without c5 and c6 the remainder would be more than a hundred times as large.
 #[test]
 fn next_orders_are_predicted() {
     for (bars, mode) in [(f64::INFINITY, MODES[0]), (f64::INFINITY, MODES[2]), (1e4, MODES[1]), (1e4, MODES[2])] {
@@ -161,8 +162,9 @@ fn next_orders_are_predicted() {
     }
 }
 
-/// Claim: on the cone the sixth order leads, and its coefficient is predicted as well, so that a zero at fourth order is told from
-/// a small number. Tolerance 1e-4: the next powers at an amplitude of 1e-3, and rounding (1e-30) of energies of 1e-17.
+/// Claim: on the cone the sixth order leads, and its coefficient is predicted as well, so that a zero at fourth order
+/// can be distinguished from a small number. Tolerance 1e-4: the next powers at an amplitude of 1e-3, and rounding
+/// errors (1e-30) of energies of 1e-17.
 #[test]
 fn sixth_order_of_cylinders_is_predicted() {
     for mode in CYLINDERS {
@@ -171,15 +173,16 @@ fn sixth_order_of_cylinders_is_predicted() {
         let expected = Expansion::new(&patch, &rates).unwrap();
         let found = landscape(&mut patch, rates, &[5e-4, 1e-3, 2e-3], &mut |_| true).unwrap();
         let sixths: Vec<f64> = found.samples.iter().map(|s| s.relaxed.state.total() / s.amplitude.powi(6)).collect();
-        let at_zero = (8.0 * sixths[0] - 6.0 * sixths[1] + sixths[2]) / 3.0; // a parabola
+        let at_zero = (8.0 * sixths[0] - 6.0 * sixths[1] + sixths[2]) / 3.0; // extrapolated by a parabola
         println!("{mode:?}: {expected:?}, relaxed {sixths:?} -> {at_zero}");
         assert!(expected.fourth <= 1e-9 * 10362.6 && expected.fifth.abs() <= 1e-4, "{expected:?}");
         assert!((at_zero / expected.sixth - 1.0).abs() <= 1e-4, "{at_zero} {expected:?}");
     }
 }
 
-/// Claim: the law does not need equal creases: with the stiffness of every crease of the patch drawn at random over four decades,
-/// coefficient over square of the Gaussian curvature is one number (theory, section 6: 7e-9), at rigid and soft bars.
+/// Claim: the law does not require equal creases: with random stiffnesses of all creases of the patch over four
+/// decades, the coefficient divided by the square of the Gaussian curvature is the same for all modes (theory, section
+/// 6: 7e-9), with rigid and soft bars.
 #[test]
 fn creases_of_random_stiffness() {
     for bars in [f64::INFINITY, 1e3] {
@@ -194,8 +197,8 @@ fn creases_of_random_stiffness() {
     }
 }
 
-/// Claim: the law holds for triangulated Miura-ori, whose modes curvatures do not name: the coefficient goes with the square of the
-/// Gaussian curvature of the modes there are. Tolerance as before.
+/// Claim: the law holds for triangulated Miura-ori, whose modes are not determined by their curvatures: the coefficient
+/// is proportional to the square of the Gaussian curvature of its modes. Tolerance as before.
 #[test]
 fn triangulated_miura() {
     let case = patch("miura", [4, 4]);
@@ -219,10 +222,11 @@ fn triangulated_miura() {
     assert!(low > 0.0 && high / low - 1.0 <= 1e-6, "{low} {high}");
 }
 
-/// Claim: at flat vertices the law fails (theory, section 6): the cost is a quadratic form `d^T C d` in what second order leaves
-/// open at the vertices, not the square of their sum, the Gaussian curvature; `C` grows with the stiffness of the bars; and on
-/// the real rays of the kinematics, where `d` vanishes, nothing is left. Tolerances: 1e-6 for a form of 10 independent
-/// coefficients on 40 modes; 2% for a hundred times the cost at a hundred times the stiffness; 1e-9 of a generic mode of the same size on rays.
+/// Claim: at flat vertices the law fails (theory, section 6): the energy is a quadratic form `d^T C d` of the
+/// second-order closure errors `d` at the vertices, not the square of their sum, the Gaussian curvature; `C` grows with
+/// the stiffness of the bars; and on the real rays of the kinematics, where `d` vanishes, the energy is zero.
+/// Tolerances: 1e-6 for a form of 10 independent coefficients on 40 modes; 2% for a hundred times the energy at a
+/// hundred times the stiffness; on rays 1e-9 of a generic mode of the same size.
 #[test]
 fn flat_vertices_cost_bars() {
     let case = patch("open-flat", [4, 4]);
@@ -272,9 +276,9 @@ fn flat_vertices_cost_bars() {
     }
 }
 
-/// Claim: rest angles taken from an exact cylinder, 1 rad along each of the rays that one crease locked leaves, cost nothing:
-/// at most 1e-24 per crease (round-off squared), at every stiffness, and the relaxed sheet has these fold angles to
-/// 1e-10 everywhere. Source: the kinematics, which knows no bars.
+/// Claim: rest angles of an exact cylinder, 1 rad along each of the rays with one crease locked, give zero energy: at
+/// most 1e-24 per crease (rounding errors squared), at every stiffness, and the relaxed sheet has these fold angles to
+/// 1e-10 everywhere. Source: the kinematics, which does not use bars.
 #[test]
 fn exact_cylinders_cost_nothing() {
     let case = patch("open-star", [6, 6]);
@@ -298,10 +302,10 @@ fn exact_cylinders_cost_nothing() {
     }
 }
 
-/// Claim: coefficient / (n - 1/2)^6 tends to what one cell's modes say without any patch, converged to 1e-4 in the degree
-/// of the polynomials. The patches are those of the theory (section 6): 6.346, 6.382, 6.378 and 6.371 at 8, 12, 16 and 24
-/// cells, and 6.370 at 32, the limit to its digits; low degrees are above it (6.380 at 14), as minima over fewer
-/// functions are.
+/// Claim: coefficient / (n - 1/2)^6 tends to the prediction from the modes of one cell without any patch, which has
+/// converged to 1e-4 in the degree of the polynomials. The patches are those of the theory (section 6): 6.346, 6.382,
+/// 6.378 and 6.371 at 8, 12, 16 and 24 cells, and 6.370 at 32, the limit to its digits; low degrees give more (6.380 at
+/// 14), as minima over fewer functions.
 #[test]
 fn large_patches_tend_to_the_continuum() {
     let sheet = common::mesh("open-star");
@@ -317,9 +321,10 @@ fn large_patches_tend_to_the_continuum() {
     }
 }
 
-/// Claim: patches of five cells tend to what one cell says, with polynomials of degree 24 (1e-3 within degree 20): the remainder of
-/// `c / (n - 1/2)^6` from 12 to 48 cells a side falls as 1/n, since a rim costs more or less than half a cell where cells are
-/// not the reference one; what is left without its 1/n is below 1%, the next power at 24 cells.
+/// Claim: patches of five cells tend to the prediction from one cell, with polynomials of degree 24 (within 1e-3 of
+/// degree 20): the remainder of `c / (n - 1/2)^6` from 12 to 48 cells along each side decreases as 1/n, since the
+/// effect of the rim differs from that of half a cell if the cell is not the reference cell; the rest without its 1/n
+/// term is below 1%, the next power at 24 cells.
 #[test]
 fn five_cells_tend_to_the_continuum() {
     for seed in 0..5 {
@@ -339,9 +344,10 @@ fn five_cells_tend_to_the_continuum() {
     }
 }
 
-/// Claim: soft bars take the cost over: coefficient / (n - 1/2)^6 rises with the stiffness k of the bars, to the limit of rigid
-/// ones as 1/k, and half of it is reached near k = 1e3 for creases of 1, whatever the size. Tolerances: 2% on the 1/k from
-/// 1e6 to 1e7, by its next term; 12% between 8 and 16 cells from 1e2 on, where the rim is not yet most of the patch.
+/// Claim: soft bars reduce the energy: coefficient / (n - 1/2)^6 increases with the stiffness k of the bars, to the
+/// limit of rigid ones as 1/k, and half of it is reached near k = 1e3 for creases of 1, at every size. Tolerances: 2%
+/// on the 1/k from 1e6 to 1e7, by its next term; 12% between 8 and 16 cells from 1e2 on, where the rim is not yet most
+/// of the patch.
 #[test]
 fn soft_bars_take_the_cost_over() {
     let scaled = |n: usize, bars: f64| {

@@ -1,4 +1,4 @@
-//! Energies over the sphere of folding modes, and where they vanish.
+//! Energies over the sphere of folding modes, and their zeros.
 
 use crate::common::patch;
 use approx::assert_abs_diff_eq;
@@ -18,8 +18,9 @@ fn held(case: &Assembly) -> HeldSheet {
     HeldSheet::patch(&case.with_terms(terms(case))).unwrap()
 }
 
-/// Claim: the net covers the sphere once (area 4 pi but for its coarseness, Euler characteristic 2), its 45-degree rings are tensors of rank
-/// one, and points and tensors name each other. Tolerances: rounding; 3% of the area for 6 rings.
+/// Claim: the net covers the sphere once (area 4 pi within its coarseness, Euler characteristic 2), its 45-degree rings
+/// are tensors of rank one, and points and tensors are converted into each other. Tolerances: rounding errors; 3% of
+/// the area for 6 rings.
 #[test]
 fn the_net_is_a_sphere() {
     let net = Net::new(6);
@@ -39,9 +40,9 @@ fn the_net_is_a_sphere() {
     }
 }
 
-/// Claim: the energy vanishes where the exact kinematics has its cylinders, at finite amplitude too, where the linear cone is off by the
-/// order of the amplitude. Two nappes, eight azimuths, patches of 4 x 4 cells. Tolerance 1e-6 (asked for); the linear cone is off
-/// by more than a hundred times that.
+/// Claim: the energy vanishes at the cylinders of the exact kinematics, also at finite amplitude, where the linear cone
+/// differs from them to the order of the amplitude. Two nappes, eight azimuths, patches of 4 x 4 cells. Tolerance 1e-6
+/// (required); the linear cone differs by more than a hundred times that.
 #[test]
 fn energy_vanishes_on_the_exact_cone() {
     let case = patch("open-star", [4, 4]);
@@ -62,9 +63,9 @@ fn energy_vanishes_on_the_exact_cone() {
     }
 }
 
-/// Claim: the course along any mode, put together from those along ten, is that which is computed along the mode itself, order by order;
-/// and the relaxed sheet is off it by the fourth power of the amplitude. Tolerances: 1e-9, rounding of the linear solves; 0.2 on
-/// the power, by the fifth.
+/// Claim: the path along any mode, combined from those along ten modes, is that computed along the mode itself, order
+/// by order; and the relaxed sheet differs from it to the fourth power of the amplitude. Tolerances: 1e-9, rounding
+/// errors of the linear solves; 0.2 on the power, by the fifth.
 #[test]
 fn courses_are_forms_of_the_mode() {
     let case = patch("open-star", [4, 4]);
@@ -93,8 +94,8 @@ fn courses_are_forms_of_the_mode() {
     }
 }
 
-/// Claim: samples over the sphere are the same bits for one thread and for two; near zero amplitude they are what the prediction says; and
-/// starting from third order halves the Newton steps, at least, against starting from the drawn sheet.
+/// Claim: samples over the sphere are bitwise the same for one thread and for two; near zero amplitude they agree with
+/// the prediction; and starts of third order need at most half the Newton steps of starts from the drawn sheet.
 /// Tolerance 1%: the next orders at this amplitude.
 #[test]
 fn samples_do_not_know_each_other() {

@@ -1,4 +1,4 @@
-//! Landscapes as users run them: files, resuming, refusals.
+//! Runs of landscapes: files, resuming, refusals.
 
 use crate::common;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
@@ -40,8 +40,8 @@ fn run(scene: &Path, out: &Path, (threads, resume): (usize, bool), most_steps: u
     run_scene(scene, &options, &observer).unwrap().summary.studies.remove(0)
 }
 
-/// Claim: a map has a sample for every direction and its zeros on the exact cone; one that was interrupted goes on where it stopped and ends
-/// with the same bytes, with another number of threads too.
+/// Claim: a map has a sample for every direction and its zeros on the exact cone; an interrupted map is continued and
+/// ends with the same bytes, also with another number of threads.
 #[test]
 fn maps_go_on_where_they_stopped() {
     let folder = tempfile::tempdir().unwrap();
@@ -65,7 +65,7 @@ fn maps_go_on_where_they_stopped() {
     }
 }
 
-/// Claim: a wave on a torus is named, relaxed and predicted; its summary says which wave, and no curvature.
+/// Claim: a wave on a torus is named, relaxed and predicted; its summary gives the wave, and no curvature.
 #[test]
 fn waves_are_named() {
     let folder = tempfile::tempdir().unwrap();
@@ -78,7 +78,7 @@ fn waves_are_named() {
     assert_eq!(mode.samples.iter().map(|sample| sample.amplitude).collect::<Vec<_>>(), [0.0005, 0.001]);
 }
 
-/// Claim: a mode may be named by its rates, and is then the one that curvatures name.
+/// Claim: a mode given by its rates is the same as that given by its curvatures.
 #[test]
 fn modes_by_rates() {
     let folder = tempfile::tempdir().unwrap();
@@ -103,7 +103,7 @@ fn modes_by_rates() {
     );
 }
 
-/// Claim: what a landscape cannot be of is refused with its reason, before anything is written.
+/// Claim: an impossible landscape is refused with its reason, before anything is written.
 #[test]
 fn refusals() {
     let cases = [
@@ -131,10 +131,10 @@ fn refusals() {
     }
 }
 
-/// Claim: samples whose energy may be rounding are counted and left out of the fits; where too few are left there is no fit
-/// and the study fails. The energy of these goes as 1105 a^4 (and that of the cylinder as a^6): at 1e-9 it would be 1e-33,
-/// where rounding makes 2e-29. Tolerance of the exponent of what is
-/// left: the next order, some thousandths of the energy at an amplitude of 1e-3 (5.9985 was found; with rounding fitted, 5.773).
+/// Claim: samples whose energy may be rounding errors are counted and left out of the fits; if too few are left there
+/// is no fit and the study fails. The energy increases as 1105 a^4 (that of the cylinder as a^6): at 1e-9 it would be
+/// 1e-33, where rounding errors are 2e-29. Tolerance of the exponent of the other samples: the next order, some
+/// thousandths of the energy at an amplitude of 1e-3 (5.9985 was found; with rounding errors in the fit, 5.773).
 #[test]
 fn rounding_is_not_fitted() {
     let folder = tempfile::tempdir().unwrap();
@@ -156,9 +156,10 @@ fn rounding_is_not_fitted() {
     assert_abs_diff_eq!(mode.exponent.unwrap(), 6.0, epsilon = 5e-3);
 }
 
-/// Claim: an eggbox, whose modes no curvature names, has a landscape of a mode that is named by the rates of its creases and of the
-/// facets that fold, and the energies are those predicted; rates of creases alone leave modes open, which is said, and so are
-/// rates that are all zero. Tolerance: `fit_agrees`, and an exponent of 4 or 6 to the next order at these amplitudes.
+/// Claim: an eggbox, whose modes are not determined by curvatures, has a landscape of a mode that is given by the rates
+/// of its creases and of the facets that fold, and the energies are those predicted; rates of creases only do not
+/// determine a mode, which is reported, and so are rates that are all zero. Tolerance: `fit_agrees`, and an exponent of
+/// 4 or 6 to the next order at these amplitudes.
 #[test]
 fn rates_of_facets_name_modes() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Modes of finite wavenumber beyond linear order: theory, section 6, last paragraph.
+//! Modes of finite wavenumber beyond linear order (theory, section 6, last paragraph).
 
 use crate::common::{mesh, on};
 use crate::theory::tuning::tuned;
@@ -22,20 +22,20 @@ fn torus(sheet: &Sheet, n: usize, boundary: Boundary) -> (Assembly, HeldSheet) {
     (case, held)
 }
 
-/// Wavenumbers of a mode that goes `wave` times round a torus of `n x n` cells.
+/// Returns the wavenumbers of a mode with `wave` periods around a torus of `n x n` cells.
 fn wavenumbers(wave: [i32; 2], n: usize) -> [f64; 2] {
     wave.map(|m| TAU * f64::from(m) / n as f64)
 }
 
-/// The sheet with the vertex whose height has to change least, and which vertex that is.
+/// Returns the sheet tuned by the vertex whose height must change least, and the index of this vertex.
 fn nearest(sheet: &Sheet, wave: [i32; 2], n: usize) -> Option<(usize, Sheet)> {
     let moved = |vertex: usize, new: &Sheet| (new.vertices[vertex] - sheet.vertices[vertex]).norm();
     let all = (0..sheet.vertices.len()).filter_map(|v| Some((v, tuned(sheet, v, wavenumbers(wave, n)).ok()?)));
     all.min_by(|(v, a), (w, b)| moved(*v, a).total_cmp(&moved(*w, b)))
 }
 
-/// Claim: `meshes/star-wave.fold` is the reference cell with vertex 3 moved along z so that a wave goes (2, 3) times round a torus of
-/// 5 x 5 cells, as its text says. Tolerance: rounding of a root.
+/// Claim: `meshes/star-wave.fold` is the reference cell with vertex 3 moved along z so that a wave with (2, 3) periods
+/// around a torus of 5 x 5 cells is a zero mode, as its text says. Tolerance: rounding errors of a root.
 #[test]
 fn the_mesh_of_a_wave() {
     let (vertex, tuned) = nearest(&mesh("open-star"), [2, 3], 5).unwrap();
@@ -46,8 +46,8 @@ fn the_mesh_of_a_wave() {
     assert!(off <= 1e-14);
 }
 
-/// Random cells, each tuned so that exactly one pair of waves goes round a torus of 5 x 5 cells without stretching a bar to first
-/// order.
+/// Returns random cells, each tuned so that exactly one pair of waves around a torus of 5 x 5 cells stretches no bar to
+/// first order.
 fn tuned_cells(count: usize) -> Vec<(Sheet, [i32; 2], usize)> {
     let waves = [[1, 2], [2, 1], [1, 1], [2, 3], [1, 3]];
     let mut found = Vec::new();
@@ -66,11 +66,12 @@ fn tuned_cells(count: usize) -> Vec<(Sheet, [i32; 2], usize)> {
     found
 }
 
-/// Claim: a mode of finite wavenumber costs stretching at fourth order where the lattice is fixed, of the size of the bars' stiffness;
-/// where it is free fourth order vanishes (a selection rule: what is quadratic in the mode has wavenumber 0 or 2 q), and the
-/// energy goes as the sixth power: such modes are **not** rigid at fixed wavenumber. Six random cells, tori of 5 x 5 cells;
-/// prediction and relaxation agree. Source: theory, section 6 (the fourth orders); the sixth is new. Tolerances: exponents to
-/// 0.03 and leading coefficients to 1%, by the next odd power, which is there because 4 q = -q on this torus.
+/// Claim: a mode of finite wavenumber has stretching energy at fourth order if the lattice is fixed, of the order of
+/// the bars' stiffness; if it is free the fourth order vanishes (a selection rule: quantities quadratic in the mode
+/// have wavenumber 0 or 2 q), and the energy increases as the sixth power: such modes are **not** rigid at fixed
+/// wavenumber. Six random cells, tori of 5 x 5 cells; prediction and relaxation agree. Source: theory, section 6 (the
+/// fourth orders); the sixth is new. Tolerances: exponents to 0.03 and leading coefficients to 1%, by the next odd
+/// power, which is present because 4 q = -q on this torus.
 #[test]
 fn waves_cost_fourth_order_on_fixed_lattices_and_sixth_on_free_ones() {
     for (sheet, wave, vertex) in tuned_cells(6) {
@@ -99,8 +100,8 @@ fn waves_cost_fourth_order_on_fixed_lattices_and_sixth_on_free_ones() {
     }
 }
 
-/// Energy at an amplitude of a wave on a torus of the reference cell, and what is left of it when the vertex height is tuned
-/// again for this amplitude: the amplitude, the energy, the change of height, the energy left.
+/// Returns the amplitude of a wave on a torus of the reference cell, its energy, the change of the vertex height that
+/// tunes it again for this amplitude, and the energy that is left then.
 fn tuned_again(n: usize, wave: [i32; 2], amplitude: f64) -> [f64; 4] {
     let (vertex, sheet) = nearest(&mesh("open-star"), wave, n).unwrap();
     let (case, held) = torus(&sheet, n, Boundary::FreeTorus);
@@ -127,11 +128,12 @@ fn tuned_again(n: usize, wave: [i32; 2], amplitude: f64) -> [f64; 4] {
     found
 }
 
-/// Claim: the cost at sixth order is that of a wavenumber which does not follow the amplitude: with a vertex height tuned again at each
-/// amplitude, by an amount that goes as its square, it disappears. What is left goes as the power 2 (n - 1) on a torus of `n x n`
-/// cells: waves of `n - 1` times the wavenumber are the wave itself there. So nothing is left to any order that a large sheet
-/// would know: **modes on zero lines extend to nonlinear ones whose wavenumber shifts with the square of the amplitude**.
-/// Reference cell; tolerances: 0.1 on the powers of energy and height, 0.3 on the last one, by the next power.
+/// Claim: the sixth-order energy is that of a wavenumber which does not follow the amplitude: it vanishes if a vertex
+/// height is tuned again at each amplitude, by a change proportional to its square. The remaining energy increases as
+/// the power 2 (n - 1) on a torus of `n x n` cells, where waves of `n - 1` times the wavenumber are the wave itself.
+/// Hence nothing remains to any order on a large sheet: **modes on zero lines extend to nonlinear ones whose wavenumber
+/// shifts with the square of the amplitude**. Reference cell; tolerances: 0.1 on the powers of energy and height, 0.3
+/// on the last one, by the next power.
 #[test]
 #[ignore = "takes 20 s; `.ci/run` runs it"]
 fn tuning_again_removes_the_sixth_order() {

@@ -1,4 +1,4 @@
-//! Loads that do nothing, sheets far from the origin, and locks in any unit of length: none of it changes an answer.
+//! Loads without effect, sheets far from the origin, and locks in any unit of length do not change the results.
 
 use crate::common::{self, Testing, on, patch};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
@@ -10,7 +10,7 @@ use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::fold;
 use std::ops::ControlFlow;
 
-/// Four cells of `open-star` whose creases rest 0.1 rad from the drawn angles, with rigid bars.
+/// Returns four cells of `open-star` with rigid bars and rest angles within 0.1 rad of the drawn angles.
 fn four_cells() -> (Assembly, Terms) {
     let case = patch("open-star", [2, 2]);
     let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_cell(0.1, 3));
@@ -22,7 +22,8 @@ fn relaxed(loads: Vec<(usize, Vec3)>, pins: Vec<(usize, [bool; 3])>) -> Relaxed 
     case.relax(&Terms { loads, pins, ..terms }).unwrap()
 }
 
-/// Claim: forces that are zero, that cancel at their vertex, or that pull at what a pin holds are no forces: the same bits as without.
+/// Claim: forces that are zero, that cancel at their vertex, or that act on pinned coordinates give the same bits as no
+/// forces.
 #[test]
 fn loads_that_do_nothing() {
     let plain = relaxed(vec![], vec![]);
@@ -38,9 +39,9 @@ fn loads_that_do_nothing() {
     }
 }
 
-/// Claim: balanced forces that leave the rotations of a sheet free cost a few steps more than none, whatever their size; the energy and
-/// the angles go to those without as the forces go to zero, to first order: 10 of their size is far above what shapes of this stiffness
-/// give.
+/// Claim: balanced forces that leave the rotations of a sheet free need only a few more steps than none, whatever their
+/// size; the energy and the angles tend to those without forces to first order: the bound, 10 times their size, is far
+/// above the response of shapes of this stiffness.
 #[test]
 fn small_loads_change_little() {
     let plain = relaxed(vec![], vec![]);
@@ -55,7 +56,7 @@ fn small_loads_change_little() {
     }
 }
 
-/// Claim: a sheet that hangs from one vertex turns under its load until that pulls at the pin along its own line.
+/// Claim: a sheet that hangs from one vertex rotates under its load until the load acts along the line through the pin.
 #[test]
 fn a_sheet_hangs_from_a_pin() {
     let (case, _) = four_cells();
@@ -68,8 +69,8 @@ fn a_sheet_hangs_from_a_pin() {
     assert!(arm.z < 0.0);
 }
 
-/// Claim: a sheet a million of its sizes from the origin relaxes as at the origin, but for the digits its own numbers have lost: 1e-10
-/// of an edge, in angles within 0.1 rad.
+/// Claim: a sheet at a distance of a million of its sizes from the origin relaxes as at the origin, except for the
+/// digits that its coordinates have lost: 1e-10 of an edge, in angles within 0.1 rad.
 #[test]
 fn far_from_the_origin() {
     for boundary in [Boundary::Patch, Boundary::FixedTorus, Boundary::FreeTorus, Boundary::Screw] {
@@ -86,7 +87,7 @@ fn far_from_the_origin() {
     }
 }
 
-/// A rigid cell on a screw with a crease locked off its drawn angle, from a scene.
+/// Relaxes a rigid cell on a screw with a crease locked away from its drawn angle, from a scene.
 fn locked_in(unit: f64, angle: f64) -> RelaxSummary {
     let folder = tempfile::tempdir().unwrap();
     let mesh = fold::write(&common::scaled(common::mesh("open-star"), unit));
@@ -107,9 +108,10 @@ fn locked_in(unit: f64, angle: f64) -> RelaxSummary {
     }
 }
 
-/// Claim: where the drawn state is a branch point, as with this lock, the unit of length does not decide on which branch a relaxation
-/// ends; and it is said that the start is one, with as many rays as two quadrics in the plane of motions have: four.
-/// Energies are those of torques per length, so they have the unit; tolerance: rounding.
+/// Claim: if the drawn state is a branch point, as with this lock, the branch on which a relaxation ends does not
+/// depend on the unit of length; and the summary reports the branch point, with as many rays as two quadrics in the
+/// plane of motions have: four. Energies are those of torques per length, so they have the unit; tolerance: rounding
+/// errors.
 #[test]
 fn the_unit_does_not_choose_a_branch() {
     for angle in [-0.49339316800066285, -0.393_393_168_000_662_9] {

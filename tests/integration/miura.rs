@@ -1,4 +1,4 @@
-//! Rigid Miura-ori against its closed form.
+//! Rigid Miura-ori compared with its closed form.
 
 use crate::common::{Testing, on};
 use foldwell::math::fold_angle::fold_angle;
@@ -12,24 +12,23 @@ fn miura(cells: [usize; 2]) -> Assembly {
     on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
 }
 
-/// Sign and class of a crease of Miura-ori: along the zigzags (x changes) or along the straight lines.
+/// Whether a crease of Miura-ori runs along the zigzags (x changes), not along the straight lines.
 fn zigzag(case: &Assembly, edge: usize) -> bool {
     let [a, b] = case.tiling().edges[edge].ends.map(|site| case.tiling().positions[site.vertex]);
     (a.x - b.x).abs() > 1e-9
 }
 
-/// Fold angle of an edge in a state, also where the model has no hinge.
+/// Returns the fold angle of an edge in a state, also if the model has no hinge there.
 fn fold_angle_at(case: &Assembly, coordinates: &[f64], edge: usize) -> f64 {
     let sites = case.tiling().edges[edge].hinge().unwrap();
     fold_angle(case.drawn().domain.points(coordinates, &sites))
 }
 
-/// Claim: folded by a lock on one crease, every crease of a rigid Miura-ori follows the closed form
-/// `tan(straight/2) = cos(sector) tan(zigzag/2)`, from nearly flat to nearly folded, with the signs of the drawn
-/// state; with an energy of the creases and without any energy, where nothing but the lock says which way to go.
-/// Source: flat-foldable vertices of degree four, e.g. T. Tachi, "Generalization of rigid-foldable quadrilateral-mesh
-/// origami", 2009, eq. (1), both sectors equal. Tolerance: residual 1e-12 over the softest singular value, which is
-/// smallest near the flat state.
+/// Claim: folded by a lock on one crease, every crease of a rigid Miura-ori follows the closed form `tan(straight/2) =
+/// cos(sector) tan(zigzag/2)`, from nearly flat to nearly folded, with the signs of the drawn state; with an energy of
+/// the creases, and without any energy, where only the lock determines the direction. Source: flat-foldable vertices of
+/// degree four, e.g. T. Tachi, "Generalization of rigid-foldable quadrilateral-mesh origami", 2009, eq. (1), both
+/// sectors equal. Tolerance: residual 1e-12 divided by the softest singular value, which is least near the flat state.
 #[test]
 fn miura_follows_its_closed_form() {
     let case = miura([5, 5]);
@@ -66,7 +65,7 @@ fn miura_follows_its_closed_form() {
     assert!(failed.is_empty(), "{failed:#?}");
 }
 
-/// Claim: the drawn angles themselves obey the closed form, so the test above compares with the sheet as drawn.
+/// Claim: the drawn angles themselves satisfy the closed form, so that the test above compares with the drawn sheet.
 #[test]
 fn miura_is_drawn_by_its_closed_form() {
     let case = miura([2, 2]);

@@ -1,4 +1,4 @@
-//! Periodic sheets at every stiffness: one cell as a screw, tori with free and with fixed lattice.
+//! Periodic sheets at every stiffness: one cell on a screw, tori with free and with fixed lattice.
 
 use crate::common::{self, Numbers, Testing, on};
 use approx::abs_diff_eq;
@@ -10,8 +10,8 @@ use foldwell::sheet::generate::Random;
 use foldwell::sheet::{Pattern, generate};
 use foldwell::solver::Options;
 
-/// Claim: `open-star` with rest angles within 0.1 rad of the drawn ones relaxes on every periodic domain at every
-/// stiffness to 1e-12, to a minimum, in at most 25 iterations. The generic self stresses are 0, 0 and 3.
+/// Claim: `open-star` with rest angles within 0.1 rad of the drawn ones relaxes with all periodic boundary conditions
+/// at every stiffness to 1e-12, to a minimum, in at most 25 iterations. The generic self stresses are 0, 0 and 3.
 #[test]
 fn every_domain_at_every_stiffness() {
     use Boundary::{FixedTorus, FreeTorus, Screw};
@@ -49,7 +49,7 @@ fn every_domain_at_every_stiffness() {
     assert!(failed.is_empty(), "{} of 84 failed: {failed:#?}", failed.len());
 }
 
-/// Claim: on a screw the distance to the rigid cell falls as 1/k, the same from 1e8 to 1e10 within 1 %.
+/// Claim: on a screw the distance from the rigid cell decreases as 1/k, the same from 1e8 to 1e10 within 1 %.
 #[test]
 fn a_screw_goes_to_its_rigid_limit() {
     let case = on(common::mesh("open-star"), [1, 1], Boundary::Screw);
@@ -60,8 +60,9 @@ fn a_screw_goes_to_its_rigid_limit() {
     assert!(abs_diff_eq!(scaled[0] / scaled[1], 1.0, epsilon = 0.01) && scaled[1] > 1e-2, "{scaled:?}");
 }
 
-/// A screw whose creases rest within `off` of the drawn angles, relaxed from the drawn state with rigid bars, its axis laid
-/// where folding starts best: steps, fold angles, and the difference to the exact kinematics where that knows better.
+/// Relaxes a screw whose rest angles are within `off` of the drawn angles, from the drawn state with rigid bars and
+/// with the axis in the best direction for folding. Returns the number of steps, the fold angles, and the difference
+/// from the exact kinematics if that is more accurate.
 fn relaxed_screw(case: &Assembly, off: f64, seed: u64) -> Result<(usize, Vec<f64>, Option<f64>), Box<RelaxError>> {
     let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, case.rest_per_hinge(off, seed));
     let mut model = case.with_terms(terms).with_best_axis().model(Gauge::Held);
@@ -72,11 +73,12 @@ fn relaxed_screw(case: &Assembly, off: f64, seed: u64) -> Result<(usize, Vec<f64
     Ok((found.iterations, angles, error))
 }
 
-/// Claim: next to the state without curvature, where direction and curvature of the axis are polar coordinates, random cells
-/// relax as quickly and as exactly as elsewhere, however near their rest angles are to the drawn ones. Where the exact
-/// kinematics knows its own angles to 1e-10 it says the same: forces right to 1e-12 of a milliradian's, over the softest
-/// eigenvalue, are far below 1e-9. A third of the cells has to be judged, so that the claim is not empty: a count, set after 43 of
-/// 90 were; of the others, the nearest to zero curvature, convergence and steps are all that is shown.
+/// Claim: near the state without curvature, where direction and curvature of the axis are polar coordinates, random
+/// cells relax as quickly and as exactly as elsewhere, however near their rest angles are to the drawn ones. If the
+/// exact kinematics knows its own angles to 1e-10 it gives the same: forces exact to 1e-12 of a milliradian's, divided
+/// by the softest eigenvalue, are far below 1e-9. At least a third of the cells is compared, so that the test is not
+/// empty: a count, set after 43 of 90 were; for the others, the nearest to zero curvature, only convergence and steps
+/// are tested.
 #[test]
 fn screws_relax_next_to_zero_curvature() {
     let (mut failed, mut judged, mut all) = (Vec::new(), 0, 0);
@@ -101,8 +103,8 @@ fn screws_relax_next_to_zero_curvature() {
     assert!(failed.is_empty() && 3 * judged >= all, "{} of {all} failed, {judged} judged: {failed:#?}", failed.len());
 }
 
-/// Claim: the unit of length does not matter on a screw: the same fold angles, in as many steps give or take two. Tolerance:
-/// angles known to 1e-15 over the softest eigenvalue, about 0.01.
+/// Claim: the unit of length has no effect on a screw: the same fold angles, in the same number of steps within two.
+/// Tolerance: angles known to 1e-15 divided by the softest eigenvalue, about 0.01.
 #[test]
 fn a_screw_in_any_unit_of_length() {
     let run = |unit: f64| {

@@ -1,9 +1,9 @@
-//! A relaxation that does not converge says what happened: the residual that stays, the thin triangle, the lock.
+//! Reasons of relaxations that do not converge: the remaining residual, the thin triangle, the lock.
 
 use std::path::Path;
 use std::process::Command;
 
-/// Exit status and standard output of `foldwell run` on a mesh and the rest of a scene.
+/// Returns exit status and standard output of `foldwell run` on a mesh with the given rest of a scene.
 fn run(mesh: &str, more: &str) -> (i32, String) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("m.fold"), mesh).unwrap();
@@ -13,9 +13,9 @@ fn run(mesh: &str, more: &str) -> (i32, String) {
     (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
 }
 
-/// Claim: where slivers of 4e-5 keep the force from vanishing, the reason says that the residual stays above the
-/// tolerance, not that the forces balance, and names the worst triangle. Should the solver learn to relax this sheet,
-/// there is no reason at all.
+/// Claim: if slivers of 4e-5 keep the force from vanishing, the reason is that the residual stays above the tolerance,
+/// not that the forces balance, and names the worst triangle. If the solver converges on this sheet some day, there is
+/// no reason at all.
 #[test]
 fn slivers() {
     let mesh = "{\"vertices_coords\": [[0,0],[1,0],[2,0],[0,1],[1,1],[2,1],[0,2],[1,2],[2,2],\
@@ -31,8 +31,8 @@ fn slivers() {
     assert!(status == 0 || named, "{said}");
 }
 
-/// Claim: locks that contradict each other on a vertex of four creases end with the lock that is not met, and without
-/// residuals that are no numbers.
+/// Claim: contradictory locks on a vertex of four creases are reported with the lock that is not satisfied, and without
+/// residuals that are NaN.
 #[test]
 fn locks_that_contradict() {
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/degree-four.fold");

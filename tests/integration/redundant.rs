@@ -1,4 +1,4 @@
-//! Rigid measures that depend on each other: rigid quadrilaterals, fixed tori, flat vertices.
+//! Linearly dependent rigid terms: rigid quadrilaterals, fixed tori, flat vertices.
 
 use crate::common::{Numbers, Testing, distance, eigenvalues, jacobian, linearized, mesh, on, patch};
 use foldwell::analysis::relax::{Relaxed, relax_from};
@@ -17,7 +17,7 @@ fn miura(cells: [usize; 2]) -> Assembly {
     on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
 }
 
-/// Rigid bars and rigid quadrilaterals, creases as given.
+/// Returns terms with rigid bars, rigid quadrilaterals and the given rest angles of creases.
 fn rigid_quads(case: &Assembly, rest: Vec<f64>) -> Terms {
     Terms { facets: case.facets(RIGID), ..Terms::bars_and_creases(RIGID, 1.0, rest) }
 }
@@ -26,8 +26,8 @@ fn converged(found: &Relaxed) {
     assert!(found.residual_force <= 1e-12 && found.residual_length <= 1e-12, "{:?}", found.history.last());
 }
 
-/// Jacobian of the rigid measures at a relaxed state, with nothing held, and their tensions: angles times the unit of length and torques
-/// over it, so that all rows are of lengths and all tensions forces.
+/// Returns the Jacobian of the rigid terms at a relaxed state, with no coordinate held, and their tensions: angles are
+/// multiplied by the unit of length and torques divided by it, so that all rows are of lengths and all tensions forces.
 fn forces(case: &Assembly, terms: &Terms, found: &Relaxed) -> (DenseMatrix, Vec<f64>) {
     let mut model = case.model_of(terms, Gauge::Free);
     let x = model.start_from(found.state.coordinates.clone());
@@ -37,7 +37,8 @@ fn forces(case: &Assembly, terms: &Terms, found: &Relaxed) -> (DenseMatrix, Vec<
     (rows, found.tension.iter().zip(&at.sizes).map(|(tension, size)| tension * size).collect())
 }
 
-/// Number of self stresses by a dense decomposition (nalgebra's), and the part of the tensions along them over all.
+/// Returns the number of self stresses by a dense decomposition (nalgebra's), and the relative part of the tensions
+/// along them.
 fn self_stress_part((rows, tension): &(DenseMatrix, Vec<f64>)) -> (usize, f64) {
     let gram = rows * rows.transpose();
     let found = nalgebra::SymmetricEigen::new(gram);
@@ -49,7 +50,7 @@ fn self_stress_part((rows, tension): &(DenseMatrix, Vec<f64>)) -> (usize, f64) {
 }
 
 /// Claim: Miura-ori of 5 x 5 cells with rigid quadrilaterals and rigid bars, rest angles within 0.1 rad of the drawn
-/// ones: converged, 64 self stresses, and tensions of least norm. Tolerance of the last: the eigenvalues of `R R^T`
+/// ones: converged, 64 self stresses, and tensions of least norm. Tolerance of the norm: the eigenvalues of `R R^T`
 /// separate null vectors to 1e-16 over 1e-3.
 #[test]
 fn miura_with_rigid_quadrilaterals() {
@@ -66,8 +67,9 @@ fn miura_with_rigid_quadrilaterals() {
     }
 }
 
-/// Claim: on a torus with fixed lattice a generic rigid sheet has 3 self stresses and cannot move: tensions alone carry
-/// the creases' torques, with least norm. One cell and 3 x 3 of them (generic: no finite wavenumber of these folds).
+/// Claim: on a torus with fixed lattice a generic rigid sheet has 3 self stresses and cannot move: only tensions, of
+/// least norm, balance the creases' torques. One cell and 3 x 3 cells (generic: these do not fold at a finite
+/// wavenumber).
 #[test]
 fn fixed_tori() {
     for (seed, cells) in [(1, [1, 1]), (2, [1, 1]), (1, [3, 3])] {
@@ -83,8 +85,8 @@ fn fixed_tori() {
     }
 }
 
-/// Claim: the self stresses of a torus with fixed lattice are three however large it is, though they are but a hundredth of a
-/// random stretch, and taken out of the tensions, though some motions of large tori stretch next to nothing.
+/// Claim: a torus with fixed lattice has three self stresses at every size, although they are only a hundredth of a
+/// random stretch, and they are removed from the tensions, although some motions of large tori stretch almost nothing.
 #[test]
 fn large_fixed_tori() {
     for n in [8, 12, 20, 28] {
@@ -95,7 +97,7 @@ fn large_fixed_tori() {
     }
 }
 
-/// Claim: folded Miura-ori with bending facets, a developable sheet on one of its branches: no self stress.
+/// Claim: folded Miura-ori with bending facets, a developable sheet on one of its branches, has no self stress.
 #[test]
 fn a_developable_sheet_on_a_branch() {
     let case = miura([5, 5]);
@@ -108,8 +110,8 @@ fn a_developable_sheet_on_a_branch() {
     }
 }
 
-/// Claim: a random developable patch, folded at finite stiffness from a randomly moved start, is on a branch: from there
-/// the exactly rigid sheet converges, without self stress, next to the stiff one.
+/// Claim: a random developable patch, folded at finite stiffness from a randomly moved start, is on a branch: from
+/// there the exactly rigid sheet converges, without self stress, near the stiff one.
 #[test]
 fn a_random_developable_patch_on_a_branch() {
     for seed in [1, 2, 3] {
@@ -134,7 +136,7 @@ fn a_random_developable_patch_on_a_branch() {
     }
 }
 
-/// Claim: an exactly flat rigid patch whose creases want to fold is a singular start, said as such, at every size and
+/// Claim: an exactly flat rigid patch whose rest angles are folded is reported as a singular start, at every size and
 /// for any rest angles.
 #[test]
 fn a_flat_rigid_start_is_singular() {
@@ -148,8 +150,8 @@ fn a_flat_rigid_start_is_singular() {
     }
 }
 
-/// Negative eigenvalues of the Hessian of the whole energy at a relaxed state, dense, by another library; all
-/// stiffnesses finite. Rigid motions are held.
+/// Returns the number of negative eigenvalues of the Hessian of the whole energy at a relaxed state, dense, by another
+/// library; all stiffnesses must be finite. Rigid motions are held.
 fn negative(case: &Assembly, terms: &Terms, found: &Relaxed) -> usize {
     let model = case.model_of(terms, Gauge::Held);
     let at = linearized(&model, &found.x, &found.tension);
@@ -162,7 +164,7 @@ fn negative(case: &Assembly, terms: &Terms, found: &Relaxed) -> usize {
     eigenvalues(hessian).iter().filter(|value| **value < 0.0).count()
 }
 
-/// Rest angles whose torques balance in the flat state: along the null space of the transposed gradients.
+/// Returns rest angles whose torques balance in the flat state, along the null space of the transposed gradients.
 fn balanced(case: &Assembly, size: f64, seed: u64) -> Vec<f64> {
     let terms = Terms { bars: None, ..Terms::bars_and_creases(RIGID, RIGID, case.drawn_angles().to_vec()) };
     let model = case.model_of(&terms, Gauge::Free);
@@ -184,9 +186,9 @@ fn balanced(case: &Assembly, size: f64, seed: u64) -> Vec<f64> {
     rest
 }
 
-/// Claim: a flat patch whose rest angles balance is an equilibrium in the flat state at finite stiffness, found as
-/// such, with its negative eigenvalues: none for small rest angles, some for large ones on soft bars (there the
-/// stretching that a fold relieves is cheaper than the fold), as many as a dense decomposition counts.
+/// Claim: a flat patch whose rest angles balance is in equilibrium in the flat state at finite stiffness, which is
+/// found with its negative eigenvalues: none for small rest angles, some for large ones on soft bars (where folding
+/// costs less than the stretching that it relieves), as many as a dense decomposition counts.
 #[test]
 fn a_flat_equilibrium_reports_its_negative_eigenvalues() {
     let case = patch("open-flat", [4, 4]);
@@ -208,9 +210,9 @@ fn a_flat_equilibrium_reports_its_negative_eigenvalues() {
     assert!(unstable > 0, "no case was unstable: the test shows nothing");
 }
 
-/// Claim: a flat patch pressed together in its plane beyond buckling stays flat, since nothing pushes it out, and reports
-/// the modes along which it would buckle, as many as a dense decomposition counts; pulled apart by the same forces
-/// it reports none. The forces are proportional to the distance from the centre, pins hold the six rigid motions.
+/// Claim: a flat patch compressed in its plane beyond buckling stays flat, since no force acts out of the plane, and
+/// reports its buckling modes, as many as a dense decomposition counts; stretched by the same forces it reports none.
+/// The forces are proportional to the distance from the centre; pins hold the six rigid motions.
 #[test]
 fn a_compressed_flat_sheet_reports_buckling() {
     let case = patch("open-flat", [4, 4]);

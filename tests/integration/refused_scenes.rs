@@ -1,11 +1,12 @@
-//! Scenes that cannot be meant end with status 2 and write nothing: no study, degrees for radians, sizes beyond the memory.
+//! Meaningless scenes end with status 2 and write nothing: no study, degrees instead of radians, sizes beyond the
+//! memory.
 
 use std::path::Path;
 use std::process::Command;
 
 const ENERGY: &str = "[energy]\nbars = { stiffness = 1e4 }\ncreases = { stiffness = 1.0 }\n";
 
-/// Exit status and standard error of `foldwell run`, for a scene of the open star cell with these lines.
+/// Returns exit status and standard error of `foldwell run` for a scene of the open star cell with these lines.
 fn run(sheet: &str, more: &str) -> (i32, String) {
     let folder = tempfile::tempdir().unwrap();
     let star = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
@@ -23,15 +24,15 @@ fn study(keys: &str) -> String {
     format!("{ENERGY}[[study]]\nname = \"a\"\n{keys}")
 }
 
-/// Claim: a scene that asks nothing gives no answer.
+/// Claim: a scene without studies gives no result.
 #[test]
 fn no_study() {
     let (status, said) = run("", ENERGY);
     assert!(status == 2 && said.contains("there is nothing to compute"), "{said}");
 }
 
-/// Claim: numbers beyond any memory are refused by one estimate, with the key to make smaller, before anything is built.
-/// Studies may ask for 24 GiB, and models for what is free: the two large ones need over 260 GB. Each number is accepted by
+/// Claim: sizes beyond any memory are refused by one estimate, with the key to make smaller, before anything is built.
+/// Studies may use 24 GiB, and models the free memory: the two large ones need over 260 GB. Each number is accepted by
 /// the type of its key.
 #[test]
 fn sizes_beyond_the_memory() {
@@ -54,7 +55,8 @@ fn sizes_beyond_the_memory() {
     }
 }
 
-/// Claim: angles of more than a turn are degrees, and are refused with their value in radians: 60 degrees are 1.047198.
+/// Claim: angles of more than a turn are taken for degrees, and are refused with their value in radians: 60 degrees are
+/// 1.047198.
 #[test]
 fn degrees_are_refused() {
     let relax = "[[study]]\nname = \"a\"\nkind = \"relax\"";
@@ -80,7 +82,7 @@ fn degrees_are_refused() {
     assert!(status != 2 && !said.contains("note: "), "{said}");
 }
 
-/// Claim: a fault on a line of 100 kB is shown without the line, at its own place; formulas are no numbers.
+/// Claim: a fault on a line of 100 kB is reported without the line, at its own position; formulas are not numbers.
 #[test]
 fn messages_are_short() {
     let long = format!("# {}\n[[lock]]\ncrease = [0, 1, 0, 0]\nangle = np.float64(0.1)", "x".repeat(100_000));

@@ -1,4 +1,4 @@
-//! Relaxations that start from what an earlier one found, and modes at the ends of what can be asked.
+//! Relaxations that start from an earlier result, and modes at the limits of possible requests.
 
 use crate::common::{Testing, patch};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
@@ -19,7 +19,7 @@ fn run(folder: &Path, words: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
 }
 
-/// Runs a scene; its studies.
+/// Runs a scene; returns its studies.
 fn studies(folder: &Path, name: &str, scene: &str) -> Vec<Value> {
     fs::write(folder.join(format!("{name}.toml")), scene).unwrap();
     let said = run(folder, &["run", &format!("{name}.toml")]);
@@ -33,7 +33,7 @@ fn studies(folder: &Path, name: &str, scene: &str) -> Vec<Value> {
     serde_json::from_str::<Value>(&summary).unwrap()["studies"].as_array().unwrap().clone()
 }
 
-/// The first row of a table of states, by its columns.
+/// Returns the first row of a table of states, by column names.
 fn first_row(path: &Path) -> BTreeMap<String, f64> {
     let text = fs::read_to_string(path).unwrap();
     let lines: Vec<&str> = text.lines().collect();
@@ -45,13 +45,13 @@ fn relaxation(name: &str, start: &str) -> String {
     format!("[[study]]\nname = \"{name}\"\nkind = \"relax\"\ndraw = [\"vtk\"]\nstart = {start}\n")
 }
 
-/// A scene on a mesh of the repository.
+/// Returns a scene with a mesh of the repository.
 fn scene(mesh: &str, sheet: &str, rest: &str, study: &str) -> String {
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join(mesh);
     format!("[sheet]\nmesh = {:?}\n{sheet}\n{rest}\n{study}", mesh.display().to_string())
 }
 
-/// Whether the second relaxation is the first one again, without a step, and its table begins with it.
+/// Checks that the second relaxation is the first one again, without a step, and that its table begins with it.
 fn stands_still(folder: &Path, name: &str, (first, second): (&Value, &Value)) {
     assert!(first["iterations"].as_u64().unwrap() > 0, "{name}: there was nothing to relax");
     assert_eq!(second["iterations"], 0, "{name}: {second}");
@@ -69,7 +69,7 @@ fn stands_still(folder: &Path, name: &str, (first, second): (&Value, &Value)) {
     assert!(force <= 1e-12 && length <= 1e-12, "{name}: {force:e} {length:e}");
 }
 
-/// What is relaxed: mesh, domain and what the sheet is made of.
+/// Returns the cases to relax: mesh, domain and energy.
 fn cases() -> Vec<(&'static str, &'static str, String)> {
     let star = "meshes/open-star.fold";
     let energy = |bars: &str, creases: &str, more: &str| {
@@ -89,13 +89,13 @@ fn cases() -> Vec<(&'static str, &'static str, String)> {
         (star, patch, energy("1e3", "1.0", held)),
         (star, patch, energy("inf", "1.0", held)),
         (star, patch, energy("1e3", "1.0", lock)),
-        // creases so stiff that they carry tensions
+        // creases so stiff that they are treated with tensions
         (star, patch, energy("1.0", "2e4", "")),
         (star, free, energy("1e3", "1.0", "")),
         (star, fixed, energy("1e3", "1.0", "")),
         (star, "domain = \"screw\"", energy("inf", "1.0", "")),
         (star, "domain = \"screw\"", energy("1e3", "1.0", "")),
-        // polygons that are rigid, of finite and of rigid bars
+        // rigid polygons, with finite and with rigid bars
         (
             "meshes/quad-cell.fold",
             patch,
@@ -109,9 +109,9 @@ fn cases() -> Vec<(&'static str, &'static str, String)> {
     ]
 }
 
-/// Claim: a relaxation that starts from an equilibrium that an earlier study found takes no step, finds the same energies and
-/// the same stability, and its table begins with them: on all domains, for finite and rigid bars, with pins, loads, locks and rigid
-/// polygons. Tolerance: energies to 1e-11 of the total: the residuals allow 1e-12 of the forces.
+/// Claim: a relaxation that starts from an equilibrium of an earlier study takes no step, finds the same energies and
+/// the same stability, and its table begins with them: on all domains, for finite and rigid bars, with pins, loads,
+/// locks and rigid polygons. Tolerance: energies to 1e-11 of the total; the residuals allow 1e-12 of the forces.
 #[test]
 fn a_restarted_equilibrium_takes_no_step() {
     let folder = tempfile::tempdir().unwrap();
@@ -122,7 +122,7 @@ fn a_restarted_equilibrium_takes_no_step() {
     }
 }
 
-/// Claim: the same from a VTU file of the earlier run, where points say all: on patches.
+/// Claim: the same from a VTU file of the earlier run if the points determine the state: on patches.
 #[test]
 fn a_restart_from_a_file_takes_no_step() {
     let folder = tempfile::tempdir().unwrap();
@@ -134,7 +134,7 @@ fn a_restart_from_a_file_takes_no_step() {
     }
 }
 
-/// Claim: a resumed run begins a later study where the whole run would have: its table is the same to the last byte.
+/// Claim: a resumed run starts a later study as the whole run would have: its table is the same to the last byte.
 #[test]
 fn a_resumed_restart_is_the_same() {
     let folder = tempfile::tempdir().unwrap();
@@ -151,8 +151,9 @@ fn a_resumed_restart_is_the_same() {
     assert!(fs::read(&table).unwrap() == whole, "another table");
 }
 
-/// Claim: a saddle that a file without forces gives is the saddle it was: no step, one negative eigenvalue, and the energy of its bars in
-/// the first row. Source: `drum-pass.vtu`, the pass between the two states of a drum, whose bars have 8.085e-5 by their lengths alone.
+/// Claim: a saddle from a file without forces is found again: no step, one negative eigenvalue, and the energy of its
+/// bars in the first row. Source: `drum-pass.vtu`, the pass between the two states of a drum, whose bars have 8.085e-5
+/// by their lengths only.
 #[test]
 fn a_saddle_stays_where_it_is() {
     let folder = tempfile::tempdir().unwrap();
@@ -166,7 +167,7 @@ fn a_saddle_stays_where_it_is() {
     assert_relative_eq!(row["energy_total"], found["energy"]["total"].as_f64().unwrap(), max_relative = 1e-12);
 }
 
-/// Claim: fold angles that went on beyond pi come back from a file as they were, and angles that it does not have are left alone.
+/// Claim: fold angles beyond pi are restored from a file, and angles that the file does not have are left unchanged.
 #[test]
 fn windings_come_back() {
     let case = patch("open-star", [2, 2]);
@@ -198,8 +199,9 @@ fn all_terms_are_in_the_total() {
     assert_relative_eq!(state.total(), state.energy.iter().sum::<f64>(), max_relative = 1e-13);
 }
 
-/// Claim: a rigidity matrix of rank 0 is an answer, without a gap. Source: all vertices pinned, there are no columns; one vertex on a torus
-/// with fixed lattice, all bars go from it to its copies and cannot change: 3 motions, and every one of its 3 bars a self stress.
+/// Claim: a rigidity matrix of rank 0 is a valid result, without a gap. Source: with all vertices pinned there are no
+/// columns; with one vertex on a torus with fixed lattice, all bars connect it to its copies and cannot change: 3
+/// motions, and every one of its 3 bars a self stress.
 #[test]
 fn rank_zero_is_an_answer() {
     let folder = tempfile::tempdir().unwrap();
@@ -216,8 +218,9 @@ fn rank_zero_is_an_answer() {
     assert!(found["gap"].is_null() && found["converged"] == true, "{found}");
 }
 
-/// Claim: more eigenvalues than there are give those that there are, just above the size that is always decomposed dense; where neither way
-/// can give as many as are wanted the scene is refused with the bound, before anything is written.
+/// Claim: if more eigenvalues are requested than exist, the existing ones are returned, just above the size that is
+/// always decomposed dense; if neither method can give as many as requested the scene is refused with the bound, before
+/// anything is written.
 #[test]
 fn too_many_eigenvalues() {
     let case = patch("open-star", [10, 11]);

@@ -1,4 +1,5 @@
-//! Rigid motions cost nothing, on every domain, and zero modes and self stresses are as many as theory says.
+//! Rigid motions cost no energy with all boundary conditions, and the numbers of zero modes and self stresses are those
+//! of the theory.
 
 use crate::common::{self, Numbers, Testing, eigenvalues, energy_hessian, linearized, mesh, on, patch};
 use approx::abs_diff_eq;
@@ -16,14 +17,15 @@ fn random_sheet(seed: u64) -> Sheet {
     generate(&Pattern::Random(Random { seed, ..Random::default() })).unwrap()
 }
 
-/// Bars of stiffness 1000 and creases of stiffness 1 at rest as drawn; nothing held, not even vertex 0 of a screw.
+/// Assembles bars of stiffness 1000 and creases of stiffness 1 with the drawn angles as rest angles; no coordinate is
+/// held, not even vertex 0 of a screw.
 fn free_model(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Model {
     let case = on(sheet, cells, boundary).with_free_coordinates();
     let terms = Terms::bars_and_creases(1e3, 1.0, case.drawn_angles().to_vec());
     case.model_of(&terms, Gauge::Free)
 }
 
-/// A strained state, for a screw a curved one.
+/// Returns a strained state, for a screw a curved one.
 fn strained(model: &Model, boundary: Boundary, numbers: &mut Numbers) -> Vec<f64> {
     let mut x: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.03)).collect();
     if boundary == Boundary::Screw {
@@ -38,7 +40,7 @@ fn total_energy(model: &Model, x: &[f64]) -> f64 {
     model.energy(x) + gaps.iter().zip(model.compliance()).map(|(gap, c)| gap * gap / (2.0 * c)).sum::<f64>()
 }
 
-/// Gradient of the whole energy, and the largest force of a single element.
+/// Returns the gradient of the whole energy, and the largest force of a single element.
 fn pull(model: &Model, x: &[f64]) -> (Vec<f64>, f64) {
     let gaps = linearized(model, x, &vec![0.0; model.layout().stiff.len()]).gaps;
     let tension: Vec<f64> = gaps.iter().zip(model.compliance()).map(|(gap, c)| gap / c).collect();
@@ -46,7 +48,7 @@ fn pull(model: &Model, x: &[f64]) -> (Vec<f64>, f64) {
     (at.force(&tension).iter().map(|f| -f).collect(), at.largest_force)
 }
 
-/// The coordinates turned and moved; lattice vectors are only turned.
+/// Returns the coordinates after a rotation and a translation; lattice vectors are only rotated.
 fn moved(boundary: Boundary, x: &[f64], turn: &Rotation3<f64>, shift: Vec3) -> Vec<f64> {
     let lattice = if boundary == Boundary::FreeTorus { x.len() - 6 } else { x.len() };
     let one = |(k, p): (usize, &[f64])| {
@@ -56,9 +58,9 @@ fn moved(boundary: Boundary, x: &[f64], turn: &Rotation3<f64>, shift: Vec3) -> V
     x.chunks(3).enumerate().flat_map(one).collect()
 }
 
-/// Claim: on patch and tori the energy does not change and the forces turn with the sheet when it is turned (not on the
-/// torus with fixed lattice) and moved by several times its size. Tolerance: rounding of coordinates of size 10, times
-/// the stiffness of the bars, over the energy or the largest force: 1e-15 * 10 * 1e3 / 10.
+/// Claim: on patch and tori the energy does not change, and the forces rotate with the sheet, when it is rotated (not
+/// on the torus with fixed lattice) and moved by several times its size. Tolerance: rounding errors of coordinates of
+/// size 10, times the stiffness of the bars, divided by the energy or the largest force: 1e-15 * 10 * 1e3 / 10.
 #[test]
 fn energy_and_forces_move_with_the_sheet() {
     for boundary in &DOMAINS[..3] {
@@ -81,8 +83,9 @@ fn energy_and_forces_move_with_the_sheet() {
     }
 }
 
-/// Claim: a screw sheet keeps its energy when it is moved along the axis, turned about it, turned in the plane with its axis, and when
-/// the gauge is changed: all z moved by d and the radius 1/kappa with it, the angles kappa b as before. Tolerance: as above.
+/// Claim: a screw sheet keeps its energy when it is moved along the axis, rotated about it, rotated in the plane with
+/// its axis, and when the gauge is changed: all z moved by d and the radius 1/kappa with it, the angles kappa b as
+/// before. Tolerance: as above.
 #[test]
 fn a_screw_keeps_its_energy() {
     for seed in 0..8 {
@@ -120,7 +123,7 @@ fn a_screw_keeps_its_energy() {
 }
 
 /// Claim: the forces of a strained sheet have no component along any rigid motion of its domain: no total force, no
-/// total torque, on a screw no force along the axis and no torque about it. Tolerance: rounding of sums.
+/// total torque, on a screw no force along the axis and no torque about it. Tolerance: rounding errors of sums.
 #[test]
 fn forces_balance() {
     for boundary in DOMAINS {
@@ -148,8 +151,8 @@ fn forces_balance() {
     }
 }
 
-/// Claim: the energy's Hessian at rest, creases included, has as many zeros as the domain has rigid motions, 6 on a
-/// patch, 3 on a torus with fixed lattice, 6 with free lattice, and nothing else within six decades of them.
+/// Claim: the Hessian of the energy at rest, creases included, has as many zeros as the domain has rigid motions, 6 on
+/// a patch, 3 on a torus with fixed lattice, 6 with free lattice, and no other eigenvalue within six decades of them.
 /// Two eigenvalue solvers: nalgebra's on a matrix assembled here, and the program's.
 #[test]
 fn zeros_of_the_hessian_are_rigid_motions() {
@@ -171,9 +174,9 @@ fn zeros_of_the_hessian_are_rigid_motions() {
     }
 }
 
-/// Claim: for minimisation just as many coordinates are held as there are rigid motions that nothing else prevents, and
-/// the Hessian at rest has no zero left: 6 on a patch, 3 beside a pinned vertex, none beside three; 3 on a torus with
-/// fixed lattice, 6 with free lattice. On a screw the chart holds vertex 0 itself.
+/// Claim: for minimisation as many coordinates are held as there are rigid motions that are not prevented otherwise,
+/// and the Hessian at rest has no zero left: 6 on a patch, 3 with one pinned vertex, none with three; 3 on a torus with
+/// fixed lattice, 6 with free lattice. On a screw the chart itself holds vertex 0.
 #[test]
 fn what_is_held_is_what_costs_nothing() {
     let pinned = |vertices: &[usize]| vertices.iter().map(|v| (*v, [true; 3])).collect::<Vec<_>>();
@@ -196,9 +199,9 @@ fn what_is_held_is_what_costs_nothing() {
     assert_eq!(held.layout().unknowns, 3 * (case.sheet().vertices.len() - 1) + 5);
 }
 
-/// Claim: `[zero modes, self stresses, Maxwell count, rigid motions]` of the bars alone of generic random cells, with
-/// Nv = 4, 6 or 9 vertices and one or several cells: 3, 3, 0, 3 on a torus with fixed lattice; 6, 0, 6, 6 with free
-/// lattice; 2, 0, 2, 0 on a screw. (theory, sections 3 and 4; generic, hence random.)
+/// Claim: `[zero modes, self stresses, Maxwell count, rigid motions]` of the bars only of generic random cells, with Nv
+/// = 4, 6 or 9 vertices and one or several cells: 3, 3, 0, 3 on a torus with fixed lattice; 6, 0, 6, 6 with free
+/// lattice; 2, 0, 2, 0 on a screw (theory, sections 3 and 4; generic, hence random).
 #[test]
 fn modes_of_generic_periodic_bars() {
     for (seed, size) in [(1, [2, 2]), (2, [2, 3]), (3, [3, 3]), (4, [2, 2])] {
@@ -218,8 +221,8 @@ fn modes_of_generic_periodic_bars() {
 }
 
 /// Claim: a patch of `open-star` with b sides of triangles on its rim and l loose bars has 6 + b - 3 + 2 l zero modes
-/// and no self stress: Euler's formula V - E + F = 1 with 3 F + b + 2 l = 2 E gives 3 V - E = b + 3 + 2 l. All
-/// sizes to 7 x 7 that have a rim, and long ones.
+/// and no self stress: Euler's formula V - E + F = 1 with 3 F + b + 2 l = 2 E gives 3 V - E = b + 3 + 2 l. All sizes up
+/// to 7 x 7 that have a rim, and long ones.
 #[test]
 fn modes_of_patches() {
     for cells in [[2, 2], [3, 3], [4, 4], [6, 6], [7, 7], [1, 5], [2, 9]] {
@@ -243,8 +246,8 @@ fn miura(fold: f64) -> Assembly {
     on(generate(&pattern).unwrap(), [1, 1], Boundary::Patch)
 }
 
-/// Claim: Miura-ori of 5 x 5 cells, bars alone, diagonals included: V = 121, 40 vertices on its rim; folded
-/// 6 + 40 - 3 = 43 zero modes and no self stress, flat V + 3 = 124 and as many self stresses as inner vertices, 81.
+/// Claim: Miura-ori of 5 x 5 cells, bars only, diagonals included, has V = 121 and 40 vertices on its rim; folded 6 +
+/// 40 - 3 = 43 zero modes and no self stress, flat V + 3 = 124 and as many self stresses as inner vertices, 81.
 #[test]
 fn modes_of_miura_flat_and_folded() {
     let bars = Terms { bars: Some(1.0), ..Terms::default() };
@@ -268,7 +271,7 @@ fn modes_of_miura_with_rigid_quadrilaterals() {
     assert_eq!((found.zero_modes, found.self_stresses, found.folding_modes), (7, 64, Some(1)));
 }
 
-/// Claim: the counts do not depend on how the sheet stands in space or how large it is.
+/// Claim: the counts do not depend on the orientation of the sheet in space, nor on its size.
 #[test]
 fn counts_are_invariant() {
     let mut sheet = mesh("random");

@@ -1,16 +1,16 @@
-//! The published JSON schemas are those that the program prints, and know the same studies.
+//! The published JSON schemas are those that the program prints, and describe the same studies.
 
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Names of the files under `validation/schema`, and what `foldwell schema NAME` prints.
+/// Returns names of the files in `validation/schema`, and the output of `foldwell schema NAME`.
 fn schemas() -> [(&'static str, String); 2] {
     [("scene", foldwell::scene::schema()), ("summary", foldwell::output::schema::schema())]
 }
 
-/// Claim: the files of the repository and the program agree to the byte. A key that was added, renamed or described in
-/// other words shows here.
+/// Claim: the files of the repository and the output of the program agree to the byte, so that a key that was added,
+/// renamed or described differently is noticed.
 #[test]
 fn published_schemas_are_those_of_the_program() {
     for (name, printed) in schemas() {
@@ -22,7 +22,7 @@ fn published_schemas_are_those_of_the_program() {
     }
 }
 
-/// The values of `"const": "..."` anywhere below.
+/// Returns the values of all `"const": "..."` in a schema.
 fn constants(schema: &Value) -> Vec<&str> {
     let below: Box<dyn Iterator<Item = &Value>> = match schema {
         Value::Object(keys) => Box::new(keys.values()),
@@ -32,7 +32,7 @@ fn constants(schema: &Value) -> Vec<&str> {
     schema.get("const").and_then(Value::as_str).into_iter().chain(below.flat_map(constants)).collect()
 }
 
-/// Claim: what a scene can ask for is what a summary can answer: the kinds of studies are the same in both schemas.
+/// Claim: the kinds of studies are the same in the schemas of scenes and of summaries.
 #[test]
 fn scenes_and_summaries_know_the_same_studies() {
     let [scene, summary] = schemas().map(|(_, text)| serde_json::from_str::<Value>(&text).unwrap());
@@ -44,7 +44,7 @@ fn scenes_and_summaries_know_the_same_studies() {
     assert_eq!(asked.len(), 8);
 }
 
-/// Where in a schema a table is open, or a key has no description.
+/// Returns the places of a schema where a table allows other keys, or a key has no description.
 fn findings(schema: &Value, place: &str) -> Vec<String> {
     let Some(properties) = schema["properties"].as_object() else { return Vec::new() };
     let closed = ["additionalProperties", "unevaluatedProperties"].iter().any(|key| schema[key] == false);
@@ -53,8 +53,8 @@ fn findings(schema: &Value, place: &str) -> Vec<String> {
     open.into_iter().chain(silent.map(|(name, _)| format!("{place}.{name} says nothing"))).collect()
 }
 
-/// Claim: every key of a summary is described, and no table of it takes other keys; the answers of studies are parts of the
-/// table of a study, which is closed.
+/// Claim: every key of a summary is described, and no table allows other keys; the results of studies are parts of the
+/// table of a study, which allows no other keys.
 #[test]
 fn every_key_of_a_summary_is_described() {
     let summary: Value = serde_json::from_str(&foldwell::output::schema::schema()).unwrap();

@@ -1,4 +1,4 @@
-//! Sheets that go through themselves, and sheets that only touch themselves, where one can say which is which.
+//! Sheets that pass through themselves, and sheets that only touch themselves, of known shape.
 
 use crate::common::on;
 use foldwell::analysis::intersections::{Crossings, Finder, Marks, STACKED_LAYERS_MARGIN, SelfIntersection, crossings};
@@ -9,7 +9,8 @@ use foldwell::sheet::{Sheet, Tiling, fold, tile};
 use rand::{RngExt, SeedableRng};
 use std::f64::consts::{PI, TAU};
 
-/// Where a sheet first crosses itself between `free`, where it does not, and `crossing`, where it does, to 1e-10: by bisection.
+/// Returns the parameter to 1e-10 at which a sheet first crosses itself, by bisection between `free`, where it does
+/// not, and `crossing`, where it does.
 fn first_crossing(crosses: impl Fn(f64) -> bool, [mut free, mut crossing]: [f64; 2]) -> f64 {
     while crossing - free > 1e-10 {
         let middle = 0.5 * (free + crossing);
@@ -18,7 +19,8 @@ fn first_crossing(crosses: impl Fn(f64) -> bool, [mut free, mut crossing]: [f64;
     crossing
 }
 
-/// A grid of `n1 x n2` parallelograms, each two triangles, with these places of its `(n1 + 1) (n2 + 1)` vertices.
+/// Returns a grid of `n1 x n2` parallelograms of two triangles each, with these positions of its `(n1 + 1) (n2 + 1)`
+/// vertices.
 fn grid(n: [usize; 2], place: impl Fn(usize, usize) -> Vec3) -> (Vec<Vec3>, Vec<[usize; 3]>) {
     let points = (0..=n[1]).flat_map(|j| (0..=n[0]).map(move |i| (i, j))).map(|(i, j)| place(i, j)).collect();
     let number = |i: usize, j: usize| j * (n[0] + 1) + i;
@@ -28,14 +30,14 @@ fn grid(n: [usize; 2], place: impl Fn(usize, usize) -> Vec3) -> (Vec<Vec3>, Vec<
     (points, triangles)
 }
 
-/// A strip of `n` rectangles rolled up on a circle, each turning on by `angle`.
+/// Returns a strip of `n` rectangles rolled up on a circle; each is rotated by `angle` relative to the one before.
 fn rolled(n: usize, angle: f64) -> (Vec<Vec3>, Vec<[usize; 3]>) {
     grid([n, 1], |i, j| Vec3::new((i as f64 * angle).cos(), (i as f64 * angle).sin(), j as f64))
 }
 
-/// Claim: a strip of n rectangles rolled up crosses itself exactly when it goes on beyond a whole turn, `n angle > 2 pi`, and
-/// bisection finds that angle. Source: chords of one circle cross when their ends alternate. Tolerance: the 1e-10 that is
-/// asked for, and half of it less nothing crosses.
+/// Claim: a strip of n rectangles rolled up crosses itself if and only if it exceeds a whole turn, `n angle > 2 pi`,
+/// and bisection finds that angle. Source: chords of one circle cross if their ends alternate. Tolerance: the required
+/// 1e-10; half of that below the angle nothing crosses.
 #[test]
 fn a_strip_crosses_itself_after_a_whole_turn() {
     for n in [5, 12, 31] {
@@ -53,9 +55,9 @@ fn a_strip_crosses_itself_after_a_whole_turn() {
     }
 }
 
-/// Claim: round a vertex of four faces, a face that folds onto its second neighbour crosses it as soon as it is through, and the
-/// bisection finds where. Source: the opposite edge of the face goes through the sector between the rays at 0 and 80 degrees.
-/// Both faces have the vertex in common and nothing else.
+/// Claim: around a vertex of four faces, a face that folds onto its second neighbour crosses it from the moment when it
+/// passes through, and the bisection finds this state. Source: the opposite edge of the face passes through the sector
+/// between the rays at 0 and 80 degrees. Both faces have only the vertex in common.
 #[test]
 fn faces_with_a_common_vertex() {
     let degrees = |angle: f64, z: f64| Vec3::new(angle.to_radians().cos(), angle.to_radians().sin(), z);
@@ -72,16 +74,16 @@ fn faces_with_a_common_vertex() {
     assert!(!((found - 0.3).abs() > 1e-10), "{found}");
 }
 
-/// A rotation by no special angle.
+/// Rotates points by an oblique rotation.
 fn turned(points: &[Vec3]) -> Vec<Vec3> {
     let rotation = nalgebra::Rotation3::new(Vec3::new(0.3, -1.1, 0.7));
     points.iter().map(|p| rotation * p + Vec3::new(0.1, 0.2, 0.3)).collect()
 }
 
-/// Claim: Miura-ori folded flat touches itself in all its layers and crosses nowhere; nor does it on the way there. Turned by some
-/// angle, its layers are in each other by rounding errors, and the margin for states that are known to a tolerance says so.
-/// Source: the closed form of Miura-ori (M. Schenk, S. D. Guest, PNAS 110, 3276 (2013)) with sides 5 and an angle of cosine
-/// 3/5, for which the flat state has whole numbers.
+/// Claim: Miura-ori folded flat touches itself in all its layers and crosses nowhere, nor does it on the way there.
+/// After an oblique rotation its layers intersect by rounding errors, which the margin for states known to a tolerance
+/// ignores. Source: the closed form of Miura-ori (M. Schenk, S. D. Guest, PNAS 110, 3276 (2013)) with sides 5 and an
+/// angle of cosine 3/5, for which the flat state has integer coordinates.
 #[test]
 fn miura_ori_folds_flat_without_crossing() {
     let miura = |g: f64| {
@@ -104,7 +106,8 @@ fn miura_ori_folds_flat_without_crossing() {
     assert!(Finder::new(triangles).crossings(&flat, STACKED_LAYERS_MARGIN).pairs.is_empty());
 }
 
-/// Claim: a margin leaves out what is less deep and nothing else: layers pushed through each other by d cross for margins below d.
+/// Claim: a margin ignores crossings less deep than it, and no others: layers pushed through each other by d cross for
+/// margins below d.
 #[test]
 fn a_margin_is_a_depth() {
     let (sheet, faces) = grid([1, 1], |i, j| Vec3::new(i as f64, j as f64, 0.0));
@@ -116,8 +119,8 @@ fn a_margin_is_a_depth() {
     }
 }
 
-/// Claim: states one after another give what each gives alone: refitting the tree loses nothing. States: heaps of triangles that
-/// move far, and one with a corner at infinity, whose faces cross nothing.
+/// Claim: the results for a sequence of states are those for each state alone: refitting the tree loses no crossing.
+/// States: heaps of triangles that move far, and one with a corner at infinity, whose faces cross nothing.
 #[test]
 fn states_one_after_another() {
     let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(5);
@@ -137,7 +140,7 @@ fn states_one_after_another() {
     }
 }
 
-/// A sheet in its drawn state, its model, and a look at its self-intersections.
+/// A sheet in its drawn state, its model, and the test for self-intersections.
 struct Case {
     drawn: Drawn,
     tiling: Tiling,
@@ -151,7 +154,7 @@ impl Case {
         Self { check: SelfIntersection::new(&drawn), drawn: drawn.drawn().clone(), tiling: drawn.tiling().clone() }
     }
 
-    /// The marks of a state with these coordinates and, all over, this fold angle.
+    /// Returns the marks of a state with these coordinates and with this fold angle at all edges.
     fn marks(&mut self, coordinates: Vec<f64>, angle: f64) -> Marks {
         let edges = self.tiling.edges.len();
         let state = State { fold_angle: vec![angle; edges], ..State::empty(coordinates, edges) };
@@ -159,8 +162,8 @@ impl Case {
     }
 }
 
-/// Claim: a hinge folded beyond pi has gone through itself, its positions being those of the opposite fold; at pi its faces lie on
-/// each other. Boundary edges have no angle. Source: fold angles are continued through pi.
+/// Claim: a hinge folded beyond pi has passed through itself, although its positions are those of the opposite fold; at
+/// pi its faces lie on each other. Boundary edges have no angle. Source: fold angles are continued through pi.
 #[test]
 fn a_hinge_beyond_pi() {
     let text = r#"{"vertices_coords": [[0, 0, 0], [0, 1, 0], [-1, 0.5, 0], [1, 0.5, 0]], "faces_vertices": [[0, 1, 2], [1, 0, 3]]}"#;
@@ -179,9 +182,10 @@ fn a_hinge_beyond_pi() {
     assert!(!hinge.marks(x, f64::NAN).any);
 }
 
-/// Claim: a cell of one screw-periodic sheet that is rolled up tighter and tighter crosses others once the drawn cells go round, and not
-/// before. The axis lies along the first lattice vector. What is drawn of n cells has every face of them once: the rim at its end is
-/// the one at its beginning, n cells further, and meets it after a whole turn.
+/// Claim: a cell of a screw-periodic sheet that is rolled up more and more tightly crosses others as soon as the shown
+/// cells exceed a turn, and not before. The axis lies along the first lattice vector. The shown n cells have every face
+/// of them once: the rim at their end is a copy of that at their beginning, n cells further, and meets it after a whole
+/// turn.
 #[test]
 fn a_tube_closes_on_itself() {
     let text = std::fs::read_to_string("meshes/random-developable.fold").unwrap();
@@ -199,7 +203,7 @@ fn a_tube_closes_on_itself() {
     }
 }
 
-/// Cells of the star, vertex 1 of each moved on by `push` towards the next cell, laid out as a patch, periodic, or as a screw.
+/// Makes cells of the star with vertex 1 of each moved by `push` towards the next cell, as a patch, a torus or a screw.
 fn pushed(sheet: &Sheet, cells: [usize; 2], boundary: Boundary, push: f64) -> Case {
     let mut case = Case::new(sheet, cells, boundary, [5, 5]);
     let [l1, l2] = sheet.lattice.unwrap();
@@ -211,9 +215,9 @@ fn pushed(sheet: &Sheet, cells: [usize; 2], boundary: Boundary, push: f64) -> Ca
     case
 }
 
-/// Claim: cells that are pushed into each other are found, on a screw among the drawn cells, on a torus of one cell among its
-/// neighbours, of which none is drawn. Source: the same 5 x 5 cells laid out one by one, those that have neighbours all round, or
-/// the middle one. Faces that reach over the rim are among those of a screw and a torus.
+/// Claim: cells that are pushed into each other are found, on a screw among the shown cells, on a torus of one cell
+/// among its neighbours, none of which is shown. Source: the same 5 x 5 cells as a patch, those that have neighbours on
+/// all sides, or the one in the middle. The faces include some that cross the rim of a cell.
 #[test]
 fn cells_are_held_against_their_neighbours() {
     let sheet = fold::parse(include_str!("../cases/open-star.fold"), "open-star.fold").unwrap();
@@ -245,7 +249,8 @@ fn cells_are_held_against_their_neighbours() {
     }
 }
 
-/// Claim: no mesh in `meshes/` crosses itself as drawn, by its coordinates alone. Source: they are to be folded from paper.
+/// Claim: no mesh in `meshes/` crosses itself in the drawn state, by its coordinates only. Source: they can be folded
+/// from paper.
 #[test]
 fn drawn_meshes_do_not_cross_themselves() {
     let mut count = 0;

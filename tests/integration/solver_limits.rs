@@ -1,11 +1,11 @@
-//! Problems at the edge of the solver: no soft energy at all, no energy at the minimum, an unstable equilibrium.
+//! Limiting problems of the solver: no soft energy at all, no energy at the minimum, an unstable equilibrium.
 
 use crate::textbook::{Textbook, length, linear, steps};
 use approx::assert_abs_diff_eq;
 
-/// Claim: a stiff measure in place of the steep wall of the valley changes nothing but the path: `sqrt(200) (y - x^2)`
-/// with compliance 1 has the same minimum and the same energy, and with compliance 0 the minimum of `(1 - x)^2` on the
-/// parabola. From compliance 1 down to 0.
+/// Claim: a stiff measure instead of the steep wall of the valley changes only the path: `sqrt(200) (y - x^2)` with
+/// compliance 1 has the same minimum and the same energy, and with compliance 0 the minimum of `(1 - x)^2` on the
+/// parabola. Compliances from 1 down to 0.
 #[test]
 fn the_valley_with_a_stiff_wall() {
     for compliance in [1.0 / 200.0, 1e-6, 1e-12, 0.0] {
@@ -18,9 +18,9 @@ fn the_valley_with_a_stiff_wall() {
     }
 }
 
-/// Claim: a pendulum on a rigid bar of length 2 under a weight of 3 hangs straight down with the weight as tension,
-/// from the side and from nearly the top; from exactly the top it is an equilibrium with one negative eigenvalue.
-/// Tolerance there: 1e-12 of the length, to which the solver closes gaps.
+/// Claim: a pendulum on a rigid bar of length 2 with a weight of 3 hangs straight down with the weight as tension, from
+/// the side and from nearly the top; exactly at the top it is in equilibrium with one negative eigenvalue. Tolerance
+/// there: 1e-12 of the length, to which the solver closes gaps.
 #[test]
 fn a_pendulum() {
     let pendulum = || Textbook::new(2).load(&[0.0, -3.0]).stiff(&[0, 1], 0.0, length(Some([0.0, 0.0]), 2.0));

@@ -1,4 +1,4 @@
-//! The solver on problems from textbooks, which know no sheet.
+//! The solver on textbook problems without sheets.
 
 use crate::textbook::{Textbook, length, linear, steps};
 use approx::assert_abs_diff_eq;
@@ -10,8 +10,8 @@ fn rosenbrock() -> Textbook {
     Textbook::new(2).soft(&[0, 1], 200.0, Box::new(valley)).soft(&[0], 2.0, linear(&[1.0], 1.0))
 }
 
-/// Claim: the minimum (1, 1) of Rosenbrock's valley `100 (y - x^2)^2 + (1 - x)^2` from the usual start and from others,
-/// in at most 30 steps (steepest descent needs thousands); the energy never rises.
+/// Claim: the minimum (1, 1) of Rosenbrock's valley `100 (y - x^2)^2 + (1 - x)^2` is found from the usual start and
+/// from others in at most 30 steps (steepest descent needs thousands); the energy never increases.
 #[test]
 fn rosenbrocks_valley() {
     for start in [[-1.2, 1.0], [-3.0, -4.0], [0.0, 5.0], [1.0, 1.0]] {
@@ -23,8 +23,8 @@ fn rosenbrocks_valley() {
     }
 }
 
-/// Claim: `|x|^2 / 2` under `x0 + x1 + x2 = 3 + c0 t0`, `x0 - x2 = 1 + c1 t1` has `x = -A^T t` with
-/// `(A A^T + C) t = -b`, `A A^T = diag(3, 2)`: in one step, at every compliance, 0 included.
+/// Claim: the minimum of `|x|^2 / 2` under `x0 + x1 + x2 = 3 + c0 t0`, `x0 - x2 = 1 + c1 t1` is `x = -A^T t` with `(A
+/// A^T + C) t = -b`, `A A^T = diag(3, 2)`: in one step, at every compliance, including 0.
 #[test]
 fn a_quadratic_with_known_multipliers() {
     for c in [[0.0, 0.0], [1e-12, 0.0], [1e-4, 1e-16], [0.5, 2.0], [1e3, 1e-3]] {
@@ -49,8 +49,8 @@ fn a_quadratic_with_known_multipliers() {
     }
 }
 
-/// Claim: a condition given twice, and once more with another length, leaves two self stresses; the settled tensions are
-/// the shortest: for rows `a, a, 2a` with `R^T t` fixed they are in the ratio 1 : 1 : 2.
+/// Claim: a condition given twice, and once more with another length, leaves two self stresses; the settled tensions
+/// are the shortest: for rows `a, a, 2a` with `R^T t` fixed they are in the ratio 1 : 1 : 2.
 #[test]
 fn redundant_conditions_share_the_tension() {
     let mut problem = Textbook::new(2);
@@ -70,8 +70,8 @@ fn redundant_conditions_share_the_tension() {
     }
 }
 
-/// Claim: conditions that contradict each other, linear ones and two circles that do not meet, are infeasible, with a
-/// gap not smaller than what is possible, and no steps were taken.
+/// Claim: contradictory conditions, linear ones and two circles that do not intersect, are reported as infeasible, with
+/// a gap not smaller than the least possible, and without steps.
 #[test]
 fn contradictions_are_infeasible() {
     let plain = Textbook::new(1).soft(&[0], 1.0, linear(&[1.0], 0.0));
@@ -88,8 +88,8 @@ fn contradictions_are_infeasible() {
     }
 }
 
-/// Claim: the observer sees every state once, the start first, and stops the iteration where it says so; the error has
-/// the states so far.
+/// Claim: the observer receives every state once, the start first, and can stop the iteration; the error contains the
+/// states so far.
 #[test]
 fn the_observer_stops_the_iteration() {
     let mut seen = 0;
@@ -108,7 +108,7 @@ fn the_observer_stops_the_iteration() {
     assert_eq!(found.unwrap().history, seen);
 }
 
-/// Claim: too few steps allowed is said with their number.
+/// Claim: the error after too few steps contains their number.
 #[test]
 fn too_few_steps_are_said() {
     let options = Options { iterations: 2, ..Options::default() };
@@ -117,14 +117,14 @@ fn too_few_steps_are_said() {
     assert_eq!(error.history.len(), 3);
 }
 
-/// `(x^2 - 1)^2 / 2 + y^2 / 2`: two wells and a saddle at the origin.
+/// Returns the problem `(x^2 - 1)^2 / 2 + y^2 / 2`: two wells and a saddle at the origin.
 fn wells() -> Textbook {
     let wall = |x: &[f64]| (x[0] * x[0] - 1.0, vec![2.0 * x[0]], vec![2.0]);
     Textbook::new(2).soft(&[0], 1.0, Box::new(wall)).soft(&[1], 1.0, linear(&[1.0], 0.0))
 }
 
-/// Claim: from exactly the saddle between two wells it is reported with its one negative eigenvalue; from a little to
-/// one side the well on that side is found.
+/// Claim: from exactly the saddle between two wells, the saddle is reported with its one negative eigenvalue; from a
+/// start a little to one side the well on that side is found.
 #[test]
 fn a_saddle_is_reported_or_left() {
     let found = wells().run(&[0.0, 0.0]).unwrap();
@@ -136,8 +136,9 @@ fn a_saddle_is_reported_or_left() {
     }
 }
 
-/// Claim: near a minimum a shift is given up at once, where it still is a large one. A stiff spring that carries a load of 1 and,
-/// started where it is unstable, a well a millionth as stiff: its force is small beside the load.
+/// Claim: near a minimum a shift is removed at once, even if it is still large. The problem is a stiff spring that
+/// carries a load of 1 and a well a millionth as stiff, started where it is unstable: its force is small compared with
+/// the load.
 #[test]
 fn shifts_end_near_a_minimum() {
     let well = |x: &[f64]| (x[0] * x[0] - 1.0, vec![2.0 * x[0]], vec![2.0]);
@@ -148,14 +149,14 @@ fn shifts_end_near_a_minimum() {
     assert!((found.x[1] - 1.0).abs() < 1e-6, "{:?}", found.x);
     let shifts: Vec<f64> = found.history.iter().map(|step| step.shift).collect();
     assert!(found.history[0].residual_force < 1e-5, "{}", found.history[0].residual_force);
-    // the start has none yet; then come large ones, and none after them
+    // the start has no shift yet; large ones follow, and none after them
     let end = shifts.iter().rposition(|shift| *shift > 0.0).expect("the start is unstable");
     assert!(end + 1 < shifts.len() && shifts[1..=end].iter().all(|shift| *shift >= 0.25), "{shifts:?}");
 }
 
-/// Claim: cost as counts. A quadratic takes one factorization for its step (that of the certificate is not in the
-/// history); every step makes at least one solve; Rosenbrock's valley makes no more factorizations than steps, plus
-/// those of raised shifts.
+/// Claim: bounds on the numbers of operations. A quadratic takes one factorization for its step (that of the
+/// certificate is not in the history); every step makes at least one solve; Rosenbrock's valley makes no more
+/// factorizations than steps, plus those of raised shifts.
 #[test]
 fn costs_are_counted() {
     let mut quadratic = Textbook::new(1).soft(&[0], 4.0, linear(&[1.0], 2.0));

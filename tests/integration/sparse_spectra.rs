@@ -1,4 +1,4 @@
-//! Lowest eigenvalues of large sheets: the sparse way against a dense decomposition.
+//! Lowest eigenvalues of large sheets: the sparse method compared with a dense decomposition.
 
 use crate::common::{self, Testing, eigenvalues, energy_hessian, on};
 use approx::abs_diff_eq;
@@ -7,7 +7,7 @@ use foldwell::model::Gauge;
 use foldwell::model::{Boundary, Terms};
 use foldwell::solver::Problem;
 
-/// Claim: the lowest eigenvalues of a sheet just above the limit of the dense path are those of a dense decomposition
+/// Claim: the lowest eigenvalues of a sheet just above the limit of the dense method are those of a dense decomposition
 /// by another library to eight digits, for a patch and a torus, and their vectors satisfy `H v = lambda v` as well.
 #[test]
 fn sparse_and_dense_spectra_agree() {

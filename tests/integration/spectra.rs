@@ -1,4 +1,4 @@
-//! Spectra of energies: a published program's numbers, and the rigid limit.
+//! Spectra of energies: the numbers of a published program, and the rigid limit.
 
 use crate::common::{Testing, distance, on, patch};
 use approx::abs_diff_eq;
@@ -8,7 +8,7 @@ use foldwell::sheet::generate::{MiuraPatch, Pattern};
 
 /// Claim: Miura-ori of 5 x 5 cells, EA = 1000, creases 0.1, facets 1, free boundary: six zeros, then the values below,
 /// and the largest. Source: MERLIN (K. Liu, G. H. Paulino, Proc. R. Soc. A 473, 20170348, 2017) under Octave 7.3, on
-/// the same 11 x 11 vertices. Tolerance: the nine digits written down there.
+/// the same 11 x 11 vertices. Tolerance: the nine digits recorded there.
 #[test]
 fn the_spectrum_of_a_published_program() {
     let pattern = Pattern::MiuraPatch(MiuraPatch { a: 2.0, b: 2.0, ..MiuraPatch::default() });
@@ -24,8 +24,8 @@ fn the_spectrum_of_a_published_program() {
     }
 }
 
-/// Claim: with rigid bars the spectrum is that of the limit of stiff ones: the lowest values on what the bars leave free
-/// differ from those at EA = 1e5 and 1e6 by amounts that fall as 1/k.
+/// Claim: with rigid bars the spectrum is the limit of that of stiff ones: the lowest values on the motions that the
+/// bars leave free differ from those at EA = 1e5 and 1e6 by amounts that decrease as 1/k.
 #[test]
 fn rigid_spectra_are_the_limit_of_stiff_ones() {
     let case = patch("open-star", [3, 3]);

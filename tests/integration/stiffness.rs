@@ -1,4 +1,4 @@
-//! One Newton method for every stiffness of the bars, exactly rigid included (theory, section 7).
+//! One Newton method for every stiffness of the bars, including exactly rigid ones (theory, section 7).
 
 use crate::common::{self, Numbers, Testing, distance, jacobian, linearized, on, patch};
 use approx::{abs_diff_eq, assert_abs_diff_eq};
@@ -10,7 +10,7 @@ use foldwell::solver::{Linearization, Options, Problem};
 use nalgebra::DVector;
 
 const STIFFNESSES: [f64; 9] = [1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16, f64::INFINITY];
-/// Relaxed sheets of `n` x `n` cells at all stiffnesses; each within so many iterations and to 1e-12.
+/// Relaxes sheets of `n` x `n` cells at all stiffnesses, each to 1e-12 in at most `most` iterations.
 fn sweep(n: usize, rest: impl Fn(&Assembly) -> Vec<f64>, most: usize) -> Vec<Relaxed> {
     let case = patch("open-star", [n, n]);
     let rest = rest(&case);
@@ -40,8 +40,8 @@ fn sweep(n: usize, rest: impl Fn(&Assembly) -> Vec<f64>, most: usize) -> Vec<Rel
     found
 }
 
-/// `k` times the largest fold-angle difference to the rigid sheet, for all finite stiffnesses, printed together with the
-/// k from which it stays within 1 % of its value at 1e12.
+/// Returns `k` times the largest difference of a fold angle from the rigid sheet for all finite stiffnesses; prints
+/// them with the k from which the product stays within 1 % of its value at 1e12.
 fn scaled_distances(n: usize, found: &[Relaxed]) -> Vec<f64> {
     let rigid = &found[found.len() - 1].state;
     let scaled: Vec<f64> = STIFFNESSES
@@ -55,8 +55,8 @@ fn scaled_distances(n: usize, found: &[Relaxed]) -> Vec<f64> {
     scaled
 }
 
-/// Which minimum each stiffness found: made rigid from where it is, the sheet goes to the rigid run's state or to
-/// another one. Printed, with the energy over the rigid run's.
+/// Prints which minimum each stiffness found: made rigid from its state, the sheet goes to the state of the rigid run
+/// or to another one, whose energy is printed relative to that of the rigid run.
 fn report_minima(n: usize, rest: Vec<f64>, found: &[Relaxed]) {
     let case = patch("open-star", [n, n]);
     let rigid = &found[found.len() - 1].state;
@@ -82,8 +82,8 @@ fn six_by_six(rest: impl Fn(&Assembly) -> Vec<f64>) {
 }
 
 /// Claim: 6 x 6 cells, rest angles within 0.1 rad of the drawn ones, one for each crease of the cell: every stiffness
-/// within 12 iterations to 1e-12, and the distance to the rigid sheet falls as 1/k: k times it is the same at 1e10 and
-/// 1e12 within 1 %.
+/// converges within 12 iterations to 1e-12, and the distance from the rigid sheet decreases as 1/k: k times it is the
+/// same at 1e10 and 1e12 within 1 %.
 #[test]
 fn six_cells_a_side_per_crease_of_the_cell() {
     for seed in 1..4 {
@@ -106,27 +106,28 @@ fn large(n: usize) {
     scaled_distances(n, &found);
 }
 
-/// Claim: 12 x 12 cells per hinge: every stiffness within 25 iterations, continuation counted in.
+/// Claim: 12 x 12 cells with one random number for each hinge: every stiffness converges within 25 iterations,
+/// continuation included.
 #[test]
 fn twelve_cells_a_side() {
     large(12);
 }
 
-/// Claim: 24 x 24 cells likewise.
+/// Claim: the same for 24 x 24 cells.
 #[test]
 fn twenty_four_cells_a_side() {
     large(24);
 }
 
-/// Claim: 48 x 48 cells likewise.
+/// Claim: the same for 48 x 48 cells.
 #[test]
 #[ignore = "takes 20 s; `.ci/run` runs it"]
 fn forty_eight_cells_a_side() {
     large(48);
 }
 
-/// Claim: next to a minimum a factorization serves the next steps too: six relaxations of 12 x 12 rigid cells take fewer
-/// factorizations than steps, to the same residuals, and each minimum is known as one.
+/// Claim: near a minimum a factorization is used for several steps: six relaxations of 12 x 12 rigid cells take fewer
+/// factorizations than steps, to the same residuals, and each minimum is identified as one.
 #[test]
 fn last_steps_share_a_factorization() {
     let case = patch("open-star", [12, 12]);
@@ -141,8 +142,8 @@ fn last_steps_share_a_factorization() {
     assert!(factorizations < iterations, "{factorizations} factorizations, {iterations} steps");
 }
 
-/// Claim: minima do not depend on how the sheet is scaled: lengths times 1000 with creases and bars scaled so that the
-/// ratios stay gives the same angles in as many iterations. Tolerance: rounding over the softest mode.
+/// Claim: minima do not depend on the scale of the sheet: lengths times 1000 with creases and bars scaled to the same
+/// ratios give the same angles in as many iterations. Tolerance: rounding errors divided by the softest mode.
 #[test]
 fn scale_does_not_matter() {
     let run = |scale: f64| {
@@ -157,8 +158,8 @@ fn scale_does_not_matter() {
     assert_abs_diff_eq!(big.state.total() / small.state.total() / 1024.0, 1.0, epsilon = 1e-10);
 }
 
-/// The residuals of both rows of the system of a step, by dense matrices and as the solver measures them: of forces over `a`, of
-/// stretches over `b` and a hundred lengths of the step.
+/// Returns the relative residuals of both rows of the system of a step, from dense matrices and scaled as by the
+/// solver: of forces by `a`, of stretches by `b` plus a hundred lengths of the step.
 fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: Increment) -> [f64; 2] {
     let [a, b] = [a, b].map(DVector::from_column_slice);
     let [dx, dt] = [found.dx, found.dt].map(DVector::from_vec);
@@ -168,9 +169,9 @@ fn unsolved(model: &Model, at: &Linearization, (a, b): (&[f64], &[f64]), found: 
     [force, (&rows * &dx - soft - &b).norm() / (b.norm() + 100.0 * dx.norm())]
 }
 
-/// Claim: the linear system of a step, `[H, R^T; R, -1/k] [dx; dt] = [a; b]`, is solved to the accuracy asked for at every
-/// stiffness, by the residual of dense matrices, in at most 10 solves, and in one where `k` is so soft that the factored
-/// matrix is that of the system. Tolerance: 1e-9 was asked for.
+/// Claim: the linear system of a step, `[H, R^T; R, -1/k] [dx; dt] = [a; b]`, is solved to the required accuracy at
+/// every stiffness, by the residual of dense matrices, in at most 10 solves, and in one if `k` is so soft that the
+/// factored matrix is that of the system. Tolerance: 1e-9 was required.
 #[test]
 fn steps_are_solved_at_every_stiffness() {
     let case = patch("open-star", [4, 4]);
@@ -190,10 +191,10 @@ fn steps_are_solved_at_every_stiffness() {
     }
 }
 
-/// Claim: the system is solved just as well with a factorization that is wrong for a few motions, as rounding
-/// errors make it for the softest ones of a large sheet: here four unknowns are ten times as stiff as where it was
-/// factored. Every such motion costs one or two corrections, where repeating the same correction would go ever further off.
-/// Tolerance: 1e-9 was asked for.
+/// Claim: the system is solved as well with a factorization that is wrong for a few motions, as by rounding errors for
+/// the softest motions of a large sheet: here four unknowns are ten times as stiff as in the factored matrix. Every
+/// such motion needs one or two corrections, while repeating the same correction would diverge. Tolerance: 1e-9 was
+/// required.
 #[test]
 fn steps_are_solved_where_the_factorization_is_wrong_for_a_few_motions() {
     let case = patch("open-star", [4, 4]);

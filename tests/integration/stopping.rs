@@ -1,4 +1,5 @@
-//! Runs that are asked to stop: they end with what is finished on disk, and the study at work is interrupted, not failed.
+//! Runs that are asked to stop: they end with the finished results on disk, and the current study is interrupted, not
+//! failed.
 //!
 //! No test here measures time; `cargo bench --bench stopping` prints it.
 
@@ -21,7 +22,7 @@ fn scene(folder: &Path, cells: [usize; 2], studies: &str) -> PathBuf {
     path
 }
 
-/// Name, whether it converged, reason of every study in the summary.
+/// Returns name, whether it converged, and reason of every study in the summary.
 fn studies(out: &Path) -> Vec<(String, bool, Option<String>)> {
     let summary: Value = serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
     let text = |value: &Value| value.as_str().map(str::to_owned);
@@ -33,9 +34,9 @@ fn studies(out: &Path) -> Vec<(String, bool, Option<String>)> {
 const THREE: &str = "[[study]]\nname = \"first\"\nkind = \"relax\"\n[[study]]\nname = \"second\"\nkind = \"relax\"\n\
     [[study]]\nname = \"third\"\nkind = \"relax\"\n";
 
-/// Claim: while the second of three studies hangs in a step, closing the ledger leaves a summary with the first, whole, and
-/// the second, interrupted; whatever the run still does, that summary stays. Without a ledger that closes, the run
-/// that goes on would write the summary of all three over it.
+/// Claim: while the second of three studies hangs in a step, closing the ledger leaves a summary with the first study,
+/// complete, and the second, interrupted; this summary stays whatever the run still does. If the ledger were not
+/// closed, the run that continues would overwrite it with the summary of all three.
 #[test]
 fn a_closed_ledger_is_the_last_word() {
     let folder = tempfile::tempdir().unwrap();
@@ -68,13 +69,13 @@ fn a_closed_ledger_is_the_last_word() {
     assert!(whole.summary.converged());
 }
 
-/// Claim: a run that has not come to write anything leaves nothing when it is ended.
+/// Claim: a run that is ended before it has written anything leaves nothing.
 #[test]
 fn before_anything_is_written_nothing_is() {
     assert_eq!(Ledger::default().close().unwrap(), None);
 }
 
-/// Claim: whichever kind of study the observer stops, at its first step or later, is interrupted and not failed.
+/// Claim: every kind of study that the observer stops, at its first step or later, is interrupted and not failed.
 #[test]
 fn every_kind_is_interrupted() {
     let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes");
@@ -103,7 +104,7 @@ fn every_kind_is_interrupted() {
     }
 }
 
-/// Ctrl-C so long after the program has begun; its exit status.
+/// Sends Ctrl-C after this time from the start of the program; returns its exit status.
 #[cfg(unix)]
 fn interrupted_after(folder: &Path, milliseconds: u64) -> Option<i32> {
     use std::process::{Command, Stdio};
@@ -115,8 +116,8 @@ fn interrupted_after(folder: &Path, milliseconds: u64) -> Option<i32> {
     child.wait().unwrap().code()
 }
 
-/// Claim: Ctrl-C while the sheet is still built ends the program with status 130 and writes nothing. A run that built
-/// it to its end first, millions of vertices, would leave a summary.
+/// Claim: Ctrl-C while the sheet is still being built ends the program with status 130 and writes nothing. A run that
+/// first built all of it, millions of vertices, would leave a summary.
 #[test]
 #[cfg(unix)]
 fn building_is_interrupted() {
@@ -126,7 +127,8 @@ fn building_is_interrupted() {
     assert!(!folder.path().join("out").exists());
 }
 
-/// Claim: Ctrl-C in the middle of a grid of 256,000,000 wavenumbers ends the program with status 130, the study interrupted.
+/// Claim: Ctrl-C in the middle of a grid of 256,000,000 wavenumbers ends the program with status 130, with the study
+/// interrupted.
 #[test]
 #[cfg(unix)]
 fn a_grid_is_interrupted() {

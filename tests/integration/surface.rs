@@ -1,5 +1,5 @@
-//! Surfaces of folded states: against linear algebra, trajectories of an independent program, and themselves at another
-//! resolution; and the files of a run.
+//! Surfaces of folded states compared with linear algebra, with trajectories of an independent program, and with
+//! themselves at another resolution; and the files of a run.
 
 use crate::common::{self, on};
 use foldwell::analysis::surface::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, surface};
@@ -17,7 +17,7 @@ use std::path::Path;
 
 const REFERENCE: &str = include_str!("../cases/open-star.json");
 
-/// How finely and how far.
+/// Radius of the charts and largest curvature of a surface.
 #[derive(Clone, Copy)]
 struct Extent {
     radius: f64,
@@ -37,7 +37,7 @@ fn star(radius: f64, max_curvature: f64) -> (Sheet, Surface) {
     (sheet, found)
 }
 
-/// The way between two states, whole turns taken off.
+/// Returns the difference of two states, reduced by whole turns.
 fn way(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| b - a - TAU * ((b - a) / TAU).round()).collect()
 }
@@ -46,7 +46,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The points on the border. Fails where the triangles are no oriented manifold, and where a point has none.
+/// Returns the points on the border. Fails if the triangles are not an oriented manifold, or if a point has none.
 fn border(surface: &Surface) -> HashSet<usize> {
     let mut edges = HashSet::new();
     let mut fans: HashMap<usize, HashMap<usize, usize>> = HashMap::new();
@@ -72,8 +72,8 @@ fn border(surface: &Surface) -> HashSet<usize> {
     edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a])).flatten().copied().collect()
 }
 
-/// Claim: the surface of the reference cell is an oriented manifold of states that close to 1e-12 (asked of an own
-/// evaluation), with two linear motions at each but for the tips, where there are three; both nappes are begun, and its
+/// Claim: the surface of the reference cell is an oriented manifold of states that close to 1e-12 (by a separate
+/// evaluation), with two linear motions at each except for the tips, which have three; both nappes are covered, and its
 /// whole border has the largest curvature to 1e-10. Near the drawn state the sign of the nappe is that of the
 /// curvature.
 #[test]
@@ -109,8 +109,8 @@ fn surface_of_open_star() {
     assert_eq!(tips, 3, "the drawn state on both nappes, and another spatially periodic state");
 }
 
-/// Distance of a state from a triangle of states, in the plane of which it is projected; infinite where it falls
-/// outside by more than a tenth.
+/// Returns the distance of a state from a triangle of states, onto whose plane it is projected; infinite if the
+/// projection is outside by more than a tenth.
 fn distance(state: &[f64], corners: [&SurfacePoint; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| &corner.angles[..]);
     let (u, v, w) = (way(a, b), way(a, c), way(a, state));
@@ -123,9 +123,9 @@ fn distance(state: &[f64], corners: [&SurfacePoint; 3]) -> f64 {
     (dot(&w, &w) - s * uw - t * vw).max(0.0).sqrt()
 }
 
-/// Claim: folded states that an independent program found on one-dimensional trajectories lie on the surface, nearer to
-/// it than half the square of the radius (the height of triangles over a surface whose curvature radii are of the order
-/// of 1, as those of fold angles are), and nearer by the square on a finer surface.
+/// Claim: folded states that an independent program found on one-dimensional trajectories lie on the surface, nearer
+/// than half the square of the radius (the height of triangles over a surface whose curvature radii are of the order of
+/// 1, as those of fold angles are), and nearer by the square on a finer surface.
 #[test]
 fn trajectories_lie_on_the_surface() {
     let reference: Value = serde_json::from_str(REFERENCE).unwrap();
@@ -155,8 +155,8 @@ fn trajectories_lie_on_the_surface() {
     assert!(sums[1] <= 0.5 * sums[0], "{sums:?}");
 }
 
-/// Claim: neighbours are at most two radii apart, and half as far at half the radius, on four times as many triangles;
-/// less by a fifth, since where the surface bends, and at its tips, charts are smaller whatever the radius.
+/// Claim: neighbours are at most two radii apart, and half as far at half the radius, with four times as many
+/// triangles; less by a fifth, since charts are smaller at any radius at sharp bends of the surface and at its tips.
 #[test]
 fn resolution_is_the_distance_of_neighbours() {
     #[derive(Debug)]
@@ -177,10 +177,10 @@ fn resolution_is_the_distance_of_neighbours() {
     assert!((3.0..=4.0).contains(&(fine.triangles / coarse.triangles)), "{coarse:?} {fine:?}");
 }
 
-/// Claim: a flat cell of four vertices, whose six motions satisfy four quadrics along curves of directions, is left
-/// along several nappes, in pairs of opposite curvature, since turning the sheet over leaves it as it is: equally many
-/// begin with either sign. All states close. (Where directions nearly meet, nappes are too close for charts, and the
-/// coverage is open or, here, stopped.)
+/// Claim: a flat cell of four vertices, whose six motions satisfy four quadrics along curves of directions, has several
+/// nappes in pairs of opposite curvature, since turning the sheet over is a symmetry: equally many begin with either
+/// sign. All states close. (If directions nearly meet, nappes are too close for charts, and the coverage is open or,
+/// here, stopped.)
 #[test]
 fn flat_cells_have_nappes_in_pairs() {
     let random = RandomDevelopable { seed: 3, ..RandomDevelopable::default() };
@@ -195,8 +195,8 @@ fn flat_cells_have_nappes_in_pairs() {
     }
 }
 
-/// Claim: what has no surface is said. Triangulated Miura-ori: no real direction but the singular one (no points). With
-/// rigid parallelograms it has one motion and no surface. A patch has no strain space.
+/// Claim: a sheet without a surface is reported. Triangulated Miura-ori has no real direction but the singular one (no
+/// points). With rigid parallelograms it has one motion and no surface. A patch has no strain space.
 #[test]
 fn what_has_no_surface() {
     let sheet = generate(&Pattern::Miura(Miura { a: 1.0, b: 1.0, sector: 1.0, fold: 0.4 })).unwrap();
@@ -218,7 +218,7 @@ fn eggbox() -> Sheet {
     generate(&Pattern::Eggbox(Eggbox { a: 1.0, b: 1.0, sector: std::f64::consts::FRAC_PI_3, fold: 0.9 })).unwrap()
 }
 
-/// A cell of four parallelograms with sides in general position: those of the eggbox with other vertices.
+/// Returns a cell of four parallelograms with sides in general position: those of the eggbox with other vertices.
 fn four_parallelograms() -> Sheet {
     let mut sheet = eggbox();
     let [a, c] = [Vec3::new(0.62, 0.1, -0.7), Vec3::new(0.7, -0.1, 0.7)];
@@ -228,11 +228,11 @@ fn four_parallelograms() -> Sheet {
     sheet
 }
 
-/// Claim: sheets of four parallelograms with free diagonals, whose quadric is two planes (signature 1, 1, 1), fold along two
-/// surfaces of cylinders that cross in the curve of planar folding: of states that close to 1e-13 by an own evaluation, each
-/// with two linear motions, none of them on the curve itself, up to the largest curvature and both ways. Of the eggbox both
-/// surfaces are covered; where they cross at a small angle charts of one take those of the other for their own, and the
-/// coverage says that it is open. Source: theory of the second order.
+/// Claim: sheets of four parallelograms with free diagonals, whose quadric is two planes (signature 1, 1, 1), fold
+/// along two surfaces of cylinders that cross in the curve of planar folding: of states that close to 1e-13 by a
+/// separate evaluation, each with two linear motions, none of them on the curve itself, up to the largest curvature in
+/// both directions. Both surfaces of the eggbox are covered; at small crossing angles charts of one are taken for
+/// charts of the other, and the coverage is reported as open. Source: theory of the second order.
 #[test]
 fn surfaces_of_four_parallelograms() {
     for (sheet, whole) in [(eggbox(), true), (four_parallelograms(), false)] {
@@ -258,8 +258,8 @@ fn surfaces_of_four_parallelograms() {
     }
 }
 
-/// Claim: states within the largest curvature beside which triangles are missing are counted: none of the reference cell; some
-/// of the eggbox, where charts of both surfaces are taken for one as they cross at a small angle. Source: a count of directed
+/// Claim: states within the largest curvature with missing triangles are counted: none for the reference cell; some for
+/// the eggbox, where charts of both surfaces are identified at small crossing angles. Source: a count of directed
 /// edges.
 #[test]
 fn missing_triangles_are_counted() {
@@ -277,8 +277,8 @@ fn missing_triangles_are_counted() {
     }
 }
 
-/// Claim: however small the largest curvature, the surface is found within it, all of its border exactly there; where that is
-/// too near to the drawn state to be told from it, this is said, and never that there is no surface.
+/// Claim: however small the largest curvature, the surface is found up to it, with its whole border exactly there; if
+/// it is too near to the drawn state to be distinguished from it, this is reported, and never that there is no surface.
 #[test]
 fn a_small_largest_curvature() {
     let sheet = common::mesh("open-star");
@@ -300,8 +300,8 @@ fn a_small_largest_curvature() {
     }
 }
 
-/// Claim: a surface that cannot be followed at many places is given up early: a flat cell at large charts needs no more than
-/// 20,000 states to say so, where 47,461 were placed before, and says that it is not whole.
+/// Claim: a surface that cannot be followed at many places is given up early: for a flat cell with large charts 20,000
+/// states are enough, where 47,461 were placed before, and the surface is reported as incomplete.
 #[test]
 fn a_surface_with_many_open_charts_is_given_up() {
     let sheet = common::mesh("open-flat");
@@ -311,8 +311,8 @@ fn a_surface_with_many_open_charts_is_given_up() {
     assert!(found.points.len() <= 20_000, "{}", found.points.len());
 }
 
-/// Claim: whoever watches is asked all the way, also after the last chart, and stopping there keeps no more
-/// than 4,096 states, so that it is quick.
+/// Claim: the observer is called all the time, also after the last chart, and stopping there keeps no more than 4,096
+/// states, so that it is quick.
 #[test]
 fn stopping_after_the_last_chart() {
     let cell = on(common::mesh("open-star"), [1, 1], Boundary::Screw);
@@ -336,7 +336,7 @@ fn stopping_after_the_last_chart() {
     assert!(stopped.triangles.iter().flatten().all(|&corner| corner < stopped.points.len()));
 }
 
-/// Claim: whoever watches can stop; what there is by then is triangulated.
+/// Claim: the observer can stop; the states found until then are triangulated.
 #[test]
 fn an_interrupted_surface_is_kept() {
     let sheet = common::mesh("open-star");
@@ -346,9 +346,9 @@ fn an_interrupted_surface_is_kept() {
     assert!(found.points.len() > 500 && found.points.len() < 2000 && !found.triangles.is_empty());
 }
 
-/// Claim: a run writes what the contract says: a row for each state with the columns of states; a VTP file with a point
-/// for each row at its strains, and the arrays; a collection and a picture; and the summary counts the same. The energy
-/// is that of the creases: zero where the sheet rests.
+/// Claim: a run writes the documented files: a row for each state with the columns of states; a VTP file with a point
+/// for each row at its strains, and the arrays; a collection and a drawing; and the counts of the summary are the same.
+/// The energy is that of the creases: zero in the state of rest.
 #[test]
 fn a_run_writes_its_surface() {
     let out = tempfile::tempdir().unwrap();
@@ -388,7 +388,7 @@ fn a_run_writes_its_surface() {
     assert!(lowest.abs() <= 1e-20, "{lowest:e}: the drawn state is at rest");
 }
 
-/// The file has the triangles of the summary and every array that the table has.
+/// Checks that the file has the triangles of the summary and every array of the table.
 fn check_vtp(path: &Path, study: &Value, column: &dyn Fn(&str) -> Vec<f64>) {
     let vtk = vtkio::Vtk::parse_xml(&std::fs::read(path).unwrap()[..]).unwrap();
     let piece = vtkio::model::PolyDataPiece::try_from(vtk.data).unwrap();

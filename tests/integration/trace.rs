@@ -1,4 +1,4 @@
-//! Trajectories of rigid folding, against an independent program and closed forms.
+//! Trajectories of rigid folding compared with an independent program and closed forms.
 
 use crate::common::{self, on};
 use approx::{abs_diff_eq, assert_abs_diff_eq};
@@ -30,17 +30,17 @@ fn star() -> (Sheet, usize, Value) {
     (sheet, held, serde_json::from_str(REFERENCE).unwrap())
 }
 
-/// The places of the sheet's edges in the reference's list.
+/// Returns the indices of the sheet's edges in the reference's list.
 fn places(sheet: &Sheet, reference: &Value) -> Vec<usize> {
     let named = |key: &EdgeKey| serde_json::json!([key.i, key.j, key.shift[0], key.shift[1]]);
     let list = reference["edge_list"].as_array().unwrap();
     sheet.edges.iter().map(|edge| list.iter().position(|entry| *entry == named(&edge.key)).unwrap()).collect()
 }
 
-/// Claim: the four trajectories of the reference cell with edge (0, 1, 0, 0) locked close after 9.9314250 and 50.2037156, each
-/// loop seen from both of its ends, which are rays of the same sign of curvature; they arrive along a ray, not smoothly.
-/// Closure, commuting rotations and bar lengths hold to 1e-13 all the way. Lengths within 1e-6: what the independent
-/// program states.
+/// Claim: the four trajectories of the reference cell with edge (0, 1, 0, 0) locked close after 9.9314250 and
+/// 50.2037156, each loop from both of its ends, which are rays of the same sign of curvature; they arrive along a ray,
+/// not smoothly. Closure, commuting rotations and bar lengths hold to 1e-13 along the whole way. Lengths within 1e-6:
+/// the digits that the independent program gives.
 #[test]
 fn loops_of_open_star() {
     let (sheet, held, reference) = star();
@@ -77,9 +77,9 @@ fn loops_of_open_star() {
     }
 }
 
-/// Claim: states that an independent program stored on these trajectories are met: where the crease that it names has the
-/// angle that it names, all fold angles, curvature, rotation angles and strain agree to 1e-9; and curvatures have the same sign for
-/// the single state, without the way to it.
+/// Claim: states that an independent program stored on these trajectories are reproduced: at the given angle of the
+/// given crease all fold angles, curvature, rotation angles and strain agree to 1e-9; and curvatures have the same sign
+/// for the single state, without its trajectory.
 #[test]
 fn stored_states_are_met() {
     let (sheet, held, reference) = star();
@@ -105,9 +105,9 @@ fn stored_states_are_met() {
     }
 }
 
-/// Claim: a stop is met also where it lies next to the drawn state, where branches cross and no correction converges: a
-/// curvature, an arc length or a crease's change of 1e-12 to 1e-8 ends every trajectory there and not at the end of the
-/// first step, 1e-2. Tolerance 1e-10: ten times that to which places are located.
+/// Claim: a stop is also met near the drawn state, where branches cross and no correction converges: a curvature, an
+/// arc length or a crease's change of 1e-12 to 1e-8 ends every trajectory there and not at the end of the first step,
+/// 1e-2. Tolerance 1e-10: ten times that to which stops are located.
 #[test]
 fn stops_next_to_the_start_are_met() {
     let (sheet, held, _) = star();
@@ -135,9 +135,9 @@ fn stops_next_to_the_start_are_met() {
     }
 }
 
-/// Claim: along both loops of the reference cell the curvature has one sign from the first state to the last but the drawn
-/// one, and never passes zero between: a sign taken from the volume between sheet and axis changes on the long loop where
-/// the sheet turns itself inside out, at curvatures of 1.7. No tolerance: only signs are compared.
+/// Claim: along both loops of the reference cell the curvature has one sign from the first state to the last except for
+/// the drawn one, and never passes zero between: a sign from the volume between sheet and axis would change on the long
+/// loop where the sheet turns inside out, at curvatures of 1.7. No tolerance: only signs are compared.
 #[test]
 fn curvature_keeps_its_sign() {
     let (sheet, held, _) = star();

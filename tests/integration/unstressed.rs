@@ -1,20 +1,20 @@
-//! Sheets whose minimum has no energy at all: moved from rest, they come back.
+//! Sheets whose minimum has no energy: disturbed from the state of rest, they return to it.
 
 use crate::common::{self, Numbers, Testing, on};
 use foldwell::analysis::relax::relax_from;
 use foldwell::model::{Boundary, Gauge, Terms};
 use foldwell::solver::Options;
 
-/// Claim: from a start moved at random by up to 0.003 of an edge, bars and creases at rest as drawn: back to the drawn
-/// angles at every stiffness, on patch and torus. Tolerance: the forces end below 1e-12 of those of a crease
-/// folded by a milliradian.
+/// Claim: from a start moved at random by up to 0.003 of an edge, with the drawn lengths and angles at rest, a sheet
+/// returns to the drawn angles at every stiffness, on patch and torus. Tolerance: the forces end below 1e-12 of those
+/// of a crease folded by a milliradian.
 #[test]
 fn sheets_come_back_to_rest() {
     come_back(&[(Boundary::Patch, [4, 4]), (Boundary::FreeTorus, [2, 2])]);
 }
 
-/// Claim: the same on a screw, where the way back is not unique: at `kappa = 0` the axis may take any direction in the
-/// plane, which turns the sheet in the plane and costs nothing.
+/// Claim: the same on a screw, where the return is not unique: at `kappa = 0` the axis may have any direction in the
+/// plane, which rotates the sheet in the plane and costs no energy.
 #[test]
 fn screws_come_back_to_rest() {
     come_back(&[(Boundary::Screw, [1, 1])]);

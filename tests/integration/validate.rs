@@ -1,4 +1,4 @@
-//! `foldwell validate` from outside: exit statuses, reports, and a claim that is wrong.
+//! The command `foldwell validate`: exit statuses, reports, and a wrong claim.
 
 use approx::abs_diff_eq;
 use assert_cmd::Command;
@@ -14,7 +14,8 @@ fn report(folder: &Path) -> Value {
     serde_json::from_slice(&std::fs::read(folder.join("report.json")).unwrap()).unwrap()
 }
 
-/// Claim: claims that hold give status 0 and three reports, away from the repository, with the keys that others rely on.
+/// Claim: claims that hold give status 0 and three reports with the keys that others rely on, also outside of the
+/// repository.
 #[test]
 fn claims_that_hold() {
     let folder = tempfile::tempdir().unwrap();
@@ -37,8 +38,8 @@ fn claims_that_hold() {
     }
 }
 
-/// Claim: every value that a claim expects can be wrong. Planted values a little beyond the tolerance of a claim that holds
-/// give status 1, and the miss stands in the report and on standard error.
+/// Claim: every value that a claim expects is checked. Planted values a little beyond the tolerance of a claim that
+/// holds give status 1, and the distance is in the report and on standard error.
 #[test]
 fn a_wrong_claim_gives_status_one() {
     let folder = tempfile::tempdir().unwrap();
@@ -57,7 +58,8 @@ fn a_wrong_claim_gives_status_one() {
     assert!(said.contains("FAILS  wrong.toml: off by 2.0") && said.contains("holds  loops-close"), "{said}");
 }
 
-/// Claim: what is not there is wrong input, and a place that cannot be written is status 3; nothing is checked then.
+/// Claim: a missing claim is an input error, and a destination that cannot be written gives status 3; nothing is
+/// checked then.
 #[test]
 fn wrong_words_and_places() {
     let folder = tempfile::tempdir().unwrap();

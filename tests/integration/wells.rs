@@ -1,5 +1,5 @@
-//! Wells and barriers: vertices of degree four with as many stable states as the literature says, and passes by strings
-//! of bars against passes in fold angles alone.
+//! Wells and barriers: vertices of degree four with as many stable states as in the literature, and passes by strings
+//! of bars compared with passes in fold angles only.
 
 use crate::common::{self, Numbers, Testing, mesh, on, patch};
 use approx::assert_abs_diff_eq;
@@ -26,7 +26,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Sampling of curves.
 const SAMPLING: Sampling = Sampling { step: 0.1, max_curvature: 0.5 };
 
-/// Four triangles around a vertex, creases of length 1 in these directions of a plane.
+/// Returns four triangles around a vertex, with creases of length 1 in these directions of a plane.
 fn fan(directions: &[f64; 4]) -> Sheet {
     let ends = directions.iter().map(|angle| [angle.cos(), angle.sin(), 0.0]);
     let points: Vec<[f64; 3]> = std::iter::once([0.0; 3]).chain(ends).collect();
@@ -43,7 +43,7 @@ fn on_creases(case: &Assembly, rest: [f64; 4]) -> Vec<f64> {
     all
 }
 
-/// The wells that random starts reach.
+/// Returns the wells that random starts reach.
 fn reached(assembly: &Assembly, count: usize, spread: f64) -> Vec<Well> {
     let starts = Starts { count, seed: 1, spread, options: Options::default() };
     let minima = relax_all(assembly, &starts, &|| true).into_iter().filter_map(|outcome| match outcome {
@@ -53,11 +53,12 @@ fn reached(assembly: &Assembly, count: usize, spread: f64) -> Vec<Well> {
     wells(minima, &Translations::new(assembly))
 }
 
-/// Fold angles along the two branches of a vertex of degree four with these sectors, from spherical trigonometry alone.
+/// Returns fold angles along the two branches of a vertex of degree four with these sectors, by spherical trigonometry
+/// only.
 ///
 /// The creases meet the unit sphere in a quadrilateral with the sectors as sides. Its diagonal from crease 1 to crease
-/// 3 takes every value between its largest, where the sheet is flat, and its smallest; creases 0 and 2 lie on either
-/// side of it. Each branch is two mirror images that meet in the flat state, cut where a crease is first folded by pi.
+/// 3 takes every value between its largest, in the flat state, and its smallest; creases 0 and 2 lie on either side of
+/// it. Each branch is two mirror images that meet in the flat state, cut where a crease is first folded by pi.
 fn branches(sectors: [f64; 4], points: usize) -> [Vec<[f64; 4]>; 2] {
     let [t0, t1, t2, t3] = sectors;
     let (most, least) = ((t0 + t3).min(TAU - t0 - t3), (t0 - t3).abs().max((t1 - t2).abs()));
@@ -94,7 +95,8 @@ fn quadrilateral([t0, t1, t2, t3]: [f64; 4], diagonal: f64, side: f64) -> [f64; 
     })
 }
 
-/// Minima along the branches, each sampled at so many points, and ends towards which the energy falls.
+/// Returns the number of minima along the branches, each sampled at this many points, and the number of ends towards
+/// which the energy decreases.
 fn counted(sectors: [f64; 4], rest: [f64; 4], points: usize) -> [usize; 2] {
     let mut count = [0, 0];
     for branch in branches(sectors, points) {
@@ -111,7 +113,7 @@ fn sectors(directions: &[f64; 4]) -> [f64; 4] {
     std::array::from_fn(|k| (directions[(k + 1) % 4] - directions[k]).rem_euclid(TAU))
 }
 
-/// Directions of four creases in the plane at random, every sector between `least` and pi less `least`.
+/// Returns random directions of four creases in the plane; every sector is between `least` and pi minus `least`.
 fn random_directions(numbers: &mut Numbers, least: f64) -> [f64; 4] {
     loop {
         let mut directions: [f64; 4] = std::array::from_fn(|_| PI + numbers.within(PI));
@@ -128,12 +130,12 @@ fn rigid(directions: &[f64; 4], rest: [f64; 4]) -> RigidLandscape {
     landscape(&case.with_terms(terms.clone()), &SAMPLING, &mut || true).unwrap()
 }
 
-/// Claim: wells of random vertices counted in fold angles by the program are those counted along the closed form of
-/// spherical trigonometry, and so are the ends that contact holds; with these every vertex has two stable states at
-/// least, since two branches meet in the flat state, and none has more than five. Source: S. Waitukaitis, R. Menaut, B.
-/// G. Chen, M. van Hecke, PRL 114, 055503 (2015): generic vertices are at least bistable and have up to five stable
-/// states. Tolerance: the closed form is sampled, so a well next to where a crease is shut may be missed: one vertex in
-/// 200.
+/// Claim: the wells of random vertices counted in fold angles by the program are those counted along the closed form of
+/// spherical trigonometry, and so are the ends that are held by contact; with these every vertex has at least two
+/// stable states, since two branches meet in the flat state, and none has more than five. Source: S. Waitukaitis, R.
+/// Menaut, B. G. Chen, M. van Hecke, PRL 114, 055503 (2015): generic vertices are at least bistable and have up to five
+/// stable states. Tolerance: the closed form is sampled, so a well next to the state where a crease is shut may be
+/// missed: one vertex in 200.
 #[test]
 fn random_vertices_have_two_to_five_stable_states() {
     let mut numbers = Numbers::new(2);
@@ -153,8 +155,8 @@ fn random_vertices_have_two_to_five_stable_states() {
     assert!(differ <= 5, "{differ}");
 }
 
-/// Claim: five stable states, three wells and two states that contact holds, as the source above says is possible;
-/// one near a cross.
+/// Claim: there are vertices with five stable states, three wells and two states held by contact, as the source above
+/// says; one is near a cross.
 #[test]
 fn a_vertex_with_five_stable_states() {
     let (directions, rest) = ([0.0, 1.569, 2.716, 4.267], [2.841, -2.986, -2.856, 2.901]);
@@ -163,7 +165,7 @@ fn a_vertex_with_five_stable_states() {
     assert_eq!(counted(sectors(&directions), rest, 600), [3, 2]);
 }
 
-/// The near-cross of the scene.
+/// Returns the near-cross of the scene.
 fn near_cross() -> (Assembly, Vec<f64>) {
     let case = patch("near-cross", [1, 1]);
     let rest = on_creases(&case, [2.177, 1.917, -3.1, -3.066]);
@@ -196,10 +198,11 @@ fn four_wells_in_three_ways() {
     assert_eq!(counted(sectors(&directions), [2.177, 1.917, -3.1, -3.066], 20_000), [4, 0]);
 }
 
-/// Claim: where a pass lies on a branch, the string of bars and the trajectory in fold angles find one energy in the rigid limit, which is
-/// approached as 1/stiffness; where it lies in the flat state, in which branches cross, there is a pass at every finite stiffness k,
-/// below the flat state by an amount that goes as k^(-1/3) (with `E = E0 - a x - b y + k x^2 y^2 / 2` on the two branches, stationary where
-/// `x y^2 = a/k` and `x^2 y = b/k`), and none in the limit. Tolerances: rounding of the energies; next orders of the laws.
+/// Claim: if a pass lies on a branch, the string of bars and the trajectory in fold angles find the same energy in the
+/// rigid limit, which is approached as 1/stiffness; if it lies in the flat state, in which branches cross, there is a
+/// pass at every finite stiffness k, below the flat state by an amount proportional to k^(-1/3) (with `E = E0 - a x - b
+/// y + k x^2 y^2 / 2` on the two branches, stationary at `x y^2 = a/k` and `x^2 y = b/k`), and none in the limit.
+/// Tolerances: rounding errors of the energies; next orders of the laws.
 #[test]
 fn barriers_of_a_vertex() {
     let (case, rest) = near_cross();
@@ -227,10 +230,10 @@ fn barriers_of_a_vertex() {
     assert!(exact.passes[0].singular && !exact.passes[1].singular);
 }
 
-/// Claim: what is no barrier does not look like one. A well of a crease that is folded through itself, far from the
-/// others, has no pass that the string finds: an error, not a number; and every barrier that is confirmed lies above
-/// both wells between which it was sought, at the ends of its path. Tolerance of the ends: what the bars take up there, some percent;
-/// another state is off by a third.
+/// Claim: no false barrier is reported. A well of a crease that is folded through itself, far from the others, has no
+/// pass that the string finds: an error, not a number; and every barrier that is confirmed lies above both wells
+/// between which it was sought, at the ends of its path. Tolerance of the ends: the energy of the bars there, some
+/// percent; another state differs by a third.
 #[test]
 fn no_barrier_lies_below_its_wells() {
     let (case, rest) = near_cross();
@@ -262,7 +265,7 @@ fn no_barrier_lies_below_its_wells() {
 
 /// Claim: the energy of the reference cell's creases on the surface of its folded states has three wells for these rest
 /// angles, which random starts of rigid bars reach too; the pass between the two lowest, by strings of bars of every
-/// stiffness from soft to rigid, tends to the one on the surface as 1/stiffness and meets it in rigid bars. Tolerance
+/// stiffness from soft to rigid, tends to the one on the surface as 1/stiffness and equals it for rigid bars. Tolerance
 /// 1e-9 of the energies: relaxations to 1e-12.
 #[test]
 fn barrier_of_the_reference_cell() {
@@ -286,16 +289,16 @@ fn barrier_of_the_reference_cell() {
     println!("{} by string, {} on the surface, {limit:?}", strung.pass.energy, pass.energy);
     assert!(!pass.singular && !strung.singular && strung.joins.iter().all(|well| *well < 2));
     assert!((strung.pass.energy - pass.energy).abs() <= 1e-9 && (limit.exponent - 1.0).abs() <= 1e-2);
-    // the third well lies on the other nappe: the way there leads through the drawn state, a regular pass in screw
+    // the third well lies on the other nappe: the path leads through the drawn state, which is a regular pass in screw
     // coordinates
     let (strung, pass) = (pass_between(&assembly, &found, [energies[1], energies[2]]), exact.between(1, 2).unwrap());
     println!("{} by string, {} at the tip", strung.pass.energy, pass.energy);
     assert!(pass.singular && !strung.singular && (strung.pass.energy - pass.energy).abs() <= 1e-9);
 }
 
-/// Claim: where a relaxation ends is an equilibrium however the sheet lies in space: turned, it stays where it is. What is held
-/// against rigid motions is chosen in the drawn, flat state; folded as far as these sheets are, it would hold their shape too if
-/// it were not chosen again. Tolerance: of relaxations.
+/// Claim: a state found by a relaxation is an equilibrium for any orientation of the sheet in space: rotated, it stays
+/// where it is. The coordinates held against rigid motions are chosen in the drawn, flat state; for sheets folded as
+/// far as these they would constrain the shape too if they were not chosen again. Tolerance: that of relaxations.
 #[test]
 fn wells_stay_when_the_sheet_is_turned() {
     let (case, rest) = near_cross();
@@ -318,8 +321,8 @@ fn wells_stay_when_the_sheet_is_turned() {
     assert!(seen >= 24, "{seen}");
 }
 
-/// Claim: a sheet held near the fold angles of its well stays there, and its energy is told without what holds it.
-/// Tolerance: of relaxations.
+/// Claim: a sheet held near the fold angles of its well stays there, and its energy is given without that of the terms
+/// that hold it. Tolerance: that of relaxations.
 #[test]
 fn a_held_well_stays() {
     let (case, rest) = near_cross();
@@ -335,8 +338,8 @@ fn a_held_well_stays() {
     assert!(moved.energy > well.energy + 1e-6 && common::distance(&moved.rho, &well.rho) > 1e-3);
 }
 
-/// Claim: on a torus states that a translation takes into each other are one well, where the rest angles are those of
-/// the cell; not where they differ from cell to cell.
+/// Claim: on a torus, states that are mapped to each other by a translation are one well if the rest angles are those
+/// of the cell, but not if they differ from cell to cell.
 #[test]
 fn translations_are_not_told_apart() {
     let case = on(mesh("open-star"), [3, 2], Boundary::FixedTorus);
@@ -359,7 +362,7 @@ fn translations_are_not_told_apart() {
     assert!(distance(case.rest_per_hinge(0.1, 1)) > 0.1);
 }
 
-/// Claim: starts are the same bits for one thread and for two, in their order.
+/// Claim: starts are bitwise the same for one thread and for two, in the same order.
 #[test]
 fn starts_do_not_know_threads() {
     let (case, rest) = near_cross();
@@ -377,8 +380,8 @@ fn starts_do_not_know_threads() {
     assert_eq!(run(1), run(2));
 }
 
-/// Claim: the law of the rigid limit is read off energies that follow it, from the last ones that differ by more than
-/// rounding errors; there is none where energies do not tend to anything. Tolerance: rounding over the last
+/// Claim: the law of the rigid limit is determined from energies that follow it, from the last ones that differ by more
+/// than rounding errors; there is none if the energies do not converge. Tolerance: rounding errors divided by the last
 /// differences.
 #[test]
 fn the_rigid_limit_is_extrapolated() {
@@ -425,8 +428,8 @@ fn run(scene: &Path, out: &Path, threads: usize, most_steps: usize) -> (StudySum
     (study, wells)
 }
 
-/// Claim: a run tells wells and passes from each other and writes them all, the same bytes for one thread and for two;
-/// a barrier between wells that do not exist, and a run that was interrupted, are no answers and say why.
+/// Claim: a run distinguishes wells and passes and writes all of them, with the same bytes for one thread and for two;
+/// a barrier between wells that do not exist, and an interrupted run, are failures with a reason.
 #[test]
 fn runs_write_wells_and_passes() {
     let folder = tempfile::tempdir().unwrap();
@@ -457,8 +460,8 @@ fn runs_write_wells_and_passes() {
     assert!(!wells.unwrap().wells.is_empty());
 }
 
-/// Claim: wells of what has no energy of bars and creases, or is held or pulled, and keys that mean nothing, are
-/// refused with their reason before anything is written.
+/// Claim: wells of a sheet without energy of bars or creases, or with pins or loads, and meaningless keys are refused
+/// with their reason before anything is written.
 #[test]
 fn refusals() {
     let cases = [
@@ -477,8 +480,8 @@ fn refusals() {
     }
 }
 
-/// Claim: a sheet whose rigid states are neither curves nor a surface has wells all the same, and says that it has no
-/// rigid landscape.
+/// Claim: a sheet whose rigid states are neither curves nor a surface has wells nevertheless, and reports that it has
+/// no rigid landscape.
 #[test]
 fn rigid_states_of_other_dimensions() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,43 +1,43 @@
-//! Axes: from values to a range with round numbers in it.
+//! Axes: ranges of values, with round numbers as ticks.
 //!
-//! Values that differ by rounding alone are drawn as what they are, one value: an axis that is told how large rounding is
-//! does not spread it over the paper, and its name says so.
+//! Values that differ by rounding errors only are drawn as one value: an axis is given the size of the rounding errors,
+//! does not magnify differences below it, and states this in its name.
 
-/// Numbers along an axis, about.
+/// Approximate number of ticks of a linear axis.
 const TICKS: f64 = 6.0;
-/// Most numbers along a logarithmic axis.
+/// Approximate largest number of ticks of a logarithmic axis.
 const MOST_TICKS: i32 = 9;
-/// Part of the range that is left free at both ends.
+/// Part of the range that is added at both ends.
 const MARGIN: f64 = 0.04;
-/// Differences of values over the values themselves that are rounding.
+/// Relative difference of values below which they count as equal.
 const ROUNDING: f64 = 1e-12;
 
-/// What is proportional to the length along an axis.
+/// The function of the value to which the length along an axis is proportional.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scale {
-    /// The value.
+    /// The value itself.
     Linear,
-    /// Its logarithm.
+    /// Its logarithm to base ten.
     Logarithmic,
 }
 
-/// A range of values.
+/// An axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Axis {
     scale: Scale,
-    /// The ends, of a logarithmic axis their logarithms to base ten.
+    /// Ends of the axis; for a logarithmic axis, their logarithms to base ten.
     low: f64,
     high: f64,
-    /// How far values of an axis without extent are apart.
+    /// If all values count as equal, a bound on their differences; otherwise `None`.
     constant: Option<f64>,
 }
 
-/// A number beside an axis.
+/// A tick of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
-    /// Its place, from 0 at the lower to 1 at the upper end.
+    /// Position, from 0 at the lower end to 1 at the upper end.
     pub part: f64,
-    /// As it is written.
+    /// Label.
     pub label: String,
 }
 
@@ -51,8 +51,8 @@ impl Scale {
 }
 
 impl Axis {
-    /// The axis around values, without those that have no place on it; differences up to `noise`, and those that are
-    /// rounding of the values themselves, are none.
+    /// Returns the axis that includes the given values, except those without a finite position. The values count as
+    /// equal if they differ by at most `noise`, or by relative rounding errors.
     pub(crate) fn around(scale: Scale, values: impl Iterator<Item = f64>, noise: f64) -> Self {
         let places = values.map(|value| scale.place(value)).filter(|place| place.is_finite());
         let (low, high) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
@@ -76,7 +76,8 @@ impl Axis {
         Self { scale, low: low - margin, high: high + margin, constant: None }
     }
 
-    /// From 0 at the lower to 1 at the upper end; in the middle where all values are one.
+    /// Returns the position of a value, from 0 at the lower end to 1 at the upper end; 0.5 if all values count as
+    /// equal.
     pub(crate) fn part(&self, value: f64) -> f64 {
         match self.constant {
             Some(_) => 0.5,
@@ -84,17 +85,17 @@ impl Axis {
         }
     }
 
-    /// Whether a value has a place.
+    /// Whether a value has a finite position on the axis.
     pub(crate) fn has(&self, value: f64) -> bool {
         self.scale.place(value).is_finite()
     }
 
-    /// The middle of the range.
+    /// Returns the middle of the range.
     pub(crate) fn middle(&self) -> f64 {
         0.5 * (self.low + self.high)
     }
 
-    /// A name that says where the values are one.
+    /// Returns a name, with a remark if all values count as equal.
     pub(crate) fn named(&self, name: &str) -> String {
         match self.constant {
             Some(spread) if self.middle().abs() <= spread => format!("{name} = 0"),
@@ -103,12 +104,12 @@ impl Axis {
         }
     }
 
-    /// How large the rounding is that the axis does not show.
+    /// Returns a bound on the differences that the axis does not show, in words; `None` if there are none.
     pub(crate) fn rounding(&self) -> Option<String> {
         self.constant.filter(|spread| *spread > 0.0).map(|spread| format!("rounding {}", below(spread)))
     }
 
-    /// Round numbers within the range.
+    /// Returns the ticks, at round numbers within the range.
     pub(crate) fn ticks(&self) -> Vec<Tick> {
         let tick = |value: f64, label: String| Tick { part: self.part(value), label };
         if let Some(spread) = self.constant {
@@ -127,7 +128,7 @@ impl Axis {
         }
     }
 
-    /// Powers of ten, with their doubles and fivefolds where there are few.
+    /// Returns powers of ten with their labels; on a short axis, also two and five times these powers.
     fn decades(&self) -> impl Iterator<Item = (f64, String)> {
         let (low, high) = (self.low.floor() as i32, self.high.ceil() as i32);
         let factors: &[f64] = if self.high - self.low < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };
@@ -143,14 +144,15 @@ impl Axis {
     }
 }
 
-/// One, two or five times a power of ten: about six of them in a range.
+/// Returns the distance of ticks in a range, about a sixth of it: one, two or five times a power of ten.
 pub(crate) fn round_step(range: f64) -> f64 {
     let wanted = range.max(f64::MIN_POSITIVE) / TICKS;
     let power = 10f64.powf(wanted.log10().floor());
     [1.0, 2.0, 5.0].map(|factor| factor * power).into_iter().find(|step| *step >= wanted).unwrap_or(10.0 * power)
 }
 
-/// A number with a true minus, and as many digits as tell steps apart.
+/// Formats a number, with a minus sign (U+2212) and with as many digits as are needed to distinguish multiples of
+/// `step`.
 pub(crate) fn number(value: f64, step: f64) -> String {
     let rounded = (value / step).round() * step;
     if rounded == 0.0 {
@@ -166,7 +168,7 @@ pub(crate) fn number(value: f64, step: f64) -> String {
     signed(&format!("{rounded:.digits$}"))
 }
 
-/// A number with at most so many digits, without zeros at their end.
+/// Formats a number with at most `digits` significant digits, without trailing zeros.
 pub fn rounded(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return signed(&value.to_string());
@@ -181,15 +183,15 @@ pub fn rounded(value: f64, digits: i32) -> String {
     number(value, step)
 }
 
-/// A bound as one digit and a power of ten.
+/// Formats an upper bound of a positive number as one digit and a power of ten.
 pub(crate) fn below(value: f64) -> String {
     let power = value.log10().floor() as i32;
     let factor = (value / 10f64.powi(power)).ceil();
     format!("below {}", if factor < 10.0 { scientific(&factor.to_string(), power) } else { scientific("1", power + 1) })
 }
 
-/// The power of ten by which numbers up to a largest one are divided to be short, and how it stands behind the name of what
-/// they are.
+/// Returns a power of ten by which numbers are divided to be short, given the largest of them, and the text that is
+/// appended to the name of the quantity.
 pub(crate) fn unit(largest: f64) -> (f64, String) {
     let power = largest.log10().floor() as i32;
     if largest > 0.0 && !(-2..=3).contains(&power) {
@@ -198,7 +200,7 @@ pub(crate) fn unit(largest: f64) -> (f64, String) {
     (1.0, String::new())
 }
 
-/// A factor times a power of ten.
+/// Formats a factor times a power of ten.
 fn scientific(factor: &str, power: i32) -> String {
     let raised = |c: char| match c {
         '-' => '\u{207b}',
@@ -211,7 +213,7 @@ fn scientific(factor: &str, power: i32) -> String {
     if factor == "1" { ten } else { format!("{factor}\u{b7}{ten}") }
 }
 
-/// With a true minus.
+/// Replaces hyphens by minus signs (U+2212).
 fn signed(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
@@ -224,7 +226,8 @@ mod tests {
         axis.ticks().into_iter().map(|tick| tick.label).collect()
     }
 
-    /// Claim: ticks are round numbers within the range, evenly spaced, with a true minus and no noise in their last digits.
+    /// Claim: ticks are round numbers within the range, evenly spaced, with minus signs and without rounding errors in
+    /// their last digits.
     #[test]
     fn ticks_are_round() {
         let axis = Axis::around(Scale::Linear, [-0.83, 0.21].into_iter(), 0.0);
@@ -237,8 +240,8 @@ mod tests {
         assert_eq!(labels(&small)[..3], ["0", "10\u{207b}\u{2077}", "2\u{b7}10\u{207b}\u{2077}"]);
     }
 
-    /// Claim: powers of ten are evenly spaced; where the range has few of them there are numbers between, and a long one has
-    /// no more numbers than fit.
+    /// Claim: powers of ten are evenly spaced; on a short axis there are ticks between them, and a long axis has no
+    /// more ticks than fit.
     #[test]
     fn logarithmic_axes() {
         let axis = |values: [f64; 2]| Axis::around(Scale::Logarithmic, values.into_iter(), 0.0);
@@ -252,8 +255,8 @@ mod tests {
         assert!(labels(&axis([1e-30, 1e30])).len() <= MOST_TICKS as usize + 1);
     }
 
-    /// Claim: values that differ by rounding are one value in the middle, which the name of the axis says with its size;
-    /// values that differ by more are not, however small they are.
+    /// Claim: values that differ by rounding errors are drawn as one value in the middle, and the name of the axis
+    /// gives the size of the errors; values that differ by more are drawn, however small they are.
     #[test]
     fn rounding_is_one_value() {
         let noise = Axis::around(Scale::Linear, [0.0, 3e-17, -2e-16].into_iter(), 1e-9);
@@ -268,7 +271,7 @@ mod tests {
         assert!(small.part(3e-17) > 0.9 && small.named("energy") == "energy");
     }
 
-    /// Claim: values without a place on an axis spoil nothing, nor does an axis without values.
+    /// Claim: values without a position on an axis are ignored; an axis without values has ticks too.
     #[test]
     fn what_has_no_place() {
         let axis = Axis::around(Scale::Logarithmic, [0.0, -1.0, f64::NAN, f64::INFINITY, 1.0, 10.0].into_iter(), 0.0);
@@ -276,7 +279,7 @@ mod tests {
         assert!(!labels(&Axis::around(Scale::Linear, std::iter::empty(), 0.0)).is_empty());
     }
 
-    /// Claim: numbers have the digits that are asked for, and rounded ones three.
+    /// Claim: numbers have the required number of digits.
     #[test]
     fn digits() {
         assert_eq!(

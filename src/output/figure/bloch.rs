@@ -1,9 +1,10 @@
-//! Spatially varying modes: decay rates against `q1`, and beside them the determinant over the Brillouin zone with its lines
-//! of zeros (the figure of McInerney and others, PNAS 117, 30252 (2020), on spatially varying modes).
+//! Figure of spatially varying modes: decay rates against `q1`, and the determinant over the Brillouin zone with its
+//! lines of zeros (as in the figure of McInerney and others, PNAS 117, 30252 (2020), on spatially varying modes).
 //!
-//! Decay rates are dots, dark where the mode neither grows nor decays. The map is blue where the determinant is positive and
-//! red where it is negative, the deeper the larger its fourth root is, since it vanishes to fourth order at `q = 0`; a
-//! determinant that is not real is drawn by its magnitude. Rings mark the wavenumbers of a cylinder's rotations.
+//! Decay rates are drawn as dots, dark if the mode neither grows nor decays. The map is blue where the determinant is
+//! positive and red where it is negative. Its intensity increases with the fourth root of the magnitude, since the
+//! determinant vanishes to fourth order at `q = 0`; a determinant that is not real is drawn by its magnitude. Rings
+//! mark the wavenumbers of the rotations of a cylinder.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,33 +16,33 @@ use super::style::{Area, Font, PaperPoint, Style};
 use crate::analysis::bloch::Laurent;
 
 const HEIGHT: f64 = 728.0;
-/// Side of both panels, their top, and their left sides.
+/// Side of both panels, their upper side, and their left sides.
 const SIDE: f64 = 450.0;
 const TOP: f64 = 132.0;
 const LEFT: [f64; 2] = [112.0, 630.0];
 const BAR: Area = Area { low: [1090.0, TOP + 12.0], high: [1110.0, TOP + SIDE] };
-/// Squares of the map along each direction.
+/// Number of squares of the map along each axis.
 const SQUARES: usize = 96;
-/// Shades of either colour.
+/// Number of shades of each of the two colours.
 const SHADES: usize = 16;
-/// Largest decay rate that is drawn.
+/// Largest magnitude of a decay rate that is drawn.
 const MOST: f64 = 6.0;
 const GROWING: Colour = SERIES[3];
 const DECAYING: Colour = SERIES[4];
 
-/// What is drawn.
+/// The data of the figure.
 pub struct BlochPlot<'a> {
-    /// `(q1, kappa2, whether on the unit circle)` of roots.
+    /// `(q1, kappa2, whether it lies on the unit circle)` of each root.
     pub rates: Vec<(f64, f64, bool)>,
     /// The determinant.
     pub polynomial: &'a Laurent,
-    /// Lines of zeros, continuous in wavenumbers.
+    /// Lines of zeros as points `(q1, q2)`, continuous (not reduced to one zone).
     pub lines: Vec<Vec<[f64; 2]>>,
-    /// Wavenumbers that are marked on the map.
+    /// Wavenumbers `(q1, q2)` that are marked on the map.
     pub marks: Vec<[f64; 2]>,
 }
 
-/// The figure of spatially varying modes.
+/// Returns the figure of spatially varying modes.
 pub fn svg(plot: &BlochPlot<'_>, caption: &Caption) -> String {
     drawn(plot, caption).finish()
 }
@@ -58,12 +59,12 @@ fn drawn(plot: &BlochPlot<'_>, caption: &Caption) -> Canvas {
     canvas
 }
 
-/// Place of a wavenumber in `[-pi, pi]` along a panel, from 0 to its side.
+/// Returns the position of a wavenumber in `[-pi, pi]` along a panel, from 0 to its side.
 fn along(q: f64) -> f64 {
     (q + PI) / TAU * SIDE
 }
 
-/// The level of the legends.
+/// Vertical position of the legends.
 const LEGEND: f64 = TOP + SIDE + 96.0;
 
 fn rates(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
@@ -90,7 +91,7 @@ fn rates(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
     canvas.legend([LEFT[0], LEGEND], &entries);
 }
 
-/// Frame, ticks along `q1`, and name of a panel.
+/// Draws the frame, the ticks along `q1`, and the name of a panel.
 fn frame(canvas: &mut Canvas, panel: usize, name: &str) {
     let (left, right, bottom) = (LEFT[panel], LEFT[panel] + SIDE, TOP + SIDE);
     canvas.polygon(&[[left, TOP], [right, TOP], [right, bottom], [left, bottom]], Style::line(INK, 1.2));
@@ -103,7 +104,7 @@ fn frame(canvas: &mut Canvas, panel: usize, name: &str) {
     canvas.text([left, TOP - 14.0], name, Font::LABEL);
 }
 
-/// Numbers along a side of the zone.
+/// Ticks along a side of the zone.
 const ZONE: [(f64, &str); 3] = [(-PI, "\u{2212}\u{3c0}"), (0.0, "0"), (PI, "\u{3c0}")];
 
 fn map(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
@@ -141,12 +142,12 @@ fn map(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
     legend(canvas, plot);
 }
 
-/// The `k`-th of the wavenumbers at the corners of squares.
+/// Returns the `k`-th wavenumber of the grid.
 fn wavenumber(k: usize) -> f64 {
     k as f64 * TAU / SQUARES as f64 - PI
 }
 
-/// The scale of colours, even in the fourth root.
+/// Draws the colour bar, which is linear in the fourth root.
 fn bar(canvas: &mut Canvas, real: bool, largest: f64) {
     let (unit, words) = unit(largest);
     let (start, ramp) = if real { (0.5, SIGNED) } else { (0.0, MAGNITUDE) };
@@ -168,7 +169,7 @@ fn legend(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
     canvas.legend([LEFT[1], LEGEND], &entries);
 }
 
-/// Lines of zeros, cut where they leave the zone.
+/// Draws the lines of zeros, cut where they leave the zone.
 fn lines(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
     let style = Style::line(INK, 2.2);
     for line in &plot.lines {
@@ -203,8 +204,8 @@ mod tests {
         Caption { title: "a < b".into(), state: "drawn state".into() }
     }
 
-    /// Claim: a picture has a dot for every rate within the range and a path for every line, which is cut where it leaves the
-    /// zone; a determinant without lines is said to be drawn by its magnitude; no words stand on others.
+    /// Claim: the figure has a dot for every rate within the range and a path for every line, cut where it leaves the
+    /// zone; a determinant without lines is labelled as its magnitude; texts do not overlap.
     #[test]
     fn everything_is_drawn() {
         let polynomial =
@@ -223,7 +224,7 @@ mod tests {
         assert!(magnitude.contains("magnitude") && !magnitude.contains("determinant at real"));
     }
 
-    /// Claim: the map is blue on the side where the determinant is positive and red on the other: that of `cos q1`.
+    /// Claim: for the determinant `cos q1`, the map is blue where it is positive and red where it is negative.
     #[test]
     fn signs() {
         let polynomial =

@@ -1,58 +1,58 @@
-//! The canvas: elements of an SVG, the words on it and where they stand.
+//! The canvas: writes the elements of an SVG, and places text without overlaps.
 //!
-//! Places are `[right, down]` in units of the paper, 1,200 of which are its width in every figure, so that letters and
-//! lines have the same size in all of them.
+//! Coordinates are `[right, down]` from the upper left corner. The width of every figure is 1,200 units, so that
+//! letters and lines have the same size in all figures.
 
 use std::fmt::Write;
 
 use super::palette::{Colour, INK, PAPER, Ramp};
 use super::style::{Anchor, Area, Font, PaperPoint, Short, Style, escaped};
 
-/// Width of the paper.
+/// Width of every figure.
 pub(crate) const WIDTH: f64 = 1200.0;
-/// Left margin of the words at the top.
+/// Left and right margin of the caption.
 pub(crate) const MARGIN: f64 = 48.0;
-/// Height of the room for the words at the top.
+/// Height of the area of the caption.
 pub(crate) const HEAD: f64 = 84.0;
 
-/// What stands at the top of a figure.
+/// The caption at the top of a figure.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Caption {
-    /// The title of the scene.
+    /// Title of the scene.
     pub title: String,
-    /// Which state or which result is shown.
+    /// Name of the state or result that is shown.
     pub state: String,
 }
 
-/// What stands before words of a legend.
+/// The symbol before an entry of a legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mark {
     /// A line.
     Line(Style),
-    /// A disc or a ring of this radius.
+    /// A circle of this radius, filled or not.
     Circle(f64, Style),
-    /// Nothing.
+    /// No symbol.
     None,
 }
 
-/// A figure that is drawn.
+/// A figure that is being drawn.
 pub(crate) struct Canvas {
     height: f64,
     text: String,
-    /// Where words stand, and what else they must not cover.
+    /// Areas of text, and other areas that text must not cover.
     taken: Vec<Area>,
-    /// How many of those are words that stand on others.
+    /// Number of texts that overlap these areas or end beyond the figure.
     #[cfg(test)]
     crowded: usize,
 }
 
-/// Appends formatted text; writing to a string does not fail.
+/// Appends formatted text to a string, which does not fail.
 macro_rules! put {
     ($text:expr, $($format:tt)*) => {{ let _ = write!($text, $($format)*); }};
 }
 
 impl Canvas {
-    /// Paper of a height, with its caption at the top in letters small enough to end on it.
+    /// Makes a canvas with its caption at the top; long captions have smaller letters so that they fit.
     pub(crate) fn new(height: f64, caption: &Caption) -> Self {
         let title = escaped(&caption.title);
         let text = format!(
@@ -76,43 +76,43 @@ impl Canvas {
         canvas
     }
 
-    /// The text of the figure.
+    /// Returns the SVG.
     pub(crate) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }
 
-    /// A group in which lines without a width are this wide, with round joints and ends.
+    /// Begins a group in which lines without a width of their own have this width, with round joints and ends.
     pub(crate) fn group(&mut self, width: f64) {
         put!(self.text, "<g stroke-width=\"{width}\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n");
     }
 
-    /// A group of which words tell more where the pointer rests on it.
+    /// Begins a group with a tooltip.
     pub(crate) fn told(&mut self, words: &str) {
         put!(self.text, "<g><title>{}</title>", escaped(words));
     }
 
-    /// Ends the last group.
+    /// Ends the innermost group.
     pub(crate) fn end(&mut self) {
         self.text.push_str("</g>\n");
     }
 
-    /// A line through places.
+    /// Draws a line through points.
     pub(crate) fn line(&mut self, places: &[PaperPoint], style: Style) {
         self.path(&[places], false, style, "");
     }
 
-    /// A polygon.
+    /// Draws a polygon.
     pub(crate) fn polygon(&mut self, corners: &[PaperPoint], style: Style) {
         self.path(&[corners], true, style, "");
     }
 
-    /// Polygons as one element: where they overlap they are one area when all go round the same way.
+    /// Draws polygons as one element; overlapping polygons of the same orientation form one area.
     pub(crate) fn polygons(&mut self, polygons: &[impl AsRef<[PaperPoint]>], style: Style) {
         self.path(polygons, true, style, "");
     }
 
-    /// Polygons as one element with soft rims.
+    /// Draws polygons as one element with blurred borders.
     pub(crate) fn shadow(&mut self, polygons: &[impl AsRef<[PaperPoint]>], colour: Colour) {
         self.path(polygons, true, Style::tile(colour), " filter=\"url(#soft)\"");
     }
@@ -128,12 +128,12 @@ impl Canvas {
         put!(self.text, "\"{style}{more}/>\n");
     }
 
-    /// A circle.
+    /// Draws a circle.
     pub(crate) fn circle(&mut self, [x, y]: PaperPoint, radius: f64, style: Style) {
         put!(self.text, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{}\"{style}/>\n", Short(radius, 1));
     }
 
-    /// Words whose foot is at a place.
+    /// Draws text with its anchor at `place`, on the base line.
     pub(crate) fn text(&mut self, place: PaperPoint, words: &str, font: Font) {
         let area = font.area(place, words);
         #[cfg(test)]
@@ -164,13 +164,13 @@ impl Canvas {
         put!(self.text, ">{}</text>\n", escaped(words));
     }
 
-    /// Keeps words away from an area.
+    /// Reserves an area: `text_within` sets no text there.
     pub(crate) fn take(&mut self, area: Area) {
         self.taken.push(area);
     }
 
-    /// Words at the first of some places where they cover nothing and are within an area; `false`: there is none, and nothing
-    /// was set.
+    /// Sets text at the first of some places where it lies within `room` and overlaps no reserved area. Returns
+    /// `false`, and sets no text, if there is no such place.
     pub(crate) fn text_within(
         &mut self,
         room: Area,
@@ -185,12 +185,13 @@ impl Canvas {
         found.map(|(place, font)| self.text(place, words, font)).is_some()
     }
 
-    /// The paper without its rim.
+    /// Returns the area of the figure without a narrow border.
     pub(crate) fn paper(&self) -> Area {
         Area { low: [6.0, 6.0], high: [WIDTH - 6.0, self.height - 6.0] }
     }
 
-    /// Marks and what they mean, in a row from a place on, and in another one below where the paper ends.
+    /// Draws a legend, symbols followed by text, in a row that starts at the given point, and in further rows if
+    /// needed.
     pub(crate) fn legend(&mut self, [left, top]: PaperPoint, entries: &[(Mark, &str)]) {
         let ([mut x, mut y], font) = ([left, top], Font::SMALL);
         for &(mark, words) in entries {
@@ -213,8 +214,7 @@ impl Canvas {
         }
     }
 
-    /// The scale of colours in an upright rectangle: its name above it, and at parts from 0 (bottom) to 1 (top) numbers on
-    /// its right.
+    /// Draws a vertical colour bar: its name above it, and labels to its right at parts from 0 (bottom) to 1 (top).
     pub(crate) fn colour_bar(&mut self, area: Area, ramp: Ramp, name: &str, ticks: &[(f64, String)]) {
         let ([left, top], [right, bottom]) = (area.low, area.high);
         self.text.push_str("<defs><linearGradient id=\"colours\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
@@ -239,7 +239,7 @@ impl Canvas {
 
 #[cfg(test)]
 impl Canvas {
-    /// How many words stand on others or end beyond the paper.
+    /// Returns the number of texts that overlap others or end beyond the figure.
     pub(crate) fn crowded(&self) -> usize {
         self.crowded
     }
@@ -253,7 +253,8 @@ mod tests {
         Canvas::new(300.0, &Caption { title: title.into(), state: "state".into() })
     }
 
-    /// Claim: what means something in XML is escaped in titles, words and notes, and what XML forbids is left out.
+    /// Claim: special characters of XML are escaped in titles, text and tooltips, and characters forbidden in XML are
+    /// left out.
     #[test]
     fn escapes() {
         assert_eq!(escaped("a < \"b\" & c > d\u{1}\u{ffff}"), "a &lt; &quot;b&quot; &amp; c &gt; d");
@@ -267,7 +268,7 @@ mod tests {
         }
     }
 
-    /// Claim: a title of any length ends on the paper; one that is short has the size of titles.
+    /// Claim: a title of any length fits; short titles have the usual size.
     #[test]
     fn long_titles() {
         for letters in [0, 10, 300] {
@@ -277,8 +278,8 @@ mod tests {
         }
     }
 
-    /// Claim: words that would stand on others, on what was taken or beyond the paper move to the next place, and stay away where
-    /// there is none; words that are set on others are counted.
+    /// Claim: text that would overlap other text or a reserved area, or would end beyond the figure, is set at the next
+    /// place, or not at all if there is none; text that is set on other text is counted.
     #[test]
     fn words_stay_apart() {
         let mut canvas = canvas("");
@@ -296,7 +297,7 @@ mod tests {
         assert_eq!(canvas.crowded(), 1);
     }
 
-    /// Claim: numbers are as short as they can be.
+    /// Claim: numbers are written with the fewest digits.
     #[test]
     fn short_numbers() {
         let short = [(1.0, 1), (-0.04, 1), (12.25, 1), (100.0, 0), (0.5, 2)].map(|(x, n)| Short(x, n).to_string());

@@ -1,70 +1,71 @@
-//! Charts with logarithmic or linear axes: points joined by lines, one colour and mark for each series.
+//! Charts with logarithmic or linear axes: points joined by lines, with a colour and a mark for each series.
 //!
-//! Numbers that have no place on an axis are left out: those that are not finite, and on a logarithmic one those without
-//! logarithm. Series that lie on later ones are drawn wider, so that all of them can be seen.
+//! Points without a position are left out: those with numbers that are not finite and, on logarithmic axes, those with
+//! numbers that are not positive. A series that coincides with later ones is drawn wider, so that all of them are
+//! visible.
 
 use super::axes::{Axis, Scale};
 use super::canvas::{Canvas, Caption, MARGIN, WIDTH};
 use super::palette::{Colour, GREY, GRID, INK, PAPER, SERIES};
 use super::style::{Area, Font, PaperPoint, Style};
 
-/// Height of a chart alone, and of a row of panels.
+/// Height of a figure with a single chart, and of a row of panels.
 const HEIGHT: f64 = 720.0;
 const ROW: f64 = 420.0;
-/// Room above a row, and below all.
+/// Height above the first row.
 const TOP: f64 = 92.0;
-/// Room of a panel on its left for numbers and the name of the axis, on its right, above and below.
+/// Margins of a panel: left (for labels and the name of the axis), right, top and bottom.
 const ROOM: [f64; 4] = [100.0, 16.0, 56.0, 70.0];
-/// Most panels in a row.
+/// Largest number of panels in a row.
 const COLUMNS: usize = 3;
-/// Half of the size of a mark.
+/// Half the size of a mark.
 const MARK: f64 = 5.0;
-/// Distance on the paper up to which points lie on each other.
+/// Distance in the figure up to which points count as coincident.
 const COINCIDENT: f64 = 3.0;
 
-/// A chart.
+/// The content of a chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// Quantity and unit along the horizontal axis.
     pub x: String,
     /// Quantity and unit along the vertical axis.
     pub y: String,
-    /// What is drawn.
+    /// The series, each drawn as marks joined by a line.
     pub series: Vec<Series>,
-    /// Points that may be rounding: hollow, and not joined to others.
+    /// Points whose values may be rounding errors: drawn hollow, and not joined to others.
     pub rounding: Vec<Point>,
-    /// Points with a ring and a dashed line at their level; their words stand below the title.
+    /// Points with a ring and a dashed horizontal line; their labels are printed below the title.
     pub levels: Vec<Point>,
 }
 
-/// Points that belong together.
+/// A sequence of points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// Its name in the legend.
+    /// Name in the legend.
     pub name: String,
-    /// Its points, joined in this order.
+    /// The points, joined in this order.
     pub points: Vec<Point>,
 }
 
-/// A point.
+/// A point of a chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Point {
-    /// Along the horizontal axis.
+    /// Value along the horizontal axis.
     pub x: f64,
-    /// Along the vertical axis.
+    /// Value along the vertical axis.
     pub y: f64,
-    /// Which setting it is: shown when the pointer rests on it, and beside the ends of a series.
+    /// Label: shown as a tooltip, and printed next to the first and the last point of a series.
     pub label: String,
 }
 
-/// The figure of a chart with logarithmic axes.
+/// Returns the figure of one chart with logarithmic axes.
 pub fn svg(chart: &Chart) -> String {
     alone(chart).finish()
 }
 
-/// The figure of charts with linear axes, side by side under a caption.
+/// Returns the figure of charts with linear axes, side by side under a common caption.
 pub(crate) fn panels(charts: &[Chart], caption: &Caption) -> String {
     side_by_side(charts, caption).finish()
 }
@@ -113,7 +114,7 @@ struct Plot<'a> {
     chart: &'a Chart,
     frame: Area,
     axes: [Axis; 2],
-    /// For each series the points that have a place, and their places.
+    /// Points of each series that have a position, and their positions.
     series: Vec<Vec<(PaperPoint, &'a Point)>>,
 }
 
@@ -136,7 +137,7 @@ impl<'a> Plot<'a> {
         plot
     }
 
-    /// Where a point is; `None` where it has no place on an axis.
+    /// Returns the position of a point; `None` if it has no position on one of the axes.
     fn place(&self, point: &Point) -> Option<PaperPoint> {
         let Area { low: [left, top], high: [right, bottom] } = self.frame;
         let [x, y] = &self.axes;
@@ -187,7 +188,7 @@ impl<'a> Plot<'a> {
         canvas.text([left - ROOM[0] + 26.0, middle[1]], &name(y, &self.chart.y), Font::SMALL.middle().turned());
     }
 
-    /// The line and the marks of a series, wider the more of the later ones it lies on.
+    /// Draws the line and the marks of a series; the more of the later series coincide with it, the wider they are.
     fn join(&self, canvas: &mut Canvas, points: &[(PaperPoint, &Point)], number: usize) {
         let near = |[a, b]: [PaperPoint; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= COINCIDENT;
         let lies_on = |other: &&Vec<(PaperPoint, &Point)>| {
@@ -223,7 +224,7 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// Words beside a point, where they cover nothing.
+/// Sets text next to a point where it overlaps nothing.
 fn beside(canvas: &mut Canvas, room: Area, [x, y]: PaperPoint, words: &str, colour: Colour) {
     let font = Font::SMALL.colour(colour);
     let level = |by: f64| [([x + 12.0, y + by], font), ([x - 12.0, y + by], font.end()), ([x, y + by], font.middle())];
@@ -232,7 +233,7 @@ fn beside(canvas: &mut Canvas, room: Area, [x, y]: PaperPoint, words: &str, colo
     canvas.text_within(room, nearer.chain(farther), words);
 }
 
-/// A disc, a square, a triangle, in turns: series differ in more than colour.
+/// Draws a disc, a square or a triangle by turns, so that series do not differ by colour only.
 fn mark(canvas: &mut Canvas, [x, y]: PaperPoint, number: usize, size: f64) {
     let style = Style::area(SERIES[number % SERIES.len()]);
     let (low, high) = (-0.9 * size, 0.9 * size);
@@ -263,7 +264,7 @@ mod tests {
         panels(&[chart(values)], &Caption::default())
     }
 
-    /// Middles of the discs that are points.
+    /// Returns the centres of the discs that are points.
     fn discs(text: &str) -> Vec<[f64; 2]> {
         let points = text.split("<g><title>").skip(1).filter(|part| part.contains("<circle"));
         let number =
@@ -271,7 +272,7 @@ mod tests {
         points.map(|part| [number(part, "cx=\""), number(part, "cy=\"")]).collect()
     }
 
-    /// Claim: every point is drawn once, three decades apart are three equal distances apart, and words are escaped.
+    /// Claim: every point is drawn once, equal ratios give equal distances, and text is escaped.
     #[test]
     fn points_stand_where_their_logarithms_say() {
         let text = svg(&chart(&[(1e-6, 1e-3), (1e-3, 1e-2), (1.0, 1e-1)]));
@@ -283,14 +284,15 @@ mod tests {
         assert!(text.contains("t &amp; u") && text.contains("a &lt; b") && !text.contains("a < b"));
     }
 
-    /// Claim: on linear axes equal differences are equal distances, also below zero.
+    /// Claim: on linear axes equal differences give equal distances, also below zero.
     #[test]
     fn linear_axes() {
         let places = discs(&linear(&[(-1.0, 0.0), (0.0, 0.5), (1.0, 1.0)]));
         assert!(places.len() == 3 && (places[2][0] - 2.0 * places[1][0] + places[0][0]).abs() <= 0.21, "{places:?}");
     }
 
-    /// Claim: values that differ by rounding alone are a level line, and the axis says so; values that differ by more are not.
+    /// Claim: values that differ by rounding errors only are drawn at one level, which the name of the axis states;
+    /// values that differ by more are not.
     #[test]
     fn rounding_is_level() {
         let level = linear(&[(0.0, 0.1 + 0.2), (1.0, 0.3), (2.0, 0.3 + 1e-16)]);
@@ -301,8 +303,8 @@ mod tests {
         assert!(rising[0][1] - rising[1][1] > 100.0, "{rising:?}");
     }
 
-    /// Claim: words beside points, levels and axes stand on nothing else, neither in a chart nor in panels of it; of two series
-    /// on each other the first is wider.
+    /// Claim: labels of points, levels and axes overlap nothing, in a single chart and in panels; of two coincident
+    /// series the first is wider.
     #[test]
     fn labels_stand_clear() {
         let hill = [(0.0, 0.0), (0.5, 1.0), (1.0, 0.2)];
@@ -318,8 +320,8 @@ mod tests {
         assert_eq!(alone(&steep).crowded(), 0);
     }
 
-    /// Claim: what has no logarithm is left out, and spoils nothing; so does a chart without points. What may be rounding is
-    /// hollow.
+    /// Claim: points without a logarithm are left out, and the rest is drawn; a chart without points is allowed. Points
+    /// that may be rounding errors are hollow.
     #[test]
     fn what_has_no_logarithm_is_left_out() {
         for values in [&[(0.0, 1.0), (f64::NAN, 1.0), (1.0, -1.0), (2.0, f64::INFINITY), (3.0, 2.0)][..], &[]] {

@@ -1,48 +1,50 @@
-//! What hides what: pieces of a picture in the order in which they are painted, from back to front.
+//! Hidden surfaces: sorts pieces (triangles and lines) from back to front, the order in which they are painted.
 //!
-//! Two pieces whose projections overlap are compared where they do: an order by mean depths is wrong for long faces beside
-//! short ones. Of two that pass through each other the smaller one is cut by the plane of the other (M. E. Newell, R. G.
-//! Newell, T. L. Sancha, Proc. ACM National Conf. 1972). Pieces that hide each other in a circle, the strongly connected
-//! components of the relation "is painted before", are cut by planes of their own until an order is right (H. Fuchs, Z. M.
-//! Kedem, B. F. Naylor, SIGGRAPH 1980). All others stay whole.
+//! Two pieces whose projections overlap are compared where they overlap; an order by mean depths would be wrong for
+//! long faces next to short ones. If two pieces pass through each other, the smaller one is cut by the plane of the
+//! other (M. E. Newell, R. G. Newell, T. L. Sancha, Proc. ACM National Conf. 1972). Pieces that hide each other
+//! cyclically, the strongly connected components of the relation "is painted before", are cut by planes of triangles
+//! among them until there is a correct order (H. Fuchs, Z. M. Kedem, B. F. Naylor, SIGGRAPH 1980). All other pieces
+//! stay whole.
 
 use std::collections::HashMap;
 
 use super::style::PaperPoint;
 use crate::math::Vec3;
 
-/// Distances that are none, over the extent of the scene; and those in a scene of many pieces, where sheets that nearly
-/// coincide would be cut into far more of them, at places that cannot be told apart.
+/// Distances that count as zero, relative to the extent of the scene: in general, and in a scene of many pieces, where
+/// surfaces that nearly coincide would otherwise be cut into far more pieces that cannot be distinguished.
 const TOUCHING: [f64; 2] = [1e-6, 1e-3];
-/// Pieces that are many.
+/// Number of pieces above which a scene has many.
 const MANY: usize = 30_000;
-/// Areas that are none, over the square of that.
+/// Area that counts as zero, relative to the square of the extent of the scene.
 const NO_AREA: f64 = 1e-10;
-/// How far lines are lifted off the faces they lie on before those are cut, over the extent of the scene.
+/// Distance by which lines are moved towards the eye before the faces on which they lie are cut, relative to the extent
+/// of the scene.
 const LIFT: f64 = 2e-5;
-/// Planes among which the one that cuts the fewest pieces is chosen.
+/// Largest number of planes among which the one that cuts the fewest pieces is chosen.
 const TRIED: usize = 12;
 
-/// A triangle or a line between two ends, or what is left of it when it was cut.
+/// A triangle or a line segment, or a part of one that was cut.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Piece {
-    /// Corners: right, up and towards the eye.
+    /// Corners, with coordinates to the right, upwards and towards the eye.
     pub corners: Vec<Vec3>,
-    /// What it is a piece of.
+    /// Index of the triangle or line of which it is a part.
     pub item: usize,
-    /// The plane of a triangle.
+    /// Plane of a triangle; `None` for lines.
     plane: Option<Plane>,
 }
 
-/// A plane: its normal, which points to the side of the eye, and its height along that.
+/// The plane of the points `p` with `normal . p = height`; the normal points to the side of the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Plane {
     normal: Vec3,
     height: f64,
 }
 
-/// The pieces from back to front, cut where no order is right. Triangles seen from their side are left out, and so are
-/// pieces with corners that are not finite.
+/// Returns the pieces from back to front, cut where there is no correct order. Triangles seen edge-on and pieces with
+/// corners that are not finite are left out.
 pub(crate) fn back_to_front(mut pieces: Vec<Piece>) -> Vec<Piece> {
     pieces.retain(|piece| piece.corners.iter().flatten().all(|x| x.is_finite()));
     let limits = Limits::of(&pieces);
@@ -70,7 +72,7 @@ pub(crate) fn back_to_front(mut pieces: Vec<Piece>) -> Vec<Piece> {
     ordered
 }
 
-/// What is too small to be seen.
+/// Lengths and areas that are too small to be seen.
 struct Limits {
     length: f64,
     area: f64,
@@ -89,7 +91,7 @@ impl Limits {
 }
 
 impl Piece {
-    /// A triangle of three corners or a line of two.
+    /// Makes a triangle of three corners, or a line of two.
     pub(crate) fn new(corners: Vec<Vec3>, item: usize) -> Self {
         let plane = (corners.len() > 2).then(|| Plane::through([corners[0], corners[1], corners[2]])).flatten();
         Self { corners, item, plane }
@@ -103,13 +105,13 @@ impl Piece {
         self.corners.iter().map(|corner| corner.z).sum::<f64>() / self.corners.len() as f64
     }
 
-    /// Least and largest height of the corners over a plane.
+    /// Returns the least and the largest distance of the corners from a plane, positive in front of it.
     fn range(&self, plane: &Plane) -> (f64, f64) {
         let above = self.corners.iter().map(|corner| plane.above(corner));
         above.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)))
     }
 
-    /// The parts in front of a plane and behind it, `None` where it is on one side of it.
+    /// Returns the parts in front of a plane and behind it; `None` if the piece lies on one side of it.
     fn cut_by(&self, plane: &Plane, limits: &Limits) -> Option<[Self; 2]> {
         let (low, high) = self.range(plane);
         (low < -limits.length && high > limits.length).then(|| [1.0, -1.0].map(|sign| self.part(plane, sign)))
@@ -123,7 +125,7 @@ impl Piece {
         Self { corners, ..*self }
     }
 
-    /// Depth at a place of the paper.
+    /// Returns the depth (coordinate towards the eye) of the piece at a point of the figure.
     fn depth_at(&self, [x, y]: PaperPoint) -> f64 {
         if let Some(Plane { normal, height }) = self.plane {
             return (height - normal.x * x - normal.y * y) / normal.z;
@@ -148,7 +150,7 @@ impl Plane {
     }
 }
 
-/// The pieces, where two of them pass through each other the smaller one cut by the plane of the other.
+/// Cuts pieces that pass through each other: the smaller one by the plane of the other.
 fn apart(pieces: Vec<Piece>, limits: &Limits) -> Vec<Piece> {
     let size = |k: usize| if pieces[k].is_line() { 0.0 } else { turn(&pieces[k].corners).abs() };
     let mut cuts: Vec<Vec<Plane>> = vec![Vec::new(); pieces.len()];
@@ -173,16 +175,16 @@ fn apart(pieces: Vec<Piece>, limits: &Limits) -> Vec<Piece> {
     found
 }
 
-/// Twice the area of a polygon on the paper, positive where it goes round counter-clockwise.
+/// Returns twice the area of a polygon in the figure, positive if its corners are counter-clockwise.
 fn turn(corners: &[Vec3]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum()
 }
 
-/// How two pieces lie whose projections overlap.
+/// The relative order of two pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Order {
-    /// They do not overlap.
+    /// Their projections do not overlap.
     Apart,
     /// The first is painted before the second.
     Behind,
@@ -192,7 +194,7 @@ enum Order {
     Through,
 }
 
-/// Where the first of two pieces is, seen from the second one.
+/// Returns the order of `a` relative to `b`.
 fn order(a: &Piece, b: &Piece, limits: &Limits) -> Order {
     if b.is_line() {
         return match a.is_line() {
@@ -220,7 +222,7 @@ fn order(a: &Piece, b: &Piece, limits: &Limits) -> Order {
         (true, true) => Order::Through,
         (true, false) => Order::InFront,
         (false, true) => Order::Behind,
-        // they lie on each other: lines upon faces
+        // they coincide; lines are painted after the faces on which they lie
         (false, false) if a.is_line() || low + high > 0.0 => Order::InFront,
         (false, false) if low + high < 0.0 => Order::Behind,
         (false, false) => Order::Apart,
@@ -237,7 +239,7 @@ impl Order {
     }
 }
 
-/// Common corners on the paper of a piece and a triangle.
+/// Returns the corners of the common part of the projections of a piece and a triangle.
 fn overlap(a: &Piece, b: &Piece) -> Vec<PaperPoint> {
     let mut places: Vec<PaperPoint> = a.corners.iter().map(|corner| [corner.x, corner.y]).collect();
     let sense = turn(&b.corners).signum();
@@ -252,7 +254,7 @@ fn overlap(a: &Piece, b: &Piece) -> Vec<PaperPoint> {
     places
 }
 
-/// The part of a convex polygon where a function, linear between corners, is not negative.
+/// Returns the part of a convex polygon in which a function, linear between corners, is not negative.
 fn clipped<P: Copy>(corners: &[P], inside: impl Fn(P) -> f64, between: impl Fn(P, P, f64) -> P) -> Vec<P> {
     let mut kept = Vec::with_capacity(corners.len() + 1);
     for (k, &corner) in corners.iter().enumerate() {
@@ -268,7 +270,8 @@ fn clipped<P: Copy>(corners: &[P], inside: impl Fn(P) -> f64, between: impl Fn(P
     kept
 }
 
-/// All pairs of pieces whose boxes on the paper meet, each once: those that share a square of a grid.
+/// Returns all pairs of pieces whose bounding boxes in the figure overlap, each once. Candidates are the pieces that
+/// share a square of a grid.
 fn close_pairs(pieces: &[Piece]) -> Vec<[usize; 2]> {
     let bounds = |piece: &Piece| {
         let all = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
@@ -287,7 +290,7 @@ fn close_pairs(pieces: &[Piece]) -> Vec<[usize; 2]> {
                 for &other in others.iter() {
                     let [l, b, r, t] = boxes[other];
                     let meet = l <= *right && *left <= r && b <= *top && *bottom <= t;
-                    // in the first square that both have
+                    // each pair is counted only in the first square that both share
                     if meet && [x, y] == [square(left.max(l)), square(bottom.max(b))] {
                         pairs.push([other, k]);
                     }
@@ -299,8 +302,8 @@ fn close_pairs(pieces: &[Piece]) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// The strongly connected components of a relation, each after those that are before any of its members (R. Tarjan, SIAM J.
-/// Comput. 1, 146 (1972)), otherwise in the order of the numbers.
+/// Returns the strongly connected components of a relation (R. Tarjan, SIAM J. Comput. 1, 146 (1972)). A component
+/// comes after all members that are before any of its own; otherwise the order is that of the indices.
 fn components(before: &[Vec<usize>]) -> Vec<Vec<usize>> {
     const NEW: usize = usize::MAX;
     let mut found = Vec::new();
@@ -335,14 +338,14 @@ fn components(before: &[Vec<usize>]) -> Vec<Vec<usize>> {
     found
 }
 
-/// The pieces with lines nearer to the eye, so that they are painted after all faces they lie on.
+/// Moves the lines towards the eye, so that they are painted after all faces on which they lie.
 fn lifted(mut group: Vec<Piece>, lift: f64) -> Vec<Piece> {
     let lines = group.iter_mut().filter(|piece| piece.is_line());
     lines.flat_map(|piece| &mut piece.corners).for_each(|end| end.z += lift);
     group
 }
 
-/// The pieces of a group from back to front, cut by planes of its triangles.
+/// Appends the pieces of a group to `ordered` from back to front, cut by planes of its triangles (a BSP tree).
 fn cut(group: Vec<Piece>, limits: &Limits, ordered: &mut Vec<Piece>) {
     let mut tasks = vec![(group, false)];
     while let Some((mut pieces, done)) = tasks.pop() {
@@ -368,12 +371,12 @@ fn cut(group: Vec<Piece>, limits: &Limits, ordered: &mut Vec<Piece>) {
     }
 }
 
-/// The plane of a triangle among the pieces that cuts the fewest others; `None` where there is nothing left to tell apart.
+/// Returns the plane of a triangle among the pieces that cuts the fewest of them; `None` if no cut is needed.
 fn fewest_cuts(pieces: &[Piece], limits: &Limits) -> Option<Plane> {
     if pieces.len() < 2 {
         return None;
     }
-    // of a thin piece, rounding may have moved the corners off its plane
+    // the corners of a thin piece may have moved off its plane by rounding
     let is_flat = |piece: &Piece, plane: &Plane| {
         let (low, high) = piece.range(plane);
         low >= -limits.length && high <= limits.length
@@ -399,7 +402,7 @@ mod tests {
         Piece::new(corners.map(Vec3::from).to_vec(), item)
     }
 
-    /// Whether a place is within a piece, this far from its rim.
+    /// Whether a point of the figure lies in a triangle, at least `margin` from its sides.
     fn covers(piece: &Piece, place: PaperPoint, margin: f64) -> bool {
         let corners = &piece.corners;
         let side = |k: usize| {
@@ -411,7 +414,7 @@ mod tests {
         !piece.is_line() && (0..corners.len()).all(|k| sense * side(k) >= margin)
     }
 
-    /// Checks at many places that of all faces there the nearest to the eye is painted last.
+    /// Checks at many points that the nearest face to the eye is painted last.
     fn check(faces: &[Piece], random: &mut ChaCha8Rng) -> (usize, usize) {
         let ordered = back_to_front(faces.to_vec());
         let mut seen = 0;
@@ -428,8 +431,8 @@ mod tests {
         (ordered.len(), seen)
     }
 
-    /// Claim: three long triangles that hide each other in a circle are painted so that each hides the next, which needs one
-    /// cut; an order by mean depths, whichever, is wrong at one of them.
+    /// Claim: three long triangles that hide each other cyclically are painted so that each hides the next, which needs
+    /// one cut; any order by mean depths is wrong for one of them.
     #[test]
     fn circle_of_three() {
         let beam = |item: usize| {
@@ -447,7 +450,7 @@ mod tests {
         assert!((4..=6).contains(&pieces) && seen > 100, "{pieces} {seen}");
     }
 
-    /// Claim: of many triangles at random, which pass through each other, every place shows the nearest one.
+    /// Claim: of many random triangles that pass through each other, the nearest is seen at every point.
     #[test]
     fn random_triangles() {
         let mut random = ChaCha8Rng::seed_from_u64(2);
@@ -458,7 +461,7 @@ mod tests {
         }
     }
 
-    /// Claim: faces of a sheet that do not pass through each other stay whole, however small they are beside others.
+    /// Claim: faces of a sheet that do not pass through each other stay whole, also next to much larger ones.
     #[test]
     fn sheets_stay_whole() {
         let far = triangle(0, [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.9]]);
@@ -471,8 +474,8 @@ mod tests {
         assert_eq!(back_to_front(faces)[0].item, 0, "mean depth 0.3 is above that of the others, and yet it is behind");
     }
 
-    /// Claim: a line on faces is painted after them and before what hides it, and where it passes through a face only the part
-    /// behind that is hidden.
+    /// Claim: a line on faces is painted after them and before the faces that hide it; of a line that passes through a
+    /// face, only the part behind it is hidden.
     #[test]
     fn lines() {
         let face = triangle(0, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
@@ -487,7 +490,7 @@ mod tests {
         assert!(parts.len() == 2 && parts.iter().all(|(after, depth)| *after == (*depth > 0.5)), "{parts:?}");
     }
 
-    /// Claim: pieces seen from their side, without extent or not finite are left out, and an empty scene is one.
+    /// Claim: pieces that are edge-on, without extent or not finite are left out; an empty scene is allowed.
     #[test]
     fn what_cannot_be_seen() {
         let side = triangle(0, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.0, 1.0]]);

@@ -1,11 +1,11 @@
-//! Figures of states and of what studies found: each function takes data and returns the text of an SVG; nothing is
-//! written to disk here.
+//! Figures of states and of the results of studies. Each function takes data and returns the text of an SVG; the files
+//! are written elsewhere.
 //!
-//! All figures are drawn on one [`canvas`] with one [`palette`], one kind of [`axes`] and one order of what hides what
-//! ([`hidden`]). Plotting crates were tried and left out: `plotters` rounds places on the paper to whole pixels, has no
-//! dashed outlines of polygons and no order of depth; `kuva` sorts the quadrilaterals of a height field `z(x, y)` by their
-//! means, while sheets fold over and through themselves. Both would serve for charts alone, and two ways to make one
-//! figure are worse than one. The same data give the same bytes.
+//! All figures use the same [`canvas`], the same [`palette`], the same kind of [`axes`] and the same order of depth
+//! ([`hidden`]). Equal data give equal bytes. Plotting crates were tried and are not used: `plotters` rounds
+//! coordinates to whole pixels and has neither dashed outlines of polygons nor an order of depth; `kuva` sorts the
+//! quadrilaterals of a height field `z(x, y)` by their means, while sheets fold over and through themselves. Both would
+//! be suitable for charts only, and then there would be two ways to make a figure.
 
 mod axes;
 pub mod bloch;

@@ -1,27 +1,28 @@
-//! From space to paper: an oblique view of a sheet along directions of its own.
+//! Projection from space to the figure: an oblique parallel view of a sheet along its principal axes.
 
 use nalgebra::Matrix3;
 
 use crate::math::Vec3;
 use crate::numerics::dense::small::symmetric_eigen_3;
 
-/// An orthographic view; the three directions are orthonormal.
+/// An orthographic projection; `right`, `up` and `toward` are orthonormal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// Direction on the paper to the right.
+    /// Direction in space that points to the right in the figure.
     pub right: Vec3,
-    /// Direction on the paper upwards.
+    /// Direction in space that points upwards in the figure.
     pub up: Vec3,
     /// Direction from the sheet to the eye.
     pub toward: Vec3,
-    /// The normal of the sheet as a whole.
+    /// Mean normal of the sheet.
     pub normal: Vec3,
 }
 
 impl Projection {
-    /// Looks down on the side of the face normals, with the longer side of the sheet across the paper.
+    /// Returns the view from the side of the face normals in which the longer side of the sheet runs across the figure.
     ///
-    /// The eye stands `ELEVATION` above the mean plane of the sheet and `TURN` beside its second principal axis.
+    /// The view direction has the angle `ELEVATION` to the mean plane of the sheet; its part in that plane has the
+    /// angle `TURN` to the second principal axis. Both are in radians.
     pub(crate) fn of(points: &[Vec3], triangles: &[[usize; 3]]) -> Self {
         const ELEVATION: f64 = 0.82;
         const TURN: f64 = 0.5;
@@ -32,7 +33,8 @@ impl Projection {
         Self { right: up.cross(&toward), up, toward, normal }
     }
 
-    /// Looks at a box along the axes, from above, the eye on these sides (1 or -1) of x and y.
+    /// Returns the view from above of a box along the coordinate axes. `x` and `y` (1 or -1) are the sides on which the
+    /// eye is.
     pub(crate) fn axonometric([x, y]: [f64; 2]) -> Self {
         const ELEVATION: f64 = 0.42;
         const TURN: f64 = 0.95;
@@ -42,16 +44,18 @@ impl Projection {
         Self { right: up.cross(&toward), up, toward, normal: Vec3::z() }
     }
 
-    /// Right, up and towards the eye.
+    /// Returns the coordinates `[right, up, toward]` of a point.
     pub(crate) fn place(&self, point: &Vec3) -> [f64; 3] {
         [point.dot(&self.right), point.dot(&self.up), point.dot(&self.toward)]
     }
 }
 
-/// Longest extent, second extent and normal of a sheet: a right-handed orthonormal frame.
+/// Returns the principal axes of a sheet, a right-handed orthonormal frame: the directions of the largest and second
+/// largest extent, and the normal.
 ///
-/// The normal is the direction of least extent, towards the mean of the face normals. Where the sheet is about as long
-/// as wide its two other axes say nothing (and would turn with the last digit); then x of space is the first.
+/// The normal is the direction of least extent, oriented like the mean of the face normals. If the sheet is about as
+/// long as wide, its other two axes are not well defined (they would change with rounding errors); then the first axis
+/// is the direction in the plane nearest to x.
 fn principal_axes(points: &[Vec3], triangles: &[[usize; 3]]) -> [Vec3; 3] {
     let finite: Vec<Vec3> = points.iter().copied().filter(|p| p.iter().all(|x| x.is_finite())).collect();
     let mean = finite.iter().sum::<Vec3>() / finite.len().max(1) as f64;
@@ -68,14 +72,14 @@ fn principal_axes(points: &[Vec3], triangles: &[[usize; 3]]) -> [Vec3; 3] {
     [first, second, normal]
 }
 
-/// The sum of the area vectors of the triangles.
+/// Returns twice the sum of the area vectors of the triangles.
 fn mean_normal(points: &[Vec3], triangles: &[[usize; 3]]) -> Vec3 {
     let area = |&[a, b, c]: &[usize; 3]| (points[b] - points[a]).cross(&(points[c] - points[a]));
     triangles.iter().map(area).filter(|normal| normal.iter().all(|x| x.is_finite())).sum()
 }
 
-/// The axis or its opposite, whichever agrees with `side`; where `side` does not tell, the one that points to +z, +y,
-/// +x.
+/// Returns the axis or its opposite, whichever has a positive component along `side`; if both are perpendicular to
+/// `side`, the one that points to +z, or else to +y, or else to +x.
 fn upright(axis: Vec3, side: Vec3) -> Vec3 {
     let told = axis.dot(&side);
     let sense = if told.abs() > 1e-6 * side.norm() && told != 0.0 {
@@ -86,7 +90,7 @@ fn upright(axis: Vec3, side: Vec3) -> Vec3 {
     axis * sense.signum()
 }
 
-/// The direction in the plane across `normal` that is nearest to x, if there is one.
+/// Returns the unit vector perpendicular to `normal` that is nearest to x; `None` if `normal` is nearly parallel to x.
 fn level_x(normal: Vec3) -> Option<Vec3> {
     (Vec3::x() - normal * normal.x).try_normalize(0.1)
 }
@@ -95,8 +99,8 @@ fn level_x(normal: Vec3) -> Option<Vec3> {
 mod tests {
     use super::*;
 
-    /// A sheet 4 long in y and 1 wide in x, its faces seen from below: the long side goes across the paper and the eye
-    /// is below. Exact up to rounding of the eigenvectors.
+    /// For a sheet of length 4 in y and width 1 in x, with face normals downwards, the long side runs across the figure
+    /// and the eye is below. Exact up to rounding of the eigenvectors.
     #[test]
     fn the_eye_is_on_the_side_of_the_normals() {
         let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 4.0], [0.0, 4.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
@@ -109,7 +113,7 @@ mod tests {
         assert!((frame.determinant() - 1.0).abs() < 1e-12);
     }
 
-    /// No points, one point and points that are not finite give a view as well.
+    /// Sheets of no point, one point or points that are not finite have a view as well.
     #[test]
     fn a_view_of_nothing() {
         for points in [vec![], vec![Vec3::zeros()], vec![Vec3::repeat(f64::NAN), Vec3::x()], vec![Vec3::repeat(1e300)]]

@@ -1,7 +1,8 @@
-//! A state of a sheet: seen obliquely, faces shaded, creases drawn by their fold angles, with a scale bar.
+//! Figure of a state of a sheet: an oblique view with shaded faces, creases coloured by their fold angles, and a scale
+//! bar.
 //!
-//! Mountains (negative fold angles) are red and valleys blue, the wider the sharper they are folded. Every face has an
-//! outline in the colour of its filling, otherwise hairlines show between them.
+//! Mountains (negative fold angles) are red and valleys blue; the line width increases with the fold angle. Every face
+//! has an outline in the colour of its filling, because otherwise thin gaps would show between faces.
 
 use super::axes::{number, round_step};
 use super::canvas::{Canvas, Caption, HEAD, MARGIN, WIDTH};
@@ -14,15 +15,15 @@ use crate::output::Picture;
 use crate::output::fault::ShapeError;
 use crate::sheet::EdgeKind;
 
-/// Room beside the sheet, and for the legend below it.
+/// Margin around the sheet, and height of the legend below it.
 const ROOM: f64 = 60.0;
 const LEGEND: f64 = 64.0;
-/// Creases folded by less are drawn as flat ones, in radians.
+/// Fold angle in radians below which a crease is drawn as flat.
 const FLAT: f64 = 1e-6;
-/// Length of the widest wedge of the legend.
+/// Length of the longest wedge of the legend.
 const WEDGE: f64 = 150.0;
 
-/// Colours of a side of the sheet in full light and away from it.
+/// Colours of one side of the sheet in full light and away from the light.
 struct Side {
     light: Colour,
     dark: Colour,
@@ -32,10 +33,10 @@ const FRONT: Side = Side { light: Colour(255, 251, 240), dark: Colour(124, 136, 
 const BACK: Side = Side { light: Colour(240, 214, 168), dark: Colour(150, 118, 92) };
 const CROSSING: Side = Side { light: Colour(246, 154, 138), dark: Colour(158, 72, 66) };
 
-/// The figure of a state.
+/// Returns the figure of a state.
 ///
 /// # Errors
-/// The first array or index of the picture that does not fit.
+/// The first inconsistent array or index of the picture.
 pub fn svg(picture: &Picture, caption: &Caption) -> Result<String, ShapeError> {
     picture.check()?;
     Ok(drawn(picture, caption).finish())
@@ -55,18 +56,18 @@ fn drawn(picture: &Picture, caption: &Caption) -> Canvas {
     canvas
 }
 
-/// The part of the paper that the sheet takes.
+/// The mapping from the plane of projection to the figure.
 struct Frame {
     left: f64,
     top: f64,
     scale: f64,
     height: f64,
-    /// Whether anything is there.
+    /// Whether there is any finite point.
     filled: bool,
 }
 
 impl Frame {
-    /// Fits the places into the width of the paper and at most three quarters of it in height.
+    /// Fits the points into the width of the figure, and into a height of at most three quarters of the width.
     fn around<'a>(places: impl Iterator<Item = &'a Vec3>) -> Self {
         let finite = places.filter(|place| is_finite(place));
         let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
@@ -88,12 +89,12 @@ fn is_finite(place: &Vec3) -> bool {
     place.iter().all(|x| x.is_finite())
 }
 
-/// Where the light comes from: from the upper left, a little in front of the sheet.
+/// Returns the direction towards the light: from the upper left, a little in front of the sheet.
 fn light(view: &Projection) -> Vec3 {
     (view.toward * 0.45 + view.up * 0.75 - view.right * 0.62).normalize()
 }
 
-/// The points moved along the light onto a floor just below the sheet.
+/// Returns the points projected along the light onto a floor just below the sheet.
 fn shadow_on_floor(picture: &Picture, view: &Projection) -> Vec<Vec3> {
     let light = light(view);
     let heights = picture.points.iter().map(|point| point.dot(&view.normal)).filter(|height| height.is_finite());
@@ -107,7 +108,7 @@ fn paint_shadow(canvas: &mut Canvas, picture: &Picture, frame: &Frame, shadow: &
     let finite = picture.triangles.iter().filter(|triangle| triangle.iter().all(|&point| is_finite(&shadow[point])));
     let alike = |triangle: &[usize; 3]| {
         let [a, b, c] = triangle.map(|point| frame.on_paper(&shadow[point]));
-        // all the same way round, so that overlaps are filled
+        // all triangles get the same orientation, so that overlaps are filled
         let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if turn < 0.0 { [a, c, b] } else { [a, b, c] }
     };
@@ -131,7 +132,7 @@ fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &Frame, view: &Pro
     canvas.end();
 }
 
-/// The colour of a face: its side towards the eye, between dark and light.
+/// Returns the colour of a face: that of its visible side, between dark and light.
 fn shade(picture: &Picture, view: &Projection, face: usize) -> Colour {
     let [a, b, c] = picture.triangles[face].map(|point| picture.points[point]);
     let normal = (b - a).cross(&(c - a)).normalize();
@@ -146,7 +147,8 @@ fn shade(picture: &Picture, view: &Projection, face: usize) -> Colour {
     side.dark.towards(side.light, lit)
 }
 
-/// How edges are drawn: widths in proportion to the sharpest fold, and to the size of the faces on the paper.
+/// The style of edges: line widths increase with the fold angle relative to the largest one, and scale with the size of
+/// the faces in the figure.
 struct Pen {
     sharpest: f64,
     unit: f64,
@@ -176,14 +178,14 @@ impl Pen {
     }
 }
 
-/// Sharpest mountain and sharpest valley; 0 where there is none.
+/// Returns the fold angles of the sharpest mountain and the sharpest valley; 0 if there is none.
 fn fold_range(picture: &Picture) -> [f64; 2] {
     let creases = picture.line_kinds.iter().zip(&picture.fold_angle).filter(|(kind, _)| **kind == EdgeKind::Crease);
     let angles = creases.map(|(_, &angle)| angle).filter(|angle| angle.is_finite());
     angles.fold([0.0, 0.0], |[low, high], angle| [f64::min(low, angle), f64::max(high, angle)])
 }
 
-/// A round length: lines parallel to the paper have it everywhere, as the view is a parallel projection.
+/// Draws a bar of a round length. In a parallel projection, lines parallel to the paper have this scale everywhere.
 fn scale_bar(canvas: &mut Canvas, frame: &Frame) {
     if !frame.filled {
         return;
@@ -196,7 +198,7 @@ fn scale_bar(canvas: &mut Canvas, frame: &Frame) {
     canvas.text([right + 12.0, level + 6.5], &number(length, length), Font::LABEL);
 }
 
-/// The scale of fold angles: from the sharpest mountain over flat to the sharpest valley, as wide as the lines.
+/// Draws the scale of fold angles, from the sharpest mountain to the sharpest valley, as wedges.
 fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
     let [mountain, valley] = fold_range(picture);
     let sharpest = valley.max(-mountain);
@@ -207,7 +209,7 @@ fn legend(canvas: &mut Canvas, picture: &Picture, frame: &Frame) {
     let width = |&(angle, _, word, sign): &(f64, Colour, &str, char)| {
         WEDGE * angle.abs() / sharpest + 14.0 + Font::LABEL.width(&words(angle, word, sign))
     };
-    // words included, it ends at the margin
+    // the legend with its text ends at the right margin
     let after = sides.last().filter(|(angle, ..)| *angle > 0.0).map_or(0.0, width);
     let zero = WIDTH - MARGIN - after;
     for (angle, colour, word, sign) in sides {
@@ -237,8 +239,8 @@ mod tests {
         text.lines().filter(|line| line.starts_with("<path")).collect()
     }
 
-    /// Claim: there are a shadow, each face and edge once, two pieces of the scale bar and one wedge of the legend; title and state
-    /// stand above; the same picture gives the same bytes.
+    /// Claim: the figure has a shadow, each face and edge once, two parts of the scale bar and one wedge of the legend;
+    /// title and state are in the caption; equal pictures give equal bytes.
     #[test]
     fn everything_is_drawn_once() {
         let text = svg(&samples::hinge(0.8), &caption("a & b < c")).unwrap();
@@ -248,7 +250,8 @@ mod tests {
         assert_eq!(drawn(&samples::hinge(0.8), &caption("a")).crowded(), 0);
     }
 
-    /// Claim: valleys (positive fold angles) are blue and mountains red, on the sheet and in the legend, which gives the angle.
+    /// Claim: valleys (positive fold angles) are blue and mountains red, on the sheet and in the legend, which gives
+    /// the angle.
     #[test]
     fn the_sign_of_a_fold_is_its_colour() {
         let [mountain_red, valley_blue] = [MOUNTAIN, VALLEY].map(|colour| colour.to_string());
@@ -282,7 +285,7 @@ mod tests {
         assert!(place(1 - near) < place(near) && place(near) < crease, "{text}");
     }
 
-    /// Claim: the scale bar is as long as a side of that length parallel to the paper.
+    /// Claim: the scale bar is as long as an edge of this length parallel to the paper.
     #[test]
     fn scale() {
         let places = [Vec3::zeros(), Vec3::new(8.0, 4.0, 0.0)];
@@ -295,7 +298,8 @@ mod tests {
         assert!(text.contains(">2<") && text.contains(&format!("{:.0} ", MARGIN + 2.0 * frame.scale)), "{text}");
     }
 
-    /// Claim: points that are not finite leave their faces out and spoil nothing else; arrays that do not fit are refused.
+    /// Claim: faces with points that are not finite are left out, and the rest is drawn; inconsistent arrays are
+    /// refused.
     #[test]
     fn states_that_are_not_finite() {
         let mut picture = samples::hinge(0.8);

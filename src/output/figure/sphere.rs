@@ -1,8 +1,9 @@
-//! Energies over the sphere of curvature tensors: two discs, one for each sign of the mean curvature.
+//! Figure of the energies over the sphere of curvature tensors: two discs, one for each sign of the mean curvature.
 //!
-//! A disc is its half of the sphere in Lambert's projection, which keeps areas: in the middle bending alike in all directions, at
-//! the rim saddles of opposite curvatures, in between the cone of cylinders. The colour is the square root of the energy over
-//! the largest, which is as smooth as the curvature that the energy comes from.
+//! Each disc is a half of the sphere in Lambert's azimuthal projection, which preserves areas. At its centre the sheet
+//! bends equally in all directions, at its rim with opposite curvatures (a saddle), and the cone of cylinders lies in
+//! between. The colour is the square root of the energy relative to the largest one, which is as smooth as the
+//! curvature that causes the energy.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 
@@ -15,31 +16,31 @@ use crate::math::Vec3;
 
 const HEIGHT: f64 = 712.0;
 const RADIUS: f64 = 222.0;
-/// Middles of the discs: positive and negative mean curvature.
+/// Centres of the discs of positive and of negative mean curvature.
 const MIDDLES: [PaperPoint; 2] = [[298.0, 386.0], [816.0, 386.0]];
 const BAR: Area = Area { low: [1096.0, 200.0], high: [1116.0, 572.0] };
-/// What belongs to both discs may be this much beyond the rim.
+/// Tolerance within which points on the rim belong to both discs.
 const RIM: f64 = 1e-9;
-/// Shades of the map.
+/// Number of shades of the map.
 const SHADES: usize = 32;
-/// Where the energy is not known.
+/// Colour where the energy is not known.
 const UNKNOWN: Colour = Colour(200, 200, 200);
-/// The lines of the exact cone, and those of the cone of small amplitudes.
+/// Colour and line width of the exact cone.
 const EXACT: (Colour, f64) = (VALLEY, 2.6);
 
-/// Energies on a sphere, its points given by `(k11 + k22, k11 - k22, 2 k12) / sqrt(2)`.
+/// Energies on the unit sphere, with coordinates `(k11 + k22, k11 - k22, 2 k12) / sqrt(2)` for a curvature tensor `k`.
 pub struct Sphere<'a> {
     /// Points of norm 1.
     pub points: &'a [Vec3],
-    /// Triangles of them.
+    /// Points at the corners of each triangle.
     pub triangles: &'a [[usize; 3]],
-    /// Energies at the points; not a number where not found.
+    /// Energies at the points; NaN where they were not found.
     pub energies: &'a [f64],
     /// Closed curves on which the energy vanishes.
     pub cone: &'a [Vec<Vec3>],
 }
 
-/// The figure of energies on a sphere.
+/// Returns the figure of energies on a sphere.
 pub fn svg(sphere: &Sphere<'_>, caption: &Caption) -> String {
     drawn(sphere, caption).finish()
 }
@@ -65,12 +66,12 @@ fn drawn(sphere: &Sphere<'_>, caption: &Caption) -> Canvas {
     canvas
 }
 
-/// The cone of small amplitudes, a circle on both discs.
+/// Returns the style of the cone of small amplitudes, which is a circle on both discs.
 fn linear() -> Style {
     Style::line(INK, 1.8).dashed(7.0, 5.0)
 }
 
-/// Place of a point on a disc; `None` on the other half of the sphere.
+/// Returns the position of a point on a disc; `None` if it is on the other half of the sphere.
 fn place(point: &Vec3, disc: usize) -> Option<PaperPoint> {
     let sign = if disc == 0 { 1.0 } else { -1.0 };
     if !(sign * point.x >= -RIM) {
@@ -83,12 +84,12 @@ fn place(point: &Vec3, disc: usize) -> Option<PaperPoint> {
     Some([x + part * point.y, y - part * point.z])
 }
 
-/// Distance from the middle of a disc at a polar angle.
+/// Returns the distance from the centre of a disc for a polar angle in radians.
 fn radius(polar: f64) -> f64 {
     RADIUS * (0.5 * polar).sin() / FRAC_1_SQRT_2
 }
 
-/// The map on a disc, grey where the energy is not known.
+/// Draws the map on a disc, grey where the energy is not known.
 fn paint(canvas: &mut Canvas, sphere: &Sphere<'_>, disc: usize, largest: f64) {
     let places: Vec<Option<PaperPoint>> = sphere.points.iter().map(|point| place(point, disc)).collect();
     let here = |triangle: &&[usize; 3]| triangle.iter().all(|&point| places[point].is_some());
@@ -110,7 +111,7 @@ fn paint(canvas: &mut Canvas, sphere: &Sphere<'_>, disc: usize, largest: f64) {
     canvas.end();
 }
 
-/// The rim, the cone of small amplitudes, and what is where.
+/// Draws the rim of a disc, the cone of small amplitudes, and the names of the directions.
 fn frame(canvas: &mut Canvas, disc: usize, name: &str) {
     let middle @ [x, y] = MIDDLES[disc];
     canvas.circle(middle, RADIUS, Style::line(INK, 1.6));
@@ -137,8 +138,9 @@ fn curves(canvas: &mut Canvas, sphere: &Sphere<'_>, disc: usize) {
 mod tests {
     use super::*;
 
-    /// Claim: the map is painted on the half it belongs to, each curve once, the rim is at the radius of the disc, and the same map
-    /// gives the same bytes; a missing energy is grey and spoils nothing; no words stand on others.
+    /// Claim: the map is painted on both discs, each curve once, points of the rim are at the radius of the disc, and
+    /// equal data give equal bytes; where an energy is missing the disc is grey, and the rest is drawn; texts do not
+    /// overlap.
     #[test]
     fn two_halves() {
         let points = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]].map(Vec3::from);

@@ -1,24 +1,24 @@
-//! How lines, areas and words look, where they may stand, and how text and numbers are written in an SVG.
+//! Styles of lines, areas and text, the areas that text takes, and the formats of text and numbers in an SVG.
 
 use super::palette::{Colour, GREY, INK};
 use std::fmt::{self, Display};
 
-/// Widths of letters over their height, at most on average: of plain and of bold ones.
+/// Upper bounds of the mean width of letters relative to the font size, for plain and for bold letters.
 const LETTER: [f64; 2] = [0.58, 0.64];
 
-/// A place on the paper.
+/// A point of the figure: coordinates to the right and downwards from the upper left corner.
 pub(crate) type PaperPoint = [f64; 2];
 
-/// Left, top, right and bottom of a rectangle.
+/// A rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Area {
-    /// Smallest coordinates.
+    /// Left and upper sides.
     pub low: PaperPoint,
-    /// Largest coordinates.
+    /// Right and lower sides.
     pub high: PaperPoint,
 }
 
-/// How lines and areas are drawn; everything is off in the default.
+/// The style of lines and areas; by default nothing is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Style {
     fill: Option<Colour>,
@@ -27,10 +27,10 @@ pub(crate) struct Style {
     opacity: Option<f64>,
 }
 
-/// How words are set.
+/// The style of text.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Font {
-    /// Height.
+    /// Size of the letters.
     pub size: f64,
     pub(super) bold: bool,
     pub(super) colour: Colour,
@@ -38,7 +38,7 @@ pub(crate) struct Font {
     pub(super) turned: bool,
 }
 
-/// Which part of the words is at their place.
+/// The part of a text that is placed at its given point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -47,32 +47,33 @@ pub(super) enum Anchor {
 }
 
 impl Style {
-    /// A line.
+    /// Returns the style of a line.
     pub(crate) fn line(colour: Colour, width: f64) -> Self {
         Self { stroke: Some((colour, width)), ..Self::default() }
     }
 
-    /// An area without outline.
+    /// Returns the style of an area without outline.
     pub(crate) fn area(colour: Colour) -> Self {
         Self { fill: Some(colour), ..Self::default() }
     }
 
-    /// An area with an outline as wide as the group says in its own colour, so that no gap shows beside its neighbours.
+    /// Returns the style of an area with an outline in its own colour and of the width of the group, so that no gap is
+    /// visible between neighbours.
     pub(crate) fn tile(colour: Colour) -> Self {
         Self { fill: Some(colour), stroke: Some((colour, 0.0)), ..Self::default() }
     }
 
-    /// The same with an outline.
+    /// Adds an outline.
     pub(crate) fn outlined(self, colour: Colour, width: f64) -> Self {
         Self { stroke: Some((colour, width)), ..self }
     }
 
-    /// The same with dashes and gaps of these lengths.
+    /// Adds dashes and gaps of these lengths.
     pub(crate) fn dashed(self, dash: f64, gap: f64) -> Self {
         Self { dash: Some([dash, gap]), ..self }
     }
 
-    /// The same, so that what is below shows through.
+    /// Sets the opacity, from 0 (invisible) to 1.
     pub(crate) fn opacity(self, opacity: f64) -> Self {
         Self { opacity: Some(opacity), ..self }
     }
@@ -98,44 +99,44 @@ impl Display for Style {
 }
 
 impl Font {
-    /// Words beside axes and in legends.
+    /// Text next to axes and in legends.
     pub(crate) const LABEL: Self = Self { size: 19.0, bold: false, colour: INK, anchor: Anchor::Start, turned: false };
-    /// Smaller words beside points.
+    /// Smaller text, for example next to points.
     pub(crate) const SMALL: Self = Self { size: 16.0, ..Self::LABEL };
     pub(super) const TITLE: Self = Self { size: 23.0, bold: true, ..Self::LABEL };
     pub(super) const STATE: Self = Self { size: 18.0, colour: GREY, ..Self::LABEL };
 
-    /// The same in heavy letters.
+    /// Returns the font with bold letters.
     pub(crate) fn bold(self) -> Self {
         Self { bold: true, ..self }
     }
 
-    /// The same in another colour.
+    /// Returns the font in another colour.
     pub(crate) fn colour(self, colour: Colour) -> Self {
         Self { colour, ..self }
     }
 
-    /// The same with the middle of the words at their place.
+    /// Returns the font with the middle of the text at its point.
     pub(crate) fn middle(self) -> Self {
         Self { anchor: Anchor::Middle, ..self }
     }
 
-    /// The same with the end of the words at their place.
+    /// Returns the font with the end of the text at its point.
     pub(crate) fn end(self) -> Self {
         Self { anchor: Anchor::End, ..self }
     }
 
-    /// The same, read from below to above.
+    /// Returns the font turned, so that the text is read upwards.
     pub(crate) fn turned(self) -> Self {
         Self { turned: true, ..self }
     }
 
-    /// Width of words, at most.
+    /// Returns an upper bound of the width of a text.
     pub(crate) fn width(&self, words: &str) -> f64 {
         words.chars().count() as f64 * self.size * LETTER[usize::from(self.bold)]
     }
 
-    /// Where words are whose foot is at a place.
+    /// Returns the area of a text placed at a point.
     pub(super) fn area(&self, [x, y]: PaperPoint, words: &str) -> Area {
         let width = self.width(words);
         let before = match self.anchor {
@@ -152,26 +153,26 @@ impl Font {
 }
 
 impl Area {
-    /// The rectangle around a place.
+    /// Returns the square of half-side `radius` around a point.
     pub(crate) fn around([x, y]: PaperPoint, radius: f64) -> Self {
         Self { low: [x - radius, y - radius], high: [x + radius, y + radius] }
     }
 
-    /// Common part of two rectangles.
+    /// Returns the area that two rectangles have in common.
     pub(super) fn common(&self, other: &Self) -> f64 {
         let side = |k: usize| (self.high[k].min(other.high[k]) - self.low[k].max(other.low[k])).max(0.0);
         side(0) * side(1)
     }
 }
 
-/// Text as it stands in XML and HTML, without the characters that neither allows.
+/// Escapes a text for XML and HTML, without the characters that neither allows.
 pub fn escaped(text: &str) -> String {
     let allowed = text.chars().filter(|c| !c.is_control() || matches!(c, '\t' | '\n' | '\r'));
     let allowed: String = allowed.filter(|c| !matches!(c, '\u{fffe}' | '\u{ffff}')).collect();
     allowed.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A number with at most some decimals, without zeros at its end.
+/// A number that is written with at most the given number of decimals, without trailing zeros.
 pub(super) struct Short(pub f64, pub usize);
 
 impl Display for Short {

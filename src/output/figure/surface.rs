@@ -1,9 +1,11 @@
-//! A surface of folded states, or trajectories alone: strain space seen obliquely, coloured by signed curvature.
+//! Figure of a surface of folded states, or of trajectories alone: an oblique view of the space of lattice strains,
+//! coloured by signed curvature.
 //!
-//! Every axis is scaled to its own range; the eye is on the side of the box on which the drawn state is. Violet is negative
-//! curvature, orange positive, pale none. Paths on a surface are dark; without a surface they have the colours, and their
-//! projections are on the floor of the box. Where states of equal strain and opposite curvature would hide each other
-//! (a sheet and its mirror image, say), those of positive and of negative curvature are drawn side by side.
+//! Every axis is scaled to its own range; the eye is on the side of the box where the drawn state is. Violet means
+//! negative curvature, orange positive, pale zero. Trajectories on a surface are dark; without a surface they have the
+//! colours of their curvatures, and their projections are drawn on the floor of the box. If states of equal strain and
+//! opposite curvature would hide each other (for example a sheet and its mirror image), the states of positive and of
+//! negative curvature are drawn side by side.
 
 use std::collections::HashMap;
 
@@ -18,34 +20,35 @@ use crate::output::StrainSurface;
 use crate::output::fault::ShapeError;
 
 const AXES: [&str; 3] = ["strain11", "strain22", "strain12"];
-/// Extents of strain over the largest one that are rounding, and those that are whatever the others are.
+/// Ranges of strain that count as rounding errors: relative to the largest range, and absolute.
 const STRAIN_NOISE: [f64; 2] = [1e-7, 1e-12];
-/// Rotations from a cell to the next, in radians, that are rounding: curvature times the length of a cell.
+/// Rotation angle from a cell to the next (curvature times the length of a cell), in radians, that counts as rounding
+/// error.
 const TURN_NOISE: f64 = 1e-9;
-/// Mean of the parts of the palest colour of a line.
+/// Mean of the colour components of the palest line.
 const PALEST: f64 = 185.0;
-/// How much nearer to the eye paths on a surface are than it, in sides of the box.
+/// Distance, in sides of the box, by which trajectories on a surface are drawn nearer to the eye than the surface.
 const LIFT: f64 = 0.008;
-/// Curvatures over the largest one that have no side.
+/// Curvature relative to the largest one below which a state counts neither as positive nor as negative.
 const NO_SIDE: f64 = 0.05;
-/// Part of the states on both sides that has to lie on states of the other one where they are drawn side by side.
+/// Least fraction of the states of each sign that lies on states of the other sign if both are drawn side by side.
 const HIDDEN: f64 = 0.25;
 
-/// A state on a path.
+/// A state on a trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
-    /// `(strain11, strain22, strain12)`.
+    /// Lattice strains `(strain11, strain22, strain12)`.
     pub strain: Vec3,
     /// Signed curvature.
     pub curvature: f64,
-    /// The larger of the rotation angles from a cell to the next, in radians.
+    /// The larger of the two rotation angles from a cell to the next, in radians.
     pub turn: f64,
 }
 
-/// The figure of a surface with paths on it, or of paths alone where the surface is empty.
+/// Returns the figure of a surface with trajectories on it, or of trajectories alone if the surface is empty.
 ///
 /// # Errors
-/// The first array of the surface that does not fit.
+/// The first inconsistent array of the surface.
 pub fn svg(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption) -> Result<String, ShapeError> {
     surface.check()?;
     Ok(drawn(surface, paths, caption).finish())
@@ -70,11 +73,11 @@ fn drawn(surface: &StrainSurface, paths: &[Vec<PathPoint>], caption: &Caption) -
     canvas
 }
 
-/// Where panels are.
+/// Positions of the panels and the colour bar.
 struct Layout {
     height: f64,
     middles: &'static [PaperPoint],
-    /// Paper per side of the box.
+    /// Length of a side of the box in the figure.
     scale: f64,
     bar: Area,
 }
@@ -92,7 +95,7 @@ const TWO: Layout = Layout {
     bar: Area { low: [1100.0, 230.0], high: [1118.0, 530.0] },
 };
 
-/// Which states a panel shows.
+/// The states that a panel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Both,
@@ -118,19 +121,19 @@ impl Side {
     }
 }
 
-/// A piece of a path in the box: its ends and its mean curvature.
+/// A segment of a trajectory in the box: its ends and its mean curvature.
 type Stretch = ([Vec3; 2], f64);
 
-/// States in their box, whose sides have length 1 and whose middle is 0.
+/// The states in a box with sides of length 1 and its centre at 0.
 struct Scene<'a> {
     axes: [Axis; 3],
     view: Projection,
-    /// On which side of x and of y the eye is, 0.5 or -0.5; above in z.
+    /// Coordinates x and y, 0.5 or -0.5, of the sides of the box that face the eye; the eye is above the box.
     near: [f64; 2],
     surface: &'a StrainSurface,
     places: Vec<Vec3>,
     stretches: Vec<Stretch>,
-    /// The largest curvature in magnitude; where it is rounding, a bound on it.
+    /// Largest magnitude of the curvature; if all curvatures are rounding errors, `Err` with a bound on them.
     largest: Result<f64, f64>,
 }
 
@@ -156,17 +159,17 @@ impl<'a> Scene<'a> {
         Self { view: Projection::axonometric(near.map(f64::signum)), axes, near, surface, places, stretches, largest }
     }
 
-    /// The part of a curvature of the largest one.
+    /// Returns a curvature relative to the largest one.
     fn part(&self, curvature: f64) -> f64 {
         self.largest.map_or(0.0, |largest| curvature / largest.max(f64::MIN_POSITIVE))
     }
 
-    /// The mean curvature of a triangle.
+    /// Returns the mean curvature of a triangle.
     fn curvature(&self, triangle: &[usize; 3]) -> f64 {
         one_sided_mean(&triangle.map(|point| self.surface.curvature[point]))
     }
 
-    /// Whether much of what has positive and of what has negative curvature is at the same strains.
+    /// Whether many states of positive and of negative curvature are at the same strains.
     fn covers_itself(&self) -> bool {
         let ends = self.stretches.iter().flat_map(|([a, _], curvature)| [(*a, *curvature)]);
         let states = self.places.iter().copied().zip(self.surface.curvature.iter().copied()).chain(ends);
@@ -180,7 +183,7 @@ impl<'a> Scene<'a> {
         !up.is_empty() && !down.is_empty() && part(&up, &down) && part(&down, &up)
     }
 
-    /// Triangles and stretches of paths of one side, from back to front, and the drawn state.
+    /// Draws the triangles and segments of one sign of curvature from back to front, and the drawn state.
     fn paint(&self, canvas: &mut Canvas, panel: &Panel<'_>, side: Side) {
         let alone = self.surface.triangles.is_empty();
         let lift = self.view.toward * if alone { 0.0 } else { LIFT };
@@ -204,7 +207,7 @@ impl<'a> Scene<'a> {
                 Some(_) => canvas.line(&places, Style::line(INK, 2.4)),
             }
         }
-        // what of the paths is behind the surface, faintly
+        // the hidden parts of trajectories, faint
         for (ends, _) in stretches.iter().filter(|_| !alone) {
             canvas.line(&ends.map(|end| panel.at(end)), Style::line(INK, 1.3).opacity(0.4));
         }
@@ -213,7 +216,7 @@ impl<'a> Scene<'a> {
         canvas.circle(drawn, 6.0, Style::area(INK).outlined(PAPER, 1.5));
     }
 
-    /// The colour of a triangle, darker where it is not turned to the light.
+    /// Returns the colour of a triangle, darker if it faces away from the light.
     fn lit(&self, triangle: &[usize; 3]) -> Colour {
         let Projection { toward, up, right, .. } = self.view;
         let [a, b, c] = triangle.map(|point| self.places[point]);
@@ -224,13 +227,13 @@ impl<'a> Scene<'a> {
         colour.darker(0.78 + 0.22 * facing.dot(&light).max(0.0))
     }
 
-    /// The colour of a line: darker where it would be too pale for paper.
+    /// Returns the colour of a line, darkened if it would be too pale on paper.
     fn shade(&self, curvature: f64) -> Colour {
         let full = CURVATURE.at(0.5 + 0.5 * self.part(curvature));
         full.darker((PALEST / full.brightness()).min(1.0))
     }
 
-    /// The scale of colours, where there are curvatures.
+    /// Draws the colour bar, unless all curvatures are rounding errors.
     fn bar(&self, canvas: &mut Canvas, area: Area) {
         if let Ok(largest) = self.largest {
             let (unit, words) = unit(largest);
@@ -263,7 +266,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// The axes around all finite strains, the drawn state included.
+/// Returns the axes that include all finite strains and the drawn state.
 fn axes_around<I: Iterator<Item = Vec3>>(strains: impl Fn() -> I) -> [Axis; 3] {
     let finite = || strains().filter(|strain| strain.iter().all(|x| x.is_finite())).chain([Vec3::zeros()]);
     let extent = |k: usize| {
@@ -275,7 +278,7 @@ fn axes_around<I: Iterator<Item = Vec3>>(strains: impl Fn() -> I) -> [Axis; 3] {
     [0, 1, 2].map(|k| Axis::around(Scale::Linear, finite().map(|strain| strain[k]), noise))
 }
 
-/// How many of some states have one of the others nearer than a distance.
+/// Returns the number of `states` that have one of the `others` within the distance `near`.
 fn on_others(states: &[(Vec3, f64)], others: &[(Vec3, f64)], near: f64) -> f64 {
     let cube = |place: &Vec3| [0, 1, 2].map(|k| (place[k] / near.max(f64::MIN_POSITIVE)).floor() as i64);
     let mut cubes: HashMap<[i64; 3], Vec<Vec3>> = HashMap::new();
@@ -289,8 +292,8 @@ fn on_others(states: &[(Vec3, f64)], others: &[(Vec3, f64)], near: f64) -> f64 {
     states.iter().filter(|(place, _)| is_on(place)).count() as f64
 }
 
-/// The mean of neighbouring curvatures; where their sign jumps, that is changes while none of them is small against the
-/// others, of those that have the sign of most.
+/// Returns the mean of neighbouring curvatures. If their sign jumps, that is, if it changes and none of them is small
+/// compared with the others, it is the mean of those of the more frequent sign.
 fn one_sided_mean(curvatures: &[f64]) -> f64 {
     let mean = |chosen: &[f64]| chosen.iter().sum::<f64>() / chosen.len() as f64;
     let (least, most) = curvatures.iter().fold((f64::INFINITY, 0.0f64), |(a, b), k| (a.min(k.abs()), b.max(k.abs())));
@@ -301,7 +304,7 @@ fn one_sided_mean(curvatures: &[f64]) -> f64 {
     mean(if up.len() >= down.len() { &up } else { &down })
 }
 
-/// A box on the paper.
+/// A panel: the box in the figure.
 struct Panel<'a> {
     axes: &'a [Axis; 3],
     view: Projection,
@@ -311,18 +314,18 @@ struct Panel<'a> {
 }
 
 impl Panel<'_> {
-    /// Where a place of the box is.
+    /// Returns the point of the figure for a point of the box.
     fn at(&self, boxed: Vec3) -> PaperPoint {
         self.on_paper(&Vec3::from(self.view.place(&boxed)))
     }
 
-    /// Where a place is that is given by right, up and towards the eye.
+    /// Returns the point of the figure for coordinates `(right, up, towards the eye)`.
     fn on_paper(&self, place: &Vec3) -> PaperPoint {
         [self.middle[0] + self.scale * place.x, self.middle[1] - self.scale * place.y]
     }
 }
 
-/// The three far sides of the box with their grids.
+/// Draws the three far sides of the box with their grids.
 fn panes(canvas: &mut Canvas, panel: &Panel<'_>) {
     let [near_x, near_y] = panel.near;
     for (flat, side) in [(0, -near_x), (1, -near_y), (2, -0.5)] {
@@ -343,12 +346,12 @@ fn panes(canvas: &mut Canvas, panel: &Panel<'_>) {
     }
 }
 
-/// Numbers and names at three edges of the box: the two nearest ones of its floor, and the left one.
+/// Draws labels and names at three edges of the box: the two nearest edges of its floor, and the left vertical one.
 fn axes(canvas: &mut Canvas, panel: &Panel<'_>) {
     let [x, y] = panel.near;
     let right = |[x, y]: &[f64; 2]| panel.at(Vec3::new(*x, *y, 0.0))[0];
     let left = if right(&[x, -y]) < right(&[-x, y]) { [x, -y] } else { [-x, y] };
-    // where each axis begins
+    // the start of each axis
     let starts = [Vec3::new(-0.5, y, -0.5), Vec3::new(x, -0.5, -0.5), Vec3::new(left[0], left[1], -0.5)];
     let centre = panel.at(Vec3::new(0.0, 0.0, -0.5));
     let (mut names, paper) = (Vec::new(), canvas.paper());
@@ -379,7 +382,7 @@ fn axes(canvas: &mut Canvas, panel: &Panel<'_>) {
             canvas.text_within(paper, [([top[0], top[1] - 16.0], font)], &name);
             continue;
         }
-        // as near to the axis as the numbers leave room
+        // as near to the axis as the labels allow
         let away = (11..30).map(|k| 8.0 * f64::from(k));
         let places = away.map(|away| [middle[0] + away * off[0], middle[1] + 0.8 * away * off[1] + 6.0]);
         canvas.text_within(paper, places.map(|place| (place, font)), &name);
@@ -399,7 +402,7 @@ mod tests {
         text.lines().filter(|line| line.contains(what)).count()
     }
 
-    /// How many triangles are painted.
+    /// Returns the number of triangles that are painted.
     fn faces(text: &str) -> usize {
         let triangles = text.lines().filter(|line| line.contains("Z\" fill=") && line.matches(' ').count() == 8);
         triangles.filter(|line| line.contains("stroke=")).count()
@@ -413,8 +416,8 @@ mod tests {
         svg(&StrainSurface::default(), paths, &caption("")).unwrap()
     }
 
-    /// Claim: every triangle and every piece of a path is painted once, the same picture gives the same bytes, and axes
-    /// and scale have their names and numbers, none on another.
+    /// Claim: every triangle and every segment is painted once, equal data give equal bytes, and axes and colour bar
+    /// have their names and labels, without overlaps.
     #[test]
     fn everything_is_drawn_once() {
         let surface = samples::cap(5);
@@ -436,7 +439,7 @@ mod tests {
         assert!(svg(&wrong, &[], &caption("")).is_err());
     }
 
-    /// Claim: what is nearer to the eye is painted later.
+    /// Claim: triangles nearer to the eye are painted later.
     #[test]
     fn near_triangles_cover_far_ones() {
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
@@ -454,8 +457,8 @@ mod tests {
         assert!(place(1) < place(0), "the upper one is painted last");
     }
 
-    /// Claim: curvatures and strains that are rounding are drawn as zero, which the legend says with their size, and nothing is
-    /// coloured by them; those that are small and no rounding are drawn as they are.
+    /// Claim: curvatures and strains that are rounding errors are drawn as zero, are not coloured, and the legend gives
+    /// their size; values that are small but above rounding are drawn.
     #[test]
     fn rounding_is_drawn_as_zero() {
         let path: Vec<PathPoint> =
@@ -476,8 +479,8 @@ mod tests {
         assert!(colours(&alone(&[small])).len() > 3);
     }
 
-    /// Claim: two sheets of equal strain and opposite curvature stand side by side, each triangle once and in the panel of its
-    /// sign; sheets of opposite curvature at different strains stay in one picture.
+    /// Claim: two surfaces of equal strain and opposite curvature are drawn side by side, each triangle once and in the
+    /// panel of its sign; surfaces of opposite curvature at different strains are drawn in one panel.
     #[test]
     fn coincident_sheets_are_apart() {
         let one = StrainSurface { curvature: vec![0.5; 25], ..samples::cap(5) };
@@ -501,7 +504,8 @@ mod tests {
         assert!(alone(&both).contains("side by side"));
     }
 
-    /// Claim: points that are no numbers spoil nothing else, and a surface without points is a picture too.
+    /// Claim: points that are not finite are left out, and the rest is drawn; a surface without points gives a figure
+    /// too.
     #[test]
     fn what_is_not_finite_is_left_out() {
         let mut surface = samples::cap(3);
@@ -512,7 +516,7 @@ mod tests {
         }
     }
 
-    /// Claim: where neighbours have opposite curvatures and none of them is small, they have no mean that is small.
+    /// Claim: neighbouring curvatures of opposite signs, none of them small, do not average to a small value.
     #[test]
     fn jumps() {
         assert_eq!(one_sided_mean(&[1.75, -1.73]), 1.75);

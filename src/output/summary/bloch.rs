@@ -1,4 +1,4 @@
-//! What a study of kind `bloch` says in the summary.
+//! The results of a study of kind `bloch` in the summary.
 
 use super::keys;
 use schemars::JsonSchema;

@@ -1,4 +1,4 @@
-//! What a study of kind `branches` says in the summary.
+//! The results of a study of kind `branches` in the summary.
 
 use super::keys;
 use schemars::JsonSchema;

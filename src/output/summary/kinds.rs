@@ -1,4 +1,4 @@
-//! The kinds of study in the schema: which keys belong to which.
+//! The kinds of study in the JSON schema, and the keys that belong to each kind.
 
 use super::{
     BlochSummary, BranchesSummary, LandscapeSummary, ModesSummary, RelaxSummary, SurfaceSummary, TraceSummary,
@@ -7,7 +7,7 @@ use super::{
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::json;
 
-/// The kinds of studies, and the schema of what each has to say.
+/// A function that returns the schema of the results of a kind of study.
 type Answer = fn(&mut SchemaGenerator) -> Schema;
 const ANSWERS: [(&str, Answer); 8] = [
     ("relax", RelaxSummary::json_schema),
@@ -20,12 +20,13 @@ const ANSWERS: [(&str, Answer); 8] = [
     ("wells", WellsSummary::json_schema),
 ];
 
-/// The kind of a study.
+/// Returns the schema of the name of a kind of study.
 pub(crate) fn kind(_: &mut SchemaGenerator) -> Schema {
     json_schema!({ "enum": ANSWERS.map(|(kind, _)| kind) })
 }
 
-/// What a study has beside the keys of all: the keys of its kind where it converged, or has the first of them.
+/// Returns the schema of the keys that a study has in addition to the common ones: those of its kind, if it converged
+/// or has the first of them.
 pub(crate) fn answers(generator: &mut SchemaGenerator) -> Schema {
     let by_kind = ANSWERS.map(|(kind, answer)| {
         let answer = answer(generator);

@@ -1,4 +1,4 @@
-//! What a study of kind `landscape` says in the summary.
+//! The results of a study of kind `landscape` in the summary.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

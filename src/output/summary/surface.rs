@@ -1,4 +1,4 @@
-//! What a study of kind `surface` says in the summary.
+//! The results of a study of kind `surface` in the summary.
 
 use super::keys;
 use schemars::JsonSchema;

@@ -1,4 +1,4 @@
-//! What a study of kind `wells` says in the summary.
+//! The results of a study of kind `wells` in the summary.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

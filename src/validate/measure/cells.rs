@@ -1,6 +1,6 @@
-//! A hundred thousand cells: a pleated Yoshimura pattern folded further, against its closed form.
+//! A hundred thousand cells: a pleated Yoshimura pattern that is folded further, compared with its closed form.
 //!
-//! Two vertices a cell, the fewest of a cell that is not flat: Miura-ori, with four, takes several times as long.
+//! The cell has two vertices, the fewest of a cell that is not flat; Miura-ori, with four, takes several times as long.
 
 use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::report::figure;
@@ -15,18 +15,19 @@ use foldwell::solver::Options;
 use serde_json::json;
 use std::time::Instant;
 
-/// The last has 100,172 cells.
+/// Sizes; the last one has 100,172 cells.
 const CELLS: [[usize; 2]; 4] = [[10, 10], [32, 32], [100, 100], [316, 317]];
-/// Slopes of the rows in radians, as drawn and where the creases rest.
+/// Slopes of the rows in radians, in the drawn state and in the state of rest.
 const DRAWN: f64 = 0.5;
 const RESTING: f64 = 0.55;
-/// Of the force of a milliradian. In coordinates of up to 632 a last place, 1e-13, makes 1e-10 of it.
+/// Tolerance, relative to the force of a milliradian. In coordinates of up to 632 the last digit, 1e-13, gives 1e-10 of
+/// it.
 const TOLERANCE: f64 = 1e-9;
 
-/// A patch with rigid bars whose creases rest as those of a steeper one.
+/// A patch with rigid bars whose rest angles are those of steeper pleats.
 struct Pleats {
     model: Model,
-    /// Rest angle of every edge, in radians; NaN where there is no hinge.
+    /// Rest angle of every edge, in radians; NaN for edges without a hinge.
     rest: Vec<f64>,
 }
 
@@ -35,13 +36,13 @@ struct Size {
     cells: [usize; 2],
     unknowns: usize,
     found: Relaxed,
-    /// Largest difference of a fold angle to the closed form, in radians.
+    /// Largest difference of a fold angle from the closed form, in radians.
     error: f64,
     seconds: f64,
 }
 
-/// Relaxes patches whose creases rest where steeper pleats have them. No bar has to change its length for that, so they have
-/// to end there, without any energy.
+/// Relaxes patches whose rest angles are those of steeper pleats. These can be reached without a change of the length
+/// of any bar, so that the patches must end there with zero energy.
 pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut sizes = Vec::new();
     for (step, cells) in CELLS.into_iter().enumerate() {
@@ -85,8 +86,8 @@ impl Pleats {
     }
 }
 
-/// Fold angles of a cell with rows of this slope: bases of the triangles, from a vertex to its own copy, twice the slope, valleys
-/// and mountains as drawn; legs flat.
+/// Returns the fold angles of a cell whose rows have this slope: twice the slope for the bases of the triangles (edges
+/// from a vertex to its own copy), with the signs of the drawn state; zero for the legs.
 fn closed_form(sheet: &Sheet, slope: f64) -> Vec<f64> {
     let drawn = |edge| sheet.drawn_angle(edge).map_or(f64::NAN, f64::signum);
     let angle = |edge| 2.0 * slope * drawn(edge);
@@ -112,8 +113,8 @@ fn table(sizes: &[Size]) -> ReportTable {
 mod tests {
     use super::*;
 
-    /// Claim: the closed form gives the angles that the generator draws, from coordinates, at any slope. Tolerance: rounding.
-    /// And a small patch ends there.
+    /// Claim: at any slope, the closed form gives the angles of the generated coordinates, to rounding errors; and a
+    /// small patch ends there.
     #[test]
     fn pleats_rest_where_steeper_ones_are_drawn() {
         for fold in [0.05, 0.5, 1.5] {

@@ -1,4 +1,4 @@
-//! Measurements: experiments that no scene describes. One idea a file.
+//! Measurements: experiments that cannot be described by a scene, one in each file.
 
 use super::findings::{Bench, ExperimentError, Findings};
 
@@ -25,7 +25,7 @@ const MEASUREMENTS: &[(&str, Measurement)] = &[
     ("tolerance", tolerance::measure),
 ];
 
-/// The measurement of this name.
+/// Returns the measurement of this name.
 pub(crate) fn find(name: &str) -> Option<Measurement> {
     MEASUREMENTS.iter().find(|(known, _)| *known == name).map(|(_, measurement)| *measurement)
 }

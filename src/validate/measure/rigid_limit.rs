@@ -1,8 +1,10 @@
-//! How a sheet with stiff bars comes to the rigid one: distance and energy, against what first order in `1/k` predicts.
+//! The rigid limit: distance and energy of a sheet with stiff bars relative to the rigid sheet, compared with the
+//! prediction to first order in `1/k`.
 //!
-//! Let `t` be the tensions of the rigid state, `H` its Hessian, `R` the Jacobian of its lengths and `c/k` their compliances. To
-//! first order in `1/k` the state moves by `dx / k`, where `H dx + R^T dt = 0` and `R dx = c t`, and its energy falls by
-//! `sum(c t^2) / 2k`, which is also what the bars then store. One linear solve at the rigid state, no stiffness in it.
+//! Let `t` be the tensions of the rigid state, `H` its Hessian, `R` the Jacobian of its lengths and `c/k` their
+//! compliances. To first order in `1/k` the state moves by `dx / k`, where `H dx + R^T dt = 0` and `R dx = c t`, and
+//! its energy falls by `sum(c t^2) / 2k`, which is also the energy of the bars. The prediction takes one linear solve
+//! at the rigid state, and contains no stiffness.
 
 use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::report::figure;
@@ -16,35 +18,35 @@ use serde_json::json;
 use std::ops::RangeInclusive;
 
 const CELLS: [usize; 3] = [6, 12, 24];
-/// One more size where there is time.
+/// Additional size, left out by `--quick`.
 const MORE: usize = 48;
-/// Decades of the stiffness, from stiff to soft.
+/// Decades of the stiffness.
 const DECADES: RangeInclusive<i32> = 2..=16;
-/// From this stiffness on each sheet is relaxed from the drawn state: within the tolerance, the rigid state and the state of
-/// the next stiffness are solutions too, and a start from there would say nothing.
+/// Stiffness from which on each sheet is relaxed from the drawn state: the rigid state and the state of the next
+/// stiffness are then solutions within the tolerance, and a start from them would test nothing.
 const STIFFNESS_STARTED_AS_DRAWN: f64 = 1e9;
-/// Largest deviation of a rest angle from the drawn one, in radians.
+/// Largest difference of a rest angle from the drawn angle, in radians.
 const OFF: f64 = 0.1;
-/// The law has set in where what it predicts is met to this.
+/// Relative deviation from the prediction up to which it counts as met.
 const LAW_TOLERANCE: f64 = 0.01;
-/// Up to this stiffness the fall of the total energy is well above its rounding error.
+/// Largest stiffness at which the decrease of the total energy is well above its rounding error.
 const ENERGY_SEEN: f64 = 1e10;
 
-/// First order in `1/k`.
+/// The prediction to first order in `1/k`.
 struct Law {
     /// Stiffness times the largest change of a fold angle.
     distance: f64,
-    /// Stiffness times what the energy falls by.
+    /// Stiffness times the decrease of the energy.
     energy: f64,
 }
 
-/// A state at a finite stiffness, each number over what the law says.
+/// The state at a finite stiffness; all numbers but the stiffness are relative to their predictions.
 struct Reached {
     stiffness: f64,
     distance: f64,
-    /// What the energy is below that of the rigid state.
+    /// Decrease of the energy from that of the rigid state.
     fall: f64,
-    /// What the bars store.
+    /// Energy of the bars.
     bars: f64,
 }
 
@@ -55,8 +57,9 @@ struct Size {
     reached: Vec<Reached>,
 }
 
-/// Patches of the reference cell, every hinge with a rest angle of its own within 0.1 rad of the drawn one, from rigid down to a
-/// stiffness of 100; below [`STIFFNESS_STARTED_AS_DRAWN`] each state starts from the one before, so that it is the same minimum.
+/// Relaxes patches of the reference cell, whose rest angles are within 0.1 rad of the drawn angles and differ from cell
+/// to cell, at stiffnesses from infinity down to 100. Below [`STIFFNESS_STARTED_AS_DRAWN`] each state starts from the
+/// one before, so that it is the same minimum.
 pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let cells: Vec<usize> = CELLS.into_iter().chain((!bench.quick).then_some(MORE)).collect();
     let mut sizes = Vec::new();
@@ -99,7 +102,7 @@ fn size(n: usize) -> Result<Size, ExperimentError> {
     Ok(Size { cells: n, law, reached })
 }
 
-/// From the rigid state and, for the compliances of the bars, the model with stiffness 1.
+/// Computes the prediction. `unit` is the model with stiffness 1, for the compliances of the bars.
 fn law(model: &Model, unit: &Model, rigid: &Relaxed) -> Result<Law, ExperimentError> {
     let failed = |_| ExperimentError::Other("the rigid state has no inverse".into());
     let mut tangent = Tangent::at_state(model, &rigid.x, &rigid.tension, HessianKind::Full).map_err(failed)?;
@@ -112,7 +115,8 @@ fn law(model: &Model, unit: &Model, rigid: &Relaxed) -> Result<Law, ExperimentEr
     })
 }
 
-/// The least stiffness from which on, up to [`ENERGY_SEEN`], a number stays within [`LAW_TOLERANCE`] of the law.
+/// Returns the least stiffness such that from there up to [`ENERGY_SEEN`] a number stays within [`LAW_TOLERANCE`] of
+/// its prediction.
 fn sets_in(reached: &[Reached], of: fn(&Reached) -> f64) -> f64 {
     let seen = reached.iter().skip_while(|r| r.stiffness > ENERGY_SEEN);
     let met = seen.take_while(|r| (of(r) - 1.0).abs() <= LAW_TOLERANCE);

@@ -1,4 +1,4 @@
-//! What the length of a step and the degree of its interpolant buy when a trajectory is followed.
+//! Error and run time of a trajectory against the length of its steps and the degree of its interpolant.
 
 use super::super::findings::{Bench, ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
@@ -11,19 +11,21 @@ use serde_json::json;
 use std::f64::consts::TAU;
 
 const STEPS: [f64; 6] = [0.2, 0.1, 0.05, 0.025, 0.0125, 0.006_25];
-/// Points of the interpolants; the program takes the second.
+/// Numbers of points of the interpolants; the program uses the second.
 const POINTS: [usize; 3] = [2, 3, 4];
 const USUAL: usize = 1;
-/// The step of the trajectory that the others are compared with.
+/// Step of the trajectory with which the others are compared.
 const REFERENCE: f64 = 0.003;
-/// The steps between which the order of the usual interpolant is read off: longer ones the program shortens itself, below are
-/// rounding errors. Degree three has not settled by then, degree seven is all rounding.
+/// Indices of the steps between which the order of the usual interpolant is determined: longer steps are shortened by
+/// the program, and the errors of shorter ones are rounding errors. With degree three the order has not settled at
+/// these steps, and with degree seven all errors are rounding errors.
 const ASYMPTOTIC: [usize; 2] = [2, 4];
 const ROUNDS: usize = 3;
 
-/// Follows the shorter loop of the reference cell, about 9.93 rad long, with steps of at most this length and interpolants of degree
-/// three, five and seven. Every point lies on the curve to 3e-14 whatever they are; what depends on them is the integral of the
-/// arc length. Its error is measured against a trajectory followed with steps of 0.003.
+/// Follows the shorter loop of the reference cell, about 9.93 rad long, with steps of at most each length and
+/// interpolants of degree three, five and seven. All points lie on the curve within 3e-14 in every case; only the
+/// integral of the arc length depends on steps and degree. Its error is measured against a trajectory followed with
+/// steps of 0.003.
 pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let mut short = Short::new()?;
     let reference = short.length(REFERENCE, POINTS[USUAL])?;
@@ -74,7 +76,7 @@ impl Short {
         Ok(Self { closure: closure.with_locked(&cell.locked_edges()), angles, direction })
     }
 
-    /// Its length.
+    /// Returns the length of the loop.
     fn length(&mut self, max_step: f64, points: usize) -> Result<f64, ExperimentError> {
         let mut closing = Closing::new(&self.closure, self.angles.clone());
         let [start, leaving] = [&self.angles, &self.direction].map(|all| closing.folding(all));

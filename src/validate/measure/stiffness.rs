@@ -1,4 +1,5 @@
-//! What a stiffness buys and costs: the program's tension form beside a plain penalty and the augmented form.
+//! Error and run time against the stiffness of bars, for the program's tension form, a plain penalty and the augmented
+//! form.
 
 use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
@@ -13,25 +14,27 @@ use foldwell::solver::Options;
 use serde_json::json;
 
 const STIFFNESSES: [f64; 9] = [1e2, 1e4, 1e6, 1e8, 1e10, 1e12, 1e14, 1e16, f64::INFINITY];
-/// The stiffness whose cost others are compared with.
+/// Index of the stiffness with which the run times of others are compared.
 const MODERATE: usize = 1;
-/// Cells a side: as many as the dense exact solver takes.
+/// Number of cells along each side, the largest that the dense exact solver accepts.
 const CELLS: usize = 5;
-/// Weight of the augmented form over the stiffness of the creases.
+/// Weight of the augmented form relative to the stiffness of the creases.
 const WEIGHT: f64 = 1e4;
 const ROUNDS: usize = 5;
 
-/// What a form reached at a stiffness.
+/// The result of a form at a stiffness.
 struct Reached {
     angles: Vec<f64>,
     residual: f64,
     iterations: usize,
 }
 
-/// Relaxes 5 x 5 cells with random rest angles (within 0.1 rad) from the drawn state at every stiffness by the three forms.
-/// The error is the largest difference of a fold angle to the exact kinematics of rigid faces: for one who wants those, the stiffness is
-/// a setting, and the error falls as one over it until the form fails. The residual is what is left of force and length,
-/// scaled: that has to be small at every stiffness.
+/// Relaxes 5 x 5 cells with random rest angles (within 0.1 rad) from the drawn state at every stiffness by the three
+/// forms.
+///
+/// The error is the largest difference of a fold angle from the exact kinematics of rigid faces. To a user who wants
+/// rigid faces the stiffness is a parameter of the method, and the error decreases as one over it until the form fails.
+/// The residual is the larger one of the scaled residuals of force and length, which must be small at every stiffness.
 pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let star = Star::new([CELLS, CELLS], 0.1)?;
     let (exact, rigid_error) = exact(&star)?;
@@ -78,7 +81,8 @@ pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     Ok(Findings { values, tables, diagrams: vec![diagram], ..Findings::default() })
 }
 
-/// The rigid state, and how far the exact kinematics finds it off: others are compared with it once that is next to nothing.
+/// Returns the fold angles of the rigid state, with which other states are compared, and their error relative to the
+/// exact kinematics, which must be negligible.
 fn exact(star: &Star) -> Result<(Vec<f64>, f64), ExperimentError> {
     let mut model = star.model(f64::INFINITY);
     let angles = star.relax(&mut model, Options::default())?.state.fold_angle;
@@ -104,7 +108,7 @@ fn by_form(star: &Star, k: f64, form: Form) -> Result<Reached, ExperimentError> 
     Ok(Reached { angles: state.fold_angle, residual, iterations: found.iterations })
 }
 
-/// Seconds of every form at every stiffness; assembling the model is counted in.
+/// Returns the run time in seconds of every form at every stiffness, including the assembly of the model.
 fn times(star: &Star) -> Vec<[f64; 3]> {
     let at = |k: f64| {
         let mut work: [Box<dyn FnMut() + '_>; 3] = [
@@ -116,7 +120,7 @@ fn times(star: &Star) -> Vec<[f64; 3]> {
         [found[0], found[1], found[2]]
     };
     let mut seconds: Vec<[f64; 3]> = STIFFNESSES.into_iter().map(at).collect();
-    // once more in turns over the stiffnesses, which are compared with each other
+    // once more by turns over the stiffnesses, whose times are compared with each other
     let tension = |k: f64| Box::new(move || _ = by_tension(star, k)) as Box<dyn FnMut() + '_>;
     let in_turns = shortest(ROUNDS, &mut STIFFNESSES.map(tension));
     seconds.iter_mut().zip(in_turns).for_each(|(all, time)| all[0] = time);

@@ -1,4 +1,4 @@
-//! What a tolerance buys: relaxations of a rigid patch against the exact kinematics.
+//! Error and run time against the tolerance of relaxations of a rigid patch.
 
 use super::super::findings::{Bench, ExperimentError, Findings};
 use super::super::precision::{Diagram, Method, Setting, shortest};
@@ -9,12 +9,12 @@ use foldwell::solver::Options;
 use serde_json::json;
 
 const TOLERANCES: [f64; 8] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
-/// Cells a side: as many as the dense exact solver takes.
+/// Number of cells along each side, the largest that the dense exact solver accepts.
 const CELLS: usize = 5;
 const ROUNDS: usize = 3;
 
-/// Relaxes 5 x 5 rigid cells with random rest angles (within 0.1 rad) to each tolerance; the error is the largest difference
-/// of a fold angle to the exact equilibrium, which knows no bars.
+/// Relaxes 5 x 5 rigid cells with random rest angles (within 0.1 rad) to each tolerance. The error is the largest
+/// difference of a fold angle from the equilibrium of the exact kinematics, which does not use bars.
 pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let star = Star::new([CELLS, CELLS], 0.1)?;
     let mut settings = Vec::new();

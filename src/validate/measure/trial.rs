@@ -1,4 +1,4 @@
-//! One relaxation far from the ordinary, and a verdict on it: right, refused for a reason, or wrong.
+//! One relaxation of an extreme case, and a verdict on it: right, refused with a reason, or wrong.
 
 use super::super::forms::{self, Form};
 use foldwell::analysis::exact::error_to_kinematic;
@@ -14,67 +14,68 @@ use rand_chacha::ChaCha8Rng;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
-/// A relaxation that takes longer is taken for one that hangs.
+/// Duration after which a relaxation counts as endless.
 const PATIENCE: Duration = Duration::from_secs(60);
-/// Largest relative change of the length of a rigid bar.
+/// Largest allowed relative change of the length of a rigid bar.
 const KEPT: f64 = 1e-9;
-/// Largest residual, scaled, of an equilibrium of the augmented form.
+/// Largest scaled residual at which the augmented form counts as being in equilibrium.
 const BALANCED: f64 = 1e-9;
-/// Weight of the augmented form over the stiffness of the creases, and the difference in fold angles up to which it agrees.
+/// Weight of the augmented form relative to the stiffness of the creases, and the difference in fold angles (radians)
+/// up to which it agrees.
 const WEIGHT: f64 = 1e4;
 const AGREES: f64 = 1e-6;
 /// Seed of the random rest angles.
 const SEED: u64 = 1;
 
-/// What came of a trial.
+/// The verdict on a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum TrialVerdict {
-    /// As an independent computation says, to this error in fold angles.
+    /// The result agrees with an independent computation, with this largest difference of a fold angle.
     Right(f64),
-    /// Converged, where nothing independent is at hand.
+    /// The relaxation converged, but there is no independent result to compare with.
     Unjudged,
-    /// Refused, for this reason.
+    /// The relaxation was refused or failed, for this reason.
     Refused(String),
-    /// Anything else: a wrong number, a panic, no end.
+    /// Anything else: a wrong number, a panic, or no end.
     Wrong(String),
 }
 
-/// A sheet with bars and creases, whose creases want other angles.
+/// A sheet with bars and creases whose rest angles differ from the drawn angles.
 pub(crate) struct Trial {
     /// The cell, or the finite sheet.
     pub sheet: Sheet,
-    /// Its cells.
+    /// Numbers of cells along the two lattice vectors.
     pub cells: [usize; 2],
-    /// What surrounds them.
+    /// Boundary conditions.
     pub boundary: Boundary,
-    /// Stiffness of bars and creases; facets are rigid.
+    /// Stiffnesses of bars and of creases; facets are rigid.
     pub stiffness: [f64; 2],
-    /// Rest angles of the creases: the drawn ones and at most this much more or less, at random, in radians.
+    /// Largest difference of the random rest angles from the drawn angles, in radians.
     pub off: f64,
-    /// An edge with the angle that it has to have.
+    /// An edge and the fold angle at which it is locked.
     pub lock: Option<(usize, f64)>,
 }
 
-/// Where a trial ended.
+/// The state at which a trial ended.
 pub(crate) struct TrialResult {
-    /// Fold angle of every edge; NaN where there is no hinge.
+    /// Fold angle of every edge in radians; NaN for edges without a hinge.
     pub angles: Vec<f64>,
-    /// Largest difference of a fold angle to the exact kinematics; `None` where there is nothing to compare with.
+    /// Largest difference of a fold angle from the exact kinematics; `None` if there is nothing to compare with.
     pub to_kinematic: Option<f64>,
-    /// Largest difference of a fold angle to the augmented form's equilibrium; `None` where that finds none.
+    /// Largest difference of a fold angle from the equilibrium of the augmented form; `None` if that finds none.
     pub to_augmented: Option<f64>,
     /// Largest relative change of the length of a bar.
     pub stretch: f64,
 }
 
 impl Trial {
-    /// A patch with rigid bars and creases of 1.
+    /// Makes a patch with rigid bars and creases of stiffness 1.
     pub(crate) fn rigid(sheet: Sheet, cells: [usize; 2], off: f64) -> Self {
         let stiffness = [f64::INFINITY, 1.0];
         Self { sheet, cells, boundary: Boundary::Patch, stiffness, off, lock: None }
     }
 
-    /// The sheet with its bars, creases, rigid polygons and lock.
+    /// Assembles the sheet with its bars, creases, rigid polygons and lock.
     fn assembly(&self) -> Result<Assembly, AssemblyError> {
         let drawn = Assembly::without_terms(self.sheet.clone(), self.cells, self.boundary)?;
         let [bars, creases] = self.stiffness;
@@ -87,7 +88,7 @@ impl Trial {
         Ok(drawn.with_terms(terms).with_best_axis())
     }
 
-    /// Relaxes from the drawn state. `Err`: why not.
+    /// Relaxes from the drawn state. The error is the reason for a failure.
     pub(crate) fn run(&self) -> Result<TrialResult, String> {
         let [bars, creases] = self.stiffness;
         let assembly = self.assembly().map_err(|error| error.to_string())?;
@@ -112,8 +113,9 @@ impl Trial {
         assembly.drawn_angles().iter().map(|angle| angle + self.off * symmetric(&mut numbers)).collect()
     }
 
-    /// Whether rigid bars end at the exact kinematics to `allowed` radians; where that cannot be asked, whether they kept
-    /// their lengths. Whether soft ones end where the augmented form does, if it finds the same minimum.
+    /// For rigid bars, checks that the state agrees with the exact kinematics to `allowed` radians or, without exact
+    /// kinematics, that the bars kept their lengths. For soft bars, checks whether the state is that of the augmented
+    /// form, which may also find another minimum.
     pub(crate) fn judged(&self, allowed: f64) -> TrialVerdict {
         judge(|found| match (found.to_kinematic, found.to_augmented) {
             (Some(error), _) => within(error, allowed),
@@ -123,13 +125,13 @@ impl Trial {
         })(self)
     }
 
-    /// Whether the fold angles are these to `allowed` radians.
+    /// Checks whether the fold angles are the expected ones to `allowed` radians.
     pub(crate) fn against(&self, expected: &[f64], allowed: f64) -> TrialVerdict {
         judge(|found| within(distance(&found.angles, expected), allowed))(self)
     }
 }
 
-/// The verdict on a trial; a panic is wrong, and so is one that was cut short.
+/// Returns a function that runs a trial and gives its verdict; a panic and an endless relaxation are wrong.
 pub(crate) fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&Trial) -> TrialVerdict {
     move |trial| match catch_unwind(AssertUnwindSafe(|| trial.run())) {
         Ok(Ok(found)) => verdict(&found),
@@ -141,26 +143,27 @@ pub(crate) fn judge(verdict: impl Fn(&TrialResult) -> TrialVerdict) -> impl Fn(&
     }
 }
 
-/// Right where an error is at most `allowed`.
+/// Returns [`TrialVerdict::Right`] if the error is at most `allowed`.
 pub(crate) fn within(error: f64, allowed: f64) -> TrialVerdict {
     if error <= allowed { TrialVerdict::Right(error) } else { TrialVerdict::Wrong(format!("off by {error:.1e}")) }
 }
 
-/// Largest difference where a number is expected; NaN where there is none, where none is expected, and of lists of other lengths.
+/// Returns the largest difference where `expected` is a number; NaN if `angles` lacks one of these, if there are none,
+/// or if the lengths differ.
 pub(crate) fn distance(angles: &[f64], expected: &[f64]) -> f64 {
     let known = angles.iter().zip(expected).filter(|(_, expected)| !expected.is_nan());
     let worst = worst(known.map(|(a, b)| (a - b).abs()));
     worst.filter(|_| angles.len() == expected.len()).unwrap_or(f64::NAN)
 }
 
-/// Fold angles of the augmented form's equilibrium.
+/// Returns the fold angles of the equilibrium of the augmented form; `None` if it finds none.
 fn augmented(model: &mut Model, creases: f64) -> Option<Vec<f64>> {
     let found = forms::minimize(model, Form::Augmented(WEIGHT * creases)).ok()?;
     let balanced = found.residuals.iter().all(|residual| *residual <= BALANCED);
     balanced.then(|| State::new(model, &found.x, &found.tension).fold_angle)
 }
 
-/// Largest relative change of the length of a bar, from the points themselves.
+/// Returns the largest relative change of the length of a bar, computed from the points.
 fn stretch(model: &Model, x: &[f64]) -> f64 {
     let coordinates = model.coordinates(x);
     let bars = model.stiff().iter().filter(|term| !term.is_angle());
@@ -173,7 +176,7 @@ fn stretch(model: &Model, x: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Claim: a fold angle that is missing fails a trial wherever it stands, and so does a comparison of nothing with nothing.
+    /// Claim: a missing fold angle fails a trial wherever it is, and so does a comparison without any numbers.
     #[test]
     fn what_is_missing_is_not_right() {
         let nan = f64::NAN;

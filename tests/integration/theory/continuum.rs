@@ -1,15 +1,17 @@
-//! The coefficient of a large patch, from one cell's three modes alone.
+//! The landscape coefficient of a large patch, from the three modes of one cell only.
 //!
-//! A large patch that is bent by `a K` at every point has a strain of second order that no displacement makes, by its
-//! Gaussian curvature `a^2 K_G`. Linear modes whose amplitudes `a^2 lambda` vary over the patch make up for it: their
-//! curvature `B lambda = grad grad w` is that of a normal displacement `w`, and their lattice strain `T lambda` satisfies
+//! A large patch that is bent by `a K` at every point has a strain of second order, of its Gaussian curvature `a^2
+//! K_G`, that is not the strain of any displacement. Linear modes whose amplitudes `a^2 lambda` vary over the patch
+//! compensate it: their curvature `B lambda = grad grad w` is that of a normal displacement `w`, and their lattice
+//! strain `T lambda` satisfies
 //!
 //! `curl curl (T B^-1 grad grad w) = -K_G`.
 //!
-//! They turn the creases; what is least is `1/2 int lambda^T M lambda` over the patch, `M` the stiffness of the creases of a
-//! cell in the space of modes. All lengths scale: `n x n` cells cost `n^6` times what one parallelogram of cell size
-//! does. Here `w` is a polynomial, a sum of products of Legendre polynomials in the coordinates of the lattice, and satisfies the
-//! condition exactly (theory: curvature and strain of linear modes, compatibility of small strains).
+//! These modes fold the creases. The energy is the minimum of `1/2 int lambda^T M lambda` over the patch, with the
+//! stiffness `M` of the creases of a cell in the space of modes. All lengths scale: the energy of `n x n` cells is
+//! `n^6` times that of one parallelogram of the size of a cell. Here `w` is a polynomial, a sum of products of Legendre
+//! polynomials in the coordinates of the lattice, and satisfies the condition exactly (theory: curvature and strain of
+//! linear modes, compatibility of small strains).
 
 use super::Predicted;
 use foldwell::analysis::landscape::HeldSheet;
@@ -20,13 +22,14 @@ use foldwell::numerics::dense::full_svd;
 use foldwell::sheet::{Corner, Sheet};
 use nalgebra::{DVector, Matrix2, Matrix3};
 
-/// Singular values below this part of the largest are zero.
+/// Singular values below this fraction of the largest one count as zero.
 const ZERO: f64 = 1e-11;
 
-/// The limit of coefficient over `n^6 K_G^2` of `n x n` cells, with `w` of this total degree (4 at least).
+/// Returns the limit of the coefficient divided by `n^6 K_G^2` for `n x n` cells, with polynomials `w` of this total
+/// degree (at least 4).
 ///
-/// `patch` is any patch of the sheet: its modes and the stiffness of its creases are read; bars are rigid. Fails where the
-/// sheet has not three modes that curvatures name.
+/// `patch` is any patch of the sheet; its modes and the stiffness of its creases are used, and bars are rigid. Fails if
+/// the sheet does not have three modes that are determined by their curvatures.
 pub fn coefficient(sheet: &Sheet, patch: &HeldSheet, degree: usize) -> Predicted<f64> {
     let cell = Cell::new(sheet, patch)?;
     let basis = Basis::new(degree);
@@ -47,7 +50,7 @@ pub fn coefficient(sheet: &Sheet, patch: &HeldSheet, degree: usize) -> Predicted
         let part = weigh(&combined(&cell.stiffness_root, &modes, mode));
         energy.rows_mut(mode * basis.count(), basis.count()).copy_from(&part);
     }
-    // columns of norm 1, without those of linear functions, which bend nothing
+    // scaled to columns of norm 1; columns of linear functions, which do not bend, are left out
     let sizes: Vec<f64> = energy.column_iter().map(|column| column.norm()).collect();
     let bending: Vec<usize> = (0..basis.count()).filter(|&k| sizes[k] > 0.0).collect();
     let unit = |of: &DenseMatrix| {
@@ -57,15 +60,15 @@ pub fn coefficient(sheet: &Sheet, patch: &HeldSheet, degree: usize) -> Predicted
     Ok(0.5 * least_square(&energy, &condition, &source)?)
 }
 
-/// One cell as the continuum sees it.
+/// The properties of one cell in the continuum.
 struct Cell {
-    /// From lattice coordinates to the plane.
+    /// Map from lattice coordinates to the plane.
     frame: LatticeFrame,
-    /// Amplitudes of the modes of a curvature tensor, `B^-1`.
+    /// Amplitudes of the modes for a curvature tensor, `B^-1`.
     modes: Matrix3<f64>,
-    /// Strains of the modes, `T`: components 11, 22, 12.
+    /// Lattice strains of the modes, `T`: components 11, 22, 12.
     strain: Matrix3<f64>,
-    /// Upper triangular `U` with `U^T U = M`.
+    /// Upper triangular matrix `U` with `U^T U = M`.
     stiffness_root: Matrix3<f64>,
 }
 
@@ -98,7 +101,7 @@ impl Cell {
         })
     }
 
-    /// Second derivatives 11, 22, 12 of the basis, with respect to lengths in the plane.
+    /// Returns the second derivatives 11, 22, 12 of the basis by lengths in the plane.
     fn second_derivatives(&self, basis: &Basis) -> [DenseMatrix; 3] {
         let along = [0, 1].map(|axis| basis.derivative(axis));
         let inverse: Matrix2<f64> = self.frame.inverse;
@@ -107,7 +110,8 @@ impl Cell {
     }
 }
 
-/// Products `P_i(2 s - 1) P_j(2 t - 1)` of Legendre polynomials, `i + j` at most the degree, the constant first.
+/// The products `P_i(2 s - 1) P_j(2 t - 1)` of Legendre polynomials with `i + j` at most the degree; the constant
+/// first.
 struct Basis {
     powers: Vec<[usize; 2]>,
 }
@@ -121,12 +125,12 @@ impl Basis {
         self.powers.len()
     }
 
-    /// Root mean squares over the unit square.
+    /// Returns the root mean squares over the unit square.
     fn norms(&self) -> impl Iterator<Item = f64> + '_ {
         self.powers.iter().map(|[i, j]| ((2 * i + 1) as f64 * (2 * j + 1) as f64).sqrt().recip())
     }
 
-    /// `d/ds` or `d/dt`: `P_n' = sum (2k + 1) P_k` over `k = n - 1, n - 3, ...`.
+    /// Returns the matrix of `d/ds` or `d/dt`: `P_n' = sum (2k + 1) P_k` over `k = n - 1, n - 3, ...`.
     fn derivative(&self, axis: usize) -> DenseMatrix {
         let entry = |row: usize, column: usize| {
             let (to, from) = (self.powers[row], self.powers[column]);
@@ -137,7 +141,7 @@ impl Basis {
     }
 }
 
-/// The least `|energy c|^2` among all `c` with `condition c = source`.
+/// Returns the least `|energy c|^2` of all `c` with `condition c = source`.
 fn least_square(energy: &DenseMatrix, condition: &DenseMatrix, source: &DVector<f64>) -> Predicted<f64> {
     let svd = full_svd(condition)?;
     let rank = rank(&svd.singular_values);

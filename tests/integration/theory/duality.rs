@@ -1,10 +1,10 @@
-//! Fold rates of displacements and displacements of fold rates, at Bloch factors.
+//! Fold rates of displacements, and displacements with given fold rates, at Bloch factors.
 //!
 //! The rate `phi` of an edge of direction `r` is the difference of the angular velocities of its faces, `w_left -
-//! w_right = phi r`. Round a vertex these add up to zero: fold rates of a displacement are a self stress of the bars,
-//! at the same Bloch factors, and a self stress is the fold rates of a displacement that stretches no bar (H. Crapo, W.
-//! Whiteley 1982; the paper's mapping at finite wavenumber). So there are as many zero modes as self stresses at `z`;
-//! those of the transposed matrix are at `1/z`; and zero modes come in pairs `z`, `1/z`.
+//! w_right = phi r`. Around a vertex these add up to zero: the fold rates of a displacement are a self stress of the
+//! bars at the same Bloch factors, and a self stress gives the fold rates of a displacement that stretches no bar (H.
+//! Crapo, W. Whiteley 1982; the paper's mapping at finite wavenumber). Hence there are as many zero modes as self
+//! stresses at `z`; those of the transposed matrix are at `1/z`; and zero modes come in pairs `z`, `1/z`.
 
 use super::Predicted;
 use foldwell::math::Vec3;
@@ -15,14 +15,14 @@ use std::collections::{HashMap, VecDeque};
 
 /// A complex vector in space.
 type ComplexVec3 = Vector3<Complex<f64>>;
-/// A vertex or a face, and the cell of the copy that is meant.
+/// Index of a vertex or a face, and the cell of its copy.
 type Placed = (usize, [i32; 2]);
 
-/// Smallest difference of a phase factor from 1 that fixes where an integration begins.
+/// Least difference of a phase factor from 1 that determines the constant of an integration.
 const LEAST_PHASE: f64 = 1e-6;
 
-/// Rates of the fold angles of all edges for a displacement `(u_0x, u_0y, u_0z, u_1x, ..)` at Bloch factors; zero on
-/// rims.
+/// Returns the rates of the fold angles of all edges for a displacement `(u_0x, u_0y, u_0z, u_1x, ..)` at Bloch factors
+/// `z`; zero for boundary edges.
 pub fn fold_rates(sheet: &Sheet, z: [Complex<f64>; 2], displacement: &[Complex<f64>]) -> Vec<Complex<f64>> {
     let rate = |edge: &foldwell::sheet::Edge| {
         let [left, right] = [edge.wings[0]?, edge.wings[1]?];
@@ -39,16 +39,17 @@ pub fn fold_rates(sheet: &Sheet, z: [Complex<f64>; 2], displacement: &[Complex<f
     sheet.edges.iter().map(|edge| rate(edge).unwrap_or_default()).collect()
 }
 
-/// The displacement with these fold rates at Bloch factors, for rates that close round every vertex.
+/// Returns the displacement with given fold rates at Bloch factors `z`; the rates must close around every vertex.
 ///
-/// Fails where both factors are 1 to six digits, and where faces do not hang together at edges: then it does not follow from them.
+/// Fails if both factors are 1 to six digits, or if the faces are not all connected by edges, because the rates do not
+/// determine the displacement then.
 pub fn displacement(sheet: &Sheet, z: [Complex<f64>; 2], rates: &[Complex<f64>]) -> Predicted<Vec<Complex<f64>>> {
     let along = |key: &EdgeKey| {
         let [i, j] = key.ends();
         sheet.position(j) - sheet.position(i)
     };
     let numbers: HashMap<EdgeKey, usize> = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
-    // the face on either side of every edge, and the cell in which it stands when the edge is at home
+    // the face on each side of every edge, and its cell if the first vertex of the edge is in cell (0, 0)
     let mut sides: Vec<[Option<Placed>; 2]> = vec![[None; 2]; sheet.edges.len()];
     for (face, triangle) in sheet.triangles.iter().enumerate() {
         for side in triangle.sides() {
@@ -78,15 +79,15 @@ fn complex(v: Vec3) -> ComplexVec3 {
     v.map(|x| Complex::new(x, 0.0))
 }
 
-/// `z^shift w` at `to` less the same at `from` is `by`.
+/// The condition that `z^shift w` at `to` minus `z^shift w` at `from` is `by`.
 struct Difference {
     from: Placed,
     to: Placed,
     by: ComplexVec3,
 }
 
-/// The vectors with given differences: all in terms of the first along a tree, and the first from the difference that
-/// is farthest from the tree's by a phase.
+/// Returns the vectors with given differences. All of them are expressed by the first one along a spanning tree; the
+/// first one follows from the difference whose phase factor differs most from that along the tree.
 fn integrate(count: usize, differences: &[Difference], z: [Complex<f64>; 2]) -> Predicted<Vec<ComplexVec3>> {
     // w = factor * first + offset
     let mut found: Vec<Option<(Complex<f64>, ComplexVec3)>> = vec![None; count];

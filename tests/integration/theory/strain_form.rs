@@ -1,10 +1,10 @@
-//! The directions in which zero lines leave `q = 0`, from the three linear folding modes alone.
+//! The directions in which zero lines leave `q = 0`, from the three linear folding modes only.
 //!
-//! A long wave bends the sheet by curvature tensors along `k k^T`, `k` its wave vector in the plane. A uniform mode of
-//! curvature `K` has the lattice strain `eps(K)`. Strains that vary along `k` only are those of an in-plane
-//! displacement unless they stretch across: the wave costs no energy where `k' . eps(k k^T) . k' = 0`, `k'` being `k`
-//! turned by a right angle. This quartic is the leading form of the determinant at `q = 0` up to a constant. It is as
-//! symmetric as it looks: `cof(K') : eps(K) = cof(K) : eps(K')` for any two modes.
+//! A long wave bends the sheet by curvature tensors along `k k^T`, where `k` is its wave vector in the plane. A uniform
+//! mode of curvature `K` has the lattice strain `eps(K)`. Strains that vary only along `k` are those of an in-plane
+//! displacement if they do not stretch the direction perpendicular to `k`: the wave has no energy if `k' . eps(k k^T) .
+//! k' = 0`, where `k'` is `k` rotated by a right angle. This quartic is the leading form of the determinant at `q = 0`
+//! up to a constant. It is symmetric: `cof(K') : eps(K) = cof(K) : eps(K')` for any two modes.
 
 use super::Predicted;
 use foldwell::kinematics::metric::LatticeFrame;
@@ -16,14 +16,16 @@ use nalgebra::Matrix3;
 /// Strains of the linear folding modes of a spatially periodic sheet.
 #[derive(Clone, Debug)]
 pub struct StrainForm {
-    /// `[strain11, strain22, strain12]` of the modes `[k11, k22, k12]` = unit vectors, as columns; 1/curvature.
+    /// Strains `[strain11, strain22, strain12]` of the modes whose curvatures `[k11, k22, k12]` are the unit vectors,
+    /// as columns; their unit is 1/curvature.
     pub strains: Matrix3<f64>,
-    /// The drawn lattice.
+    /// The frame of the drawn lattice.
     pub frame: LatticeFrame,
 }
 
 impl StrainForm {
-    /// From the modes of the drawn state. Fails where there are not three, or curvatures do not name them.
+    /// Computes the form from the modes of the drawn state. Fails if there are not three modes, or if they are not
+    /// determined by their curvatures.
     pub fn new(sheet: &Sheet) -> Predicted<Self> {
         let lattice = sheet.lattice.ok_or("no lattice")?;
         let (modes, embedding, frame) = (folding_modes(sheet)?, Embedding::new(sheet)?, LatticeFrame::new(&lattice));
@@ -38,15 +40,15 @@ impl StrainForm {
         Ok(Self { strains: Matrix3::from_columns(&[strain(0)?, strain(1)?, strain(2)?]), frame })
     }
 
-    /// `cof(other) : eps(curvature)`, both tensors as `[k11, k22, k12]`.
+    /// Returns `cof(other) : eps(curvature)`, both tensors as `[k11, k22, k12]`.
     pub fn pairing(&self, curvature: [f64; 3], other: [f64; 3]) -> f64 {
         let strain = self.strains * Vec3::from(curvature);
         other[1] * strain[0] + other[0] * strain[1] - 2.0 * other[2] * strain[2]
     }
 
-    /// The quartic: coefficients of `q1^(4 - k) q2^k`, wavenumbers in radians per cell.
+    /// Returns the quartic: the coefficients of `q1^(4 - k) q2^k`, with wavenumbers in radians per cell.
     pub fn quartic(&self) -> [f64; 5] {
-        // the wave vector a^-T q, as polynomials in q of degree 1
+        // the components of the wave vector a^-T q, as polynomials of degree 1 in q
         let inverse = self.frame.inverse;
         let [x, y] = [0, 1].map(|i| [inverse[(0, i)], inverse[(1, i)]]);
         let tensor = [product(&x, &x), product(&y, &y), product(&x, &y)];
@@ -62,7 +64,7 @@ impl StrainForm {
     }
 }
 
-/// The product of two polynomials.
+/// Returns the product of two polynomials.
 fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut found = vec![0.0; a.len() + b.len() - 1];
     for (i, x) in a.iter().enumerate() {

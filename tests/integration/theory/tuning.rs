@@ -1,8 +1,8 @@
-//! Sheets with a zero mode at a wanted wavenumber, by moving one vertex along the normal of the sheet.
+//! Sheets with a zero mode at a given wavenumber, made by moving one vertex along the normal of the sheet.
 //!
-//! The determinant of the rigidity matrix is real on the Brillouin zone, up to a factor that does not depend on the shape
-//! of the cell, and changes sign on lines. So its ratio to the drawn sheet's is real; where it crosses zero as a vertex rises or
-//! sinks, a line of zero modes has come to the wavenumber.
+//! The determinant of the rigidity matrix is real on the Brillouin zone, up to a factor that does not depend on the
+//! shape of the cell, and changes sign on lines. Hence its ratio to that of the drawn sheet is real; if the ratio
+//! crosses zero while a vertex is moved, a line of zero modes passes the wavenumber.
 
 use super::Predicted;
 use foldwell::analysis::bloch::Rigidity;
@@ -10,15 +10,17 @@ use foldwell::math::Vec3;
 use foldwell::sheet::Sheet;
 use nalgebra::Complex;
 
-/// How far the vertex may go, in parts of the square root of the cell's area, and in how many steps each way.
+/// Largest displacement of the vertex relative to the square root of the area of the cell, and number of steps in each
+/// direction.
 const FARTHEST: f64 = 0.5;
 const STEPS: usize = 100;
-/// Most steps of the regula falsi.
+/// Largest number of steps of the regula falsi.
 const MOST_STEPS: usize = 200;
 
-/// The sheet with this vertex moved by the least height that makes a zero mode at wavenumbers `q`, in radians per cell.
+/// Returns the sheet with the vertex moved by the least height that makes a zero mode at the wavenumbers `q`, in
+/// radians per cell.
 ///
-/// Fails for finite sheets, where the rigidity matrix is not square, and where no height does it.
+/// Fails for finite sheets, whose rigidity matrix is not square, and if there is no such height.
 pub fn tuned(sheet: &Sheet, vertex: usize, q: [f64; 2]) -> Predicted<Sheet> {
     let [l1, l2] = sheet.lattice.ok_or("no lattice")?;
     let (size, normal) = (l1.cross(&l2).norm().sqrt(), l1.cross(&l2).normalize());
@@ -51,7 +53,7 @@ fn moved(sheet: &Sheet, vertex: usize, by: Vec3) -> Sheet {
     sheet
 }
 
-/// A zero between two places where the function has different signs: regula falsi in the form of Illinois.
+/// Finds a zero between two points where the function has different signs, by the Illinois form of regula falsi.
 fn zero(mut a: (f64, f64), mut b: (f64, f64), at: impl Fn(f64) -> Predicted<f64>) -> Predicted<f64> {
     for _ in 0..MOST_STEPS {
         let next = b.0 - b.1 * (b.0 - a.0) / (b.1 - a.1);

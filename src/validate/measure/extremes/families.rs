@@ -1,4 +1,4 @@
-//! The families of extreme cases, each with what its result is compared with.
+//! The families of extreme cases, each with a reference for its results.
 
 use super::super::trial::{Trial, TrialVerdict, distance, judge, within};
 use crate::validate::findings::ExperimentError;
@@ -10,24 +10,24 @@ use foldwell::sheet::generate::{MiuraPatch, Random};
 use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
-/// A trial that is not made yet.
+/// A trial that has not been run yet.
 pub(crate) type Attempt = Box<dyn FnOnce() -> TrialVerdict>;
-/// What it is called and what is tried.
+/// Name of a case, and its trial.
 pub(crate) type Named = (String, Attempt);
 
 const POWERS: [i32; 8] = [-150, -100, -60, -30, 30, 60, 100, 150];
 
-/// A family of cases, one idea.
+/// A family of similar cases.
 pub(crate) struct Family {
-    /// What is extreme.
+    /// Description of the extreme quantity.
     pub name: &'static str,
-    /// What the results are compared with.
+    /// Reference with which the results are compared.
     pub compared: &'static str,
-    /// Its cases.
+    /// The cases.
     pub cases: Vec<Named>,
 }
 
-/// All families; large patches only where there is time.
+/// Returns all families; the largest patch is left out if `quick`.
 pub(crate) fn families(quick: bool) -> Result<Vec<Family>, ExperimentError> {
     let cell = star::cell()?;
     Ok(vec![
@@ -59,7 +59,8 @@ fn reference(trial: &Trial) -> Result<Vec<f64>, ExperimentError> {
     }
 }
 
-/// Soft bars move further from the rigid state, stiff ones as one over their stiffness.
+/// Ratios of stiffnesses: the state differs from the rigid one by as much as one over the stiffness, and by more for
+/// soft bars.
 fn stiffness(cell: &Sheet) -> Result<Family, ExperimentError> {
     let trial = |k: f64| Trial { stiffness: [k, 1.0], ..Trial::rigid(cell.clone(), [3, 3], 0.1) };
     let exact = reference(&trial(f64::INFINITY))?;
@@ -71,9 +72,9 @@ fn stiffness(cell: &Sheet) -> Result<Family, ExperimentError> {
             judge(|found| {
                 let off = distance(&found.angles, &exact);
                 match k {
-                    // from here on the law holds to a tenth
+                    // from here on the law of one over the stiffness holds to a tenth
                     1e7.. => within((off - scaled / k).abs(), 0.1 * scaled / k + 1e-12),
-                    // softer ones are compared with the augmented form
+                    // soft bars are compared with the augmented form
                     _ => found.to_augmented.map_or(TrialVerdict::Unjudged, |error| within(error, 1e-6)),
                 }
             })(&trial)
@@ -86,7 +87,7 @@ fn stiffness(cell: &Sheet) -> Result<Family, ExperimentError> {
     })
 }
 
-/// Nothing but their ratio matters.
+/// Large and small stiffnesses at a constant ratio, on which alone the state depends.
 fn both_stiffnesses(cell: &Sheet) -> Result<Family, ExperimentError> {
     let trial = |scale: f64| Trial { stiffness: [1e6 * scale, scale], ..Trial::rigid(cell.clone(), [3, 3], 0.1) };
     let expected = reference(&trial(1.0))?;
@@ -97,7 +98,7 @@ fn both_stiffnesses(cell: &Sheet) -> Result<Family, ExperimentError> {
     Ok(Family { name: "both stiffnesses huge or tiny", compared: "the same at 1", cases: cases.collect() })
 }
 
-/// Fold angles have no unit of length.
+/// Units of length, on which fold angles do not depend.
 fn units(cell: &Sheet) -> Result<Family, ExperimentError> {
     let expected = reference(&Trial::rigid(cell.clone(), [3, 3], 0.1))?;
     let cases = POWERS.into_iter().flat_map(|power| {
@@ -112,7 +113,8 @@ fn units(cell: &Sheet) -> Result<Family, ExperimentError> {
     Ok(Family { name: "units of length", compared: "the same at 1", cases: cases.collect() })
 }
 
-/// Curvature and direction of the axis are measured as lengths, so that here the unit matters no sooner.
+/// Units of length of a screw-periodic cell. Curvature and direction of the axis are scaled to lengths, so that the
+/// results do not depend on the unit here either.
 fn screw_units(cell: &Sheet) -> Result<Family, ExperimentError> {
     let trial = |sheet: Sheet| Trial { boundary: Boundary::Screw, ..Trial::rigid(sheet, [1, 1], 0.1) };
     let expected = reference(&trial(cell.clone()))?;
@@ -135,7 +137,7 @@ fn stretched(cell: &Sheet, name: &'static str, factors: fn(f64) -> Vec3) -> Fami
     let cases = [1, 2, 3, 4, 6, 8, 10, 12, 15].map(|power| {
         let by = factors(10f64.powi(-power));
         let sheet = mapped(cell, |p| p.component_mul(&by));
-        // sectors of needles are known, to both ways, to a rounding error over their width
+        // both computations know the sector angles of needles to a rounding error divided by their width
         let allowed = f64::max(1e-6, 1e-15 * 10f64.powi(power));
         case(format!("1e-{power}"), move || Trial::rigid(sheet, [3, 3], 1e-3).judged(allowed))
     });
@@ -155,7 +157,7 @@ fn skewed(cell: &Sheet) -> Family {
     }
 }
 
-/// From exactly flat, and from so little off it that no double knows.
+/// Flat cells, and cells so close to flat that double precision may not resolve the difference.
 fn flat() -> Result<Family, ExperimentError> {
     let sheet = fold::parse(library::mesh("open-flat.fold").unwrap_or_default(), "open-flat.fold")?;
     let cases = [None, Some(300), Some(200), Some(100), Some(20), Some(10), Some(6)].map(|power| {
@@ -169,7 +171,7 @@ fn flat() -> Result<Family, ExperimentError> {
     Ok(Family { name: "flat cells whose creases rest folded", compared: "the exact kinematics", cases: cases.into() })
 }
 
-/// Miura-ori by its closed form: `tan(straight/2) = cos(sector) tan(zigzag/2)`.
+/// Miura-ori, with its closed form `tan(straight/2) = cos(sector) tan(zigzag/2)`.
 fn folded() -> Result<Family, ExperimentError> {
     let pattern = Pattern::MiuraPatch(MiuraPatch { cells: [2, 2], ..MiuraPatch::default() });
     let sheet = generate(&pattern).map_err(|_| ExperimentError::Other("Miura-ori cannot be generated".into()))?;
@@ -189,7 +191,7 @@ fn folded() -> Result<Family, ExperimentError> {
         creases.iter().for_each(|&k| expected[k] = signs[k] * if zigzag(k) { angle } else { straight });
         let lock = Some((lock, expected[lock]));
         let trial = Trial { lock, ..Trial::rigid(sheet.clone(), [1, 1], 0.0) };
-        expected[lock.map_or(0, |(k, _)| k)] = f64::NAN; // a lock is no hinge
+        expected[lock.map_or(0, |(k, _)| k)] = f64::NAN; // a lock is not a hinge
         case(name, move || judge(|found| within(seen(&found.angles, &expected), 1e-6))(&trial))
     });
     Ok(Family {
@@ -199,7 +201,7 @@ fn folded() -> Result<Family, ExperimentError> {
     })
 }
 
-/// Largest difference where both have numbers.
+/// Returns the largest difference over the entries where both are numbers; NaN if there are none.
 fn seen(angles: &[f64], expected: &[f64]) -> f64 {
     let both = angles.iter().zip(expected).map(|(a, b)| (a - b).abs()).filter(|off| !off.is_nan());
     both.reduce(f64::max).unwrap_or(f64::NAN)
@@ -217,7 +219,7 @@ fn vertices() -> Result<Family, ExperimentError> {
     Ok(Family { name: "vertices of a screw-periodic cell", compared: "the exact kinematics", cases })
 }
 
-/// One vertex among triangles, its rim at random heights.
+/// Single vertices surrounded by triangles, with random heights of the outer vertices.
 fn degrees() -> Result<Family, ExperimentError> {
     let mut cases = Vec::new();
     for degree in [3, 4, 5, 6, 8, 12, 20, 40] {

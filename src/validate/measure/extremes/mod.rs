@@ -1,4 +1,5 @@
-//! Stiff and extreme cases: each is right, or refused for a reason; never a silent wrong number, a hang or a panic.
+//! Stiff and extreme cases: each is solved correctly, or refused with a reason; never with a silent wrong number, an
+//! endless computation or a panic.
 
 mod families;
 
@@ -6,7 +7,7 @@ use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::trial::TrialVerdict;
 use serde_json::{Value, json};
 
-/// How many trials came out how, and what was wrong.
+/// Numbers of trials by verdict, and descriptions of the wrong ones.
 #[derive(Default)]
 struct Tally {
     right: usize,
@@ -40,7 +41,7 @@ impl Tally {
     }
 }
 
-/// Tries every family, case by case.
+/// Runs all cases of all families.
 pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let families = families::families(bench.quick)?;
     let all: usize = families.iter().map(|family| family.cases.len()).sum();
