@@ -1,62 +1,25 @@
 //! `L D L^T` factorization of symmetric matrices, with inertia, for one pattern and many sets of numbers.
 //!
-//! Sparse: faer's supernodal `L D L^T` without pivoting, on one thread. The pattern is analysed once ([`Symbolic`]).
-//! Small matrices go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia: the signs
+//! Sparse: multifrontal, without pivoting, on all of the caller's threads ([`super::fronts`]). The pattern is analysed
+//! once ([`Symbolic`]). Small matrices go through a dense Bunch-Kaufman factorization, which pivots. Sylvester's law of inertia: the signs
 //! of D are the signs of the eigenvalues, and that is how an indefinite Hessian is recognised.
 
+pub use super::factor_error::FactorError;
+use super::fronts::{Analysis, Fronts};
 use super::sparse::{Cliques, SparsityPattern};
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::lblt;
 use faer::perm::{Perm, PermRef};
-use faer::prelude::{ReborrowMut, default};
+use faer::prelude::default;
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
+use faer::sparse::linalg::cholesky::{CholeskySymbolicParams, SymmetricOrdering, factorize_symbolic_cholesky};
 use faer::{Conj, Mat, MatMut, MatRef, Par, Side};
-use std::sync::Arc;
-use thiserror::Error;
 
 /// Matrices up to this size are factored dense. It is no faster (`cargo bench --bench iteration -- dense`: 1.4 times as
 /// long up to 42 unknowns), but single cells are small enough to afford pivoting.
 pub const DENSE_LIMIT: usize = 64;
-
-/// The reason for which a factorization cannot be used.
-#[derive(Debug, Error, Clone, Copy, PartialEq)]
-pub enum FactorError {
-    /// An entry of the matrix is infinite or not a number.
-    #[error("the matrix has an entry that is not finite")]
-    NotFinite,
-    /// A pivot vanished.
-    #[error("the matrix is singular to working precision (smallest over largest pivot {ratio:.1e})")]
-    Singular {
-        /// Smallest pivot over largest pivot, in magnitude.
-        ratio: f64,
-    },
-    /// The factorization does not solve the system.
-    #[error("the factorization does not solve its system (relative residual {residual:.1e})")]
-    Inaccurate {
-        /// Norm of the residual over norm of the right-hand side.
-        residual: f64,
-    },
-    /// An iteration for eigenpairs ended early.
-    #[error("{found} of {wanted} eigenpairs were found")]
-    Eigenpairs {
-        /// Number asked for.
-        wanted: usize,
-        /// Number found.
-        found: usize,
-    },
-    /// The symbolic analysis ran out of memory or indices.
-    #[error("the matrix of {size} unknowns is too large to factor")]
-    TooLarge {
-        /// Number of unknowns.
-        size: usize,
-    },
-}
 
 /// Signs and range of the pivots of the last factorization.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +36,7 @@ pub struct Inertia {
 pub(crate) struct Symbolic {
     size: usize,
     /// `None` for a small matrix, which is factored dense.
-    sparse: Option<Arc<SymbolicCholesky<u32>>>,
+    sparse: Option<Analysis>,
 }
 
 /// A factorization of one pattern, refilled with numbers as often as wanted.
@@ -84,13 +47,7 @@ pub struct Factor {
 
 enum Kind {
     Dense(Option<Box<Dense>>),
-    Sparse(Box<Sparse>),
-}
-
-struct Sparse {
-    symbolic: Arc<SymbolicCholesky<u32>>,
-    values: Vec<f64>,
-    memory: MemBuffer,
+    Sparse(Box<Fronts>),
 }
 
 impl Factor {
@@ -110,7 +67,7 @@ impl Factor {
     pub(crate) fn of(symbolic: &Symbolic) -> Result<Self, FactorError> {
         let kind = match &symbolic.sparse {
             None => Kind::Dense(None),
-            Some(sparse) => Kind::Sparse(Box::new(Sparse::new(sparse.clone())?)),
+            Some(sparse) => Kind::Sparse(Box::new(Fronts::new(sparse)?)),
         };
         Ok(Self { kind, size: symbolic.size })
     }
@@ -129,7 +86,7 @@ impl Factor {
                 *factor = Some(Box::new(made));
                 Ok(inertia)
             }
-            Kind::Sparse(sparse) => sparse.factor(pattern, values),
+            Kind::Sparse(sparse) => sparse.factor(values).map(|()| inertia(sparse.pivots())),
         }?;
         let singular = !(inertia.ratio > f64::EPSILON * f64::EPSILON);
         if singular { Err(FactorError::Singular { ratio: inertia.ratio }) } else { Ok(inertia) }
@@ -148,7 +105,7 @@ impl Factor {
     pub fn stored(&self) -> usize {
         match &self.kind {
             Kind::Dense(_) => self.size * (self.size + 1) / 2,
-            Kind::Sparse(sparse) => sparse.values.len(),
+            Kind::Sparse(sparse) => sparse.stored(),
         }
     }
 }
@@ -168,23 +125,24 @@ impl Symbolic {
             inverse[old as usize] = new as u32;
         }
         let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &inverse, size));
-        Self::sparse(pattern.symbolic(), Side::Lower, ordering)
+        Self::sparse(pattern, pattern.symbolic(), Side::Lower, ordering)
     }
 
-    /// Analyses a pattern whose unknowns are numbered in the order of elimination: nothing is put in order at a
-    /// factorization.
+    /// Analyses a pattern whose unknowns are numbered in the order of elimination.
     pub(super) fn in_order(pattern: &SparsityPattern) -> Result<Self, FactorError> {
         let size = pattern.size();
         if size <= DENSE_LIMIT {
             return Ok(Self { size, sparse: None });
         }
-        // a matrix that is not put in order is analysed by its upper triangle, and factored from its lower one
+        // faer analyses a matrix that it does not put in order by the upper triangle
         let (columns, rows) = pattern.upper();
         let upper = SymbolicSparseColMatRef::new_checked(size, size, &columns, None, &rows);
-        Self::sparse(upper, Side::Upper, SymmetricOrdering::Identity)
+        Self::sparse(pattern, upper, Side::Upper, SymmetricOrdering::Identity)
     }
 
+    /// Analyses a pattern by one of its triangles.
     fn sparse(
+        pattern: &SparsityPattern,
         triangle: SymbolicSparseColMatRef<'_, u32>,
         side: Side,
         ordering: SymmetricOrdering<'_, u32>,
@@ -195,48 +153,8 @@ impl Symbolic {
             ..default()
         };
         let found = factorize_symbolic_cholesky(triangle, side, ordering, params);
-        Ok(Self { size, sparse: Some(Arc::new(found.map_err(|_| FactorError::TooLarge { size })?)) })
-    }
-}
-
-impl Sparse {
-    fn new(symbolic: Arc<SymbolicCholesky<u32>>) -> Result<Self, FactorError> {
-        let memory = MemBuffer::try_new(
-            symbolic
-                .factorize_numeric_ldlt_scratch::<f64>(Par::Seq, default())
-                .or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq)),
-        )
-        .map_err(|_| FactorError::TooLarge { size: symbolic.nrows() })?;
-        Ok(Self { values: vec![0.0; symbolic.len_val()], symbolic, memory })
-    }
-
-    fn factor(&mut self, pattern: &SparsityPattern, values: &[f64]) -> Result<Inertia, FactorError> {
-        let matrix = pattern.with_values(values);
-        let stack = MemStack::new(&mut self.memory);
-        self.symbolic
-            .factorize_numeric_ldlt(&mut self.values, matrix, Side::Lower, default(), Par::Seq, stack, default())
-            .map_err(|_| FactorError::Singular { ratio: 0.0 })?;
-        Ok(inertia(self.pivots()))
-    }
-
-    /// The entries of D, which stand on the diagonals of the supernodes.
-    fn pivots(&self) -> impl Iterator<Item = f64> + '_ {
-        let SymbolicCholeskyRaw::Supernodal(nodes) = self.symbolic.raw() else {
-            unreachable!("the analysis is forced to be supernodal")
-        };
-        (0..nodes.n_supernodes()).flat_map(move |k| {
-            let columns = (nodes.supernode_end()[k] - nodes.supernode_begin()[k]) as usize;
-            let start = nodes.col_ptr_for_val()[k] as usize;
-            let rows = (nodes.col_ptr_for_val()[k + 1] as usize - start) / columns;
-            (0..columns).map(move |j| self.values[start + j * rows + j])
-        })
-    }
-
-    fn solve(&mut self, x: &mut [f64]) {
-        let n = x.len();
-        let stack = MemStack::new(&mut self.memory);
-        let mut x = MatMut::from_column_major_slice_mut(x, n, 1);
-        LdltRef::new(&*self.symbolic, &self.values).solve_in_place_with_conj(Conj::No, x.rb_mut(), Par::Seq, stack);
+        let found = found.map_err(|_| FactorError::TooLarge { size })?;
+        Ok(Self { size, sparse: Some(Analysis::new(pattern, &found)) })
     }
 }
 

@@ -9,6 +9,7 @@
 //! | [`vector`] | norms, products and maxima of plain vectors |
 //! | [`sparse`] | cliques, patterns, slots of blocks, rows |
 //! | [`factor`], [`order`], [`tearing`] | `L D L^T` with inertia, orders, smaller factors by open cliques |
+//! | [`fronts`] | the sparse `L D L^T`, on several threads |
 //! | [`rank`], [`eigen`] | ranks by counting signs; a few extreme eigenpairs |
 //! | [`dense`], [`complex`] | decompositions of dense matrices, real and complex |
 //! | [`polynomial`], [`fourier`], [`homotopy`] | roots; trigonometric polynomials; all solutions of quadrics |
@@ -49,7 +50,9 @@ pub mod dense;
 pub mod derivatives;
 pub(crate) mod eigen;
 pub mod factor;
+mod factor_error;
 pub(crate) mod fourier;
+pub(crate) mod fronts;
 pub(crate) mod homotopy;
 pub mod order;
 pub mod parallel;

@@ -20,6 +20,10 @@ pub const FEWEST_SHARED_ELEMENTS: usize = 2048;
 const ELEMENTS_PER_WAVE: usize = 1024;
 /// Fewest elements of a wave that one thread takes at once.
 const ELEMENTS_PER_TASK: usize = 64;
+/// Length of a list below which it is filled by the calling thread.
+const FEWEST_SHARED_ENTRIES: usize = 1 << 17;
+/// Entries of a list that one thread fills at once.
+const ENTRIES_PER_TASK: usize = 1 << 13;
 /// Consecutive pieces of long work that share one worker state.
 const PIECES_PER_STATE: usize = 8;
 
@@ -115,6 +119,57 @@ impl Executor {
             Self::Pool(threads) => threads.pool().map(|pool| pool.install(work)),
         }
     }
+}
+
+/// Does work that shares out its parts by itself (`rayon::join`). Whether it may is what it is told: where it is
+/// `worthwhile` and there is more than one thread; then it is done on one of these.
+pub(crate) fn in_pool<R: Send>(worthwhile: bool, work: impl FnOnce(bool) -> R + Send) -> R {
+    match Executor::of_loop(worthwhile) {
+        Executor::CallingThread => work(false),
+        Executor::CurrentPool => work(true),
+        Executor::Pool(threads) => match threads.pool() {
+            Some(pool) => pool.install(|| work(true)),
+            None => work(false),
+        },
+    }
+}
+
+/// Does the work in the `foreground` on the calling thread, and that in the `background` on another one at the same time
+/// if there is one to share with and this is `worthwhile`; then it waits for both. Otherwise the background is left out:
+/// it is for work whose result is computed anyway when it is asked for.
+pub(crate) fn meanwhile<'a, R>(
+    worthwhile: bool,
+    background: impl FnOnce() + Send + 'a,
+    foreground: impl FnOnce() -> R,
+) -> R {
+    let place = Executor::of_loop(worthwhile);
+    let pool = if let Executor::Pool(threads) = &place { threads.pool() } else { None };
+    if pool.is_none() && !matches!(place, Executor::CurrentPool) {
+        return foreground();
+    }
+    let both = |scope: &rayon::Scope<'a>| {
+        scope.spawn(|_| background());
+        foreground()
+    };
+    match pool {
+        Some(pool) => pool.in_place_scope(both),
+        None => rayon::in_place_scope(both),
+    }
+}
+
+/// Sets every entry of a list to `compute` of its place.
+pub(crate) fn fill<T: Send>(list: &mut [T], compute: impl Fn(usize) -> T + Sync) {
+    let set = |(n, chunk): (usize, &mut [T])| {
+        (n * ENTRIES_PER_TASK..).zip(chunk).for_each(|(place, entry)| *entry = compute(place));
+    };
+    let worthwhile = list.len() >= FEWEST_SHARED_ENTRIES;
+    in_pool(worthwhile, |shared| {
+        if shared {
+            list.par_chunks_mut(ENTRIES_PER_TASK).enumerate().for_each(set);
+        } else {
+            list.chunks_mut(ENTRIES_PER_TASK).enumerate().for_each(set);
+        }
+    });
 }
 
 /// Calls `compute(k, &mut result)` and then `consume(k, &result)` for `k` in `0..count`, the latter in this order and

@@ -14,11 +14,12 @@
 //!
 //! To add an unknown that takes a coupling out is tearing (G. Kron, Diakoptics, 1963). An open clique stands in a
 //! separator with one unknown, a second line of vertices would with three. Only cliques between two branches of the
-//! elimination tree are opened, one in ten, and a factorization takes 0.84, 0.74 and 0.66 of the time for sheets of 12,
-//! 24 and 48 cells a side (`cargo bench --bench systems`).
+//! elimination tree are opened, one in ten, and a factorization takes 0.84, 0.70 and 0.66 of the time for sheets of 24,
+//! 48 and 96 cells a side (`cargo bench --bench systems`).
 
 use super::factor::{DENSE_LIMIT, Factor, FactorError, Inertia, Symbolic};
 use super::order;
+use super::parallel;
 use super::sparse::{Cliques, FIXED, RankOne, Slots, SparsityPattern};
 use std::ops::Range;
 use std::sync::Arc;
@@ -37,8 +38,8 @@ pub struct Tearing {
     numbers: Vec<u32>,
     /// SparsityPattern of the torn matrix.
     pattern: SparsityPattern,
-    /// Where the entries of the whole matrix stand in the torn one.
-    places: Vec<u32>,
+    /// Where the entries of the torn matrix stand in the whole one, or [`FIXED`] for those that it has not.
+    sources: Vec<u32>,
     /// Where the members of every torn clique, and then its own unknown, stand in the torn matrix.
     slots: Slots,
     symbolic: Symbolic,
@@ -107,9 +108,12 @@ impl Tearing {
         let are_apart = |row: u32, column: u32| apart[node[column as usize] as usize].contains(&node[row as usize]);
         let (pattern, places) = whole.renumbered(&numbers.whole, &more, are_apart);
         let (slots, symbolic) = (Slots::new(&pattern, &extended), Symbolic::in_order(&pattern)?);
+        let mut sources = vec![FIXED; pattern.entries()];
+        let found = (0..).zip(&places).filter(|(_, place)| **place != FIXED);
+        found.for_each(|(slot, &place)| sources[place as usize] = slot);
         let right = |(list, clique): (usize, usize)| cliques[list].split(clique).map_or(0..0, |[_, right]| right);
         let torn = torn.into_iter().map(|place| Torn { place, right: right(place) }).collect();
-        Ok(Self { torn, numbers: numbers.whole, pattern, places, slots, symbolic })
+        Ok(Self { torn, numbers: numbers.whole, pattern, sources, slots, symbolic })
     }
 
     /// Number of open cliques.
@@ -140,11 +144,8 @@ impl TornFactor {
         values: &[f64],
         outer: impl Fn(usize, usize) -> RankOne<'a>,
     ) -> Result<Inertia, FactorError> {
-        let Tearing { torn, pattern, places, slots, .. } = &*self.tearing;
-        self.values.fill(0.0);
-        for (&value, &place) in values.iter().zip(places).filter(|(_, place)| **place != FIXED) {
-            self.values[place as usize] = value;
-        }
+        let Tearing { torn, pattern, sources, slots, .. } = &*self.tearing;
+        parallel::fill(&mut self.values, |slot| values.get(sources[slot] as usize).map_or(0.0, |value| *value));
         // any size of the new unknowns will do; this one leaves the range of the pivots alone
         let size = whole.largest_diagonal(values).sqrt();
         let mut scaled = Vec::new();

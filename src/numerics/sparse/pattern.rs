@@ -3,7 +3,7 @@
 use super::cliques::{Cliques, FIXED};
 use super::incidence::{Incidence, group};
 use crate::numerics::DenseMatrix;
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::sparse::SymbolicSparseColMatRef;
 
 /// The lower triangle of a symmetric matrix by columns, with the diagonal first in each column.
 #[derive(Clone, Debug)]
@@ -91,7 +91,7 @@ impl SparsityPattern {
     }
 
     /// The slot of the first entry of a column, its diagonal one.
-    pub(super) fn first_slot(&self, k: usize) -> u32 {
+    pub(in crate::numerics) fn first_slot(&self, k: usize) -> u32 {
         self.columns[k]
     }
 
@@ -130,10 +130,6 @@ impl SparsityPattern {
 
     pub(in crate::numerics) fn symbolic(&self) -> SymbolicSparseColMatRef<'_, u32> {
         SymbolicSparseColMatRef::new_checked(self.n, self.n, &self.columns, None, &self.rows)
-    }
-
-    pub(in crate::numerics) fn with_values<'a>(&'a self, values: &'a [f64]) -> SparseColMatRef<'a, u32, f64> {
-        SparseColMatRef::new(self.symbolic(), values)
     }
 }
 
