@@ -8,6 +8,7 @@ pub mod drive;
 pub mod exact;
 pub mod intersections;
 pub mod landscape;
+pub mod method;
 pub mod modes;
 pub mod relax;
 pub mod restored;

@@ -1,6 +1,7 @@
 //! Relaxation: from a start to the equilibrium of a model, directly or by raising what drives it step by step.
 
 use super::apex;
+use super::method::{self, IntrinsicFailure, RelaxOptions};
 use super::state::State;
 use crate::model::{Assembly, Domain, Gauge, Model};
 use crate::solver::{
@@ -50,6 +51,8 @@ pub struct Relaxed {
     pub self_stresses: Option<usize>,
     /// All accepted steps.
     pub history: Vec<Step>,
+    /// Why fold angles were given up, if they were tried as unknowns.
+    pub intrinsic_failure: Option<IntrinsicFailure>,
 }
 
 /// Relaxation failed; the last accepted state is here.
@@ -64,6 +67,8 @@ pub struct RelaxError {
     pub x: Vec<f64>,
     /// All accepted steps.
     pub history: Vec<Step>,
+    /// Why fold angles were given up, if they were tried as unknowns.
+    pub intrinsic_failure: Option<IntrinsicFailure>,
 }
 
 /// Says why it failed and how far it came, not the numbers of the state.
@@ -95,7 +100,7 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 }
 
 /// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
-/// step and returns false to stop.
+/// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`](super::method::Method::Auto).
 ///
 /// Where the direct way fails, all rest angles and locked angles are moved from their values at the start to their
 /// targets in steps that adapt.
@@ -105,14 +110,16 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 pub fn relax_from(
     model: &mut Model,
     start: impl Into<Start>,
-    options: Options,
+    options: impl Into<RelaxOptions>,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
-    let start = start.into();
+    let (start, RelaxOptions { newton: options, method }) = (start.into(), options.into());
     let restarted = start.tension.is_some();
     let (origin, place) = (model.angles(), model.coordinates(&start.x));
     let mut history = Vec::new();
-    let found = match minimize(model, start.clone(), options, observe) {
+    let (first, intrinsic_failure) =
+        method::minimize_in_angles(model, &start, (options, method), observe, &mut history);
+    let found = match first.unwrap_or_else(|| minimize(model, start.clone(), options, observe)) {
         Err(error) if hopeless(error.failure) => Err(error),
         Err(error) => {
             model.set_angles(&origin);
@@ -137,14 +144,14 @@ pub fn relax_from(
                 let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
                 let failure = Failure::Uncertain { angle, force, tolerance: options.tolerance };
                 history.extend(found.history);
-                Err(Box::new(RelaxError { failure, state, x: found.x, history }))
+                Err(Box::new(RelaxError { failure, state, x: found.x, history, intrinsic_failure }))
             }
-            _ => Ok(finish(model, found, history)),
+            _ => Ok(Relaxed { intrinsic_failure, ..finish(model, found, history) }),
         },
         Err(error) => {
             history.extend(error.history);
             let state = State::new(model, &error.x, &error.tension);
-            Err(Box::new(RelaxError { failure: error.failure, state, x: error.x, history }))
+            Err(Box::new(RelaxError { failure: error.failure, state, x: error.x, history, intrinsic_failure }))
         }
     }
 }
@@ -308,5 +315,6 @@ fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed 
         negative_eigenvalues: found.negative_eigenvalues,
         self_stresses: settled.self_stresses,
         history,
+        intrinsic_failure: None,
     }
 }

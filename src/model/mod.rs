@@ -27,6 +27,7 @@ mod builder;
 pub(crate) mod domain;
 mod element;
 pub(crate) mod gauge;
+pub mod intrinsic;
 pub mod measure;
 mod problem;
 mod terms;

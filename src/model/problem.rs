@@ -228,6 +228,11 @@ impl Model {
         !self.loads.is_empty() || (!matches!(self.domain, Domain::Screw) && !self.pinned.is_empty())
     }
 
+    /// Whether the sheet is a patch without pins and loads.
+    pub(crate) fn is_free_patch(&self) -> bool {
+        matches!(self.domain, Domain::Patch) && !self.held_or_loaded()
+    }
+
     /// Returns the map from coordinates to points.
     pub fn domain(&self) -> &Domain {
         &self.domain

@@ -19,6 +19,7 @@
 //! | `tangent` | the same at one state: a Newton step, the inertia, the response to a force ([`Tangent`]) |
 //! | `newton` | [`minimize`]: Newton's method with retraction onto the stiff measures |
 //! | `stationary` | [`stationary_point`]: an equilibrium of any index near a state |
+//! | [`constrained`] | a separable quadratic function under local constraints |
 //! | `self_stress`, [`tension`] | tensions that balance each other, and tensions without them |
 //! | [`implicit`] | Newton's method onto the solutions of `F(x) = 0` |
 //! | [`continuation`], [`atlas`] | curves and surfaces of solutions |
@@ -91,6 +92,7 @@
 //! ```
 
 pub mod atlas;
+pub mod constrained;
 pub mod continuation;
 pub mod corrections;
 pub(crate) mod implicit;

@@ -8,6 +8,7 @@ use super::states::{self, Shown};
 use super::{branches, energies};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
+use crate::analysis::method::{Method, RelaxOptions};
 use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
 use crate::analysis::restored::{self, Forces};
 use crate::analysis::state::State;
@@ -15,12 +16,12 @@ use crate::model::{Gauge, Model};
 use crate::numerics::larger;
 use crate::numerics::random::symmetric;
 use crate::output::figure::rounded;
-use crate::output::summary::{IterationSummary, RelaxSummary, StudyResult};
+use crate::output::summary::{IterationSummary, MethodName, RelaxSummary, StudyResult};
 use crate::output::vtk::{self, VtuMesh};
 use crate::scene::Located;
 use crate::scene::forms::{RandomStart, StartSpec};
-use crate::scene::spec::RelaxSpec;
-use crate::solver::{Options, Step};
+use crate::scene::spec::{MethodSpec, RelaxSpec};
+use crate::solver::Step;
 use rand::SeedableRng;
 
 /// Checks that the model has an energy and that a start file fits the sheet.
@@ -42,9 +43,9 @@ pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer,
     let known = spec.start.as_deref().is_some_and(|start| matches!(start, StartSpec::Study(_) | StartSpec::File(_)));
     let start = if known { restored::start(&model, x, tensions.clone()) } else { x.into() };
     let first = State::new(&model, &start.x, start.tension.as_ref().unwrap_or(&tensions));
-    let mut options = Options::default();
+    let mut options = RelaxOptions { method: method(spec.method), ..RelaxOptions::default() };
     if let Some(tolerance) = &spec.tolerance {
-        options.tolerance = tolerance.0;
+        options.newton.tolerance = tolerance.0;
     }
     match relax_from(&mut model, start, options, &mut watcher(context)) {
         Ok(relaxed) => Ok(found(context, spec, &model, &first, relaxed)),
@@ -197,6 +198,7 @@ fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
         residual_length: relaxed.residual_length,
         negative_eigenvalues: Some(relaxed.negative_eigenvalues),
         self_stresses: relaxed.self_stresses,
+        intrinsic_failure: relaxed.intrinsic_failure.map(|failure| failure.to_string()),
         history: history(&relaxed.history),
         ..RelaxSummary::default()
     }
@@ -212,8 +214,17 @@ fn last_of(context: &Context<'_>, error: &RelaxError) -> RelaxSummary {
         chord_solves: error.history.iter().map(|step| step.solves).sum(),
         residual_force: last.map_or(f64::NAN, |step| step.residual_force),
         residual_length: last.map_or(f64::NAN, |step| step.residual_length),
+        intrinsic_failure: error.intrinsic_failure.map(|failure| failure.to_string()),
         history: history(&error.history),
         ..RelaxSummary::default()
+    }
+}
+
+fn method(spec: MethodSpec) -> Method {
+    match spec {
+        MethodSpec::Auto => Method::Auto,
+        MethodSpec::Vertices => Method::Vertices,
+        MethodSpec::Intrinsic => Method::Intrinsic,
     }
 }
 
@@ -225,6 +236,7 @@ fn history(steps: &[Step]) -> Vec<IterationSummary> {
         residual_length: step.residual_length,
         step: step.fraction,
         shift: step.shift,
+        method: if step.intrinsic { MethodName::Intrinsic } else { MethodName::Vertices },
     };
     steps.iter().enumerate().map(row).collect()
 }

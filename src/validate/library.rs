@@ -1,15 +1,16 @@
-//! Claims, scenes and meshes as the repository has them, inside the program: it validates itself wherever it is installed.
+//! The claims, scenes and meshes of the repository, embedded in the program so that it can validate itself wherever it
+//! is installed.
 
 use super::claim::{Claim, ClaimError};
 
-/// Names and texts of files under a folder of the repository.
+/// Names and texts of files in a folder of the repository.
 macro_rules! files {
     ($folder:literal, $ending:literal: $($name:literal)*) => {
         &[$(($name, include_str!(concat!("../../", $folder, "/", $name, $ending)))),*]
     };
 }
 
-/// Files of `validation/claims`, without their ending, in the order in which they are checked and reported.
+/// Files of `validation/claims` without extension, in the order of checks and reports.
 const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "loops-of-open-star"
     "loops-close"
@@ -43,6 +44,7 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "steps-default"
     "sizes-exact"
     "sizes-growth"
+    "sizes-intrinsic"
     "extremes-nothing-wrong"
     "extremes-mostly-right"
     "cells-closed-form"
@@ -66,20 +68,20 @@ const MESHES: &[(&str, &str)] = files!("meshes", "":
     "star-wave.fold"
 );
 
-/// All claims.
+/// Returns all claims.
 ///
 /// # Errors
-/// [`ClaimError`] of the first file that states none.
+/// [`ClaimError`] of the first file that is not a valid claim.
 pub(crate) fn claims() -> Result<Vec<Claim>, ClaimError> {
     CLAIMS.iter().map(|(name, text)| Claim::parse(name, text)).collect()
 }
 
-/// Names and texts of the scenes and meshes.
+/// Returns names and texts of the scenes and meshes.
 pub(crate) fn meshes() -> &'static [(&'static str, &'static str)] {
     MESHES
 }
 
-/// The text of a mesh or scene.
+/// Returns the text of a mesh or scene; `None` if there is none of this name.
 pub(crate) fn mesh(name: &str) -> Option<&'static str> {
     MESHES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
@@ -90,7 +92,8 @@ mod tests {
     use super::super::measure;
     use super::*;
 
-    /// Claim: every file of the folder is a claim of the program, each claim can be read, and what it names is there.
+    /// Claim: every file of the folder is embedded, each claim is valid, and the scene or measurement that it names
+    /// exists.
     #[test]
     fn every_file_is_a_claim() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("validation/claims");

@@ -1,38 +1,39 @@
-//! Patches of the reference cell whose creases all want another angle: what costs are measured on.
+//! Patches of the reference cell with given rest angles, on which run times and errors are measured.
 
 use super::findings::ExperimentError;
 use super::library;
+use foldwell::analysis::method::RelaxOptions;
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
 use foldwell::numerics::random::symmetric;
 use foldwell::sheet::{Sheet, SheetError, fold};
-use foldwell::solver::{Options, Problem};
+use foldwell::solver::Problem;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 /// A patch of `meshes/open-star.fold` with rest angles.
 pub(crate) struct Star {
-    /// The patch, without terms.
+    /// The patch, without energy terms.
     pub assembly: Assembly,
-    /// Rest angle of every edge, in radians; NaN where there is no hinge.
+    /// Rest angle of every edge, in radians; NaN for edges without a hinge.
     pub rest: Vec<f64>,
 }
 
-/// The reference cell.
+/// Returns the reference cell.
 ///
 /// # Errors
-/// None that the repository's own mesh could cause.
+/// None for the mesh of the repository.
 pub(crate) fn cell() -> Result<Sheet, SheetError> {
     fold::parse(library::mesh("open-star.fold").unwrap_or_default(), "open-star.fold")
 }
 
 impl Star {
-    /// `n1 x n2` cells; the rest angle of every hinge is the drawn one and at most `most` radians more or less, at random,
-    /// the same on every machine.
+    /// Makes `n1 x n2` cells. The rest angles differ from the drawn angles by random numbers of at most `most` radians,
+    /// which are the same on every machine.
     ///
     /// # Errors
-    /// None that the repository's own mesh could cause.
+    /// None for the mesh of the repository.
     pub(crate) fn new(cells: [usize; 2], most: f64) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
         let mut numbers = ChaCha8Rng::seed_from_u64(1);
@@ -41,10 +42,10 @@ impl Star {
         Ok(star)
     }
 
-    /// `n1 x n2` cells whose creases rest with the same angle in every cell, one for each edge of the cell.
+    /// Makes `n1 x n2` cells whose rest angles are the same in every cell; `angles` has one for each edge of the cell.
     ///
     /// # Errors
-    /// None that the repository's own mesh could cause.
+    /// None for the mesh of the repository.
     pub(crate) fn resting(cells: [usize; 2], angles: &[f64]) -> Result<Self, ExperimentError> {
         let mut star = Self::drawn(cells)?;
         for (rest, edge) in star.rest.iter_mut().zip(&star.assembly.tiling().edges).filter(|(rest, _)| !rest.is_nan()) {
@@ -59,10 +60,11 @@ impl Star {
         Ok(Self { assembly, rest })
     }
 
-    /// The trajectories of the cell with its first edge, (0, 1, 0, 0), locked, followed with steps of at most this length.
+    /// Returns the trajectories of the cell with its first edge, (0, 1, 0, 0), locked, followed with steps of at most
+    /// `max_step` (arc length in radians).
     ///
     /// # Errors
-    /// [`ExperimentError::Trace`] where there are none.
+    /// [`ExperimentError::Trace`] if there are none.
     pub(crate) fn traced(max_step: f64, stop: Stop) -> Result<Vec<Traced>, ExperimentError> {
         let drawn = Assembly::without_terms(cell()?, [1, 1], Boundary::Screw)?;
         let locked = Terms { locks: vec![(0, drawn.drawn_angles()[0])], ..Terms::default() };
@@ -70,17 +72,17 @@ impl Star {
         Ok(trace(&drawn.with_terms(locked), &options, None, &mut |_, _| true)?)
     }
 
-    /// Fold angles of the edges of the cell, folded along its first ray over this arc length: an exact cylinder.
+    /// Returns the fold angles of the cell after folding along its first ray by this arc length: an exact cylinder.
     ///
     /// # Errors
-    /// [`ExperimentError::Trace`] where there is none.
+    /// [`ExperimentError::Trace`] if there is no trajectory.
     pub(crate) fn cylinder(arc_length: f64) -> Result<Vec<f64>, ExperimentError> {
         let all = Self::traced(0.25, Stop { arc_length: Some(arc_length), ..Stop::default() })?;
         let last = all.first().and_then(|traced| traced.states.last());
         Ok(last.ok_or(ExperimentError::Other("there is no ray".into()))?.angles.clone())
     }
 
-    /// The model with this stiffness of every bar, `EA`, over that of the creases, which is 1 per length.
+    /// Returns the model with bars of the stiffness `EA`, and creases of stiffness 1 (torque per radian and length).
     pub(crate) fn model(&self, stiffness: f64) -> Model {
         let terms = Terms::bars_and_creases(stiffness, 1.0, self.rest.clone());
         self.assembly.with_terms(terms).model(Gauge::Held)
@@ -89,14 +91,18 @@ impl Star {
     /// Relaxes `model` from the drawn state.
     ///
     /// # Errors
-    /// [`RelaxError`] where it does not converge.
-    pub(crate) fn relax(&self, model: &mut Model, options: Options) -> Result<Relaxed, Box<RelaxError>> {
+    /// [`RelaxError`] if it does not converge.
+    pub(crate) fn relax(
+        &self,
+        model: &mut Model,
+        options: impl Into<RelaxOptions>,
+    ) -> Result<Relaxed, Box<RelaxError>> {
         let start = model.start();
         relax_from(model, start, options, &mut |_| true)
     }
 }
 
-/// Unknowns and stiff measures of a model.
+/// Returns the numbers of unknowns and of stiff elements of a model.
 pub(crate) fn size(model: &Model) -> (usize, usize) {
     (model.layout().unknowns, model.layout().stiff.len())
 }

@@ -1,4 +1,4 @@
-//! Malformed scenes, each with its message: where (`scene.toml:line:column`), what is wrong, what would be right.
+//! Malformed scenes, each with its message: position (`scene.toml:line:column`), fault and remedy.
 
 use std::ops::ControlFlow;
 
@@ -7,7 +7,7 @@ use foldwell::scene::{SceneError, parse};
 use miette::Diagnostic;
 use proptest::prelude::*;
 
-/// A scene with every table and every kind of study; it is right.
+/// A valid scene with every table and every kind of study.
 const GOOD: &str = r#"title = "every key"
 [sheet]
 mesh = "star.fold"
@@ -73,14 +73,14 @@ resolution = 20
 max_curvature = 3
 "#;
 
-/// The message of a scene that has to be refused, and its help.
+/// Returns the message and the help for a scene that must be refused.
 fn refusal(text: &str) -> (String, String) {
     let error = parse(text, "scene.toml").expect_err("the scene should be refused");
     assert!(matches!(error, SceneError::At { .. }), "{error}");
     (error.to_string(), error.help().map(|help| help.to_string()).unwrap_or_default())
 }
 
-/// One fault in an otherwise right scene: the line that is replaced, by what, and what is said about it.
+/// A fault in an otherwise valid scene: the line that is replaced, its replacement, and the expected message.
 struct Fault {
     line: usize,
     new: &'static str,
@@ -168,7 +168,7 @@ const FAULTS: &[Fault] = &[
     fault(23, "start = 3", "23:9", "invalid type: integer `3`", "expected \"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file"),
     fault(24, "tolerance = 0", "24:13", "the number is 0", "expected a finite number above 0"),
     fault(62, "resolution = 0", "62:14", "the number is 0", "expected a whole number from 1 to 4294967295"),
-    fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace; the keys here are `start` or `tolerance`"),
+    fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace; the keys here are `start`, `tolerance`, `method`"),
     fault(28, "start = \"third\"", "28:9", "no earlier study is called `third`", "\"drawn\", the name of an earlier study with states (here \"first\"), { random, seed } or a .vtu file"),
     fault(29, "check = [\"overlap\"]", "29:10", "unknown word `overlap`", "expected `self-intersection`"),
     fault(30, "draw = [\"png\"]", "30:9", "unknown word `png`", "expected `vtk` or `svg`"),
@@ -188,7 +188,7 @@ fn with_line(line: usize, new: &str) -> String {
     GOOD.lines().enumerate().map(|(at, old)| if at + 1 == line { new } else { old }).collect::<Vec<_>>().join("\n")
 }
 
-/// Each fault is found where it is, with the words that stand here.
+/// Each fault is found at its position, with the expected message.
 #[test]
 fn every_fault_has_its_message() {
     for fault in FAULTS {
@@ -198,7 +198,7 @@ fn every_fault_has_its_message() {
     }
 }
 
-/// The faults are the only ones: the scene that they spoil is right.
+/// The scene in which the faults are planted is valid.
 #[test]
 fn the_good_scene_is_good() {
     let file = parse(GOOD, "scenes/scene.toml").expect("the scene is right");
@@ -206,7 +206,7 @@ fn the_good_scene_is_good() {
     assert_eq!(file.resolve("star.fold".as_ref()), std::path::Path::new("scenes/star.fold"));
 }
 
-/// A check that comes later points at the scene in the same way as those made here.
+/// A check that is made later reports the position in the scene in the same way.
 #[test]
 fn later_faults_point_at_the_scene() {
     let file = parse(GOOD, "scene.toml").expect("the scene is right");
@@ -215,7 +215,7 @@ fn later_faults_point_at_the_scene() {
     assert_eq!(error.to_string(), "scene.toml:11:10: edge [0, 1, 0, 0] is no edge of this sheet");
 }
 
-/// A file that is not there is an error of reading, with its name.
+/// A missing file is an error of reading, with the name of the file.
 #[test]
 fn a_missing_scene_is_named() {
     let error = foldwell::scene::read("no/such/scene.toml".as_ref()).expect_err("there is no such file");
@@ -225,11 +225,12 @@ fn a_missing_scene_is_named() {
     );
 }
 
-/// A sheet of four triangles round a point, finite; and the star cell, periodic. Paths are relative to the scene.
+/// A finite sheet of four triangles around a point. The other sheet is the periodic star cell; paths are relative to
+/// the scene.
 const FINITE: &str = r#"{ "vertices_coords": [[0,0,0],[1,0,0],[0,1,0],[-1,0,0],[0,-1,0.2]],
   "faces_vertices": [[0,1,2],[0,2,3],[0,3,4],[0,4,1]] }"#;
 
-/// A scene that reads well but does not fit its sheet: the scene, the place and the message, the help.
+/// A well-formed scene that does not fit its sheet: the scene, the position and the message, and the help.
 struct Misfit {
     text: &'static str,
     at: &'static str,
@@ -288,7 +289,8 @@ fn folder_of_misfits() -> tempfile::TempDir {
     folder
 }
 
-/// The message of a scene that its sheet refuses, and its help; the folder is written as FOLDER.
+/// Returns the error, the message and the help for a scene that does not fit its sheet; the folder is written as
+/// FOLDER.
 fn misfit_of(folder: &std::path::Path, text: &str) -> (SceneError, String, String) {
     let file = parse(text, folder.join("scene.toml")).expect("the scene alone is right");
     let Err(error) = foldwell::scene::build::assembly(&file) else { panic!("the sheet should refuse:\n{text}") };
@@ -297,7 +299,7 @@ fn misfit_of(folder: &std::path::Path, text: &str) -> (SceneError, String, Strin
     (error, message, help)
 }
 
-/// Claim: what only the sheet can refuse is refused with the place in the scene, the words that stand here, and help.
+/// Claim: faults that only the sheet shows are refused with the position in the scene, the expected message and help.
 #[test]
 fn every_misfit_has_its_message() {
     let folder = folder_of_misfits();
@@ -314,9 +316,9 @@ fn every_misfit_has_its_message() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// Claim: a mode that no curvature names says why: Miura-ori has one mode where its polygons are rigid, and three, of
-/// which the map to curvatures is singular, where they bend; a finite sheet has no lattice. What would be right is said
-/// once.
+/// Claim: a mode that is not determined by its curvature is refused with the reason: Miura-ori has one mode if its
+/// polygons are rigid, and three, with a singular map to curvatures, if they bend; a finite sheet has no lattice. The
+/// remedy is given once.
 #[test]
 fn modes_that_no_curvature_names() {
     let folder = folder_of_misfits();
@@ -334,7 +336,7 @@ fn modes_that_no_curvature_names() {
     }
 }
 
-/// Claim: a fault in a file that the scene names is told with that file, and its line where it has one.
+/// Claim: a fault in a file that the scene names is reported with that file, and with the line if there is one.
 #[test]
 fn faults_of_named_files_name_the_file() {
     let folder = folder_of_misfits();
@@ -358,7 +360,7 @@ fn faults_of_named_files_name_the_file() {
     }
 }
 
-/// Claim: what a study cannot do is refused before anything is written, with its place.
+/// Claim: a study that is not possible is refused with its position before anything is written.
 #[test]
 fn studies_that_cannot_be_done() {
     let folder = folder_of_misfits();
@@ -414,7 +416,7 @@ fn fancy(error: &SceneError) -> String {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// Whatever is cut out of a scene and put in its place, there is an answer or an error that can be shown.
+    /// A scene with a random replacement gives a result or an error that can be displayed.
     #[test]
     fn mutated_scenes_do_not_panic(
         start in 0..GOOD.len(),

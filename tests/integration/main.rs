@@ -1,5 +1,6 @@
-//! The library and the program seen from outside: results against theory, independent paths and closed forms; files, messages and
-//! exit statuses of the program. One file a subject; `cargo test --release --test integration surface` runs those of one.
+//! Tests of the library and the program from outside: results compared with theory, independent computations and closed
+//! forms; files, messages and exit statuses of the program. There is one file for each subject; `cargo test --release
+//! --test integration surface` runs those of one.
 #![allow(clippy::unwrap_used)] // tests, also their helpers, may fail
 
 #[path = "../common/mod.rs"]
@@ -28,6 +29,7 @@ mod folding_theory;
 mod front_door;
 mod hanging_chain;
 mod intersections;
+mod intrinsic;
 mod invariance;
 mod kinematics;
 mod landscape;

@@ -1,4 +1,4 @@
-//! Runs from outside: what is written, what is said, and with which status a run ends.
+//! Runs of the program: files, messages and exit statuses.
 
 use approx::abs_diff_eq;
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ fn json(path: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(path).expect("the file is there")).expect("it is JSON")
 }
 
-/// The last row of a table of states, by its columns.
+/// Returns the last row of a table of states, by column names.
 fn last_row(path: &Path) -> BTreeMap<String, f64> {
     let text = fs::read_to_string(path).expect("the table is there");
     let lines: Vec<&str> = text.lines().collect();
@@ -39,7 +39,7 @@ fn last_row(path: &Path) -> BTreeMap<String, f64> {
     lines[0].split(',').map(str::to_owned).zip(values).collect()
 }
 
-/// A scene on the star cell, without pictures: its energy, and its studies.
+/// Returns a scene on the star cell, without drawings, with this energy and these studies.
 fn star(cells: [usize; 2], domain: &str, energy: &str, studies: &str) -> String {
     let mesh = meshes().join("open-star.fold");
     format!(
@@ -55,14 +55,14 @@ fn relax(name: &str, more: &str) -> String {
 const RIGID: &str =
     "bars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = { mode = [0, 0.06, 0], amplitude = 1 } }";
 
-/// Whether a study of a scene says `draw = []`.
+/// Whether a study of a scene has `draw = []`.
 fn tables_only(scene: &Path, name: &str) -> bool {
     let scene: toml::Table = fs::read_to_string(scene).unwrap().parse().unwrap();
     let study = scene["study"].as_array().unwrap().iter().find(|study| study["name"].as_str() == Some(name)).unwrap();
     study.get("draw").is_some_and(|ways| ways.as_array().is_some_and(Vec::is_empty))
 }
 
-/// Claim: every scene in `meshes/` runs to its end with status 0, and its files are those that the contract names.
+/// Claim: every scene in `meshes/` runs to its end with status 0, and writes the documented files.
 #[test]
 fn every_scene_in_meshes_gives_its_answer() {
     let out = tempfile::tempdir().unwrap();
@@ -90,10 +90,10 @@ fn every_scene_in_meshes_gives_its_answer() {
     }
 }
 
-/// Claim: creases that rest along the mode [0, k, 0] roll one screw-periodic cell up to a cylinder of that curvature.
-/// Source: the meaning of a mode, `(k11 x^2 + k22 y^2 + 2 k12 x y)/2` towards the face normals, and theory.md 3: rank-one
-/// modes fold rigidly, so the energy left is of fourth order. Tolerance: the mode is linear, so what is left out is of
-/// second order in k: 10 % at k = 0.01, where the sheet measures 2; a tenth of it at a tenth of k.
+/// Claim: rest angles along the mode [0, k, 0] roll one screw-periodic cell up to a cylinder of this curvature. Source:
+/// the definition of a mode, `(k11 x^2 + k22 y^2 + 2 k12 x y)/2` towards the face normals, and theory.md 3: rank-one
+/// modes fold rigidly, so the remaining energy is of fourth order. Tolerance: the mode is linear, so the error is of
+/// second order in k: 10 % at k = 0.01, where the sheet has size 2; a tenth of it at a tenth of k.
 #[test]
 fn a_mode_rolls_the_sheet_to_its_curvature() {
     let out = tempfile::tempdir().unwrap();
@@ -112,10 +112,10 @@ fn a_mode_rolls_the_sheet_to_its_curvature() {
     }
 }
 
-/// Claim: one crease drives a Miura-ori with rigid parallelograms, also where creases have no energy; the table has the
-/// angles of all edges in either case. Source: its two fold angles obey `tan(a/2) = cos(sector) tan(b/2)` (M. Schenk, S. D.
-/// Guest, PNAS 110, 3276 (2013)), here `sector` = 60 degrees. Tolerance: what a residual of 1e-12 leaves of angles of
-/// order 1 where every constraint is met several times over.
+/// Claim: one crease drives a Miura-ori with rigid parallelograms, also if creases have no energy; the table has the
+/// angles of all edges in either case. Source: its two fold angles satisfy `tan(a/2) = cos(sector) tan(b/2)` (M.
+/// Schenk, S. D. Guest, PNAS 110, 3276 (2013)), here `sector` = 60 degrees. Tolerance: the effect of a residual of
+/// 1e-12 on angles of order 1 if every constraint is redundant several times.
 #[test]
 fn one_crease_drives_the_miura_ori() {
     let out = tempfile::tempdir().unwrap();
@@ -136,7 +136,7 @@ fn one_crease_drives_the_miura_ori() {
     }
 }
 
-/// The array `self_intersecting` of a VTU file, on its triangles.
+/// Returns the array `self_intersecting` of a VTU file, on its triangles.
 fn crossing_faces(path: &Path) -> Vec<u8> {
     let vtk = vtkio::Vtk::parse_xml(fs::read(path).unwrap().as_slice()).unwrap();
     let piece = vtkio::model::UnstructuredGridPiece::try_from(vtk.data).unwrap();
@@ -148,9 +148,9 @@ fn crossing_faces(path: &Path) -> Vec<u8> {
     array.unwrap()[..triangles].to_vec()
 }
 
-/// Claim: `check = ["self-intersection"]` fills its column and its array, in the picture too, and without it the column is empty and
-/// the array 0. Source: the cell of `meshes/tube.toml` turns by 0.758 from one cell to the next, so that eight cells make less than
-/// a turn and nine more; of those that cross, each does at the ends, none in the middle.
+/// Claim: `check = ["self-intersection"]` fills its column and its array, also in the drawing, and without it the
+/// column is empty and the array 0. Source: the cell of `meshes/tube.toml` rotates by 0.758 from one cell to the next,
+/// so that eight cells are less than a turn and nine more; the crossing triangles are at the ends, none in the middle.
 #[test]
 fn a_tube_that_goes_through_itself() {
     let out = tempfile::tempdir().unwrap();
@@ -181,7 +181,7 @@ fn a_tube_that_goes_through_itself() {
 }
 
 /// Claim: `--json` prints the summary and nothing else on standard output; without it a line for each study and the
-/// folder are there; `draw = []` writes tables only.
+/// folder are printed; `draw = []` writes tables only.
 #[test]
 fn what_a_run_says_and_writes() {
     let out = tempfile::tempdir().unwrap();
@@ -197,9 +197,9 @@ fn what_a_run_says_and_writes() {
     assert_eq!(names, ["one.csv", "summary.json"]);
 }
 
-/// Claim: that an equilibrium is not stable is said on standard output too. A flat sheet that is pressed together in its
-/// plane stays flat, since nothing pushes it out: unstable under a force a hundred times the stiffness of the creases, which are of
-/// length 1 and more, and stable under one as large as that.
+/// Claim: an unstable equilibrium is also reported on standard output. A flat sheet that is compressed in its plane
+/// stays flat, since no force acts out of the plane: unstable under a force a hundred times the stiffness of the
+/// creases, which are of length 1 and more, and stable under one as large as that stiffness.
 #[test]
 fn a_state_that_is_not_stable_is_called_so() {
     let out = tempfile::tempdir().unwrap();
@@ -220,8 +220,8 @@ fn a_state_that_is_not_stable_is_called_so() {
     }
 }
 
-/// Claim: a study that does not converge gives status 1; the others are computed, and what there is of it is on disk, with
-/// its reason in the summary. One that starts from it fails as well, and says so.
+/// Claim: a study that does not converge gives status 1; the others are computed, its partial results are on disk, and
+/// its reason is in the summary. A study that starts from it fails as well, with that reason.
 #[test]
 fn a_failed_study_is_reported() {
     let out = tempfile::tempdir().unwrap();
@@ -241,8 +241,8 @@ fn a_failed_study_is_reported() {
     assert!(out.path().join("a/flat.csv").exists());
 }
 
-/// Claim: wrong input gives status 2 and writes nothing; a place that cannot be written gives status 3. A file in the way
-/// of a folder stops every user, also one who may write everywhere.
+/// Claim: malformed input gives status 2 and writes nothing; a destination that cannot be written gives status 3. A
+/// file with the name of the folder stops every user, also one who may write everywhere.
 #[test]
 fn what_is_wrong_has_its_status() {
     let out = tempfile::tempdir().unwrap();
@@ -261,7 +261,7 @@ fn what_is_wrong_has_its_status() {
     assert!(text(&said.stderr).contains("file/below"), "{}", text(&said.stderr));
 }
 
-/// All files under a folder.
+/// Returns all files below a folder.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap() {
@@ -276,7 +276,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// The same without the times in the summary.
+/// Returns the same without the times in the summary.
 fn timeless(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut files = files(folder);
     let summary = text(&files["summary.json"]);
@@ -286,7 +286,7 @@ fn timeless(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// A scene of studies that start from each other, long enough to be stopped after the first.
+/// Returns a scene of studies that start from each other, long enough to be stopped after the first.
 fn long_scene() -> String {
     let studies = [
         relax("first", "start = { random = 0.05, seed = 3 }").replace("draw = []\n", ""),
@@ -316,8 +316,8 @@ fn stopped(folder: &Path, out: &str, signal: &str) -> Child {
     child
 }
 
-/// Claim: a run that is killed after its first study and resumed leaves the same bytes as one that was not disturbed,
-/// times aside: also where a study starts from one that was kept, and where nothing is drawn.
+/// Claim: a run that is killed after its first study and resumed leaves the same bytes as an undisturbed one, except
+/// for times: also if a study starts from one that was kept, and if nothing is drawn.
 #[test]
 #[cfg(unix)]
 fn a_killed_run_is_resumed_exactly() {
@@ -341,7 +341,7 @@ fn a_killed_run_is_resumed_exactly() {
     assert_eq!(*seconds, before["studies"][0]["seconds"], "the first study was not computed again");
 }
 
-/// Claim: Ctrl-C ends a run with status 130, its finished studies whole on disk.
+/// Claim: Ctrl-C ends a run with status 130, with its finished studies complete on disk.
 #[test]
 #[cfg(unix)]
 fn an_interrupted_run_keeps_what_is_done() {
@@ -359,15 +359,15 @@ fn an_interrupted_run_keeps_what_is_done() {
     assert!(text(&said.stdout).lines().next().unwrap().ends_with("(kept)"), "{}", text(&said.stdout));
 }
 
-/// Claim: Ctrl-C ends a study of modes, which is not converged and says why; what was done before is whole, what comes
-/// after is not begun. The iteration for hundreds of eigenpairs takes far longer than a signal to arrive.
+/// Claim: Ctrl-C ends a study of modes, which is reported as not converged with its reason; earlier results are
+/// complete, later studies are not started. The iteration for hundreds of eigenpairs takes far longer than a signal.
 #[test]
 #[cfg(unix)]
 fn modes_are_interrupted() {
     let folder = tempfile::tempdir().unwrap();
     let modes = "[[study]]\nname = \"modes\"\nkind = \"modes\"\neigenvalues = 200\ndraw = []\n";
     let studies = relax("first", "") + modes + &relax("last", "");
-    fs::write(folder.path().join("a.toml"), star([14, 14], "patch", RIGID, &studies)).unwrap();
+    fs::write(folder.path().join("a.toml"), star([20, 20], "patch", RIGID, &studies)).unwrap();
     let ended = stopped(folder.path(), "cut", "-INT").wait().unwrap();
     assert_eq!(ended.code(), Some(130));
     let out = folder.path().join("cut");
@@ -380,7 +380,7 @@ fn modes_are_interrupted() {
     assert!(out.join("first.csv").exists() && !out.join("modes.csv").exists());
 }
 
-/// Claim: nothing is kept where the scene, or a file that it names, is another one; and nothing without `--resume`.
+/// Claim: no result is kept if the scene, or a file that it names, has changed; and none without `--resume`.
 #[test]
 fn another_scene_keeps_nothing() {
     let folder = tempfile::tempdir().unwrap();
@@ -401,8 +401,8 @@ fn another_scene_keeps_nothing() {
     assert_eq!(kept(&resume), 0);
 }
 
-/// Claim: both engines beside each other: a row for every state, with residuals and the distance to the exact kinematics
-/// wherever a relaxation was made, which is everywhere but in the drawn state; the largest distance is in the summary.
+/// Claim: with both engines there is a row for every state, with residuals and the distance from the exact kinematics
+/// for every relaxation, that is for all states but the drawn one; the largest distance is in the summary.
 #[test]
 fn engines_are_compared() {
     let out = tempfile::tempdir().unwrap();

@@ -17,11 +17,11 @@ use foldwell::solver::continuation::End;
 use nalgebra::Rotation3;
 use std::f64::consts::TAU;
 
-/// What is kept of both conditions, and how many motions are left (theory, section 9).
+/// Sets of conditions that are kept, and the numbers of motions that are left (theory, section 9).
 const LEFT: [(&[Condition], usize); 4] = [(&[], 2), (&[Condition::Turn], 1), (&[Condition::Rise], 1), (&BOTH, 0)];
 
-/// Tubes of the reference cell and of a random one, their seams along the lattice vectors and across: sheet, seam,
-/// angles.
+/// Returns tubes of the reference cell and of a random one, with seams along the lattice vectors and oblique to them:
+/// sheet, seam, angles.
 fn tubes() -> Vec<(Sheet, [i32; 2], Vec<f64>)> {
     let random = generate(&Pattern::Random(Random { seed: 3, size: [2, 3], ..Random::default() })).unwrap();
     let mut found = Vec::new();
@@ -40,8 +40,9 @@ fn shape(sheet: &Sheet, angles: &[f64]) -> Shape {
     Shape::at(&Embedding::new(sheet).unwrap(), angles).unwrap()
 }
 
-/// Claim: a tube closes: `n1 theta1 + n2 theta2 = 2 pi`, `n1 h1 + n2 h2 = 0`, cell `(n1, n2)` is where cell (0, 0) is,
-/// faces close, rotations commute.  Tolerances: rounding of angles of size 2 pi, and of positions after some ten cells.
+/// Claim: a tube closes: `n1 theta1 + n2 theta2 = 2 pi`, `n1 h1 + n2 h2 = 0`, cell `(n1, n2)` coincides with cell (0,
+/// 0), faces close, rotations commute. Tolerances: rounding errors of angles of size 2 pi, and of positions after some
+/// ten cells.
 #[test]
 fn tubes_close() {
     for (sheet, [n1, n2], angles) in tubes() {
@@ -57,8 +58,9 @@ fn tubes_close() {
     }
 }
 
-/// Jacobian of the bars of one screw-periodic cell at an exact state, vertex 0 pinned: `3 Nv` rows, `3 Nv + 2` columns,
-/// with rows for `n1 theta1 + n2 theta2` and `n1 h1 + n2 h2` below, where `theta_a = kappa b_a`, `b` across the axis and `h` along it.
+/// Returns the Jacobian of the bars of one screw-periodic cell at an exact state, with vertex 0 pinned: `3 Nv` rows, `3
+/// Nv + 2` columns, and further rows for `n1 theta1 + n2 theta2` and `n1 h1 + n2 h2`, where `theta_a = kappa b_a`, with
+/// `b` perpendicular to the axis and `h` along it.
 fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -> DenseMatrix {
     let shape = shape(sheet, angles);
     let (positions, rates) = (shape.positions.clone(), vec![]);
@@ -93,9 +95,9 @@ fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -
     })
 }
 
-/// Claim (theory, section 9): within screw-symmetric motions a tube has 2 motions, 1 when its seam keeps turning by `2
-/// pi` (it slips), 1 when it keeps its height, 0 with both: rigid. By the closure of the fold angles and by the lengths
-/// of the bars in the chart of screw motions, which share no equation. Ranks stand out by more than ten decades.
+/// Claim (theory, section 9): within screw-symmetric motions a tube has 2 motions, 1 if its seam keeps turning by `2
+/// pi` (it slips), 1 if it keeps its height, 0 with both: rigid. By the closure of the fold angles and by the lengths
+/// of the bars in the chart of screw motions, which share no equation. Ranks are separated by more than ten decades.
 #[test]
 fn motions_left_by_the_conditions() {
     for (sheet, seam, angles) in tubes() {
@@ -110,10 +112,10 @@ fn motions_left_by_the_conditions() {
     }
 }
 
-/// Claim: the seam of a tube slips, both ways, over a finite distance: `n1 theta1 + n2 theta2 = 2 pi` to 1e-12 all the
-/// way and faces closed, while its end climbs over its start, step by step, by more than 0.04 of the seam's length.
-/// Followed over 0.5 rad in fold angles. Kept its height instead, the tube would widen: the same motion is refused.
-/// Tolerance: the issue's.
+/// Claim: the seam of a tube slips, in both directions, over a finite distance: `n1 theta1 + n2 theta2 = 2 pi` to 1e-12
+/// along the whole way and faces closed, while its end climbs over its start, step by step, by more than 0.04 of the
+/// seam's length. Followed over 0.5 rad in fold angles. If its height were kept instead, the tube would widen: the same
+/// motion is refused. Tolerance: the required one.
 #[test]
 fn the_seam_slips() {
     for (sheet, seam, angles) in tubes() {
@@ -134,15 +136,16 @@ fn the_seam_slips() {
     }
 }
 
-/// Zero modes of the bars of a finite sheet, as columns.
+/// Returns the zero modes of the bars of a finite sheet, as columns.
 fn zero_modes(case: &Assembly) -> DenseMatrix {
     let model = case.model_of(&Terms { bars: Some(1.0), ..Terms::default() }, Gauge::Free);
     let at = linearized(&model, &model.start(), &vec![0.0; case.edges()]);
     null_space(&jacobian(&model, &at)).unwrap().basis
 }
 
-/// The factors by which the zero modes of a tube along z grow from a row to the next, ascending in magnitude, `next`
-/// moving a point to its copy there. All zero modes together go over into each other, which is tested to 1e-9.
+/// Returns the factors by which the zero modes of a tube along z grow from a row to the next, ascending in magnitude; a
+/// row is mapped to the next by the rotation `turn` and the translation `rise`. The shift maps the space of zero modes
+/// to itself, which is tested to 1e-9.
 fn growth(case: &Assembly, turn: f64, rise: f64) -> Vec<f64> {
     let (modes, vertices) = (zero_modes(case), &case.sheet().vertices);
     let rotation = Rotation3::from_axis_angle(&Vec3::z_axis(), turn);
@@ -163,7 +166,7 @@ fn growth(case: &Assembly, turn: f64, rise: f64) -> Vec<f64> {
     growth
 }
 
-/// Zero modes are as many as the rims have edges; no self stress; six rigid motions.
+/// Checks that there are as many zero modes as the rims have edges, no self stress, and six rigid motions.
 fn check_counts(case: &Assembly, rim: usize) {
     let edges = case.sheet().edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary).count();
     let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
@@ -172,11 +175,11 @@ fn check_counts(case: &Assembly, rim: usize) {
 }
 
 /// Claim: an open tube, cut to rows of cells, has as many zero modes as its two rims have edges, and no self stress:
-/// `V + F = E` and `3 F + b = 2 E` give `3 V - E = b`. Six are rigid motions. The others are the same in number
-/// whatever the length, and from row to row they change by factors that are the same too: so many fall off from one end
-/// as from the other, with reciprocal factors (theory, section 8: roots pair). Rolled up inwards, with seam `[0, 8]`,
-/// 13 modes belong to each end; outwards 8 do and 10 belong to none, waves along the whole tube. Tolerances: 1e-4
-/// for factors of size 1, of which those of rigid motions are double, and relative 1e-5 for all.
+/// `V + F = E` and `3 F + b = 2 E` give `3 V - E = b`. Six are rigid motions. The number of the others does not depend on
+/// the length, and neither do the factors by which they change from row to row: as many decay from one end as from the
+/// other, with reciprocal factors (theory, section 8: roots pair). Rolled up inwards, with seam `[0, 8]`, 13 modes
+/// belong to each end; outwards 8 do and 10 belong to none, waves along the whole tube. Tolerances: 1e-4 for factors of
+/// size 1, of which those of rigid motions are double, and relative 1e-5 for all.
 #[test]
 fn end_modes_of_open_tubes() {
     let sheet = mesh("open-star");
@@ -203,8 +206,8 @@ fn end_modes_of_open_tubes() {
     }
 }
 
-/// Claim: a tube of one strand, which ends in a step, has zero modes as said above: 36 for seam (1, 8), whatever the
-/// number of its cells.
+/// Claim: a tube of one strand, which ends in a step, has as many zero modes as stated above: 36 for seam (1, 8), for
+/// any number of cells.
 #[test]
 fn zero_modes_of_helical_tubes() {
     let sheet = mesh("open-star");
@@ -217,16 +220,16 @@ fn zero_modes_of_helical_tubes() {
     }
 }
 
-/// The tube of `meshes/helical-tube.fold`.
+/// Returns the tube of `meshes/helical-tube.fold`.
 fn helical_tube() -> Sheet {
     let sheet = mesh("open-star");
     let tube = Tube::new(&sheet, [1, 8]).unwrap();
     tube.cut(&tube.rolled_up(true).unwrap(), 48).unwrap()
 }
 
-/// Claim: `meshes/helical-tube.fold` is what it says: the reference cell rolled up until cell (1, 8) lies on cell (0,
-/// 0), one strand of 48 cells. Its edges are as long as those of the flat cell. Tolerance: what mathematical libraries
-/// differ in, over Newton's method and some fifty cells.
+/// Claim: `meshes/helical-tube.fold` agrees with its description: the reference cell rolled up until cell (1, 8)
+/// coincides with cell (0, 0), one strand of 48 cells. Its edges are as long as those of the flat cell. Tolerance: the
+/// differences between mathematical libraries, over Newton's method and some fifty cells.
 #[test]
 fn the_helical_tube_in_meshes() {
     let (kept, computed) = (mesh("helical-tube"), helical_tube());

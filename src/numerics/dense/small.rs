@@ -33,6 +33,18 @@ pub(crate) fn inverse<T: nalgebra::ComplexField>(matrix: DMatrix<T>) -> Option<D
     matrix.try_inverse()
 }
 
+/// Returns the rotation `Q` with the largest trace of `Q^T matrix`: it brings points `p` closest to others `q` if the
+/// matrix is the sum of `q p^T` over all pairs (W. Kabsch, Acta Cryst. A 32, 922 (1976)).
+pub(crate) fn nearest_rotation(matrix: &Matrix3<f64>) -> Matrix3<f64> {
+    let svd = matrix.svd(true, true);
+    let (Some(u), Some(v)) = (svd.u, svd.v_t) else { return Matrix3::identity() };
+    let mut signs = Vector3::repeat(1.0);
+    if (u * v).determinant() < 0.0 {
+        signs[svd.singular_values.imin()] = -1.0;
+    }
+    u * Matrix3::from_diagonal(&signs) * v
+}
+
 /// The smallest over the largest singular value; not a number for a matrix of zeros.
 pub(crate) fn reciprocal_condition(matrix: &DenseMatrix) -> f64 {
     let values = matrix.singular_values();

@@ -1,17 +1,17 @@
-//! Regions of the plane in which a function is at least so large: the function is known at points and linear on triangles
-//! between them. Their rims are few long polygons, so that a map is smooth at every size and small as a file.
+//! Contours: the regions of the plane in which a function, given at points and linear on triangles, reaches a level.
+//! The borders are a few long polygons, so that a map is smooth at every size and its file is small.
 
 use std::collections::{HashMap, HashSet};
 
 use super::style::PaperPoint;
 
-/// A side of a triangle, or the way from a point on the rim to what is beyond it.
+/// A side of a triangle that the border crosses, or a step from a point of the outer rim to `BEYOND`.
 type Crossing = [usize; 2];
-/// The number of what is beyond the rim, where the function is small.
+/// Index that stands for the outside of the triangulated domain, where the function counts as below every level.
 const BEYOND: usize = usize::MAX;
 
-/// Polygons around the regions in which the function is at least `level`; holes go round the other way. Triangles with a
-/// corner where the function is not a number are left out.
+/// Returns the polygons around the regions in which the function is at least `level`; holes have the opposite
+/// orientation. Triangles with a corner at which the function is NaN are left out.
 pub(crate) fn regions(
     points: &[PaperPoint],
     triangles: &[[usize; 3]],
@@ -69,7 +69,7 @@ pub(crate) fn regions(
 mod tests {
     use super::*;
 
-    /// Points and triangles of a square of side 2 around the origin, all triangles counter-clockwise.
+    /// Returns points and triangles of a square of side 2 around the origin; all triangles are counter-clockwise.
     fn square(n: usize) -> (Vec<PaperPoint>, Vec<[usize; 3]>) {
         let place = |k: usize| 2.0 * k as f64 / n as f64 - 1.0;
         let points = (0..=n).flat_map(|j| (0..=n).map(move |i| [place(i), place(j)])).collect();
@@ -85,8 +85,8 @@ mod tests {
         polygons.iter().map(|p| (0..p.len()).map(|k| 0.5 * turn(p, k)).sum::<f64>()).sum()
     }
 
-    /// Claim: the area of a ring, a disc and the whole square come out, with the right number of rims. Tolerance: that of
-    /// straight lines on 40 x 40 squares.
+    /// Claim: the areas of a ring, a disc and the whole square are found, with the right number of borders. The
+    /// tolerance is the error of straight lines on 40 x 40 squares.
     #[test]
     fn rings_and_discs() {
         let (points, triangles) = square(40);
@@ -101,7 +101,7 @@ mod tests {
         assert_eq!(regions(&points, &triangles, &values, 1.0), Vec::<Vec<PaperPoint>>::new());
     }
 
-    /// Claim: a corner that is not a number leaves out its triangles alone.
+    /// Claim: a corner at which the function is NaN leaves out only the triangles at this corner.
     #[test]
     fn gaps() {
         let (points, triangles) = square(4);

@@ -1,7 +1,7 @@
 //! The summary of a run (`summary.json`) and of a sheet (`foldwell info`).
 //!
-//! Numbers that were not computed, NaN and infinity are `null`. The docs of the keys are the descriptions of the JSON schema
-//! ([`super::schema::schema`]); a key that can be `null` says when.
+//! Numbers that were not computed, NaN and infinity are written as `null`. The doc comments of the keys are the
+//! descriptions in the JSON schema ([`super::schema::schema`]); for a key that can be `null`, they say when.
 
 mod bloch;
 mod branches;
@@ -18,7 +18,7 @@ pub use bloch::{BlochSummary, DecaySummary, RegionSummary, ZeroLineSummary};
 pub use branches::{BranchesSummary, RaySummary};
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::ModesSummary;
-pub use relax::{EnergySummary, IterationSummary, RelaxSummary};
+pub use relax::{EnergySummary, IterationSummary, MethodName, RelaxSummary};
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 pub use wells::{
@@ -109,7 +109,7 @@ pub struct Files {
     pub digest: String,
 }
 
-/// The keys of each kind of study.
+/// The results of each kind of study.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum StudyResult {
@@ -127,12 +127,12 @@ pub enum StudyResult {
     Bloch(BlochSummary),
     /// `kind = "wells"`.
     Wells(WellsSummary),
-    /// Of `trace`.
+    /// `kind = "trace"`.
     Trace(TraceSummary),
 }
 
 impl StudySummary {
-    /// The summary of a study that has given no answer yet.
+    /// Makes the summary of a study that has no result yet.
     pub(crate) fn unanswered(name: &str, kind: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -148,12 +148,12 @@ impl StudySummary {
 }
 
 impl Summary {
-    /// Whether every study gave its answer.
+    /// Whether every study gave a result.
     pub fn converged(&self) -> bool {
         self.studies.iter().all(|study| study.converged)
     }
 
-    /// The text of `summary.json`.
+    /// Returns the text of `summary.json`.
     pub fn to_json(&self) -> String {
         to_json(self)
     }
@@ -167,9 +167,9 @@ impl Summary {
     }
 }
 
-/// Pretty JSON with a newline at its end.
+/// Returns a value as pretty-printed JSON with a newline at the end.
 pub fn to_json(value: &impl Serialize) -> String {
-    // the types above have string keys and no own serializers: nothing in them can fail
+    // serialization cannot fail: the types above have string keys and derived serializers
     serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
@@ -220,7 +220,7 @@ mod tests {
         value.as_object().unwrap().keys().map(String::as_str).collect()
     }
 
-    /// The keys that readers of summaries rely on.
+    /// The keys that readers of summaries rely on are present.
     #[test]
     fn the_summary_has_its_keys() {
         let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
@@ -245,7 +245,7 @@ mod tests {
         assert_eq!(keys(&json["studies"][3]), ["converged", "error", "kind", "name", "reason", "seconds"]);
     }
 
-    /// Not a number and infinity are null; finite numbers read back exactly.
+    /// NaN and infinity are written as null; finite numbers are read back exactly.
     #[test]
     fn numbers_that_json_lacks_are_null() {
         let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
@@ -254,7 +254,7 @@ mod tests {
         assert_eq!(json["studies"][1]["eigenvalues"], json!([0.1, 1e-300]));
     }
 
-    /// A run gave its answer when all its studies did.
+    /// A run has converged only if all its studies have.
     #[test]
     fn one_failed_study_fails_the_run() {
         let mut summary = sample();

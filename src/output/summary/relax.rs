@@ -1,4 +1,4 @@
-//! What a study of kind `relax` says in the summary.
+//! The results of a study of kind `relax` in the summary.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -50,6 +50,9 @@ pub struct RelaxSummary {
     #[serde(default)]
     #[schemars(extend("enum" = ["listed", "continuum", "not-established", null]))]
     pub directions_at_start: Option<String>,
+    /// Why fold angles were given up as unknowns; null where they were not tried or led to the result.
+    #[serde(default)]
+    pub intrinsic_failure: Option<String>,
     /// A row per iteration.
     pub history: Vec<IterationSummary>,
 }
@@ -72,4 +75,19 @@ pub struct IterationSummary {
     pub step: f64,
     /// Shift added to the Hessian, over its largest diagonal entry.
     pub shift: f64,
+    /// The unknowns: positions of the vertices, or fold angles, for which the residual length is the largest error of the faces'
+    /// closure, in radians or mean edges.
+    #[serde(default)]
+    pub method: MethodName,
+}
+
+/// The unknowns of an iteration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum MethodName {
+    /// Positions of the vertices.
+    #[default]
+    Vertices,
+    /// Fold angles.
+    Intrinsic,
 }

@@ -79,6 +79,22 @@ pub struct RelaxSpec {
     pub start: Option<Located<StartSpec>>,
     /// Bound on both scaled residuals.
     pub tolerance: Option<Located<Positive>>,
+    /// The unknowns of the relaxation; left out: `auto`.
+    #[serde(default)]
+    pub method: MethodSpec,
+}
+
+/// The unknowns of a relaxation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum MethodSpec {
+    /// Fold angles for large free patches, positions otherwise.
+    #[default]
+    Auto,
+    /// Positions of the vertices.
+    Vertices,
+    /// Fold angles; positions if these fail.
+    Intrinsic,
 }
 
 /// `kind = "trace"`.

@@ -88,6 +88,7 @@ impl<'a, P: Problem> Newton<'a, P> {
             shift: self.shift.value,
             factorizations: self.tangent.system.factorizations - before(|step| step.factorizations),
             solves: self.tangent.system.solves - before(|step| step.solves),
+            intrinsic: false,
         }
     }
 

@@ -21,6 +21,9 @@ pub struct Step {
     pub factorizations: usize,
     /// Number of linear solves made for this step, chord corrections included.
     pub solves: usize,
+    /// Whether the step was made in other unknowns, by [`minimize_constrained`](crate::solver::constrained::minimize_constrained);
+    /// its gaps are then those of the constraints.
+    pub intrinsic: bool,
 }
 
 /// A converged state.

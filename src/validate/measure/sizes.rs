@@ -1,4 +1,4 @@
-//! What the size of a patch costs, against an exact state that is known at every size.
+//! Run time against the size of a patch, with an exact state that is known at every size.
 
 use super::super::findings::{Bench, ExperimentError, Findings, ReportTable};
 use super::super::forms::{self, Form};
@@ -6,68 +6,76 @@ use super::super::precision::shortest;
 use super::super::report::figure;
 use super::super::star::{Star, size};
 use super::trial::distance;
+use foldwell::analysis::method::{Method, RelaxOptions};
 use foldwell::analysis::relax::{RelaxError, Relaxed};
 use foldwell::analysis::state::State;
 use foldwell::output::figure::chart::{Chart, Point, Series};
-use foldwell::solver::Options;
 use serde_json::json;
 
 const CELLS: [usize; 6] = [3, 6, 9, 12, 18, 24];
-/// Larger ones where there is time.
+/// Larger sizes, left out by `--quick`.
 const MORE: [usize; 2] = [36, 48];
-/// The first of these that growth is fitted to.
+/// Index of the first size to which the growth is fitted.
 const SMALL: usize = 2;
-/// How often all sizes are timed, in turns.
+/// Number of times that all sizes are timed, by turns.
 const ROUNDS: usize = 5;
-/// Up to this size the plain penalty is tried.
+/// Largest size for which the plain penalty is tried.
 const MOST_FOR_PENALTY: usize = 12;
 const STIFFNESS: f64 = 1e6;
-/// Arc length along which the cell is folded.
+/// Arc length along which the cell is folded, in radians.
 const FOLDED: f64 = 0.1;
 
-/// A size that was relaxed.
+/// The methods that are compared: positions of the vertices, and fold angles as unknowns.
+const METHODS: [Method; 2] = [Method::Vertices, Method::Intrinsic];
+
+/// A patch that was relaxed by both methods.
 struct Size {
     cells: usize,
     unknowns: usize,
-    iterations: usize,
-    error: f64,
-    seconds: f64,
-    /// Error and seconds of the plain penalty.
+    iterations: [usize; 2],
+    errors: [f64; 2],
+    seconds: [f64; 2],
+    /// Error and run time in seconds of the plain penalty.
     penalty: Option<[f64; 2]>,
 }
 
-/// Patches whose creases rest at the angles of an exact cylinder, the reference cell followed over 0.1 rad by the
-/// kinematics: relaxed from the drawn state they have to end there. The error is the largest difference of a fold angle. Rigid bars by
-/// the program's form, all sizes in turns; bars of 1e6 by a plain penalty, for which this state, free of tension, is as exact.
+/// Relaxes patches whose rest angles are the fold angles of an exact cylinder, the reference cell folded by 0.1 rad by
+/// the kinematics. Relaxed from the drawn state they must end at this state; the error is the largest difference of a
+/// fold angle. Rigid bars are relaxed by the program, in positions and in fold angles, all sizes by turns; bars of
+/// stiffness 1e6 by a plain penalty, for which this state, free of tension, is exact as well.
 pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     let exact = Star::cylinder(FOLDED)?;
     let cells: Vec<usize> = CELLS.into_iter().chain(MORE.into_iter().filter(|_| !bench.quick)).collect();
     let stars = cells.iter().map(|&n| Star::resting([n, n], &exact)).collect::<Result<Vec<_>, _>>()?;
-    let mut times = vec![f64::INFINITY; cells.len()];
+    let mut times = vec![[f64::INFINITY; 2]; cells.len()];
     for round in 0..ROUNDS {
         bench.step(round, ROUNDS)?;
-        for (star, time) in stars.iter().zip(&mut times) {
-            *time = time.min(shortest(1, &mut [Box::new(|| _ = rigid(star))])[0]);
+        for (star, times) in stars.iter().zip(&mut times) {
+            for (method, time) in METHODS.into_iter().zip(times) {
+                *time = time.min(shortest(1, &mut [Box::new(|| _ = rigid(star, method))])[0]);
+            }
         }
     }
     let measured = stars.iter().zip(&cells).zip(&times).map(|((star, &n), &seconds)| relaxed(star, n, seconds));
     let sizes = measured.collect::<Result<Vec<_>, _>>()?;
     let growth: Vec<(f64, f64)> =
-        sizes[SMALL..].iter().map(|s| (s.unknowns as f64, s.seconds / s.iterations as f64)).collect();
+        sizes[SMALL..].iter().map(|s| (s.unknowns as f64, s.seconds[0] / s.iterations[0] as f64)).collect();
     let values = json!({
-        "errors": sizes.iter().map(|size| size.error).collect::<Vec<_>>(),
-        "iterations": sizes.iter().map(|size| size.iterations).collect::<Vec<_>>(),
+        "errors": sizes.iter().flat_map(|size| size.errors).collect::<Vec<_>>(),
+        "iterations": sizes.iter().map(|size| size.iterations[0]).collect::<Vec<_>>(),
+        "iterations in fold angles": sizes.iter().map(|size| size.iterations[1]).collect::<Vec<_>>(),
         "growth of an iteration": exponent(&growth),
     });
     Ok(Findings { values, charts: vec![chart(&sizes)], tables: vec![table(&sizes)], ..Findings::default() })
 }
 
-fn rigid(star: &Star) -> Result<Relaxed, Box<RelaxError>> {
-    star.relax(&mut star.model(f64::INFINITY), Options::default())
+fn rigid(star: &Star, method: Method) -> Result<Relaxed, Box<RelaxError>> {
+    star.relax(&mut star.model(f64::INFINITY), RelaxOptions { method, ..RelaxOptions::default() })
 }
 
-fn relaxed(star: &Star, n: usize, seconds: f64) -> Result<Size, ExperimentError> {
-    let found = rigid(star)?;
+fn relaxed(star: &Star, n: usize, seconds: [f64; 2]) -> Result<Size, ExperimentError> {
+    let [vertices, angles] = METHODS.map(|method| rigid(star, method));
+    let found = [vertices?, angles?];
     let penalty = (n <= MOST_FOR_PENALTY).then(|| {
         let mut angles = Vec::new();
         let seconds = shortest(1, &mut [Box::new(|| angles = by_penalty(star))])[0];
@@ -76,8 +84,8 @@ fn relaxed(star: &Star, n: usize, seconds: f64) -> Result<Size, ExperimentError>
     Ok(Size {
         cells: n,
         unknowns: size(&star.model(f64::INFINITY)).0,
-        iterations: found.iterations,
-        error: distance(&found.state.fold_angle, &star.rest),
+        iterations: found.each_ref().map(|found| found.iterations),
+        errors: found.each_ref().map(|found| distance(&found.state.fold_angle, &star.rest)),
         seconds,
         penalty,
     })
@@ -85,14 +93,16 @@ fn relaxed(star: &Star, n: usize, seconds: f64) -> Result<Size, ExperimentError>
 
 fn chart(sizes: &[Size]) -> Chart {
     let label = |size: &Size| format!("{0} x {0}", size.cells);
-    let point = |s: &Size| Point { x: s.unknowns as f64, y: s.seconds, label: label(s) };
-    let penalty = |s: &Size| Some(Point { y: s.penalty?[1], ..point(s) });
+    let point = |s: &Size, y: f64| Point { x: s.unknowns as f64, y, label: label(s) };
+    let by = |method: usize| sizes.iter().map(|s| point(s, s.seconds[method])).collect();
+    let penalty = |s: &Size| Some(point(s, s.penalty?[1]));
     Chart {
         title: "Size of a patch that rolls up to an exact cylinder".into(),
         x: "unknowns".into(),
         y: "seconds".into(),
         series: vec![
-            Series { name: "tension form, rigid".into(), points: sizes.iter().map(point).collect() },
+            Series { name: "tension form, rigid, positions".into(), points: by(0) },
+            Series { name: "tension form, rigid, fold angles".into(), points: by(1) },
             Series {
                 name: format!("plain penalty, {STIFFNESS:e}"),
                 points: sizes.iter().filter_map(penalty).collect(),
@@ -105,11 +115,23 @@ fn chart(sizes: &[Size]) -> Chart {
 fn table(sizes: &[Size]) -> ReportTable {
     let row = |s: &Size| {
         let penalty = s.penalty.map_or([String::new(), String::new()], |both| both.map(figure));
-        let ours = [s.unknowns.to_string(), s.iterations.to_string(), figure(s.error), figure(s.seconds)];
-        [format!("{0} x {0}", s.cells)].into_iter().chain(ours).chain(penalty).collect()
+        let by =
+            |method: usize| [s.iterations[method].to_string(), figure(s.errors[method]), figure(s.seconds[method])];
+        let first = [format!("{0} x {0}", s.cells), s.unknowns.to_string()];
+        first.into_iter().chain(by(0)).chain(by(1)).chain(penalty).collect()
     };
-    let names =
-        ["cells", "unknowns", "iterations", "error (rad)", "seconds", "error of the penalty (rad)", "its seconds"];
+    let names = [
+        "cells",
+        "unknowns",
+        "iterations",
+        "error (rad)",
+        "seconds",
+        "iterations in fold angles",
+        "their error (rad)",
+        "their seconds",
+        "error of the penalty (rad)",
+        "its seconds",
+    ];
     ReportTable {
         title: "Size of a patch that rolls up to an exact cylinder, rigid bars".into(),
         header: names.map(str::to_owned).to_vec(),
@@ -123,7 +145,7 @@ fn by_penalty(star: &Star) -> Vec<f64> {
     found.map_or(vec![], |found| State::new(&model, &found.x, &found.tension).fold_angle)
 }
 
-/// Exponent `p` of the power law `y ~ x^p` that fits best in logarithms.
+/// Returns the exponent `p` of the power law `y ~ x^p` that fits best in logarithms.
 pub(crate) fn exponent(points: &[(f64, f64)]) -> f64 {
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
     let count = logs.len() as f64;

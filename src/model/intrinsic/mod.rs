@@ -1,0 +1,314 @@
+//! A patch in fold angles and lengths instead of positions.
+//!
+//! In fold angles nothing is far away: the energy `sum k (rho - rho0)^2 / 2 + sum EA/L0 (L - L0)^2 / 2` is exactly
+//! quadratic, and the only equations are local. The faces close round every interior vertex (three equations) and along
+//! the rim of every opening (six); a bar across a notch of a rim has the distance of its ends as its length (one). This
+//! is the problem that [`minimize_constrained`](crate::solver::constrained::minimize_constrained) solves; positions
+//! follow from the angles ([`IntrinsicModel::hand_over`]). The multipliers of the closure are the rates of the dual
+//! motion, and give the forces of all bars and hinges, also of rigid ones.
+
+mod loops;
+mod place;
+#[cfg(test)]
+mod tests;
+mod unsupported;
+mod word;
+
+use super::element::{Elements, TermKind};
+use super::problem::Model;
+use crate::numerics::sparse::FIXED;
+use crate::solver::constrained::{Block, Blocks, ConstrainedProblem};
+use crate::solver::{Problem, Start};
+use loops::{Step, Topology};
+pub use unsupported::Unsupported;
+use word::{Corner, Ends, Factor, Source, Word};
+
+/// A number of an edge that is a variable or fixed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Value {
+    Variable(u32),
+    Fixed(f64),
+}
+
+/// A patch in fold angles and lengths.
+#[derive(Debug)]
+pub struct IntrinsicModel {
+    topology: Topology,
+    conditions: Vec<Condition>,
+    mean_edge: f64,
+    /// Fold angle of each edge; rims have the fixed angle 0.
+    angles: Vec<Value>,
+    lengths: Vec<Value>,
+    target: Vec<f64>,
+    compliance: Vec<f64>,
+    words: Vec<Word>,
+    blocks: Blocks,
+}
+
+/// The spring of an edge: its rest value and its compliance.
+#[derive(Clone, Copy)]
+struct Law {
+    rest: f64,
+    compliance: f64,
+}
+
+impl IntrinsicModel {
+    /// Makes the intrinsic form of a model.
+    ///
+    /// # Errors
+    /// [`Unsupported`] with the reason for which the model has none.
+    pub fn new(model: &Model) -> Result<Self, Unsupported> {
+        if !model.is_free_patch() {
+            let patch = matches!(model.domain(), super::Domain::Patch);
+            return Err(if patch { Unsupported::PinsOrLoads } else { Unsupported::Domain });
+        }
+        let Collected { bars, hinges, topology } = Collected::of(model)?;
+        let (mut target, mut compliance) = (vec![], vec![]);
+        let mut value = |law: Law| {
+            if law.compliance == 0.0 {
+                return Value::Fixed(law.rest);
+            }
+            target.push(law.rest);
+            compliance.push(law.compliance);
+            Value::Variable(target.len() as u32 - 1)
+        };
+        let angles: Vec<Value> = hinges.into_iter().map(|law| law.map_or(Value::Fixed(0.0), &mut value)).collect();
+        let lengths: Vec<Value> = bars.into_iter().map(&mut value).collect();
+        let conditions = conditions(&topology)?;
+        let mean_edge = model.unit_of_length();
+        let (words, blocks) = words(&conditions, &angles, &lengths, mean_edge);
+        Ok(Self { topology, conditions, mean_edge, angles, lengths, target, compliance, words, blocks })
+    }
+
+    /// Returns the number of interior vertices.
+    pub fn interior_vertices(&self) -> usize {
+        self.conditions.iter().filter(|condition| condition.is_round()).count()
+    }
+
+    /// Returns the fold angle of every edge, in radians; 0 on rims.
+    pub fn fold_angles(&self, z: &[f64]) -> Vec<f64> {
+        let [angles, _] = self.measures(z);
+        angles
+    }
+
+    /// Returns the variables of a state of the model: fold angles and lengths that are not fixed.
+    pub fn variables(&self, model: &Model, x: &[f64]) -> Vec<f64> {
+        let mut z = self.target.clone();
+        let all = model.coordinates(x);
+        for term in model.soft().iter().chain(model.stiff()) {
+            let values = if term.is_angle() { &self.angles } else { &self.lengths };
+            for k in 0..term.len() {
+                if let Value::Variable(variable) = values[term.edge(k)] {
+                    z[variable as usize] = term.value(k, model.domain(), &all);
+                }
+            }
+        }
+        z
+    }
+
+    /// Returns the fold angle and the length of every edge.
+    fn measures(&self, z: &[f64]) -> [Vec<f64>; 2] {
+        let number = |value: &Value| match *value {
+            Value::Variable(variable) => z[variable as usize],
+            Value::Fixed(value) => value,
+        };
+        [&self.angles, &self.lengths].map(|values| values.iter().map(number).collect())
+    }
+
+    /// Returns the torque at the hinge and the force along the bar of every edge, for multipliers of the closure:
+    /// minus the product of its transposed Jacobian, by all angles and all lengths, and the multipliers.
+    fn forces(&self, z: &[f64], multipliers: &[f64]) -> [Vec<f64>; 2] {
+        let edges = self.angles.len();
+        let variable = |k: usize| Value::Variable(k as u32);
+        let [angles, lengths]: [Vec<Value>; 2] =
+            [(0..edges).map(variable).collect(), (edges..2 * edges).map(variable).collect()];
+        let (words, blocks) = words(&self.conditions, &angles, &lengths, self.mean_edge);
+        let all = self.measures(z).concat();
+        let mut forces = vec![0.0; 2 * edges];
+        let mut out = Block::default();
+        for (block, word) in words.iter().enumerate() {
+            let members = blocks.variables.members(block);
+            let local: Vec<f64> = members.iter().map(|&k| all[k as usize]).collect();
+            word.linearize(&local, None, &mut out);
+            let multipliers = &multipliers[blocks.rows(block)];
+            for (&member, column) in members.iter().zip(out.jacobian.chunks_exact(word.rows())) {
+                forces[member as usize] -= column.iter().zip(multipliers).map(|(a, b)| a * b).sum::<f64>();
+            }
+        }
+        let lengths = forces.split_off(edges);
+        [forces, lengths]
+    }
+
+    /// Moves the model to a state: its vertices where these variables put them, its angles continued to these, and
+    /// tensions that balance. Returns the start of a minimisation from there.
+    pub fn hand_over(&self, model: &mut Model, z: &[f64], multipliers: &[f64]) -> Start {
+        let [angles, lengths] = self.measures(z);
+        let [torques, forces] = self.forces(z, multipliers);
+        let drawn = model.coordinates(&model.start());
+        let coordinates = place::placed(&self.topology, &angles, &lengths, &drawn);
+        let continued: Vec<f64> = terms(model)
+            .filter(|term| !term.angles().is_empty())
+            .flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<f64>>())
+            .collect();
+        let tension = model.stiff().iter().flat_map(|term| {
+            let of_edges = if term.is_angle() { &torques } else { &forces };
+            (0..term.len()).map(|k| of_edges[term.edge(k)]).collect::<Vec<f64>>()
+        });
+        let tension = tension.collect();
+        model.set_angles(&continued);
+        Start { x: model.start_from(coordinates), tension: Some(tension) }
+    }
+}
+
+impl ConstrainedProblem for IntrinsicModel {
+    fn blocks(&self) -> &Blocks {
+        &self.blocks
+    }
+
+    fn target(&self) -> &[f64] {
+        &self.target
+    }
+
+    fn compliance(&self) -> &[f64] {
+        &self.compliance
+    }
+
+    fn linearize(&self, number: usize, z: &[f64], multipliers: Option<&[f64]>, out: &mut Block) {
+        let local: Vec<f64> = self.blocks.variables.members(number).iter().map(|&k| z[k as usize]).collect();
+        self.words[number].linearize(&local, multipliers, out);
+    }
+}
+
+fn terms(model: &Model) -> impl Iterator<Item = &dyn Elements> {
+    model.soft().iter().chain(model.stiff()).map(AsRef::as_ref)
+}
+
+/// The laws of all bars and hinges by their edges, and the topology that follows from their vertices.
+struct Collected {
+    bars: Vec<Law>,
+    hinges: Vec<Option<Law>>,
+    topology: Topology,
+}
+
+impl Collected {
+    /// Collects the elements of a model. A lock comes before a crease on the same edge.
+    fn of(model: &Model) -> Result<Self, Unsupported> {
+        let edges = model.edges();
+        let (mut bars, mut hinges) = (vec![None; edges], vec![None; edges]);
+        let (mut ends, mut wings) = (vec![[0; 2]; edges], Vec::new());
+        for term in terms(model) {
+            for k in 0..term.len() {
+                let (edge, spring) = (term.edge(k), term.spring(k));
+                let law = Law { rest: spring.rest, compliance: 1.0 / spring.stiffness };
+                match (term.kind(), term.sites(k)) {
+                    (TermKind::Bars, &[i, j]) => {
+                        bars[edge] = Some(law);
+                        ends[edge] = [i.vertex, j.vertex];
+                    }
+                    (TermKind::Creases | TermKind::Facets | TermKind::Locks, &[i, j, left, right]) => {
+                        let lock = term.kind() == TermKind::Locks;
+                        hinges[edge] = if lock { Some(law) } else { hinges[edge].or(Some(law)) };
+                        wings.push([i, j, left, right].map(|site| site.vertex));
+                    }
+                    _ => return Err(Unsupported::Topology),
+                }
+            }
+        }
+        let missing = |edge: usize| Unsupported::NoBar { edge };
+        let bars = (0..).zip(bars).map(|(edge, law)| law.ok_or(missing(edge))).collect::<Result<Vec<Law>, _>>()?;
+        let topology = Topology::new(vertices(model), &ends, &wings)?;
+        let folds = |law: &Option<Law>| law.is_some_and(|law| law.compliance.is_finite());
+        let inside = |edge: usize| {
+            let [i, j] = ends[edge];
+            [[i, j], [j, i]].iter().all(|&[a, b]| topology.get(a, b).is_some_and(|found| found.left.is_some()))
+        };
+        match (0..edges).find(|&edge| inside(edge) && !folds(&hinges[edge])) {
+            Some(edge) => Err(Unsupported::NoHinge { edge }),
+            None => Ok(Self { bars, hinges, topology }),
+        }
+    }
+}
+
+/// Returns the number of vertices of a patch.
+fn vertices(model: &Model) -> usize {
+    model.coordinates(&model.start()).len() / 3
+}
+
+/// The steps of a condition on angles and lengths, and what has to come of them.
+#[derive(Clone, Debug)]
+struct Condition {
+    steps: Vec<Step>,
+    /// The edge without face whose length the steps have to bridge; `None` for a loop that has to close.
+    bridge: Option<usize>,
+}
+
+impl Condition {
+    /// Whether it is a loop round a vertex, which goes along no edge.
+    fn is_round(&self) -> bool {
+        !self.steps.iter().any(|step| matches!(step, Step::Along { .. }))
+    }
+}
+
+/// Returns the conditions: the loops round the interior vertices, those along all rims but the longest, which is the
+/// outer one and closes if all others do, and the bridges between two vertices of a rim.
+fn conditions(topology: &Topology) -> Result<Vec<Condition>, Unsupported> {
+    let mut rims = topology.rims()?;
+    if !topology.is_disk(rims.len()) {
+        return Err(Unsupported::Topology);
+    }
+    let bridges = topology.bridges(&rims)?.into_iter();
+    let bridges: Vec<Condition> =
+        bridges.map(|bridge| Condition { steps: bridge.steps, bridge: Some(bridge.edge) }).collect();
+    if let Some(outer) = (0..rims.len()).max_by_key(|&k| rims[k].len()) {
+        rims.remove(outer);
+    }
+    let rounds = topology.rounds()?.into_iter().chain(rims.iter().map(loops::Rim::round));
+    Ok(rounds.map(|steps| Condition { steps, bridge: None }).chain(bridges).collect())
+}
+
+/// Returns the conditions as products of motions, in these variables, and the variables of each.
+fn words(conditions: &[Condition], angles: &[Value], lengths: &[Value], unit: f64) -> (Vec<Word>, Blocks) {
+    let mut blocks = Blocks::default();
+    let words = conditions.iter().map(|condition| {
+        let mut variables: Vec<u32> = Vec::new();
+        let mut source = |value: Value| match value {
+            Value::Fixed(value) => Source { place: FIXED, value },
+            Value::Variable(variable) => {
+                let place = variables.iter().position(|v| *v == variable).unwrap_or_else(|| {
+                    variables.push(variable);
+                    variables.len() - 1
+                });
+                Source { place: place as u32, value: f64::NAN }
+            }
+        };
+        let (mut factors, mut ends) = (vec![], Ends::Round);
+        for step in &condition.steps {
+            match *step {
+                Step::Cross { edge, sign } => factors.push(Factor::Fold { angle: source(angles[edge]), sign }),
+                Step::Sector { edges, sign } => factors.push(sector(edges.map(|edge| source(lengths[edge])), sign)),
+                Step::Along { edge } => {
+                    ends = Ends::Rim { unit };
+                    factors.push(Factor::Shift { length: source(lengths[edge]) });
+                    factors.push(Factor::Turn { sine: 0.0, cosine: -1.0 });
+                }
+            }
+        }
+        if let Some(edge) = condition.bridge {
+            ends = Ends::Bridge { length: source(lengths[edge]), unit };
+        }
+        let word = Word { factors, ends };
+        blocks.push(word.rows(), &variables);
+        word
+    });
+    let words = words.collect();
+    (words, blocks)
+}
+
+/// Returns the rotation through a triangle with these sides, evaluated once if they are fixed.
+fn sector(lengths: [Source; 3], sign: f64) -> Factor {
+    if lengths.iter().any(|length| length.place != FIXED) {
+        return Factor::Sector { lengths, sign };
+    }
+    let corner = Corner::new(lengths.map(|length| length.value));
+    Factor::Turn { sine: sign * corner.sine, cosine: corner.cosine }
+}
