@@ -40,10 +40,14 @@ KINDS = {
     "bloch": {"determinant", "symmetry_error", "imaginary_part", "decay", "pairing_error", "polarization",
               "positive_fraction", "zero_lines"},
     "wells": {"starts", "failed", "saddles", "wells", "barriers", "rigid"},
+    "path": {"drive", "driven", "to", "branches"},
     "modes": {"zero_modes", "self_stresses", "rigid_motions", "folding_modes", "maxwell_count", "gap", "eigenvalues"},
 }
 STATE_COLUMNS = ("branch,sign,step,arc_length,curvature,theta1,theta2,strain11,strain22,strain12,energy_bars,"
                  "energy_creases,energy_facets,energy_total,residual_force,residual_length,self_intersecting").split(",")
+PATH_COLUMNS = ("branch,step,arc_length,drive,reaction,work,energy_bars,energy_creases,energy_facets,energy_total,"
+                "residual_force,residual_length,negative_eigenvalues,event").split(",")
+EVENTS = {"", "limit-load", "limit-displacement", "branch-point", "self-intersection", "stop"}
 
 
 class Checks:
@@ -287,10 +291,18 @@ def check_table(checks, path, kind, edges):
     checks.that(all(len(row) == len(header) for row in rows), f"{path}: rows as wide as the header")
     for row in rows:
         for column, field in zip(header, row):
+            if column == "event":
+                checks.that(field in EVENTS, f"{path}: `{field}` is an event")
+                continue
             try:
                 float(field or 0)
             except ValueError:
                 checks.that(False, f"{path}: `{field}` in column {column} is a number")
+    if kind == "path":
+        between = header[len(PATH_COLUMNS):-edges]
+        checks.that(header[: len(PATH_COLUMNS)] == PATH_COLUMNS, f"{path}: the first columns")
+        checks.that(between in ([], ["self_intersecting"]), f"{path}: the columns between, {between}")
+        return None
     if kind not in ("relax", "trace", "surface", "wells"):
         return None
     checks.that(header[: len(STATE_COLUMNS)] == STATE_COLUMNS, f"{path}: the first columns")
@@ -342,6 +354,8 @@ def check_study(checks, out, study, summary):
     table = check_table(checks, out / f"{name}.csv", kind, edges) if study["converged"] else None
     if kind == "wells" and study["converged"]:
         check_wells(checks, out, study)
+    if kind == "path" and study["converged"]:
+        check_path(checks, out, study)
     grids = {path: check_vtu(checks, path) for path in sorted((out / name).glob("*.vtu"))}
     energies = energies_of(out, study) if study["converged"] else []
     for k, (path, grid) in enumerate((path, grid) for path, grid in grids.items() if grid is not None):
@@ -374,15 +388,36 @@ def check_study(checks, out, study, summary):
 
 def energies_of(out, study):
     """Energies of the states in the pictures of a study, in their order; of a trace, where each state is in a picture."""
-    if study["kind"] not in ("relax", "trace", "wells"):
+    if study["kind"] not in ("relax", "trace", "wells", "path"):
         return []
     header, rows = read_table(out / f"{study['name']}.csv")
     energies = [float(row[header.index("energy_total")] or "nan") for row in rows]
+    if study["kind"] == "path":
+        return [energies[row] for row in pictured_rows(out, study)]
     if study["kind"] == "relax":
         last = study["energy"]["total"]
         return energies[:-1] + [last]
     pictures = len(list((out / study["name"]).glob("*.vtu")))
     return energies if len(energies) == pictures and np.all(np.isfinite(energies)) else []
+
+
+def pictured_rows(out, study):
+    """The rows of the table of a path of which there are pictures: a picture has the number of its row."""
+    return sorted(int(file.stem.rpartition("_")[2]) for file in (out / study["name"]).glob("*.vtu"))
+
+
+def check_path(checks, out, study):
+    """A row for every state of every branch, pictures of its events and ends, and events as in the summary."""
+    header, rows = read_table(out / f"{study['name']}.csv")
+    where, event = f"{study['name']}.csv", header.index("event")
+    checks.that(len(rows) == sum(branch["steps"] for branch in study["branches"]), f"{where}: a row for every state")
+    pictured, first = set(pictured_rows(out, study)), 0
+    for branch in study["branches"]:
+        own = rows[first : first + branch["steps"]]
+        checks.that([row[event] for row in own if row[event]] == [found["event"] for found in branch["events"]], f"{where}: events")
+        wanted = {first, first + len(own) - 1} | {first + k for k, row in enumerate(own) if row[event]}
+        checks.that(not pictured or wanted <= pictured, f"{where}: pictures of events and ends")
+        first += len(own)
 
 
 def check_wells(checks, out, study):

@@ -19,13 +19,20 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 FIGURE_FOLDER = ROOT / "validation/figures"
 # the figures of the pages, and the files of runs that they are
 FIGURES = {
+    "bellows": "bellows/pressed",
+    "bellows-reaction": "bellows/pressed-reaction",
     "degree-four": "degree-four/folded",
+    "drum-path": "drum-path/crush-reaction",
     "flat-quad-folded": "flat-quad/folding",
     "flat-quad-strain": "flat-quad/folding-strain",
     "kirigami-bloch": "kirigami-bloch/modes",
     "kirigami-polarized-bloch": "kirigami-polarized-bloch/modes",
     "kresling": "kresling/pressed",
+    "miura-bend": "miura-bend/bent",
+    "miura-bend-reaction": "miura-bend/bent-reaction",
     "miura-lock": "miura-lock/folded",
+    "miura-pull": "miura-pull/pulled",
+    "miura-pull-reaction": "miura-pull/pulled-reaction",
     "miura-spectrum": "miura-spectrum/spectrum",
     "near-cross-wells": "near-cross-wells/wells",
     "quad-cell-folded": "quad-cell/roll",
@@ -38,7 +45,10 @@ FIGURES = {
     "star-surface": "star-surface/surface",
     "star-wells": "star-wells/wells",
     "tube": "tube/rolled",
+    "two-bars-load": "two-bars-load/loaded-reaction",
     "waterbomb": "waterbomb/relaxed",
+    "waterbomb-push": "waterbomb-push/pushed",
+    "waterbomb-push-reaction": "waterbomb-push/pushed-reaction",
 }
 PIXEL = 0.25  # of 1,200; places are rounded to 0.1
 NUMBER = r"([+-]?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?)"

@@ -61,9 +61,9 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Counts and measures of the sheet of a mesh or a scene
+    /// Counts and measures of the sheet of a mesh or a scene, and of the energy of a scene
     Info {
-        /// A mesh (.fold, .obj, .vtu) or a scene (.toml), of which the mesh is counted, not its cells
+        /// A mesh (.fold, .obj, .vtu) or a scene (.toml): one cell of its mesh, and the energy of all cells
         mesh_or_scene: PathBuf,
         /// Print JSON
         #[arg(long)]
@@ -72,9 +72,9 @@ enum Command {
     /// Generate a pattern
     #[command(override_usage = "foldwell new <PATTERN> [--key value]... -o <FILE.fold>")]
     New {
-        /// miura, miura-patch, eggbox, waterbomb, yoshimura, kresling, square-twist, random, random-developable
+        /// miura, miura-patch, eggbox, waterbomb, yoshimura, kresling, square-twist, truss, random, random-developable
         pattern: String,
-        /// Parameters of the pattern, --key value (radians; a list has commas), and -o FILE.fold for the mesh
+        /// Parameters of the pattern, --key value (radians; a list has commas; --closed alone), and -o FILE.fold for the mesh
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         parameters: Vec<String>,
     },

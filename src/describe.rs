@@ -1,7 +1,8 @@
 //! The standard output of `foldwell run`: a line or a few for every study.
 
 use foldwell::output::summary::{
-    BranchesSummary, ModesSummary, RelaxSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
+    BranchesSummary, ModesSummary, PathSummary, RelaxSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary,
+    WellsSummary,
 };
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
@@ -108,6 +109,21 @@ fn describe_trace(traced: &TraceSummary) -> String {
     ends.collect::<Vec<_>>().join(", ") + others
 }
 
+/// Describes the end of every branch of a path, and its events.
+fn describe_path(path: &PathSummary) -> String {
+    let value = |value: Option<f64>| value.map_or("inf".to_owned(), |value| format!("{value:.6}"));
+    let branches = path.branches.iter().map(|branch| {
+        let events = branch
+            .events
+            .iter()
+            .map(|event| format!("; {} at {}, reaction {:.6e}", event.event, value(event.drive), event.reaction));
+        let number = if path.branches.len() > 1 { format!("branch {}: ", branch.branch) } else { String::new() };
+        let end = format!("{number}{} at {} {}", branch.end, path.drive, value(branch.drive));
+        format!("{end}, {}{}", counted(branch.steps, "state"), events.collect::<String>())
+    });
+    branches.collect::<Vec<_>>().join("; ")
+}
+
 fn describe_surface(surface: &SurfaceSummary) -> String {
     let SurfaceSummary { points, triangles, coverage, gaps, .. } = surface;
     let established = surface.established.iter().map(|established| format!(": {established}"));
@@ -159,6 +175,7 @@ fn describe_study(study: &StudySummary) -> String {
             let count = counted(found.wells.len(), "well");
             format!("{count} ({energies}){}{}", barriers.collect::<String>(), describe_failures(found))
         }
+        Some(StudyResult::Path(path)) => describe_path(path),
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();

@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use thiserror::Error;
 use toml::{Table, Value};
 
+/// Parameters that are true or false: without a value they are true.
+const SWITCHES: [&str; 1] = ["closed"];
+
 /// The errors in the words after a pattern.
 #[derive(Debug, Error, PartialEq, Eq)]
 pub(crate) enum ParameterError {
@@ -31,17 +34,18 @@ pub(crate) enum ParameterError {
 /// Returns the table `{ pattern, key = value, .. }` and the file of `-o`.
 ///
 /// Keys may contain `-` instead of `_`, and may be separated from the value by `=`. A value is a whole number, a
-/// number, `true`, `false`, a list separated by commas, or otherwise a word.
+/// number, `true`, `false`, a list separated by commas, or otherwise a word. One of [`SWITCHES`] needs no value.
 pub(crate) fn parse(pattern: &str, words: &[String]) -> Result<(Table, PathBuf), ParameterError> {
     let mut table = Table::new();
     table.insert("pattern".into(), pattern.into());
     let mut output = None;
-    let mut words = words.iter();
+    let mut words = words.iter().peekable();
     while let Some(word) = words.next() {
         let (key, inline) = split(word)?;
         let value = match inline {
             Some(value) => value,
             None if key == "o" => words.next().ok_or(ParameterError::NoFile)?,
+            None if SWITCHES.contains(&&*key) && words.peek().is_none_or(|next| next.starts_with('-')) => "true",
             None => words.next().ok_or_else(|| ParameterError::NoValue(key.clone()))?,
         };
         if value.parse::<i64>().is_err() && !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit()) {
@@ -96,6 +100,21 @@ mod tests {
             parse("miura", &words("--cells 3,3 --height -0.5 -o a.fold --seed=7 --bar-x foo --on true")).unwrap();
         let expected = "pattern = 'miura'\ncells = [3, 3]\nheight = -0.5\nseed = 7\nbar_x = 'foo'\non = true";
         assert_eq!((table, out), (expected.parse().unwrap(), PathBuf::from("a.fold")));
+    }
+
+    /// Claim: a switch without a value is true, wherever it stands, and a value that follows it is its own.
+    #[test]
+    fn switches_need_no_value() {
+        for (text, closed) in [
+            ("--closed -o a.fold --sides 5", true),
+            ("--sides 5 -o a.fold --closed", true),
+            ("--closed --sides=5 -o a.fold", true),
+            ("--closed false --sides 5 -o a.fold", false),
+            ("--closed=false --sides 5 -o a.fold", false),
+        ] {
+            let (table, _) = parse("kresling", &words(text)).unwrap();
+            assert_eq!((table["closed"].as_bool(), table["sides"].as_integer()), (Some(closed), Some(5)), "{text}");
+        }
     }
 
     /// Claim: the error names the missing or superfluous word.

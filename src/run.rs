@@ -11,6 +11,7 @@ use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
 mod belongings;
 mod convert;
 mod error;
+mod info;
 mod inputs;
 mod ledger;
 mod report;
@@ -20,6 +21,7 @@ mod runner;
 pub use crate::study::Observer;
 pub use crate::study::Progress;
 pub use error::RunError;
+pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
 pub use report::{RunOptions, RunReport};
 use runner::Runner;
@@ -86,16 +88,17 @@ pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
     Ok(files::write(out, fold::write(&sheet))?)
 }
 
-/// Returns counts and measures of the sheet of a mesh or a scene.
+/// Returns counts and measures of the sheet of a mesh or a scene, and of the energy of a scene.
 ///
 /// # Errors
 /// [`RunError`] if the file cannot be read or is wrong.
-pub fn info(mesh_or_scene: &Path) -> Result<Info, RunError> {
-    let sheet = match ending(mesh_or_scene).as_str() {
-        "toml" => crate::scene::build::sheet(&crate::scene::read(mesh_or_scene)?)?,
-        _ => read_mesh(mesh_or_scene, ".fold, .obj, .vtu or .toml")?,
-    };
-    Ok(Info::new(&sheet))
+pub fn info(mesh_or_scene: &Path) -> Result<Counts, RunError> {
+    if ending(mesh_or_scene) == "toml" {
+        let assembly = crate::scene::build::assembly(&crate::scene::read(mesh_or_scene)?)?;
+        return Ok(Counts { sheet: Info::new(assembly.sheet()), energy: Some(EnergyCounts::new(&assembly)) });
+    }
+    let sheet = read_mesh(mesh_or_scene, ".fold, .obj, .vtu or .toml")?;
+    Ok(Counts { sheet: Info::new(&sheet), energy: None })
 }
 
 /// Converts a mesh between FOLD, OBJ and VTU, which are recognised by the endings of the file names. Returns a sentence

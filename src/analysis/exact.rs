@@ -6,7 +6,7 @@
 //! (J. Nocedal and S. J. Wright, "Numerical Optimization", 2006, section 18.3). No bar enters.
 
 use crate::kinematics::{Closing, Closure};
-use crate::model::{Domain, Model};
+use crate::model::{Domain, Model, TermKind};
 use crate::numerics::dense::{
     NullSpace, full_svd, least_squares, null_space, rank_at_largest_gap, symmetric_eigenvalues,
 };
@@ -24,6 +24,9 @@ const CLOSURE_RESIDUAL: f64 = 1e-13;
 const LAST_ANGLE_CHANGE_RAD: f64 = 1e-11;
 /// Largest error of the exact state itself, in radians, with which it is worth a comparison.
 const KNOWN: f64 = 1e-10;
+/// Largest difference of a rest length from the drawn length, relative to the positions of its ends, at which the bar is
+/// at rest as drawn.
+const SAME_LENGTH: f64 = 1e-12;
 /// Largest change of an angle in a step.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.3;
 
@@ -66,13 +69,26 @@ struct Along {
 /// Largest difference of a fold angle to the exact equilibrium near a relaxed state with these fold angles, of all edges of the
 /// tiling, in radians.
 ///
-/// `None` where there is none to compare with: loads pull, vertices are pinned, the sheet is periodic without screws or has openings, it is too
+/// `None` where there is none to compare with: loads pull, vertices are pinned, bars have other rest lengths than the drawn
+/// ones, the sheet is periodic without screws or has openings, it is too
 /// large, no exact state is found nearby, or what is found is not known well enough itself.
 pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
     let springs = Springs::new(sheet, tiling, model, angles)?;
     let exact = springs.stationary(&springs.start).filter(|exact| exact.error <= KNOWN)?.angles;
     let known = exact.iter().zip(angles).filter(|(_, angle)| !angle.is_nan());
     worst(known.map(|(exact, angle)| (exact - angle).abs()))
+}
+
+/// Whether the bars of a model are at rest at their drawn lengths, which exact folding keeps.
+fn rests_at_drawn_lengths(sheet: &Sheet, tiling: &Tiling, model: &Model) -> bool {
+    // rounding is relative to the positions in the file, which may be far from its origin
+    let as_drawn = |(edge, rest): (usize, f64)| {
+        let [i, j] = sheet.edges[tiling.edges[edge].edge].key.ends().map(|end| sheet.position(end));
+        (rest - (j - i).norm()).abs() <= SAME_LENGTH * (i.norm() + j.norm() + rest)
+    };
+    let bars = model.stiff().iter().filter(|term| term.kind() == TermKind::Bars);
+    let mut rests = bars.flat_map(|term| (0..term.len()).map(|k| (term.edge(k), term.spring(k).rest)));
+    rests.all(as_drawn)
 }
 
 impl Springs {
@@ -82,6 +98,9 @@ impl Springs {
         let edges = angles.len();
         let torus = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus);
         if edges > MOST_EDGES || model.held_or_loaded() || torus || !sheet.holes.is_empty() {
+            return None;
+        }
+        if !rests_at_drawn_lengths(sheet, tiling, model) {
             return None;
         }
         let mut stiffness = DVector::zeros(edges);

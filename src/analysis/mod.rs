@@ -1,18 +1,20 @@
 //! Questions about states: equilibria, modes and spectra. State in, result out; nothing here reads or writes files.
 
+pub mod along;
 mod apex;
 pub mod bloch;
 pub mod branches;
 pub mod chart;
-pub mod drive;
 pub mod exact;
 pub mod intersections;
 pub mod landscape;
 pub mod method;
 pub mod modes;
+pub mod path;
 pub mod relax;
 pub mod restored;
 pub mod shown_cells;
+pub mod start_state;
 pub mod state;
 pub mod surface;
 pub mod trace;

@@ -1,35 +1,27 @@
-//! Modes of the drawn state: motions and stresses of its bars, linear foldings, and the spectrum of its energy.
+//! Modes of a state, the drawn one or another: motions and stresses of its bars, linear foldings, and the spectrum of its energy.
 //!
 //! The rank of the rigidity matrix is found by singular values (dense, small sheets) or by counting them against
 //! thresholds (sparse, large sheets), and is believed only when a second way agrees: the count of eigenvalues of one
 //! sign of a factorization, and, where the topology allows it, the null space of the closure conditions in fold angles,
 //! which share no equation with the bars.
 
-use crate::kinematics::KinematicsError;
+mod error;
+mod spectrum;
+
+use super::restored::{self, Forces};
+use super::start_state::StartState;
 use crate::kinematics::closure::{Closure, HingedEdge};
-use crate::model::{Assembly, Boundary, Domain, Drawn, Gauge, Model, RIGID, Terms, gauge};
-use crate::numerics::dense::{self, DenseError};
-use crate::numerics::eigen::{self, EigenError};
-use crate::numerics::factor::FactorError;
-use crate::numerics::sparse::{Rows, symmetric_product};
-use crate::numerics::vector::{dot, normalize};
-use crate::numerics::{DenseMatrix, rank};
+use crate::model::{Assembly, Bars, Boundary, Domain, Drawn, Gauge, Hinges, Model, RIGID, Stiffness, Terms, gauge};
+use crate::numerics::sparse::Rows;
+use crate::numerics::{dense, rank};
 use crate::sheet::{Corner, Site, Tiling, pieces};
-use crate::solver::{HessianKind, Linearization, Problem, Tangent};
-use thiserror::Error;
+use crate::solver::Problem;
+use error::LEAST_GAP;
+pub use error::{ModesError, SPARSE_EIGENVALUES};
+pub use spectrum::{DENSE_LIMIT, Observer, decomposed_dense};
+use spectrum::{go_on, linearized, lowest};
 
-/// Rigidity matrices of more rows or columns than this are not decomposed dense.
-pub const DENSE_LIMIT: usize = 1200;
-/// Models of up to this number of unknowns are decomposed dense where that gives eigenvalues that the iteration cannot give.
-pub(crate) const DENSE_EIGENVALUES: usize = 2000;
-/// Most eigenvalues that are asked of the iteration.
-pub const SPARSE_EIGENVALUES: usize = 256;
-/// Most shifts of the Hessian that are tried, each four times the last.
-const SHIFTS: i32 = 30;
-/// Smallest ratio of kept to dropped singular values at which a rank is believed.
-pub(crate) const LEAST_GAP: f64 = 1e3;
-
-/// Modes of a drawn state.
+/// Modes of a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
     /// Motions that change no bar's length (and no rigid polygon's shape), rigid motions included.
@@ -51,98 +43,57 @@ pub struct Modes {
     pub vectors: Vec<Vec<f64>>,
 }
 
-/// Why there are no modes.
-#[derive(Debug, Error)]
-pub enum ModesError {
-    /// A dense decomposition failed.
-    #[error(transparent)]
-    Dense(#[from] DenseError),
-    /// A factorization failed.
-    #[error(transparent)]
-    Factor(#[from] FactorError),
-    /// The closure conditions could not be set up.
-    #[error(transparent)]
-    Kinematics(#[from] KinematicsError),
-    /// The observer asked to stop.
-    #[error("stopped on request")]
-    Interrupted,
-    /// No rank stands out.
-    #[error(
-        "the rank of the rigidity matrix is not certain: kept over dropped singular value {gap:.1e}, less than {LEAST_GAP:e}"
-    )]
-    NoGap {
-        /// Smallest kept over largest dropped singular value.
-        gap: f64,
-    },
-    /// The iteration cannot give so many eigenvalues, and the model is too large to be decomposed dense.
-    #[error(
-        "{wanted} eigenvalues are too many for a model of {unknowns} coordinates: at most {SPARSE_EIGENVALUES} beyond {DENSE_EIGENVALUES}"
-    )]
-    TooManyEigenvalues {
-        /// Asked for.
-        wanted: usize,
-        /// Coordinates that nothing holds.
-        unknowns: usize,
-    },
-    /// Two ways to the rank disagree.
-    #[error("the rank of the rigidity matrix is {by_values} by singular values and {by_inertia} by counting signs")]
-    RankDisagrees {
-        /// Rank by singular values.
-        by_values: usize,
-        /// Rank by inertia.
-        by_inertia: usize,
-    },
-    /// Bars and closure disagree.
-    #[error("{bars} motions or stresses of the bars, but {closure} by the closure of the vertices")]
-    ClosureDisagrees {
-        /// From the rigidity matrix.
-        bars: usize,
-        /// From the closure conditions.
-        closure: usize,
-    },
+/// Finds the modes of the drawn state; see [`modes_at`].
+///
+/// # Errors
+/// As [`modes_at`].
+pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
+    let assembly = assembly.with_axis(0.0);
+    let model = assembly.model(Gauge::Free);
+    let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
+    let coordinates = assembly.drawn().coordinates.clone();
+    modes_at(&assembly, &StartState { coordinates, angles: model.angles(), tension }, eigenvalues, observe)
 }
 
-impl From<EigenError> for ModesError {
-    fn from(error: EigenError) -> Self {
-        match error {
-            EigenError::Factor(error) => error.into(),
-            EigenError::Stopped => Self::Interrupted,
-        }
-    }
-}
-
-/// Called between the parts of the work; returns false to stop.
-pub type Observer<'a> = dyn FnMut() -> bool + Send + 'a;
-
-/// Finds the modes. `observe` is asked before every decomposition and factorization, and before every product of the
-/// iteration for eigenpairs; between them, at most for the time of one decomposition, nothing stops the work.
+/// Finds the modes of a state of an assembly. `observe` is asked before every decomposition and factorization, and
+/// before every product of the iteration for eigenpairs; between them, at most for the time of one decomposition,
+/// nothing stops the work.
 ///
 /// # Errors
 /// [`ModesError`] where a factorization fails, ranks by two ways disagree, or `observe` returned false.
-pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>) -> Result<Modes, ModesError> {
-    let assembly = assembly.with_axis(0.0);
-    let (tiling, boundary, terms, drawn) = (assembly.tiling(), assembly.boundary(), assembly.terms(), assembly.drawn());
-    let bars = assembly.with_terms(rigid_part(terms)).model(Gauge::Free);
+pub fn modes_at(
+    assembly: &Assembly,
+    state: &StartState,
+    eigenvalues: usize,
+    observe: &mut Observer<'_>,
+) -> Result<Modes, ModesError> {
+    let (tiling, terms) = (assembly.tiling(), assembly.terms());
+    let place = Drawn { coordinates: state.coordinates.clone(), ..assembly.drawn().clone() };
+    let mut bars = assembly.with_terms(rigid_part(terms)).model(Gauge::Free);
+    bars.start_from(state.coordinates.clone());
     let (rank, gap) = rank_of(&bars, observe)?;
     let (columns, rows) = (bars.layout().unknowns, bars.layout().stiff.len());
-    let rigid_motions = rigid_motions(drawn, tiling, &bars);
+    let rigid_motions = rigid_motions(&place, tiling, &bars);
     let (zero_modes, self_stresses) = (columns - rank, rows - rank);
     go_on(observe)?;
-    let folding_modes = folding_modes(&assembly)?;
+    let folding_modes = folding_modes(assembly, &place)?;
     if let Some(closure) = folding_modes {
-        let predicted = match boundary {
-            Boundary::Patch if terms.pins.is_empty() => Some(zero_modes.saturating_sub(rigid_motions)),
-            Boundary::FixedTorus if terms.pins.is_empty() && !terms.has_rigid_facets() => Some(self_stresses),
-            _ => None,
-        };
-        if let Some(bars) = predicted.filter(|&bars| bars != closure) {
-            return Err(ModesError::ClosureDisagrees { bars, closure });
-        }
+        agree(assembly, closure, [zero_modes.saturating_sub(rigid_motions), self_stresses])?;
     }
     // rigid bars leave their zero modes free, and no more
-    let free = if terms.bars.is_some_and(f64::is_infinite) { zero_modes } else { columns };
+    let free = match rigid_bars(terms) {
+        None => columns,
+        Some(Bars { stiffness: Stiffness::Uniform(_), .. }) => zero_modes,
+        Some(some) => {
+            let some = Terms { bars: Some(some), ..rigid_part(terms) };
+            columns - rank_of(&assembly.with_terms(some).model(Gauge::Free), observe)?.0
+        }
+    };
     let (eigenvalues, vectors) = if eigenvalues.min(free) > 0 {
-        lowest(&assembly.model(Gauge::Free), eigenvalues, free, observe)?
+        let mut model = assembly.model(Gauge::Free);
+        model.set_angles(&state.angles);
+        model.start_from(state.coordinates.clone());
+        lowest((&model, &state.tension), eigenvalues, free, observe)?
     } else {
         (vec![], vec![])
     };
@@ -158,14 +109,30 @@ pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>
     })
 }
 
-fn go_on(observe: &mut Observer<'_>) -> Result<(), ModesError> {
-    if observe() { Ok(()) } else { Err(ModesError::Interrupted) }
+/// Checks that the number of motions or of stresses of the bars is the one that closure predicts.
+fn agree(assembly: &Assembly, closure: usize, [motions, stresses]: [usize; 2]) -> Result<(), ModesError> {
+    let terms = assembly.terms();
+    let predicted = match assembly.boundary() {
+        Boundary::Patch if terms.pins.is_empty() => Some(motions),
+        Boundary::FixedTorus if terms.pins.is_empty() && !terms.has_rigid_facets() => Some(stresses),
+        _ => None,
+    };
+    match predicted {
+        Some(bars) if bars != closure => Err(ModesError::ClosureDisagrees { bars, closure }),
+        _ => Ok(()),
+    }
 }
 
 /// Bars and rigid polygons only, all rigid; pins as they are.
 fn rigid_part(terms: &Terms) -> Terms {
-    let facets = terms.facets.as_ref().filter(|hinges| hinges.stiffness.is_infinite()).cloned();
-    Terms { bars: Some(RIGID), facets, pins: terms.pins.clone(), ..Terms::default() }
+    let rigid = |hinges: &Hinges| Some(Hinges { stiffness: hinges.stiffness.rigid_part()?, rest: hinges.rest.clone() });
+    let facets = terms.facets.as_ref().and_then(rigid);
+    Terms { bars: Some(RIGID.into()), facets, pins: terms.pins.clone(), ..Terms::default() }
+}
+
+/// The bars that are rigid; `None` if there are none.
+fn rigid_bars(terms: &Terms) -> Option<Bars> {
+    terms.bar_stiffness()?.rigid_part().map(Bars::from)
 }
 
 /// Rigid motions of the sheet; where a patch has several pieces with faces, of each of them.
@@ -198,9 +165,10 @@ fn pieces_with_openings(tiling: &Tiling) -> bool {
     !tiling.periodic && pieces.len() > 1 && pieces.len() + tiling.edges.len() > vertices + tiling.triangles.len()
 }
 
-/// Rank of the Jacobian of a model's stiff measures at the drawn state, and the gap.
+/// Rank of the Jacobian of a model's stiff measures at its reference state, and the gap.
 fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, Option<f64>), ModesError> {
-    let (layout, at) = (model.layout(), linearized(model));
+    let layout = model.layout();
+    let at = linearized(model, &vec![0.0; layout.stiff.len()]);
     let rows = at.rows();
     if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
         return rank_by_counting(&rows, layout.unknowns, &layout.node, observe);
@@ -252,15 +220,9 @@ fn rank_by_counting(
     if gap >= LEAST_GAP { Ok((best.0, (best.0 > 0).then_some(gap))) } else { Err(ModesError::NoGap { gap }) }
 }
 
-fn linearized(model: &Model) -> Linearization {
-    let mut at = Linearization::new(model.layout());
-    model.linearize(&model.start(), &vec![0.0; model.layout().stiff.len()], HessianKind::Full, &mut at);
-    at
-}
-
-/// Null space of the closure conditions of the tiling, rigid facets locked.
-fn folding_modes(assembly: &Assembly) -> Result<Option<usize>, ModesError> {
-    let (tiling, drawn) = (assembly.tiling(), assembly.drawn());
+/// Null space of the closure conditions of the tiling in this state, rigid facets locked.
+fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, ModesError> {
+    let tiling = assembly.tiling();
     let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };
     let hinged: Vec<HingedEdge> = tiling
         .edges
@@ -268,14 +230,15 @@ fn folding_modes(assembly: &Assembly) -> Result<Option<usize>, ModesError> {
         .map(|edge| HingedEdge { ends: edge.ends.map(corner), wings: edge.wings.map(|wing| wing.map(corner)) })
         .collect();
     let at =
-        |corner: Corner| drawn.domain.point(&drawn.coordinates, Site { vertex: corner.vertex, shift: corner.shift });
+        |corner: Corner| state.domain.point(&state.coordinates, Site { vertex: corner.vertex, shift: corner.shift });
     let closure = Closure::of_edges(&hinged, at)?;
     let unchecked = closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || dangling(tiling);
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);
     }
-    let locked: Vec<usize> = tiling.facets().filter(|_| assembly.terms().has_rigid_facets()).collect();
-    let angles = assembly.drawn_angles_or_zero();
+    let locked = assembly.rigid_facet_edges();
+    let angles = assembly.fold_angles_at(&state.coordinates);
+    let angles: Vec<f64> = angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
     let null = dense::null_space(&closure.with_locked(&locked).jacobian(&angles))?;
     Ok(Some(null.basis.ncols()))
 }
@@ -283,102 +246,6 @@ fn folding_modes(assembly: &Assembly) -> Result<Option<usize>, ModesError> {
 /// Whether an edge of a patch has no face: then vertices hang on the sheet that no fold angle moves.
 fn dangling(tiling: &Tiling) -> bool {
     tiling.edges.iter().any(|edge| edge.wings == [None, None])
-}
-
-/// Eigenvalues and eigenvectors.
-type Pairs = (Vec<f64>, Vec<Vec<f64>>);
-
-/// Whether the dense way finds this number of eigenpairs of a model, of which at most `free` are finite: else the iteration does.
-///
-/// # Errors
-/// [`ModesError::TooManyEigenvalues`] where neither does.
-pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<bool, ModesError> {
-    // the iteration works on 4 wanted + 64 vectors, of which there must be so many; and it cannot find more than there are
-    let iterated = wanted <= SPARSE_EIGENVALUES && 4 * wanted + 64 <= unknowns;
-    if unknowns <= DENSE_LIMIT {
-        Ok(true)
-    } else if unknowns <= DENSE_EIGENVALUES {
-        Ok(!iterated || wanted >= free)
-    } else if iterated {
-        Ok(false)
-    } else {
-        Err(ModesError::TooManyEigenvalues { wanted, unknowns })
-    }
-}
-
-/// Lowest eigenvalues and eigenvectors of the energy's Hessian on what the rigid terms leave free, which is at most `free`.
-fn lowest(model: &Model, wanted: usize, free: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
-    let dense = decomposed_dense(model.layout().unknowns, wanted.min(free), free)?;
-    let way = if dense { lowest_dense } else { lowest_sparse };
-    let (values, vectors) = way(model, wanted.min(free), observe)?;
-    Ok((values, vectors.iter().map(|v| model.velocity(v)).collect()))
-}
-
-fn lowest_dense(model: &Model, count: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
-    go_on(observe)?;
-    let (layout, mut at) = (model.layout(), linearized(model));
-    let compliance = model.compliance();
-    let mut values = std::mem::take(&mut at.hessian);
-    for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
-        at.add_outer(row, 1.0 / c, &mut values);
-    }
-    let hessian = at.pattern().to_dense(&values);
-    let full = dense::from_rows(&at.rows(), layout.unknowns);
-    let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
-    let free = if rigid.is_empty() {
-        DenseMatrix::identity(layout.unknowns, layout.unknowns)
-    } else {
-        dense::null_space(&full.select_rows(&rigid))?.basis
-    };
-    go_on(observe)?;
-    let found = dense::symmetric_eigen(&(free.transpose() * hessian * &free))?;
-    let count = count.min(found.values.len());
-    let vectors = (0..count).map(|k| (&free * found.vectors.column(k)).as_slice().to_vec()).collect();
-    Ok((found.values[..count].to_vec(), vectors))
-}
-
-/// By shift and invert: the largest eigenvalues of `(H + shift)^-1` on the null space of the rigid measures.
-fn lowest_sparse(model: &Model, count: usize, observe: &mut Observer<'_>) -> Result<Pairs, ModesError> {
-    let layout = model.layout();
-    let zero = vec![0.0; layout.stiff.len()];
-    let mut tangent = Tangent::at_state(model, &model.start(), &zero, HessianKind::Full)?;
-    let unit = tangent.at.pattern().largest_diagonal(&tangent.at.hessian);
-    let (mut shift, mut powers) = (0.0, 0..SHIFTS);
-    loop {
-        // without a shift that makes the Hessian positive, the largest eigenvalues of its inverse are not the lowest of its own
-        let power = powers.next().ok_or(FactorError::Singular { ratio: 0.0 })?;
-        let next = 1e-7 * unit * 4f64.powi(power);
-        go_on(observe)?;
-        tangent.at.add_identity(next - shift);
-        shift = next;
-        if tangent.factor(0.0).is_ok_and(|inertia| inertia.negative == 0) {
-            break;
-        }
-    }
-    let mut inverse = |v: &[f64]| tangent.solve(v, &zero, 1e-13).dx;
-    let (_, vectors) = eigen::largest(layout.unknowns, count, |v| observe().then(|| inverse(v)))?;
-    // once more, since Lanczos vectors are only as good as the largest eigenvalue of the inverse allows
-    let vectors: Vec<Vec<f64>> = vectors.iter().map(|v| normalized(inverse(v))).collect();
-    tangent.at.add_identity(-shift);
-    let quotient = |v: &[f64]| rayleigh_quotient(model, &tangent.at, v);
-    let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (quotient(&v), v)).collect();
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(pairs.into_iter().unzip())
-}
-
-fn normalized(mut v: Vec<f64>) -> Vec<f64> {
-    normalize(&mut v);
-    v
-}
-
-/// `v^T H v / v^T v` with the Hessian of the whole energy: its error is that of the vector squared.
-fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
-    let mut product = vec![0.0; v.len()];
-    symmetric_product(at.pattern(), &at.hessian, v, &mut product);
-    let mut stretch = vec![0.0; model.compliance().len()];
-    at.rows().product(v, &mut stretch);
-    let finite = stretch.iter().zip(model.compliance()).filter(|(_, c)| **c > 0.0);
-    (dot(v, &product) + finite.map(|(s, c)| s * s / c).sum::<f64>()) / dot(v, v)
 }
 
 #[cfg(test)]

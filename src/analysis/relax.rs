@@ -102,8 +102,8 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 /// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
 /// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`](super::method::Method::Auto).
 ///
-/// Where the direct way fails, all rest angles and locked angles are moved from their values at the start to their
-/// targets in steps that adapt.
+/// Where the direct way fails, all rest angles, rest lengths and locked angles are moved from their values at the start to
+/// their targets in steps that adapt.
 ///
 /// # Errors
 /// [`RelaxError`] with the reason and the last accepted state, where it does not converge.

@@ -130,6 +130,8 @@ fn of_edges(model: &Model, x: &[f64], (tension, torque): (&[f64], &[f64]), by_la
             }
         });
     }
+    // what supports carry stands on no edge
+    tensions.resize(by_law.len(), 0.0);
     tensions
 }
 

@@ -106,11 +106,11 @@ impl ShownCells {
         self.sites.iter().map(|&site| back * (drawn.domain.point(coordinates, site) - centre) + drawn.origin).collect()
     }
 
-    /// Velocities of all points when the coordinates have these rates, by central differences.
-    pub(crate) fn velocities(&self, drawn: &Drawn, rates: &[f64]) -> Vec<Vec3> {
+    /// Velocities of all points when the coordinates, which have these values, have these rates; by central differences.
+    pub(crate) fn velocities(&self, drawn: &Drawn, coordinates: &[f64], rates: &[f64]) -> Vec<Vec3> {
         let step = 1e-5;
         let moved = |sign: f64| {
-            let x: Vec<f64> = drawn.coordinates.iter().zip(rates).map(|(x, v)| x + sign * step * v).collect();
+            let x: Vec<f64> = coordinates.iter().zip(rates).map(|(x, v)| x + sign * step * v).collect();
             self.positions(drawn, &x)
         };
         moved(1.0).iter().zip(moved(-1.0)).map(|(a, b)| (a - b) / (2.0 * step)).collect()

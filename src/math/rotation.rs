@@ -56,6 +56,71 @@ pub(crate) fn inverse_left_jacobian(v: &Vec3) -> Matrix3<f64> {
     Matrix3::identity() - 0.5 * cross + factor * cross * cross
 }
 
+/// Derivatives of a vector that a rotation vector turns, by the components of that.
+pub(crate) struct Turned {
+    /// First derivatives.
+    pub first: [Vec3; 3],
+    /// Second derivatives; symmetric.
+    pub second: [[Vec3; 3]; 3],
+}
+
+/// Derivatives of the vector `arm` turned by the rotation vector `v`, which may have any length.
+///
+/// With `s = |v|^2`, `p = v x arm` and `q = v x p` the turned vector is `arm + a(s) p + b(s) q` (Rodrigues), and its derivatives follow
+/// from those of `a`, `b`, `p` and `q`.
+pub(crate) fn turned(v: &Vec3, arm: &Vec3) -> Turned {
+    let [[a, a1, a2], [b, b1, b2]] = rodrigues(v.norm_squared());
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let (p, crossed) = (v.cross(arm), axes.map(|axis| axis.cross(arm)));
+    let q = v.cross(&p);
+    let turned_q = [0, 1, 2].map(|k| axes[k].cross(&p) + v.cross(&crossed[k]));
+    let [lower, higher] = [a1 * p + b1 * q, a2 * p + b2 * q];
+    let first = |k: usize| a * crossed[k] + b * turned_q[k] + 2.0 * v[k] * lower;
+    let by_size = |k: usize| a1 * crossed[k] + b1 * turned_q[k];
+    let second = |k: usize, l: usize| {
+        let of_q = b * (axes[k].cross(&crossed[l]) + axes[l].cross(&crossed[k]));
+        let same = if k == l { 2.0 * lower } else { Vec3::zeros() };
+        of_q + 2.0 * (v[l] * by_size(k) + v[k] * by_size(l)) + same + 4.0 * v[k] * v[l] * higher
+    };
+    Turned { first: [0, 1, 2].map(first), second: [0, 1, 2].map(|k| [0, 1, 2].map(|l| second(k, l))) }
+}
+
+/// Square of an angle up to which the functions of [`rodrigues`] are computed by their power series, and the number of
+/// its terms: the first one left out is below 1e-19.
+const LARGEST_SERIES_SQUARE: f64 = 2.25;
+const SERIES_TERMS: i32 = 12;
+
+/// The functions `a(s) = sin(t)/t` and `b(s) = (1 - cos t)/t^2` of `s = t^2`, each with its first two derivatives by `s`.
+fn rodrigues(s: f64) -> [[f64; 3]; 2] {
+    if s <= LARGEST_SERIES_SQUARE { [1.0, 2.0].map(|first| rodrigues_series(s, first)) } else { rodrigues_closed(s) }
+}
+
+/// The sum of `(-s)^k / (2k + first)!` with its first two derivatives: `a` for 1, `b` for 2.
+fn rodrigues_series(s: f64, first: f64) -> [f64; 3] {
+    let mut sums = [0.0; 3];
+    let mut term = if first == 1.0 { 1.0 } else { 0.5 };
+    // of each derivative the term with the power s^(k - derivative), from coefficients alone
+    let mut powers = [1.0, 0.0, 0.0];
+    for k in 0..SERIES_TERMS {
+        let order = f64::from(k);
+        (0..3).for_each(|n| sums[n] += term * powers[n]);
+        let factor = 2.0 * order + first;
+        term /= -(factor + 1.0) * (factor + 2.0);
+        // s^k and its derivatives: (s^(k+1))' = (k+1) s^k, (s^(k+1))'' = (k+1) k s^(k-1)
+        powers = [s * powers[0], (order + 1.0) * powers[0], (order + 1.0) * powers[1]];
+    }
+    sums
+}
+
+fn rodrigues_closed(s: f64) -> [[f64; 3]; 2] {
+    let t = s.sqrt();
+    let half = (0.5 * t).sin();
+    let (a, b) = (t.sin() / t, 2.0 * half * half / s);
+    let (a1, b1) = ((t.cos() - a) / (2.0 * s), (0.5 * a - b) / s);
+    let (a2, b2) = ((-0.25 * a - 1.5 * a1) / s, (0.5 * a1 - 2.0 * b1) / s);
+    [[a, a1, a2], [b, b1, b2]]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

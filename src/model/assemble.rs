@@ -1,18 +1,21 @@
 //! Builds the model of a sheet from its terms; no other place decides what a model contains.
 //!
-//! A term that is absent is not built. Bars always have tensions as unknowns. Hinges have tensions too if they are
-//! rigid, or so much stiffer than the softest term that the rounding errors of `k (angle - rest)` would hide their
-//! forces.
+//! A term that is absent is not built. Bars always have tensions as unknowns. A hinge has a tension too if it is rigid,
+//! or so much stiffer than the softest element that the rounding errors of `k (angle - rest)` would hide its torque; the
+//! hinges of one kind may be of both sorts.
 
 use super::boundary::Drawn;
 use super::element::{Element, Elements, Spring, Term, TermKind};
 use super::measure::{FoldAngle, Length};
-use super::problem::{Gauge, Model, Parts};
-use super::terms::{Hinges, Terms};
+use super::part::Part;
+use super::problem::{Gauge, Model, Parts, Support};
+use super::stiffness::Stiffness;
+use super::terms::{Bars, Hinges, Terms};
+use crate::math::Vec3;
 use crate::sheet::EdgeKind;
-use crate::sheet::tiling::{TiledEdge, Tiling};
+use crate::sheet::tiling::{Site, TiledEdge, Tiling};
 
-/// Ratio of a hinge's stiffness to the softest stiffness above which hinges have tensions as unknowns.
+/// Ratio of a hinge's stiffness to the softest stiffness above which the hinge has a tension as unknown.
 const STIFF_RATIO: f64 = 1e4;
 
 type Elementwise = Vec<Box<dyn Elements>>;
@@ -21,31 +24,35 @@ type Elementwise = Vec<Box<dyn Elements>>;
 pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gauge) -> Model {
     let (mut soft, mut stiff): (Elementwise, Elementwise) = (vec![], vec![]);
     let mean_edge = drawn.mean_edge(tiling);
-    if let Some(stiffness) = terms.bars {
-        stiff.push(Box::new(bars(drawn, tiling, stiffness)));
+    let in_part = inside_a_part(&terms.parts, tiling.positions.len());
+    let moves = |edge: usize| tiling.edges[edge].hinge().is_some_and(|sites| !in_part(&sites));
+    if let Some(given) = &terms.bars {
+        stiff.push(Box::new(bars(drawn, tiling, given, &in_part)));
     }
-    let given = [terms.creases.as_ref().map(|h| h.stiffness), terms.facets.as_ref().map(|h| h.stiffness), terms.bars];
-    let softest = given.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let softest = softest(terms);
     let kinds =
         [(TermKind::Creases, EdgeKind::Crease, &terms.creases), (TermKind::Facets, EdgeKind::Facet, &terms.facets)];
     for (term, kind, hinges) in kinds {
         let Some(hinges) = hinges else { continue };
-        let term = Box::new(hinge_term(term, drawn, tiling, |edge| tiling.edges[edge].kind == kind, hinges));
-        let list = if hinges.stiffness > STIFF_RATIO * softest || hinges.stiffness.is_infinite() {
-            &mut stiff
-        } else {
-            &mut soft
+        let has_tension = |edge: usize| {
+            let stiffness = hinges.stiffness.of(edge);
+            stiffness > STIFF_RATIO * softest || stiffness.is_infinite()
         };
-        if !term.is_empty() {
-            list.push(term);
+        let here = |edge: usize| tiling.edges[edge].kind == kind && moves(edge) && !hinges.stiffness.of(edge).is_nan();
+        for (list, tension) in [(&mut soft, false), (&mut stiff, true)] {
+            let wanted = |edge| here(edge) && has_tension(edge) == tension;
+            let term = hinge_term(term, drawn, tiling, wanted, hinges);
+            if !term.is_empty() {
+                list.push(Box::new(term));
+            }
         }
     }
     if !terms.locks.is_empty() {
         let mut rest = vec![f64::NAN; tiling.edges.len()];
         terms.locks.iter().for_each(|&(edge, angle)| rest[edge] = angle);
         let locked: Vec<bool> = rest.iter().map(|angle| !angle.is_nan()).collect();
-        let rigid = Hinges { stiffness: f64::INFINITY, rest };
-        stiff.push(Box::new(hinge_term(TermKind::Locks, drawn, tiling, |edge| locked[edge], &rigid)));
+        let rigid = Hinges { stiffness: f64::INFINITY.into(), rest };
+        stiff.push(Box::new(hinge_term(TermKind::Locks, drawn, tiling, |edge| locked[edge] && moves(edge), &rigid)));
     }
     let pins = terms.pins.iter().flat_map(|(v, axes)| (0..3).filter(|&a| axes[a]).map(move |a| 3 * v + a));
     let pinned: Vec<usize> = drawn.held.iter().copied().chain(pins).collect();
@@ -56,6 +63,8 @@ pub(super) fn assemble(drawn: &Drawn, tiling: &Tiling, terms: &Terms, gauge: Gau
         soft,
         stiff,
         pinned,
+        parts: terms.parts.clone(),
+        supports: terms.guides.iter().map(|(vertex, direction)| guide(drawn, *vertex, direction)).collect(),
         loads,
         edges: tiling.edges.len(),
         mean_edge,
@@ -72,12 +81,45 @@ fn net_loads(terms: &Terms, coordinates: usize, pinned: &[usize]) -> Vec<f64> {
     if loads.iter().all(|force| *force == 0.0) { vec![] } else { loads }
 }
 
-fn bars(drawn: &Drawn, tiling: &Tiling, stiffness: f64) -> Term<Length, 2, 6> {
+/// Returns the support that keeps the drawn coordinate of a vertex along a direction.
+fn guide(drawn: &Drawn, vertex: usize, direction: &Vec3) -> Support {
+    let terms: Vec<(usize, f64)> = (0..3).map(|axis| (3 * vertex + axis, direction[axis])).collect();
+    let rest = terms.iter().map(|(k, factor)| factor * drawn.coordinates[*k]).sum();
+    Support { terms, rest, is_angle: false }
+}
+
+/// Returns a function that says whether all these points belong to one rigid part: then an element of them is left out,
+/// since it never changes.
+fn inside_a_part(parts: &[Part], vertices: usize) -> impl Fn(&[Site]) -> bool {
+    let mut part_of = vec![None; if parts.is_empty() { 0 } else { vertices }];
+    for (number, part) in parts.iter().enumerate() {
+        part.vertices.iter().for_each(|&v| part_of[v] = Some(number));
+    }
+    move |sites| {
+        let part = |site: &Site| part_of.get(site.vertex).copied().flatten();
+        sites.first().and_then(part).is_some_and(|first| sites.iter().all(|site| part(site) == Some(first)))
+    }
+}
+
+/// Returns the smallest stiffness of all terms.
+fn softest(terms: &Terms) -> f64 {
+    let hinges = [&terms.creases, &terms.facets].map(|hinges| hinges.as_ref().map(|hinges| &hinges.stiffness));
+    let given = hinges.into_iter().chain([terms.bar_stiffness()]).flatten();
+    given.map(Stiffness::softest).fold(f64::INFINITY, f64::min)
+}
+
+fn bars(drawn: &Drawn, tiling: &Tiling, bars: &Bars, rigid: impl Fn(&[Site]) -> bool) -> Term<Length, 2, 6> {
     let element = |(edge, tiled): (usize, &TiledEdge)| {
-        let rest = drawn.distance(&tiled.ends);
-        Element { sites: tiled.ends, spring: Spring { stiffness: stiffness / rest, rest }, edge }
+        let rest = bars.rest.of(edge, drawn.distance(&tiled.ends));
+        let stiffness = bars.stiffness.of(edge);
+        (!stiffness.is_nan()).then(|| Element {
+            sites: tiled.ends,
+            spring: Spring { stiffness: stiffness / rest, rest },
+            edge,
+        })
     };
-    let elements = tiling.edges.iter().enumerate().map(element).collect();
+    let elements =
+        tiling.edges.iter().enumerate().filter(|(_, tiled)| !rigid(&tiled.ends)).filter_map(element).collect();
     Term::new(TermKind::Bars, elements, &drawn.domain, &drawn.coordinates)
 }
 
@@ -90,8 +132,10 @@ fn hinge_term(
 ) -> Term<FoldAngle, 4, 12> {
     let element = |edge: usize| {
         let sites = tiling.edges[edge].hinge()?;
-        let spring =
-            Spring { stiffness: hinges.stiffness * drawn.distance(&tiling.edges[edge].ends), rest: hinges.rest[edge] };
+        let spring = Spring {
+            stiffness: hinges.stiffness.of(edge) * drawn.distance(&tiling.edges[edge].ends),
+            rest: hinges.rest[edge],
+        };
         Some(Element { sites, spring, edge })
     };
     let elements = (0..tiling.edges.len()).filter(|&edge| wanted(edge)).filter_map(element).collect();

@@ -4,9 +4,16 @@ use super::assemble::assemble;
 use super::assembly_error::AssemblyError;
 use super::boundary::{Boundary, Drawn};
 use super::problem::{Gauge, Model};
-use super::terms::{RIGID, Terms};
-use crate::sheet::{Sheet, Tiling, tile};
+use super::stiffness::Stiffness;
+use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
+use crate::sheet::{EdgeKind, Sheet, Tiling, tile};
+use std::collections::HashSet;
 use std::sync::Arc;
+
+/// Largest change of a rest length from the drawn length, relative to it, that counts as rounding.
+const SAME_LENGTH: f64 = 1e-12;
+/// Largest difference of a rest angle from the drawn angle, in radians, that counts as rounding.
+const SAME_ANGLE_RAD: f64 = 1e-9;
 
 /// A sheet with its boundary conditions and terms.
 ///
@@ -65,21 +72,40 @@ impl Assembly {
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
-    /// Returns the same sheet with other terms, in the same drawn state.
+    /// Returns the same sheet with other terms, in the same drawn state. Stiffnesses that are given for each edge and
+    /// are equal on all elements of their term become one number.
     ///
     /// # Panics
-    /// If the rest angles of creases or facets are not one for each edge of the tiling. A lock, pin or load whose
-    /// edge or vertex number is outside the tiling panics later, when the model is built.
-    pub fn with_terms(&self, terms: Terms) -> Self {
-        let edges = self.edges();
-        let rests = [&terms.creases, &terms.facets].into_iter().flatten().map(|hinges| hinges.rest.len());
-        assert!(rests.into_iter().all(|count| count == edges), "one rest angle for each of {edges} edges");
+    /// If stiffnesses, rest lengths or rest angles that are given for each edge are not one for each edge of the tiling.
+    /// A lock, pin or load whose edge or vertex number is outside the tiling panics later, when the model is built.
+    pub fn with_terms(&self, mut terms: Terms) -> Self {
+        let (edges, tiling) = (self.edges(), self.tiling());
+        let at_elements = |stiffness: &Stiffness, kind: Option<EdgeKind>| {
+            if let Stiffness::PerEdge(each) = stiffness {
+                assert!(each.len() == edges, "one stiffness for each of {edges} edges");
+            }
+            stiffness.at_elements(|edge| kind.is_none_or(|kind| tiling.edges[edge].kind == kind))
+        };
+        for (hinges, kind) in [(&mut terms.creases, EdgeKind::Crease), (&mut terms.facets, EdgeKind::Facet)] {
+            if let Some(hinges) = hinges {
+                assert!(hinges.rest.len() == edges, "one rest angle for each of {edges} edges");
+                hinges.stiffness = at_elements(&hinges.stiffness, Some(kind));
+            }
+        }
+        if let Some(bars) = &mut terms.bars {
+            let lengths = if let RestLengths::PerEdge(lengths) = &bars.rest { lengths.len() } else { edges };
+            assert!(lengths == edges, "one rest length for each of {edges} edges");
+            bars.stiffness = at_elements(&bars.stiffness, None);
+        }
         Self { terms: Arc::new(terms), ..self.clone() }
     }
 
-    /// Returns the same assembly with bars of stiffness `EA` (a force); [`RIGID`] keeps their lengths.
+    /// Returns the same assembly with all bars of one stiffness `EA` (a force); [`RIGID`] keeps their lengths. Their rest
+    /// lengths stay what they are.
     pub fn with_bars(&self, stiffness: f64) -> Self {
-        self.with_terms(Terms { bars: Some(stiffness), ..self.terms().clone() })
+        let rest = self.terms().bars.as_ref().map(|bars| bars.rest.clone()).unwrap_or_default();
+        let bars = Bars { stiffness: stiffness.into(), rest };
+        self.with_terms(Terms { bars: Some(bars), ..self.terms().clone() })
     }
 
     /// Returns the same assembly with the axis of its screw motions at `angle` (radians) from the first lattice
@@ -125,14 +151,53 @@ impl Assembly {
         &self.terms
     }
 
-    /// Returns the stiffness `EA` of the bars; infinite if the assembly has no bars.
+    /// Returns the stiffness `EA` of the bars, of the softest one if they differ; infinite if the assembly has no bars.
     pub fn bar_stiffness(&self) -> f64 {
-        self.terms.bars.unwrap_or(RIGID)
+        self.terms.bar_stiffness().map_or(RIGID, Stiffness::softest)
     }
 
-    /// Returns the stiffness of the creases, torque per radian and length; 1 if the assembly has no crease energy.
+    /// Returns the stiffness of the creases, torque per radian and length, of the softest one if they differ; 1 if the
+    /// assembly has no crease energy.
     pub fn crease_stiffness(&self) -> f64 {
-        self.terms.creases.as_ref().map_or(1.0, |creases| creases.stiffness)
+        self.terms.creases.as_ref().map_or(1.0, |creases| creases.stiffness.softest())
+    }
+
+    /// Whether all bars are at rest at their drawn lengths, up to rounding; also true if there are none.
+    pub fn has_drawn_lengths(&self) -> bool {
+        self.bars_off_rest() == 0
+    }
+
+    /// Returns the number of bars whose rest lengths are not the drawn ones.
+    pub fn bars_off_rest(&self) -> usize {
+        let Some(bars) = &self.terms.bars else { return 0 };
+        let drawn = self.tiling().edges.iter().map(|edge| self.drawn.distance(&edge.ends)).enumerate();
+        drawn.filter(|&(edge, length)| !((bars.rest.of(edge, length) / length - 1.0).abs() <= SAME_LENGTH)).count()
+    }
+
+    /// Returns the number of an edge with a rigid crease or facet whose rest angle is not the drawn one; `None` if there
+    /// is none. Locks are not looked at.
+    pub fn rigid_hinge_off_rest(&self) -> Option<usize> {
+        let off = |&(edge, angle): &(usize, f64)| (angle - self.drawn_angles()[edge]).abs() > SAME_ANGLE_RAD;
+        self.rigid_creases_beside_soft().chain(self.rigid_facets()).find(off).map(|(edge, _)| edge)
+    }
+
+    /// Returns edge and rest angle of the rigid creases, if there are soft creases too.
+    fn rigid_creases_beside_soft(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let creases = self.terms.creases.as_ref().filter(|creases| creases.stiffness.uniform().is_none());
+        self.rigid(creases, EdgeKind::Crease)
+    }
+
+    /// Returns edge and rest angle of the rigid facets.
+    fn rigid_facets(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.rigid(self.terms.facets.as_ref(), EdgeKind::Facet)
+    }
+
+    fn rigid<'a>(&'a self, hinges: Option<&'a Hinges>, kind: EdgeKind) -> impl Iterator<Item = (usize, f64)> + use<'a> {
+        let edges = self.tiling().edges.iter().enumerate().filter(move |(_, edge)| edge.kind == kind);
+        hinges.into_iter().flat_map(move |hinges| {
+            let rigid = edges.clone().filter(|(edge, _)| hinges.stiffness.of(*edge).is_infinite());
+            rigid.map(|(edge, _)| (edge, hinges.rest[edge]))
+        })
     }
 
     /// Returns the drawn state.
@@ -168,17 +233,26 @@ impl Assembly {
         self.drawn.mean_edge(self.tiling())
     }
 
-    /// Returns the numbers of the edges of the tiling whose fold angle is kept: locked edges, and the diagonals of
-    /// polygons if facets are rigid.
+    /// Returns the numbers of the edges of the tiling whose fold angle is kept: locked edges, rigid creases beside soft
+    /// ones, and the diagonals of rigid polygons.
     pub fn locked_edges(&self) -> Vec<usize> {
-        let facets = self.tiling().facets().filter(|_| self.terms.has_rigid_facets());
-        self.terms.locks.iter().map(|(edge, _)| *edge).chain(facets).collect()
+        let rigid = self.rigid_creases_beside_soft().chain(self.rigid_facets());
+        let locks = self.terms.locks.iter().map(|(edge, _)| *edge);
+        locks.chain(rigid.map(|(edge, _)| edge)).collect()
     }
 
-    /// Returns the numbers of the sheet's edges that are diagonals of rigid polygons; empty if facets are not rigid.
+    /// Returns the numbers of the edges of the tiling that are rigid diagonals of polygons.
+    pub fn rigid_facet_edges(&self) -> Vec<usize> {
+        self.rigid_facets().map(|(edge, _)| edge).collect()
+    }
+
+    /// Returns the numbers of the sheet's edges that are rigid diagonals of polygons in every cell.
     pub fn rigid_facets_of_cell(&self) -> Vec<usize> {
-        let rigid = self.terms.has_rigid_facets();
-        self.sheet().facets().filter(|_| rigid).collect()
+        let Some(facets) = &self.terms.facets else { return vec![] };
+        let tiled = self.tiling().edges.iter().enumerate();
+        let soft: HashSet<usize> =
+            tiled.filter(|(k, _)| facets.stiffness.of(*k).is_finite()).map(|(_, edge)| edge.edge).collect();
+        self.sheet().facets().filter(|edge| !soft.contains(edge)).collect()
     }
 
     /// Builds the model of the bars and hinges, in the drawn state.

@@ -23,10 +23,21 @@ pub enum AssemblyError {
     /// Rest angles were given, but no stiffness of the creases.
     #[error("rest angles are those of creases: give these a stiffness")]
     RestWithoutCreases,
-    /// The list of rest angles has not one entry for each edge of the tiling.
-    #[error("{given} rest angles were given for {edges} edges of the tiling")]
-    RestAngles {
-        /// Number of rest angles that were given.
+    /// Rest lengths were given, but no stiffness of the bars.
+    #[error("rest lengths are those of bars: give these a stiffness")]
+    RestWithoutBars,
+    /// A rest length, or the factor of all rest lengths, is not a positive finite number.
+    #[error("a rest length, or the factor of all, is {length}, not a positive number")]
+    RestLength {
+        /// The length or the factor.
+        length: f64,
+    },
+    /// A list has not one entry for each edge of the tiling.
+    #[error("{given} {what} were given for {edges} edges of the tiling")]
+    Count {
+        /// What the list holds.
+        what: &'static str,
+        /// Number of entries that were given.
         given: usize,
         /// Number of edges of the tiling.
         edges: usize,

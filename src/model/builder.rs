@@ -4,21 +4,23 @@
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
 use super::boundary::Boundary;
-use super::terms::{Hinges, RIGID, Terms};
+use super::part::Part;
+use super::stiffness::Stiffness;
+use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
 use crate::math::Vec3;
-use crate::sheet::{EdgeKey, Sheet};
+use crate::sheet::{EdgeKey, EdgeKind, Sheet};
 
-/// The rest angles of the creases, in radians.
+/// The rest angles of the creases, or of the facets, in radians.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Rest {
     /// The drawn fold angles.
     #[default]
     Drawn,
-    /// Zero for every crease.
+    /// Zero for every hinge.
     Flat,
-    /// The same angle for every crease.
+    /// The same angle for every hinge.
     Angle(f64),
-    /// One angle for each edge of the tiling, in the tiling's order; only those of creases are used.
+    /// One angle for each edge of the tiling, in the tiling's order; only those of hinges of this kind are used.
     PerEdge(Vec<f64>),
 }
 
@@ -45,6 +47,9 @@ impl Assembly {
     }
 }
 
+/// A vertex of a cell, and that cell.
+type NamedVertex = (usize, [usize; 2]);
+
 /// An assembly under construction; [`Assembly::patch`] and the similar functions begin one and [`Builder::build`]
 /// ends it.
 #[derive(Clone, Debug)]
@@ -52,38 +57,72 @@ pub struct Builder {
     sheet: Sheet,
     cells: [usize; 2],
     boundary: Boundary,
-    bars: Option<f64>,
-    creases: Option<f64>,
-    facets: f64,
+    bars: Option<Stiffness>,
+    lengths: Option<RestLengths>,
+    creases: Option<Stiffness>,
     rest: Option<Rest>,
+    facets: Stiffness,
+    facet_rest: Rest,
     locks: Vec<(EdgeKey, Option<f64>)>,
     pins: Vec<(usize, [usize; 2], [bool; 3])>,
     loads: Vec<(usize, [usize; 2], Vec3)>,
+    guides: Vec<(usize, [usize; 2], Vec3)>,
+    parts: Vec<(Vec<NamedVertex>, [bool; 6])>,
 }
 
 impl Builder {
     pub(super) fn new(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Self {
-        let (locks, pins, loads) = Default::default();
-        Self { sheet, cells, boundary, bars: None, creases: None, facets: RIGID, rest: None, locks, pins, loads }
+        let (bars, lengths, creases, rest, facet_rest, locks, pins, loads, guides, parts) = Default::default();
+        let facets = RIGID.into();
+        Self {
+            sheet,
+            cells,
+            boundary,
+            bars,
+            lengths,
+            creases,
+            rest,
+            facets,
+            facet_rest,
+            locks,
+            pins,
+            loads,
+            guides,
+            parts,
+        }
     }
 
-    /// Gives every edge a bar of stiffness `EA`, in force per strain; [`RIGID`] keeps its length exactly.
+    /// Gives every edge a bar of stiffness `EA`, in force per strain; [`RIGID`] keeps its length exactly. The stiffness
+    /// is one number, or a list with one for each edge of the tiling.
     #[must_use]
-    pub fn bars(self, stiffness: f64) -> Self {
-        Self { bars: Some(stiffness), ..self }
+    pub fn bars(self, stiffness: impl Into<Stiffness>) -> Self {
+        Self { bars: Some(stiffness.into()), ..self }
     }
 
-    /// Gives every crease this stiffness, in torque per radian and length.
+    /// Sets the rest lengths of the bars. Without this call they are the drawn lengths.
     #[must_use]
-    pub fn creases(self, stiffness: f64) -> Self {
-        Self { creases: Some(stiffness), ..self }
+    pub fn rest_lengths(self, lengths: RestLengths) -> Self {
+        Self { lengths: Some(lengths), ..self }
     }
 
-    /// Gives the diagonals of polygons this stiffness, in torque per radian and length, with the drawn angles as rest
-    /// angles. Without this call polygons are rigid.
+    /// Gives every crease this stiffness, in torque per radian and length: one number, or a list with one for each edge
+    /// of the tiling, of which only those of creases are used.
     #[must_use]
-    pub fn facets(self, stiffness: f64) -> Self {
-        Self { facets: stiffness, ..self }
+    pub fn creases(self, stiffness: impl Into<Stiffness>) -> Self {
+        Self { creases: Some(stiffness.into()), ..self }
+    }
+
+    /// Gives the diagonals of polygons this stiffness, in torque per radian and length: one number, or a list with one
+    /// for each edge of the tiling, of which only those of diagonals are used. Without this call polygons are rigid.
+    #[must_use]
+    pub fn facets(self, stiffness: impl Into<Stiffness>) -> Self {
+        Self { facets: stiffness.into(), ..self }
+    }
+
+    /// Sets the rest angles of the diagonals of polygons. Without this call they are the drawn angles.
+    #[must_use]
+    pub fn facet_rest(self, rest: Rest) -> Self {
+        Self { facet_rest: rest, ..self }
     }
 
     /// Sets the rest angles of the creases. Without this call they are the drawn angles.
@@ -106,6 +145,22 @@ impl Builder {
         self
     }
 
+    /// Lets a vertex of a cell move only across a direction: its coordinate along it keeps its drawn value, as that of a
+    /// roller on an inclined plane, or of a vertex in a plane of symmetry.
+    #[must_use]
+    pub fn guide(mut self, vertex: usize, cell: [usize; 2], normal: [f64; 3]) -> Self {
+        self.guides.push((vertex, cell, Vec3::from(normal).normalize()));
+        self
+    }
+
+    /// Makes vertices, each of a cell, one rigid body, which keeps free what is true: displacements along x, y, z and
+    /// rotations about x, y, z through the centroid of its vertices. See [`Part`].
+    #[must_use]
+    pub fn part(mut self, vertices: impl IntoIterator<Item = (usize, [usize; 2])>, free: [bool; 6]) -> Self {
+        self.parts.push((vertices.into_iter().collect(), free));
+        self
+    }
+
     /// Applies a force (x, y, z) to a vertex of a cell.
     #[must_use]
     pub fn load(mut self, vertex: usize, cell: [usize; 2], force: [f64; 3]) -> Self {
@@ -116,25 +171,36 @@ impl Builder {
     /// Builds the assembly.
     ///
     /// # Errors
-    /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness is not a positive number,
-    /// rest angles are given without a stiffness of creases or their number does not match the tiling, a crease or a
-    /// vertex does not exist, or loads do not balance along an axis without pins.
+    /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness or a rest length is not a
+    /// positive number, rest values are given without a stiffness, the length of a list does not match the tiling, a
+    /// crease or a vertex does not exist, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
-        let Self { sheet, cells, boundary, bars, creases, facets, rest, locks, pins, loads } = self;
+        let Self {
+            sheet,
+            cells,
+            boundary,
+            bars,
+            lengths,
+            creases,
+            rest,
+            facets,
+            facet_rest,
+            locks,
+            pins,
+            loads,
+            guides,
+            parts,
+        } = self;
         let bare = Assembly::without_terms(sheet, cells, boundary)?;
-        for (term, stiffness) in [("bars", bars), ("creases", creases), ("facets", Some(facets))] {
-            if let Some(stiffness) = stiffness.filter(|stiffness| !(*stiffness > 0.0)) {
-                return Err(AssemblyError::Stiffness { term, stiffness });
-            }
-        }
         let creases = match (creases, rest) {
             (None, Some(_)) => return Err(AssemblyError::RestWithoutCreases),
             (None, None) => None,
-            (Some(stiffness), rest) => Some(Hinges { stiffness, rest: angles(&bare, rest.unwrap_or_default())? }),
+            (Some(stiffness), rest) => Some((stiffness, rest.unwrap_or_default())),
         };
-        let facets = Hinges { stiffness: facets, rest: bare.drawn_angles().to_vec() };
+        let creases = creases.map(|given| hinges(&bare, ("creases", EdgeKind::Crease), given)).transpose()?;
+        let facets = hinges(&bare, ("facets", EdgeKind::Facet), (facets, facet_rest))?;
         let facets = bare.tiling().facets().next().map(|_| facets);
-        let mut terms = Terms { bars, creases, facets, ..Terms::default() };
+        let mut terms = Terms { bars: with_lengths(&bare, bars, lengths)?, creases, facets, ..Terms::default() };
         for (crease, angle) in locks {
             terms
                 .locks
@@ -142,6 +208,13 @@ impl Builder {
         }
         for (vertex, cell, axes) in pins {
             terms.pins.push((numbered(&bare, vertex, cell)?, axes));
+        }
+        for (vertex, cell, normal) in guides {
+            terms.guides.push((numbered(&bare, vertex, cell)?, normal));
+        }
+        for (vertices, free) in parts {
+            let numbers = vertices.into_iter().map(|(vertex, cell)| numbered(&bare, vertex, cell));
+            terms.parts.push(Part { vertices: numbers.collect::<Result<_, _>>()?, free });
         }
         for (vertex, cell, force) in loads {
             terms.loads.push((numbered(&bare, vertex, cell)?, force));
@@ -153,6 +226,60 @@ impl Builder {
     }
 }
 
+/// Returns the bars; `None` if no stiffness is given.
+fn with_lengths(
+    assembly: &Assembly,
+    stiffness: Option<Stiffness>,
+    lengths: Option<RestLengths>,
+) -> Result<Option<Bars>, AssemblyError> {
+    let (stiffness, rest) = match (stiffness, lengths) {
+        (None, Some(_)) => return Err(AssemblyError::RestWithoutBars),
+        (None, None) => return Ok(None),
+        (Some(stiffness), lengths) => (stiffness, lengths.unwrap_or_default()),
+    };
+    check(assembly, "bars", &stiffness, |_| true)?;
+    let bad = |length: &f64| !(*length > 0.0 && length.is_finite());
+    let wrong = match &rest {
+        RestLengths::PerEdge(each) if each.len() != assembly.edges() => {
+            let edges = assembly.edges();
+            return Err(AssemblyError::Count { what: "rest lengths", given: each.len(), edges });
+        }
+        RestLengths::PerEdge(each) => each.iter().copied().find(bad),
+        RestLengths::Factor(factor) => Some(*factor).filter(bad),
+        RestLengths::Drawn => None,
+    };
+    wrong.map_or(Ok(Some(Bars { stiffness, rest })), |length| Err(AssemblyError::RestLength { length }))
+}
+
+/// Returns the hinges of a kind.
+fn hinges(
+    assembly: &Assembly,
+    (term, kind): (&'static str, EdgeKind),
+    (stiffness, rest): (Stiffness, Rest),
+) -> Result<Hinges, AssemblyError> {
+    check(assembly, term, &stiffness, |edge| assembly.tiling().edges[edge].kind == kind)?;
+    Ok(Hinges { stiffness, rest: angles(assembly, rest)? })
+}
+
+/// Checks that the stiffness of every element is a positive number.
+fn check(
+    assembly: &Assembly,
+    term: &'static str,
+    stiffness: &Stiffness,
+    is_element: impl Fn(usize) -> bool,
+) -> Result<(), AssemblyError> {
+    let edges = assembly.edges();
+    let bad = |stiffness: &f64| !(*stiffness > 0.0);
+    let wrong = match stiffness {
+        Stiffness::PerEdge(each) if each.len() != edges => {
+            return Err(AssemblyError::Count { what: "stiffnesses", given: each.len(), edges });
+        }
+        Stiffness::PerEdge(each) => (0..edges).filter(|&edge| is_element(edge)).map(|edge| each[edge]).find(bad),
+        Stiffness::Uniform(stiffness) => Some(*stiffness).filter(bad),
+    };
+    wrong.map_or(Ok(()), |stiffness| Err(AssemblyError::Stiffness { term, stiffness }))
+}
+
 /// Returns the rest angles, one for each edge of the tiling.
 fn angles(assembly: &Assembly, rest: Rest) -> Result<Vec<f64>, AssemblyError> {
     let edges = assembly.edges();
@@ -161,7 +288,7 @@ fn angles(assembly: &Assembly, rest: Rest) -> Result<Vec<f64>, AssemblyError> {
         Rest::Flat => Ok(vec![0.0; edges]),
         Rest::Angle(angle) => Ok(vec![angle; edges]),
         Rest::PerEdge(angles) if angles.len() == edges => Ok(angles),
-        Rest::PerEdge(angles) => Err(AssemblyError::RestAngles { given: angles.len(), edges }),
+        Rest::PerEdge(angles) => Err(AssemblyError::Count { what: "rest angles", given: angles.len(), edges }),
     }
 }
 

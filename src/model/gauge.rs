@@ -27,8 +27,7 @@ pub(crate) type Motion = SVector<f64, 6>;
 pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
     let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
-    let centre = (0..vertices).map(point).sum::<Vec3>() / vertices as f64;
-    let size = (0..vertices).map(|k| (point(k) - centre).norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let (centre, size) = centre_and_size(domain, x);
     let turns = rotations && matches!(domain, Domain::Patch | Domain::FreeTorus);
     let turn = if turns { 1.0 / size } else { 0.0 };
     let mut rows: Vec<Motion> = (0..vertices).flat_map(|k| rows_of(1.0, turn * (point(k) - centre))).collect();
@@ -45,8 +44,16 @@ pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<
     rows
 }
 
+/// Returns the centroid of all vertices, and the largest distance of one from it.
+pub(crate) fn centre_and_size(domain: &Domain, x: &[f64]) -> (Vec3, f64) {
+    let vertices = (x.len() - domain.shared()) / 3;
+    let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
+    let centre = (0..vertices).map(point).sum::<Vec3>() / vertices as f64;
+    (centre, (0..vertices).map(|k| (point(k) - centre).norm()).fold(f64::MIN_POSITIVE, f64::max))
+}
+
 /// Returns the velocity of a point, `translation + omega x arm`, as one row for each component.
-fn rows_of(translation: f64, arm: Vec3) -> [Motion; 3] {
+pub(crate) fn rows_of(translation: f64, arm: Vec3) -> [Motion; 3] {
     let cross = -arm.cross_matrix();
     [0, 1, 2].map(|axis| {
         let mut row = Motion::zeros();

@@ -25,11 +25,14 @@ mod axis;
 mod boundary;
 mod builder;
 pub(crate) mod domain;
+mod drive;
 mod element;
 pub(crate) mod gauge;
 pub mod intrinsic;
 pub mod measure;
+mod part;
 mod problem;
+mod stiffness;
 mod terms;
 
 #[cfg(test)]
@@ -41,6 +44,10 @@ pub use boundary::{Boundary, Drawn};
 pub use builder::{Builder, Rest};
 pub(crate) use domain::Turns;
 pub use domain::{Domain, Site};
+pub use drive::{Drive, DriveError, Driven};
 pub use element::{Elements, Spring, TermKind};
+pub use part::Part;
+pub use problem::driving::DrivenModel;
 pub use problem::{Gauge, Model};
-pub use terms::{Hinges, RIGID, Terms};
+pub use stiffness::Stiffness;
+pub use terms::{Bars, Hinges, RIGID, RestLengths, Terms};

@@ -1,5 +1,7 @@
 //! The terms of a sheet: stiffnesses, rest angles, locks, pins and loads.
 
+use super::part::Part;
+use super::stiffness::Stiffness;
 use crate::math::Vec3;
 
 /// The stiffness of a term that is exactly rigid: infinity.
@@ -8,11 +10,51 @@ pub const RIGID: f64 = f64::INFINITY;
 /// Largest component of the sum of the loads, relative to the largest component of any load, that counts as balanced.
 const BALANCED: f64 = 1e-12;
 
+/// Stiffness and rest lengths of the bars.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bars {
+    /// `EA`, a force; infinite for rigid bars. The spring constant is `EA / L0` with the rest length `L0`.
+    pub stiffness: Stiffness,
+    /// Lengths without force.
+    pub rest: RestLengths,
+}
+
+/// The rest lengths of the bars.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum RestLengths {
+    /// The drawn lengths.
+    #[default]
+    Drawn,
+    /// The drawn lengths times a factor: every bar is to be this much longer.
+    Factor(f64),
+    /// One length for each edge of the tiling.
+    PerEdge(Vec<f64>),
+}
+
+impl RestLengths {
+    /// Returns the rest length of the bar at an edge with this drawn length.
+    pub fn of(&self, edge: usize, drawn: f64) -> f64 {
+        match self {
+            Self::Drawn => drawn,
+            Self::Factor(factor) => factor * drawn,
+            Self::PerEdge(lengths) => lengths[edge],
+        }
+    }
+}
+
+impl<S: Into<Stiffness>> From<S> for Bars {
+    fn from(stiffness: S) -> Self {
+        Self { stiffness: stiffness.into(), rest: RestLengths::Drawn }
+    }
+}
+/// Part of a direction that is not among others, relative to its length, below which it counts as one of them.
+const SAME_DIRECTION: f64 = 1e-9;
+
 /// Stiffness and rest angles of the creases, or of the facets.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hinges {
     /// Torque per radian and unit length; infinite for rigid hinges.
-    pub stiffness: f64,
+    pub stiffness: Stiffness,
     /// Rest angle of every edge of the tiling, in radians; only those of hinges of this kind are used.
     pub rest: Vec<f64>,
 }
@@ -20,8 +62,8 @@ pub struct Hinges {
 /// The terms of the energy of a sheet, and the locks, pins and loads on it. `None` means that the term is not built.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Terms {
-    /// Stiffness `EA` of all bars, a force; infinite for rigid bars.
-    pub bars: Option<f64>,
+    /// The bars, one along every edge.
+    pub bars: Option<Bars>,
     /// The creases.
     pub creases: Option<Hinges>,
     /// The diagonals of polygons.
@@ -32,29 +74,54 @@ pub struct Terms {
     pub pins: Vec<(usize, [bool; 3])>,
     /// Numbers of the tiling's vertices that carry loads, and the forces on them.
     pub loads: Vec<(usize, Vec3)>,
+    /// Numbers of the tiling's vertices that keep their coordinate along a direction, and that direction, a unit
+    /// vector: rollers, and vertices in a plane of symmetry.
+    pub guides: Vec<(usize, Vec3)>,
+    /// Vertices that move as rigid bodies; a vertex belongs to one part at most.
+    pub parts: Vec<Part>,
 }
 
 impl Terms {
     /// Makes terms of bars of stiffness `EA` and of creases, whose stiffness is a torque per radian and length and
     /// whose rest angles are one for each edge of the tiling, in radians.
     pub fn bars_and_creases(bars: f64, creases: f64, rest: Vec<f64>) -> Self {
-        Self { bars: Some(bars), creases: Some(Hinges { stiffness: creases, rest }), ..Self::default() }
+        let creases = Hinges { stiffness: creases.into(), rest };
+        Self { bars: Some(bars.into()), creases: Some(creases), ..Self::default() }
     }
 
     /// Whether all bars and facets of the terms are rigid; also true if there are none.
     pub fn is_rigid(&self) -> bool {
-        let facets = self.facets.as_ref().map(|facets| facets.stiffness);
-        [self.bars, facets].into_iter().flatten().all(f64::is_infinite)
+        let [bars, facets] = [self.bar_stiffness(), self.facets.as_ref().map(|facets| &facets.stiffness)];
+        [bars, facets].into_iter().flatten().all(Stiffness::is_rigid)
     }
 
-    /// Whether facets are rigid, so that polygons keep their shape.
+    /// Returns the stiffness of the bars; `None` if there are none.
+    pub fn bar_stiffness(&self) -> Option<&Stiffness> {
+        self.bars.as_ref().map(|bars| &bars.stiffness)
+    }
+
+    /// Whether there are bars and all of them are rigid.
+    pub fn has_rigid_bars(&self) -> bool {
+        self.bar_stiffness().is_some_and(Stiffness::is_rigid)
+    }
+
+    /// Whether any facet is rigid, so that a polygon keeps its shape along it.
     pub fn has_rigid_facets(&self) -> bool {
-        self.facets.as_ref().is_some_and(|facets| facets.stiffness.is_infinite())
+        self.facets.as_ref().is_some_and(|facets| facets.stiffness.has_rigid())
+    }
+
+    /// Returns the name of the first term whose elements have different stiffness; `None` if each term has one.
+    pub fn uneven_term(&self) -> Option<&'static str> {
+        let hinges =
+            |hinges: &Option<Hinges>| hinges.as_ref().is_some_and(|hinges| hinges.stiffness.uniform().is_none());
+        let bars = self.bar_stiffness().is_some_and(|bars| bars.uniform().is_none());
+        let terms = [("bars", bars), ("creases", hinges(&self.creases)), ("facets", hinges(&self.facets))];
+        terms.into_iter().find(|(_, uneven)| *uneven).map(|(term, _)| term)
     }
 
     /// Whether there is any bar, crease, facet, lock or load. Pins alone give no energy.
     pub fn has_energy(&self) -> bool {
-        let Self { bars, creases, facets, locks, pins: _, loads } = self;
+        let Self { bars, creases, facets, locks, pins: _, loads, guides: _, parts: _ } = self;
         bars.is_some() || creases.is_some() || facets.is_some() || !locks.is_empty() || !loads.is_empty()
     }
 
@@ -63,15 +130,35 @@ impl Terms {
         self.pins.iter().map(|(_, axes)| axes.iter().filter(|held| **held).count()).sum()
     }
 
-    /// Returns the first axis (0, 1, 2 for x, y, z) along which the loads do not balance and no vertex is pinned, and
-    /// the sum of the loads along it; there is no equilibrium then. `None` if the loads balance along every axis
-    /// without pins.
+    /// Returns the axis (0, 1, 2 for x, y, z) along which most of the loads is neither balanced nor supported, and the
+    /// sum of the loads along it that is not; there is no equilibrium then. `None` if there is no such axis. Pins,
+    /// guides and parts that are held along an axis support loads.
     pub fn unbalanced_axis(&self) -> Option<(usize, f64)> {
-        let total: Vec3 = self.loads.iter().map(|(_, force)| force).sum();
+        self.unbalanced_axis_beside(&[])
+    }
+
+    /// Returns the same as [`Terms::unbalanced_axis`] where the sheet is also supported along `directions`, unit
+    /// vectors.
+    pub fn unbalanced_axis_beside(&self, directions: &[Vec3]) -> Option<(usize, f64)> {
         let largest = self.loads.iter().map(|(_, force)| force.amax()).fold(0.0, f64::max);
-        let pinned = |axis: usize| self.pins.iter().any(|(_, axes)| axes[axis]);
-        let axis = (0..3).find(|&axis| !pinned(axis) && total[axis].abs() > BALANCED * largest)?;
-        Some((axis, total[axis]))
+        let mut left: Vec3 = self.loads.iter().map(|(_, force)| force).sum();
+        let axes = (0..3).filter(|&axis| self.holds(axis)).map(|axis| Vec3::ith(axis, 1.0));
+        let others = self.guides.iter().map(|(_, normal)| *normal).chain(directions.iter().copied());
+        let mut supported: Vec<Vec3> = Vec::new();
+        for direction in axes.chain(others) {
+            let own = supported.iter().fold(direction, |own, other| own - other * other.dot(&own));
+            let Some(own) = own.try_normalize(SAME_DIRECTION) else { continue };
+            left -= own * own.dot(&left);
+            supported.push(own);
+        }
+        let axis = left.iamax();
+        (left[axis].abs() > BALANCED * largest).then(|| (axis, left[axis]))
+    }
+
+    /// Whether a pin, or a part that is held, keeps the sheet from moving along an axis.
+    fn holds(&self, axis: usize) -> bool {
+        let pinned = self.pins.iter().any(|(_, axes)| axes[axis]);
+        pinned || self.parts.iter().any(|part| !part.free[axis])
     }
 
     /// Returns the same terms with the rest angles of all creases and facets replaced by `angles`, one for each edge

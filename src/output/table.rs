@@ -38,6 +38,8 @@ pub(crate) enum Value {
     Whole(i64),
     /// A number; NaN is written as an empty field.
     Number(f64),
+    /// A word without commas and quotes.
+    Word(&'static str),
 }
 
 /// A table to be written to a file.
@@ -105,6 +107,7 @@ impl Value {
         let _ = match self {
             Self::Empty => Ok(()),
             Self::Whole(number) => write!(text, "{number}"),
+            Self::Word(word) => write!(text, "{word}"),
             Self::Number(number) if number.is_nan() => Ok(()),
             // `{:?}` writes the fewest digits that are read back exactly, with an exponent for very large and small
             // numbers

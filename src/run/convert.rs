@@ -23,6 +23,10 @@ pub(super) fn not_kept(sheet: &Sheet, from: Option<MeshKind>, to: Option<MeshKin
         let count = sheet.assignments.len();
         notes.push(format!("VTU has no letters for edges: {count} that the drawing does not show are not kept"));
     }
+    let stiffnesses = sheet.stiffness.hinges.len() + sheet.stiffness.bars.len();
+    if to != Some(MeshKind::Fold) && stiffnesses > 0 {
+        notes.push(format!("{stiffnesses} stiffnesses of edges are not kept: FOLD alone has a place for them"));
+    }
     if from == Some(MeshKind::Vtu) && sheet.edges.iter().any(|edge| edge.kind == EdgeKind::Crease) {
         notes.push("VTU does not tell diagonals of polygons from creases: all edges are creases now".to_owned());
     }

@@ -15,7 +15,7 @@ use crate::output::table::read_columns;
 use crate::output::{OutputError, files};
 use crate::scene::SceneFile;
 use crate::scene::forms::StartSpec;
-use crate::scene::spec::{BlochSpec, RelaxSpec, StudyKind, StudySpec};
+use crate::scene::spec::{StudyKind, StudySpec};
 use crate::study::SavedState;
 use serde::Deserialize;
 use serde_json::value::RawValue;
@@ -65,12 +65,8 @@ impl PreviousRun {
 
 /// Whether a later study starts from this one.
 pub(crate) fn is_start(file: &SceneFile, name: &str) -> bool {
-    file.scene.studies.iter().any(|study| match &*study.kind {
-        StudyKind::Relax(RelaxSpec { start, .. }) | StudyKind::Bloch(BlochSpec { start, .. }) => {
-            matches!(start.as_deref(), Some(StartSpec::Study(start)) if start == name)
-        }
-        _ => false,
-    })
+    let mut starts = file.scene.studies.iter().filter_map(|study| study.kind.start());
+    starts.any(|start| matches!(&**start, StartSpec::Study(start) if start == name))
 }
 
 /// Returns the trajectories that a study of an earlier run followed, in the space of lattice strains, read from its

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::forms::StartSpec;
 use super::outputs::outputs;
-use super::spec::{BlochSpec, DomainSpec, LandscapeSpec, RelaxSpec, StopSpec, StudyKind, StudySpec, WellsSpec};
+use super::spec::{DomainSpec, LandscapeSpec, PathSpec, PinSpec, StopSpec, StudyKind, StudySpec, VertexSet, WellsSpec};
 use super::values::CellIndex;
 use super::{Located, SceneError, SceneFile};
 
@@ -21,6 +21,8 @@ pub(super) fn check(file: &SceneFile) -> Checked {
     locks(file)?;
     super::turns::check(file)?;
     places(file)?;
+    names(file)?;
+    super::drives::check(file)?;
     studies(file)
 }
 
@@ -90,12 +92,14 @@ fn locks(file: &SceneFile) -> Checked {
 fn places(file: &SceneFile) -> Checked {
     let scene = &file.scene;
     for load in &scene.loads {
-        place(file, "a load", load.vertex.span(), load.cell.as_ref())?;
+        place(file, "a load", (load.vertex.as_ref(), load.vertices.as_ref()), load.cell.as_ref())?;
     }
     for pin in &scene.pins {
-        place(file, "a pin", pin.vertex.span(), pin.cell.as_ref())?;
+        place(file, "a pin", (pin.vertex.as_ref(), pin.vertices.as_ref()), pin.cell.as_ref())?;
     }
-    let keys = scene.pins.iter().map(|pin| ((*pin.vertex, pin.cell()), pin.vertex.span()));
+    let cell = |pin: &PinSpec| pin.cell.as_deref().copied().unwrap_or_default().0;
+    let axes = scene.pins.iter().filter(|pin| pin.normal.is_none());
+    let keys = axes.filter_map(|pin| pin.vertex.as_ref().map(|vertex| ((**vertex, cell(pin)), vertex.span())));
     unique(file, keys, |(vertex, cell), line| {
         [
             format!("vertex {vertex} of cell {cell:?} is pinned twice"),
@@ -104,9 +108,27 @@ fn places(file: &SceneFile) -> Checked {
     })
 }
 
-fn place(file: &SceneFile, what: &str, span: Range<usize>, cell: Option<&Located<CellIndex>>) -> Checked {
+/// Checks that no two parts, and no two drives, have one name.
+fn names(file: &SceneFile) -> Checked {
+    let fault = |what: &'static str| {
+        move |name: &&str, line: usize| {
+            [format!("two {what} have the name `{name}`"), format!("choose another: line {line} has it")]
+        }
+    };
+    let parts = file.scene.parts.iter().map(|part| (part.name.0.as_str(), part.name.span()));
+    unique(file, parts, fault("parts"))?;
+    unique(file, file.scene.drives.iter().map(|drive| (drive.name.0.as_str(), drive.name.span())), fault("drives"))
+}
+
+fn place(
+    file: &SceneFile,
+    what: &str,
+    (vertex, vertices): (Option<&Located<usize>>, Option<&Located<VertexSet>>),
+    cell: Option<&Located<CellIndex>>,
+) -> Checked {
     let sheet = &file.scene.sheet;
     if sheet.domain() != DomainSpec::Patch {
+        let span = vertex.map(Located::span).or(vertices.map(Located::span)).unwrap_or(0..0);
         let help = "loads and pins need domain = \"patch\"";
         return Err(file.error_at(span, format!("{what} on a {}", domain_name(file)), help));
     }
@@ -153,12 +175,12 @@ fn files(file: &SceneFile) -> Checked {
 }
 
 fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {
+    study.kind.start().map_or(Ok(()), |start| earlier_study(file, start, earlier))?;
     match &*study.kind {
-        StudyKind::Relax(RelaxSpec { start, .. }) | StudyKind::Bloch(BlochSpec { start, .. }) => {
-            start.as_ref().map_or(Ok(()), |start| earlier_study(file, start, earlier))
-        }
+        StudyKind::Path(path) => driven(file, study, path),
         StudyKind::Trace(trace) => trace.stop.as_ref().map_or(Ok(()), |stop| some_condition(file, stop)),
         StudyKind::Landscape(landscape) => not_empty(file, landscape),
+        StudyKind::Relax(_) | StudyKind::Bloch(_) => Ok(()),
         StudyKind::Surface(_) | StudyKind::Modes(_) | StudyKind::Branches(_) => Ok(()),
         StudyKind::Wells(wells) => of_rigid(file, wells),
     }
@@ -183,7 +205,31 @@ fn earlier_study(file: &SceneFile, start: &Located<StartSpec>, earlier: &[StudyS
 
 /// Whether studies of a kind end in a state from which another study can start.
 fn has_states(kind: &StudyKind) -> bool {
-    matches!(kind, StudyKind::Relax(_) | StudyKind::Trace(_) | StudyKind::Surface(_))
+    matches!(kind, StudyKind::Relax(_) | StudyKind::Trace(_) | StudyKind::Surface(_) | StudyKind::Path(_))
+}
+
+/// Checks that a path has a drive, and that its stops are those of a patch.
+fn driven(file: &SceneFile, study: &StudySpec, path: &PathSpec) -> Checked {
+    let drives = &file.scene.drives;
+    let known: Vec<_> = drives.iter().map(|drive| format!("\"{}\"", drive.name.0)).collect();
+    let known = if known.is_empty() { "the scene has no [[drive]]; add one".into() } else { known.join(", ") };
+    match &path.drive {
+        Some(name) if drives.iter().all(|drive| drive.name.0 != **name) => {
+            let message = format!("no drive is called `{}`", **name);
+            return Err(file.error_at(name.span(), message, format!("the drives: {known}")));
+        }
+        None if drives.len() != 1 => {
+            let message = format!("the scene has {} drives, and this path names none", drives.len());
+            return Err(file.error_at(study.kind.span(), message, format!("give drive = \"..\"; the drives: {known}")));
+        }
+        _ => {}
+    }
+    let Some(stop) = &path.stop else { return Ok(()) };
+    if let Some(curvature) = &stop.curvature {
+        let help = "a patch has no curvature of its own: stop at an arc length or at the angle of a crease";
+        return Err(file.error_at(curvature.span(), "a path does not stop at a curvature", help));
+    }
+    some_condition(file, stop)
 }
 
 fn some_condition(file: &SceneFile, stop: &Located<StopSpec>) -> Checked {

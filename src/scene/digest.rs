@@ -5,8 +5,9 @@ use std::fs;
 use std::path::PathBuf;
 
 use super::forms::{Mode, RestSpec, StartSpec};
-use super::spec::StudyKind;
-use super::{SceneError, SceneFile};
+use super::spec::{BarsSpec, EnergySpec, StudyKind};
+use super::stiffness::{RestLengthSpec, StiffnessSpec};
+use super::{Located, SceneError, SceneFile};
 
 /// Returns sixteen hexadecimal digits that change with the version of this program, the text of the scene and the bytes
 /// of every file that the scene names: the mesh, tables of angles and rates, states to start from.
@@ -58,23 +59,35 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
         Mode::Curvature(_) | Mode::Wave(_) => None,
     };
     let mut found: Vec<PathBuf> = scene.sheet.mesh.iter().map(|mesh| mesh.to_path_buf()).collect();
-    match scene.energy.creases.as_ref().and_then(|creases| creases.rest.as_deref()) {
-        Some(RestSpec::File(name)) => found.push(name.file.to_path_buf()),
-        Some(RestSpec::Mode(mode)) => found.extend(rates(&mode.mode)),
-        _ => {}
-    }
+    let EnergySpec { bars, creases, facets } = &scene.energy;
+    let hinges = |stiffness, rest: &Option<Located<RestSpec>>| {
+        let angles = match rest.as_deref() {
+            Some(RestSpec::File(name)) => Some(name.file.to_path_buf()),
+            Some(RestSpec::Mode(mode)) => rates(&mode.mode),
+            _ => None,
+        };
+        [stiffness_table(stiffness), angles]
+    };
+    found.extend(bars.iter().flat_map(|spec| [stiffness_table(&spec.stiffness), length_table(spec)]).flatten());
+    found.extend(creases.iter().flat_map(|spec| hinges(&spec.stiffness, &spec.rest)).flatten());
+    found.extend(facets.iter().flat_map(|spec| hinges(&spec.stiffness, &spec.rest)).flatten());
     for study in &scene.studies {
-        match &*study.kind {
-            StudyKind::Relax(spec) => {
-                if let Some(StartSpec::File(path)) = spec.start.as_deref() {
-                    found.push(path.clone());
-                }
-            }
-            StudyKind::Landscape(spec) => found.extend(spec.modes.iter().filter_map(|mode| rates(mode))),
-            _ => {}
+        if let Some(StartSpec::File(path)) = study.kind.start().map(|start| &**start) {
+            found.push(path.clone());
+        }
+        if let StudyKind::Landscape(spec) = &*study.kind {
+            found.extend(spec.modes.iter().filter_map(|mode| rates(mode)));
         }
     }
     found.into_iter().map(|path| file.resolve(&path)).collect()
+}
+
+fn stiffness_table(spec: &StiffnessSpec) -> Option<PathBuf> {
+    if let StiffnessSpec::File(name) = spec { Some(name.file.to_path_buf()) } else { None }
+}
+
+fn length_table(bars: &BarsSpec) -> Option<PathBuf> {
+    if let Some(RestLengthSpec::File(name)) = bars.rest.as_deref() { Some(name.file.to_path_buf()) } else { None }
 }
 
 #[cfg(test)]
@@ -105,5 +118,17 @@ mod tests {
         fs::remove_file(folder.path().join("b.csv")).unwrap();
         let missing = digest(&parse(text, folder.path().join("s.toml")).unwrap()).unwrap_err();
         assert!(missing.to_string().contains("b.csv"), "{missing}");
+    }
+
+    /// Claim: the files that a scene names are found in every place in which it can name one.
+    #[test]
+    fn all_tables_are_named() {
+        let text = "[sheet]\nmesh = \"a.fold\"\n[energy]\n\
+                    bars = { stiffness = { file = \"b.csv\" }, rest = { file = \"c.csv\" } }\n\
+                    creases = { stiffness = { file = \"d.csv\" }, rest = { mode = { rates = \"e.csv\" }, amplitude = 1 } }\n\
+                    facets = { stiffness = { file = \"f.csv\" }, rest = { file = \"g.csv\" } }\n";
+        let found = named_files(&parse(text, "s.toml").unwrap());
+        let expected = ["a.fold", "b.csv", "c.csv", "d.csv", "e.csv", "f.csv", "g.csv"].map(PathBuf::from);
+        assert_eq!(found, expected);
     }
 }

@@ -42,7 +42,7 @@ pub enum SceneError {
     /// The mesh is wrong.
     #[error(transparent)]
     Mesh(#[from] crate::sheet::SheetError),
-    /// A line of a table of angles or rates is wrong.
+    /// A line of a table is wrong.
     #[error("{}:{line}: {fault}", path.display())]
     Table {
         /// The table.
@@ -54,7 +54,7 @@ pub enum SceneError {
     },
 }
 
-/// The errors in a line of a table of angles or rates.
+/// The errors in a line of a table of angles, rates, stiffnesses or lengths.
 #[derive(Debug, Error, PartialEq)]
 pub enum TableFault {
     /// The header has other column names.
@@ -84,6 +84,22 @@ pub enum TableFault {
     /// A field that should be a finite number is not one.
     #[error("`{field}` in column `{column}` is not a finite number")]
     Number {
+        /// Text of the field.
+        field: String,
+        /// Name of the column.
+        column: &'static str,
+    },
+    /// A field that should be a stiffness is not one.
+    #[error("`{field}` in column `{column}` is not a positive number or `inf` (exactly rigid)")]
+    Stiffness {
+        /// Text of the field.
+        field: String,
+        /// Name of the column.
+        column: &'static str,
+    },
+    /// A field that should be a length is not one.
+    #[error("`{field}` in column `{column}` is not a finite number above 0")]
+    Length {
         /// Text of the field.
         field: String,
         /// Name of the column.

@@ -12,18 +12,18 @@ use serde::{Deserialize, Deserializer};
 use super::Located;
 use super::values::{Finite, Positive, Triple};
 
-/// Rest angles of creases.
+/// Rest angles of creases or facets.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RestSpec {
     /// The drawn fold angles.
     Drawn,
     /// Zero, the flat state.
     Flat,
-    /// One angle for all creases, in radians.
+    /// One angle for all hinges, in radians.
     Angle(f64),
     /// The drawn fold angles plus an amplitude along a mode.
     Mode(ModeRest),
-    /// A table with a row per crease.
+    /// A table with a row per hinge.
     File(FileName),
 }
 
@@ -41,7 +41,7 @@ pub struct ModeRest {
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FileName {
-    /// Path relative to the scene file; see [`crate::scene::angles`].
+    /// Path relative to the scene file; see [`crate::scene::rows`].
     pub file: Located<PathBuf>,
 }
 
@@ -60,7 +60,7 @@ pub enum Mode {
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RatesFile {
-    /// Path relative to the scene file; see [`crate::scene::angles`].
+    /// Path relative to the scene file; see [`crate::scene::rows`].
     pub rates: Located<PathBuf>,
 }
 
@@ -80,7 +80,7 @@ struct ModeTable {
     wave: Option<Located<[i32; 2]>>,
 }
 
-/// The state from which a relaxation starts.
+/// The state from which a study starts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum StartSpec {
     /// The drawn state.
@@ -271,7 +271,7 @@ macro_rules! schema_any_of {
 
 schema_any_of!(RestSpec as "Rest", generator, [
     { "enum": ["drawn", "flat"] },
-    { "type": "number", "description": "one angle for all creases, in radians" },
+    { "type": "number", "description": "one angle for all of them, in radians" },
     generator.subschema_for::<ModeRest>(),
     generator.subschema_for::<FileName>(),
 ]);

@@ -68,7 +68,7 @@ fn fits(file: &SceneFile, need: Need, room: u64) -> Result<(), SceneError> {
 
 /// Whether a study relaxes the whole model.
 fn relaxes(kind: &StudyKind) -> bool {
-    matches!(kind, StudyKind::Relax(_) | StudyKind::Wells(_))
+    matches!(kind, StudyKind::Relax(_) | StudyKind::Wells(_) | StudyKind::Path(_))
 }
 
 /// Returns the memory that a study needs for the numbers among its own settings.

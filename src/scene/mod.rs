@@ -1,12 +1,13 @@
-//! Scene files, which the user writes: their types, their checks and the tables of angles that they name.
+//! Scene files, which the user writes: their types, their checks and the tables that they name.
 //!
 //! A scene is written in TOML. [`read`] returns a [`SceneFile`]: typed values ([`spec`]), each with its place in the
 //! text, so that code that detects an error later can point at that place with [`SceneFile::error_at`].
 
-pub(crate) mod angles;
 pub mod build;
 mod checks;
 mod digest;
+mod drives;
+mod elements;
 pub(crate) mod error;
 mod file;
 pub(crate) mod forms;
@@ -14,8 +15,11 @@ mod located;
 mod memory;
 pub(crate) mod outputs;
 mod parse;
+mod places;
+pub(crate) mod rows;
 mod schema;
 pub(crate) mod spec;
+pub(crate) mod stiffness;
 mod turns;
 pub(crate) mod values;
 

@@ -13,6 +13,7 @@ const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp"];
 const BLOCH: &[&str] = &["@/@_determinant.vti", "@/@_zero_lines.vtp", "@/@_mode_#.vtu"];
 const BANDS: &[&str] = &["@_bands.csv"];
 const WELLS: &[&str] = &["@-barriers.csv"];
+const PATH: &[&str] = &["@-reaction.svg"];
 
 /// Returns the files that a study with these settings can write.
 pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
@@ -23,6 +24,7 @@ pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
         StudyKind::Bloch(spec) if spec.path.is_some() => [BLOCH, BANDS],
         StudyKind::Bloch(_) => [BLOCH, &[]],
         StudyKind::Wells(_) => [WELLS, &[]],
+        StudyKind::Path(_) => [PATH, &[]],
         StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Branches(_) | StudyKind::Landscape(_) => [&[], &[]],
     };
     named(&study.name.0, ANY.iter().chain(own[0]).chain(own[1]))
@@ -30,7 +32,7 @@ pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
 
 /// Returns the files that a study of this name can have written, whatever its kind was.
 pub(crate) fn owned(name: &str) -> Vec<String> {
-    let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS].into_iter().flatten();
+    let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS, PATH].into_iter().flatten();
     named(name, ANY.iter().chain(others))
 }
 

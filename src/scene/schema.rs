@@ -16,7 +16,7 @@ pub(super) fn common_study_keys() -> [&'static str; 4] {
 }
 
 /// Returns the kinds of studies.
-pub(super) fn kinds() -> [&'static str; 8] {
+pub(super) fn kinds() -> [&'static str; 9] {
     keys_of_kinds().map(|(kind, _)| kind)
 }
 
@@ -25,7 +25,7 @@ pub(super) fn kinds_with_key(key: &str) -> Vec<&'static str> {
     keys_of_kinds().into_iter().filter(|(_, keys)| keys.iter().any(|k| k == key)).map(|(kind, _)| kind).collect()
 }
 
-fn keys_of_kinds() -> [(&'static str, Vec<String>); 8] {
+fn keys_of_kinds() -> [(&'static str, Vec<String>); 9] {
     [
         ("relax", keys::<spec::RelaxSpec>()),
         ("trace", keys::<spec::TraceSpec>()),
@@ -35,6 +35,7 @@ fn keys_of_kinds() -> [(&'static str, Vec<String>); 8] {
         ("landscape", keys::<spec::LandscapeSpec>()),
         ("bloch", keys::<spec::BlochSpec>()),
         ("wells", keys::<spec::WellsSpec>()),
+        ("path", keys::<spec::PathSpec>()),
     ]
 }
 
@@ -56,7 +57,7 @@ mod tests {
     #[test]
     fn schema_names_the_tables_of_a_scene() {
         let schema: Value = serde_json::from_str(&schema()).unwrap();
-        assert_eq!(properties(&schema), ["energy", "load", "lock", "pin", "sheet", "study", "title"]);
+        assert_eq!(properties(&schema), ["drive", "energy", "load", "lock", "part", "pin", "sheet", "study", "title"]);
         assert_eq!(schema["required"], serde_json::json!(["sheet"]));
     }
 
@@ -74,7 +75,7 @@ mod tests {
     /// Claim: kinds and keys are those that the documentation of the scene lists.
     #[test]
     fn keys_of_kinds() {
-        assert_eq!(kinds_with_key("tolerance"), ["relax", "trace"]);
+        assert_eq!(kinds_with_key("tolerance"), ["relax", "trace", "path"]);
         assert_eq!(kinds_with_key("grid"), ["bloch"]);
         assert!(kinds_with_key("mesh").is_empty());
     }

@@ -4,16 +4,21 @@
 //! refused by their types ([`super::values`], [`super::forms`]); invalid combinations of values are refused by the
 //! checks at the end of [`crate::scene::parse`].
 
+mod drive;
 mod study;
+mod vertices;
 
 use super::Located;
 use super::forms::RestSpec;
-use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Stiffness, Triple};
+use super::stiffness::{RestLengthSpec, StiffnessSpec};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Triple};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
 
+pub use drive::*;
 pub use study::*;
+pub use vertices::*;
 
 /// A whole scene.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -32,10 +37,16 @@ pub struct Scene {
     pub locks: Vec<LockSpec>,
     /// Forces on vertices of a patch.
     #[serde(default, rename = "load")]
-    pub loads: Vec<LoadSpec>,
+    pub loads: Vec<Located<LoadSpec>>,
     /// Vertices of a patch that are held.
     #[serde(default, rename = "pin")]
-    pub pins: Vec<PinSpec>,
+    pub pins: Vec<Located<PinSpec>>,
+    /// Vertices of a patch that move as rigid bodies.
+    #[serde(default, rename = "part")]
+    pub parts: Vec<PartSpec>,
+    /// What paths drive.
+    #[serde(default, rename = "drive")]
+    pub drives: Vec<DriveSpec>,
     /// What to compute, in this order.
     #[serde(default, rename = "study")]
     pub studies: Vec<StudySpec>,
@@ -116,12 +127,14 @@ pub struct EnergySpec {
     pub facets: Option<FacetsSpec>,
 }
 
-/// `bars = { stiffness }`.
+/// `bars = { stiffness, rest }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BarsSpec {
-    /// EA, a force; the spring constant is EA / L0; `inf`: exactly rigid.
-    pub stiffness: Located<Stiffness>,
+    /// EA, a force; the spring constant is EA / L0 with the rest length L0; `inf`: exactly rigid.
+    pub stiffness: Located<StiffnessSpec>,
+    /// Rest lengths; left out: as drawn.
+    pub rest: Option<Located<RestLengthSpec>>,
 }
 
 /// `creases = { stiffness, rest }`.
@@ -129,17 +142,19 @@ pub struct BarsSpec {
 #[serde(deny_unknown_fields)]
 pub struct CreasesSpec {
     /// Torque per radian and per length of crease; the spring constant is stiffness * L0.
-    pub stiffness: Located<Stiffness>,
+    pub stiffness: Located<StiffnessSpec>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
 }
 
-/// `facets = { stiffness }`; they rest as drawn.
+/// `facets = { stiffness, rest }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacetsSpec {
     /// Torque per radian and per length of diagonal; the spring constant is stiffness * L0.
-    pub stiffness: Located<Stiffness>,
+    pub stiffness: Located<StiffnessSpec>,
+    /// Rest angles; left out: as drawn.
+    pub rest: Option<Located<RestSpec>>,
 }
 
 /// `[[lock]]`: a crease that keeps its fold angle in every cell.
@@ -152,45 +167,39 @@ pub struct LockSpec {
     pub angle: Option<Located<Finite>>,
 }
 
-/// `[[load]]`: a force on a vertex of a patch.
+/// `[[load]]`: a force on one or more vertices of a patch: `vertex`, with or without `cell`, or `vertices`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadSpec {
     /// Number of the vertex in its cell.
-    pub vertex: Located<usize>,
-    /// The cell; left out: [0, 0].
+    pub vertex: Option<Located<usize>>,
+    /// The cell of `vertex`; left out: [0, 0].
     pub cell: Option<Located<CellIndex>>,
+    /// The vertices, each of which has the force.
+    pub vertices: Option<Located<VertexSet>>,
     /// The force `[x, y, z]`.
     pub force: Located<Triple>,
 }
 
-/// `[[pin]]`: a vertex of a patch that is held.
+/// `[[pin]]`: vertices of a patch that are held: `vertex`, with or without `cell`, or `vertices`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PinSpec {
     /// Number of the vertex in its cell.
-    pub vertex: Located<usize>,
-    /// The cell; left out: [0, 0].
+    pub vertex: Option<Located<usize>>,
+    /// The cell of `vertex`; left out: [0, 0].
     pub cell: Option<Located<CellIndex>>,
+    /// The vertices.
+    pub vertices: Option<Located<VertexSet>>,
     /// The coordinates that stay as drawn, letters of "xyz"; left out: all.
     pub axes: Option<Located<Axes>>,
-}
-
-impl LoadSpec {
-    /// The cell of the vertex.
-    pub(crate) fn cell(&self) -> [usize; 2] {
-        self.cell.as_deref().copied().unwrap_or_default().0
-    }
+    /// Instead of `axes`: the direction `[x, y, z]` along which the vertices keep their coordinate; across it they move.
+    pub normal: Option<Located<Triple>>,
 }
 
 impl PinSpec {
     /// Which of x, y, z are held.
     pub(crate) fn axes(&self) -> [bool; 3] {
         self.axes.as_deref().map_or([true; 3], |axes| axes.0)
-    }
-
-    /// The cell of the vertex.
-    pub(crate) fn cell(&self) -> [usize; 2] {
-        self.cell.as_deref().copied().unwrap_or_default().0
     }
 }

@@ -27,10 +27,10 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         Some([message, help]) => Err(file.error_at(span, message, help)),
         None => Ok(()),
     };
-    if let Some(rest) = scene.energy.creases.as_ref().and_then(|creases| creases.rest.as_ref())
-        && let RestSpec::Angle(angle) = **rest
-    {
-        at(angle, rest.span())?;
+    for rest in rests(file) {
+        if let RestSpec::Angle(angle) = **rest {
+            at(angle, rest.span())?;
+        }
     }
     for angle in scene.locks.iter().filter_map(|lock| lock.angle.as_ref()) {
         at(angle.0, angle.span())?;
@@ -38,9 +38,21 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     scene.studies.iter().filter_map(stop_angle).try_for_each(|angle| at(angle.0, angle.span()))
 }
 
+/// Returns the rest angles that the scene gives creases and facets.
+fn rests(file: &SceneFile) -> impl Iterator<Item = &Located<RestSpec>> {
+    let energy = &file.scene.energy;
+    let creases = energy.creases.as_ref().and_then(|creases| creases.rest.as_ref());
+    let facets = energy.facets.as_ref().and_then(|facets| facets.rest.as_ref());
+    creases.into_iter().chain(facets)
+}
+
 fn stop_angle(study: &StudySpec) -> Option<&Located<super::values::Finite>> {
-    let StudyKind::Trace(trace) = &*study.kind else { return None };
-    Some(&trace.stop.as_ref()?.crease_angle.as_ref()?.angle)
+    let stop = match &*study.kind {
+        StudyKind::Trace(trace) => trace.stop.as_ref(),
+        StudyKind::Path(path) => path.stop.as_ref(),
+        _ => None,
+    };
+    Some(&stop?.crease_angle.as_ref()?.angle)
 }
 
 /// Returns remarks about rest angles and locks beyond pi, which are allowed.
@@ -48,9 +60,14 @@ pub(super) fn notes(file: &SceneFile, terms: &Terms) -> Vec<String> {
     let beyond = |angle: &f64| angle.abs() > PI;
     let through = "beyond pi (angles are radians), where the faces of a crease have passed through each other";
     let mut notes = Vec::new();
-    let drawn = file.scene.energy.creases.as_ref().is_none_or(|creases| creases.rest.is_none());
-    let rest = terms.creases.iter().flat_map(|creases| &creases.rest).filter(|angle| beyond(angle)).count();
-    if rest > 0 && !drawn {
+    let energy = &file.scene.energy;
+    let given = [
+        (&terms.creases, energy.creases.as_ref().is_some_and(|creases| creases.rest.is_some())),
+        (&terms.facets, energy.facets.as_ref().is_some_and(|facets| facets.rest.is_some())),
+    ];
+    let given = given.into_iter().filter(|(_, given)| *given).flat_map(|(hinges, _)| hinges);
+    let rest = given.flat_map(|hinges| &hinges.rest).filter(|angle| beyond(angle)).count();
+    if rest > 0 {
         notes.push(format!("{rest} rest angles are {through}"));
     }
     let locks =

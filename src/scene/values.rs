@@ -39,6 +39,14 @@ pub enum ValueError {
     /// A name contains characters that some systems do not allow in file names.
     #[error("`{0}` is not a name for a study, expected letters, digits, `_` and `-` only")]
     Name(String),
+    /// A name of a part or a drive has characters that are not allowed.
+    #[error("`{0}` is not a name, expected letters, digits, `_` and `-` only")]
+    Label(String),
+    /// A list of motions of a rigid body has other words than their names, or one of them twice.
+    #[error(
+        "`{0}` is no motion, or is listed twice, expected a list of \"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\", each once; []: held"
+    )]
+    Motion(String),
     /// A name has another meaning in a scene.
     #[error("`{0}` cannot name a study because `start = \"{0}\"` means the drawn state, expected another name")]
     ReservedName(String),
@@ -241,6 +249,49 @@ impl TryFrom<String> for Name {
         } else {
             Ok(Self(value))
         }
+    }
+}
+
+/// Name of a part or of a drive: letters, digits, `_` and `-`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
+#[serde(try_from = "String")]
+#[schemars(extend("pattern" = "^[A-Za-z0-9_-]+$"))]
+pub struct Label(pub String);
+
+impl TryFrom<String> for Label {
+    type Error = ValueError;
+
+    fn try_from(value: String) -> Result<Self, ValueError> {
+        let legal = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        let right = !value.is_empty() && value.chars().all(legal);
+        if right { Ok(Self(value)) } else { Err(ValueError::Label(value)) }
+    }
+}
+
+/// Motions of a rigid body: along x, y, z and about x, y, z, true where the list names them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(try_from = "Vec<String>")]
+pub struct Motions(
+    #[schemars(with = "Vec<String>", extend("items" = { "enum": Motions::NAMES }, "uniqueItems" = true))] pub [bool; 6],
+);
+
+impl Motions {
+    /// Names of the motions.
+    pub(crate) const NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+}
+
+impl TryFrom<Vec<String>> for Motions {
+    type Error = ValueError;
+
+    fn try_from(words: Vec<String>) -> Result<Self, ValueError> {
+        let mut motions = [false; 6];
+        for word in words {
+            match Self::NAMES.iter().position(|name| *name == word) {
+                Some(motion) if !motions[motion] => motions[motion] = true,
+                _ => return Err(ValueError::Motion(word)),
+            }
+        }
+        Ok(Self(motions))
     }
 }
 

@@ -9,13 +9,13 @@ pub enum Assignment {
     Boundary,
     /// `M`: the edge is to fold as a mountain, to negative angles.
     Mountain,
-    /// `M`: the edge folds as a mountain, to negative angles.
+    /// `V`: the edge is to fold as a valley, to positive angles.
     Valley,
-    /// `V`: the edge folds as a valley, to positive angles.
+    /// `F`: the edge is a crease that is flat.
     Flat,
     /// `U`: the edge is a crease, and nothing is said about its side.
     Unassigned,
-    /// `U`: the edge is a crease whose direction of folding is not given.
+    /// `C`: the sheet comes apart along the edge.
     Cut,
     /// `J`: the edge joins two parts of one polygon and is not a crease.
     Join,

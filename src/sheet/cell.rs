@@ -81,6 +81,15 @@ pub struct TriangleSide {
     pub opposite: Corner,
 }
 
+/// The stiffnesses that a mesh file gives its edges, by the names of the edges; edges without a value are left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshStiffness {
+    /// Of the hinges, creases and diagonals of polygons: torque per radian and unit length; infinite for rigid hinges.
+    pub hinges: BTreeMap<EdgeKey, f64>,
+    /// `EA` of the bars, a force; infinite for rigid bars.
+    pub bars: BTreeMap<EdgeKey, f64>,
+}
+
 /// A sheet: one cell drawn in full and, if it is periodic, its two lattice vectors.
 ///
 /// Vertices are numbered by first appearance in the file; edges by first appearance along the polygons (`(a, b)`,
@@ -108,6 +117,10 @@ pub struct Sheet {
     pub cut_from: Vec<usize>,
     /// Assignments of the file that differ from what the drawing shows; see [`Sheet::assignment`].
     pub assignments: BTreeMap<EdgeKey, Assignment>,
+    /// Stiffnesses that the file gives its edges.
+    pub stiffness: MeshStiffness,
+    /// Named lists of vertices (`foldwell:names`), each vertex as the corner that the file draws.
+    pub names: BTreeMap<String, Vec<Corner>>,
     /// Content of the file other than the shape.
     pub record: FileRecord,
 }

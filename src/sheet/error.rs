@@ -354,6 +354,23 @@ pub enum Problem {
     /// An assignment that contradicts the mesh.
     #[error(transparent)]
     Assignment(#[from] AssignmentFault),
+    /// Two drawn copies of an edge with different stiffnesses.
+    #[error(
+        "edge {edge} of the list, {ends}, has {given} in `{key}`, and another copy of it in the drawing has {before}; \
+         give both the same, or one of them null"
+    )]
+    StiffnessOfCopies {
+        /// Name of the key.
+        key: &'static str,
+        /// Index in `edges_vertices`.
+        edge: usize,
+        /// Its ends.
+        ends: DrawnEdge,
+        /// Stiffness of this copy.
+        given: f64,
+        /// Stiffness of the copy that is listed before.
+        before: f64,
+    },
     /// A fold angle that contradicts the coordinates.
     #[error(
         "edge {edge} of the list, {ends}, has the fold angle {given} degrees, but the vertices draw {drawn} degrees \

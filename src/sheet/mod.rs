@@ -29,7 +29,7 @@ pub(crate) mod text;
 pub(crate) mod tiling;
 
 pub use assignment::Assignment;
-pub use cell::{Corner, Edge, EdgeKey, EdgeKind, Sheet, Triangle};
+pub use cell::{Corner, Edge, EdgeKey, EdgeKind, MeshStiffness, Sheet, Triangle};
 pub use error::{Problem, SheetError};
 pub use generate::{GenerateError, Pattern, generate};
 pub use info::Info;

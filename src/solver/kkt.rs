@@ -185,7 +185,7 @@ impl KktSystem {
     fn add_weighted_measures(&mut self, at: &Linearization, compliance: &[f64]) {
         self.compliance.clear();
         self.compliance.extend_from_slice(compliance);
-        let size = hessian_size(at);
+        let size = stiffness_size(at, compliance);
         let gamma = self.relative_weight.unwrap_or_else(|| largest_relative_weight(at.kind));
         self.jacobian.copy_from_slice(&at.jacobian);
         for (row, &c) in compliance.iter().enumerate() {
@@ -241,6 +241,18 @@ impl KktSystem {
 fn hessian_size(at: &Linearization) -> f64 {
     let scale = at.pattern().largest_diagonal(&at.hessian);
     if scale > 0.0 { scale } else { 1.0 }
+}
+
+/// Size of the stiffness of a problem: that of its Hessian. Where there are no soft elements the Hessian is that of the
+/// tensions alone and may nearly vanish, so that it is at least the stiffness of the softest measure that is not rigid.
+pub(super) fn stiffness_size(at: &Linearization, compliance: &[f64]) -> f64 {
+    let hessian = hessian_size(at);
+    if at.soft_stiffness.iter().any(|k| *k > 0.0) {
+        return hessian;
+    }
+    let finite = compliance.iter().enumerate().filter(|(_, c)| **c > 0.0);
+    let softest = finite.map(|(row, c)| max_abs(at.stiff_gradient(row)).powi(2) / c).fold(f64::INFINITY, f64::min);
+    if softest.is_finite() { hessian.max(softest) } else { hessian }
 }
 
 /// Norm of the forces of these tensions, measure by measure, before they balance.

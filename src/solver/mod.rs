@@ -19,6 +19,7 @@
 //! | `tangent` | the same at one state: a Newton step, the inertia, the response to a force ([`Tangent`]) |
 //! | `newton` | [`minimize`]: Newton's method with retraction onto the stiff measures |
 //! | `stationary` | [`stationary_point`]: an equilibrium of any index near a state |
+//! | [`path`] | equilibria along a parameter, through limit points and branch points |
 //! | [`constrained`] | a separable quadratic function under local constraints |
 //! | `self_stress`, [`tension`] | tensions that balance each other, and tensions without them |
 //! | [`implicit`] | Newton's method onto the solutions of `F(x) = 0` |
@@ -100,6 +101,7 @@ pub mod kkt;
 mod layout;
 mod linearization;
 mod newton;
+pub mod path;
 mod problem;
 mod self_stress;
 mod stationary;

@@ -3,14 +3,14 @@
 use super::answer::{Answer, SavedState};
 use super::context::Context;
 use super::error::StudyError;
-use super::{relax, states};
+use super::{start, states, supported};
 use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
 use crate::analysis::bloch::{self, BlochError, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone};
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
-use crate::model::{Assembly, Domain, Drawn};
+use crate::model::{Assembly, Domain, Drawn, Stiffness};
 use crate::numerics::worst;
 use crate::output::Picture;
 use crate::output::artifact::Artifact;
@@ -20,6 +20,7 @@ use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyRes
 use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{BlochSpec, Draw};
+use crate::scene::stiffness::StiffnessSpec;
 use crate::scene::{Located, SceneFile};
 use crate::sheet::EdgeKind;
 use std::f64::consts::TAU;
@@ -40,6 +41,14 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
     let (file, assembly) = (context.file, context.assembly);
     if let Some(start) = &spec.start {
         check_start(context, spec, start)?;
+    }
+    if context.assembly.terms().facets.as_ref().is_some_and(|facets| is_mixed(&facets.stiffness)) {
+        let message = "spatially varying modes are those of polygons that are all rigid or all soft";
+        return Err(context.refuse(message, "give all facets a finite stiffness, or leave them out").into());
+    }
+    if spec.path.is_some() {
+        supported::one_stiffness_each(context, "bands")?;
+        supported::drawn_lengths(context, "bands")?;
     }
     if let (Some(path), None) = (&spec.path, stiffnesses(file, assembly)) {
         let help = "give bars a finite stiffness and facets too, or leave out `path`";
@@ -96,28 +105,44 @@ fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<Ground>, Blo
     let (sheet, drawn) = (assembly.sheet(), assembly.drawn());
     let fits = |saved: &&SavedState| saved.coordinates.len() == drawn.coordinates.len();
     let Some(saved) = context.earlier.states.get(name).filter(fits) else { return Ok(None) };
-    let rigid = facet_stiffness(context.file).is_infinite();
+    let rigid = facets_are_rigid(context.file, assembly);
     let rigidity = Rigidity::of_state(sheet, rigid, &drawn.domain, &saved.coordinates)?;
     Ok(Some(Ground { rigidity, folded: Some(saved.coordinates.clone()) }))
 }
 
-/// Returns the stiffness of the diagonals of polygons; infinite, that is rigid, unless the scene gives one. It is read
-/// from the scene since the model of a patch lacks the diagonals that are cut by its rim.
-fn facet_stiffness(file: &SceneFile) -> f64 {
-    file.scene.energy.facets.as_ref().map_or(f64::INFINITY, |spec| spec.stiffness.0)
+/// Returns the stiffness of the diagonals of polygons; infinite, that is rigid, unless the scene gives one, and `None` if
+/// they differ. One number is read from the scene since the model of a patch lacks the diagonals that are cut by its
+/// rim.
+fn facet_stiffness(file: &SceneFile, assembly: &Assembly) -> Option<f64> {
+    let Some(spec) = &file.scene.energy.facets else { return Some(f64::INFINITY) };
+    match &*spec.stiffness {
+        StiffnessSpec::Number(stiffness) => Some(*stiffness),
+        _ => assembly.terms().facets.as_ref()?.stiffness.uniform(),
+    }
+}
+
+/// Whether polygons are rigid. Polygons that are rigid in part only are refused by [`check`].
+fn facets_are_rigid(file: &SceneFile, assembly: &Assembly) -> bool {
+    facet_stiffness(file, assembly).is_some_and(f64::is_infinite)
+}
+
+/// Whether some elements are rigid and others are not.
+fn is_mixed(stiffness: &Stiffness) -> bool {
+    stiffness.has_rigid() && !stiffness.is_rigid()
 }
 
 /// Returns the bars of the drawn state, and the locks of rigid polygons.
 fn rigidity(file: &SceneFile, assembly: &Assembly) -> Result<Rigidity, BlochError> {
-    Rigidity::of_sheet(assembly.sheet(), facet_stiffness(file).is_infinite())
+    Rigidity::of_sheet(assembly.sheet(), facets_are_rigid(file, assembly))
 }
 
 /// Returns the stiffnesses of the energy; `None` if it has no bars or a term is rigid.
 fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
-    let creases = assembly.terms().creases.as_ref().map_or(0.0, |creases| creases.stiffness);
+    let terms = assembly.terms();
+    let creases = terms.creases.as_ref().map_or(Some(0.0), |creases| creases.stiffness.uniform())?;
     let has_facets = assembly.sheet().edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
-    let facets = if has_facets { facet_stiffness(file) } else { 0.0 };
-    let found = Stiffnesses { bars: assembly.terms().bars?, creases, facets };
+    let facets = if has_facets { facet_stiffness(file, assembly)? } else { 0.0 };
+    let found = Stiffnesses { bars: terms.bar_stiffness()?.uniform()?, creases, facets };
     [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
 }
 
@@ -139,7 +164,7 @@ struct Bands {
 pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     let found = match ground(context, spec) {
         Ok(Some(ground)) => find(context, spec, ground),
-        Ok(None) => return relax::start_unavailable(context),
+        Ok(None) => return start::unavailable(context),
         Err(error) => Err(error),
     };
     let found = match found {

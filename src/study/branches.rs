@@ -3,6 +3,7 @@
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
+use super::supported;
 use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::{Rays, RealDirections};
 use crate::model::{Assembly, Boundary};
@@ -12,13 +13,16 @@ use crate::output::table::{Table, Value};
 /// Largest difference between the angle of a lock and the drawn angle, in radians, at which both count as equal.
 const AS_DRAWN: f64 = 1e-9;
 
-/// Checks that the sheet is a screw or a patch and that locks hold the drawn angles.
+/// Checks that the sheet is a screw or a patch, that bars are at rest as drawn, and that locks and rigid hinges hold the
+/// drawn angles.
 pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     let assembly = context.assembly;
     if matches!(assembly.boundary(), Boundary::FixedTorus | Boundary::FreeTorus) {
         let message = "branches of a torus are not known: its lattice has conditions of its own";
         return Err(context.refuse(message, "use domain = \"screw\" or \"patch\"").into());
     }
+    supported::drawn_lengths(context, "branches of rigid folding")?;
+    supported::drawn_rigid_hinges(context, "branches of rigid folding")?;
     let angles = assembly.drawn_angles();
     let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
     match assembly.terms().locks.iter().find(moved) {
@@ -37,7 +41,7 @@ pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
 ///
 /// The second value tells whether all real directions are known; `None` if they were not computed.
 pub(crate) fn branch_point(assembly: &Assembly) -> (Option<usize>, Option<RealDirections>) {
-    let rigid = assembly.terms().bars.is_some_and(f64::is_infinite);
+    let rigid = assembly.terms().has_rigid_bars() && assembly.has_drawn_lengths();
     if !rigid || assembly.boundary() != Boundary::Screw || assembly.terms().locks.is_empty() {
         return (None, None);
     }

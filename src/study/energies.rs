@@ -20,7 +20,7 @@ pub(crate) fn columns_if_any(terms: &Terms, state: &State) -> [Option<f64>; 4] {
 /// Returns the energies of the terms and their sum.
 pub fn summary(terms: &Terms, state: &State) -> EnergySummary {
     EnergySummary {
-        bars: terms.bars.map(|_| state.energy_bars),
+        bars: terms.bars.as_ref().map(|_| state.energy_bars),
         creases: terms.creases.as_ref().map(|_| state.energy_creases),
         facets: terms.facets.as_ref().map(|_| state.energy_facets),
         total: state.total(),

@@ -34,7 +34,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), S
         let help = "give bars (inf: rigid) and creases a stiffness";
         return refuse("a landscape is the energy of bars and creases", help);
     }
-    if torus && terms.bars.is_some_and(f64::is_infinite) {
+    if torus && terms.has_rigid_bars() {
         let help = "give bars a finite stiffness";
         return refuse("modes of a torus stretch bars beyond linear order, rigid bars forbid them", help);
     }

@@ -10,6 +10,7 @@
 //! | `landscape` | [`landscape`] | the energy along folding modes, and a map over all of them |
 //! | `bloch` | [`bloch`] | spatially varying modes |
 //! | `wells` | [`wells`] | minima, and the barriers between them |
+//! | `path` | [`path`] | equilibria along a driven quantity |
 //!
 //! [`check`] refuses a study that does not fit its sheet before anything is computed; [`compute`] returns its answer.
 
@@ -22,9 +23,13 @@ mod error;
 mod landscape;
 mod map;
 mod modes;
+mod path;
+mod path_plot;
 mod reason;
 mod relax;
+mod start;
 mod states;
+mod supported;
 mod surface;
 mod trace;
 mod wells;
@@ -40,6 +45,9 @@ pub use surface::left_out;
 /// # Errors
 /// [`StudyError`] with the place in the scene and a proposed correction.
 pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
+    if !matches!(*context.study.kind, StudyKind::Relax(_) | StudyKind::Path(_)) {
+        supported::no_parts(context)?;
+    }
     match &*context.study.kind {
         StudyKind::Relax(spec) => relax::check(context, spec),
         StudyKind::Modes(spec) => modes::check(context, spec),
@@ -49,6 +57,7 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
         StudyKind::Landscape(spec) => landscape::check(context, spec),
         StudyKind::Bloch(spec) => bloch::check(context, spec),
         StudyKind::Wells(spec) => wells::check(context, spec),
+        StudyKind::Path(spec) => path::check(context, spec),
     }
 }
 
@@ -59,12 +68,13 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
 pub fn compute(context: &Context<'_>) -> Result<Answer, StudyError> {
     match &*context.study.kind {
         StudyKind::Relax(spec) => relax::compute(context, spec),
-        StudyKind::Modes(spec) => Ok(modes::compute(context, spec)),
+        StudyKind::Modes(spec) => modes::compute(context, spec),
         StudyKind::Branches(_) => Ok(branches::compute(context)),
         StudyKind::Trace(spec) => trace::compute(context, spec),
         StudyKind::Surface(spec) => Ok(surface::compute(context, spec)),
         StudyKind::Landscape(spec) => landscape::compute(context, spec),
         StudyKind::Bloch(spec) => Ok(bloch::compute(context, spec)),
-        StudyKind::Wells(spec) => Ok(wells::compute(context, spec)),
+        StudyKind::Wells(spec) => wells::compute(context, spec),
+        StudyKind::Path(spec) => path::compute(context, spec),
     }
 }

@@ -3,17 +3,21 @@
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
-use super::states;
-use crate::analysis::modes::{Modes, SPARSE_EIGENVALUES, decomposed_dense, modes};
+use super::{start, states, supported};
+use crate::analysis::modes::{Modes, SPARSE_EIGENVALUES, decomposed_dense, modes_at};
+use crate::model::Gauge;
 use crate::output::figure::rounded;
 use crate::output::picture::Picture;
 use crate::output::summary::{ModesSummary, StudyResult};
 use crate::output::table::{Table, Value};
 use crate::scene::spec::ModesSpec;
 
-/// Checks that the model is not too large for the number of eigenvalues that the study asks for.
+/// Checks that a start file fits the sheet, and that the model is not too large for the number of eigenvalues that the
+/// study asks for.
 pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), StudyError> {
+    start::check(context, spec.start.as_ref())?;
     let Some(count) = &spec.eigenvalues else { return Ok(()) };
+    supported::drawn_lengths(context, "eigenvalues in the drawn state")?;
     let (drawn, terms) = (context.assembly.drawn(), context.assembly.terms());
     let unknowns = drawn.coordinates.len().saturating_sub(drawn.held.len() + terms.pinned());
     let wanted = (**count).min(unknowns);
@@ -26,21 +30,26 @@ pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), Study
     }
 }
 
-/// Computes the modes of the drawn state.
-pub(crate) fn compute(context: &Context<'_>, spec: &ModesSpec) -> Answer {
+/// Computes the modes of the state that the scene names.
+pub(crate) fn compute(context: &Context<'_>, spec: &ModesSpec) -> Result<Answer, StudyError> {
     let (mut step, mut answer) = (0, Answer::empty(context.study));
     let eigenvalues = spec.eigenvalues.as_ref().map_or(0, |n| **n);
-    let found = modes(context.assembly, eigenvalues, &mut || {
+    let mut model = context.assembly.model(Gauge::Held);
+    let Some(state) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+        return Ok(start::unavailable(context));
+    };
+    let state = state.state(&model);
+    let found = modes_at(context.assembly, &state, eigenvalues, &mut || {
         step += 1;
         context.step(step, None)
     });
     match found {
         Ok(modes) => {
-            add_files(&mut answer, context, &modes);
+            add_files(&mut answer, context, &modes, &state.coordinates);
             answer.conclude(StudyResult::Modes(summary(&modes)), modes.gap.map(f64::recip), None);
-            answer
+            Ok(answer)
         }
-        Err(error) => Answer::failed(context.study, error),
+        Err(error) => Ok(Answer::failed(context.study, error)),
     }
 }
 
@@ -56,9 +65,9 @@ fn summary(modes: &Modes) -> ModesSummary {
     }
 }
 
-/// Adds a table of the eigenvalues, the drawn state with each mode as displacement, and a picture of the softest mode
-/// that is not a rigid motion, drawn with an amplitude of a tenth of the sheet's size.
-fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes) {
+/// Adds a table of the eigenvalues, the state with each mode as displacement, and a picture of the softest mode that is
+/// not a rigid motion, drawn with an amplitude of a tenth of the sheet's size.
+fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordinates: &[f64]) {
     let mut table = Table::new(vec!["mode".into(), "eigenvalue".into()]);
     for (k, value) in modes.eigenvalues.iter().enumerate() {
         table.push(vec![Value::Whole(k as i64), Value::Number(*value)]);
@@ -67,10 +76,10 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes) {
     if modes.vectors.is_empty() || context.study.draw.is_empty() {
         return;
     }
-    let drawn = states::picture_at(context, context.assembly.drawn().coordinates.clone());
+    let at_rest = states::picture_at(context, coordinates.to_vec());
     let moving = |rates: &Vec<f64>| {
-        let displacement = context.view.velocities(context.assembly.drawn(), rates);
-        Picture { displacement, ..drawn.clone() }
+        let displacement = context.view.velocities(context.assembly.drawn(), coordinates, rates);
+        Picture { displacement, ..at_rest.clone() }
     };
     let pictures: Vec<Picture> = modes.vectors.iter().map(moving).collect();
     let softest = modes.rigid_motions.min(pictures.len() - 1);

@@ -5,49 +5,44 @@ use super::context::Context;
 use super::error::StudyError;
 use super::reason::reason;
 use super::states::{self, Shown};
-use super::{branches, energies};
+use super::{branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::method::{Method, RelaxOptions};
 use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
-use crate::analysis::restored::{self, Forces};
 use crate::analysis::state::State;
 use crate::model::{Gauge, Model};
 use crate::numerics::larger;
-use crate::numerics::random::symmetric;
 use crate::output::figure::rounded;
 use crate::output::summary::{IterationSummary, MethodName, RelaxSummary, StudyResult};
-use crate::output::vtk::{self, VtuMesh};
-use crate::scene::Located;
-use crate::scene::forms::{RandomStart, StartSpec};
+use crate::scene::forms::StartSpec;
 use crate::scene::spec::{MethodSpec, RelaxSpec};
 use crate::solver::Step;
-use rand::SeedableRng;
 
 /// Checks that the model has an energy and that a start file fits the sheet.
 pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
     if !context.assembly.terms().has_energy() {
         return Err(context.refuse("there is no energy to relax", "give bars, creases or facets a stiffness").into());
     }
-    match &spec.start {
-        Some(start) => start_file(context, start).map(|_| ()),
-        None => Ok(()),
+    if context.assembly.terms().unbalanced_axis().is_some() {
+        let help = "balance the loads, or pin a vertex along their direction; a path can hold it instead";
+        return Err(context.refuse("only a drive supports the loads, and a relaxation drives nothing", help).into());
     }
+    start::check(context, spec.start.as_ref())
 }
 
 /// Computes the equilibrium from the start that the scene names.
 pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer, StudyError> {
     let mut model = context.assembly.model(Gauge::Held);
-    let Some((x, forces)) = start(context, spec, &mut model)? else { return Ok(start_unavailable(context)) };
-    let tensions = restored::tensions(&model, &x, &forces);
-    let known = spec.start.as_deref().is_some_and(|start| matches!(start, StartSpec::Study(_) | StartSpec::File(_)));
-    let start = if known { restored::start(&model, x, tensions.clone()) } else { x.into() };
-    let first = State::new(&model, &start.x, start.tension.as_ref().unwrap_or(&tensions));
+    let Some(start) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+        return Ok(start::unavailable(context));
+    };
+    let first = State::new(&model, &start.x, &start.tension);
     let mut options = RelaxOptions { method: method(spec.method), ..RelaxOptions::default() };
     if let Some(tolerance) = &spec.tolerance {
         options.newton.tolerance = tolerance.0;
     }
-    match relax_from(&mut model, start, options, &mut watcher(context)) {
+    match relax_from(&mut model, start.for_solver(), options, &mut watcher(context)) {
         Ok(relaxed) => Ok(found(context, spec, &model, &first, relaxed)),
         Err(error) => Ok(not_found(context, &first, &error)),
     }
@@ -116,75 +111,6 @@ fn add_states(
     answer.add(format!("{}.csv", context.name()), states::table(context, &both));
     states::add(answer, context, &both, Some((1, shown)));
     both[1].marks.as_ref().map(|marks| marks.any)
-}
-
-/// Returns the unknowns from which a relaxation starts, and the known forces at that state; `None` if the study to
-/// start from has no final state.
-fn start(context: &Context<'_>, spec: &RelaxSpec, model: &mut Model) -> Result<Option<(Vec<f64>, Forces)>, StudyError> {
-    let Some(start) = &spec.start else { return Ok(Some((model.start(), Forces::Unknown))) };
-    match &**start {
-        StartSpec::Drawn => Ok(Some((model.start(), Forces::Unknown))),
-        StartSpec::Random(random) => Ok(Some((random_start(random, model), Forces::Unknown))),
-        StartSpec::File(_) => {
-            let found = start_file(context, start)?;
-            Ok(found.map(|(coordinates, mesh)| from_mesh(context, model, coordinates, &mesh)))
-        }
-        StartSpec::Study(name) => {
-            let fits = |saved: &&SavedState| {
-                saved.coordinates.len() == context.assembly.drawn().coordinates.len()
-                    && saved.angles.len() == model.angles().len()
-            };
-            let Some(saved) = context.earlier.states.get(name).filter(fits) else { return Ok(None) };
-            model.set_angles(&saved.angles);
-            let forces = saved.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
-            Ok(Some((model.start_from(saved.coordinates.clone()), forces)))
-        }
-    }
-}
-
-/// Returns the unknowns of the state in a VTU file and the forces that the file contains. Angles continue from those of
-/// the file.
-fn from_mesh(context: &Context<'_>, model: &mut Model, coordinates: Vec<f64>, mesh: &VtuMesh) -> (Vec<f64>, Forces) {
-    let edges = context.assembly.edges();
-    let on_edges = |values: &Option<Vec<f64>>| match values {
-        Some(values) => context.view.on_edges(edges, &mesh.lines, values),
-        None => vec![f64::NAN; edges],
-    };
-    let angles = restored::angles(model, &on_edges(&mesh.fold_angle));
-    model.set_angles(&angles);
-    let forces = Forces::OfEdges { tension: on_edges(&mesh.tension), torque: on_edges(&mesh.torque) };
-    (model.start_from(coordinates), forces)
-}
-
-/// Returns the coordinates in the start file and the content of that file; `None` if the start is not a file.
-fn start_file(context: &Context<'_>, start: &Located<StartSpec>) -> Result<Option<(Vec<f64>, VtuMesh)>, StudyError> {
-    let StartSpec::File(path) = &**start else { return Ok(None) };
-    let mesh = vtk::read_vtu(&context.file.resolve(path))?;
-    let found = context.view.coordinates(context.assembly.drawn(), &mesh.points);
-    found.map(|found| Some((found, mesh))).ok_or_else(|| {
-        let count = context.assembly.drawn().coordinates.len() / 3;
-        let message = format!("{} does not say where this sheet is", path.display());
-        let help = format!("a start file has the {count} points of a patch or of a torus with fixed lattice");
-        context.file.error_at(start.span(), message, help).into()
-    })
-}
-
-/// Returns the unknowns of the drawn state, each displaced by a random amount up to the amplitude; the axis of a screw
-/// keeps its direction.
-fn random_start(random: &RandomStart, model: &mut Model) -> Vec<f64> {
-    let mut numbers = rand_chacha::ChaCha8Rng::seed_from_u64(random.seed);
-    let amplitude = random.random.0;
-    let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * symmetric(&mut numbers)).collect();
-    let mut coordinates = model.coordinates(&x);
-    if let Some(drawn) = model.domain().turns(&model.coordinates(&model.start())) {
-        model.domain().point_axis(&mut coordinates, drawn.direction);
-    }
-    model.start_from(coordinates)
-}
-
-/// Returns the answer of a study whose start study has no final state.
-pub(crate) fn start_unavailable(context: &Context<'_>) -> Answer {
-    Answer::failed(context.study, "the study from which it starts did not converge")
 }
 
 /// Returns the summary of a relaxation, without the checks that the study asks for.

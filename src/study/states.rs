@@ -60,7 +60,7 @@ fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
 }
 
 /// Returns the fold angles of the edges of the cell; on a patch or a torus, those of its middle cell.
-fn cell_angles(context: &Context<'_>, state: &State) -> Vec<f64> {
+pub(crate) fn cell_angles(context: &Context<'_>, state: &State) -> Vec<f64> {
     let tiling = context.assembly.tiling();
     let middle = tiling.cells.map(|n| (n - 1) / 2);
     let mut angles = vec![f64::NAN; context.assembly.sheet().edges.len()];
@@ -100,12 +100,21 @@ pub(crate) fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], 
 
 /// Adds pictures as a VTK series if the study asks for it; the time of a picture is its number.
 pub(crate) fn add_series(answer: &mut Answer, context: &Context<'_>, pictures: Vec<Picture>) {
+    add_series_at(answer, context, pictures.into_iter().enumerate());
+}
+
+/// Adds pictures as a VTK series if the study asks for it, each with the number that is its time and names its file.
+pub(crate) fn add_series_at(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    pictures: impl IntoIterator<Item = (usize, Picture)>,
+) {
     if !context.draws(Draw::Vtk) {
         return;
     }
     let name = context.name();
     let mut entries = Vec::new();
-    for (k, picture) in pictures.into_iter().enumerate() {
+    for (k, picture) in pictures {
         let file = format!("{name}/{name}_{k:04}.vtu");
         answer.add(&file, picture);
         entries.push((k as f64, file));

@@ -3,6 +3,7 @@
 use super::answer::{Answer, SavedState};
 use super::context::Context;
 use super::error::StudyError;
+use super::supported;
 use super::trace::state_at;
 use super::{energies, states};
 use crate::analysis::chart::{hinge_angles, screw_coordinates};
@@ -42,7 +43,8 @@ pub(crate) fn check(context: &Context<'_>, spec: &SurfaceSpec) -> Result<(), Stu
         check_resolution(context.file, resolution)?;
     }
     if context.assembly.boundary() == Boundary::Screw {
-        return Ok(());
+        supported::one_stiffness_each(context, "surfaces of folded states")?;
+        return supported::drawn_lengths(context, "surfaces of folded states");
     }
     let message = "a surface of folded states is drawn in the space of lattice strains";
     Err(context.refuse(message, "use domain = \"screw\"").into())

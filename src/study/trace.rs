@@ -5,8 +5,8 @@ use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
 use super::{branches, energies, relax};
+use crate::analysis::along::{AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors, relax_along};
 use crate::analysis::chart::{coordinates, hinge_angles};
-use crate::analysis::drive::{self, Drive, DriveFailure, Driven};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::relax::Relaxed;
 use crate::analysis::state::{State, cylinder};
@@ -88,9 +88,9 @@ pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer,
         Ok(traced) => traced,
         Err(error) => return Ok(Answer::failed(context.study, error)),
     };
-    let drives = relaxed(context, spec.engine, &traced);
+    let relaxations = relaxed(context, spec.engine, &traced);
     let paths: Vec<Path<'_>> =
-        traced.iter().enumerate().map(|(k, traced)| Path { traced, drive: drives.get(k) }).collect();
+        traced.iter().enumerate().map(|(k, traced)| Path { traced, relaxed: relaxations.get(k) }).collect();
     let mut answer = Answer::empty(context.study);
     add_files(&mut answer, context, spec.engine, &paths);
     // after an interruption during the search for self-intersections, the table lacks their entries
@@ -133,27 +133,27 @@ pub(crate) fn state_at(model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> 
 }
 
 /// Returns the relaxations at the states of every trajectory; none if the engine is kinematic.
-fn relaxed(context: &Context<'_>, engine: Engine, traced: &[Traced]) -> Vec<Drive> {
+fn relaxed(context: &Context<'_>, engine: Engine, traced: &[Traced]) -> Vec<RelaxedTrajectory> {
     if engine == Engine::Kinematic {
         return Vec::new();
     }
     let mut watch = relax::watcher(context);
-    traced.iter().map(|one| drive::drive(context.assembly, Options::default(), one, &mut watch)).collect()
+    traced.iter().map(|one| relax_along(context.assembly, Options::default(), one, &mut watch)).collect()
 }
 
 /// A trajectory, with the relaxations at its states if they were computed.
 struct Path<'a> {
     traced: &'a Traced,
-    drive: Option<&'a Drive>,
+    relaxed: Option<&'a RelaxedTrajectory>,
 }
 
 impl Path<'_> {
     /// Returns the reason for which the trajectory did not reach its end; `None` if it did.
     fn failure(&self) -> Option<String> {
-        let relaxation = self.drive.and_then(|drive| drive.failure);
+        let relaxation = self.relaxed.and_then(|relaxed| relaxed.failure);
         let (branch, sign) = self.traced.branch;
         let why = match (relaxation, &self.traced.end) {
-            (Some(DriveFailure::Relaxation(Failure::Interrupted)), _) | (None, End::Interrupted) => {
+            (Some(AlongFailure::Relaxation(Failure::Interrupted)), _) | (None, End::Interrupted) => {
                 "interrupted".to_owned()
             }
             (Some(failure), _) => format!("a relaxation failed: {failure}"),
@@ -169,14 +169,14 @@ impl Path<'_> {
 
     /// Whether the observer asked to stop during the trajectory or its relaxations.
     fn interrupted(&self) -> bool {
-        let relaxation = self.drive.and_then(|drive| drive.failure);
-        self.traced.end == End::Interrupted || relaxation == Some(DriveFailure::Relaxation(Failure::Interrupted))
+        let relaxation = self.relaxed.and_then(|relaxed| relaxed.failure);
+        self.traced.end == End::Interrupted || relaxation == Some(AlongFailure::Relaxation(Failure::Interrupted))
     }
 
     /// Number of states, up to the first at which a relaxation failed.
     fn len(&self) -> usize {
-        let failed = self.drive.filter(|drive| drive.failure.is_some());
-        failed.map_or(self.traced.states.len(), |drive| drive.states.len() + 1)
+        let failed = self.relaxed.filter(|relaxed| relaxed.failure.is_some());
+        failed.map_or(self.traced.states.len(), |relaxed| relaxed.states.len() + 1)
     }
 
     /// Returns the number of the state that the picture shows, and its description: the last state, or that half way
@@ -202,16 +202,16 @@ impl Path<'_> {
     }
 
     /// Returns the relaxation at a state; `None` at the drawn state, where trajectories begin and close.
-    fn driven(&self, step: usize) -> Option<&Driven> {
-        self.drive?.states.get(step.checked_sub(1)?)
+    fn relaxed_at(&self, step: usize) -> Option<&StateAlong> {
+        self.relaxed?.states.get(step.checked_sub(1)?)
     }
 
     /// Returns the largest residual: the scaled residual of the relaxations if there are any, otherwise that of
     /// closure. `None` if no relaxation has succeeded.
     fn residual(&self) -> Option<f64> {
         let of = |relaxed: &Relaxed| larger(relaxed.residual_force, relaxed.residual_length);
-        match self.drive {
-            Some(drive) => worst(drive.states.iter().map(|driven| of(&driven.relaxed))),
+        match self.relaxed {
+            Some(relaxed) => worst(relaxed.states.iter().map(|along| of(&along.relaxed))),
             None => worst(self.traced.states.iter().map(|state| state.residual)),
         }
     }
@@ -227,18 +227,18 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: 
     for path in paths {
         let first = pictures.len();
         for step in 0..path.len() {
-            let (folded, driven) = (&path.traced.states[step], path.driven(step));
+            let (folded, along) = (&path.traced.states[step], path.relaxed_at(step));
             let pause = rows.len() % OBSERVED == OBSERVED - 1 && finder.is_some();
             if pause && !context.step_with_residual(rows.len(), None, 0.0) {
                 finder = None;
             }
             model.set_angles(&hinge_angles(&model, &folded.angles));
             model.start_from(coordinates(folded));
-            let state = driven.map_or_else(|| state_at(&model, coordinates(folded), &folded.angles), relaxed_state);
+            let state = along.map_or_else(|| state_at(&model, coordinates(folded), &folded.angles), relaxed_state);
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
-            let row = row(assembly, (path, step), (folded, driven), &state, marks.as_ref().map(|marks| marks.any));
-            let compared = driven.filter(|_| engine == Engine::Both);
-            rows.push(StateRow { error_to_kinematic: compared.map(|driven| driven.error), ..row });
+            let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
+            let compared = along.filter(|_| engine == Engine::Both);
+            rows.push(StateRow { error_to_kinematic: compared.map(|along| along.error), ..row });
             if step % path.every() == 0 || step + 1 == path.len() {
                 pictures.push(Shown { state, residuals: None, marks });
             }
@@ -281,9 +281,9 @@ pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
 /// Returns the last state of the first trajectory.
 fn saved_state(model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
     let path = paths.first()?;
-    let driven = path.drive.and_then(|drive| drive.states.last());
-    let (coordinates, angles) = match (driven, path.traced.states.last()) {
-        (Some(driven), _) => (driven.relaxed.state.coordinates.clone(), &driven.angles),
+    let along = path.relaxed.and_then(|relaxed| relaxed.states.last());
+    let (coordinates, angles) = match (along, path.traced.states.last()) {
+        (Some(along), _) => (along.relaxed.state.coordinates.clone(), &along.angles),
         (None, Some(folded)) => (coordinates(folded), &folded.angles),
         (None, None) => return None,
     };
@@ -291,18 +291,18 @@ fn saved_state(model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
 }
 
 /// Returns a relaxed state with the fold angles of all edges.
-fn relaxed_state(driven: &Driven) -> State {
-    State { fold_angle: driven.angles.clone(), ..driven.relaxed.state.clone() }
+fn relaxed_state(along: &StateAlong) -> State {
+    State { fold_angle: along.angles.clone(), ..along.relaxed.state.clone() }
 }
 
 fn row(
     assembly: &Assembly,
     (path, step): (&Path<'_>, usize),
-    (folded, driven): (&Folded, Option<&Driven>),
+    (folded, along): (&Folded, Option<&StateAlong>),
     state: &State,
     self_intersecting: Option<bool>,
 ) -> StateRow {
-    let shape = match driven {
+    let shape = match along {
         None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
         Some(_) => cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, &state.coordinates)
             .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
@@ -317,8 +317,8 @@ fn row(
         theta: [0, 1].map(|k| shape.map(|(_, theta, _)| theta[k])),
         strain: [0, 1, 2].map(|k| shape.map(|(.., strain)| strain[k])),
         energy: energies::columns_if_any(assembly.terms(), state),
-        residual_length: driven.map(|driven| driven.relaxed.residual_length),
-        residual_force: driven.map(|driven| driven.relaxed.residual_force),
+        residual_length: along.map(|along| along.relaxed.residual_length),
+        residual_force: along.map(|along| along.relaxed.residual_force),
         self_intersecting,
         error_to_kinematic: None,
         fold: state.fold_angle.clone(),
@@ -347,22 +347,22 @@ fn trajectory(assembly: &Assembly, path: &Path<'_>, engine: Engine) -> Trajector
         End::Steps | End::Failed | End::Interrupted => "failed",
     };
     let last = path.len().checked_sub(1).map(|last| &one.states[last]);
-    let compared = path.drive.filter(|_| engine == Engine::Both);
-    let errors = compared.and_then(|drive| drive::cylinder_errors(assembly.drawn(), one, drive));
-    let newton = |drive: &Drive| drive.states.iter().map(|driven| driven.relaxed.iterations).sum();
+    let compared = path.relaxed.filter(|_| engine == Engine::Both);
+    let errors = compared.and_then(|relaxed| cylinder_errors(assembly.drawn(), one, relaxed));
+    let newton = |relaxed: &RelaxedTrajectory| relaxed.states.iter().map(|along| along.relaxed.iterations).sum();
     TrajectorySummary {
         branch: Some(one.branch.0),
         sign: Some(one.branch.1),
         closed: end == "closed",
         arc_length: last.map_or(0.0, |state| state.arc_length),
         steps: path.len() - 1,
-        iterations: path.drive.map_or(one.corrections, newton),
+        iterations: path.relaxed.map_or(one.corrections, newton),
         max_residual: path.residual(),
         ends_at: one.ends_at.map(|(branch, sign)| RayName { branch, sign }),
         end: end.to_owned(),
         self_intersecting: None,
         first_self_intersection: one.first_self_intersection.map(|arc_length| ArcLength { arc_length }),
-        error_to_kinematic: compared.and_then(Drive::error),
+        error_to_kinematic: compared.and_then(RelaxedTrajectory::error),
         error_of_curvature: errors.map(|errors| errors.curvature),
         error_of_strain: errors.map(|errors| errors.strain),
         error_of_theta: errors.map(|errors| errors.theta),

@@ -4,15 +4,18 @@
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
+use super::start;
 use super::states::{self, Shown};
+use super::supported;
 use super::surface::{check_resolution, curvature_of_cell};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::State;
 use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limit};
-use crate::analysis::wells::merge::{SAME_WELL_ANGLE_RAD, Translations, Well, wells};
+use crate::analysis::wells::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, wells};
+use crate::analysis::wells::placement::free_rigid_motions;
 use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
-use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_all};
-use crate::model::Assembly;
+use crate::analysis::wells::starts::{Outcome, Starts, failures, relax_around};
+use crate::model::{Assembly, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::chart::{self, Chart, Point, Series};
 use crate::output::figure::rounded;
@@ -30,19 +33,27 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const STARTS: u32 = 64;
 const RESOLUTION: u32 = 64;
 
-/// Checks that the energy is that of bars and creases, without pins or loads.
+/// Checks that the energy is that of bars and creases, and that pins hold a sheet under loads.
 pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), StudyError> {
     let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
+    start::check(context, spec.start.as_ref())?;
     if let Some(resolution) = &spec.resolution {
         check_resolution(context.file, resolution)?;
     }
     let terms = context.assembly.terms();
-    if terms.bars.is_none() || terms.creases.as_ref().is_none_or(|creases| creases.stiffness.is_infinite()) {
+    if terms.bars.is_none() || terms.creases.as_ref().is_none_or(|creases| creases.stiffness.is_rigid()) {
         let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite";
         return refuse("wells are those of the energy of bars and creases", help);
     }
-    if !(terms.pins.is_empty() && terms.loads.is_empty()) {
-        return refuse("wells are those of a sheet that nothing holds or pulls", "leave out [[pin]] and [[load]]");
+    supported::one_stiffness_each(context, "wells")?;
+    supported::drawn_lengths(context, "wells")?;
+    if !terms.loads.is_empty() && free_rigid_motions(context.assembly) > 0 {
+        let help = "pin three vertices that do not lie on a line, or leave out [[load]]";
+        return refuse("wells under loads are those of a sheet that pins hold in place", help);
+    }
+    if spec.rigid && !(terms.pins.is_empty() && terms.loads.is_empty()) {
+        let help = "leave out `rigid`, or [[pin]] and [[load]]";
+        return refuse("with `rigid` wells are sought in fold angles, which pins and loads do not know", help);
     }
     Ok(())
 }
@@ -88,20 +99,25 @@ struct FoundWells {
 }
 
 /// Finds the wells, and the barriers that the scene asks for.
-pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Answer {
+pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Result<Answer, StudyError> {
     let assembly = context.assembly;
+    let mut model = assembly.model(Gauge::Held);
+    let Some(state) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+        return Ok(start::unavailable(context));
+    };
+    let centre = (!state.is_drawn).then(|| state.state(&model));
     let step = AtomicUsize::new(0);
     let watch = |of: Option<usize>| context.step(step.fetch_add(1, Ordering::Relaxed) + 1, of);
     let count = spec.starts.as_ref().map_or(STARTS, |count| count.0) as usize;
     let spread = spec.spread.as_ref().map_or(PI, |spread| spread.0);
     let starts = Starts { count, seed: spec.seed, spread, options: Options::default() };
-    let outcomes = relax_all(assembly, &starts, &|| watch(Some(count)));
+    let outcomes = relax_around(assembly, centre.as_ref(), &starts, &|| watch(Some(count)));
     let tally = Tally::of(&outcomes);
     let minima = outcomes.into_iter().filter_map(|outcome| match outcome {
         Outcome::Well(settled) => Some(*settled),
         _ => None,
     });
-    let wells = wells(minima, &Translations::new(assembly));
+    let wells = wells(minima, &Comparison::new(assembly));
     let rigid = spec.rigid.then(|| landscape(assembly, &sampling(assembly, spec), &mut || watch(None)));
     let mut barriers = Vec::new();
     for &between in spec.barriers.iter().map(|pair| &pair.0) {
@@ -117,7 +133,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &WellsSpec) -> Answer {
     let result = found.summary();
     let largest = error(&result);
     answer.conclude(StudyResult::Wells(result), largest, interrupted.or_else(|| found.missing(spec)));
-    answer
+    Ok(answer)
 }
 
 fn sampling(assembly: &Assembly, spec: &WellsSpec) -> Sampling {

@@ -85,7 +85,7 @@ impl Testing for Assembly {
     }
 
     fn facets(&self, stiffness: f64) -> Option<Hinges> {
-        Some(Hinges { stiffness, rest: self.drawn_angles().to_vec() })
+        Some(Hinges { stiffness: stiffness.into(), rest: self.drawn_angles().to_vec() })
     }
 
     fn model_of(&self, terms: &Terms, gauge: Gauge) -> Model {

@@ -3,7 +3,7 @@
 use crate::common::{Numbers, Testing, on};
 use crate::report::Report;
 use crate::trial::Trial;
-use foldwell::analysis::drive::{cylinder_errors, drive};
+use foldwell::analysis::along::{cylinder_errors, relax_along};
 use foldwell::analysis::landscape::fit::{agrees, coefficient};
 use foldwell::analysis::landscape::samples::landscape;
 use foldwell::analysis::landscape::{Expansion, HeldSheet, Prediction};
@@ -56,7 +56,7 @@ fn driven(cell: &Assembly, traced: &Traced, report: &mut Report, what: &str) {
     if traced.end == End::Failed || traced.states.len() < 2 {
         return report.unanswered("driven", "the trajectory fails");
     }
-    let found = drive(cell, Options::default(), traced, &mut |_| true);
+    let found = relax_along(cell, Options::default(), traced, &mut |_| true);
     let closed = usize::from(matches!(traced.end, End::Closed(_)));
     let what = || format!("{what}, ray {:?}", traced.branch);
     if let Some(failure) = &found.failure {

@@ -87,6 +87,53 @@ fn paths_leave_ridges() {
     assert!(barrier.height.unwrap().iter().all(|height| *height > 0.0), "{barrier:?}");
 }
 
+/// Claim: whatever the stiffness of the bars of the square twist, from that at which it first has two wells on, a barrier
+/// is found between its two lowest ones or the reason names the pass and the minimum to which it leads instead. Every
+/// pass lies above the wells that it joins and is a stationary point of the sheet's own energy with one negative
+/// eigenvalue: a relaxation from the file of the pass takes no step, and its inertia and the spectrum there say so.
+#[test]
+fn passes_of_the_scene_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/cases").display().to_string();
+    let mut confirmed = 0;
+    for stiffness in [1e4, 1.5e4, 2e4, 5e4, 1e5] {
+        let sheet = format!(
+            "[sheet]\nmesh = \"{cases}/twist.fold\"\n[energy]\nbars = {{ stiffness = {stiffness:e} }}\n\
+             creases = {{ stiffness = 1.0, rest = {{ file = \"{cases}/twist-rest.csv\" }} }}\nfacets = {{ stiffness = 10.0 }}\n"
+        );
+        let run = |name: &str, studies: &str| {
+            let scene = folder.path().join(format!("{name}.toml"));
+            fs::write(&scene, format!("{sheet}{studies}")).unwrap();
+            let options = RunOptions { out: Some(folder.path().join(name)), ..RunOptions::default() };
+            run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.studies
+        };
+        let asked = "[[study]]\nname = \"w\"\nkind = \"wells\"\ndraw = [\"vtk\"]\nstarts = 64\nbarriers = [[0, 1]]\n";
+        let first = run(&format!("first{stiffness}"), asked).remove(0);
+        let Some(StudyResult::Wells(found)) = first.result else { panic!("wells") };
+        let barrier = &found.barriers[0];
+        if !barrier.confirmed {
+            let reason = barrier.reason.clone().unwrap();
+            assert!(reason.contains("leads into a minimum of energy 8.19"), "{stiffness:e}: {reason}");
+            continue;
+        }
+        confirmed += 1;
+        assert!(barrier.height.unwrap().iter().all(|height| *height > 0.0), "{barrier:?}");
+        let start = format!("start = \"first{stiffness}/w/w_{:04}.vtu\"\n", found.wells.len());
+        let again = format!(
+            "[[study]]\nname = \"r\"\nkind = \"relax\"\n{start}[[study]]\nname = \"m\"\nkind = \"modes\"\neigenvalues = 12\n{start}"
+        );
+        let again = run(&format!("again{stiffness}"), &again);
+        let (Some(StudyResult::Relax(relaxed)), Some(StudyResult::Modes(modes))) = (&again[0].result, &again[1].result)
+        else {
+            panic!("{again:?}")
+        };
+        assert_eq!((relaxed.iterations, relaxed.negative_eigenvalues), (0, Some(1)), "{stiffness:e}");
+        assert_relative_eq!(relaxed.energy.total, barrier.energy.unwrap(), max_relative = 1e-12);
+        assert_eq!(modes.eigenvalues.iter().filter(|value| **value < -1e-8).count(), 1, "{:?}", modes.eigenvalues);
+    }
+    assert!(confirmed >= 4, "{confirmed}");
+}
+
 /// Claim: random starts fail only if the relaxation of the sheet itself fails, not if the random state cannot be found
 /// to many digits: every start of a folded eggbox of rigid bars on a screw ends in a well. Seven of these ten would
 /// fail if crumpled states had to be found as exactly as equilibria.

@@ -1,9 +1,9 @@
-//! Trajectories by three independent formulations: closure of fold angles, relaxation of bars with a driven crease, and
+//! Trajectories by three independent formulations: closure of fold angles, relaxation of bars with a locked crease, and
 //! the lengths of rigid bars in the chart of screws.
 
 use crate::common::{self, Testing, jacobian, linearized, mesh, on, patch};
+use foldwell::analysis::along::{RelaxedTrajectory, StateAlong, cylinder_errors, relax_along};
 use foldwell::analysis::chart::coordinates;
-use foldwell::analysis::drive::{Drive, Driven, cylinder_errors, drive};
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
@@ -42,8 +42,8 @@ impl Scene {
         trace(&self.0, &options, None, &mut |_, _| true).unwrap()
     }
 
-    fn driven(&self, traced: &Traced) -> Drive {
-        drive(&self.0, Options::default(), traced, &mut |_| true)
+    fn driven(&self, traced: &Traced) -> RelaxedTrajectory {
+        relax_along(&self.0, Options::default(), traced, &mut |_| true)
     }
 }
 
@@ -66,7 +66,7 @@ fn rigid_bars_meet_the_kinematics_on_both_loops() {
         let errors = cylinder_errors(scene.0.drawn(), traced, &found).unwrap();
         println!("{:?}: {errors:?}", traced.branch);
         assert!(errors.curvature <= 1e-8 && errors.strain <= 1e-9 && errors.theta <= 1e-9, "{errors:?}");
-        let residual = |state: &Driven| state.relaxed.residual_force.max(state.relaxed.residual_length);
+        let residual = |state: &StateAlong| state.relaxed.residual_force.max(state.relaxed.residual_length);
         assert!(found.states.iter().all(|state| residual(state) <= 1e-12));
     }
 }
@@ -101,7 +101,7 @@ fn soft_bars_approach_it_as_one_over_their_stiffness() {
         let scene = Scene::open_star(bars);
         let short = |traced: &&Traced| traced.branch.1 == -1;
         let all = scene.traced(None, Stop::default());
-        let found: Vec<Drive> = all.iter().filter(short).map(|traced| scene.driven(traced)).collect();
+        let found: Vec<RelaxedTrajectory> = all.iter().filter(short).map(|traced| scene.driven(traced)).collect();
         let worst = found.iter().map(|drive| drive.error().unwrap()).fold(0.0, f64::max);
         println!("k = {bars:e}: largest distance {worst:.3e}, times k {:.2}", worst * bars);
         found.iter().map(|drive| drive.states.iter().map(|state| bars * state.error).collect()).collect()

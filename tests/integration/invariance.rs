@@ -132,7 +132,7 @@ fn terms(case: &Assembly, terms: &Terms) -> [Vec<(&'static str, usize)>; 2] {
 fn only_what_is_asked_for_is_built() {
     let star = patch("open-star", [3, 3]);
     let edges = star.edges();
-    let bars = Terms { bars: Some(1.0), ..Terms::default() };
+    let bars = Terms { bars: Some(1.0f64.into()), ..Terms::default() };
     assert_eq!(terms(&star, &bars), [vec![], vec![("bars", edges)]]);
     let creases = star.drawn_angles().iter().filter(|angle| !angle.is_nan()).count();
     let both = Terms::bars_and_creases(1.0, 1.0, star.drawn_angles().to_vec());

@@ -38,7 +38,8 @@ fn miura_follows_its_closed_form() {
     let mut failed = Vec::new();
     for (angle, energy) in [0.05, 0.1, 0.3, 0.6, 1.0, 1.5, 2.0, 2.5, 3.0].map(|a| [(a, true), (a, false)]).concat() {
         for lock in locks {
-            let mut terms = Terms { bars: Some(f64::INFINITY), facets: case.facets(f64::INFINITY), ..Terms::default() };
+            let mut terms =
+                Terms { bars: Some(f64::INFINITY.into()), facets: case.facets(f64::INFINITY), ..Terms::default() };
             terms.locks = vec![(lock, case.drawn_angles()[lock].signum() * angle)];
             if energy {
                 terms.creases = Terms::bars_and_creases(1.0, 1.0, case.drawn_angles().to_vec()).creases;

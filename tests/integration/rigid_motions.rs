@@ -212,7 +212,7 @@ fn modes_of_generic_periodic_bars() {
         ] {
             let sheet = generate(&Pattern::Random(Random { seed, size, ..Random::default() })).unwrap();
             let case = on(sheet, cells, boundary);
-            let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+            let found = case.modes_of(&Terms { bars: Some(1.0f64.into()), ..Terms::default() }, 0).unwrap();
             let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
             assert_eq!(counts, expected, "{boundary:?}, seed {seed}");
             assert!(found.gap.unwrap() > 1e6, "{boundary:?}, seed {seed}: gap {:?}", found.gap);
@@ -231,7 +231,7 @@ fn modes_of_patches() {
             case.tiling().edges.iter().filter(|edge| edge.wings.iter().flatten().count() == wings).count()
         };
         let (loose, rim) = (sides(0), sides(1));
-        let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+        let found = case.modes_of(&Terms { bars: Some(1.0f64.into()), ..Terms::default() }, 0).unwrap();
         assert_eq!((found.zero_modes, found.self_stresses), (rim + 3 + 2 * loose, 0), "{cells:?}, {loose} loose bars");
         let columns = 3 * case.tiling().positions.len() as i64;
         assert_eq!((found.maxwell_count, found.rigid_motions), (columns - case.edges() as i64, 6));
@@ -250,7 +250,7 @@ fn miura(fold: f64) -> Assembly {
 /// 40 - 3 = 43 zero modes and no self stress, flat V + 3 = 124 and as many self stresses as inner vertices, 81.
 #[test]
 fn modes_of_miura_flat_and_folded() {
-    let bars = Terms { bars: Some(1.0), ..Terms::default() };
+    let bars = Terms { bars: Some(1.0f64.into()), ..Terms::default() };
     for (fold, expected) in [(0.0, (124, 81)), (std::f64::consts::PI / 12.0, (43, 0))] {
         let case = miura(fold);
         assert_eq!(case.tiling().positions.len(), 121);
@@ -266,7 +266,7 @@ fn modes_of_miura_flat_and_folded() {
 fn modes_of_miura_with_rigid_quadrilaterals() {
     let case = miura(std::f64::consts::PI / 12.0);
     assert_eq!((case.edges(), case.count(EdgeKind::Facet)), (320, 100));
-    let terms = Terms { bars: Some(1.0), facets: case.facets(f64::INFINITY), ..Terms::default() };
+    let terms = Terms { bars: Some(1.0f64.into()), facets: case.facets(f64::INFINITY), ..Terms::default() };
     let found = case.modes_of(&terms, 0).unwrap();
     assert_eq!((found.zero_modes, found.self_stresses, found.folding_modes), (7, 64, Some(1)));
 }
@@ -282,7 +282,7 @@ fn counts_are_invariant() {
     sheet.lattice = Some(lattice);
     for (boundary, expected) in [(DOMAINS[1], (3, 3)), (DOMAINS[2], (6, 0)), (DOMAINS[3], (2, 0))] {
         let case = on(sheet.clone(), [1, 1], boundary);
-        let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+        let found = case.modes_of(&Terms { bars: Some(1.0f64.into()), ..Terms::default() }, 0).unwrap();
         assert_eq!((found.zero_modes, found.self_stresses), expected, "{boundary:?}");
     }
 }

@@ -201,7 +201,7 @@ fn flat_cells_have_nappes_in_pairs() {
 fn what_has_no_surface() {
     let sheet = generate(&Pattern::Miura(Miura { a: 1.0, b: 1.0, sector: 1.0, fold: 0.4 })).unwrap();
     let extent = Extent { radius: 0.1, max_curvature: 1.0 };
-    let facets = |stiffness| Some(Hinges { stiffness, rest: vec![0.0; sheet.edges.len()] });
+    let facets = |stiffness| Some(Hinges { stiffness: f64::into(stiffness), rest: vec![0.0; sheet.edges.len()] });
     let soft = Terms { facets: facets(1.0), ..Terms::default() };
     let none = cover(&sheet, &soft, extent, usize::MAX).unwrap();
     assert!(none.points.is_empty() && none.branches.is_empty());

@@ -67,7 +67,7 @@ fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -
     let folded =
         Folded { arc_length: 0.0, angles: angles.to_vec(), rates, shape: Some(shape), positions, residual: 0.0 };
     let case = on(sheet.clone(), [1, 1], Boundary::Screw);
-    let mut model = case.model_of(&Terms { bars: Some(f64::INFINITY), ..Terms::default() }, Gauge::Held);
+    let mut model = case.model_of(&Terms { bars: Some(f64::INFINITY.into()), ..Terms::default() }, Gauge::Held);
     let x = model.start_from(coordinates(&folded));
     let at = linearized(&model, &x, &vec![0.0; case.edges()]);
     let stretched = at.gaps.iter().fold(0.0, |most: f64, gap| most.max(gap.abs()));
@@ -138,7 +138,7 @@ fn the_seam_slips() {
 
 /// Returns the zero modes of the bars of a finite sheet, as columns.
 fn zero_modes(case: &Assembly) -> DenseMatrix {
-    let model = case.model_of(&Terms { bars: Some(1.0), ..Terms::default() }, Gauge::Free);
+    let model = case.model_of(&Terms { bars: Some(1.0f64.into()), ..Terms::default() }, Gauge::Free);
     let at = linearized(&model, &model.start(), &vec![0.0; case.edges()]);
     null_space(&jacobian(&model, &at)).unwrap().basis
 }
@@ -169,7 +169,7 @@ fn growth(case: &Assembly, turn: f64, rise: f64) -> Vec<f64> {
 /// Checks that there are as many zero modes as the rims have edges, no self stress, and six rigid motions.
 fn check_counts(case: &Assembly, rim: usize) {
     let edges = case.sheet().edges.iter().filter(|edge| edge.kind == EdgeKind::Boundary).count();
-    let found = case.modes_of(&Terms { bars: Some(1.0), ..Terms::default() }, 0).unwrap();
+    let found = case.modes_of(&Terms { bars: Some(1.0f64.into()), ..Terms::default() }, 0).unwrap();
     let counts = (found.zero_modes, found.self_stresses, found.maxwell_count, found.rigid_motions);
     assert_eq!((edges, counts), (rim, (rim, 0, rim as i64, 6)), "gap {:?}", found.gap);
 }

@@ -15,6 +15,20 @@ pub enum LandscapeError {
     /// The patch cannot be factored, or is not stable, or a linear solve loses too many digits.
     #[error(transparent)]
     Factor(#[from] FactorError),
+    /// The elements of a term differ, and the expansion is that of equal cells.
+    #[error("a landscape is that of equal cells, and the {term} have more than one stiffness")]
+    Uneven {
+        /// Name of the term.
+        term: &'static str,
+    },
+    /// Bars are not at rest as drawn.
+    #[error(
+        "a landscape is that of a sheet drawn at rest, and {bars} bars have other rest lengths than the drawn ones"
+    )]
+    OffRest {
+        /// Number of these bars.
+        bars: usize,
+    },
     /// Curvatures name no modes here.
     #[error("curvatures name no modes of a torus")]
     NoCurvatures,

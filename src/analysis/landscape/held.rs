@@ -40,8 +40,14 @@ impl HeldSheet {
     /// on a torus.
     ///
     /// # Errors
-    /// [`LandscapeError`] where the modes are not known.
+    /// [`LandscapeError`] where the modes are not known, a term has more than one stiffness, or bars are not at rest.
     pub(crate) fn new(assembly: &Assembly) -> Result<Self, LandscapeError> {
+        if let Some(term) = assembly.terms().uneven_term() {
+            return Err(LandscapeError::Uneven { term });
+        }
+        if !assembly.has_drawn_lengths() {
+            return Err(LandscapeError::OffRest { bars: assembly.bars_off_rest() });
+        }
         match assembly.boundary() {
             Boundary::Patch => Self::patch(assembly),
             _ => Self::torus(assembly),

@@ -28,9 +28,9 @@ impl HeldSheet {
     /// tell.
     pub fn torus(assembly: &Assembly) -> Result<Self, LandscapeError> {
         let (locked, angles) = (rigid_facets(assembly), assembly.drawn_angles());
-        let facets = Hinges { stiffness: RIGID, rest: angles.to_vec() };
+        let facets = Hinges { stiffness: RIGID.into(), rest: angles.to_vec() };
         let facets = assembly.terms().has_rigid_facets().then_some(facets);
-        let bars = assembly.with_terms(Terms { bars: Some(RIGID), facets, ..Terms::default() });
+        let bars = assembly.with_terms(Terms { bars: Some(RIGID.into()), facets, ..Terms::default() });
         let motions = zero_modes(&bars.model(Gauge::Held))?;
         let rates: Vec<_> = motions.iter().map(|motion| fold_rates(assembly, motion)).collect();
         let modes = orthonormal(DenseMatrix::from_columns(&rates), &motions)?;
@@ -81,7 +81,7 @@ impl HeldSheet {
 
 /// Diagonals of polygons of the tiling where these are rigid.
 fn rigid_facets(assembly: &Assembly) -> Vec<usize> {
-    assembly.tiling().facets().filter(|_| assembly.terms().has_rigid_facets()).collect()
+    assembly.rigid_facet_edges()
 }
 
 /// Velocities of all coordinates that stretch nothing, rigid motions left out.

@@ -4,12 +4,13 @@
 //! string method ([`super::string`]) finds a path there. The highest state of its row is close to a pass; Newton's
 //! method ([`super::pass`]) makes it one, and goes on from it in bars ten times as stiff, and so on, up to those of the
 //! sheet; infinity is the last step. Where that ends early the path is sought again in stiffer bars, and at last in those
-//! of the sheet itself: some wells exist only because bars are as stiff as they are. At the end the
+//! of the sheet itself: some wells exist only because bars are as stiff as they are. There its states are held ever more
+//! strongly if they slide down from a pass that is steep against the creases. At the end the
 //! pass counts only where its Hessian has exactly one negative eigenvalue, it lies above the wells between which it was
 //! sought, and the sheet descends from it into two different wells: those, or others on the way, which are reported
 //! then.
 
-use super::merge::{Translations, Well, which};
+use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
 use super::pass::{Pass, equilibrium, sides};
 use super::settle::{MinimumTracker, Settled};
 use super::string::{self, string};
@@ -37,6 +38,11 @@ const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 const CLEAR: f64 = 1e-8;
 /// Least distance of two wells in soft bars, over that of the wells of the sheet.
 const APART: f64 = 1e-3;
+/// How often, at last, a path is held more strongly in the sheet's own bars, and by what factor.
+const STRONGEST: i32 = 4;
+const STRONGER: f64 = 100.0;
+/// How often a row of states is refined around its highest one.
+const REFINEMENTS: usize = 5;
 /// Shortest factor between two stiffnesses.
 const SHORTEST: f64 = 1.05;
 
@@ -83,9 +89,31 @@ pub enum BarrierError {
         /// Energy of the higher of the wells.
         well: f64,
     },
-    /// It does not lie between two of the wells.
-    #[error("the pass does not lead into two different wells that are known")]
-    LeadsElsewhere,
+    /// The sheet descends from it into a minimum that is none of the wells.
+    #[error(
+        "the pass that was found, of energy {pass}, leads into a minimum of energy {minimum} that is none of the wells: more starts \
+         may find it"
+    )]
+    UnknownWell {
+        /// Energy of the pass.
+        pass: f64,
+        /// Energy of the minimum.
+        minimum: f64,
+    },
+    /// The sheet descends from it into one well on both sides.
+    #[error("the pass that was found, of energy {pass}, leads into well {well} on both sides")]
+    OneSided {
+        /// Energy of the pass.
+        pass: f64,
+        /// The well.
+        well: usize,
+    },
+    /// The wells differ in their place on the pins only, not in their fold angles.
+    #[error("the wells have the same fold angles, and paths are sought between different ones")]
+    SameShape,
+    /// The observer asked to stop before a path was tried, or there is no stiffness at which one could be.
+    #[error("no path was tried")]
+    NotTried,
 }
 
 /// A pass at one stiffness of the bars.
@@ -131,14 +159,18 @@ pub fn barrier(
     let own = assembly.bar_stiffness();
     let softer = (0..TRIES).map(|attempt| SOFTEST * creases * STIFFER.powi(attempt as i32));
     let tried = softer.take_while(|stiffness| *stiffness < own).chain(own.is_finite().then_some(own));
-    let (mut failed, mut by_the_way): (_, Option<Barrier>) = (BarrierError::LeadsElsewhere, None);
+    let (mut failed, mut by_the_way): (_, Option<Barrier>) = (BarrierError::NotTried, None);
+    if same_shape(wells, between) {
+        return Err(BarrierError::SameShape);
+    }
     for stiffness in tried {
         for bend in 0..=BENDS {
-            match from_softness(assembly, wells, between, (stiffness, bend), go_on) {
+            let attempt = Attempt { stiffness, bend, strength: string::STRENGTH };
+            match from_softness(assembly, wells, between, attempt, go_on) {
                 Ok(found) if found.joins.iter().all(|well| between.contains(well)) => return Ok(found),
                 // over other wells: the way through softer bars may have been the shorter one only there
                 Ok(found) => match by_the_way.take() {
-                    Some(before) if (before.pass.energy - found.pass.energy).abs() <= SAME_PASS * found.pass.energy => {
+                    Some(before) if same_pass(&before, &found, wells) => {
                         return Ok(before);
                     }
                     before => by_the_way = Some(lower(found, before)),
@@ -153,7 +185,38 @@ pub fn barrier(
             }
         }
     }
-    by_the_way.ok_or(failed)
+    match by_the_way {
+        Some(found) => Ok(found),
+        None if own.is_finite() => held_strongly(assembly, wells, between, go_on).ok_or(failed),
+        None => Err(failed),
+    }
+}
+
+/// The barrier on a path in the sheet's own bars whose states are held ever more strongly: from a pass that is steep
+/// against the creases, as where wells and barrier are made by bars alone, states that are held weakly slide down.
+fn held_strongly(
+    assembly: &Assembly,
+    wells: &[Well],
+    between: [usize; 2],
+    go_on: &mut dyn FnMut() -> bool,
+) -> Option<Barrier> {
+    for power in 1..=STRONGEST {
+        let strength = string::STRENGTH * STRONGER.powi(power);
+        let attempt = Attempt { stiffness: assembly.bar_stiffness(), bend: 0, strength };
+        match from_softness(assembly, wells, between, attempt, go_on) {
+            Ok(found) => return Some(found),
+            Err(_) if go_on() => {}
+            Err(_) => break,
+        }
+    }
+    None
+}
+
+/// Whether two barriers have one pass: its energy, or its height where loads put the zero of the energy elsewhere, is the
+/// same.
+fn same_pass(a: &Barrier, b: &Barrier, wells: &[Well]) -> bool {
+    let height = b.pass.energy - wells[b.joins[0]].settled.energy;
+    (a.pass.energy - b.pass.energy).abs() <= SAME_PASS * b.pass.energy.abs().max(height)
 }
 
 /// The one with the lower pass.
@@ -161,16 +224,27 @@ fn lower(found: Barrier, other: Option<Barrier>) -> Barrier {
     other.filter(|other| other.pass.energy <= found.pass.energy).unwrap_or(found)
 }
 
-/// The barrier by way of bars of this stiffness, on a path that begins with this bend.
+/// How a path is sought.
+#[derive(Clone, Copy)]
+struct Attempt {
+    /// Stiffness of the bars.
+    stiffness: f64,
+    /// Number of the bend with which the path begins.
+    bend: u64,
+    /// How strongly its states are held.
+    strength: f64,
+}
+
+/// The barrier by way of a path that is sought like this.
 fn from_softness(
     assembly: &Assembly,
     wells: &[Well],
     between: [usize; 2],
-    (stiffness, bend): (f64, u64),
+    Attempt { stiffness, bend, strength }: Attempt,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
     let failed = |failure| BarrierError::Path { stiffness, failure };
-    let mut settler = MinimumTracker::new(&assembly.with_bars(stiffness), string::STRENGTH);
+    let mut settler = MinimumTracker::new(&assembly.with_bars(stiffness), strength);
     let mut soft = Vec::new();
     for well in between {
         let place = &wells[well].settled.place;
@@ -188,13 +262,14 @@ fn from_softness(
         string::stations(&settler, &row).into_iter().zip(&row).map(|(at, settled)| (at, settled.energy)).collect();
     let top = (1..row.len() - 1).max_by(|&a, &b| row[a].energy.total_cmp(&row[b].energy)).unwrap_or(0);
     let along: Vec<f64> = row[top + 1].rho.iter().zip(&row[top - 1].rho).map(|(a, b)| 0.25 * (a - b)).collect();
-    let first = index_one(assembly, stiffness, [top, top - 1, top + 1].map(|at| &row[at]))?;
+    let around = [top - 1, top, top + 1].map(|at| row[at].clone());
+    let first = near_top(assembly, stiffness, &mut settler, around, go_on)?;
     let Followed { pass, heights, singular } = followed(assembly, first, stiffness)?;
     let own =
         if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { assembly.bar_stiffness() };
     let ends = sides(&assembly.with_bars(own), &pass, &along, OPTIONS).map_err(failed)?;
-    let translations = Translations::new(assembly);
-    let number = |end: &Settled| which(wells, &end.relaxed.state.fold_angle, &translations);
+    let comparison = Comparison::new(assembly);
+    let number = |end: &Settled| which(wells, &end.relaxed.state, &comparison);
     let higher = between.iter().map(|well| wells[*well].settled.energy).fold(f64::NEG_INFINITY, f64::max);
     if !(pass.energy > higher) {
         return Err(BarrierError::TooLow { pass: pass.energy, well: higher });
@@ -203,8 +278,41 @@ fn from_softness(
         [Some(a), Some(b)] if a != b => {
             Ok(Barrier { between, joins: [a, b], pass, singular, heights, stiffness, path })
         }
-        _ => Err(BarrierError::LeadsElsewhere),
+        [Some(well), Some(_)] => Err(BarrierError::OneSided { pass: pass.energy, well }),
+        [None, _] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[1].energy }),
+        [_, None] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[0].energy }),
     }
+}
+
+/// Whether two wells have the same fold angles of creases and soft facets.
+fn same_shape(wells: &[Well], between: [usize; 2]) -> bool {
+    let [a, b] = between.map(|well| &wells[well].settled.rho);
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME_WELL_ANGLE_RAD)
+}
+
+/// The pass near the middle one of three neighbours in a row of states. Where Newton's method ends in none, or in a
+/// minimum next to it, the row is refined there.
+fn near_top(
+    assembly: &Assembly,
+    stiffness: f64,
+    settler: &mut MinimumTracker,
+    mut around: [Settled; 3],
+    go_on: &mut dyn FnMut() -> bool,
+) -> Result<Pass, BarrierError> {
+    let mut first = None;
+    for _ in 0..=REFINEMENTS {
+        let [before, top, after] = &around;
+        match index_one(assembly, stiffness, [top, before, after]) {
+            Ok(pass) => return Ok(pass),
+            Err(error @ (BarrierError::Index { found: 0, .. } | BarrierError::NoPass { .. })) => {
+                first.get_or_insert(error);
+            }
+            Err(error) => return Err(first.unwrap_or(error)),
+        }
+        let failed = |failure| BarrierError::Path { stiffness, failure };
+        around = string::refined(settler, around, &mut |_| go_on()).map_err(failed)?;
+    }
+    Err(first.unwrap_or(BarrierError::NotTried))
 }
 
 /// The pass next to the first of these states at which there is one.
@@ -218,7 +326,7 @@ fn index_one(assembly: &Assembly, stiffness: f64, near: [&Settled; 3]) -> Result
         };
         why.get_or_insert(reason);
     }
-    Err(why.unwrap_or(BarrierError::LeadsElsewhere))
+    Err(why.unwrap_or(BarrierError::NotTried))
 }
 
 /// A pass at the sheet's own stiffness, or as near to it as it is regular.

@@ -1,11 +1,13 @@
 //! Wells told apart by their fold angles: rigid motions change none of them, and the translations of a torus exchange
-//! them.
+//! them. Where pins make a difference between places of one shape ([`super::placement`]) they are told apart by these too.
 //!
 //! A translation counts where it leaves rest angles and locked angles as they are. Angles are not taken modulo whole
 //! turns, because the energy is not: a crease wound once more is another well, and passes through itself.
 
+use super::placement::Placement;
 use super::settle::Settled;
-use crate::model::Assembly;
+use crate::analysis::state::State;
+use crate::model::{Assembly, Hinges};
 use std::collections::HashMap;
 
 /// Largest difference of a fold angle between two finds of one well, in radians.
@@ -59,28 +61,41 @@ impl Translations {
 /// Whether rest angles and locks go over into themselves.
 fn unfelt(assembly: &Assembly, moved: &[usize]) -> bool {
     let terms = assembly.terms();
-    let same = |rest: &[f64]| {
-        let pairs = rest.iter().zip(moved).map(|(rest, &to)| [*rest, rest_of(assembly, to)]);
-        pairs.into_iter().all(|[a, b]| (a - b).abs() <= ROUNDING || (a.is_nan() && b.is_nan()))
+    let same = |hinges: &Option<Hinges>| {
+        let Some(Hinges { rest, .. }) = hinges else { return true };
+        let mut pairs = rest.iter().zip(moved).map(|(from, &to)| [*from, rest[to]]);
+        pairs.all(|[a, b]| (a - b).abs() <= ROUNDING || (a.is_nan() && b.is_nan()))
     };
     let locks: HashMap<usize, f64> = terms.locks.iter().copied().collect();
     let locked = |edge: usize, angle: f64| locks.get(&edge).is_some_and(|other| (other - angle).abs() <= ROUNDING);
-    terms.creases.as_ref().is_none_or(|hinges| same(&hinges.rest))
-        && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
+    same(&terms.creases) && same(&terms.facets) && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
 }
 
-fn rest_of(assembly: &Assembly, edge: usize) -> f64 {
-    assembly.terms().creases.as_ref().map_or(f64::NAN, |hinges| hinges.rest[edge])
+/// What tells whether two states are the same well.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    translations: Translations,
+    placement: Option<Placement>,
+}
+
+impl Comparison {
+    /// Of the states of a sheet.
+    pub fn new(assembly: &Assembly) -> Self {
+        Self { translations: Translations::new(assembly), placement: Placement::new(assembly) }
+    }
+
+    /// Whether two states are one.
+    fn same(&self, a: &State, b: &State) -> bool {
+        self.translations.distance(&a.fold_angle, &b.fold_angle) <= SAME_WELL_ANGLE_RAD
+            && self.placement.as_ref().is_none_or(|placement| placement.leads(&a.coordinates, &b.coordinates))
+    }
 }
 
 /// The wells among these states, sorted by energy.
-pub fn wells(found: impl Iterator<Item = Settled>, translations: &Translations) -> Vec<Well> {
+pub fn wells(found: impl Iterator<Item = Settled>, comparison: &Comparison) -> Vec<Well> {
     let mut wells: Vec<Well> = Vec::new();
     for settled in found {
-        let angles = &settled.relaxed.state.fold_angle;
-        let known = wells
-            .iter_mut()
-            .find(|well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME_WELL_ANGLE_RAD);
+        let known = wells.iter_mut().find(|well| comparison.same(&well.settled.relaxed.state, &settled.relaxed.state));
         match known {
             Some(well) => well.reached += 1,
             None => wells.push(Well { settled, reached: 1 }),
@@ -91,8 +106,6 @@ pub fn wells(found: impl Iterator<Item = Settled>, translations: &Translations) 
 }
 
 /// The number of the well that a state is.
-pub(crate) fn which(wells: &[Well], angles: &[f64], translations: &Translations) -> Option<usize> {
-    let same =
-        |well: &Well| translations.distance(&well.settled.relaxed.state.fold_angle, angles) <= SAME_WELL_ANGLE_RAD;
-    wells.iter().position(same)
+pub(crate) fn which(wells: &[Well], state: &State, comparison: &Comparison) -> Option<usize> {
+    wells.iter().position(|well| comparison.same(&well.settled.relaxed.state, state))
 }

@@ -9,7 +9,9 @@
 pub mod barrier;
 pub mod merge;
 pub(crate) mod pass;
+pub mod placement;
 pub mod rigid;
 pub mod settle;
 pub mod starts;
 pub(crate) mod string;
+pub(crate) mod work;

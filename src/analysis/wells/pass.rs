@@ -5,8 +5,10 @@
 //! descending from it on both sides.
 
 use super::merge::SAME_WELL_ANGLE_RAD;
-use super::settle::{MinimumTracker, Settled, StartState};
+use super::settle::{MinimumTracker, Settled};
 use super::string::STRENGTH;
+use super::work::Work;
+use crate::analysis::start_state::StartState;
 use crate::analysis::state::State;
 use crate::model::{Assembly, Gauge, Model};
 use crate::solver::{Failure, Options, Problem, Start, StationaryPoint, stationary_point};
@@ -22,6 +24,13 @@ const DESCENT_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 const STRONGER: i32 = 4;
 const WEAKER: f64 = 4.0;
 
+/// Of a careful descent: the most steps, the part of a push with which it begins, the longest step over the way from the
+/// pass, and the step in radians after which it is free.
+const CAREFUL_STEPS: usize = 300;
+const FIRST_PUSH: f64 = 0.1;
+const PART_OF_WAY: f64 = 0.5;
+const AT_REST_RAD: f64 = 1e-4;
+
 /// An equilibrium that Newton's method found.
 #[derive(Clone, Debug)]
 pub struct Pass {
@@ -31,7 +40,7 @@ pub struct Pass {
     pub state: State,
     /// Fold angles of the soft hinges.
     pub rho: Vec<f64>,
-    /// Its energy.
+    /// Its elastic energy less the work of loads from the drawn state.
     pub energy: f64,
     /// Negative eigenvalues of the energy's Hessian on what rigid bars leave free: one at a pass.
     pub negative_eigenvalues: usize,
@@ -52,17 +61,17 @@ pub(crate) fn equilibrium(assembly: &Assembly, from: &StartState, options: Optio
     model.set_angles(&from.angles);
     let start = Start { x: model.rebase_gauge(from.coordinates.clone()), tension: Some(from.tension.clone()) };
     let found = stationary_point(&mut model, start, LONGEST_ANGLE_STEP_RAD, options)?;
-    Ok(pass(&model, found))
+    Ok(pass(&model, found, &Work::new(assembly)))
 }
 
-fn pass(model: &Model, found: StationaryPoint) -> Pass {
+fn pass(model: &Model, found: StationaryPoint, work: &Work) -> Pass {
     let state = State::new(model, &found.x, &found.tension);
     let mut rho = model.values(&found.x);
     rho.truncate(model.layout().soft.len());
     Pass {
         place: StartState { coordinates: state.coordinates.clone(), angles: model.angles(), tension: found.tension },
         rho,
-        energy: state.total(),
+        energy: state.total() - work.to(&state.coordinates),
         state,
         negative_eigenvalues: found.negative_eigenvalues,
         residual_force: found.residuals.force,
@@ -74,7 +83,8 @@ fn pass(model: &Model, found: StationaryPoint) -> Pass {
 /// Where the sheet goes from a pass when pushed along a change of its fold angles, and against it.
 ///
 /// A descent that is held too weakly steps across a steep pass: where one side leads over to the other, or both end in
-/// one state, both are held more strongly.
+/// one state, both are held more strongly; where that does not help, with steps that are short against the way from the
+/// pass.
 ///
 /// # Errors
 /// [`Failure`] of the relaxation that ends the descent.
@@ -95,10 +105,46 @@ pub(crate) fn sides(
         let sound = matches!(&ends, Ok(((a, true), (b, true))) if !same(a, b));
         last = ends.map(|(one, other)| [one.0, other.0]);
         if sound {
-            break;
+            return last;
         }
     }
-    last
+    let careful = |sign: f64| {
+        let push: Vec<f64> = along.iter().map(|turn| sign * turn).collect();
+        careful_descent(assembly, pass, &push, options)
+    };
+    match (careful(1.0), careful(-1.0)) {
+        (Ok(one), Ok(other)) if !same(&one, &other) => Ok([one, other]),
+        _ => last,
+    }
+}
+
+/// Descends from a pass to the side of a push with steps that are short against the way from the pass, so that none leads
+/// across it, however steep the pass and however near the well on the other side.
+fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Options) -> Result<Settled, Failure> {
+    let mut strength = STRENGTH * 100f64.powi(STRONGER);
+    let mut settler = MinimumTracker::new(assembly, strength);
+    let mut target: Vec<f64> = pass.rho.iter().zip(push).map(|(rho, turn)| rho + FIRST_PUSH * turn).collect();
+    let (mut place, mut energy) = (pass.place.clone(), pass.energy);
+    for _ in 0..CAREFUL_STEPS {
+        let found = settler.near(&place, &target, DESCENT_OPTIONS, &mut |_| true).map_err(|error| error.failure)?;
+        let (step, way) = (largest_difference(&found.rho, &target), largest_difference(&target, &pass.rho));
+        if step <= PART_OF_WAY * way && found.energy <= energy {
+            (place, energy) = (found.place, found.energy);
+            target = found.rho;
+            if step <= AT_REST_RAD && strength <= STRENGTH {
+                break;
+            }
+            strength = (strength / WEAKER).max(STRENGTH);
+        } else {
+            strength *= WEAKER * WEAKER;
+        }
+        settler = MinimumTracker::new(assembly, strength);
+    }
+    settler.free(&place, false, options, &mut |_| true).map_err(|error| error.failure)
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// Whether two ends have the same fold angles.

@@ -4,21 +4,13 @@
 //! `E + (m/2) sum k (rho - target)^2`. Up to a constant that is the energy of creases `1 + m` times as stiff with the rest angles
 //! `(rest + m target)/(1 + m)`: no other term is needed, and nothing is more difficult for rigid bars.
 
+use super::work::Work;
 use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
+use crate::analysis::restored;
+use crate::analysis::start_state::StartState;
 use crate::analysis::state::State;
 use crate::model::{Assembly, Gauge, Model};
 use crate::solver::{Options, Problem, Start, Step};
-
-/// A state from which relaxations begin.
-#[derive(Clone, Debug)]
-pub struct StartState {
-    /// All coordinates.
-    pub coordinates: Vec<f64>,
-    /// Angles of all hinges, from which angles continue.
-    pub angles: Vec<f64>,
-    /// Tensions of the stiff measures.
-    pub tension: Vec<f64>,
-}
 
 /// A settled state.
 #[derive(Clone, Debug)]
@@ -27,7 +19,7 @@ pub struct Settled {
     pub place: StartState,
     /// Fold angles of the soft hinges.
     pub rho: Vec<f64>,
-    /// Energy, what holds it near its target left out.
+    /// Elastic energy less the work of loads from the drawn state; what holds it near its target is left out.
     pub energy: f64,
     /// The relaxation.
     pub relaxed: Relaxed,
@@ -41,6 +33,7 @@ pub struct MinimumTracker {
     strength: f64,
     rest: Vec<f64>,
     stiffness: Vec<f64>,
+    work: Work,
 }
 
 impl MinimumTracker {
@@ -51,13 +44,19 @@ impl MinimumTracker {
         held.scale_soft(&vec![1.0 + strength; count]);
         let springs = free.soft().iter().flat_map(|term| (0..term.len()).map(move |k| term.spring(k)));
         let (rest, stiffness) = springs.map(|spring| (spring.rest, spring.stiffness)).unzip();
-        Self { free, held, strength, rest, stiffness }
+        Self { free, held, strength, rest, stiffness, work: Work::new(assembly) }
     }
 
     /// The drawn state.
     pub(crate) fn drawn(&self) -> StartState {
         let coordinates = self.free.coordinates(&self.free.start());
         StartState { coordinates, angles: self.free.angles(), tension: vec![0.0; self.free.compliance().len()] }
+    }
+
+    /// The state with these coordinates, whose angles continue from these fold angles of all edges; with no tensions.
+    pub(crate) fn at(&self, coordinates: Vec<f64>, fold_angle: &[f64]) -> StartState {
+        let tension = vec![0.0; self.free.compliance().len()];
+        StartState { coordinates, angles: restored::angles(&self.free, fold_angle), tension }
     }
 
     /// Stiffness of the soft hinges: the metric.
@@ -112,7 +111,8 @@ impl MinimumTracker {
         rho.truncate(self.rest.len());
         let creases = rho.iter().zip(&self.rest).zip(&self.stiffness).map(|((rho, rest), k)| k * (rho - rest).powi(2));
         let stiff = relaxed.tension.iter().zip(model.compliance()).map(|(t, c)| c * t * t);
-        let energy = 0.5 * (creases.sum::<f64>() + stiff.sum::<f64>());
+        let elastic = 0.5 * (creases.sum::<f64>() + stiff.sum::<f64>());
+        let energy = elastic - self.work.to(&relaxed.state.coordinates);
         let (coordinates, tension) = (relaxed.state.coordinates.clone(), relaxed.tension.clone());
         Settled { place: StartState { coordinates, angles: model.angles(), tension }, rho, energy, relaxed }
     }

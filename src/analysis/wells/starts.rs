@@ -2,12 +2,19 @@
 //!
 //! Every crease is given a rest angle at random around the drawn one, every coordinate is moved at random (flat sheets
 //! have to leave the flat state), a screw gets an axis at random, and the sheet relaxes with bars of at most a thousand
-//! times the stiffness of its creases, so that no folded state is out of reach. From there it relaxes with its own bars
+//! times the stiffness of its creases, so that no folded state is out of reach; on pins that hold its shape, of a
+//! thousand, a hundred and ten times by turns. From there it relaxes with its own bars
 //! and rest angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the
 //! seed and its own number alone.
+//!
+//! Random angles are those around another state if one is given. The first start then is that state itself, so that it
+//! is among the wells if it is one, and a screw keeps the axis that it has there.
 
-use super::settle::{MinimumTracker, Settled, StartState};
-use crate::model::{Assembly, Boundary};
+use super::placement::holds_shape;
+use super::settle::{MinimumTracker, Settled};
+use crate::analysis::start_state::StartState;
+use crate::analysis::state::State;
+use crate::model::{Assembly, Boundary, Gauge};
 use crate::numerics::parallel;
 use crate::numerics::random::symmetric;
 use crate::solver::{Failure, Options};
@@ -17,6 +24,8 @@ use std::f64::consts::PI;
 
 /// Stiffness of bars over that of creases while the sheet is crumpled.
 const SOFT: f64 = 1e3;
+/// The same for a sheet whose shape pins hold, by turns: they make bars resist that a free sheet would not stretch.
+const SOFT_ON_PINS: [f64; 3] = [1e3, 1e2, 1e1];
 /// Random part of a coordinate, over the mean edge.
 const MOVED: f64 = 0.05;
 /// When a crumpled state is good enough to be released.
@@ -31,7 +40,7 @@ pub struct Starts {
     pub count: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Largest distance of a random rest angle from the drawn fold angle, in radians.
+    /// Largest distance of a random rest angle from the fold angle in the state around which starts are, in radians.
     pub spread: f64,
     /// When a well is converged.
     pub options: Options,
@@ -50,8 +59,20 @@ pub enum Outcome {
     Interrupted,
 }
 
-/// Relaxes from all starts, in their order. `go_on` is asked after each and returns false to stop.
+/// Relaxes from all starts around the drawn state, in their order. `go_on` is asked after each and returns false to stop.
 pub fn relax_all(assembly: &Assembly, starts: &Starts, go_on: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
+    relax_around(assembly, None, starts, go_on)
+}
+
+/// Relaxes from all starts around a state, in their order; around the drawn one if none is given. `go_on` is asked after
+/// each and returns false to stop.
+pub fn relax_around(
+    assembly: &Assembly,
+    state: Option<&StartState>,
+    starts: &Starts,
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Vec<Outcome> {
+    let centre = state.map(|state| Centre::new(assembly, state));
     parallel::map_with_state(
         starts.count,
         || true,
@@ -59,7 +80,7 @@ pub fn relax_all(assembly: &Assembly, starts: &Starts, go_on: &(dyn Fn() -> bool
             if !*going {
                 return Outcome::Interrupted;
             }
-            let found = one(assembly, starts, number);
+            let found = one(assembly, centre.as_ref(), starts, number);
             *going = go_on();
             found
         },
@@ -93,18 +114,41 @@ fn reason_of(failure: &Failure) -> &'static str {
     }
 }
 
-fn one(assembly: &Assembly, starts: &Starts, number: usize) -> Outcome {
+/// The state around which starts are random.
+struct Centre<'a> {
+    state: &'a StartState,
+    /// Fold angle of every edge, continued through pi; NaN where there is no hinge.
+    angles: Vec<f64>,
+}
+
+impl<'a> Centre<'a> {
+    fn new(assembly: &Assembly, state: &'a StartState) -> Self {
+        let mut model = assembly.model(Gauge::Held);
+        model.set_angles(&state.angles);
+        let x = model.start_from(state.coordinates.clone());
+        Self { state, angles: State::new(&model, &x, &state.tension).fold_angle }
+    }
+}
+
+fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number: usize) -> Outcome {
+    if let Some(Centre { state, .. }) = centre.filter(|_| number == 0) {
+        let found = released(assembly, state, true, starts.options);
+        if matches!(found, Outcome::Well(_)) {
+            return found;
+        }
+    }
     let mut numbers = ChaCha8Rng::seed_from_u64(starts.seed);
     numbers.set_stream(number as u64);
     let mut within = |size: f64| size * symmetric(&mut numbers);
     let mut assembly = assembly.clone();
-    if assembly.boundary() == Boundary::Screw {
+    if assembly.boundary() == Boundary::Screw && centre.is_none() {
         assembly = assembly.with_axis(within(0.5 * PI));
     }
+    let softness = if holds_shape(&assembly) { SOFT_ON_PINS[number % SOFT_ON_PINS.len()] } else { SOFT };
     let mut last = Outcome::Saddle;
     for _ in 0..TRIES {
-        last = match crumpled(&assembly, starts.spread, &mut within) {
-            Ok(place) => released(&assembly, &place, starts.options),
+        last = match crumpled(&assembly, centre, (starts.spread, softness), &mut within) {
+            Ok(place) => released(&assembly, &place, false, starts.options),
             Err(failure) => Outcome::Failed(failure),
         };
         if matches!(last, Outcome::Well(_)) {
@@ -114,9 +158,9 @@ fn one(assembly: &Assembly, starts: &Starts, number: usize) -> Outcome {
     last
 }
 
-/// What the sheet does with its own bars and rest angles.
-fn released(assembly: &Assembly, from: &StartState, options: Options) -> Outcome {
-    match MinimumTracker::new(assembly, 1.0).free(from, false, options, &mut |_| true) {
+/// What the sheet does with its own bars and rest angles, from a state whose tensions are used if `warm`.
+fn released(assembly: &Assembly, from: &StartState, warm: bool, options: Options) -> Outcome {
+    match MinimumTracker::new(assembly, 1.0).free(from, warm, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),
         Ok(found) if found.relaxed.negative_eigenvalues > 0 => Outcome::Saddle,
         Ok(found) => Outcome::Well(Box::new(found)),
@@ -124,14 +168,28 @@ fn released(assembly: &Assembly, from: &StartState, options: Options) -> Outcome
 }
 
 /// A state near random fold angles. One in which the relaxation did not converge is as good a start as any, where it is a state.
-fn crumpled(assembly: &Assembly, spread: f64, within: &mut dyn FnMut(f64) -> f64) -> Result<StartState, Failure> {
+fn crumpled(
+    assembly: &Assembly,
+    centre: Option<&Centre<'_>>,
+    (spread, softness): (f64, f64),
+    within: &mut dyn FnMut(f64) -> f64,
+) -> Result<StartState, Failure> {
+    let angles = centre.map_or(assembly.drawn_angles(), |centre| &centre.angles);
     let mut terms = assembly.terms().clone();
     if let Some(creases) = &mut terms.creases {
-        creases.rest = assembly.drawn_angles().iter().map(|angle| angle + within(spread)).collect();
-        terms.bars = terms.bars.map(|bars| bars.min(SOFT * creases.stiffness));
+        creases.rest = angles.iter().map(|angle| angle + within(spread)).collect();
+        let soft = assembly.bar_stiffness().min(softness * creases.stiffness.softest());
+        if let Some(bars) = &mut terms.bars {
+            bars.stiffness = soft.into();
+        }
+        // loads that the sheet bears could fold soft bars over
+        terms.loads.clear();
     }
     let mut settler = MinimumTracker::new(&assembly.with_terms(terms), 1.0);
-    let mut from = settler.drawn();
+    let mut from = match centre {
+        Some(Centre { state, angles }) => settler.at(state.coordinates.clone(), angles),
+        None => settler.drawn(),
+    };
     shake(assembly, &mut from.coordinates, within);
     match settler.free(&from, false, CRUMPLED, &mut |_| true) {
         Ok(found) => Ok(found.place),

@@ -47,6 +47,29 @@ pub(crate) fn string(
     Ok(row)
 }
 
+/// Three states of a row around its highest one, twice as near to each other. The given ones are neighbours in the row.
+///
+/// # Errors
+/// [`Failure`] of a relaxation between them, or [`Failure::Interrupted`].
+pub(crate) fn refined(
+    settler: &mut MinimumTracker,
+    [before, top, after]: [Settled; 3],
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<[Settled; 3], Failure> {
+    let mut middle = |other: &Settled| {
+        let target = between(&top.rho, &other.rho, 0.5);
+        settler.near(&top.place, &target, STRING_OPTIONS, observe).map_err(|error| error.failure)
+    };
+    let (first, second) = (middle(&before)?, middle(&after)?);
+    Ok(if first.energy > top.energy.max(second.energy) {
+        [before, first, top]
+    } else if second.energy > top.energy {
+        [top, second, after]
+    } else {
+        [first, top, second]
+    })
+}
+
 /// The largest change of fold angles in a bend.
 fn sideways(settler: &MinimumTracker, [from, to]: [&Settled; 2], bend: u64) -> Vec<f64> {
     let nothing = vec![0.0; from.rho.len()];

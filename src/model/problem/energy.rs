@@ -1,6 +1,7 @@
 //! The model as the problem that the solver minimises: energies, gaps and their derivatives, summed over the terms.
 
-use super::Model;
+use super::{Model, POSE};
+use crate::model::Site;
 use crate::model::element::{Elements, Local};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
@@ -10,6 +11,9 @@ use std::sync::Arc;
 /// Angle in radians whose torque is the least force to which residuals are relative: if every hinge is closer to rest
 /// than that, residuals are relative to the force of a milliradian instead of to round-off.
 const LEAST_ANGLE: f64 = 1e-3;
+/// Gap of a stiff measure, relative to its natural size, below which its force counts as that of this gap where no soft
+/// element and no load gives forces a size.
+const LEAST_GAP: f64 = 1e-3;
 
 /// Returns the terms, each with the number of its first element among the elements of all terms.
 fn numbered(terms: &[Box<dyn Elements>]) -> impl Iterator<Item = (usize, &dyn Elements)> {
@@ -39,7 +43,7 @@ impl Problem for Model {
 
     fn energy(&self, x: &[f64]) -> f64 {
         let all = self.coordinates(x);
-        let mut energy = -self.loads.iter().zip(&all).map(|(f, x)| f * x).sum::<f64>();
+        let mut energy = -self.load_factor * self.load_displacement(&all);
         for term in &self.soft {
             let cost = |k: usize, energy: &mut f64| {
                 let spring = term.spring(k);
@@ -52,33 +56,37 @@ impl Problem for Model {
     }
 
     fn gaps(&self, x: &[f64]) -> Vec<f64> {
-        let all = self.coordinates(x);
+        let generalised = self.generalised(x);
+        let all = &generalised[..self.points()];
         let mut gaps = Vec::with_capacity(self.compliance.len());
         for term in &self.stiff {
-            let gap = |k: usize, gap: &mut f64| *gap = term.value(k, &self.domain, &all) - term.spring(k).rest;
+            let gap = |k: usize, gap: &mut f64| *gap = term.value(k, &self.domain, all) - term.spring(k).rest;
             parallel::compute_and_consume(term.len(), gap, |_, gap| gaps.push(*gap));
         }
+        gaps.extend(self.supports.iter().map(|support| support.value(&generalised) - support.rest));
         gaps
     }
 
     fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
-        let all = self.coordinates(x);
+        let all = self.generalised(x);
         out.clear(kind);
         self.linearize_loads(&all, out);
         self.linearize_soft(&all, kind, out);
         self.linearize_stiff(&all, tension, out);
+        self.linearize_supports(&all, tension, out);
     }
 
     fn accept(&mut self, x: &mut [f64]) {
-        let mut all = self.coordinates(x);
+        let mut all = self.generalised(x);
+        let points = self.points();
         for term in self.soft.iter_mut().chain(&mut self.stiff) {
-            term.accept(&self.domain, &all);
+            term.accept(&self.domain, &all[..points]);
         }
-        let moved = self.domain.recentre(&mut all, self.mean_edge);
-        let units = self.units_at(&all);
+        let moved = self.domain.recentre(&mut all[..points], self.mean_edge);
+        let units = self.units_at(&all[..points]);
         if moved || units != self.units {
             self.units = units;
-            x.copy_from_slice(&self.unknowns(&all));
+            x.copy_from_slice(&self.extracted(&all));
         }
         if moved {
             self.base = all;
@@ -95,14 +103,44 @@ impl Problem for Model {
 }
 
 impl Model {
+    /// Displacement of the loads, each along its force and weighted by it, from the origin; the energy falls by it times
+    /// the factor of the loads.
+    pub(super) fn load_displacement(&self, all: &[f64]) -> f64 {
+        self.loads.iter().zip(all).map(|(f, x)| f * x).sum()
+    }
+
     fn linearize_loads(&self, all: &[f64], out: &mut Linearization) {
-        for (coordinate, force) in self.loads.iter().enumerate() {
-            out.energy -= force * all[coordinate];
-            out.largest_force = out.largest_force.max(force.abs());
+        if self.loads.is_empty() {
+            return;
         }
-        if !self.loads.is_empty() {
-            self.free.iter().zip(&mut out.gradient).for_each(|(&k, g)| *g -= self.loads[k as usize]);
+        out.energy -= self.load_factor * self.load_displacement(all);
+        let largest = max_abs(&self.loads);
+        out.largest_force = out.largest_force.max((self.load_factor * largest).abs());
+        let free = self.free.iter().zip(&mut out.gradient).filter(|(k, _)| **k < self.loads.len() as u32);
+        free.for_each(|(&k, g)| *g -= self.load_factor * self.loads[k as usize]);
+        let first = self.soft_elements();
+        let mut local = Local::default();
+        for (number, (part, forces)) in self.loaded_parts().into_iter().enumerate() {
+            self.bodies.load(part, &forces, all, &mut local);
+            Self::scale(&mut local, &self.pose_units());
+            let (gradient, hessian) = (&local.gradient, &local.hessian);
+            // its measure is the potential itself, of stiffness zero
+            out.add_soft(first + number, &SoftElement { stiffness: 0.0, force: self.load_factor, gradient, hessian });
         }
+    }
+
+    /// Sizes of the unknowns of a pose in units of its coordinates.
+    fn pose_units(&self) -> [f64; POSE] {
+        let angle = 1.0 / self.mean_edge;
+        [1.0, 1.0, 1.0, angle, angle, angle]
+    }
+
+    /// Converts derivatives by coordinates to derivatives by unknowns, of which one is this many units of its
+    /// coordinate.
+    fn scale(local: &mut Local, units: &[f64]) {
+        local.gradient.iter_mut().zip(units).for_each(|(g, unit)| *g *= unit);
+        let places = (0..units.len()).flat_map(|row| (0..=row).map(move |column| (row, column)));
+        local.hessian.iter_mut().zip(places).for_each(|(h, (row, column))| *h *= units[row] * units[column]);
     }
 
     fn linearize_soft(&self, all: &[f64], kind: HessianKind, out: &mut Linearization) {
@@ -136,6 +174,32 @@ impl Model {
             };
             parallel::compute_and_consume(term.len(), self.locals(term, all, true), add);
         }
+        if self.soft.is_empty() && self.loads.is_empty() {
+            out.largest_force = out.largest_force.max(self.least_force(out));
+        }
+    }
+
+    /// Returns the force to which those of a model without soft elements and loads are relative where all of them
+    /// vanish, as in a truss without stress: that of the softest stiff measure at the gap [`LEAST_GAP`]. Without measures
+    /// of finite stiffness forces have no size, and none is too large.
+    fn least_force(&self, at: &Linearization) -> f64 {
+        let springs = self.compliance.iter().zip(&self.gap_scale).enumerate().filter(|(_, (c, _))| **c > 0.0);
+        let force = |(measure, (compliance, scale)): (usize, (&f64, &f64))| {
+            max_abs(&at.jacobian[self.layout.stiff.range(measure)]) * LEAST_GAP * scale / compliance
+        };
+        springs.map(force).fold(f64::MAX, f64::min)
+    }
+
+    fn linearize_supports(&self, all: &[f64], tension: &[f64], out: &mut Linearization) {
+        let first = self.compliance.len() - self.supports.len();
+        for (measure, support) in (first..).zip(&self.supports) {
+            out.gaps[measure] = support.value(all) - support.rest;
+            let range = self.layout.stiff.range(measure);
+            for ((k, factor), entry) in support.terms.iter().zip(&mut out.jacobian[range]) {
+                *entry = factor * self.unit(*k);
+                out.largest_force = out.largest_force.max((*entry * tension[measure]).abs());
+            }
+        }
     }
 
     /// Returns a function that puts the measure of an element of this term, with its derivatives by the unknowns,
@@ -146,9 +210,19 @@ impl Model {
         all: &'a [f64],
         want_hessian: bool,
     ) -> impl Fn(usize, &mut Local) + Sync + Send + 'a {
+        let points = &all[..self.points()];
         move |k, local| {
-            term.local(k, &self.domain, all, want_hessian, local);
+            term.local(k, &self.domain, points, want_hessian, local);
             local.measure_in(&self.units);
+            if self.bodies.touch(term.sites(k)) {
+                self.bodies.pull(term.sites(k), all, local);
+                let of_point = |site: &Site| match self.bodies.part_of(site.vertex) {
+                    Some(_) => self.pose_units().to_vec(),
+                    None => vec![1.0; 3],
+                };
+                let units: Vec<f64> = term.sites(k).iter().flat_map(of_point).collect();
+                Self::scale(local, &units);
+            }
         }
     }
 }

@@ -25,7 +25,9 @@ impl Model {
             return vec![];
         }
         let held: Vec<bool> = number.iter().map(|k| *k == FIXED).collect();
-        let motions = gauge::rigid_motions(&self.domain, &self.base, true);
+        let motions = self.rigid_motions(&self.base, true);
+        let mut held = held;
+        held.resize(motions.len(), true);
         gauge::choose(&motions, &held).into_iter().map(|k| number[k]).collect()
     }
 
@@ -56,7 +58,8 @@ impl Model {
     /// Rotates the whole sheet by the shortest way to where its loads do the most work. Returns the decrease of the
     /// energy.
     pub(super) fn turn_along_loads(&mut self, x: &mut [f64]) -> f64 {
-        if self.turning.is_empty() || !matches!(self.domain, Domain::Patch) {
+        let supported = !self.bodies.is_empty() || !self.supports.is_empty();
+        if self.turning.is_empty() || supported || !matches!(self.domain, Domain::Patch) {
             return 0.0;
         }
         let all = self.coordinates(x);

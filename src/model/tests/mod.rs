@@ -2,6 +2,7 @@
 
 mod domains;
 mod measures;
+mod parts;
 mod terms;
 mod whole;
 

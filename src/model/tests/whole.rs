@@ -24,16 +24,18 @@ fn sheet(boundary: Boundary) -> Assembly {
 fn terms(assembly: &Assembly, numbers: &mut Numbers, creases: f64, facets: f64) -> Terms {
     let (tiling, angles) = (assembly.tiling(), assembly.drawn_angles());
     let rest: Vec<f64> = angles.iter().map(|angle| angle + numbers.within(0.2)).collect();
-    let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
+    let hinges = |stiffness: f64| Some(Hinges { stiffness: stiffness.into(), rest: rest.clone() });
     let folding = (0..tiling.edges.len()).filter(|&e| tiling.edges[e].kind == EdgeKind::Crease);
     let patch = !tiling.periodic;
     Terms {
-        bars: Some(30.0),
+        bars: Some(30.0f64.into()),
         creases: hinges(creases),
         facets: hinges(facets),
         locks: folding.take(2).map(|edge| (edge, angles[edge] + 0.1)).collect(),
         pins: if patch { vec![(4, [true, false, true])] } else { vec![] },
         loads: if patch { vec![(0, Vec3::new(0.1, 0.2, -0.3)), (8, Vec3::new(-0.1, -0.2, 0.3))] } else { vec![] },
+        guides: if patch { vec![(2, Vec3::new(0.6, 0.0, 0.8))] } else { vec![] },
+        parts: vec![],
     }
 }
 
@@ -43,7 +45,7 @@ fn linearized(model: &Model, x: &[f64], tension: &[f64], kind: HessianKind) -> L
     at
 }
 
-fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
+pub(super) fn check(model: &mut Model, numbers: &mut Numbers, what: &str) {
     let x: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.05)).collect();
     // the sizes of a screw's unknowns belong to this state
     let x = model.start_from(model.coordinates(&x));
@@ -131,9 +133,9 @@ fn residuals_have_their_units() {
     let tiling = assembly.tiling();
     let model_with_rest = |off: f64| {
         let rest: Vec<f64> = assembly.drawn_angles().iter().map(|angle| angle + off).collect();
-        let hinges = |stiffness| Some(Hinges { stiffness, rest: rest.clone() });
+        let hinges = |stiffness: f64| Some(Hinges { stiffness: stiffness.into(), rest: rest.clone() });
         let (creases, facets) = (hinges(2.0), hinges(RIGID));
-        let terms = Terms { bars: Some(RIGID), creases, facets, ..Terms::default() };
+        let terms = Terms { bars: Some(RIGID.into()), creases, facets, ..Terms::default() };
         assembly.with_terms(terms).model(Gauge::Held)
     };
     let unit = |off: f64| {

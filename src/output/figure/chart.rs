@@ -165,27 +165,7 @@ impl<'a> Plot<'a> {
     }
 
     fn grid(&self, canvas: &mut Canvas) {
-        let paper = canvas.paper();
-        let Area { low: [left, top], high: [right, bottom] } = self.frame;
-        for tick in self.axes[0].ticks() {
-            let x = left + tick.part * (right - left);
-            canvas.line(&[[x, top], [x, bottom]], Style::line(GRID, 1.0));
-            canvas.text_within(paper, [([x, bottom + 25.0], Font::SMALL.middle())], &tick.label);
-        }
-        for tick in self.axes[1].ticks() {
-            let y = bottom - tick.part * (bottom - top);
-            canvas.line(&[[left, y], [right, y]], Style::line(GRID, 1.0));
-            canvas.text_within(paper, [([left - 10.0, y + 5.5], Font::SMALL.end())], &tick.label);
-        }
-        canvas.line(&[[left, top], [left, bottom], [right, bottom]], Style::line(INK, 1.4));
-        let name = |axis: &Axis, name: &str| match axis.rounding() {
-            Some(rounding) => format!("{} ({rounding})", axis.named(name)),
-            None => axis.named(name),
-        };
-        let [x, y] = &self.axes;
-        let middle = [0.5 * (left + right), 0.5 * (top + bottom)];
-        canvas.text([middle[0], bottom + 56.0], &name(x, &self.chart.x), Font::SMALL.middle());
-        canvas.text([left - ROOM[0] + 26.0, middle[1]], &name(y, &self.chart.y), Font::SMALL.middle().turned());
+        grid(canvas, self.frame, &self.axes, [&self.chart.x, &self.chart.y]);
     }
 
     /// Draws the line and the marks of a series; the more of the later series coincide with it, the wider they are.
@@ -224,8 +204,33 @@ impl<'a> Plot<'a> {
     }
 }
 
+/// Draws the grid, the ticks and the names of two axes around a frame.
+pub(super) fn grid(canvas: &mut Canvas, frame: Area, axes: &[Axis; 2], names: [&str; 2]) {
+    let paper = canvas.paper();
+    let Area { low: [left, top], high: [right, bottom] } = frame;
+    for tick in axes[0].ticks() {
+        let x = left + tick.part * (right - left);
+        canvas.line(&[[x, top], [x, bottom]], Style::line(GRID, 1.0));
+        canvas.text_within(paper, [([x, bottom + 25.0], Font::SMALL.middle())], &tick.label);
+    }
+    for tick in axes[1].ticks() {
+        let y = bottom - tick.part * (bottom - top);
+        canvas.line(&[[left, y], [right, y]], Style::line(GRID, 1.0));
+        canvas.text_within(paper, [([left - 10.0, y + 5.5], Font::SMALL.end())], &tick.label);
+    }
+    canvas.line(&[[left, top], [left, bottom], [right, bottom]], Style::line(INK, 1.4));
+    let name = |axis: &Axis, name: &str| match axis.rounding() {
+        Some(rounding) => format!("{} ({rounding})", axis.named(name)),
+        None => axis.named(name),
+    };
+    let [x, y] = axes;
+    let middle = [0.5 * (left + right), 0.5 * (top + bottom)];
+    canvas.text([middle[0], bottom + 56.0], &name(x, names[0]), Font::SMALL.middle());
+    canvas.text([left - ROOM[0] + 26.0, middle[1]], &name(y, names[1]), Font::SMALL.middle().turned());
+}
+
 /// Sets text next to a point where it overlaps nothing.
-fn beside(canvas: &mut Canvas, room: Area, [x, y]: PaperPoint, words: &str, colour: Colour) {
+pub(super) fn beside(canvas: &mut Canvas, room: Area, [x, y]: PaperPoint, words: &str, colour: Colour) {
     let font = Font::SMALL.colour(colour);
     let level = |by: f64| [([x + 12.0, y + by], font), ([x - 12.0, y + by], font.end()), ([x, y + by], font.middle())];
     let nearer = [-10.0, 20.0, 5.5].into_iter().flat_map(level);

@@ -15,6 +15,7 @@ mod contour;
 mod hidden;
 mod palette;
 mod projection;
+pub mod reaction;
 pub mod sheet;
 pub mod sphere;
 mod style;

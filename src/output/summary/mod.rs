@@ -9,6 +9,7 @@ mod keys;
 mod kinds;
 mod landscape;
 mod modes;
+mod path;
 mod relax;
 mod surface;
 mod trace;
@@ -18,6 +19,7 @@ pub use bloch::{BlochSummary, DecaySummary, RegionSummary, ZeroLineSummary};
 pub use branches::{BranchesSummary, RaySummary};
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::ModesSummary;
+pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
 pub use relax::{EnergySummary, IterationSummary, MethodName, RelaxSummary};
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
@@ -127,6 +129,8 @@ pub enum StudyResult {
     Bloch(BlochSummary),
     /// `kind = "wells"`.
     Wells(WellsSummary),
+    /// `kind = "path"`.
+    Path(PathSummary),
     /// `kind = "trace"`.
     Trace(TraceSummary),
 }

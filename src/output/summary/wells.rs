@@ -35,7 +35,7 @@ pub struct FailedStartsSummary {
 /// A stable state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WellSummary {
-    /// Energy.
+    /// Elastic energy; under loads less their work from the drawn state.
     pub energy: f64,
     /// How many starts reached it.
     pub reached: usize,

@@ -69,6 +69,8 @@ pub enum StudyKind {
     Bloch(BlochSpec),
     /// Stable states and the barriers between them.
     Wells(WellsSpec),
+    /// Equilibria along a driven quantity.
+    Path(PathSpec),
 }
 
 /// `kind = "relax"`.
@@ -167,6 +169,8 @@ pub struct SurfaceSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModesSpec {
+    /// The state whose modes are wanted; left out: the drawn one.
+    pub start: Option<Located<StartSpec>>,
     /// How many of the lowest eigenvalues of the energy's Hessian; left out: none.
     pub eigenvalues: Option<Located<usize>>,
 }
@@ -218,12 +222,14 @@ pub struct BlochSpec {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WellsSpec {
+    /// The state around which random starts are crumpled; left out: the drawn one.
+    pub start: Option<Located<StartSpec>>,
     /// Number of random starts; left out: 64.
     pub starts: Option<Located<Count>>,
     /// Seed of their random numbers; left out: 0.
     #[serde(default)]
     pub seed: u64,
-    /// Largest distance of the random fold angles towards which the sheet is crumpled from the drawn ones, in radians; left out: pi.
+    /// Largest distance of the random fold angles towards which the sheet is crumpled from those of the start, in radians; left out: pi.
     pub spread: Option<Located<Positive>>,
     /// Pairs of wells between which the barrier is wanted, each `[a, b]`: wells are numbered by rising energy, from 0. Left out: none.
     #[serde(default)]
@@ -239,7 +245,38 @@ pub struct WellsSpec {
     pub max_curvature: Option<Located<Positive>>,
 }
 
+/// `kind = "path"`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PathSpec {
+    /// Name of the drive; may be left out where the scene has exactly one.
+    pub drive: Option<Located<String>>,
+    /// Where it starts: "drawn" or an earlier study; left out: as drawn.
+    pub start: Option<Located<StartSpec>>,
+    /// Bound on both scaled residuals.
+    pub tolerance: Option<Located<Positive>>,
+    /// Longest step in arc length.
+    pub max_step: Option<Located<Positive>>,
+    /// Whether branches that leave at branch points are followed too.
+    #[serde(default)]
+    pub switch: bool,
+    /// The first of these that is met ends a branch; `curvature` is not for patches.
+    pub stop: Option<Located<StopSpec>>,
+}
+
 impl StudyKind {
+    /// Returns the state from which the study starts; `None` if the scene names none, or the kind has no such key.
+    pub(crate) fn start(&self) -> Option<&Located<StartSpec>> {
+        match self {
+            Self::Relax(spec) => spec.start.as_ref(),
+            Self::Bloch(spec) => spec.start.as_ref(),
+            Self::Trace(_) | Self::Surface(_) | Self::Branches(_) | Self::Landscape(_) => None,
+            Self::Modes(spec) => spec.start.as_ref(),
+            Self::Wells(spec) => spec.start.as_ref(),
+            Self::Path(spec) => spec.start.as_ref(),
+        }
+    }
+
     /// The word in the scene.
     pub(crate) fn name(&self) -> &'static str {
         match self {
@@ -251,6 +288,7 @@ impl StudyKind {
             Self::Landscape(_) => "landscape",
             Self::Bloch(_) => "bloch",
             Self::Wells(_) => "wells",
+            Self::Path(_) => "path",
         }
     }
 }

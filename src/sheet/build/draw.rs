@@ -23,6 +23,11 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         of.iter().map(|corners| corners.iter().map(&mut number).collect()).collect()
     };
     let (faces, holes) = (lists(&sheet.polygons), lists(&sheet.holes));
+    let named = |(name, corners): (&String, &Vec<Corner>)| {
+        let list = corners.iter().filter_map(|corner| numbers.get(&sheet.uncut(*corner)).copied());
+        (name.clone(), list.collect())
+    };
+    let names = sheet.names.iter().map(named).collect();
     let assignments = assignments(sheet, &faces);
     Drawing {
         title: sheet.title.clone(),
@@ -33,6 +38,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         lattice: sheet.lattice,
         holes,
         assignments,
+        names,
         first: 0,
     }
 }

@@ -3,6 +3,7 @@
 use crate::math::Vec3;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::error::DrawnEdge;
+use std::collections::BTreeMap;
 
 /// A mesh as a file draws it, before it becomes a sheet.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +24,8 @@ pub struct Drawing {
     pub holes: Vec<Vec<usize>>,
     /// Assignments of drawn edges; the ends are indices into `coords`.
     pub assignments: Vec<([usize; 2], Assignment)>,
+    /// Named lists of vertices, as indices into `coords`.
+    pub names: BTreeMap<String, Vec<usize>>,
     /// Number that the file gives to its first vertex and face: 0 in FOLD, 1 in OBJ. Only messages use it.
     pub first: usize,
 }

@@ -41,6 +41,8 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
     }
     let mut polygons: Vec<_> = drawn.faces.iter().map(|face| identified.corners(face)).collect();
     let holes: Vec<_> = drawn.holes.iter().map(|hole| identified.corners(hole)).collect();
+    let named = |(name, list): (&String, &Vec<usize>)| (name.clone(), identified.corners(list));
+    let names = drawn.names.iter().map(named).collect();
     let cut_from = cuts::cut(drawn, &mut identified, &mut polygons)?;
     let sides = edges::sides(drawn, &polygons)?;
     edges::check_rims(drawn, &sides, &holes)?;
@@ -57,6 +59,7 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
         edges,
         holes,
         cut_from,
+        names,
         ..Sheet::default()
     };
     assign::assign(drawn, &identified, &mut sheet)?;

@@ -84,7 +84,7 @@ fn assignments(source: &Source, keys: &Keys, count: usize) -> Result<Vec<Assignm
     rows.iter().enumerate().map(read).collect()
 }
 
-fn check_length(
+pub(super) fn check_length(
     source: &Source,
     value: &RawValue,
     key: &'static str,

@@ -25,4 +25,10 @@ pub(super) struct Keys<'a> {
     pub(super) lattice: Option<&'a RawValue>,
     #[serde(borrow, rename = "foldwell:holes")]
     pub(super) holes: Option<&'a RawValue>,
+    #[serde(borrow, rename = "foldwell:stiffness")]
+    pub(super) stiffness: Option<&'a RawValue>,
+    #[serde(borrow, rename = "foldwell:bar_stiffness")]
+    pub(super) bar_stiffness: Option<&'a RawValue>,
+    #[serde(borrow, rename = "foldwell:names")]
+    pub(super) names: Option<&'a RawValue>,
 }

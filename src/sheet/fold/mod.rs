@@ -1,4 +1,6 @@
-//! FOLD 1.2 files with the additional keys `foldwell:lattice` and `foldwell:holes` for periodic sheets.
+//! FOLD 1.2 files with the additional keys `foldwell:lattice` and `foldwell:holes` for periodic sheets, and
+//! `foldwell:stiffness` and `foldwell:bar_stiffness` for stiffnesses of edges.
+//! `foldwell:names` for named lists of vertices.
 //!
 //! One cell is drawn in full: the vertices of the cell and the copies that its faces need. If `faces_vertices` is
 //! absent, the faces are rebuilt from `edges_vertices`, seen along z. Angles in these files are in degrees, valley
@@ -26,6 +28,7 @@ mod keys;
 mod locate;
 mod read;
 mod record;
+mod stiffness;
 mod write;
 
 pub use read::{parse, read};

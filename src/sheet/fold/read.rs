@@ -8,7 +8,7 @@ use serde_json::value::RawValue;
 use super::edges::{self, Edges};
 use super::keys::Keys;
 use super::locate::Source;
-use super::record;
+use super::{record, stiffness};
 use crate::math::Vec3;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, build_identified, planar};
@@ -49,6 +49,7 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
     read_faces(&source, &keys, &mut drawn, &mut rows, &edges)?;
     read_holes(&source, &keys, &mut drawn, &mut rows)?;
+    drawn.names = read_names(&source, &keys, drawn.coords.len())?;
     let locate = |defect| located(&source, &keys, &rows, &edges, defect);
     if keys.faces_vertices.is_none() {
         drawn.faces = planar::faces_of(&drawn, &edges.ends).map_err(locate)?;
@@ -57,6 +58,7 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     }
     let (mut sheet, identified) = build_identified(&drawn).map_err(locate)?;
     edges::check(&source, &edges, &sheet, &identified)?;
+    sheet.stiffness = stiffness::read(&source, &keys, &edges, &sheet, &identified)?;
     sheet.record = record::read(&source)?;
     Ok(sheet)
 }
@@ -143,6 +145,18 @@ fn read_holes<'a>(
     let holes = rows.holes.iter().enumerate().map(|(h, row)| source.indices(row, || format!("opening {h}"), count));
     drawn.holes = holes.collect::<Result<_, _>>()?;
     Ok(())
+}
+
+/// Reads the named lists of vertices of a mesh with `count` drawn vertices.
+fn read_names(source: &Source, keys: &Keys, count: usize) -> Result<BTreeMap<String, Vec<usize>>, SheetError> {
+    let Some(value) = keys.names else { return Ok(BTreeMap::new()) };
+    let right = "an object of names and lists of vertices, {\"top\": [0, 1, 2], ...}";
+    let lists: BTreeMap<String, &RawValue> = source.typed(value, || "`foldwell:names`".into(), right)?;
+    let read = |(name, list): (String, &RawValue)| {
+        let vertices = source.indices(list, || format!("the list `{name}` of `foldwell:names`"), count)?;
+        Ok((name, vertices))
+    };
+    lists.into_iter().map(read).collect()
 }
 
 /// Removes rebuilt faces that are listed as openings.

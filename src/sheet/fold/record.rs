@@ -6,6 +6,7 @@ use serde_json::Value;
 use serde_json::value::RawValue;
 
 use super::locate::Source;
+use super::stiffness::{BARS, HINGES};
 use crate::sheet::error::SheetError;
 use crate::sheet::record::FileRecord;
 
@@ -22,7 +23,7 @@ const KEPT: [&str; 8] = [
 ];
 
 /// Keys that define the sheet, or that are written anew.
-const USED: [&str; 11] = [
+const USED: [&str; 14] = [
     "file_spec",
     "file_creator",
     "file_title",
@@ -34,6 +35,9 @@ const USED: [&str; 11] = [
     "edges_foldAngle",
     "foldwell:lattice",
     "foldwell:holes",
+    HINGES,
+    BARS,
+    "foldwell:names",
 ];
 
 /// Keys whose values follow from other keys.

@@ -50,6 +50,30 @@ fn round_trip() {
     }
 }
 
+/// Claim: named lists of vertices are read as corners of the cell, copies included, and written again. Source: vertex 4
+/// of the file is the first copy that the file draws, whose corner is known by its position.
+#[test]
+fn names_are_kept() {
+    let named = STAR.trim_start().replacen('{', r#"{ "foldwell:names": {"rim": [4, 0], "tip": [2]},"#, 1);
+    let sheet = parse(&named, "star.fold").unwrap();
+    let place = |corner: &crate::sheet::Corner| sheet.position(*corner);
+    let file: serde_json::Value = serde_json::from_str(STAR).unwrap();
+    let drawn = |v: usize| [0, 1, 2].map(|k| file["vertices_coords"][v][k].as_f64().unwrap());
+    assert_eq!(sheet.names["tip"].len(), 1);
+    for (corner, v) in sheet.names["rim"].iter().zip([4, 0]).chain([(&sheet.names["tip"][0], 2)]) {
+        let apart = place(corner) - crate::math::Vec3::from(drawn(v));
+        assert!(apart.norm() < 1e-12, "vertex {v}: {apart}");
+    }
+    assert_eq!(parse(&write(&sheet), "again.fold").unwrap(), sheet);
+    for (wrong, message) in [
+        (r#"{ "foldwell:names": [1],"#, "`foldwell:names` is `[1]`; it should be an object"),
+        (r#"{ "foldwell:names": {"rim": [99]},"#, "the list `rim` of `foldwell:names` names vertex 99"),
+    ] {
+        let error = parse(&STAR.trim_start().replacen('{', wrong, 1), "star.fold").unwrap_err().to_string();
+        assert!(error.contains(message), "{error}");
+    }
+}
+
 /// Claim: the faces rebuilt from the edges of a drawing are its faces, up to order and first corner.
 #[test]
 fn faces_rebuilt_from_edges() {

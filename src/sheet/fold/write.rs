@@ -3,6 +3,7 @@
 use std::fmt::{Display, Write};
 
 use super::record::{ATTRIBUTES, CLASSES};
+use super::stiffness::{BARS, HINGES};
 use crate::sheet::assigned::FLAT;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, draw, drawn_sides, edges_by_drawn_name};
@@ -35,6 +36,11 @@ pub fn write(sheet: &Sheet) -> String {
     if !drawn.holes.is_empty() {
         field(&mut text, "foldwell:holes", &rows(drawn.holes.iter().map(numbers)));
     }
+    if !drawn.names.is_empty() {
+        let list = |(name, list): (&String, &Vec<usize>)| format!("{}: {}", quoted(name), numbers(list));
+        let lists = drawn.names.iter().map(list).collect::<Vec<_>>().join(",\n    ");
+        field(&mut text, "foldwell:names", &format!("{{\n    {lists}\n  }}"));
+    }
     field(&mut text, "vertices_coords", &rows(drawn.coords.iter().map(|x| numbers(x.iter()))));
     write_edges(&mut text, sheet, &drawn);
     let _ = write!(text, "  \"faces_vertices\": {}\n}}\n", rows(drawn.faces.iter().map(numbers)));
@@ -57,6 +63,21 @@ fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
     field(text, "edges_vertices", &rows(sides.iter().map(|(ends, _)| numbers(ends))));
     field(text, "edges_assignment", &format!("[{}]", letters.join(", ")));
     field(text, "edges_foldAngle", &format!("[{}]", angles.join(", ")));
+    for (key, given) in [(HINGES, &sheet.stiffness.hinges), (BARS, &sheet.stiffness.bars)] {
+        if !given.is_empty() {
+            let values = edges.iter().map(|edge| stiffness(edge.and_then(|edge| given.get(&edge.key).copied())));
+            field(text, key, &format!("[{}]", values.collect::<Vec<_>>().join(", ")));
+        }
+    }
+}
+
+/// Returns a stiffness as JSON text, which has no infinite numbers.
+fn stiffness(given: Option<f64>) -> String {
+    match given {
+        None => "null".to_owned(),
+        Some(rigid) if rigid.is_infinite() => "\"inf\"".to_owned(),
+        Some(stiffness) => format!("{stiffness:?}"),
+    }
 }
 
 /// Returns the corner that each drawn vertex represents.

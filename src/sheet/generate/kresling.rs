@@ -13,36 +13,43 @@ use crate::sheet::cell::{Corner, Sheet};
 const SOURCE: &str = "Kresling pattern: B. Kresling, Natural twist buckling in shells: from the hawkmoth's bellows to \
                       the deployable Kresling-pattern and cylindrical Miura-ori, IASS-IACM (2008).";
 
-/// A finite ring of Kresling's pattern about the z axis, open at both ends and without lattice.
+/// A finite ring of Kresling's pattern about the z axis without lattice, open at both ends or closed to a drum by a
+/// polygon at either end.
 ///
 /// Vertex `(k, j)` is at radius `radius`, angle `2 pi k / sides + j twist` and height `j height`. Each storey has the
 /// edges `(k, j)`-`(k, j+1)` and the diagonals `(k+1, j)`-`(k, j+1)`; face normals point outwards. A twist of `pi /
 /// sides` makes all triangles isosceles: that is the Yoshimura pattern.
+///
+/// With radius `r`, height `h` and twist `t` the edges between two polygons have the length `sqrt(h^2 + 2 r^2 (1 - cos
+/// t))`, and the diagonals the same with `t - 2 pi / sides` in place of `t`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Kresling {
     /// Number of sides of the polygons, 3 to 1000. Default 6.
     pub sides: usize,
-    /// Number of storeys, 1 to 1000. Default 3.
-    pub levels: usize,
+    /// Number of storeys, 1 to 1000. Default 3, and 1 for a closed drum.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub levels: Option<usize>,
     /// Height of a storey. Default 0.8.
     pub height: f64,
     /// Rotation of a storey against the one below in radians, in `(-pi, pi)`. Default pi/6.
     pub twist: f64,
     /// Radius of the polygons. Default 1.
     pub radius: f64,
+    /// Whether the lowest and the highest polygon are faces, so that the sheet is a closed drum. Default false.
+    pub closed: bool,
 }
 
 impl Default for Kresling {
     fn default() -> Self {
-        Self { sides: 6, levels: 3, height: 0.8, twist: FRAC_PI_6, radius: 1.0 }
+        Self { sides: 6, levels: None, height: 0.8, twist: FRAC_PI_6, radius: 1.0, closed: false }
     }
 }
 
 impl Kresling {
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let sides = count("sides", self.sides, 3, 1000)?;
-        let levels = count("levels", self.levels, 1, 1000)?;
+        let levels = count("levels", self.levels.unwrap_or(if self.closed { 1 } else { 3 }), 1, 1000)?;
         let (height, radius) = (length("height", self.height)?, length("radius", self.radius)?);
         let twist = between("twist", self.twist, -PI, PI)?;
         let vertex = |[k, j]: [usize; 2]| {
@@ -55,15 +62,21 @@ impl Kresling {
             let (left, right, over, across) = (at(k, j), at(k + 1, j), at(k, j + 1), at(k + 1, j + 1));
             [vec![left, right, over], vec![right, across, over]]
         };
+        let mut polygons: Vec<Vec<Corner>> = storeys.all().flat_map(pair).collect();
+        if self.closed {
+            polygons.push((0..sides).rev().map(|k| at(k, 0)).collect());
+            polygons.push((0..sides).map(|k| at(k, levels)).collect());
+        }
         let parts = Parts {
-            title: "kresling",
+            title: if self.closed { "closed kresling" } else { "kresling" },
             source: SOURCE,
             vertices: VertexGrid { size: [sides, levels + 1] }.all().map(vertex).collect(),
             lattice: None,
-            polygons: storeys.all().flat_map(pair).collect(),
+            polygons,
         };
+        let closed = if self.closed { ", closed = true" } else { "" };
         parts.sheet(format!(
-            "sides = {sides}, levels = {levels}, height = {height}, twist = {twist}, radius = {radius}."
+            "sides = {sides}, levels = {levels}, height = {height}, twist = {twist}, radius = {radius}{closed}."
         ))
     }
 }

@@ -19,6 +19,7 @@ mod miura;
 mod parts;
 mod random;
 mod square_twist;
+mod truss;
 mod waterbomb;
 mod yoshimura;
 
@@ -35,6 +36,7 @@ pub use kresling::Kresling;
 pub use miura::{Miura, MiuraPatch};
 pub use random::{Random, RandomDevelopable};
 pub use square_twist::SquareTwist;
+pub use truss::Truss;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
@@ -52,10 +54,12 @@ pub enum Pattern {
     Waterbomb(Waterbomb),
     /// One cell of the Yoshimura pattern.
     Yoshimura(Yoshimura),
-    /// A ring of Kresling's pattern.
+    /// A ring of Kresling's pattern, open or closed to a drum.
     Kresling(Kresling),
     /// One cell of square twists.
     SquareTwist(SquareTwist),
+    /// The two-bar truss of von Mises.
+    Truss(Truss),
     /// A random cell that cannot be flattened.
     Random(Random),
     /// A random flat cell.
@@ -73,6 +77,7 @@ impl Pattern {
             "yoshimura",
             "kresling",
             "square-twist",
+            "truss",
             "random",
             "random-developable",
         ]
@@ -105,6 +110,7 @@ pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
         Pattern::Yoshimura(p) => p.sheet(),
         Pattern::Kresling(p) => p.sheet(),
         Pattern::SquareTwist(p) => p.sheet(),
+        Pattern::Truss(p) => p.sheet(),
         Pattern::Random(p) => p.sheet(),
         Pattern::RandomDevelopable(p) => p.sheet(),
     }

@@ -93,13 +93,68 @@ fn random_cells() {
     assert_ne!(sheet(r#"{"pattern": "random", "seed": 1}"#).vertices, sheet(r#"{"pattern": "random"}"#).vertices);
 }
 
-/// Claim: every pattern has the Euler characteristic of its surface: 0 for a torus and a ring, 1 for a disc.
+/// Claim: every pattern has the Euler characteristic of its surface: 0 for a torus and a ring, 1 for a disc, 2
+/// for a closed drum.
 #[test]
 fn euler_characteristics() {
     for name in Pattern::names() {
         let info = Info::new(&generate(&Pattern::named(name).unwrap()).unwrap());
-        assert_eq!(info.euler_characteristic, i64::from(*name == "miura-patch"), "{name}");
+        assert_eq!(info.euler_characteristic, i64::from(["miura-patch", "truss"].contains(name)), "{name}");
         assert_eq!(info.maxwell_count_screw.is_some(), info.periodic);
+    }
+    let drum = Info::new(&sheet(r#"{"pattern": "kresling", "closed": true, "levels": 2}"#));
+    assert_eq!((drum.euler_characteristic, drum.boundary, drum.polygons), (2, 0, 26));
+}
+
+/// Claim: the closed drum has its polygons at both ends with normals that point outwards, and the bars between them
+/// have the lengths `sqrt(h^2 + 2 r^2 (1 - cos t))` and the same with `t - 2 pi / n`. Source: chord of a circle and
+/// Pythagoras' theorem. Tolerance: rounding of coordinates below 4.
+#[test]
+fn closed_drums_have_the_lengths_of_their_parameters() {
+    for (n, r, h, t) in [(6, 1.0, 1.2, 1.9), (5, 2.5, 0.7, -0.4), (3, 1.0, 1.0, 0.5)] {
+        let json = format!(
+            r#"{{"pattern": "kresling", "closed": true, "sides": {n}, "radius": {r}, "height": {h}, "twist": {t}}}"#
+        );
+        let drum = sheet(&json);
+        assert_eq!((drum.vertices.len(), drum.polygons.len()), (2 * n, 2 * n + 2));
+        let chord = |angle: f64| 2.0 * r * r * (1.0 - libm::cos(angle));
+        let side = 2.0 * PI / n as f64;
+        for edge in &drum.edges {
+            let [i, j] = [edge.key.i, edge.key.j];
+            let length = (drum.vertices[j] - drum.vertices[i]).norm();
+            let expected = match (i < n, j < n) {
+                (true, false) if j - n == i => (h * h + chord(t)).sqrt(),
+                (true, false) => (h * h + chord(t - side)).sqrt(),
+                (false, true) => panic!("edges run upwards"),
+                // sides and diagonals of the end polygons
+                _ => chord(side * (j as f64 - i as f64)).sqrt(),
+            };
+            assert!((length - expected).abs() < 1e-14 * (1.0 + r + h), "{n} sides, edge {i} {j}: {length} {expected}");
+        }
+        for (polygon, up) in [(2 * n, -1.0), (2 * n + 1, 1.0)] {
+            let x: Vec<Vec3> = drum.polygons[polygon].iter().map(|&c| drum.position(c)).collect();
+            assert_eq!(x.len(), n);
+            assert!((x[1] - x[0]).cross(&(x[2] - x[1])).normalize().z * up > 1.0 - 1e-12);
+        }
+    }
+    assert_eq!(sheet(r#"{"pattern": "kresling", "closed": true, "levels": 2}"#).vertices.len(), 18);
+}
+
+/// Claim: the truss has two bars of length `sqrt(w^2 + h^2)` and one of `2 w` between its supports. Tolerance:
+/// rounding.
+#[test]
+fn the_truss_has_three_bars() {
+    let cases: [(&str, f64, f64); 2] =
+        [(r#"{"pattern": "truss"}"#, 1.0, 0.3), (r#"{"pattern": "truss", "half_span": 2.0, "height": 1.5}"#, 2.0, 1.5)];
+    for (json, w, h) in cases {
+        let truss = sheet(json);
+        assert_eq!((truss.vertices.len(), truss.edges.len(), truss.triangles.len()), (3, 3, 1));
+        for edge in &truss.edges {
+            let length = (truss.vertices[edge.key.j] - truss.vertices[edge.key.i]).norm();
+            let expected = if [edge.key.i, edge.key.j] == [0, 2] { 2.0 * w } else { w.hypot(h) };
+            assert!((length - expected).abs() < 1e-15 * expected, "{edge:?}");
+            assert_eq!(edge.kind, EdgeKind::Boundary);
+        }
     }
 }
 
@@ -126,6 +181,8 @@ fn bad_parameters() {
         (r#"{"pattern": "waterbomb", "b": 0}"#, "`b` is 0; it should be above 0"),
         (r#"{"pattern": "yoshimura", "fold": -0.1}"#, "`fold` is -0.1; it should be at least 0"),
         (r#"{"pattern": "kresling", "sides": 2}"#, "`sides` is 2; it should be from 3 to 1000"),
+        (r#"{"pattern": "kresling", "closed": true, "levels": 0}"#, "`levels` is 0; it should be from 1 to 1000"),
+        (r#"{"pattern": "truss", "height": 0}"#, "`height` is 0; it should be above 0"),
         (r#"{"pattern": "square-twist", "twist": 0}"#, "`twist` is 0; it should be above 0"),
         (r#"{"pattern": "random", "jitter": 0.25}"#, "`jitter` is 0.25; it should be at least 0 and below 0.25"),
         (r#"{"pattern": "random-developable", "size": [0, 2]}"#, "`size[0]` is 0; it should be from 1 to 1000"),

@@ -81,7 +81,7 @@ impl Trial {
         let [bars, creases] = self.stiffness;
         let polygons = drawn.tiling().facets().next().is_some();
         let terms = Terms {
-            facets: polygons.then(|| Hinges { stiffness: RIGID, rest: drawn.drawn_angles().to_vec() }),
+            facets: polygons.then(|| Hinges { stiffness: RIGID.into(), rest: drawn.drawn_angles().to_vec() }),
             locks: self.lock.into_iter().collect(),
             ..Terms::bars_and_creases(bars, creases, self.rest_angles(&drawn))
         };

@@ -1,4 +1,4 @@
-//! The energy as an engine of trajectories: relaxations with a crease driven along a rigid trajectory.
+//! The energy as an engine of trajectories: relaxations with a crease locked along a rigid trajectory.
 //!
 //! At every state of the trajectory the crease that moves fastest there is locked at its angle, and the sheet relaxes at its own
 //! stiffness from where the last relaxation ended, moved on by the same amount again. Steps that suit the fold angles may be too
@@ -19,7 +19,7 @@ use crate::solver::{Failure, Options, Step};
 use std::f64::consts::TAU;
 use thiserror::Error;
 
-/// A driven crease is kept while it moves at least this part as fast as the fastest.
+/// The crease that is locked stays the same while it moves at least this part as fast as the fastest.
 const FAST_ENOUGH: f64 = 0.5;
 
 /// Most times that a step is halved.
@@ -37,12 +37,12 @@ const INTERPOLATED: f64 = 0.05;
 
 /// A relaxed state beside a rigid one.
 #[derive(Clone, Debug)]
-pub struct Driven {
+pub struct StateAlong {
     /// The equilibrium.
     pub relaxed: Relaxed,
     /// Fold angles of all edges, continuous along the trajectory; zero where there is no hinge.
     pub angles: Vec<f64>,
-    /// The driven crease.
+    /// The crease that was locked.
     pub crease: usize,
     /// Largest difference of a fold angle to the rigid state.
     pub error: f64,
@@ -50,17 +50,17 @@ pub struct Driven {
 
 /// The relaxations beside a trajectory.
 #[derive(Clone, Debug)]
-pub struct Drive {
+pub struct RelaxedTrajectory {
     /// One state for every state of the trajectory but the first, which is drawn, and the last where it closes; fewer
     /// where one failed.
-    pub states: Vec<Driven>,
+    pub states: Vec<StateAlong>,
     /// Why the next one failed.
-    pub failure: Option<DriveFailure>,
+    pub failure: Option<AlongFailure>,
 }
 
 /// Why there is no relaxed state beside a rigid one.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum DriveFailure {
+pub enum AlongFailure {
     /// The relaxation failed.
     #[error(transparent)]
     Relaxation(#[from] Failure),
@@ -72,7 +72,7 @@ pub enum DriveFailure {
     },
 }
 
-impl Drive {
+impl RelaxedTrajectory {
     /// Largest difference of a fold angle to the rigid trajectory; `None` where no state was compared.
     pub fn error(&self) -> Option<f64> {
         worst(self.states.iter().map(|state| state.error))
@@ -90,11 +90,11 @@ pub struct CylinderErrors {
     pub theta: f64,
 }
 
-/// Compares the cylinders of a drive with those of its trajectory; `None` for a finite sheet, and where there is no state to compare.
-pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, drive: &Drive) -> Option<CylinderErrors> {
+/// Compares the cylinders of relaxations with those of its trajectory; `None` for a finite sheet, and where there is no state to compare.
+pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, relaxed: &RelaxedTrajectory) -> Option<CylinderErrors> {
     let mut most = CylinderErrors::default();
-    for (rigid, driven) in traced.states.iter().skip(1).zip(&drive.states) {
-        let (shape, found) = (rigid.shape.as_ref()?, &driven.relaxed.state.coordinates);
+    for (rigid, state) in traced.states.iter().skip(1).zip(&relaxed.states) {
+        let (shape, found) = (rigid.shape.as_ref()?, &state.relaxed.state.coordinates);
         let found = cylinder(&drawn.domain, &drawn.coordinates, found)?;
         let strain = found.strain.iter().zip(&shape.strain).map(|(a, b)| (a - b).abs());
         let theta = [1.0, -1.0].map(|way| {
@@ -105,30 +105,35 @@ pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, drive: &Drive) -> Option<
         most.strain = strain.fold(most.strain, larger);
         most.theta = larger(most.theta, theta[0].min(theta[1]));
     }
-    (!drive.states.is_empty()).then_some(most)
+    (!relaxed.states.is_empty()).then_some(most)
 }
 
 /// Relaxes beside every state of a trajectory. `observe` sees every accepted step and returns false to stop.
-pub fn drive(assembly: &Assembly, options: Options, traced: &Traced, observe: &mut dyn FnMut(&Step) -> bool) -> Drive {
-    let mut drive = Drive { states: Vec::new(), failure: None };
+pub fn relax_along(
+    assembly: &Assembly,
+    options: Options,
+    traced: &Traced,
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> RelaxedTrajectory {
+    let mut relaxed = RelaxedTrajectory { states: Vec::new(), failure: None };
     let mut track = Track { assembly, options, angles: Vec::new(), crease: None, known: Vec::new() };
     let closed = usize::from(matches!(traced.end, End::Closed(_)));
-    let Some((drawn, rest)) = traced.states[..traced.states.len() - closed].split_first() else { return drive };
+    let Some((drawn, rest)) = traced.states[..traced.states.len() - closed].split_first() else { return relaxed };
     track.angles.clone_from(&drawn.angles);
     for (state, before) in rest.iter().zip(&traced.states) {
         let halvings = if track.known.is_empty() { 0 } else { HALVINGS };
         match track.reach((before, state), halvings, observe) {
-            Ok(driven) => drive.states.push(driven),
+            Ok(state) => relaxed.states.push(state),
             Err(failure) => {
-                drive.failure = Some(failure);
+                relaxed.failure = Some(failure);
                 break;
             }
         }
     }
-    drive
+    relaxed
 }
 
-/// The crease to drive: the last one while it is fast enough.
+/// The crease to lock: the last one while it is fast enough.
 fn fastest(rates: &[f64], last: Option<usize>) -> usize {
     let speed = |edge: &usize| rates[*edge].abs();
     let first = (0..rates.len()).max_by(|a, b| speed(a).total_cmp(&speed(b))).unwrap_or(0);
@@ -136,13 +141,17 @@ fn fastest(rates: &[f64], last: Option<usize>) -> usize {
 }
 
 /// The relaxed state, if its measures are all rigid only where it is the rigid one.
-fn same_state(assembly: &Assembly, driven: Driven, (from, to): (&Folded, &Folded)) -> Result<Driven, DriveFailure> {
+fn same_state(
+    assembly: &Assembly,
+    state: StateAlong,
+    (from, to): (&Folded, &Folded),
+) -> Result<StateAlong, AlongFailure> {
     let interpolated = if to.positions.is_empty() { INTERPOLATED * (to.arc_length - from.arc_length) } else { 0.0 };
     let most = f64::max(SAME_STATE, interpolated);
-    if assembly.terms().is_rigid() && !(driven.error <= most) {
-        return Err(DriveFailure::Elsewhere { apart: driven.error });
+    if assembly.terms().is_rigid() && !(state.error <= most) {
+        return Err(AlongFailure::Elsewhere { apart: state.error });
     }
-    Ok(driven)
+    Ok(state)
 }
 
 /// Whether relaxed angles made another step than the rigid ones.
@@ -153,7 +162,7 @@ fn goes_elsewhere(before: &[f64], now: &[f64], (from, to): (&Folded, &Folded)) -
     off.any(|off| !(off <= most))
 }
 
-/// A rigid state between two, as far as a relaxation is driven by it: its angles, by cubic interpolation, and their rates.
+/// A rigid state between two, as far as a relaxation needs it: its angles, by cubic interpolation, and their rates.
 fn between(from: &Folded, to: &Folded) -> Folded {
     let length = to.arc_length - from.arc_length;
     let ends = || from.angles.iter().zip(&to.angles).zip(from.rates.iter().zip(&to.rates));
@@ -185,13 +194,13 @@ impl Track<'_> {
         (from, to): (&Folded, &Folded),
         halvings: usize,
         observe: &mut dyn FnMut(&Step) -> bool,
-    ) -> Result<Driven, DriveFailure> {
+    ) -> Result<StateAlong, AlongFailure> {
         let before = self.clone();
         let found = self.step(to, fastest(&to.rates, self.crease), observe);
-        let found = found.and_then(|driven| same_state(self.assembly, driven, (from, to)));
+        let found = found.and_then(|state| same_state(self.assembly, state, (from, to)));
         let wrong = match &found {
-            Ok(driven) => goes_elsewhere(&before.angles, &driven.angles, (from, to)),
-            Err(failure) => *failure != DriveFailure::Relaxation(Failure::Interrupted),
+            Ok(state) => goes_elsewhere(&before.angles, &state.angles, (from, to)),
+            Err(failure) => *failure != AlongFailure::Relaxation(Failure::Interrupted),
         };
         if !wrong || halvings == 0 {
             return found;
@@ -207,7 +216,7 @@ impl Track<'_> {
         state: &Folded,
         crease: usize,
         observe: &mut dyn FnMut(&Step) -> bool,
-    ) -> Result<Driven, DriveFailure> {
+    ) -> Result<StateAlong, AlongFailure> {
         let mut terms = self.assembly.terms().clone();
         terms.locks.push((crease, state.angles[crease]));
         let mut model = self.assembly.with_terms(terms).model(Gauge::Held);
@@ -216,13 +225,13 @@ impl Track<'_> {
         let here = model.start_from(last);
         let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
         let relaxed = relax_from(&mut model, ahead, self.options, observe)
-            .map_err(|error| DriveFailure::Relaxation(error.failure))?;
+            .map_err(|error| AlongFailure::Relaxation(error.failure))?;
         self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());
         self.crease = Some(crease);
         self.angles = self.continued(&relaxed.state.coordinates);
         let off = |(a, b): (&f64, &f64)| (a - b).abs();
         let error = self.angles.iter().zip(&state.angles).map(off).fold(0.0, larger);
-        Ok(Driven { relaxed, angles: self.angles.clone(), crease, error })
+        Ok(StateAlong { relaxed, angles: self.angles.clone(), crease, error })
     }
 
     /// Coordinates if all goes on as between the last two states.

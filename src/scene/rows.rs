@@ -1,7 +1,7 @@
-//! Tables of rest angles and of fold-angle rates: CSV, one row per edge.
+//! Tables of values of edges: rest angles, fold-angle rates, stiffnesses and rest lengths. CSV, one row per edge.
 //!
-//! The header is `i,j,n1,n2,angle`, one row per crease of the cell, or `cell1,cell2,i,j,n1,n2,angle`, one row per
-//! crease of a patch; in tables of rates the last column is `rate`. Angles are in radians.
+//! The header is `i,j,n1,n2,angle`, one row per edge of the cell, or `cell1,cell2,i,j,n1,n2,angle`, one row per edge of a
+//! patch; the last column is `angle`, `rate`, `stiffness` or `length`. Angles are in radians, a stiffness may be `inf`.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -10,51 +10,67 @@ use super::error::{SceneError, TableFault};
 use super::values::directed_edge;
 use crate::sheet::EdgeKey;
 
+/// What the last column of a table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Column {
+    /// Rest angles in radians.
+    Angle,
+    /// Rates of fold angles.
+    Rate,
+    /// Stiffnesses: positive, and infinite for rigid elements.
+    Stiffness,
+    /// Rest lengths: positive.
+    Length,
+}
+
+impl Column {
+    /// Returns the names of all columns of a table.
+    fn names(self) -> [&'static str; 7] {
+        let last = match self {
+            Self::Angle => "angle",
+            Self::Rate => "rate",
+            Self::Stiffness => "stiffness",
+            Self::Length => "length",
+        };
+        ["cell1", "cell2", "i", "j", "n1", "n2", last]
+    }
+}
+
 /// A row of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct AngleRow {
-    /// The cell in which the crease `key` starts (at its vertex `key.i`); `None` if the row holds for every cell.
+pub(crate) struct TableRow {
+    /// The cell in which the edge `key` starts (at its vertex `key.i`); `None` if the row holds for every cell.
     pub cell: Option<[usize; 2]>,
     /// Canonical name of the edge.
     pub key: EdgeKey,
-    /// The angle in radians, or the rate.
+    /// The value of the last column.
     pub value: f64,
     /// Line of the table, for messages about it.
     pub line: usize,
 }
 
-/// Reads a table of rest angles, whose last column is `angle`.
+/// Reads a table with this last column.
 ///
 /// # Errors
 /// [`SceneError::Read`], or [`SceneError::Table`] with the line.
-pub(crate) fn read_angles(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
-    read(path, "angle")
-}
-
-/// Reads a table of fold-angle rates, whose last column is `rate`.
-///
-/// # Errors
-/// As [`read_angles`].
-pub(crate) fn read_rates(path: &Path) -> Result<Vec<AngleRow>, SceneError> {
-    read(path, "rate")
-}
-
-fn read(path: &Path, value: &'static str) -> Result<Vec<AngleRow>, SceneError> {
+pub(crate) fn read(path: &Path, value: Column) -> Result<Vec<TableRow>, SceneError> {
     let text = crate::sheet::text::read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
     parse(&text, value).map_err(|(line, fault)| SceneError::Table { path: path.into(), line, fault })
 }
 
 type Fault = (usize, TableFault);
 
-fn parse(text: &str, value: &'static str) -> Result<Vec<AngleRow>, Fault> {
+fn parse(text: &str, value: Column) -> Result<Vec<TableRow>, Fault> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text.lines().enumerate().map(|(at, line)| (at + 1, line)).filter(|(_, l)| !l.trim().is_empty());
     let (at, header) = lines.next().ok_or((1, TableFault::Empty))?;
-    let columns = columns(header, value).ok_or((at, TableFault::Header { found: header.trim().into(), value }))?;
+    let all = value.names();
+    let wrong = || (at, TableFault::Header { found: header.trim().into(), value: all[6] });
+    let columns = columns(header, &all).ok_or_else(wrong)?;
     let mut rows = Vec::new();
     let mut seen = HashMap::new();
     for (line, text) in lines {
-        let row = row(text, columns, line).map_err(|fault| (line, fault))?;
+        let row = row(text, (columns, value), line).map_err(|fault| (line, fault))?;
         if let Some(&first) = seen.get(&(row.cell, row.key)) {
             return Err((line, TableFault::Twice { first }));
         }
@@ -65,15 +81,12 @@ fn parse(text: &str, value: &'static str) -> Result<Vec<AngleRow>, Fault> {
 }
 
 /// Returns the columns of a header; `None` if it is not one of the two valid headers.
-fn columns(header: &str, value: &'static str) -> Option<&'static [&'static str]> {
-    const ANGLE: [&str; 7] = ["cell1", "cell2", "i", "j", "n1", "n2", "angle"];
-    const RATE: [&str; 7] = ["cell1", "cell2", "i", "j", "n1", "n2", "rate"];
-    let all: &'static [&'static str] = if value == "rate" { &RATE } else { &ANGLE };
+fn columns<'a>(header: &str, all: &'a [&'static str; 7]) -> Option<&'a [&'static str]> {
     let found: Vec<&str> = header.split(',').map(str::trim).collect();
-    [all, &all[2..]].into_iter().find(|columns| **columns == *found)
+    [&all[..], &all[2..]].into_iter().find(|columns| **columns == *found)
 }
 
-fn row(text: &str, columns: &[&'static str], line: usize) -> Result<AngleRow, TableFault> {
+fn row(text: &str, (columns, value): (&[&'static str], Column), line: usize) -> Result<TableRow, TableFault> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let (Some((last, names)), [numbers @ .., number]) = (columns.split_last(), fields.as_slice()) else {
         return Err(TableFault::Fields { found: fields.len(), expected: columns.len() });
@@ -83,12 +96,7 @@ fn row(text: &str, columns: &[&'static str], line: usize) -> Result<AngleRow, Ta
     }
     let whole: Vec<i64> =
         names.iter().zip(numbers).map(|(column, field)| integer(field, column)).collect::<Result<_, _>>()?;
-    let value = finite(number, last)?;
-    if *last == "angle"
-        && let Some([message, help]) = super::turns::fault(value)
-    {
-        return Err(TableFault::Turns { message, help });
-    }
+    let value = checked(number, last, value)?;
     let (cell, name) = match whole[..] {
         [c1, c2, i, j, n1, n2] => (Some([c1, c2]), [i, j, n1, n2]),
         [i, j, n1, n2] => (None, [i, j, n1, n2]),
@@ -96,16 +104,33 @@ fn row(text: &str, columns: &[&'static str], line: usize) -> Result<AngleRow, Ta
     };
     let (key, reversed) = directed_edge(name).map_err(|fault| TableFault::Edge(fault.to_string()))?;
     let cell = cell.map(|cell| start_cell(cell, name, reversed)).transpose()?;
-    Ok(AngleRow { cell, key, value, line })
+    Ok(TableRow { cell, key, value, line })
 }
 
 fn integer(field: &str, column: &'static str) -> Result<i64, TableFault> {
     field.parse().map_err(|_| TableFault::Whole { field: field.into(), column })
 }
 
-fn finite(field: &str, column: &'static str) -> Result<f64, TableFault> {
-    let number = field.parse().ok().filter(|x: &f64| x.is_finite());
-    number.ok_or_else(|| TableFault::Number { field: field.into(), column })
+/// Returns the number of a field, if the column allows it.
+fn checked(field: &str, column: &'static str, of: Column) -> Result<f64, TableFault> {
+    let number = field.parse::<f64>().ok();
+    match of {
+        Column::Angle | Column::Rate => {
+            let number = number.filter(|x| x.is_finite());
+            let number = number.ok_or_else(|| TableFault::Number { field: field.into(), column })?;
+            match super::turns::fault(number).filter(|_| of == Column::Angle) {
+                Some([message, help]) => Err(TableFault::Turns { message, help }),
+                None => Ok(number),
+            }
+        }
+        Column::Stiffness => {
+            number.filter(|k| *k > 0.0).ok_or_else(|| TableFault::Stiffness { field: field.into(), column })
+        }
+        Column::Length => {
+            let length = number.filter(|length| *length > 0.0 && length.is_finite());
+            length.ok_or_else(|| TableFault::Length { field: field.into(), column })
+        }
+    }
 }
 
 /// Returns the cell in which the canonical name starts: if the row names the edge in the opposite direction, this is
@@ -122,8 +147,8 @@ fn start_cell([c1, c2]: [i64; 2], [.., n1, n2]: [i64; 4], reversed: bool) -> Res
 mod tests {
     use super::*;
 
-    fn angles(text: &str) -> Result<Vec<AngleRow>, Fault> {
-        parse(text, "angle")
+    fn angles(text: &str) -> Result<Vec<TableRow>, Fault> {
+        parse(text, Column::Angle)
     }
 
     /// Claim: both headers are read. The backward name [2, 0, 1, 0] of cell (3, 4) starts at vertex 2 of (3, 4), so the
@@ -132,9 +157,9 @@ mod tests {
     fn rows_come_back_with_their_lines() {
         let key = EdgeKey { i: 0, j: 2, shift: [-1, 0] };
         let cell = angles("i,j,n1,n2,angle\r\n0, 2, -1, 0, 0.25\r\n").unwrap();
-        assert_eq!(cell, [AngleRow { cell: None, key, value: 0.25, line: 2 }]);
+        assert_eq!(cell, [TableRow { cell: None, key, value: 0.25, line: 2 }]);
         let patch = angles("cell1,cell2,i,j,n1,n2,angle\n\n3,4,2,0,1,0,-1e-3\n").unwrap();
-        assert_eq!(patch, [AngleRow { cell: Some([4, 4]), key, value: -1e-3, line: 3 }]);
+        assert_eq!(patch, [TableRow { cell: Some([4, 4]), key, value: -1e-3, line: 3 }]);
     }
 
     /// Claim: each error names its line.

@@ -1,0 +1,74 @@
+//! The errors of an analysis of modes.
+
+use crate::kinematics::KinematicsError;
+use crate::numerics::dense::DenseError;
+use crate::numerics::eigen::EigenError;
+use crate::numerics::factor::FactorError;
+use thiserror::Error;
+
+/// Models of up to this number of unknowns are decomposed dense where that gives eigenvalues that the iteration cannot give.
+pub(crate) const DENSE_EIGENVALUES: usize = 2000;
+/// Most eigenvalues that are asked of the iteration.
+pub const SPARSE_EIGENVALUES: usize = 256;
+/// Smallest ratio of kept to dropped singular values at which a rank is believed.
+pub(crate) const LEAST_GAP: f64 = 1e3;
+
+/// Why there are no modes.
+#[derive(Debug, Error)]
+pub enum ModesError {
+    /// A dense decomposition failed.
+    #[error(transparent)]
+    Dense(#[from] DenseError),
+    /// A factorization failed.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+    /// The closure conditions could not be set up.
+    #[error(transparent)]
+    Kinematics(#[from] KinematicsError),
+    /// The observer asked to stop.
+    #[error("stopped on request")]
+    Interrupted,
+    /// No rank stands out.
+    #[error(
+        "the rank of the rigidity matrix is not certain: kept over dropped singular value {gap:.1e}, less than {LEAST_GAP:e}"
+    )]
+    NoGap {
+        /// Smallest kept over largest dropped singular value.
+        gap: f64,
+    },
+    /// The iteration cannot give so many eigenvalues, and the model is too large to be decomposed dense.
+    #[error(
+        "{wanted} eigenvalues are too many for a model of {unknowns} coordinates: at most {SPARSE_EIGENVALUES} beyond {DENSE_EIGENVALUES}"
+    )]
+    TooManyEigenvalues {
+        /// Asked for.
+        wanted: usize,
+        /// Coordinates that nothing holds.
+        unknowns: usize,
+    },
+    /// Two ways to the rank disagree.
+    #[error("the rank of the rigidity matrix is {by_values} by singular values and {by_inertia} by counting signs")]
+    RankDisagrees {
+        /// Rank by singular values.
+        by_values: usize,
+        /// Rank by inertia.
+        by_inertia: usize,
+    },
+    /// Bars and closure disagree.
+    #[error("{bars} motions or stresses of the bars, but {closure} by the closure of the vertices")]
+    ClosureDisagrees {
+        /// From the rigidity matrix.
+        bars: usize,
+        /// From the closure conditions.
+        closure: usize,
+    },
+}
+
+impl From<EigenError> for ModesError {
+    fn from(error: EigenError) -> Self {
+        match error {
+            EigenError::Factor(error) => error.into(),
+            EigenError::Stopped => Self::Interrupted,
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! The lowest eigenvalues of the energy's Hessian at a state, dense or by iteration.
+//!
+//! The Hessian is that of the whole energy: tensions of bars add their geometric stiffness.
+
+use super::error::{DENSE_EIGENVALUES, ModesError, SPARSE_EIGENVALUES};
+use crate::model::Model;
+use crate::numerics::factor::FactorError;
+use crate::numerics::sparse::symmetric_product;
+use crate::numerics::vector::{dot, normalize};
+use crate::numerics::{DenseMatrix, dense, eigen};
+use crate::solver::{HessianKind, Linearization, Problem, Tangent};
+
+/// Rigidity matrices of more rows or columns than this are not decomposed dense.
+pub const DENSE_LIMIT: usize = 1200;
+/// Most shifts of the Hessian that are tried, each four times the last.
+const SHIFTS: i32 = 30;
+
+/// Called between the parts of the work; returns false to stop.
+pub type Observer<'a> = dyn FnMut() -> bool + Send + 'a;
+
+pub(super) fn go_on(observe: &mut Observer<'_>) -> Result<(), ModesError> {
+    if observe() { Ok(()) } else { Err(ModesError::Interrupted) }
+}
+
+/// Returns the linearization of a model at its reference state, with these tensions of its stiff measures.
+pub(super) fn linearized(model: &Model, tension: &[f64]) -> Linearization {
+    let mut at = Linearization::new(model.layout());
+    model.linearize(&model.start(), tension, HessianKind::Full, &mut at);
+    at
+}
+
+/// Eigenvalues and eigenvectors.
+pub(super) type Pairs = (Vec<f64>, Vec<Vec<f64>>);
+
+/// Whether the dense way finds this number of eigenpairs of a model, of which at most `free` are finite: else the iteration does.
+///
+/// # Errors
+/// [`ModesError::TooManyEigenvalues`] where neither does.
+pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<bool, ModesError> {
+    // the iteration works on 4 wanted + 64 vectors, of which there must be so many; and it cannot find more than there are
+    let iterated = wanted <= SPARSE_EIGENVALUES && 4 * wanted + 64 <= unknowns;
+    if unknowns <= DENSE_LIMIT {
+        Ok(true)
+    } else if unknowns <= DENSE_EIGENVALUES {
+        Ok(!iterated || wanted >= free)
+    } else if iterated {
+        Ok(false)
+    } else {
+        Err(ModesError::TooManyEigenvalues { wanted, unknowns })
+    }
+}
+
+/// Lowest eigenvalues and eigenvectors of the energy's Hessian at the model's reference state with these tensions, on what the
+/// rigid terms leave free, which is at most `free`.
+pub(super) fn lowest(
+    (model, tension): (&Model, &[f64]),
+    wanted: usize,
+    free: usize,
+    observe: &mut Observer<'_>,
+) -> Result<Pairs, ModesError> {
+    let dense = decomposed_dense(model.layout().unknowns, wanted.min(free), free)?;
+    let way = if dense { lowest_dense } else { lowest_sparse };
+    let (values, vectors) = way((model, tension), wanted.min(free), observe)?;
+    Ok((values, vectors.iter().map(|v| model.velocity(v)).collect()))
+}
+
+fn lowest_dense(
+    (model, tension): (&Model, &[f64]),
+    count: usize,
+    observe: &mut Observer<'_>,
+) -> Result<Pairs, ModesError> {
+    go_on(observe)?;
+    let (layout, mut at) = (model.layout(), linearized(model, tension));
+    let compliance = model.compliance();
+    let mut values = std::mem::take(&mut at.hessian);
+    for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
+        at.add_outer(row, 1.0 / c, &mut values);
+    }
+    let hessian = at.pattern().to_dense(&values);
+    let full = dense::from_rows(&at.rows(), layout.unknowns);
+    let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
+    let free = if rigid.is_empty() {
+        DenseMatrix::identity(layout.unknowns, layout.unknowns)
+    } else {
+        dense::null_space(&full.select_rows(&rigid))?.basis
+    };
+    go_on(observe)?;
+    let found = dense::symmetric_eigen(&(free.transpose() * hessian * &free))?;
+    let count = count.min(found.values.len());
+    let vectors = (0..count).map(|k| (&free * found.vectors.column(k)).as_slice().to_vec()).collect();
+    Ok((found.values[..count].to_vec(), vectors))
+}
+
+/// By shift and invert: the largest eigenvalues of `(H + shift)^-1` on the null space of the rigid measures.
+fn lowest_sparse(
+    (model, tension): (&Model, &[f64]),
+    count: usize,
+    observe: &mut Observer<'_>,
+) -> Result<Pairs, ModesError> {
+    let layout = model.layout();
+    let zero = vec![0.0; layout.stiff.len()];
+    let mut tangent = Tangent::at_state(model, &model.start(), tension, HessianKind::Full)?;
+    let unit = tangent.at.pattern().largest_diagonal(&tangent.at.hessian);
+    let (mut shift, mut powers) = (0.0, 0..SHIFTS);
+    loop {
+        // without a shift that makes the Hessian positive, the largest eigenvalues of its inverse are not the lowest of its own
+        let power = powers.next().ok_or(FactorError::Singular { ratio: 0.0 })?;
+        let next = 1e-7 * unit * 4f64.powi(power);
+        go_on(observe)?;
+        tangent.at.add_identity(next - shift);
+        shift = next;
+        if tangent.factor(0.0).is_ok_and(|inertia| inertia.negative == 0) {
+            break;
+        }
+    }
+    let mut inverse = |v: &[f64]| tangent.solve(v, &zero, 1e-13).dx;
+    let (_, vectors) = eigen::largest(layout.unknowns, count, |v| observe().then(|| inverse(v)))?;
+    // once more, since Lanczos vectors are only as good as the largest eigenvalue of the inverse allows
+    let vectors: Vec<Vec<f64>> = vectors.iter().map(|v| normalized(inverse(v))).collect();
+    tangent.at.add_identity(-shift);
+    let quotient = |v: &[f64]| rayleigh_quotient(model, &tangent.at, v);
+    let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (quotient(&v), v)).collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(pairs.into_iter().unzip())
+}
+
+fn normalized(mut v: Vec<f64>) -> Vec<f64> {
+    normalize(&mut v);
+    v
+}
+
+/// `v^T H v / v^T v` with the Hessian of the whole energy: its error is that of the vector squared.
+fn rayleigh_quotient(model: &Model, at: &Linearization, v: &[f64]) -> f64 {
+    let mut product = vec![0.0; v.len()];
+    symmetric_product(at.pattern(), &at.hessian, v, &mut product);
+    let mut stretch = vec![0.0; model.compliance().len()];
+    at.rows().product(v, &mut stretch);
+    let finite = stretch.iter().zip(model.compliance()).filter(|(_, c)| **c > 0.0);
+    (dot(v, &product) + finite.map(|(s, c)| s * s / c).sum::<f64>()) / dot(v, v)
+}

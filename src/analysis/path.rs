@@ -1,0 +1,336 @@
+//! Paths: equilibria of an assembly along one driven quantity, through limit points, with branches on request.
+
+use super::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
+use super::relax::relax_from;
+use super::state::State;
+use crate::math::fold_angle::fold_angle;
+use crate::model::{Assembly, Drive, DriveError, DrivenModel, Gauge, Model};
+use crate::solver::path::{self, Branch, BranchEnd, MarkedState, PathError, PathMark, PathSettings, PathState, Watch};
+use crate::solver::{Failure, Options, Problem, Start};
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// Numbers of the watched functions.
+const CREASE_ANGLE: usize = 0;
+const CROSSING: usize = 1;
+
+/// What ends a path before its drive arrives.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PathStop {
+    /// Arc length at which the path ends; see [`PathPoint::arc_length`].
+    pub arc_length: Option<f64>,
+    /// Number of an edge of the tiling, and its fold angle in radians at which the path ends.
+    pub crease_angle: Option<(usize, f64)>,
+    /// Whether the path ends where faces first pass through each other.
+    pub self_intersection: bool,
+}
+
+/// Tolerance, steps and ends of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathOptions {
+    /// Bound on both scaled residuals of every state.
+    pub tolerance: f64,
+    /// Longest step in arc length.
+    pub max_step: f64,
+    /// Whether the branches that leave at branch points are followed too.
+    pub switch: bool,
+    /// What ends the path.
+    pub stop: PathStop,
+}
+
+impl Default for PathOptions {
+    fn default() -> Self {
+        Self { tolerance: 1e-12, max_step: 0.05, switch: false, stop: PathStop::default() }
+    }
+}
+
+/// What is special about a state of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathEvent {
+    /// The load has an extremum along the path.
+    LimitLoad,
+    /// The displacement has an extremum along the path.
+    LimitDisplacement,
+    /// Other equilibria leave the path.
+    BranchPoint,
+    /// Faces begin to pass through each other.
+    SelfIntersection,
+    /// A stop ends the path.
+    Stop,
+}
+
+/// An equilibrium of a path.
+#[derive(Clone, Debug)]
+pub struct PathPoint {
+    /// Arc length from the beginning of the branch, of the unknowns' root mean square in units of the mean edge length
+    /// together with the drive in units of the whole way that it is driven.
+    pub arc_length: f64,
+    /// The driven value.
+    pub drive: f64,
+    /// Its conjugate: the force on a driven displacement, the torque of a driven angle, the displacement of loads.
+    pub reaction: f64,
+    /// Work that the drive has done on the sheet since the path began.
+    pub work: f64,
+    /// The state.
+    pub state: State,
+    /// Unknowns.
+    pub x: Vec<f64>,
+    /// Tensions of the stiff measures of the assembly's model without drive.
+    pub tension: Vec<f64>,
+    /// Angles of the elements, from which angles continue; see [`crate::model::Model::set_angles`].
+    pub angles: Vec<f64>,
+    /// Largest unbalanced force over the largest force of an element.
+    pub residual_force: f64,
+    /// Largest gap of a stiff measure over its natural size.
+    pub residual_length: f64,
+    /// Negative eigenvalues of the Hessian while the driven value is held: 0 where the state is stable.
+    pub negative_eigenvalues: usize,
+    /// Newton steps made for this state.
+    pub iterations: usize,
+    /// What is special about it.
+    pub event: Option<PathEvent>,
+}
+
+/// The reason for which a branch of a path ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PathEnd {
+    /// The drive arrived.
+    Arrived,
+    /// A stop was met.
+    Stopped,
+    /// A branch came back to the driven value at which the path began, or to a branch point that is known.
+    Returned,
+    /// The largest number of states was reached.
+    TooManySteps,
+    /// No step, however short, led on.
+    Failed,
+    /// The observer asked to stop.
+    Interrupted,
+}
+
+/// A branch of a path: number 0 begins at the start, the others at branch points.
+#[derive(Clone, Debug)]
+pub struct PathBranch {
+    /// The states, in order.
+    pub points: Vec<PathPoint>,
+    /// The reason for its end.
+    pub end: PathEnd,
+}
+
+/// The reason for which a path cannot begin.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum PathFailure {
+    /// The drive has no effect.
+    #[error(transparent)]
+    Drive(#[from] DriveError),
+    /// There is no equilibrium next to the start.
+    #[error("no equilibrium was found with which the path could begin: {0}")]
+    Start(#[from] Failure),
+    /// The path cannot be followed.
+    #[error(transparent)]
+    Path(#[from] PathError),
+}
+
+/// Follows the equilibria of an assembly while a quantity is driven, from the equilibrium next to `start` (the drawn
+/// state if `None`). `observe` sees the number of the branch and every accepted state, and returns false to stop.
+///
+/// ```
+/// use foldwell::analysis::path::{PathEvent, PathOptions, follow_path};
+/// use foldwell::math::Vec3;
+/// use foldwell::model::{Drive, Driven};
+/// use foldwell::{Assembly, Pattern, generate};
+///
+/// // two bars between supports, pushed down at the vertex between them
+/// let truss = generate(&Pattern::named("truss")?)?;
+/// let assembly = Assembly::patch(truss, [1, 1])
+///     .bars(1.0)
+///     .pin(0, [0, 0], [true; 3])
+///     .pin(2, [0, 0], [true; 3])
+///     .pin(1, [0, 0], [false, true, false])
+///     .build()?;
+/// let quantity = Driven::Vertices { vertices: vec![1], direction: Vec3::new(0.0, 0.0, 1.0) };
+/// let branches =
+///     follow_path(&assembly, &Drive { quantity, to: -0.6 }, None, &PathOptions::default(), &mut |_, _| true)?;
+/// let largest = branches[0].points.iter().find(|point| point.event == Some(PathEvent::LimitLoad));
+/// // the largest force of two bars of length L0 is found where their length is the cube root of L0
+/// assert!(largest.is_some_and(|point| (point.reaction + 9.530291997895e-3).abs() < 1e-12));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`PathFailure`] if the drive has no effect, or no equilibrium is found to begin with.
+pub fn follow_path(
+    assembly: &Assembly,
+    drive: &Drive,
+    start: Option<PathStart>,
+    options: &PathOptions,
+    observe: &mut dyn FnMut(usize, &PathPoint) -> bool,
+) -> Result<Vec<PathBranch>, PathFailure> {
+    let (mut driven, first) = begin(assembly, drive, start, options)?;
+    let measures = assembly.model(Gauge::Held).compliance().len();
+    let settings = PathSettings {
+        tolerance: options.tolerance,
+        max_step: options.max_step,
+        target: driven.target(),
+        length: options.stop.arc_length.unwrap_or(f64::INFINITY),
+        switch: options.switch,
+        ..PathSettings::default()
+    };
+    let mut watch = Stops::new(assembly, &options.stop);
+    let mut branches: Vec<Vec<PathPoint>> = vec![];
+    let mut see = |number: usize, driven: &DrivenModel, marked: &MarkedState| {
+        let point = point(driven, marked, measures);
+        branches.resize_with(branches.len().max(number + 1), Vec::new);
+        let go_on = observe(number, &point);
+        branches[number].push(point);
+        go_on
+    };
+    let found = path::follow_path(&mut driven, first, &settings, &mut watch, &mut see)?;
+    Ok(found.iter().zip(branches).map(|(branch, points)| ended(branch, points)).collect())
+}
+
+/// Makes the driven model and finds its equilibrium at the beginning.
+fn begin(
+    assembly: &Assembly,
+    drive: &Drive,
+    start: Option<PathStart>,
+    options: &PathOptions,
+) -> Result<(DrivenModel, Start), PathFailure> {
+    let mut model = assembly.model(Gauge::Held);
+    let drawn = model.values(&model.start());
+    let restarted = start.is_some();
+    let tension = start.and_then(|PathStart { coordinates, angles, tension }| {
+        model.set_angles(&angles);
+        let x = model.start_from(coordinates.clone());
+        if !model.gauge_is_valid(&x) {
+            model.rebase_gauge(coordinates);
+        }
+        tension.filter(|tension| tension.len() == model.compliance().len())
+    });
+    let mut driven = DrivenModel::new(model, drive, drawn, restarted)?;
+    let x = driven.model.start();
+    if let Some(mut tension) = tension {
+        // an equilibrium of any stability: the path's own iteration finds what the new support carries
+        tension.resize(driven.compliance().len(), 0.0);
+        return Ok((driven, Start { x, tension: Some(tension) }));
+    }
+    let newton = Options { tolerance: options.tolerance, ..Options::default() };
+    let relaxed = relax_from(&mut driven.model, x, newton, &mut |_| true).map_err(|error| error.failure)?;
+    Ok((driven, Start { x: relaxed.x, tension: Some(relaxed.tension) }))
+}
+
+fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoint {
+    let MarkedState { state, mark, work } = marked;
+    let PathState { x, tension, parameter, conjugate: [conjugate, _], .. } = state;
+    PathPoint {
+        arc_length: state.arc_length,
+        drive: driven.drive_at(*parameter),
+        reaction: driven.reaction_of(*conjugate, *parameter),
+        work: driven.work_of(*work, *conjugate, *parameter),
+        state: State::new(&driven.model, x, tension),
+        x: x.clone(),
+        tension: tension[..measures].to_vec(),
+        angles: angles_at(&driven.model, x),
+        residual_force: state.residual_force,
+        residual_length: state.residual_length,
+        negative_eigenvalues: state.negative_eigenvalues,
+        iterations: state.iterations,
+        event: mark.and_then(|mark| event(driven, mark)),
+    }
+}
+
+fn event(driven: &DrivenModel, mark: PathMark) -> Option<PathEvent> {
+    match (mark, driven.is_load()) {
+        (PathMark::ParameterTurns, true) => Some(PathEvent::LimitLoad),
+        (PathMark::ParameterTurns, false) => Some(PathEvent::LimitDisplacement),
+        (PathMark::ConjugateTurns, _) if !driven.has_conjugate_limits() => None,
+        (PathMark::ConjugateTurns, true) => Some(PathEvent::LimitDisplacement),
+        (PathMark::ConjugateTurns, false) => Some(PathEvent::LimitLoad),
+        (PathMark::BranchPoint(_), _) => Some(PathEvent::BranchPoint),
+        (PathMark::Watched(CROSSING), _) => Some(PathEvent::SelfIntersection),
+        (PathMark::Watched(_), _) => Some(PathEvent::Stop),
+    }
+}
+
+fn ended(branch: &Branch, mut points: Vec<PathPoint>) -> PathBranch {
+    let end = match branch.end {
+        BranchEnd::Target => PathEnd::Arrived,
+        BranchEnd::Returned => PathEnd::Returned,
+        BranchEnd::Length | BranchEnd::Watched(_) => PathEnd::Stopped,
+        BranchEnd::Steps => PathEnd::TooManySteps,
+        BranchEnd::Failed => PathEnd::Failed,
+        BranchEnd::Interrupted => PathEnd::Interrupted,
+    };
+    if branch.end == BranchEnd::Length
+        && let Some(last) = points.last_mut()
+    {
+        last.event = Some(PathEvent::Stop);
+    }
+    PathBranch { points, end }
+}
+
+/// Values of all angles of a model, in the order of [`Model::set_angles`].
+fn angles_at(model: &Model, x: &[f64]) -> Vec<f64> {
+    let all = model.coordinates(x);
+    let hinges = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
+    hinges.flat_map(|term| (0..term.len()).map(|k| term.value(k, model.domain(), &all))).collect()
+}
+
+/// The stops of a path as watched functions.
+struct Stops<'a> {
+    assembly: &'a Assembly,
+    crease_angle: Option<(usize, f64)>,
+    /// The crease's angle in the last state that was asked for, from which angles continue.
+    last_angle: f64,
+    crossing: Option<SelfIntersection>,
+}
+
+impl<'a> Stops<'a> {
+    fn new(assembly: &'a Assembly, stop: &PathStop) -> Self {
+        let crossing = stop.self_intersection.then(|| SelfIntersection::new(assembly));
+        let last_angle = stop.crease_angle.map_or(0.0, |(edge, _)| assembly.drawn_angles()[edge]);
+        Self { assembly, crease_angle: stop.crease_angle, last_angle, crossing }
+    }
+
+    /// The watched crease's angle less the one at which to stop.
+    fn angle(&mut self, model: &Model, coordinates: &[f64]) -> Option<f64> {
+        let (edge, wanted) = self.crease_angle?;
+        let sites = self.assembly.tiling().edges[edge].hinge()?;
+        let angle = fold_angle(model.domain().points(coordinates, &sites));
+        self.last_angle = angle + TAU * ((self.last_angle - angle) / TAU).round();
+        Some(self.last_angle - wanted)
+    }
+
+    /// 1 where faces pass through each other, -1 elsewhere.
+    fn crosses(&mut self, driven: &DrivenModel, state: &PathState) -> Option<f64> {
+        let finder = self.crossing.as_mut()?;
+        let shown = State::new(&driven.model, &state.x, &state.tension);
+        let any = finder.marks(self.assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any;
+        Some(if any { 1.0 } else { -1.0 })
+    }
+}
+
+impl Watch<DrivenModel> for Stops<'_> {
+    fn values(&mut self, driven: &DrivenModel, state: &PathState) -> Vec<f64> {
+        let coordinates = driven.model.coordinates(&state.x);
+        let mut values = vec![f64::NAN; 2];
+        values[CREASE_ANGLE] = self.angle(&driven.model, &coordinates).unwrap_or(f64::NAN);
+        values[CROSSING] = self.crosses(driven, state).unwrap_or(f64::NAN);
+        values
+    }
+
+    fn ends(&self, _function: usize) -> bool {
+        true
+    }
+}
+
+/// The state in which a path begins, as an earlier study left it.
+#[derive(Clone, Debug)]
+pub struct PathStart {
+    /// All coordinates of the state.
+    pub coordinates: Vec<f64>,
+    /// Angles of the elements of the assembly's model without drive; see [`crate::model::Model::set_angles`].
+    pub angles: Vec<f64>,
+    /// Tensions of the stiff measures of the assembly's model without drive, if they are known.
+    pub tension: Option<Vec<f64>>,
+}

@@ -1,0 +1,242 @@
+//! Rigid parts in the unknowns of a model: poses instead of the coordinates of their vertices.
+//!
+//! The pose of a part has six numbers: the displacement of the centroid of its vertices from the drawn state, and the
+//! rotation vector `w` of the part from there. A vertex at the arm `r` from the drawn centroid is at
+//! `centroid + displacement + R(w) r`. The *generalised coordinates* of a model are the coordinates of all vertices,
+//! followed by six for each part; those of the vertices of a part follow from its pose.
+
+use crate::math::{Vec3, rotation};
+use crate::model::element::Local;
+use crate::model::part::Part;
+use crate::numerics::dense::small::nearest_rotation;
+use crate::sheet::tiling::Site;
+use nalgebra::{DMatrix, Matrix3};
+use std::f64::consts::TAU;
+
+/// Number of coordinates of a pose.
+pub(super) const POSE: usize = 6;
+
+/// The parts of a model.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Bodies {
+    bodies: Vec<Body>,
+    /// Number of the part of every vertex; empty without parts.
+    part_of: Vec<Option<usize>>,
+}
+
+/// A part in the drawn state.
+#[derive(Clone, Debug)]
+struct Body {
+    part: Part,
+    centroid: Vec3,
+    /// Vectors from the centroid to the vertices.
+    arms: Vec<Vec3>,
+}
+
+impl Bodies {
+    /// Makes the parts of a patch whose vertices have these coordinates in the drawn state.
+    pub(super) fn new(parts: &[Part], drawn: &[f64]) -> Self {
+        if parts.is_empty() {
+            return Self::default();
+        }
+        let mut part_of = vec![None; drawn.len() / 3];
+        for (number, part) in parts.iter().enumerate() {
+            part.vertices.iter().for_each(|&v| part_of[v] = Some(number));
+        }
+        Self { bodies: parts.iter().map(|part| Body::new(part.clone(), drawn)).collect(), part_of }
+    }
+
+    /// Whether there are no parts.
+    pub(super) fn is_empty(&self) -> bool {
+        self.bodies.is_empty()
+    }
+
+    /// Number of coordinates of all poses.
+    pub(super) fn coordinates(&self) -> usize {
+        POSE * self.bodies.len()
+    }
+
+    /// Returns the number of the part to which a vertex belongs.
+    pub(super) fn part_of(&self, vertex: usize) -> Option<usize> {
+        self.part_of.get(vertex).copied().flatten()
+    }
+
+    /// Whether one of these points belongs to a part.
+    pub(super) fn touch(&self, sites: &[Site]) -> bool {
+        !self.is_empty() && sites.iter().any(|site| self.part_of(site.vertex).is_some())
+    }
+
+    /// Returns whether each coordinate of all poses is free.
+    pub(super) fn free(&self) -> impl Iterator<Item = bool> + '_ {
+        self.bodies.iter().flat_map(|body| body.part.free)
+    }
+
+    /// Returns the pivot of a part, the point that its displacement moves.
+    pub(super) fn pivot(&self, part: usize, generalised: &[f64]) -> Vec3 {
+        self.bodies[part].centroid + self.displacement(part, generalised)
+    }
+
+    /// Returns the rotation vector of a part.
+    pub(super) fn rotation(&self, part: usize, generalised: &[f64]) -> Vec3 {
+        Vec3::from_column_slice(&generalised[self.pose(part, generalised) + 3..][..3])
+    }
+
+    fn displacement(&self, part: usize, generalised: &[f64]) -> Vec3 {
+        Vec3::from_column_slice(&generalised[self.pose(part, generalised)..][..3])
+    }
+
+    /// Returns where the pose of a part begins among the generalised coordinates.
+    fn pose(&self, part: usize, generalised: &[f64]) -> usize {
+        generalised.len() - self.coordinates() + POSE * part
+    }
+
+    /// Puts the vertices of all parts where their poses say.
+    pub(super) fn place(&self, generalised: &mut [f64]) {
+        for (part, body) in self.bodies.iter().enumerate() {
+            let pivot = self.pivot(part, generalised);
+            let turn = rotation::exp(&self.rotation(part, generalised));
+            for (&vertex, arm) in body.part.vertices.iter().zip(&body.arms) {
+                let point = pivot + turn * arm;
+                generalised[3 * vertex..3 * vertex + 3].copy_from_slice(point.as_slice());
+            }
+        }
+    }
+
+    /// Sets the poses to those that bring the parts closest to where their vertices are. Of the rotation vectors of one
+    /// rotation the one nearest to that of `before` is taken.
+    pub(super) fn find_poses(&self, generalised: &mut [f64], before: &[f64]) {
+        for (part, body) in self.bodies.iter().enumerate() {
+            let pose = self.pose(part, generalised);
+            let points = |k: usize| Vec3::from_column_slice(&generalised[3 * k..3 * k + 3]);
+            let count = body.part.vertices.len() as f64;
+            let centroid = body.part.vertices.iter().map(|&v| points(v)).sum::<Vec3>() / count;
+            let pairs = body.part.vertices.iter().zip(&body.arms);
+            let moment: Matrix3<f64> = pairs.map(|(&v, arm)| (points(v) - centroid) * arm.transpose()).sum();
+            let turn = nearest_turn(rotation::log(&nearest_rotation(&moment)), self.rotation(part, before));
+            let moved = centroid - body.centroid;
+            let found = [moved.x, moved.y, moved.z, turn.x, turn.y, turn.z];
+            let kept = found.iter().zip(&body.part.free).map(|(found, free)| if *free { *found } else { 0.0 });
+            kept.enumerate().for_each(|(k, value)| generalised[pose + k] = value);
+        }
+    }
+
+    /// Returns the arm of a vertex of a part, turned as the part is, with its derivatives by the rotation vector.
+    fn moved(&self, part: usize, vertex: usize, generalised: &[f64]) -> Option<rotation::Turned> {
+        let body = &self.bodies[part];
+        let arm = body.part.vertices.iter().position(|v| *v == vertex).map(|k| body.arms[k])?;
+        Some(rotation::turned(&self.rotation(part, generalised), &arm))
+    }
+
+    /// Converts the derivatives of an element by the coordinates of its points to derivatives by the coordinates of
+    /// its members: those of a point, or the pose of its part.
+    pub(super) fn pull(&self, sites: &[Site], generalised: &[f64], local: &mut Local) {
+        let turned: Vec<Option<rotation::Turned>> = sites
+            .iter()
+            .map(|site| self.part_of(site.vertex).and_then(|part| self.moved(part, site.vertex, generalised)))
+            .collect();
+        let maps: Vec<DMatrix<f64>> = turned.iter().map(|turned| derivative(turned.as_ref())).collect();
+        let starts: Vec<usize> = maps
+            .iter()
+            .scan(0, |end, map| {
+                *end += map.ncols();
+                Some(*end - map.ncols())
+            })
+            .collect();
+        let size = maps.iter().map(DMatrix::ncols).sum();
+        let force = |k: usize| Vec3::from_column_slice(&local.gradient[3 * k..3 * k + 3]);
+        let gradient: Vec<f64> =
+            (0..maps.len()).flat_map(|k| (maps[k].transpose() * force(k)).as_slice().to_vec()).collect();
+        if !local.hessian.is_empty() {
+            let entry = |row: usize, column: usize| {
+                let (high, low) = (row.max(column), row.min(column));
+                local.hessian[high * (high + 1) / 2 + low]
+            };
+            let mut pulled = DMatrix::zeros(size, size);
+            for (k, left) in maps.iter().enumerate() {
+                for (l, right) in maps.iter().enumerate() {
+                    let block = Matrix3::from_fn(|row, column| entry(3 * k + row, 3 * l + column));
+                    let mut place = pulled.view_mut((starts[k], starts[l]), (left.ncols(), right.ncols()));
+                    place += left.transpose() * block * right;
+                }
+                if let Some(turned) = &turned[k] {
+                    add_curvature(turned, &force(k), starts[k] + 3, &mut pulled);
+                }
+            }
+            local.hessian =
+                (0..size).flat_map(|row| (0..=row).map(move |column| (row, column))).map(|at| pulled[at]).collect();
+        }
+        local.gradient = gradient;
+    }
+
+    /// Returns the velocities of the vertices of all parts for rates of their poses, in place.
+    pub(super) fn set_velocities(&self, generalised: &[f64], rates: &mut [f64]) {
+        for (part, body) in self.bodies.iter().enumerate() {
+            let [shift, turn] = [self.displacement(part, rates), self.rotation(part, rates)];
+            let at = self.rotation(part, generalised);
+            for (&vertex, arm) in body.part.vertices.iter().zip(&body.arms) {
+                let first = rotation::turned(&at, arm).first;
+                let velocity = shift + (0..3).map(|k| first[k] * turn[k]).sum::<Vec3>();
+                rates[3 * vertex..3 * vertex + 3].copy_from_slice(velocity.as_slice());
+            }
+        }
+    }
+
+    /// Returns the parts that carry loads, each with its loads as pairs of a vertex and a force.
+    pub(super) fn loaded(&self, loads: &[f64]) -> Vec<(usize, Vec<(usize, Vec3)>)> {
+        let force = |vertex: usize| Vec3::from_column_slice(&loads[3 * vertex..3 * vertex + 3]);
+        let of = |body: &Body| -> Vec<(usize, Vec3)> {
+            body.part.vertices.iter().map(|&v| (v, force(v))).filter(|(_, force)| force.amax() > 0.0).collect()
+        };
+        let all = self.bodies.iter().map(of).enumerate();
+        all.filter(|(_, forces)| !forces.is_empty()).collect()
+    }
+
+    /// Puts the potential `-sum f x` of forces on a part, with its derivatives by the pose, into `local`.
+    pub(super) fn load(&self, part: usize, forces: &[(usize, Vec3)], generalised: &[f64], local: &mut Local) {
+        let (mut gradient, mut hessian) = (vec![0.0; POSE], DMatrix::zeros(POSE, POSE));
+        for (vertex, force) in forces {
+            let Some(turned) = self.moved(part, *vertex, generalised) else { continue };
+            (0..3).for_each(|k| gradient[k] -= force[k]);
+            (0..3).for_each(|k| gradient[3 + k] -= force.dot(&turned.first[k]));
+            add_curvature(&turned, &-force, 3, &mut hessian);
+        }
+        local.gradient = gradient;
+        local.hessian =
+            (0..POSE).flat_map(|row| (0..=row).map(move |column| (row, column))).map(|at| hessian[at]).collect();
+    }
+}
+
+impl Body {
+    fn new(part: Part, drawn: &[f64]) -> Self {
+        let point = |v: &usize| Vec3::from_column_slice(&drawn[3 * v..3 * v + 3]);
+        let centroid = part.vertices.iter().map(point).sum::<Vec3>() / part.vertices.len() as f64;
+        let arms = part.vertices.iter().map(|v| point(v) - centroid).collect();
+        Self { part, centroid, arms }
+    }
+}
+
+/// The derivative of a point by its coordinates, or by the pose of its part.
+fn derivative(turned: Option<&rotation::Turned>) -> DMatrix<f64> {
+    let Some(turned) = turned else { return DMatrix::identity(3, 3) };
+    let mut map = DMatrix::zeros(3, POSE);
+    for k in 0..3 {
+        map[(k, k)] = 1.0;
+        (0..3).for_each(|row| map[(row, 3 + k)] = turned.first[k][row]);
+    }
+    map
+}
+
+/// Adds the second derivative of a point by the rotation vector, times a force, to a block of a Hessian.
+fn add_curvature(turned: &rotation::Turned, force: &Vec3, first: usize, hessian: &mut DMatrix<f64>) {
+    for k in 0..3 {
+        (0..3).for_each(|l| hessian[(first + k, first + l)] += force.dot(&turned.second[k][l]));
+    }
+}
+
+/// Returns the rotation vector of the same rotation as `turn` that is nearest to `near`.
+fn nearest_turn(turn: Vec3, near: Vec3) -> Vec3 {
+    let angle = turn.norm();
+    let axis = if angle > 1e-8 { turn / angle } else { near.try_normalize(0.0).unwrap_or(Vec3::x()) };
+    let windings = ((near.dot(&axis) - angle) / TAU).round();
+    if windings == 0.0 { turn } else { axis * (angle + TAU * windings) }
+}

@@ -1,0 +1,398 @@
+//! A model whose supports, loads, rest values or stiffness one parameter drives.
+
+use super::{Model, POSE, Spring, Support};
+use crate::model::drive::{Drive, DriveError, Driven};
+use crate::model::element::{Elements, Local, TermKind};
+use crate::numerics::vector::dot;
+use crate::solver::path::{ParametrizedProblem, Rates};
+use crate::solver::{HessianKind, Layout, Linearization, Problem};
+use std::sync::Arc;
+
+/// A model with a driven quantity, for [`crate::solver::path::follow_path`].
+///
+/// The parameter is the driven value, except for the stiffness of elements that have tensions as unknowns, of which it
+/// is the reciprocal: an infinite stiffness is the parameter zero.
+pub struct DrivenModel {
+    /// The model, with the supports that the drive moves.
+    pub model: Model,
+    quantity: Driven,
+    parameter: f64,
+    target: f64,
+    way: f64,
+    /// What the parameter moves.
+    effect: Effect,
+}
+
+/// What a parameter changes in a model.
+enum Effect {
+    /// Prescribed values of the stiff measures with these numbers: the parameter plus an offset for each.
+    Prescribed(Vec<(usize, f64)>),
+    /// The factor of the loads.
+    Loads {
+        /// Displacement of the loads at the beginning.
+        origin: f64,
+    },
+    /// Rest values between those of the drawn state and the given ones, for soft and stiff elements by number.
+    Rest { drawn: Vec<f64>, given: Vec<f64> },
+    /// Compliances of the stiff measures with these numbers, for a reciprocal stiffness of 1.
+    Compliance(Vec<(usize, f64)>),
+    /// Spring constants of the soft elements with these numbers, for a stiffness of 1.
+    Stiffness(Vec<(usize, f64)>),
+}
+
+impl DrivenModel {
+    /// Makes a model driven from its reference state. `drawn` are the values of all measures in the drawn state
+    /// ([`Model::values`]); `loaded` says whether loads and rest values act in full in the reference state.
+    ///
+    /// # Errors
+    /// [`DriveError`] if the drive has no effect on this model.
+    pub fn new(mut model: Model, drive: &Drive, drawn: Vec<f64>, loaded: bool) -> Result<Self, DriveError> {
+        let first = model.compliance.len();
+        let quantity = drive.quantity.clone();
+        let begin = f64::from(u8::from(loaded));
+        let (effect, parameter, target) = match &quantity {
+            Driven::Part { part, axis } => {
+                let pose = model.points() + POSE * part + axis;
+                model.support_moved(vec![vec![(pose, 1.0)]], *axis >= 3);
+                (Effect::prescribed(&model, first..first + 1), 0.0, drive.to)
+            }
+            Driven::Vertices { vertices, direction } => {
+                let along = |v: &usize| (0..3).map(|axis| (3 * v + axis, direction[axis])).collect();
+                model.support_moved(vertices.iter().map(along).collect(), false);
+                (Effect::prescribed(&model, first..first + vertices.len()), 0.0, drive.to)
+            }
+            Driven::Loads if model.loads.is_empty() => return Err(DriveError::NoLoads),
+            Driven::Loads if !model.turning.is_empty() => return Err(DriveError::FreeRotation),
+            Driven::Loads => {
+                let origin = model.load_displacement(&model.base);
+                (Effect::Loads { origin }, begin, drive.to)
+            }
+            Driven::Lock(edges) => {
+                let locks = model.numbered_stiff(TermKind::Locks, |edge| edges.contains(&edge));
+                let from = locks.first().map(|(_, spring)| spring.rest).ok_or(DriveError::NotLocked)?;
+                let offsets = locks.iter().map(|(k, spring)| (*k, spring.rest - from)).collect();
+                (Effect::Prescribed(offsets), from, drive.to)
+            }
+            Driven::Rest => (Effect::rest(&model, drawn), begin, drive.to),
+            Driven::Stiffness(kind) => Effect::stiffness(&model, *kind, drive.to)?,
+        };
+        let way = (target - parameter).abs();
+        if !(way > 0.0) {
+            return Err(DriveError::NoWay { at: parameter });
+        }
+        let mut driven = Self { model, quantity, parameter, target, way, effect };
+        driven.set_parameter(parameter);
+        Ok(driven)
+    }
+
+    /// Returns the parameter at the end of the drive.
+    pub fn target(&self) -> f64 {
+        self.target
+    }
+
+    /// Returns the driven value that belongs to a parameter.
+    pub fn drive_at(&self, parameter: f64) -> f64 {
+        if matches!(self.effect, Effect::Compliance(_)) { parameter.recip() } else { parameter }
+    }
+
+    /// Returns the reaction for a value of [`ParametrizedProblem::conjugate`]: the derivative of the energy by the
+    /// driven value; for loads, their displacement along themselves since the beginning.
+    pub fn reaction_of(&self, conjugate: f64, parameter: f64) -> f64 {
+        match self.effect {
+            Effect::Compliance(_) => -parameter * parameter * conjugate,
+            _ => conjugate,
+        }
+    }
+
+    /// Returns the work that the drive has done on the sheet, given the integral of the conjugate over the parameter.
+    /// A load works through the displacement that is conjugate to it.
+    pub fn work_of(&self, integral: f64, conjugate: f64, parameter: f64) -> f64 {
+        match self.effect {
+            Effect::Loads { .. } => parameter * conjugate - integral,
+            _ => integral,
+        }
+    }
+
+    /// Whether the parameter is a load and its conjugate a displacement, instead of the other way round.
+    pub fn is_load(&self) -> bool {
+        matches!(self.quantity, Driven::Loads | Driven::Rest | Driven::Stiffness(_))
+    }
+
+    /// Whether extrema of the conjugate mean anything to a user: those of forces, torques and displacements do.
+    pub fn has_conjugate_limits(&self) -> bool {
+        !matches!(self.quantity, Driven::Rest | Driven::Stiffness(_))
+    }
+}
+
+impl Effect {
+    fn prescribed(model: &Model, measures: std::ops::Range<usize>) -> Self {
+        let first = model.compliance.len() - model.supports.len();
+        Self::Prescribed(measures.map(|k| (k, model.supports[k - first].rest)).collect())
+    }
+
+    /// Rest values as given, and those of the drawn state; locks and supports keep theirs.
+    fn rest(model: &Model, mut drawn: Vec<f64>) -> Self {
+        let given = model.rests();
+        let kinds = model.terms().flat_map(|term| (0..term.len()).map(|_| term.kind()));
+        let kept = kinds.map(|kind| kind == TermKind::Locks).chain(model.supports.iter().map(|_| true));
+        drawn.resize(given.len(), 0.0);
+        kept.enumerate().filter(|(_, kept)| *kept).for_each(|(k, _)| drawn[k] = given[k]);
+        Self::Rest { drawn, given }
+    }
+
+    fn stiffness(model: &Model, kind: TermKind, to: f64) -> Result<(Self, f64, f64), DriveError> {
+        let stiff = model.numbered_stiff(kind, |_| true);
+        let mut soft = vec![];
+        for (number, (term, k)) in
+            model.soft.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k))).enumerate()
+        {
+            if term.kind() == kind {
+                soft.push((number, term.spring(k).stiffness / model.length_of(term.as_ref(), k)));
+            }
+        }
+        let lengths = |numbers: &[(usize, Spring)]| -> Vec<f64> {
+            numbers.iter().map(|(k, _)| model.length_of_stiff(*k)).collect()
+        };
+        match (&stiff[..], &soft[..]) {
+            ([], []) => Err(DriveError::NoTerm(kind)),
+            (stiff, []) => {
+                let lengths = lengths(stiff);
+                let of = |k: usize| match kind {
+                    TermKind::Bars => stiff[k].1.stiffness * stiff[k].1.rest,
+                    _ => stiff[k].1.stiffness / lengths[k],
+                };
+                let from = of(0);
+                if (1..stiff.len()).any(|k| of(k) != from && !((of(k) - from).abs() <= 1e-12 * from)) {
+                    return Err(DriveError::NotUniform(kind));
+                }
+                // a bar of stiffness EA has the compliance L0 / EA, a hinge 1 / (stiffness L0)
+                let unit = |k: usize| if kind == TermKind::Bars { stiff[k].1.rest } else { 1.0 / lengths[k] };
+                let units = (0..stiff.len()).map(|k| (stiff[k].0, unit(k))).collect();
+                Ok((Self::Compliance(units), from.recip(), to.recip()))
+            }
+            ([], soft) => {
+                let from = soft[0].1;
+                if soft.iter().any(|(_, k)| !((k - from).abs() <= 1e-12 * from)) || to.is_infinite() {
+                    return Err(if to.is_infinite() {
+                        DriveError::TooStiff(kind)
+                    } else {
+                        DriveError::NotUniform(kind)
+                    });
+                }
+                let terms = model.soft.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k))).enumerate();
+                let of_kind = terms.filter(|(_, (term, _))| term.kind() == kind);
+                let units = of_kind.map(|(n, (term, k))| (n, model.length_of(term.as_ref(), k))).collect();
+                Ok((Self::Stiffness(units), from, to))
+            }
+            _ => Err(DriveError::NotUniform(kind)),
+        }
+    }
+}
+
+impl Model {
+    /// Number of elements of the soft terms.
+    pub(super) fn soft_elements(&self) -> usize {
+        self.soft.iter().map(|term| term.len()).sum()
+    }
+
+    /// Returns by how much each soft element is off its rest value.
+    fn off_rest(&self, x: &[f64]) -> Vec<f64> {
+        let all = self.coordinates(x);
+        let elements = self.soft.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+        elements.map(|(term, k)| term.value(k, &self.domain, &all) - term.spring(k).rest).collect()
+    }
+
+    /// Returns the gradient of the potential of the loads, for a factor of 1.
+    fn load_rates(&self, x: &[f64]) -> Vec<f64> {
+        let mut rates = vec![0.0; self.free.len()];
+        let all = self.generalised(x);
+        let points = self.points();
+        let mut of_poses = vec![0.0; self.bodies.coordinates()];
+        let mut local = Local::default();
+        for (part, forces) in self.loaded_parts() {
+            self.bodies.load(part, &forces, &all, &mut local);
+            of_poses[POSE * part..POSE * (part + 1)].copy_from_slice(&local.gradient);
+        }
+        for (rate, &k) in rates.iter_mut().zip(&self.free) {
+            let k = k as usize;
+            let by_coordinate = if k < points { -self.loads[k] } else { of_poses[k - points] };
+            *rate = by_coordinate * self.unit(k);
+        }
+        rates
+    }
+
+    /// Adds supports of these linear functions, at their values in the reference state, and chooses the unknowns anew.
+    fn support_moved(&mut self, functions: Vec<Vec<(usize, f64)>>, is_angle: bool) {
+        for terms in functions {
+            let support = Support { terms, rest: 0.0, is_angle };
+            let rest = support.value(&self.base);
+            self.supports.push(Support { rest, ..support });
+        }
+        self.count_measures();
+        self.choose_unknowns();
+    }
+
+    /// Returns the springs of the stiff elements of a kind on these edges, each with its number among the measures.
+    fn numbered_stiff(&self, kind: TermKind, on: impl Fn(usize) -> bool) -> Vec<(usize, Spring)> {
+        let all = self.stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+        let wanted = all.enumerate().filter(|(_, (term, k))| term.kind() == kind && on(term.edge(*k)));
+        wanted.map(|(number, (term, k))| (number, term.spring(k))).collect()
+    }
+
+    /// Returns the length in the reference state between the first two points of an element: of its edge.
+    fn length_of(&self, term: &dyn Elements, k: usize) -> f64 {
+        let sites = term.sites(k);
+        let points = &self.base[..self.points()];
+        (self.domain.point(points, sites[1]) - self.domain.point(points, sites[0])).norm()
+    }
+
+    fn length_of_stiff(&self, number: usize) -> f64 {
+        let mut all = self.stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+        all.nth(number).map_or(f64::NAN, |(term, k)| self.length_of(term.as_ref(), k))
+    }
+
+    /// Sets the prescribed value of a stiff measure: the rest value of an element, or that of a support.
+    fn prescribe(&mut self, measure: usize, rest: f64) {
+        let mut left = measure;
+        for term in &mut self.stiff {
+            if left < term.len() {
+                return term.set_spring(left, Spring { rest, ..term.spring(left) });
+            }
+            left -= term.len();
+        }
+        self.supports[left].rest = rest;
+    }
+
+    fn set_soft_stiffness(&mut self, number: usize, stiffness: f64) {
+        let mut left = number;
+        for term in &mut self.soft {
+            if left < term.len() {
+                return term.set_spring(left, Spring { stiffness, ..term.spring(left) });
+            }
+            left -= term.len();
+        }
+    }
+}
+
+impl ParametrizedProblem for DrivenModel {
+    fn parameter(&self) -> f64 {
+        self.parameter
+    }
+
+    fn set_parameter(&mut self, value: f64) {
+        self.parameter = value;
+        let model = &mut self.model;
+        match &self.effect {
+            Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, offset)| model.prescribe(*k, value + offset)),
+            Effect::Loads { .. } => model.load_factor = value,
+            Effect::Rest { drawn, given } => model.set_rests(drawn, given, value),
+            Effect::Compliance(units) => units.iter().for_each(|(k, unit)| model.compliance[*k] = value * unit),
+            Effect::Stiffness(units) => units.iter().for_each(|(k, unit)| model.set_soft_stiffness(*k, value * unit)),
+        }
+    }
+
+    fn parameter_scale(&self) -> f64 {
+        self.way
+    }
+
+    fn parameter_rates(&self, at: &Linearization, x: &[f64], tension: &[f64]) -> [Vec<f64>; 2] {
+        let (mut force, mut gap) = (vec![0.0; at.gradient.len()], vec![0.0; tension.len()]);
+        match &self.effect {
+            Effect::Prescribed(offsets) => offsets.iter().for_each(|(k, _)| gap[*k] = -1.0),
+            Effect::Loads { .. } => force = self.model.load_rates(x),
+            Effect::Rest { drawn, given } => {
+                let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
+                let count = self.model.soft_elements();
+                let mut torques: Vec<f64> = at.soft_stiffness.iter().zip(&moved).map(|(k, moved)| -k * moved).collect();
+                torques[count..].fill(0.0);
+                at.soft_rows().add_transpose_product(&torques, &mut force);
+                gap.iter_mut().zip(&moved[count..]).for_each(|(gap, moved)| *gap = -moved);
+            }
+            Effect::Compliance(units) => units.iter().for_each(|(k, unit)| gap[*k] = -unit * tension[*k]),
+            Effect::Stiffness(units) => {
+                let mut torques = vec![0.0; at.soft_stiffness.len()];
+                let off = self.model.off_rest(x);
+                units.iter().for_each(|(k, unit)| torques[*k] = unit * off[*k]);
+                at.soft_rows().add_transpose_product(&torques, &mut force);
+            }
+        }
+        [force, gap]
+    }
+
+    fn conjugate(&self, at: &Linearization, x: &[f64], tension: &[f64]) -> f64 {
+        match &self.effect {
+            Effect::Prescribed(offsets) => -offsets.iter().map(|(k, _)| tension[*k]).sum::<f64>(),
+            Effect::Loads { origin } => self.model.load_displacement(&self.model.coordinates(x)) - origin,
+            Effect::Rest { drawn, given } => {
+                let off = self.model.off_rest(x);
+                let of_soft = at.soft_stiffness.iter().zip(&off).map(|(k, off)| k * off);
+                let forces = of_soft.chain(tension.iter().copied());
+                -forces.zip(given.iter().zip(drawn)).map(|(force, (given, drawn))| force * (given - drawn)).sum::<f64>()
+            }
+            Effect::Compliance(units) => {
+                -units.iter().map(|(k, unit)| 0.5 * unit * tension[*k] * tension[*k]).sum::<f64>()
+            }
+            Effect::Stiffness(units) => {
+                let off = self.model.off_rest(x);
+                units.iter().map(|(k, unit)| 0.5 * unit * off[*k] * off[*k]).sum()
+            }
+        }
+    }
+
+    fn conjugate_rate(&self, at: &Linearization, x: &[f64], tension: &[f64], rates: &Rates) -> f64 {
+        let mut changes = vec![0.0; at.soft_stiffness.len()];
+        at.soft_rows().product(&rates.x, &mut changes);
+        match &self.effect {
+            Effect::Prescribed(offsets) => -offsets.iter().map(|(k, _)| rates.tension[*k]).sum::<f64>(),
+            Effect::Loads { .. } => -dot(&self.model.load_rates(x), &rates.x),
+            Effect::Rest { drawn, given } => {
+                let moved: Vec<f64> = given.iter().zip(drawn).map(|(given, drawn)| given - drawn).collect();
+                let soft = at.soft_stiffness.iter().zip(&changes).zip(&moved).take(self.model.soft_elements());
+                let of_soft = soft.map(|((k, change), moved)| k * (change - moved * rates.parameter));
+                let forces = of_soft.chain(rates.tension.iter().copied());
+                -forces.zip(&moved).map(|(force, moved)| force * moved).sum::<f64>()
+            }
+            Effect::Compliance(units) => {
+                -units.iter().map(|(k, unit)| unit * tension[*k] * rates.tension[*k]).sum::<f64>()
+            }
+            Effect::Stiffness(units) => {
+                let off = self.model.off_rest(x);
+                units.iter().map(|(k, unit)| unit * off[*k] * changes[*k]).sum()
+            }
+        }
+    }
+}
+
+impl Problem for DrivenModel {
+    fn layout(&self) -> &Arc<Layout> {
+        self.model.layout()
+    }
+
+    fn compliance(&self) -> &[f64] {
+        self.model.compliance()
+    }
+
+    fn gap_scale(&self) -> &[f64] {
+        self.model.gap_scale()
+    }
+
+    fn unit_of_length(&self) -> f64 {
+        self.model.unit_of_length()
+    }
+
+    fn energy(&self, x: &[f64]) -> f64 {
+        self.model.energy(x)
+    }
+
+    fn gaps(&self, x: &[f64]) -> Vec<f64> {
+        self.model.gaps(x)
+    }
+
+    fn linearize(&self, x: &[f64], tension: &[f64], kind: HessianKind, out: &mut Linearization) {
+        self.model.linearize(x, tension, kind, out);
+    }
+
+    fn accept(&mut self, x: &mut [f64]) {
+        self.model.accept(x);
+    }
+}

@@ -1,0 +1,75 @@
+//! The results of a study of kind `path` in the summary.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Equilibria along a driven quantity.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PathSummary {
+    /// Name of the drive.
+    pub drive: String,
+    /// What it drives.
+    #[schemars(extend("enum" = ["displacement", "rotation", "load", "lock", "rest", "stiffness"]))]
+    pub driven: String,
+    /// Its value at the end that was asked for; null: infinite stiffness.
+    pub to: Option<f64>,
+    /// The branches: number 0 begins at the start, the others at branch points.
+    pub branches: Vec<PathBranchSummary>,
+}
+
+/// A branch of equilibria.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PathBranchSummary {
+    /// Number of the branch.
+    pub branch: usize,
+    /// How it ended.
+    #[schemars(extend("enum" = ["arrived", "stop", "returned", "failed", "too-many-steps", "interrupted"]))]
+    pub end: String,
+    /// Number of its states.
+    pub steps: usize,
+    /// Newton steps of all its states.
+    pub iterations: usize,
+    /// Arc length of its last state; null where it has none.
+    pub arc_length: Option<f64>,
+    /// Driven value of its last state; null where it has none, or for infinite stiffness.
+    pub drive: Option<f64>,
+    /// Reaction at its last state; null where it has none.
+    pub reaction: Option<f64>,
+    /// Work of the drive up to its last state; null where it has none.
+    pub work: Option<f64>,
+    /// Energy of its last state; null where it has none.
+    pub energy: Option<f64>,
+    /// Whether all its states are stable while the driven value is held.
+    pub stable: bool,
+    /// Largest scaled residual of its states; null where it has none.
+    pub max_residual: Option<f64>,
+    /// Whether faces of one of its states pass through each other; null where that was not asked.
+    pub self_intersecting: Option<bool>,
+    /// Where faces first pass through each other; null where they do not, or where that was not asked.
+    pub first_self_intersection: Option<FirstCrossing>,
+    /// The states at which something special happens.
+    pub events: Vec<PathEventSummary>,
+}
+
+/// A state of a path at which something special happens.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PathEventSummary {
+    /// What happens.
+    #[schemars(extend("enum" = ["limit-load", "limit-displacement", "branch-point", "self-intersection", "stop"]))]
+    pub event: String,
+    /// The driven value; null: infinite stiffness.
+    pub drive: Option<f64>,
+    /// The reaction.
+    pub reaction: f64,
+    /// Arc length from the beginning of the branch.
+    pub arc_length: f64,
+}
+
+/// The first state of a branch whose faces pass through each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FirstCrossing {
+    /// Arc length from the beginning of the branch.
+    pub arc_length: f64,
+    /// The driven value; null: infinite stiffness.
+    pub drive: Option<f64>,
+}

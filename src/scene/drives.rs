@@ -1,0 +1,250 @@
+//! The quantities that paths drive: their checks, and their values for a sheet.
+
+use std::ops::Range;
+
+use super::places::{Places, motions};
+use super::spec::{AxisSpec, DomainSpec, DriveSpec, DrivenTerm, VertexSet};
+use super::values::{EdgeName, Motions};
+use super::{Located, SceneError, SceneFile};
+use crate::math::Vec3;
+use crate::model::{Assembly, Drive, Driven, TermKind};
+
+/// Part of a direction along which a vertex is held, up to which it counts as free to move along the direction.
+const FREE: f64 = 1e-12;
+
+/// What a drive names, once it is known to be one quantity.
+enum Quantity<'a> {
+    Part(&'a Located<String>, &'a Located<AxisSpec>),
+    Vertices(&'a Located<VertexSet>, &'a Located<AxisSpec>),
+    Loads(Range<usize>),
+    Lock(&'a Located<EdgeName>),
+    Rest(Range<usize>),
+    Stiffness(&'a Located<DrivenTerm>),
+}
+
+/// Checks what is wrong in drives and parts without a sheet.
+pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
+    let scene = &file.scene;
+    let names = scene.parts.iter().map(|part| ("a part", &part.name));
+    let mut names = names.chain(scene.drives.iter().map(|drive| ("a drive", &drive.name)));
+    if let Some((what, name)) = names.next()
+        && scene.sheet.domain() != DomainSpec::Patch
+    {
+        let message = format!("{what} on a sheet that is no patch");
+        return Err(file.error_at(name.span(), message, "parts and drives need domain = \"patch\""));
+    }
+    for drive in &scene.drives {
+        end(file, drive, &quantity(file, drive)?)?;
+    }
+    Ok(())
+}
+
+/// Checks all drives of a scene with its sheet.
+///
+/// # Errors
+/// [`SceneError`] if a drive names something that does not exist, or drives nothing.
+pub(super) fn check_all(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
+    file.scene.drives.iter().try_for_each(|spec| resolve(file, assembly, spec).map(|_| ()))
+}
+
+/// Returns the directions along which drives move vertices or parts, and so support loads.
+///
+/// # Errors
+/// [`SceneError`] as [`check_all`].
+pub(super) fn supported(file: &SceneFile, assembly: &Assembly) -> Result<Vec<Vec3>, SceneError> {
+    let mut directions = Vec::new();
+    for spec in &file.scene.drives {
+        match resolve(file, assembly, spec)?.quantity {
+            Driven::Vertices { direction, .. } => directions.push(direction),
+            Driven::Part { axis, .. } if axis < 3 => directions.push(Vec3::ith(axis, 1.0)),
+            Driven::Part { .. } | Driven::Loads | Driven::Lock(_) | Driven::Rest | Driven::Stiffness(_) => {}
+        }
+    }
+    Ok(directions)
+}
+
+/// Returns the drive that a table of the scene describes.
+///
+/// # Errors
+/// [`SceneError`] if it names something that does not exist, or drives nothing.
+pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -> Result<Drive, SceneError> {
+    let terms = assembly.terms();
+    let nothing = |span: Range<usize>, message: &str, help: &str| Err(file.error_at(span, message, help));
+    let quantity = match quantity(file, spec)? {
+        Quantity::Part(name, axis) => part(file, name, axis)?,
+        Quantity::Vertices(set, axis) => vertices(file, assembly, set, axis)?,
+        Quantity::Loads(span) if terms.loads.is_empty() => {
+            return nothing(span, "the scene has no loads to drive", "add a [[load]]");
+        }
+        Quantity::Loads(_) => Driven::Loads,
+        Quantity::Lock(crease) => lock(file, assembly, spec, crease)?,
+        Quantity::Rest(span) => {
+            let soft_facets = terms.facets.is_some() && !terms.has_rigid_facets();
+            if terms.creases.is_none() && !soft_facets {
+                let help = "give creases, or facets, a stiffness in [energy]";
+                return nothing(span, "the scene has no soft creases or facets whose rest angles could change", help);
+            }
+            Driven::Rest
+        }
+        Quantity::Stiffness(term) => {
+            let (there, kind, name) = match **term {
+                DrivenTerm::Bars => (terms.bars.is_some(), TermKind::Bars, "bars"),
+                DrivenTerm::Creases => (terms.creases.is_some(), TermKind::Creases, "creases"),
+                DrivenTerm::Facets => (terms.facets.is_some(), TermKind::Facets, "facets"),
+            };
+            if !there {
+                let message = format!("the sheet has no {name} whose stiffness could change");
+                return nothing(term.span(), &message, &format!("give `{name}` a stiffness in [energy]"));
+            }
+            Driven::Stiffness(kind)
+        }
+    };
+    Ok(Drive { quantity, to: *spec.to })
+}
+
+/// Returns the one quantity that a drive names.
+fn quantity<'a>(file: &SceneFile, drive: &'a DriveSpec) -> Result<Quantity<'a>, SceneError> {
+    let DriveSpec { name, part, vertices, axis, load, lock, rest, stiffness, to: _ } = drive;
+    let flag = |flag: &Located<bool>| if **flag { Ok(flag.span()) } else { Err(flag.span()) };
+    let given = [
+        part.as_ref().map(|part| part.span()),
+        vertices.as_ref().map(|vertices| vertices.span()),
+        load.as_ref().map(Located::span),
+        lock.as_ref().map(Located::span),
+        rest.as_ref().map(Located::span),
+        stiffness.as_ref().map(Located::span),
+    ];
+    let help = "give one of part, vertices, load = true, lock, rest = true and stiffness";
+    let mut given = given.into_iter().flatten();
+    match (given.next(), given.next()) {
+        (None, _) => return Err(file.error_at(name.span(), "the drive drives nothing", help)),
+        (Some(_), Some(second)) => return Err(file.error_at(second, "the drive drives two quantities", help)),
+        (Some(_), None) => {}
+    }
+    let moves = part.is_some() || vertices.is_some();
+    match axis {
+        Some(axis) if !moves => {
+            return Err(file.error_at(axis.span(), "`axis` belongs to `part` or `vertices`", "leave it out here"));
+        }
+        None if moves => {
+            let help =
+                "add axis = \"z\", or another of \"x\", \"y\", \"rx\", \"ry\", \"rz\"; of vertices also [x, y, z]";
+            return Err(file.error_at(name.span(), "the drive has no axis", help));
+        }
+        _ => {}
+    }
+    let not_driven = |span: Range<usize>| file.error_at(span, "false drives nothing", "write true, or leave it out");
+    match (part, vertices, axis, load, lock, rest, stiffness) {
+        (Some(part), _, Some(axis), ..) => Ok(Quantity::Part(part, axis)),
+        (_, Some(vertices), Some(axis), ..) => Ok(Quantity::Vertices(vertices, axis)),
+        (_, _, _, Some(load), ..) => flag(load).map(Quantity::Loads).map_err(not_driven),
+        (.., Some(lock), _, _) => Ok(Quantity::Lock(lock)),
+        (.., Some(rest), _) => flag(rest).map(Quantity::Rest).map_err(not_driven),
+        (.., Some(stiffness)) => Ok(Quantity::Stiffness(stiffness)),
+        _ => Err(file.error_at(name.span(), "the drive drives nothing", help)),
+    }
+}
+
+/// Checks the value at the end of a drive, as far as the scene alone says where it begins.
+fn end(file: &SceneFile, drive: &DriveSpec, quantity: &Quantity<'_>) -> Result<(), SceneError> {
+    let to = *drive.to;
+    let wrong = |message: String, help: &str| Err(file.error_at(drive.to.span(), message, help));
+    match quantity {
+        Quantity::Stiffness(_) if !(to > 0.0) => {
+            wrong(format!("the stiffness is {to}"), "expected a positive number or `inf` (exactly rigid)")
+        }
+        Quantity::Stiffness(term) if to.is_infinite() && ***term != DrivenTerm::Bars => wrong(
+            "only bars are driven to exactly rigid".into(),
+            "give a finite stiffness; creases and facets have energies that the path would have to end without",
+        ),
+        Quantity::Stiffness(_) => Ok(()),
+        _ if !to.is_finite() => wrong(format!("the number is {to}"), "expected a finite number"),
+        Quantity::Part(..) | Quantity::Vertices(..) if to == 0.0 => wrong(
+            "the drive ends where it begins".into(),
+            "`to` is a displacement, or an angle, from where a path begins",
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// Returns the motion of a part that a drive names.
+fn part(file: &SceneFile, name: &Located<String>, axis: &Located<AxisSpec>) -> Result<Driven, SceneError> {
+    let parts = &file.scene.parts;
+    let found = parts.iter().position(|part| part.name.0 == **name).ok_or_else(|| {
+        let known: Vec<_> = parts.iter().map(|part| format!("\"{}\"", part.name.0)).collect();
+        let help = match known.is_empty() {
+            true => "the scene has no [[part]]; add one, or give vertices = .. instead".to_owned(),
+            false => format!("the parts are {}", known.join(", ")),
+        };
+        file.error_at(name.span(), format!("no part is called `{}`", **name), help)
+    })?;
+    let AxisSpec::Motion(axis_number) = **axis else {
+        let help = "a part moves along one of \"x\", \"y\", \"z\" or turns about \"rx\", \"ry\", \"rz\"";
+        return Err(file.error_at(axis.span(), "a direction as the axis of a part", help));
+    };
+    if !motions(&parts[found])[axis_number] {
+        let motion = Motions::NAMES[axis_number];
+        let message = format!("part `{}` is held in \"{motion}\"", **name);
+        return Err(file.error_at(axis.span(), message, format!("add \"{motion}\" to `free` of the part")));
+    }
+    Ok(Driven::Part { part: found, axis: axis_number })
+}
+
+/// Returns the motion of vertices that a drive names: they are in no part, and nothing holds them along the axis.
+fn vertices(
+    file: &SceneFile,
+    assembly: &Assembly,
+    set: &Located<VertexSet>,
+    axis: &Located<AxisSpec>,
+) -> Result<Driven, SceneError> {
+    let direction = match **axis {
+        AxisSpec::Motion(axis) if axis < 3 => Vec3::ith(axis, 1.0),
+        AxisSpec::Direction(direction) => Vec3::from(direction).normalize(),
+        AxisSpec::Motion(_) => {
+            let help = "vertices move along \"x\", \"y\", \"z\" or a direction [x, y, z]; what turns is a [[part]]";
+            return Err(file.error_at(axis.span(), "a rotation as the axis of vertices", help));
+        }
+    };
+    let places = Places::new(file, assembly);
+    let vertices = places.set(set)?;
+    let terms = assembly.terms();
+    for &vertex in &vertices {
+        if let Some(part) = terms.parts.iter().position(|part| part.vertices.contains(&vertex)) {
+            let name = &file.scene.parts[part].name.0;
+            let message = format!("{} is in part `{name}`", places.described(vertex));
+            return Err(file.error_at(set.span(), message, format!("drive part = \"{name}\" instead")));
+        }
+        let pinned = terms.pins.iter().filter(|(pin, _)| *pin == vertex).flat_map(|(_, axes)| {
+            axes.iter().enumerate().filter(|(_, held)| **held).map(|(axis, _)| Vec3::ith(axis, 1.0))
+        });
+        let guided = terms.guides.iter().filter(|(guide, _)| *guide == vertex).map(|(_, normal)| *normal);
+        if pinned.chain(guided).any(|held| held.dot(&direction).abs() > FREE) {
+            let message = format!("{} is pinned along the axis of the drive", places.described(vertex));
+            return Err(file.error_at(set.span(), message, "leave out the pin, or its axes along the drive"));
+        }
+    }
+    Ok(Driven::Vertices { vertices, direction })
+}
+
+/// Returns the locked edges whose angle a drive changes.
+fn lock(
+    file: &SceneFile,
+    assembly: &Assembly,
+    spec: &DriveSpec,
+    crease: &Located<EdgeName>,
+) -> Result<Driven, SceneError> {
+    let edges = &assembly.tiling().edges;
+    let is_copy = |edge: usize| assembly.sheet().edges[edges[edge].edge].key == crease.0;
+    let locks: Vec<_> = assembly.terms().locks.iter().filter(|(edge, _)| is_copy(*edge)).collect();
+    let [i, j, n1, n2] = [crease.0.i as i64, crease.0.j as i64, crease.0.shift[0].into(), crease.0.shift[1].into()];
+    if locks.is_empty() {
+        let message = format!("crease [{i}, {j}, {n1}, {n2}] is not locked");
+        let help = format!("add [[lock]] with crease = [{i}, {j}, {n1}, {n2}]; the drive changes its angle");
+        return Err(file.error_at(crease.span(), message, help));
+    }
+    if locks.iter().all(|(_, angle)| *angle == *spec.to) {
+        let help = "give another angle, in radians, to which the lock is driven";
+        return Err(file.error_at(spec.to.span(), format!("the crease is locked at {} already", *spec.to), help));
+    }
+    Ok(Driven::Lock(locks.iter().map(|(edge, _)| *edge).collect()))
+}

@@ -1,0 +1,223 @@
+//! Values of single elements: from tables with a row per edge, by the letters of edges, and from the mesh.
+
+use super::error::TableFault;
+use super::forms::FileName;
+use super::rows::{self, Column, TableRow};
+use super::stiffness::{RestLengthSpec, StiffnessSpec};
+use super::{Located, SceneError, SceneFile};
+use crate::model::{Assembly, RestLengths, Stiffness};
+use crate::sheet::{Assignment, EdgeKey, EdgeKind, Sheet, Tiling};
+use std::collections::{BTreeMap, HashMap};
+use std::ops::Range;
+use std::path::Path;
+
+/// The elements of a term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ElementKind {
+    /// Bars, along all edges.
+    Bars,
+    /// Hinges at creases.
+    Creases,
+    /// Hinges at diagonals of polygons.
+    Facets,
+}
+
+impl ElementKind {
+    /// Returns the name of one element in messages.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Bars => "bar",
+            Self::Creases => "crease",
+            Self::Facets => "facet",
+        }
+    }
+
+    /// Whether an edge of this kind has an element.
+    pub(super) fn is_at(self, kind: EdgeKind) -> bool {
+        match self {
+            Self::Bars => true,
+            Self::Creases => kind == EdgeKind::Crease,
+            Self::Facets => kind == EdgeKind::Facet,
+        }
+    }
+
+    /// Returns the key of the mesh file with the stiffness of these elements.
+    fn mesh_key(self) -> &'static str {
+        if self == Self::Bars { "foldwell:bar_stiffness" } else { "foldwell:stiffness" }
+    }
+
+    /// Returns the letters of which another one counts as well if a table does not give them: a diagonal is flat, and a
+    /// cut is a boundary.
+    fn substitute(letter: Assignment) -> Assignment {
+        match letter {
+            Assignment::Join => Assignment::Flat,
+            Assignment::Cut => Assignment::Boundary,
+            other => other,
+        }
+    }
+
+    /// Whether a table may give this letter.
+    fn may_have(self, letter: Assignment) -> bool {
+        match letter {
+            Assignment::Boundary | Assignment::Cut => self == Self::Bars,
+            Assignment::Join => self != Self::Creases,
+            Assignment::Mountain | Assignment::Valley | Assignment::Flat | Assignment::Unassigned => true,
+        }
+    }
+}
+
+/// The elements of a scene's sheet, by the names of their edges.
+pub(super) struct ElementValues<'a> {
+    file: &'a SceneFile,
+    sheet: &'a Sheet,
+    tiling: &'a Tiling,
+    /// Number of each edge of the cell by its name.
+    names: HashMap<EdgeKey, usize>,
+}
+
+impl<'a> ElementValues<'a> {
+    pub(super) fn new(file: &'a SceneFile, assembly: &'a Assembly) -> Self {
+        let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
+        let names = sheet.edges.iter().enumerate().map(|(k, edge)| (edge.key, k)).collect();
+        Self { file, sheet, tiling, names }
+    }
+
+    /// Returns the number of an edge of the cell, if it is of one of these kinds.
+    pub(super) fn edge(&self, key: EdgeKey, is_wanted: impl Fn(EdgeKind) -> bool) -> Option<usize> {
+        self.names.get(&key).copied().filter(|&k| is_wanted(self.sheet.edges[k].kind))
+    }
+
+    /// Returns the stiffness of the elements of a term.
+    pub(super) fn stiffness(&self, spec: &Located<StiffnessSpec>, of: ElementKind) -> Result<Stiffness, SceneError> {
+        match &**spec {
+            StiffnessSpec::Number(stiffness) => Ok((*stiffness).into()),
+            StiffnessSpec::File(name) => Ok(self.file_values(name, Column::Stiffness, of)?.into()),
+            StiffnessSpec::Letters(letters) => self.by_letter(letters, of, spec.span()),
+            StiffnessSpec::Mesh => self.given_by_mesh(of, spec.span()),
+        }
+    }
+
+    /// Returns the rest lengths of the bars.
+    pub(super) fn lengths(&self, spec: Option<&Located<RestLengthSpec>>) -> Result<RestLengths, SceneError> {
+        match spec.map(|spec| &**spec) {
+            None | Some(RestLengthSpec::Drawn) => Ok(RestLengths::Drawn),
+            Some(RestLengthSpec::Factor(factor)) => Ok(RestLengths::Factor(*factor)),
+            Some(RestLengthSpec::File(name)) => {
+                self.file_values(name, Column::Length, ElementKind::Bars).map(RestLengths::PerEdge)
+            }
+        }
+    }
+
+    /// Returns the values that a file gives the elements of a term, one for each edge of the tiling.
+    pub(super) fn file_values(&self, name: &FileName, column: Column, of: ElementKind) -> Result<Vec<f64>, SceneError> {
+        let path = self.file.resolve(&name.file);
+        self.table(&path, &rows::read(&path, column)?, (of, of), name.file.span())
+    }
+
+    /// Returns the values of a table on the edges of the tiling; NaN where it has none. Every element of the first term
+    /// must have a value; rows may also name elements of the second.
+    pub(super) fn table(
+        &self,
+        path: &Path,
+        rows: &[TableRow],
+        (needed, also): (ElementKind, ElementKind),
+        span: Range<usize>,
+    ) -> Result<Vec<f64>, SceneError> {
+        let (mut values, word) = (vec![f64::NAN; self.tiling.edges.len()], needed.word());
+        let mut copies: HashMap<(usize, Option<[usize; 2]>), Vec<usize>> = HashMap::new();
+        for (k, tiled) in self.tiling.edges.iter().enumerate() {
+            copies.entry((tiled.edge, None)).or_default().push(k);
+            copies.entry((tiled.edge, Some(tiled.cell))).or_default().push(k);
+        }
+        for row in rows {
+            let fault = |fault| SceneError::Table { path: path.into(), line: row.line, fault };
+            let edge = self
+                .edge(row.key, |kind| needed.is_at(kind) || also.is_at(kind))
+                .ok_or_else(|| fault(TableFault::Edge(format!("the sheet has no {word} {}", name(row.key)))))?;
+            match (copies.get(&(edge, row.cell)), row.cell) {
+                (Some(found), _) => found.iter().for_each(|&k| values[k] = row.value),
+                // a patch need not have a copy of every edge of its cell
+                (None, None) => {}
+                (None, Some([c1, c2])) => {
+                    let message = format!("there is no {word} {} in cell [{c1}, {c2}]", name(row.key));
+                    return Err(fault(TableFault::Edge(message)));
+                }
+            }
+        }
+        let missing = |k: &usize| needed.is_at(self.tiling.edges[*k].kind) && values[*k].is_nan();
+        match (0..values.len()).find(missing) {
+            None => Ok(values),
+            Some(k) => {
+                let key = name(self.key(k));
+                let message =
+                    format!("{} has no row for {word} {key} of cell {:?}", path.display(), self.tiling.edges[k].cell);
+                Err(self.file.error_at(span, message, format!("give one row for each {word}")))
+            }
+        }
+    }
+
+    /// Returns the name of the cell's edge of which an edge of the tiling is a copy.
+    fn key(&self, edge: usize) -> EdgeKey {
+        self.sheet.edges[self.tiling.edges[edge].edge].key
+    }
+
+    /// Returns the numbers of the tiling's edges that have an element of this term.
+    fn edges(&self, of: ElementKind) -> impl Iterator<Item = usize> + '_ {
+        (0..self.tiling.edges.len()).filter(move |&k| of.is_at(self.tiling.edges[k].kind))
+    }
+
+    /// Returns the stiffness of each element by the letter of its edge.
+    fn by_letter(
+        &self,
+        letters: &BTreeMap<Assignment, f64>,
+        of: ElementKind,
+        span: Range<usize>,
+    ) -> Result<Stiffness, SceneError> {
+        let word = of.word();
+        if let Some(letter) = letters.keys().find(|letter| !of.may_have(**letter)) {
+            let help = "creases have the letters M, V, F and U; facets J (or F); bars all of these, B and C";
+            return Err(self.file.error_at(span, format!("no {word} has the letter {letter}"), help));
+        }
+        let mut each = vec![f64::NAN; self.tiling.edges.len()];
+        let mut missing: BTreeMap<Assignment, usize> = BTreeMap::new();
+        for k in self.edges(of) {
+            let letter = self.sheet.assignment(&self.sheet.edges[self.tiling.edges[k].edge]);
+            match letters.get(&letter).or_else(|| letters.get(&ElementKind::substitute(letter))) {
+                Some(stiffness) => each[k] = *stiffness,
+                None => *missing.entry(letter).or_default() += 1,
+            }
+        }
+        if missing.is_empty() {
+            return Ok(each.into());
+        }
+        let counts: Vec<String> = missing.iter().map(|(letter, count)| format!("{letter} ({count} {word}s)")).collect();
+        let message = format!("the table has no stiffness for the letters {}", counts.join(", "));
+        Err(self.file.error_at(span, message, format!("give every letter that a {word} has a stiffness")))
+    }
+
+    /// Returns the stiffness that the mesh file gives each element.
+    fn given_by_mesh(&self, of: ElementKind, span: Range<usize>) -> Result<Stiffness, SceneError> {
+        let given = if of == ElementKind::Bars { &self.sheet.stiffness.bars } else { &self.sheet.stiffness.hinges };
+        let (key, word) = (of.mesh_key(), of.word());
+        if given.is_empty() {
+            let help = format!("`{key}` in the FOLD file has one number, \"inf\" or null for each of `edges_vertices`");
+            return Err(self.file.error_at(span, format!("the mesh has no `{key}`"), help));
+        }
+        let mut each = vec![f64::NAN; self.tiling.edges.len()];
+        for k in self.edges(of) {
+            let edge = self.key(k);
+            each[k] = *given.get(&edge).ok_or_else(|| {
+                let message = format!("`{key}` of the mesh has no value for {word} {}", name(edge));
+                let help =
+                    format!("give each {word} a number or \"inf\"; diagonals of polygons have to be listed with J");
+                self.file.error_at(span.clone(), message, help)
+            })?;
+        }
+        Ok(each.into())
+    }
+}
+
+/// Returns the name of an edge as a scene writes it.
+pub(super) fn name(key: EdgeKey) -> String {
+    format!("[{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1])
+}

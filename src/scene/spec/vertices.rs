@@ -1,0 +1,198 @@
+//! Sets of vertices of a patch, in the forms in which a scene names them.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Unexpected, Visitor};
+use serde::{Deserialize, Deserializer};
+
+use crate::scene::values::Exactly;
+
+/// A set of vertices of a patch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VertexSet {
+    /// The vertices of a list.
+    List(Vec<VertexName>),
+    /// The vertices that the mesh lists under a name (`foldwell:names`).
+    Name(String),
+    /// The vertices whose drawn coordinates have these values; a coordinate that is not given is arbitrary.
+    Where([Option<Coordinate>; 3]),
+    /// The vertices whose drawn positions lie in a box with these opposite corners.
+    Box([[f64; 3]; 2]),
+}
+
+/// A vertex: its number in its cell, and the cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VertexName {
+    /// Number of the vertex in its cell.
+    pub vertex: usize,
+    /// The cell.
+    pub cell: [usize; 2],
+}
+
+/// A value of a coordinate of the drawn state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coordinate {
+    /// The least value of any vertex of the patch.
+    Least,
+    /// The largest value of any vertex of the patch.
+    Largest,
+    /// A number.
+    At(f64),
+}
+
+/// The tables of [`VertexSet`] in one, used to find out which of them was given.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SetTable {
+    r#where: Option<Plane>,
+    r#box: Option<Exactly<Exactly<f64, 3>, 2>>,
+}
+
+/// `{ x, y, z }` of `where`.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "Where")]
+struct Plane {
+    /// Value of the coordinate x.
+    x: Option<Coordinate>,
+    /// Value of the coordinate y.
+    y: Option<Coordinate>,
+    /// Value of the coordinate z.
+    z: Option<Coordinate>,
+}
+
+impl SetTable {
+    fn into_set(self) -> Result<VertexSet, &'static str> {
+        match (self.r#where, self.r#box) {
+            (Some(Plane { x: None, y: None, z: None }), None) => {
+                Err("`where` is empty, expected one or more of x, y, z, as in { where = { z = \"max\" } }")
+            }
+            (Some(Plane { x, y, z }), None) => Ok(VertexSet::Where([x, y, z])),
+            (None, Some(Exactly(corners))) => {
+                let corners = corners.map(|Exactly(corner)| corner);
+                if corners.iter().flatten().any(|x| x.is_nan()) {
+                    return Err("a corner of the box is not a number, expected [[x, y, z], [x, y, z]]");
+                }
+                Ok(VertexSet::Box(corners))
+            }
+            (None, None) => Err("the table is empty, expected { where = { z = \"max\" } } or { box = [[..], [..]] }"),
+            (Some(_), Some(_)) => Err("a set has `where` and `box` at once, expected one of the two"),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for VertexSet {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct SetForm;
+        impl<'de> Visitor<'de> for SetForm {
+            type Value = VertexSet;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a list of vertices v or [v, c1, c2], a name of the mesh, { where = { z = \"max\" } } ")?;
+                f.write_str("or { box = [[x, y, z], [x, y, z]] }")
+            }
+
+            fn visit_str<E: Error>(self, name: &str) -> Result<VertexSet, E> {
+                Ok(VertexSet::Name(name.into()))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<VertexSet, A::Error> {
+                Deserialize::deserialize(SeqAccessDeserializer::new(seq)).map(VertexSet::List)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<VertexSet, A::Error> {
+                SetTable::deserialize(MapAccessDeserializer::new(map))?.into_set().map_err(A::Error::custom)
+            }
+        }
+        deserializer.deserialize_any(SetForm)
+    }
+}
+
+impl<'de> Deserialize<'de> for VertexName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NameForm;
+        impl<'de> Visitor<'de> for NameForm {
+            type Value = VertexName;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a vertex: v, in cell [0, 0], or [v, c1, c2], counted from 0")
+            }
+
+            fn visit_i64<E: Error>(self, number: i64) -> Result<VertexName, E> {
+                let vertex = usize::try_from(number);
+                let vertex = vertex.map_err(|_| E::invalid_value(Unexpected::Signed(number), &self))?;
+                Ok(VertexName { vertex, cell: [0, 0] })
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<VertexName, A::Error> {
+                let Exactly([vertex, c1, c2]) = Exactly::deserialize(SeqAccessDeserializer::new(seq))?;
+                Ok(VertexName { vertex, cell: [c1, c2] })
+            }
+        }
+        deserializer.deserialize_any(NameForm)
+    }
+}
+
+impl<'de> Deserialize<'de> for Coordinate {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct CoordinateForm;
+        impl Visitor<'_> for CoordinateForm {
+            type Value = Coordinate;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("\"min\", \"max\" or a finite number")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<Coordinate, E> {
+                match word {
+                    "min" => Ok(Coordinate::Least),
+                    "max" => Ok(Coordinate::Largest),
+                    _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
+                }
+            }
+
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Coordinate, E> {
+                let finite = Some(value).filter(|value| value.is_finite());
+                finite.map(Coordinate::At).ok_or_else(|| E::invalid_value(Unexpected::Float(value), &self))
+            }
+
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Coordinate, E> {
+                Ok(Coordinate::At(value as f64))
+            }
+        }
+        deserializer.deserialize_any(CoordinateForm)
+    }
+}
+
+impl JsonSchema for VertexSet {
+    fn schema_name() -> Cow<'static, str> {
+        "VertexSet".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let place = generator.subschema_for::<Plane>();
+        let corners = generator.subschema_for::<[[f64; 3]; 2]>();
+        json_schema!({ "anyOf": [
+            { "type": "array", "items": { "anyOf": [
+                { "type": "integer", "minimum": 0 },
+                { "type": "array", "items": { "type": "integer", "minimum": 0 }, "minItems": 3, "maxItems": 3 },
+            ] } },
+            { "type": "string", "description": "a list of vertices that the mesh names in `foldwell:names`" },
+            { "type": "object", "additionalProperties": false, "required": ["where"], "properties": { "where": place } },
+            { "type": "object", "additionalProperties": false, "required": ["box"], "properties": { "box": corners } },
+        ] })
+    }
+}
+
+impl JsonSchema for Coordinate {
+    fn schema_name() -> Cow<'static, str> {
+        "Coordinate".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [{ "enum": ["min", "max"] }, { "type": "number" }] })
+    }
+}

@@ -1,0 +1,184 @@
+//! The forms of a stiffness and of rest lengths in a scene: a number, a word, a table by letters, or a file.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::PathBuf;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Unexpected, Visitor};
+use serde::{Deserialize, Deserializer};
+
+use super::Located;
+use super::forms::FileName;
+use super::values::{Positive, Stiffness};
+use crate::sheet::Assignment;
+
+/// Stiffness of the elements of a term.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StiffnessSpec {
+    /// One number for all elements; infinite: exactly rigid.
+    Number(f64),
+    /// A table with a row per element.
+    File(FileName),
+    /// A number for each letter of the edges' assignments.
+    Letters(BTreeMap<Assignment, f64>),
+    /// Numbers that the mesh file gives its edges.
+    Mesh,
+}
+
+/// `{ M = 1.0, V = 2.0, .. }`: a stiffness for each letter of `edges_assignment`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "StiffnessByLetter")]
+struct Letters {
+    /// Mountains.
+    #[serde(rename = "M")]
+    mountain: Option<Located<Stiffness>>,
+    /// Valleys.
+    #[serde(rename = "V")]
+    valley: Option<Located<Stiffness>>,
+    /// Creases that are flat; diagonals of polygons where `J` is not given.
+    #[serde(rename = "F")]
+    flat: Option<Located<Stiffness>>,
+    /// Creases of which nothing is said.
+    #[serde(rename = "U")]
+    unassigned: Option<Located<Stiffness>>,
+    /// Bars on the rim.
+    #[serde(rename = "B")]
+    boundary: Option<Located<Stiffness>>,
+    /// Bars along cuts; where it is not given, `B` counts.
+    #[serde(rename = "C")]
+    cut: Option<Located<Stiffness>>,
+    /// Diagonals of polygons.
+    #[serde(rename = "J")]
+    join: Option<Located<Stiffness>>,
+    /// A table with a row per element; not together with letters.
+    #[schemars(skip)]
+    file: Option<Located<PathBuf>>,
+}
+
+impl Letters {
+    fn into_spec(self) -> Result<StiffnessSpec, &'static str> {
+        let given = [
+            (Assignment::Mountain, self.mountain),
+            (Assignment::Valley, self.valley),
+            (Assignment::Flat, self.flat),
+            (Assignment::Unassigned, self.unassigned),
+            (Assignment::Boundary, self.boundary),
+            (Assignment::Cut, self.cut),
+            (Assignment::Join, self.join),
+        ];
+        let letters: BTreeMap<Assignment, f64> =
+            given.into_iter().filter_map(|(letter, stiffness)| Some((letter, stiffness?.0))).collect();
+        match self.file {
+            Some(file) if letters.is_empty() => Ok(StiffnessSpec::File(FileName { file })),
+            Some(_) => Err("stiffnesses come from letters and from a file at once, expected one of the two"),
+            None if letters.is_empty() => Err("the table is empty, expected { M = 1.0, V = 2.0, .. } or { file }"),
+            None => Ok(StiffnessSpec::Letters(letters)),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for StiffnessSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct StiffnessForm;
+        impl<'de> Visitor<'de> for StiffnessForm {
+            type Value = StiffnessSpec;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<StiffnessSpec, E> {
+                let mesh = (word == "mesh").then_some(StiffnessSpec::Mesh);
+                mesh.ok_or_else(|| E::invalid_value(Unexpected::Str(word), &self))
+            }
+
+            fn visit_f64<E: Error>(self, stiffness: f64) -> Result<StiffnessSpec, E> {
+                Stiffness::try_from(stiffness).map(|stiffness| StiffnessSpec::Number(stiffness.0)).map_err(E::custom)
+            }
+
+            fn visit_i64<E: Error>(self, stiffness: i64) -> Result<StiffnessSpec, E> {
+                self.visit_f64(stiffness as f64)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<StiffnessSpec, A::Error> {
+                Letters::deserialize(MapAccessDeserializer::new(map))?.into_spec().map_err(A::Error::custom)
+            }
+        }
+        deserializer.deserialize_any(StiffnessForm)
+    }
+}
+
+impl JsonSchema for StiffnessSpec {
+    fn schema_name() -> Cow<'static, str> {
+        "Stiffnesses".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [
+            generator.subschema_for::<Stiffness>(),
+            { "const": "mesh", "description": "as the mesh file gives its edges" },
+            generator.subschema_for::<Letters>(),
+            generator.subschema_for::<FileName>(),
+        ] })
+    }
+}
+
+/// Rest lengths of bars.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RestLengthSpec {
+    /// The drawn lengths.
+    Drawn,
+    /// The drawn lengths times this factor.
+    Factor(f64),
+    /// A table with a row per bar.
+    File(FileName),
+}
+
+impl<'de> Deserialize<'de> for RestLengthSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct LengthForm;
+        impl<'de> Visitor<'de> for LengthForm {
+            type Value = RestLengthSpec;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("\"drawn\", a factor on the drawn lengths or { file = \"lengths.csv\" }")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<RestLengthSpec, E> {
+                let drawn = (word == "drawn").then_some(RestLengthSpec::Drawn);
+                drawn.ok_or_else(|| E::invalid_value(Unexpected::Str(word), &self))
+            }
+
+            fn visit_f64<E: Error>(self, factor: f64) -> Result<RestLengthSpec, E> {
+                Positive::try_from(factor).map(|factor| RestLengthSpec::Factor(factor.0)).map_err(E::custom)
+            }
+
+            fn visit_i64<E: Error>(self, factor: i64) -> Result<RestLengthSpec, E> {
+                self.visit_f64(factor as f64)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RestLengthSpec, A::Error> {
+                FileName::deserialize(MapAccessDeserializer::new(map)).map(RestLengthSpec::File)
+            }
+        }
+        deserializer.deserialize_any(LengthForm)
+    }
+}
+
+impl JsonSchema for RestLengthSpec {
+    fn schema_name() -> Cow<'static, str> {
+        "RestLengths".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [
+            { "const": "drawn" },
+            { "type": "number", "exclusiveMinimum": 0, "description": "factor on the drawn lengths" },
+            generator.subschema_for::<FileName>(),
+        ] })
+    }
+}

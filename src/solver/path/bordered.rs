@@ -1,0 +1,221 @@
+//! The bordered linear system of a path: Newton's system with the parameter as one more unknown, and one more equation.
+//!
+//! `[ H   R^T  g ] [dx]   [a]`
+//! `[ R   -C   m ] [dt] = [b]`
+//! `[ n^T  0   p ] [dl]   [s]`
+//!
+//! Here `g` and `m` are the rates by the parameter `l`, and `(n, p)` is the normal of a plane. The system is regular
+//! where Newton's own is singular with a simple null space that the border meets: at limit points. It is solved by
+//! elimination of the parameter with the factorization of Newton's system, and conjugate residuals of the bordered
+//! system take back what that loses where Newton's system is nearly singular. The parameter is counted in units in
+//! which its scale is the unit of length.
+
+use super::problem::{ParametrizedProblem, Rates};
+use crate::numerics::factor::{FactorError, Inertia};
+use crate::numerics::sparse::symmetric_product;
+use crate::numerics::vector::{add_scaled, dot, max_abs, norm_blocked};
+use crate::solver::corrections::{self, NearlySolved, Pair};
+use crate::solver::kkt::{KktSystem, stiffness_size};
+use crate::solver::linearization::{HessianKind, Linearization};
+
+/// Relative residual to which bordered systems are solved, and the one above which a solution is not used.
+const WANTED_RESIDUAL: f64 = 1e-12;
+pub(super) const REFUSED_RESIDUAL: f64 = 1e-3;
+/// Shift of the Hessian where a pivot of the factorization without shift vanishes.
+const SINGULAR_SHIFT: f64 = 1e-6;
+/// Rounds of inverse iteration, and the relative residual to which their systems are solved.
+const SOFTEST_ROUNDS: usize = 5;
+const SOFTEST_RESIDUAL: f64 = 1e-8;
+
+/// A plane in the space of unknowns and parameter: its normal, the parameter's part in units of length.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Plane {
+    pub x: Vec<f64>,
+    pub parameter: f64,
+}
+
+/// The bordered system at one state.
+pub(super) struct Bordered {
+    /// The numbers of the problem at the state.
+    pub at: Linearization,
+    system: KktSystem,
+    compliance: Vec<f64>,
+    rates: [Vec<f64>; 2],
+    /// Length of a change of all unknowns by their natural size.
+    length: f64,
+    /// One unit of length of the parameter.
+    unit: f64,
+    /// Inertia of the last factorization; `None` where it needed a shift.
+    inertia: Option<Inertia>,
+    /// Response to the rates by the parameter, by the last factorization.
+    response: Pair,
+}
+
+impl Bordered {
+    /// Makes room for the systems of a problem.
+    pub fn new<P: ParametrizedProblem>(problem: &P) -> Result<Self, FactorError> {
+        let layout = problem.layout();
+        let length = problem.unit_of_length() * (layout.unknowns.max(1) as f64).sqrt();
+        Ok(Self {
+            at: Linearization::new(layout),
+            system: KktSystem::new(layout)?,
+            compliance: vec![],
+            rates: [vec![], vec![]],
+            length,
+            unit: problem.parameter_scale() / length,
+            inertia: None,
+            response: Pair(vec![], vec![]),
+        })
+    }
+
+    /// Linearizes at a state, with the problem's present parameter.
+    pub fn linearize<P: ParametrizedProblem>(&mut self, problem: &P, x: &[f64], tension: &[f64]) {
+        problem.linearize(x, tension, HessianKind::Full, &mut self.at);
+        self.compliance = problem.compliance().to_vec();
+        self.rates = problem.parameter_rates(&self.at, x, tension).map(|rates| scaled(rates, self.unit));
+    }
+
+    /// Factors Newton's system where it was linearized, shifted a little where it is singular.
+    pub fn factor(&mut self) -> Result<(), FactorError> {
+        let found = self.system.factor(&self.at, &self.compliance, 0.0);
+        self.inertia = match found {
+            Ok(inertia) => Some(inertia),
+            Err(FactorError::Singular { .. }) => {
+                self.system.factor(&self.at, &self.compliance, SINGULAR_SHIFT)?;
+                None
+            }
+            Err(error) => return Err(error),
+        };
+        let [force, gap] = &self.rates;
+        let (dx, dt) = self.system.apply(force, gap);
+        self.response = Pair(dx, dt);
+        Ok(())
+    }
+
+    /// Number of negative eigenvalues of the Hessian at fixed parameter, on what the rigid measures leave free.
+    pub fn negative_eigenvalues(&mut self) -> Result<usize, FactorError> {
+        match self.inertia {
+            Some(inertia) => Ok(inertia.negative),
+            None => {
+                let inertia = self.system.inertia(&self.at, &self.compliance)?;
+                self.factor()?;
+                Ok(inertia.negative)
+            }
+        }
+    }
+
+    /// Solves for a force on every unknown, a stretch of every measure and a distance from the plane. Returns the
+    /// changes, and the relative residual.
+    pub fn solve(&mut self, force: &[f64], stretch: &[f64], distance: f64, plane: &Plane) -> (Rates, f64) {
+        let stiffness = stiffness_size(&self.at, &self.compliance);
+        let stretches: Vec<f64> = stretch.iter().zip(&self.at.sizes).map(|(b, size)| b / size).collect();
+        let mut forces = force.to_vec();
+        forces.push(stiffness * distance);
+        let right = Pair(forces, stretches);
+        let mut equations = Equations { bordered: self, plane, stiffness };
+        let found = equations.solve(&right);
+        let pull = equations.bordered.pull(&found.1);
+        let units = [
+            norm_blocked(&right.0).max(1e-9 * pull),
+            norm_blocked(&right.1).max(1e-6 * norm_blocked(&found.0)).max(f64::MIN_POSITIVE),
+        ];
+        let refined = corrections::correct(&mut equations, &right, found, units, WANTED_RESIDUAL);
+        let Pair(mut x, tension) = refined.found;
+        let parameter = x.pop().unwrap_or(0.0) * self.unit;
+        let tension = tension.iter().zip(&self.at.sizes).map(|(t, size)| t / size).collect();
+        (Rates { x, tension, parameter }, refined.residual)
+    }
+
+    /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates of
+    /// unknowns and tensions, the former of length 1. Where the system is singular it is a null vector.
+    pub fn softest(&mut self, guess: &[f64], others: &[Rates]) -> Rates {
+        let nothing = vec![0.0; self.compliance.len()];
+        let mut found = Rates { x: guess.to_vec(), tension: nothing.clone(), parameter: 0.0 };
+        for _ in 0..SOFTEST_ROUNDS {
+            let answer = self.system.solve(&self.at, &found.x, &nothing, SOFTEST_RESIDUAL);
+            found = Rates { x: answer.dx, tension: answer.dt, parameter: 0.0 };
+            for other in others {
+                let part = dot(&found.x, &other.x);
+                add_scaled(&mut found.x, -part, &other.x);
+                add_scaled(&mut found.tension, -part, &other.tension);
+            }
+            let per_length = 1.0 / norm_blocked(&found.x).max(f64::MIN_POSITIVE);
+            found.x.iter_mut().chain(&mut found.tension).for_each(|rate| *rate *= per_length);
+        }
+        found
+    }
+
+    /// The scaled force that rounding of unknowns of this size makes: a last place of them times the largest stiffness
+    /// that is not infinite. It is large only where nearly all forces vanish.
+    pub fn rounding_force(&self, size: f64) -> f64 {
+        let rows = self.at.rows();
+        let gradient = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]);
+        let finite = self.compliance.iter().enumerate().filter(|(_, c)| **c > 0.0);
+        let stiffest = finite.map(|(row, c)| gradient(row).powi(2) / c);
+        let stiffest = stiffest.fold(self.at.pattern().largest_diagonal(&self.at.hessian), f64::max);
+        f64::EPSILON * size * stiffest / self.at.largest_force
+    }
+
+    /// Norm of the forces of these tensions, in units of force, before they balance.
+    fn pull(&self, tensions: &[f64]) -> f64 {
+        let rows = self.at.rows();
+        let largest = |row: usize| max_abs(&rows.values[rows.cliques.range(row)]) / self.at.sizes[row];
+        tensions.iter().enumerate().map(|(row, t)| (t * largest(row)).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Length of a change of all unknowns by their natural size: arc lengths are in this unit.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The unit of length of the parameter.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+}
+
+fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
+    values.iter_mut().for_each(|v| *v *= factor);
+    values
+}
+
+/// The bordered system and its elimination. Stretches and tensions are scaled as in [`KktSystem`]; the parameter is the
+/// last unknown, and its equation is multiplied by a stiffness, so that it is a force.
+struct Equations<'a> {
+    bordered: &'a mut Bordered,
+    plane: &'a Plane,
+    stiffness: f64,
+}
+
+impl NearlySolved for Equations<'_> {
+    fn product(&self, Pair(x, t): &Pair) -> Pair {
+        let Bordered { at, compliance, rates: [force, gap], .. } = &*self.bordered;
+        let (parameter, dx) = (x[x.len() - 1], &x[..x.len() - 1]);
+        let dt: Vec<f64> = t.iter().zip(&at.sizes).map(|(t, size)| t / size).collect();
+        let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
+        let rows = at.rows();
+        symmetric_product(at.pattern(), &at.hessian, dx, &mut a);
+        rows.add_transpose_product(&dt, &mut a);
+        rows.product(dx, &mut b);
+        a.iter_mut().zip(force).for_each(|(a, g)| *a += parameter * g);
+        for (k, b) in b.iter_mut().enumerate() {
+            *b = (*b - compliance[k] * dt[k] + parameter * gap[k]) / at.sizes[k];
+        }
+        a.push(self.stiffness * (dot(&self.plane.x, dx) + self.plane.parameter * parameter));
+        Pair(a, b)
+    }
+
+    fn solve(&mut self, Pair(a, b): &Pair) -> Pair {
+        let sizes = self.bordered.at.sizes.clone();
+        let stretch: Vec<f64> = b.iter().zip(&sizes).map(|(b, size)| b * size).collect();
+        let (force, distance) = (&a[..a.len() - 1], a[a.len() - 1] / self.stiffness);
+        let (mut dx, mut dt) = self.bordered.system.apply(force, &stretch);
+        let Pair(by_x, by_t) = &self.bordered.response;
+        let across = dot(&self.plane.x, by_x) - self.plane.parameter;
+        let parameter = (dot(&self.plane.x, &dx) - distance) / across;
+        dx.iter_mut().zip(by_x).for_each(|(x, by)| *x -= parameter * by);
+        dt.iter_mut().zip(by_t).zip(&sizes).for_each(|((t, by), size)| *t = (*t - parameter * by) * size);
+        dx.push(parameter);
+        Pair(dx, dt)
+    }
+}

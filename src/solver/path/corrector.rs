@@ -1,0 +1,132 @@
+//! Newton's method onto a path, across a plane.
+
+use super::bordered::{Bordered, Plane, REFUSED_RESIDUAL};
+use super::problem::{ParametrizedProblem, PathState, Rates};
+use crate::numerics::factor::FactorError;
+use crate::numerics::vector::{add_scaled, larger, max_abs, norm_blocked};
+use crate::solver::problem::Residuals;
+
+/// Largest number of Newton steps from a predicted state.
+const MOST_STEPS: usize = 12;
+/// Length of a Newton step over that of the one before above which the iteration does not contract.
+const SLOWEST_CONTRACTION: f64 = 0.6;
+/// Relative length of Newton steps that are rounding error.
+const ROUNDING: f64 = 1e-13;
+/// Number of steps of that length after which a state is taken as it is.
+const MOST_POLISHED: usize = 2;
+/// Scaled residual up to which a state that no step improves is taken where rounding errors are that large.
+const MOST_ROUNDING: f64 = 1e-8;
+
+/// A state near the path.
+#[derive(Clone, Debug)]
+pub(super) struct Guess {
+    pub x: Vec<f64>,
+    pub tension: Vec<f64>,
+    pub parameter: f64,
+}
+
+/// A state on the path, and how it was reached.
+pub(super) struct Corrected {
+    pub at: Guess,
+    pub residuals: Residuals,
+    /// Length of the first Newton step, the error of the prediction.
+    pub off: f64,
+    pub iterations: usize,
+}
+
+/// Moves a guess within the plane through it onto the path. Returns `None` where the iteration does not converge.
+///
+/// # Errors
+/// [`FactorError`] where a system cannot be factored.
+pub(super) fn correct<P: ParametrizedProblem>(
+    problem: &mut P,
+    bordered: &mut Bordered,
+    mut at: Guess,
+    plane: &Plane,
+    tolerance: f64,
+) -> Result<Option<Corrected>, FactorError> {
+    let (mut last, mut off, mut polished) = (f64::INFINITY, 0.0, 0);
+    for iterations in 0..=MOST_STEPS {
+        problem.set_parameter(at.parameter);
+        bordered.linearize(problem, &at.x, &at.tension);
+        let residuals = Residuals::new(problem, &bordered.at, &at.tension);
+        let size = larger(residuals.force, residuals.length);
+        // no step makes residuals smaller that rounding errors of the unknowns make
+        let rounding = larger(MOST_ROUNDING, bordered.rounding_force(max_abs(&at.x)));
+        let rounded = residuals.length <= tolerance && size <= rounding;
+        if size <= tolerance || (polished == MOST_POLISHED && rounded) {
+            return Ok(Some(Corrected { at, residuals, off, iterations }));
+        }
+        if !size.is_finite() || iterations == MOST_STEPS || polished == MOST_POLISHED {
+            break;
+        }
+        bordered.factor()?;
+        let (force, missing) = (bordered.at.force(&at.tension), bordered.at.missing(&at.tension, problem.compliance()));
+        let (step, residual) = bordered.solve(&force, &missing, 0.0, plane);
+        let length = norm_blocked(&step.x).hypot(step.parameter / bordered.unit());
+        let small = length <= ROUNDING * larger(max_abs(&at.x), bordered.length());
+        if residual.is_nan() || residual > REFUSED_RESIDUAL || !(small || length <= SLOWEST_CONTRACTION * last) {
+            // a right-hand side of rounding errors has no exact solution
+            return Ok(rounded.then_some(Corrected { at, residuals, off, iterations }));
+        }
+        if iterations == 0 {
+            off = length;
+        }
+        polished += usize::from(small);
+        last = length;
+        add_scaled(&mut at.x, 1.0, &step.x);
+        add_scaled(&mut at.tension, 1.0, &step.tension);
+        at.parameter += step.parameter;
+    }
+    Ok(None)
+}
+
+/// Completes a state on the path: its tangent on the side to which the plane's normal points, its conjugate and its
+/// inertia.
+///
+/// # Errors
+/// [`FactorError`] where the system cannot be factored.
+pub(super) fn complete<P: ParametrizedProblem>(
+    problem: &mut P,
+    bordered: &mut Bordered,
+    found: Corrected,
+    plane: &Plane,
+    arc_length: f64,
+) -> Result<PathState, FactorError> {
+    let Corrected { at: Guess { x, tension, parameter }, residuals, iterations, .. } = found;
+    bordered.factor()?;
+    let negative_eigenvalues = bordered.negative_eigenvalues()?;
+    let (forces, stretches) = (vec![0.0; x.len()], vec![0.0; tension.len()]);
+    let (mut tangent, _) = bordered.solve(&forces, &stretches, 1.0, plane);
+    let speed = norm_blocked(&tangent.x).hypot(tangent.parameter / bordered.unit()) / bordered.length();
+    tangent.x.iter_mut().chain(&mut tangent.tension).for_each(|rate| *rate /= speed);
+    tangent.parameter /= speed;
+    let conjugate =
+        [problem.conjugate(&bordered.at, &x, &tension), problem.conjugate_rate(&bordered.at, &x, &tension, &tangent)];
+    Ok(PathState {
+        arc_length,
+        x,
+        tension,
+        parameter,
+        tangent,
+        conjugate,
+        residual_force: residuals.force,
+        residual_length: residuals.length,
+        negative_eigenvalues,
+        iterations,
+    })
+}
+
+impl Plane {
+    /// The plane across these rates, of which the parameter is counted in this unit of length.
+    pub(super) fn across(rates: &Rates, unit: f64) -> Self {
+        let parameter = rates.parameter / unit;
+        let per_length = 1.0 / norm_blocked(&rates.x).hypot(parameter).max(f64::MIN_POSITIVE);
+        Self { x: rates.x.iter().map(|x| x * per_length).collect(), parameter: parameter * per_length }
+    }
+
+    /// The plane of a fixed parameter, with the normal towards larger (`1.0`) or smaller ones (`-1.0`).
+    pub(super) fn of_parameter(unknowns: usize, sign: f64) -> Self {
+        Self { x: vec![0.0; unknowns], parameter: sign }
+    }
+}

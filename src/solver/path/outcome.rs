@@ -1,0 +1,101 @@
+//! How a path is followed, and what comes of it.
+
+use super::problem::PathState;
+use crate::numerics::factor::FactorError;
+use thiserror::Error;
+
+/// Tolerance, steps and end of a path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathSettings {
+    /// Bound on both scaled residuals of every state.
+    pub tolerance: f64,
+    /// Longest step in arc length.
+    pub max_step: f64,
+    /// Largest number of states of a branch.
+    pub steps: usize,
+    /// Parameter at which the path ends.
+    pub target: f64,
+    /// Arc length at which a branch ends.
+    pub length: f64,
+    /// Whether branches that leave at branch points are followed too.
+    pub switch: bool,
+    /// Largest number of branches.
+    pub branches: usize,
+}
+
+impl Default for PathSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-12,
+            max_step: 0.1,
+            steps: 10_000,
+            target: f64::INFINITY,
+            length: f64::INFINITY,
+            switch: false,
+            branches: 64,
+        }
+    }
+}
+
+/// What is special about a state of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PathMark {
+    /// The parameter has an extremum along the path.
+    ParameterTurns,
+    /// The conjugate quantity has an extremum along the path.
+    ConjugateTurns,
+    /// This many eigenvalues change their sign although the parameter goes on: other equilibria leave the path.
+    BranchPoint(usize),
+    /// The function with this number that is watched along the path changes its sign.
+    Watched(usize),
+}
+
+/// The reason for which a branch ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BranchEnd {
+    /// The parameter is the target's.
+    Target,
+    /// The branch came back to the parameter at which the path began, or to a branch point that is known.
+    Returned,
+    /// The branch has the wanted length.
+    Length,
+    /// A watched function whose sign change ends the branch changed its sign.
+    Watched(usize),
+    /// The largest number of states was reached.
+    Steps,
+    /// No step, however short, could be corrected onto the path.
+    Failed,
+    /// The observer asked to stop.
+    Interrupted,
+}
+
+/// A branch of equilibria.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// States in order, each with its mark and the work done from the first state of the path to it.
+    pub states: Vec<MarkedState>,
+    /// The reason for its end.
+    pub end: BranchEnd,
+}
+
+/// A state of a branch.
+#[derive(Clone, Debug)]
+pub struct MarkedState {
+    /// The state.
+    pub state: PathState,
+    /// What is special about it.
+    pub mark: Option<PathMark>,
+    /// Integral of the conjugate quantity over the parameter, from the first state of the path.
+    pub work: f64,
+}
+
+/// The reason for which a path cannot be followed.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum PathError {
+    /// The start is not near an equilibrium.
+    #[error("the start is not an equilibrium, and none is found next to it")]
+    NoStart,
+    /// The linear algebra failed.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+}

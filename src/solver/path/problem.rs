@@ -1,0 +1,67 @@
+//! A problem with a parameter, and its states.
+
+use crate::solver::linearization::Linearization;
+use crate::solver::problem::Problem;
+
+/// A problem that depends on one parameter.
+pub trait ParametrizedProblem: Problem {
+    /// The parameter.
+    fn parameter(&self) -> f64;
+    /// Sets the parameter.
+    fn set_parameter(&mut self, value: f64);
+    /// Natural size of a change of the parameter; positive.
+    fn parameter_scale(&self) -> f64;
+    /// Rates by the parameter, at fixed unknowns and tensions, of the gradient of the energy (tensions of stiff
+    /// measures included) and of the stretches `m - c t` of the stiff measures.
+    fn parameter_rates(&self, at: &Linearization, x: &[f64], tension: &[f64]) -> [Vec<f64>; 2];
+    /// The quantity that is conjugate to the parameter in these states.
+    fn conjugate(&self, at: &Linearization, x: &[f64], tension: &[f64]) -> f64;
+    /// Rate of [`ParametrizedProblem::conjugate`] for these rates of unknowns, tensions and parameter.
+    fn conjugate_rate(&self, at: &Linearization, x: &[f64], tension: &[f64], rates: &Rates) -> f64;
+}
+
+/// Rates of a state, or a difference of two states.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rates {
+    /// Of the unknowns.
+    pub x: Vec<f64>,
+    /// Of the tensions of the stiff measures.
+    pub tension: Vec<f64>,
+    /// Of the parameter.
+    pub parameter: f64,
+}
+
+/// An equilibrium on a path.
+#[derive(Clone, Debug)]
+pub struct PathState {
+    /// Arc length from the beginning of the branch. Its square is that of the unknowns' root mean square, in their unit
+    /// of length, plus that of the parameter in units of its scale.
+    pub arc_length: f64,
+    /// Unknowns.
+    pub x: Vec<f64>,
+    /// Tensions of the stiff measures.
+    pub tension: Vec<f64>,
+    /// The parameter.
+    pub parameter: f64,
+    /// Unit tangent of the path, by arc length.
+    pub tangent: Rates,
+    /// The conjugate quantity, and its rate by arc length.
+    pub conjugate: [f64; 2],
+    /// Scaled residual force.
+    pub residual_force: f64,
+    /// Scaled residual length.
+    pub residual_length: f64,
+    /// Negative eigenvalues of the Hessian at fixed parameter.
+    pub negative_eigenvalues: usize,
+    /// Number of Newton steps that led to the state.
+    pub iterations: usize,
+}
+
+impl Rates {
+    /// These rates times a factor.
+    pub(super) fn scaled(mut self, factor: f64) -> Self {
+        self.x.iter_mut().chain(&mut self.tension).for_each(|rate| *rate *= factor);
+        self.parameter *= factor;
+        self
+    }
+}

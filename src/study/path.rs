@@ -1,0 +1,364 @@
+//! `kind = "path"`: equilibria while a quantity is driven, through limit points, with branches on request.
+
+use super::answer::{Answer, SavedState};
+use super::context::Context;
+use super::error::StudyError;
+use super::path_plot::{Words, event_word, figure};
+use super::states::{self, Shown};
+use super::{energies, start};
+use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
+use crate::analysis::path::{PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStart, PathStop, follow_path};
+use crate::model::{Assembly, Drive, Driven, Gauge};
+use crate::numerics::{larger, worst};
+use crate::output::figure::rounded;
+use crate::output::summary::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary, StudyResult};
+use crate::output::table::{Table, Value};
+use crate::scene::build;
+use crate::scene::forms::StartSpec;
+use crate::scene::spec::{Draw, PathSpec};
+use std::collections::BTreeSet;
+
+/// Number of pictures in the series, apart from more events and ends than that.
+const PICTURES: usize = 60;
+/// Number of states examined for self-intersection between two calls of the observer.
+const OBSERVED: usize = 16;
+
+/// Checks that the sheet has an energy, and that the drive, the start and the stops exist.
+pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    if !context.assembly.terms().has_energy() {
+        let help = "give bars, creases or facets a stiffness";
+        return Err(context.refuse("there is no energy whose equilibria a path could follow", help).into());
+    }
+    moves(context, spec)?;
+    stop(context, spec)?;
+    match spec.start.as_ref().map(|start| (&**start, start.span())) {
+        Some((StartSpec::Random(_), span)) => {
+            let help =
+                "start from \"drawn\", an earlier study or a file; a relaxation can start from random displacements";
+            Err(context.file.error_at(span, "a path does not start there", help).into())
+        }
+        _ => start::check(context, spec.start.as_ref()),
+    }
+}
+
+/// Follows the path, and its branches if the scene asks for them.
+pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, StudyError> {
+    let (drive, stop) = (drive(context, spec)?, stop(context, spec)?);
+    let mut model = context.assembly.model(Gauge::Held);
+    let Some(found) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+        return Ok(start::unavailable(context));
+    };
+    let start = (!found.is_drawn).then(|| PathStart {
+        coordinates: model.coordinates(&found.x),
+        angles: model.angles(),
+        tension: found.tension_helps.then(|| found.tension.clone()),
+    });
+    let options = PathOptions { switch: spec.switch, stop, ..PathOptions::default() };
+    let options = PathOptions {
+        tolerance: spec.tolerance.as_ref().map_or(options.tolerance, |tolerance| tolerance.0),
+        max_step: spec.max_step.as_ref().map_or(options.max_step, |step| step.0),
+        ..options
+    };
+    let mut step = 0;
+    let mut observe = |_: usize, point: &PathPoint| {
+        step += 1;
+        context.step_with_residual(step, None, larger(point.residual_force, point.residual_length))
+    };
+    match follow_path(context.assembly, &drive, start, &options, &mut observe) {
+        Ok(branches) => Ok(answer(context, (drive_name(context, spec), &drive), &branches)),
+        Err(failure) => Ok(Answer::failed(context.study, failure)),
+    }
+}
+
+/// Returns the drive that the study names, or the only one of the scene.
+fn drive(context: &Context<'_>, spec: &PathSpec) -> Result<Drive, StudyError> {
+    let name = drive_name(context, spec);
+    Ok(build::drive(context.file, context.assembly, name)?)
+}
+
+/// Returns the name of the drive that the study names, or of the only one of the scene.
+fn drive_name<'a>(context: &'a Context<'_>, spec: &'a PathSpec) -> &'a str {
+    let first = context.file.scene.drives.first().map(|drive| drive.name.0.as_str());
+    spec.drive.as_ref().map(|name| name.as_str()).or(first).unwrap_or_default()
+}
+
+/// Checks that a factor of loads or rest angles does not end where it begins: at 0 in the drawn state, at 1 in an
+/// earlier state.
+fn moves(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    let drive = drive(context, spec)?;
+    let drawn = matches!(spec.start.as_deref(), None | Some(StartSpec::Drawn));
+    let begin = if drawn { 0.0 } else { 1.0 };
+    if !matches!(drive.quantity, Driven::Loads | Driven::Rest) || drive.to != begin {
+        return Ok(());
+    }
+    let name = drive_name(context, spec);
+    let table = context.file.scene.drives.iter().find(|drive| drive.name.0 == name);
+    let span = table.map_or(0..0, |table| table.to.span());
+    let message = format!("the path of study `{}` ends where it begins", context.name());
+    let help =
+        "loads and rest angles begin at 0 in the drawn state, and at 1 in the state of an earlier study or of a file";
+    Err(context.file.error_at(span, message, help).into())
+}
+
+/// Returns the stops. The angle of a crease is that of its copy in the middle cell, as in the table.
+fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> {
+    let Some(said) = &spec.stop else { return Ok(PathStop::default()) };
+    let crease_angle = match &said.crease_angle {
+        None => None,
+        Some(wanted) => {
+            let found = crease_in_middle(context.assembly, wanted.crease.0);
+            let edge = found.ok_or_else(|| {
+                let key = wanted.crease.0;
+                let message =
+                    format!("the patch has no crease [{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1]);
+                let help = "name a crease between two faces of the patch as [i, j, n1, n2]";
+                context.file.error_at(wanted.crease.span(), message, help)
+            })?;
+            Some((edge, wanted.angle.0))
+        }
+    };
+    Ok(PathStop {
+        arc_length: said.arc_length.as_ref().map(|length| length.0),
+        crease_angle,
+        self_intersection: said.self_intersection == Some(true),
+    })
+}
+
+/// Returns the number of the copy of an edge in the middle cell, or of its first copy if that one has one face only.
+fn crease_in_middle(assembly: &Assembly, key: crate::sheet::EdgeKey) -> Option<usize> {
+    let (tiling, sheet) = (assembly.tiling(), assembly.sheet());
+    let middle = tiling.cells.map(|n| (n - 1) / 2);
+    let copies = || {
+        let all = tiling.edges.iter().enumerate();
+        all.filter(|(_, edge)| sheet.edges[edge.edge].key == key && edge.hinge().is_some())
+    };
+    copies().find(|(_, edge)| edge.cell == middle).or_else(|| copies().next()).map(|(number, _)| number)
+}
+
+/// Returns the answer of a path that began.
+fn answer(context: &Context<'_>, (name, drive): (&str, &Drive), branches: &[PathBranch]) -> Answer {
+    let mut answer = Answer::empty(context.study);
+    let marks = marks(context, branches);
+    answer.add(format!("{}.csv", context.name()), table(context, branches, marks.as_deref()));
+    add_pictures(&mut answer, context, drive, branches, marks.as_deref());
+    let result = summary(context, (name, drive), branches, marks.as_deref());
+    let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));
+    let interrupted = context.interrupted().then(|| "interrupted".to_owned());
+    let reason = branches.first().map_or(Some("the path has no states".to_owned()), reason);
+    answer.conclude(StudyResult::Path(result), error, reason.or(interrupted));
+    answer.state = branches.first().and_then(|branch| branch.points.last()).map(saved);
+    answer
+}
+
+/// Returns the reason for which a branch did not come to its end; `None` if it did.
+fn reason(branch: &PathBranch) -> Option<String> {
+    let at = branch.points.last().map_or(f64::NAN, |point| point.drive);
+    match branch.end {
+        PathEnd::Arrived | PathEnd::Stopped => None,
+        PathEnd::Returned => {
+            Some("the path came back to where it began without reaching the end of the drive".to_owned())
+        }
+        PathEnd::Failed => Some(format!("no step leads on from the state with drive {}", rounded(at, 6))),
+        PathEnd::TooManySteps => {
+            let count = branch.points.len();
+            Some(format!(
+                "the drive has not arrived after {count} states, at {}: raise max_step, or give a stop",
+                rounded(at, 6)
+            ))
+        }
+        PathEnd::Interrupted => Some("interrupted".to_owned()),
+    }
+}
+
+/// Returns a state for later studies.
+fn saved(point: &PathPoint) -> SavedState {
+    let PathPoint { state, angles, tension, .. } = point;
+    SavedState { coordinates: state.coordinates.clone(), angles: angles.clone(), tension: Some(tension.clone()) }
+}
+
+/// Returns the self-intersections of all states, branch by branch; `None` if the study does not ask for that check. An
+/// interruption leaves out the rest.
+fn marks(context: &Context<'_>, branches: &[PathBranch]) -> Option<Vec<Vec<Marks>>> {
+    let mut finder = context.self_intersection()?;
+    let (mut all, mut count) = (Vec::new(), 0);
+    for branch in branches {
+        let mut found = Vec::new();
+        for point in &branch.points {
+            count += 1;
+            if count % OBSERVED == 0 && !context.step(count, None) {
+                break;
+            }
+            let state = states::with_all_angles(context, &point.state);
+            found.push(finder.marks(context.assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
+        }
+        all.push(found);
+    }
+    Some(all)
+}
+
+const COLUMNS: [&str; 14] = [
+    "branch",
+    "step",
+    "arc_length",
+    "drive",
+    "reaction",
+    "work",
+    "energy_bars",
+    "energy_creases",
+    "energy_facets",
+    "energy_total",
+    "residual_force",
+    "residual_length",
+    "negative_eigenvalues",
+    "event",
+];
+
+/// Returns the table of all states; where it was asked for, with the column `self_intersecting`.
+fn table(context: &Context<'_>, branches: &[PathBranch], marks: Option<&[Vec<Marks>]>) -> Table {
+    let crossing = marks.map(|_| "self_intersecting");
+    let fold = context.assembly.sheet().edges.iter().map(|edge| Table::fold_column(&edge.key));
+    let columns = COLUMNS.into_iter().chain(crossing).map(str::to_owned).chain(fold);
+    let mut table = Table::new(columns.collect());
+    for (number, branch) in branches.iter().enumerate() {
+        for (step, point) in branch.points.iter().enumerate() {
+            let crossing = marks.map(|marks| marks[number].get(step).map(|marks| i64::from(marks.any)).into());
+            table.push(row(context, [number, step], point, crossing));
+        }
+    }
+    table
+}
+
+fn row(context: &Context<'_>, place: [usize; 2], point: &PathPoint, crossing: Option<Value>) -> Vec<Value> {
+    let numbers = [point.arc_length, point.drive, point.reaction, point.work].map(Value::Number);
+    let energy = energies::columns(context.assembly.terms(), &point.state).map(Value::from);
+    let residuals = [point.residual_force, point.residual_length].map(Value::Number);
+    let event = point.event.map_or(Value::Empty, |event| Value::Word(event_word(event)));
+    let state = states::with_all_angles(context, &point.state);
+    let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);
+    let place = place.map(|number| Value::Whole(number as i64));
+    let own = place.into_iter().chain(numbers).chain(energy).chain(residuals);
+    let own = own.chain([Value::Whole(point.negative_eigenvalues as i64), event]);
+    own.chain(crossing).chain(fold).collect()
+}
+
+/// Adds the series of some states, the last state of the first branch, and the plot of reactions.
+fn add_pictures(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    drive: &Drive,
+    branches: &[PathBranch],
+    marks: Option<&[Vec<Marks>]>,
+) {
+    let points = branches
+        .iter()
+        .enumerate()
+        .flat_map(|(number, branch)| branch.points.iter().enumerate().map(move |(step, point)| (number, step, point)));
+    let picture = |number: usize, step: usize, point: &PathPoint| {
+        let state = states::with_all_angles(context, &point.state);
+        let marks = marks.and_then(|marks| marks[number].get(step).cloned());
+        states::picture(context, &Shown { state, residuals: None, marks })
+    };
+    if context.draws(Draw::Vtk) {
+        let chosen = pictured(branches);
+        let rows = points.enumerate().filter(|(row, _)| chosen.contains(row));
+        let pictures: Vec<_> = rows.map(|(row, (number, step, point))| (row, picture(number, step, point))).collect();
+        states::add_series_at(answer, context, pictures);
+    }
+    let Some(branch) = branches.first() else { return };
+    if let Some(last) = branch.points.last() {
+        let Words { quantity, .. } = Words::new(context, drive);
+        let unstable = if last.negative_eigenvalues > 0 { ", not stable" } else { "" };
+        let words =
+            format!("{quantity} {}, energy {}{unstable}", rounded(last.drive, 5), rounded(last.state.total(), 5));
+        states::add_figure(answer, context, &picture(0, branch.points.len() - 1, last), &words);
+    }
+    if context.draws(Draw::Svg) {
+        answer.add(format!("{}-reaction.svg", context.name()), figure(context, drive, branches));
+    }
+}
+
+/// Returns the rows of the table of which there are pictures: events and the ends of branches, and others evenly.
+fn pictured(branches: &[PathBranch]) -> BTreeSet<usize> {
+    let count: usize = branches.iter().map(|branch| branch.points.len()).sum();
+    let every = count.div_ceil(PICTURES).max(1);
+    let mut rows: BTreeSet<usize> = (0..count).step_by(every).collect();
+    let mut first = 0;
+    for branch in branches {
+        let last = branch.points.len().saturating_sub(1);
+        for (step, point) in branch.points.iter().enumerate() {
+            if point.event.is_some() || step == 0 || step == last {
+                rows.insert(first + step);
+            }
+        }
+        first += branch.points.len();
+    }
+    rows
+}
+
+fn summary(
+    context: &Context<'_>,
+    (name, drive): (&str, &Drive),
+    branches: &[PathBranch],
+    marks: Option<&[Vec<Marks>]>,
+) -> PathSummary {
+    let branch =
+        |(number, branch): (usize, &PathBranch)| branch_summary(number, branch, marks.map(|marks| &marks[number][..]));
+    PathSummary {
+        drive: name.to_owned(),
+        driven: Words::new(context, drive).driven.to_owned(),
+        to: finite(drive.to),
+        branches: branches.iter().enumerate().map(branch).collect(),
+    }
+}
+
+fn branch_summary(number: usize, branch: &PathBranch, marks: Option<&[Marks]>) -> PathBranchSummary {
+    let last = branch.points.last();
+    let event = |point: &PathPoint| {
+        Some(PathEventSummary {
+            event: event_word(point.event?).to_owned(),
+            drive: finite(point.drive),
+            reaction: point.reaction,
+            arc_length: point.arc_length,
+        })
+    };
+    let crossing =
+        |marks: &[Marks]| branch.points.iter().zip(marks).find(|(_, marks)| marks.any).map(|(point, _)| point);
+    let first = match marks {
+        Some(marks) => crossing(marks),
+        None => branch.points.iter().find(|point| point.event == Some(PathEvent::SelfIntersection)),
+    };
+    // at an event one eigenvalue is zero, and its sign is rounding
+    let mut regular = branch.points.iter().filter(|point| point.event.is_none());
+    PathBranchSummary {
+        branch: number,
+        end: end_word(&branch.end).to_owned(),
+        steps: branch.points.len(),
+        iterations: branch.points.iter().map(|point| point.iterations).sum(),
+        arc_length: last.map(|point| point.arc_length),
+        drive: last.and_then(|point| finite(point.drive)),
+        reaction: last.map(|point| point.reaction),
+        work: last.map(|point| point.work),
+        energy: last.map(|point| point.state.total()),
+        stable: regular.all(|point| point.negative_eigenvalues == 0),
+        max_residual: worst(branch.points.iter().map(|point| larger(point.residual_force, point.residual_length))),
+        self_intersecting: marks.map(|marks| marks.iter().any(|marks| marks.any)),
+        first_self_intersection: first
+            .map(|point| FirstCrossing { arc_length: point.arc_length, drive: finite(point.drive) }),
+        events: branch.points.iter().filter_map(event).collect(),
+    }
+}
+
+fn end_word(end: &PathEnd) -> &'static str {
+    match end {
+        PathEnd::Arrived => "arrived",
+        PathEnd::Stopped => "stop",
+        PathEnd::Returned => "returned",
+        PathEnd::TooManySteps => "too-many-steps",
+        PathEnd::Failed => "failed",
+        PathEnd::Interrupted => "interrupted",
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    Some(value).filter(|value| value.is_finite())
+}

@@ -1,0 +1,89 @@
+//! The plot of a path, and the words for what a drive drives.
+
+use super::context::Context;
+use crate::analysis::path::{PathBranch, PathEvent};
+use crate::model::{Drive, Driven, TermKind};
+use crate::output::figure::reaction::{self, PlottedState, ReactionPlot};
+
+/// The words for a driven quantity and its conjugate.
+pub(crate) struct Words {
+    /// One word, for the summary.
+    pub driven: &'static str,
+    /// The quantity, for an axis.
+    pub quantity: String,
+    /// Its conjugate, for an axis.
+    pub reaction: &'static str,
+}
+
+impl Words {
+    /// Returns the words for a drive of this scene.
+    pub(crate) fn new(context: &Context<'_>, drive: &Drive) -> Self {
+        let words = |driven, quantity: String, reaction| Self { driven, quantity, reaction };
+        match &drive.quantity {
+            Driven::Part { part, axis } => {
+                let name = context.file.scene.parts.get(*part).map_or("", |part| &part.name.0);
+                let along = ["x", "y", "z"][axis % 3];
+                if *axis < 3 {
+                    words("displacement", format!("displacement of part {name} along {along}"), "force")
+                } else {
+                    words("rotation", format!("rotation of part {name} about {along} (rad)"), "torque")
+                }
+            }
+            Driven::Vertices { vertices, direction: d } => {
+                let which =
+                    if vertices.len() == 1 { "a vertex".into() } else { format!("{} vertices", vertices.len()) };
+                let axis = (0..3).find(|&axis| d[axis] == 1.0);
+                let along =
+                    axis.map_or_else(|| format!("({:.3}, {:.3}, {:.3})", d.x, d.y, d.z), |k| ["x", "y", "z"][k].into());
+                words("displacement", format!("displacement of {which} along {along}"), "force")
+            }
+            Driven::Loads => {
+                words("load", "factor of the loads".into(), "displacement of the loads (force times length)")
+            }
+            Driven::Lock(_) => words("lock", "fold angle of the lock (rad)".into(), "torque"),
+            Driven::Rest => words("rest", "rest angles (0: as drawn, 1: as given)".into(), "derivative of the energy"),
+            Driven::Stiffness(kind) => {
+                let term = match kind {
+                    TermKind::Bars => "bars",
+                    TermKind::Creases => "creases",
+                    TermKind::Facets => "facets",
+                    TermKind::Locks => "locks",
+                };
+                words("stiffness", format!("stiffness of {term}"), "derivative of the energy")
+            }
+        }
+    }
+}
+
+/// Returns the word for an event in tables and summaries.
+pub(crate) fn event_word(event: PathEvent) -> &'static str {
+    match event {
+        PathEvent::LimitLoad => "limit-load",
+        PathEvent::LimitDisplacement => "limit-displacement",
+        PathEvent::BranchPoint => "branch-point",
+        PathEvent::SelfIntersection => "self-intersection",
+        PathEvent::Stop => "stop",
+    }
+}
+
+/// Returns the figure of the reaction as a function of the driven value.
+pub(crate) fn figure(context: &Context<'_>, drive: &Drive, branches: &[PathBranch]) -> String {
+    let Words { quantity, reaction, .. } = Words::new(context, drive);
+    let state = format!("{reaction} against {quantity}");
+    let branch = |branch: &PathBranch| {
+        let states = branch.points.iter().map(|point| PlottedState {
+            drive: point.drive,
+            reaction: point.reaction,
+            stable: point.negative_eigenvalues == 0,
+            event: point.event.map(event_word),
+        });
+        states.collect()
+    };
+    let plot = ReactionPlot {
+        drive: quantity,
+        reaction: reaction.to_owned(),
+        logarithmic: matches!(drive.quantity, Driven::Stiffness(_)),
+        branches: branches.iter().map(branch).collect(),
+    };
+    reaction::svg(&plot, &context.caption(state))
+}

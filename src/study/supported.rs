@@ -1,0 +1,55 @@
+//! Checks of the terms of a scene that several kinds of study share: which stiffnesses and rest values they support.
+
+use super::context::Context;
+use super::error::StudyError;
+
+/// What supports stiffnesses and rest values that this study does not.
+const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
+
+/// Checks that there are no rigid parts and no pins along a direction, which relaxations and paths alone know.
+pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
+    let (terms, kind) = (context.assembly.terms(), context.study.kind.name());
+    let given = [("rigid parts", !terms.parts.is_empty()), ("pins along a direction", !terms.guides.is_empty())];
+    match given.into_iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((what, _)) => {
+            let help = "leave out [[part]] and the key `normal` of [[pin]], or ask for relax or path";
+            Err(context.refuse(format!("studies of kind {kind} do not know {what}"), help).into())
+        }
+    }
+}
+
+/// Checks that each term has one stiffness.
+pub(super) fn one_stiffness_each(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
+    match context.assembly.terms().uneven_term() {
+        None => Ok(()),
+        Some(term) => {
+            let message = format!("{what} need one stiffness for all {term}, and here they differ");
+            Err(context.refuse(message, format!("give the {term} one number; {SUPPORTED}")).into())
+        }
+    }
+}
+
+/// Checks that the bars are at rest as drawn.
+pub(super) fn drawn_lengths(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
+    match context.assembly.bars_off_rest() {
+        0 => Ok(()),
+        bars => {
+            let message = format!("{what} need bars at rest as drawn, and {bars} have other rest lengths");
+            Err(context.refuse(message, format!("leave out `rest` of the bars; {SUPPORTED}")).into())
+        }
+    }
+}
+
+/// Checks that rigid creases and facets keep their drawn angles: exact folding moves no others.
+pub(super) fn drawn_rigid_hinges(context: &Context<'_>, what: &str) -> Result<(), StudyError> {
+    let assembly = context.assembly;
+    let Some(edge) = assembly.rigid_hinge_off_rest() else { return Ok(()) };
+    let tiled = &assembly.tiling().edges[edge];
+    let key = assembly.sheet().edges[tiled.edge].key;
+    let message = format!(
+        "{what} leave the drawn state, and the rigid hinge [{}, {}, {}, {}] has another rest angle",
+        key.i, key.j, key.shift[0], key.shift[1]
+    );
+    Err(context.refuse(message, format!("give rigid hinges the drawn rest angles; {SUPPORTED}")).into())
+}
