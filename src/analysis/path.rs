@@ -14,7 +14,7 @@ use thiserror::Error;
 const CREASE_ANGLE: usize = 0;
 const CROSSING: usize = 1;
 
-/// What ends a path before its drive arrives.
+/// Conditions that end a path before the driven value reaches its target; the first that is met ends it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathStop {
     /// Arc length at which the path ends; see [`PathPoint::arc_length`].
@@ -34,7 +34,7 @@ pub struct PathOptions {
     pub max_step: f64,
     /// Whether the branches that leave at branch points are followed too.
     pub switch: bool,
-    /// What ends the path.
+    /// Conditions that end the path early.
     pub stop: PathStop,
 }
 
@@ -44,7 +44,7 @@ impl Default for PathOptions {
     }
 }
 
-/// What is special about a state of a path.
+/// A kind of special state, at which stability changes, branches meet or a stop is met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathEvent {
     /// The load has an extremum along the path.
@@ -87,7 +87,7 @@ pub struct PathPoint {
     pub negative_eigenvalues: usize,
     /// Newton steps made for this state.
     pub iterations: usize,
-    /// What is special about it.
+    /// The event that is located at this state; `None` for an ordinary state.
     pub event: Option<PathEvent>,
 }
 
@@ -123,7 +123,7 @@ pub enum PathFailure {
     /// The drive has no effect.
     #[error(transparent)]
     Drive(#[from] DriveError),
-    /// There is no equilibrium next to the start.
+    /// The relaxation from the start failed, for this reason.
     #[error("no equilibrium was found with which the path could begin: {0}")]
     Start(#[from] Failure),
     /// The path cannot be followed.

@@ -1,9 +1,8 @@
 //! The errors of a mesh: what is wrong, where, and what would be right.
 
-use std::path::PathBuf;
-
 use super::assignment_fault::AssignmentFault;
 pub use super::drawn_edge::DrawnEdge;
+use std::path::PathBuf;
 
 /// The reason why a file gives no sheet.
 #[derive(Debug, thiserror::Error)]

@@ -57,9 +57,9 @@ pub enum ModesError {
     /// Bars and closure disagree.
     #[error("{bars} motions or stresses of the bars, but {closure} by the closure of the vertices")]
     ClosureDisagrees {
-        /// From the rigidity matrix.
+        /// Number of motions or self stresses that the rigidity matrix has.
         bars: usize,
-        /// From the closure conditions.
+        /// Number of motions or self stresses that the closure conditions have.
         closure: usize,
     },
 }

@@ -91,7 +91,8 @@ fn lowest_dense(
     Ok((found.values[..count].to_vec(), vectors))
 }
 
-/// By shift and invert: the largest eigenvalues of `(H + shift)^-1` on the null space of the rigid measures.
+/// Returns the lowest eigenvalues of the Hessian `H` on the null space of the rigid measures, and their vectors. They are
+/// found by shift and invert, as the largest eigenvalues of `(H + shift)^-1`.
 fn lowest_sparse(
     (model, tension): (&Model, &[f64]),
     count: usize,

@@ -1,4 +1,4 @@
-//! How a path is followed, and what comes of it.
+//! Settings and results of a path.
 
 use super::problem::PathState;
 use crate::numerics::factor::FactorError;
@@ -37,7 +37,7 @@ impl Default for PathSettings {
     }
 }
 
-/// What is special about a state of a path.
+/// A kind of special state, located between two ordinary ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PathMark {
     /// The parameter has an extremum along the path.
@@ -83,7 +83,7 @@ pub struct Branch {
 pub struct MarkedState {
     /// The state.
     pub state: PathState,
-    /// What is special about it.
+    /// The kind of special state; `None` for an ordinary one.
     pub mark: Option<PathMark>,
     /// Integral of the conjugate quantity over the parameter, from the first state of the path.
     pub work: f64,

@@ -1,0 +1,132 @@
+//! The choice of the unknowns of a model: which generalised coordinates are held, and which elements couple the others.
+
+use super::{LEFT_WING, Model, POSE, RIGHT_WING};
+use crate::math::rotation::inverse_left_jacobian;
+use crate::model::element::Elements;
+use crate::model::gauge;
+use crate::model::problem::Gauge;
+use crate::numerics::sparse::{Cliques, FIXED};
+use crate::solver::Layout;
+use std::sync::Arc;
+
+/// Least separation of the rigid motions by the held coordinates, relative to that of newly chosen ones; below it the
+/// held coordinates may constrain the shape too.
+const LEAST_SEPARATION_RATIO: f64 = 1e-3;
+
+impl Model {
+    /// Chooses the held coordinates at the reference state, and numbers the other ones as unknowns.
+    pub(super) fn choose_unknowns(&mut self) {
+        let mut held = self.chosen(&self.rigid_motions(&self.base, self.loads.is_empty()));
+        held.truncate(self.base.len());
+        let derived = |k: u32| self.is_derived(k as usize);
+        self.free = (0..held.len() as u32).filter(|&k| !held[k as usize] && !derived(k)).collect();
+        let mut number = vec![FIXED; held.len()];
+        self.free.iter().enumerate().for_each(|(unknown, &k)| number[k as usize] = unknown as u32);
+        self.turning = self.turning_unknowns(&number);
+        self.layout = self.new_layout(&number);
+    }
+
+    /// Whether a generalised coordinate follows from the pose of a part.
+    pub(super) fn is_derived(&self, coordinate: usize) -> bool {
+        self.bodies.part_of(coordinate / 3).is_some() && coordinate < self.points()
+    }
+
+    /// Returns the rates of the generalised coordinates under the rigid motions, then those of the values that supports
+    /// keep. Coordinates that follow from poses have none.
+    pub(super) fn rigid_motions(&self, generalised: &[f64], rotations: bool) -> Vec<gauge::Motion> {
+        let points = &generalised[..self.points()];
+        let mut motions = gauge::rigid_motions(&self.domain, points, rotations);
+        if self.bodies.is_empty() && self.supports.is_empty() {
+            return motions;
+        }
+        let (centre, size) = gauge::centre_and_size(&self.domain, points);
+        let turn = if rotations { 1.0 / size } else { 0.0 };
+        (0..motions.len()).filter(|&k| self.is_derived(k)).for_each(|k| motions[k].fill(0.0));
+        for part in 0..self.bodies.coordinates() / POSE {
+            motions.extend(gauge::rows_of(1.0, turn * (self.bodies.pivot(part, generalised) - centre)));
+            let by_turn = turn * inverse_left_jacobian(&self.bodies.rotation(part, generalised));
+            motions.extend([0, 1, 2].map(|row| {
+                let mut motion = gauge::Motion::zeros();
+                (0..3).for_each(|k| motion[3 + k] = self.mean_edge * by_turn[(row, k)]);
+                motion
+            }));
+        }
+        for support in &self.supports {
+            let rates = support.terms.iter().map(|(k, factor)| *factor * motions[*k]);
+            motions.push(rates.sum());
+        }
+        motions
+    }
+
+    /// Returns which coordinates are held if these are the rigid motions: the pinned ones, those of poses that are not
+    /// free, and those that the gauge adds; then that the values of supports are.
+    pub(super) fn chosen(&self, motions: &[gauge::Motion]) -> Vec<bool> {
+        let mut held = vec![false; motions.len()];
+        self.pinned.iter().for_each(|&k| held[k] = true);
+        let poses = self.points()..self.base.len();
+        poses.zip(self.bodies.free()).for_each(|(k, free)| held[k] = !free);
+        held[self.base.len()..].fill(true);
+        if self.gauge == Gauge::Held {
+            gauge::choose(motions, &held).into_iter().for_each(|k| held[k] = true);
+        }
+        held
+    }
+
+    /// Whether the held coordinates remove the rigid motions of the state `x` nearly as well as newly chosen ones
+    /// would. If they do not, they may constrain the shape, and a state that seems to be an equilibrium need not be
+    /// one.
+    pub(crate) fn gauge_is_valid(&self, x: &[f64]) -> bool {
+        if self.gauge == Gauge::Free {
+            return true;
+        }
+        let motions = self.rigid_motions(&self.generalised(x), self.loads.is_empty());
+        let separation = |held: &[bool]| gauge::separation(&motions, held);
+        let mut held = vec![true; motions.len()];
+        self.free.iter().for_each(|&k| held[k as usize] = false);
+        separation(&held) >= LEAST_SEPARATION_RATIO * separation(&self.chosen(&motions))
+    }
+
+    /// Returns the unknowns on which element `k` of a term depends: for each of its points those of its coordinates, or
+    /// of the pose of its part; then the shared ones.
+    fn members(&self, term: &dyn Elements, k: usize, number: &[u32]) -> Vec<u32> {
+        let (points, shared) = (self.points(), self.domain.shared());
+        let of_point = |vertex: usize| match self.bodies.part_of(vertex) {
+            Some(part) => points + POSE * part..points + POSE * (part + 1),
+            None => 3 * vertex..3 * vertex + 3,
+        };
+        let of_points = term.sites(k).iter().flat_map(|site| of_point(site.vertex));
+        of_points.chain(points - shared..points).map(|coordinate| number[coordinate]).collect()
+    }
+
+    /// Returns the layout of the unknowns; `number` is that of each generalised coordinate. Soft elements are those of
+    /// the soft terms, then the loads of each loaded part; stiff ones those of the stiff terms, then the supports.
+    fn new_layout(&self, number: &[u32]) -> Arc<Layout> {
+        let collect = |terms: &[Box<dyn Elements>]| {
+            let mut cliques = Cliques::new();
+            for term in terms {
+                for k in 0..term.len() {
+                    let members = self.members(term.as_ref(), k, number);
+                    let splits = term.is_hinge() && !self.bodies.touch(term.sites(k));
+                    if splits { cliques.push_split(members, LEFT_WING, RIGHT_WING) } else { cliques.push(members) }
+                }
+            }
+            cliques
+        };
+        let (mut soft, mut stiff) = (collect(&self.soft), collect(&self.stiff));
+        let points = self.points();
+        for (part, _) in self.loaded_parts() {
+            soft.push((0..POSE).map(|k| number[points + POSE * part + k]));
+        }
+        self.supports.iter().for_each(|support| stiff.push(support.terms.iter().map(|(k, _)| number[*k])));
+        let vertices = (points - self.domain.shared()) / 3;
+        let block = |k: usize| match k.checked_sub(points) {
+            Some(pose) => (vertices + 1 + pose / POSE) as u32,
+            None => (k / 3).min(vertices) as u32,
+        };
+        let mut blocks: Vec<u32> = self.free.iter().map(|&k| block(k as usize)).collect();
+        let mut used = blocks.clone();
+        used.dedup();
+        blocks.iter_mut().for_each(|b| *b = used.binary_search(b).unwrap_or(0) as u32);
+        Layout::new(blocks, soft, stiff)
+    }
+}
