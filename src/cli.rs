@@ -9,7 +9,7 @@
 //! | 130 | stopped by Ctrl-C; finished studies are written |
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
@@ -19,12 +19,14 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
 use foldwell::output::summary::to_json;
-use foldwell::run::{self, Ledger, RunError, RunOptions};
+use foldwell::run::{self, Ledger, RunError, RunOptions, RunReport};
+use foldwell::scene::{SceneFile, Setting};
 use miette::{Diagnostic, GraphicalReportHandler};
 
 use crate::describe::describe_run;
 use crate::parameters::{self, ParameterError};
 use crate::progress::Watch;
+use crate::scenes::{self, ScenesError};
 
 const FAILED: u8 = 1;
 const WRONG_INPUT: u8 = 2;
@@ -43,11 +45,15 @@ struct Cli {
 enum Command {
     /// Compute the studies of a scene and write their files
     Run {
-        /// The scene
-        scene: PathBuf,
-        /// Folder for the files [default: the scene's name without its ending]
+        /// The scenes; `-` is a scene on standard input, whose paths are relative to the current folder
+        #[arg(required = true)]
+        scenes: Vec<PathBuf>,
+        /// Folder for the files, of several scenes one below it for each [default: the scene's name without its ending]
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// Set a key of the scenes, as in energy.bars.stiffness=1e4 or study.NAME.tolerance=1e-9; may be repeated
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<Setting>,
         /// Number of threads [default: as many as the machine has]
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         threads: Option<u16>,
@@ -57,7 +63,7 @@ enum Command {
         /// Say nothing but errors
         #[arg(long)]
         quiet: bool,
-        /// Print the summary as JSON on standard output
+        /// Print the summary as JSON on standard output, of several scenes a list
         #[arg(long)]
         json: bool,
     },
@@ -65,16 +71,23 @@ enum Command {
     Info {
         /// A mesh (.fold, .obj, .vtu) or a scene (.toml): one cell of its mesh, and the energy of all cells
         mesh_or_scene: PathBuf,
+        /// Set a key of the scene, as in energy.bars.stiffness=1e4; may be repeated
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<Setting>,
         /// Print JSON
         #[arg(long)]
         json: bool,
     },
     /// Generate a pattern
-    #[command(override_usage = "foldwell new <PATTERN> [--key value]... -o <FILE.fold>")]
+    #[command(
+        override_usage = "foldwell new <PATTERN> [--key value]... -o <FILE.fold>\n       foldwell new <PATTERN> --help"
+    )]
+    #[command(disable_help_flag = true)]
     New {
-        /// miura, miura-patch, eggbox, waterbomb, yoshimura, kresling, square-twist, truss, random, random-developable
+        /// The name of the pattern; without one, all names are listed
+        #[arg(allow_hyphen_values = true, default_value = "--help", hide_default_value = true)]
         pattern: String,
-        /// Parameters of the pattern, --key value (radians; a list has commas; --closed alone), and -o FILE.fold for the mesh
+        /// Parameters of the pattern, --key value (1.2 or "60 deg"; a list has commas; --closed alone), and -o FILE.fold
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         parameters: Vec<String>,
     },
@@ -124,8 +137,18 @@ enum Failure {
     Run(RunError),
     Validation(ValidationError),
     Parameters(ParameterError),
+    Scenes(ScenesError),
     StandardOutput(io::Error),
     Thread(io::Error),
+}
+
+impl From<ScenesError> for Failure {
+    fn from(error: ScenesError) -> Self {
+        match error {
+            ScenesError::Run(error) => Self::Run(error),
+            error => Self::Scenes(error),
+        }
+    }
 }
 
 impl From<RunError> for Failure {
@@ -139,7 +162,7 @@ impl Failure {
         match self {
             Self::Run(error) => error.exit_status(),
             Self::Validation(error) => error.exit_status(),
-            Self::Parameters(_) => WRONG_INPUT,
+            Self::Parameters(_) | Self::Scenes(_) => WRONG_INPUT,
             Self::StandardOutput(_) | Self::Thread(_) => BROKEN_PLACE,
         }
     }
@@ -156,15 +179,18 @@ pub(crate) fn main() -> ExitCode {
 
 fn dispatch(command: Command) -> Result<u8, Failure> {
     match command {
-        Command::Run { scene, out, threads, resume, quiet, json } => {
+        Command::Run { scenes, out, set, threads, resume, quiet, json } => {
             let options = RunOptions { out, threads: threads.map(usize::from), resume };
-            run_scene(&scene, &options, quiet, json)
+            run_scenes(scenes::read(&scenes, &set, &options)?, &Told { quiet, json })
         }
-        Command::Info { mesh_or_scene, json } => {
-            let info = run::info(&mesh_or_scene)?;
+        Command::Info { mesh_or_scene, set, json } => {
+            let info = run::info(&mesh_or_scene, &set)?;
             say(&if json { to_json(&info) } else { format!("{info}\n") })
         }
         Command::New { pattern, parameters } => {
+            if parameters::ask_for_help(&pattern, &parameters) {
+                return say(&parameters::help(&pattern).map_err(Failure::Parameters)?);
+            }
             let (table, out) = parameters::parse(&pattern, &parameters).map_err(Failure::Parameters)?;
             run::new_mesh(&table, &out)?;
             Ok(0)
@@ -183,33 +209,60 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
     }
 }
 
-fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Result<u8, Failure> {
-    let watch = Arc::new(Watch::new(quiet));
+/// What a run prints.
+struct Told {
+    quiet: bool,
+    json: bool,
+}
+
+/// Computes the studies of some scenes, one scene after the other; the status is that of the first that has another
+/// than 0. Ctrl-C ends the scene at work and leaves out those after it.
+fn run_scenes(scenes: Vec<(SceneFile, RunOptions)>, told: &Told) -> Result<u8, Failure> {
+    let watch = Arc::new(Watch::new(told.quiet));
+    let (several, mut status) = (scenes.len() > 1, 0);
+    let mut summaries = Vec::new();
+    for (scene, options) in scenes {
+        let Some(report) = run_scene(scene, options, &watch)? else { return Ok(INTERRUPTED) };
+        for note in report.notes.iter().filter(|_| !told.quiet) {
+            // an error is ignored: there is no other place for the message if standard error is closed
+            let _ = writeln!(io::stderr(), "note: {note}");
+        }
+        if !told.quiet && !told.json {
+            say(&describe_run(&report))?;
+        }
+        let own = status_of(report.interrupted, report.summary.converged());
+        summaries.push(report.summary);
+        status = if status == 0 || own == INTERRUPTED { own } else { status };
+        if own == INTERRUPTED {
+            break;
+        }
+    }
+    match &summaries[..] {
+        _ if !told.json => Ok(0),
+        [summary] if !several => say(&summary.to_json()),
+        _ => say(&to_json(&summaries)),
+    }?;
+    Ok(status)
+}
+
+/// Computes the studies of one scene; `None` if Ctrl-C ended the run before its summary was begun.
+fn run_scene(scene: SceneFile, options: RunOptions, watch: &Arc<Watch>) -> Result<Option<RunReport>, Failure> {
     let ledger = Ledger::default();
-    let (scene, options, books) = (scene.to_owned(), options.clone(), ledger.clone());
-    let found = watch.over(move |watch| run::run_with_ledger(&scene, &options, &|step| watch.step(step), &books));
+    let books = ledger.clone();
+    let found = watch.over(move |watch| run::run(&scene, &options, &|step| watch.step(step), &books));
     watch.finish();
-    let report = match found.map_err(Failure::Thread)? {
-        Some(report) => report?,
-        None => match ledger.close()? {
-            Some(report) => report,
-            None => return Ok(INTERRUPTED),
-        },
-    };
-    for note in report.notes.iter().filter(|_| !quiet) {
-        // an error is ignored: there is no other place for the message if standard error is closed
-        let _ = writeln!(io::stderr(), "note: {note}");
+    match found.map_err(Failure::Thread)? {
+        Some(report) => Ok(Some(report?)),
+        None => Ok(ledger.close()?),
     }
-    if json {
-        say(&report.summary.to_json())?;
-    } else if !quiet {
-        say(&describe_run(&report))?;
-    }
-    Ok(match (report.interrupted, report.summary.converged()) {
+}
+
+fn status_of(interrupted: bool, converged: bool) -> u8 {
+    match (interrupted, converged) {
         (true, _) => INTERRUPTED,
         (false, true) => 0,
         (false, false) => FAILED,
-    })
+    }
 }
 
 /// Checks the claims; prints a line on standard error for each as soon as it is decided.
@@ -221,11 +274,7 @@ fn validate(options: &ValidateOptions) -> Result<u8, Failure> {
     let Some(report) = found.map_err(Failure::Thread)? else { return Ok(INTERRUPTED) };
     let report = report.map_err(Failure::Validation)?;
     say(&format!("{}\n", report.verdict()))?;
-    Ok(match (report.interrupted, report.all_passed()) {
-        (true, _) => INTERRUPTED,
-        (false, true) => 0,
-        (false, false) => FAILED,
-    })
+    Ok(status_of(report.interrupted, report.all_passed()))
 }
 
 fn announce(case: &Case) {
@@ -255,6 +304,7 @@ fn report(failure: &Failure) {
         Failure::Run(error) => fancy(error),
         Failure::Validation(error) => fancy(error),
         Failure::Parameters(error) => format!("Error: {error}\n"),
+        Failure::Scenes(error) => format!("Error: {error}\n"),
         Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),
         Failure::Thread(error) => format!("Error: no thread can be had for the work: {error}\n"),
     };

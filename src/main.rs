@@ -4,6 +4,7 @@ mod cli;
 mod describe;
 mod parameters;
 mod progress;
+mod scenes;
 mod validate;
 
 use std::process::ExitCode;

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use foldwell::Pattern;
 use thiserror::Error;
 use toml::{Table, Value};
 
@@ -26,6 +27,9 @@ pub(crate) enum ParameterError {
     /// A key is given twice.
     #[error("parameter `--{0}` is given twice")]
     Twice(String),
+    /// No pattern has this name.
+    #[error("{0}")]
+    NoPattern(String),
     /// No file for the mesh is given.
     #[error("there is no file for the mesh; add -o FILE.fold")]
     NoOutput,
@@ -60,6 +64,39 @@ pub(crate) fn parse(pattern: &str, words: &[String]) -> Result<(Table, PathBuf),
         }
     }
     Ok((table, output.ok_or(ParameterError::NoOutput)?))
+}
+
+/// Whether the words after `foldwell new` ask for a page of help.
+pub(crate) fn ask_for_help(pattern: &str, words: &[String]) -> bool {
+    is_help(pattern) || words.iter().any(|word| is_help(word))
+}
+
+fn is_help(word: &str) -> bool {
+    matches!(word, "-h" | "--help")
+}
+
+/// Returns a page about a pattern and its parameters, or, for a word that asks for help itself, about all patterns.
+///
+/// # Errors
+/// [`ParameterError::NoPattern`] if no pattern has this name.
+pub(crate) fn help(pattern: &str) -> Result<String, ParameterError> {
+    let page = |name: &str| Pattern::help(name).map_err(|error| ParameterError::NoPattern(error.to_string()));
+    if !is_help(pattern) {
+        let usage = format!("Usage: foldwell new {pattern} [--key value]... -o <FILE.fold>");
+        return Ok(format!(
+            "{}\n{usage}\n\nLengths are in your own unit; an angle is a number of radians, or \"60 deg\".\n",
+            page(pattern)?
+        ));
+    }
+    let mut text =
+        "Generate a pattern\n\nUsage: foldwell new <PATTERN> [--key value]... -o <FILE.fold>\n\nPatterns:\n".to_owned();
+    for name in Pattern::names() {
+        text.push_str(&format!(
+            "  {name:<20} {}\n",
+            page(name)?.split("\n\n").next().unwrap_or_default().replace('\n', " ")
+        ));
+    }
+    Ok(text + "\n`foldwell new <PATTERN> --help` draws the parameters of one, with their ranges and defaults.\n")
 }
 
 /// Splits `--key`, `--key=value` or `-o` into the key and the value, if the word contains one.

@@ -1,10 +1,13 @@
 //! The pipeline: reads a scene, builds its sheet and model, computes its studies and writes their files.
 
+use std::ops::ControlFlow;
 use std::path::Path;
 
+use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
 use crate::output::picture::Picture;
 use crate::output::{files, vtk};
+use crate::scene::{SceneFile, Setting};
 use crate::sheet::build::{self, Drawing};
 use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
 
@@ -31,47 +34,57 @@ use runner::Runner;
 /// # Errors
 /// [`RunError`] if nothing could be computed; a study that fails is reported in the [`RunReport`] instead.
 pub fn run_scene(scene: &Path, options: &RunOptions, observer: Observer) -> Result<RunReport, RunError> {
-    run_with_ledger(scene, options, observer, &Ledger::default())
+    run(&read_scene(scene, &[])?, options, observer, &Ledger::default())
 }
 
-/// Does the same as [`run_scene`] and records the run in `ledger`, so that another thread can end the run without
-/// waiting for it.
+/// Reads a scene file and sets some of its keys.
+///
+/// # Errors
+/// [`RunError::NoScene`] if the file is a mesh, [`RunError::Scene`] if it cannot be read or is wrong.
+pub fn read_scene(path: &Path, settings: &[Setting]) -> Result<SceneFile, RunError> {
+    if MeshKind::of(path).is_some() {
+        return Err(RunError::NoScene { path: path.into() });
+    }
+    Ok(crate::scene::read_set(path, settings)?)
+}
+
+/// Computes the studies of a scene and writes their files. The run is recorded in `ledger`, so that another thread can
+/// end it without waiting for it.
 ///
 /// # Errors
 /// [`RunError`], as [`run_scene`].
-pub fn run_with_ledger(
-    scene: &Path,
-    options: &RunOptions,
-    observer: Observer,
-    ledger: &Ledger,
-) -> Result<RunReport, RunError> {
-    Threads::new(options.threads).install(|| run_on_these_threads(scene, options, observer, ledger))
+pub fn run(file: &SceneFile, options: &RunOptions, observer: Observer, ledger: &Ledger) -> Result<RunReport, RunError> {
+    Threads::new(options.threads).install(|| {
+        let assembly = assembly(file)?;
+        let mut runner = Runner::new(file, &assembly, options, observer, ledger)?;
+        runner.begin(options.resume)?;
+        for study in &file.scene.studies {
+            runner.study(study)?;
+            if runner.interrupted() {
+                break;
+            }
+        }
+        runner.finish()
+    })
 }
 
-fn run_on_these_threads(
-    scene: &Path,
-    options: &RunOptions,
-    observer: Observer,
-    ledger: &Ledger,
-) -> Result<RunReport, RunError> {
-    if MeshKind::of(scene).is_some() {
-        return Err(RunError::NoScene { path: scene.into() });
-    }
-    let file = crate::scene::read(scene)?;
+/// Does the checks that [`run`] does before it computes anything; writes nothing.
+///
+/// # Errors
+/// [`RunError`] if [`run`] would refuse the scene.
+pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
+    let unobserved = |_: &Progress| ControlFlow::Continue(());
+    Runner::new(file, &assembly(file)?, options, &unobserved, &Ledger::default()).map(|_| ())
+}
+
+/// Builds the model of a scene that has something to compute.
+fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
     if file.scene.studies.is_empty() {
         let help =
             "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
         return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
     }
-    let assembly = crate::scene::build::assembly(&file)?;
-    let mut runner = Runner::new(&file, &assembly, options, observer, ledger)?;
-    for study in &file.scene.studies {
-        runner.study(study)?;
-        if runner.interrupted() {
-            break;
-        }
-    }
-    runner.finish()
+    Ok(crate::scene::build::assembly(file)?)
 }
 
 /// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it as a FOLD file.
@@ -79,25 +92,29 @@ fn run_on_these_threads(
 /// # Errors
 /// [`RunError`] if a parameter is wrong or the file cannot be written.
 pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
-    let pattern: Pattern = table.clone().try_into().map_err(|error: toml::de::Error| RunError::Pattern {
-        message: error.message().to_owned(),
-        names: Pattern::names().join(", "),
-    })?;
-    let sheet = generate(&pattern)
-        .map_err(|error| RunError::Pattern { message: error.to_string(), names: Pattern::names().join(", ") })?;
+    let name = table.get("pattern").and_then(toml::Value::as_str).unwrap_or_default();
+    Pattern::help(name).map_err(|error| RunError::Pattern { message: error.to_string(), pattern: String::new() })?;
+    let refused = |message: String| RunError::Pattern { message, pattern: format!("{name} ") };
+    let pattern: Pattern =
+        table.clone().try_into().map_err(|error: toml::de::Error| refused(error.message().to_owned()))?;
+    let sheet = generate(&pattern).map_err(|error| refused(error.to_string()))?;
     Ok(files::write(out, fold::write(&sheet))?)
 }
 
-/// Returns counts and measures of the sheet of a mesh or a scene, and of the energy of a scene.
+/// Returns counts and measures of the sheet of a mesh or a scene, and of the energy of a scene, in which some keys are
+/// set first.
 ///
 /// # Errors
 /// [`RunError`] if the file cannot be read or is wrong.
-pub fn info(mesh_or_scene: &Path) -> Result<Counts, RunError> {
+pub fn info(mesh_or_scene: &Path, settings: &[Setting]) -> Result<Counts, RunError> {
     if ending(mesh_or_scene) == "toml" {
-        let assembly = crate::scene::build::assembly(&crate::scene::read(mesh_or_scene)?)?;
+        let assembly = crate::scene::build::assembly(&crate::scene::read_set(mesh_or_scene, settings)?)?;
         return Ok(Counts { sheet: Info::new(assembly.sheet()), energy: Some(EnergyCounts::new(&assembly)) });
     }
     let sheet = read_mesh(mesh_or_scene, ".fold, .obj, .vtu or .toml")?;
+    if !settings.is_empty() {
+        return Err(RunError::NoScene { path: mesh_or_scene.into() });
+    }
     Ok(Counts { sheet: Info::new(&sheet), energy: None })
 }
 

@@ -57,7 +57,7 @@ pub enum KinematicsError {
     #[error("closure of the vertices: {0}")]
     Decomposition(#[from] DenseError),
     /// The obstruction quadrics could not be solved.
-    #[error("second order: {0}")]
+    #[error("{}", second_order(.0))]
     Quadrics(#[from] HomotopyError),
     /// The faces do not close at this state, so that directions of folding are not defined.
     #[error("the faces do not close at this state: residual {residual:.2e}")]
@@ -82,4 +82,15 @@ pub enum KinematicsError {
         /// Number of linear motions.
         motions: usize,
     },
+}
+
+/// Returns the message about the second-order conditions of folding; if there are too many, with what can be done.
+fn second_order(error: &HomotopyError) -> String {
+    let remedy = match error {
+        HomotopyError::TooMany { .. } => {
+            "; each self stress of the flat sheet is one: take fewer cells, or relax with rest angles, which chooses a branch"
+        }
+        _ => "",
+    };
+    format!("second order: {error}{remedy}")
 }

@@ -39,12 +39,13 @@ pub enum RunError {
     },
     /// A pattern does not exist for its parameters.
     #[error("{message}")]
-    #[diagnostic(help("the patterns are {names}; angles are radians"))]
+    #[diagnostic(help("`foldwell new {pattern}--help` describes {}; angles are radians, or written as \"60 deg\"",
+        if pattern.is_empty() { "the patterns" } else { "its parameters" }))]
     Pattern {
         /// Description of the error.
         message: String,
-        /// The names of the known patterns.
-        names: String,
+        /// The name of the pattern and a blank; empty if there is none of that name.
+        pattern: String,
     },
     /// The kind of a file is unknown.
     #[error("{}: {}", path.display(), unknown_ending(ending))]

@@ -41,10 +41,7 @@ pub(crate) struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    /// Performs the remaining checks and prepares the folder; nothing is written before.
-    ///
-    /// The summary is written at once, with the studies that are kept, so that a later run cannot take files of this
-    /// run for those of an earlier scene.
+    /// Performs the remaining checks; nothing is written before or by it.
     pub(crate) fn new(
         file: &'a SceneFile,
         assembly: &'a Assembly,
@@ -55,7 +52,7 @@ impl<'a> Runner<'a> {
         let stem = || PathBuf::from(file.path().file_stem().unwrap_or_default());
         let out = options.out.clone().unwrap_or_else(stem);
         let view = ShownCells::new(assembly);
-        let mut runner = Self {
+        let runner = Self {
             file,
             assembly,
             view,
@@ -74,11 +71,18 @@ impl<'a> Runner<'a> {
             study::check(&runner.context(study))?;
         }
         inputs::check(file, &runner.out)?;
-        let digest = digest(file)?;
-        let previous = if options.resume { PreviousRun::read(&runner.out, &digest) } else { PreviousRun::default() };
-        runner.resumed = previous.is_of_this_scene();
-        runner.take_over(summary(file, assembly, digest), &previous)?;
         Ok(runner)
+    }
+
+    /// Prepares the folder; with `resume`, keeps the studies that an earlier run of the same scene finished.
+    ///
+    /// The summary is written at once, with the studies that are kept, so that a later run cannot take files of this
+    /// run for those of an earlier scene.
+    pub(crate) fn begin(&mut self, resume: bool) -> Result<(), RunError> {
+        let digest = digest(self.file)?;
+        let previous = if resume { PreviousRun::read(&self.out, &digest) } else { PreviousRun::default() };
+        self.resumed = previous.is_of_this_scene();
+        self.take_over(summary(self.file, self.assembly, digest), &previous)
     }
 
     /// Takes over the studies that an earlier run finished, and removes its unfinished files.
@@ -195,6 +199,7 @@ fn summary(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
     Summary {
         version: env!("CARGO_PKG_VERSION"),
         scene: file.path().display().to_string(),
+        settings: file.settings().to_vec(),
         digest,
         sheet: SheetSummary {
             vertices: info.vertices,

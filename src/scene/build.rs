@@ -158,7 +158,7 @@ impl<'a> Reader<'a> {
         match &**rest {
             RestSpec::Drawn => Ok(self.angles.to_vec()),
             RestSpec::Flat => Ok(vec![0.0; self.angles.len()]),
-            RestSpec::Angle(angle) => Ok(vec![*angle; self.angles.len()]),
+            RestSpec::Angle(angle) => Ok(vec![angle.radians; self.angles.len()]),
             RestSpec::Mode(mode) => self.along_mode(mode, of, rigid_facets),
             RestSpec::File(name) => self.values.file_values(name, Column::Angle, of),
         }
@@ -199,7 +199,7 @@ impl<'a> Reader<'a> {
             let edge = self.crease(&lock.crease)?;
             for (k, tiled) in self.tiling.edges.iter().enumerate() {
                 if tiled.edge == edge && !self.angles[k].is_nan() {
-                    locks.push((k, lock.angle.as_ref().map_or(self.angles[k], |angle| angle.0)));
+                    locks.push((k, lock.angle.as_ref().map_or(self.angles[k], |angle| angle.radians)));
                 }
             }
         }

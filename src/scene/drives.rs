@@ -8,6 +8,7 @@ use super::values::{EdgeName, Motions};
 use super::{Located, SceneError, SceneFile};
 use crate::math::Vec3;
 use crate::model::{Assembly, Drive, Driven, TermKind};
+use crate::sheet::angle::Angle;
 
 /// Part of a direction along which a vertex is held, up to which it counts as free to move along the direction.
 const FREE: f64 = 1e-12;
@@ -99,7 +100,7 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
             Driven::Stiffness(kind)
         }
     };
-    Ok(Drive { quantity, to: *spec.to })
+    Ok(Drive { quantity, to: spec.to.radians })
 }
 
 /// Returns the one quantity that a drive names.
@@ -147,9 +148,17 @@ fn quantity<'a>(file: &SceneFile, drive: &'a DriveSpec) -> Result<Quantity<'a>, 
 
 /// Checks the value at the end of a drive, as far as the scene alone says where it begins.
 fn end(file: &SceneFile, drive: &DriveSpec, quantity: &Quantity<'_>) -> Result<(), SceneError> {
-    let to = *drive.to;
+    let Angle { radians: to, has_unit } = *drive.to;
     let wrong = |message: String, help: &str| Err(file.error_at(drive.to.span(), message, help));
+    let turns = match quantity {
+        Quantity::Lock(_) => true,
+        Quantity::Part(_, axis) => matches!(***axis, AxisSpec::Motion(3..)),
+        _ => false,
+    };
     match quantity {
+        _ if has_unit && !turns => {
+            wrong("an angle at the end of a drive that turns nothing".into(), "expected a number")
+        }
         Quantity::Stiffness(_) if !(to > 0.0) => {
             wrong(format!("the stiffness is {to}"), "expected a positive number or `inf` (exactly rigid)")
         }
@@ -242,9 +251,13 @@ fn lock(
         let help = format!("add [[lock]] with crease = [{i}, {j}, {n1}, {n2}]; the drive changes its angle");
         return Err(file.error_at(crease.span(), message, help));
     }
-    if locks.iter().all(|(_, angle)| *angle == *spec.to) {
+    if locks.iter().all(|(_, angle)| *angle == spec.to.radians) {
         let help = "give another angle, in radians, to which the lock is driven";
-        return Err(file.error_at(spec.to.span(), format!("the crease is locked at {} already", *spec.to), help));
+        return Err(file.error_at(
+            spec.to.span(),
+            format!("the crease is locked at {} already", spec.to.radians),
+            help,
+        ));
     }
     Ok(Driven::Lock(locks.iter().map(|(edge, _)| *edge).collect()))
 }

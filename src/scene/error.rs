@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::setting::SettingError;
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use thiserror::Error;
 
@@ -38,6 +39,14 @@ pub enum SceneError {
         /// The bytes to which the error refers.
         #[label]
         span: SourceSpan,
+    },
+    /// A key cannot be set from outside.
+    #[error("{}: {fault}", path.display())]
+    Setting {
+        /// The scene.
+        path: PathBuf,
+        /// Description of the error.
+        fault: SettingError,
     },
     /// The mesh is wrong.
     #[error(transparent)]

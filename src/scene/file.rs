@@ -11,6 +11,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::SceneError;
 use super::schema::{common_study_keys, kinds, kinds_with_key};
+use super::setting::{Setting, apply};
 use super::spec::Scene;
 
 /// A scene with the text from which it was read.
@@ -20,14 +21,27 @@ pub struct SceneFile {
     pub scene: Scene,
     path: PathBuf,
     text: Arc<NamedSource<String>>,
+    settings: Vec<String>,
 }
 
 impl SceneFile {
-    /// Reads a scene from a text, without checking it. `path` is used in messages, and paths in the scene are relative
-    /// to it.
-    pub(super) fn unchecked(text: &str, path: &Path) -> Result<Self, SceneError> {
-        let source = Arc::new(NamedSource::new(path.display().to_string(), text.to_owned()).with_language("TOML"));
-        Ok(Self { scene: deserialize(&source)?, path: path.to_path_buf(), text: source })
+    /// Reads a scene from a text in which some keys are set, without checking it. `path` is used in messages, and paths
+    /// in the scene are relative to it.
+    pub(super) fn unchecked(text: &str, path: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
+        let mut name = path.display().to_string();
+        let mut text = text.to_owned();
+        if !settings.is_empty() {
+            text = apply(&text, settings).map_err(|fault| SceneError::Setting { path: path.into(), fault })?;
+            name.push_str(" (keys set)");
+        }
+        let source = Arc::new(NamedSource::new(name, text).with_language("TOML"));
+        let settings = settings.iter().map(Setting::to_string).collect();
+        Ok(Self { scene: deserialize(&source)?, path: path.to_path_buf(), text: source, settings })
+    }
+
+    /// Returns the keys that were set in the text, each as `key=value`.
+    pub(crate) fn settings(&self) -> &[String] {
+        &self.settings
     }
 
     /// Returns the path of the scene file, as it was passed to [`read`](super::read) or [`parse`](super::parse).

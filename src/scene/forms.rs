@@ -11,6 +11,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::Located;
 use super::values::{Finite, Positive, Triple};
+use crate::sheet::angle::Angle;
 
 /// Rest angles of creases or facets.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,8 +20,8 @@ pub enum RestSpec {
     Drawn,
     /// Zero, the flat state.
     Flat,
-    /// One angle for all hinges, in radians.
-    Angle(f64),
+    /// One angle for all hinges.
+    Angle(Angle),
     /// The drawn fold angles plus an amplitude along a mode.
     Mode(ModeRest),
     /// A table with a row per hinge.
@@ -129,16 +130,19 @@ impl<'de> Deserialize<'de> for RestSpec {
                 match word {
                     "drawn" => Ok(RestSpec::Drawn),
                     "flat" => Ok(RestSpec::Flat),
+                    angle if angle.starts_with(|c: char| !c.is_alphabetic()) => {
+                        angle.parse().map(RestSpec::Angle).map_err(E::custom)
+                    }
                     _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
                 }
             }
 
             fn visit_f64<E: Error>(self, angle: f64) -> Result<RestSpec, E> {
-                Finite::try_from(angle).map(|angle| RestSpec::Angle(angle.0)).map_err(E::custom)
+                Finite::try_from(angle).map(|angle| RestSpec::Angle(angle.0.into())).map_err(E::custom)
             }
 
             fn visit_i64<E: Error>(self, angle: i64) -> Result<RestSpec, E> {
-                Ok(RestSpec::Angle(angle as f64))
+                Ok(RestSpec::Angle((angle as f64).into()))
             }
 
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RestSpec, A::Error> {
@@ -271,7 +275,7 @@ macro_rules! schema_any_of {
 
 schema_any_of!(RestSpec as "Rest", generator, [
     { "enum": ["drawn", "flat"] },
-    { "type": "number", "description": "one angle for all of them, in radians" },
+    generator.subschema_for::<Angle>(),
     generator.subschema_for::<ModeRest>(),
     generator.subschema_for::<FileName>(),
 ]);

@@ -3,6 +3,7 @@
 use super::checks::check;
 use super::error::SceneError;
 use super::file::SceneFile;
+use super::setting::Setting;
 use crate::sheet::text::read_text;
 use std::path::Path;
 
@@ -11,8 +12,16 @@ use std::path::Path;
 /// # Errors
 /// [`SceneError::Read`] if the file cannot be read, [`SceneError::At`] with the place of the first error in it.
 pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
+    read_set(path, &[])
+}
+
+/// Reads a scene file, sets some of its keys, and checks the scene that results.
+///
+/// # Errors
+/// As [`read`], with places in the changed text, and [`SceneError::Setting`].
+pub fn read_set(path: &Path, settings: &[Setting]) -> Result<SceneFile, SceneError> {
     let text = read_text(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
-    parse(&text, path)
+    parse_set(&text, path, settings)
 }
 
 /// Reads and checks the text of a scene. `name` is used in messages, and paths in the scene are relative to it.
@@ -20,7 +29,15 @@ pub fn read(path: &Path) -> Result<SceneFile, SceneError> {
 /// # Errors
 /// [`SceneError::At`] with the place of the first error.
 pub fn parse(text: &str, name: impl AsRef<Path>) -> Result<SceneFile, SceneError> {
-    let file = SceneFile::unchecked(text, name.as_ref())?;
+    parse_set(text, name, &[])
+}
+
+/// Sets some keys in the text of a scene and does the same as [`parse`].
+///
+/// # Errors
+/// As [`parse`], with places in the changed text, and [`SceneError::Setting`].
+pub fn parse_set(text: &str, name: impl AsRef<Path>, settings: &[Setting]) -> Result<SceneFile, SceneError> {
+    let file = SceneFile::unchecked(text, name.as_ref(), settings)?;
     check(&file)?;
     Ok(file)
 }

@@ -118,7 +118,7 @@ fn checked(field: &str, column: &'static str, of: Column) -> Result<f64, TableFa
         Column::Angle | Column::Rate => {
             let number = number.filter(|x| x.is_finite());
             let number = number.ok_or_else(|| TableFault::Number { field: field.into(), column })?;
-            match super::turns::fault(number).filter(|_| of == Column::Angle) {
+            match super::turns::fault_of_turns(number).filter(|_| of == Column::Angle) {
                 Some([message, help]) => Err(TableFault::Turns { message, help }),
                 None => Ok(number),
             }

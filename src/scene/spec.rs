@@ -11,7 +11,8 @@ mod vertices;
 use super::Located;
 use super::forms::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Triple};
+use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -163,8 +164,8 @@ pub struct FacetsSpec {
 pub struct LockSpec {
     /// The crease `[i, j, n1, n2]`.
     pub crease: Located<EdgeName>,
-    /// The fold angle in radians; left out: the drawn one.
-    pub angle: Option<Located<Finite>>,
+    /// The fold angle; left out: the drawn one.
+    pub angle: Option<Located<Angle>>,
 }
 
 /// `[[load]]`: a force on one or more vertices of a patch: `vertex`, with or without `cell`, or `vertices`.

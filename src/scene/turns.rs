@@ -1,5 +1,5 @@
-//! Angles beyond 2 pi, which are taken for degrees and refused, and angles beyond pi, at which faces have passed
-//! through each other.
+//! Numbers beyond pi that are given as angles, which are taken for degrees and refused; angles beyond pi that are meant,
+//! at which faces have passed through each other.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -8,9 +8,27 @@ use super::forms::RestSpec;
 use super::spec::{StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::Terms;
+use crate::sheet::angle::Angle;
 
-/// Returns description and correction of the error if the absolute value of an angle is larger than 2 pi.
-pub(super) fn fault(angle: f64) -> Option<[String; 2]> {
+/// Returns description and correction of the error in an angle of a scene: it is beyond pi and has no unit, or it is
+/// beyond 2 pi.
+fn fault(angle: Angle) -> Option<[String; 2]> {
+    let Angle { radians, has_unit } = angle;
+    if !radians.is_finite() {
+        return Some([format!("the number is {radians}"), "expected a finite number".into()]);
+    }
+    if has_unit || radians.abs() <= PI {
+        return fault_of_turns(radians);
+    }
+    let mut help = format!("angles are radians; did you mean \"{radians} deg\", {:.6} rad?", radians.to_radians());
+    if radians.abs() <= TAU {
+        help.push_str(&format!(" An angle beyond pi is written with its unit, \"{radians} rad\""));
+    }
+    Some([format!("the angle {radians} is beyond pi"), help])
+}
+
+/// Returns description and correction of the error if an angle in radians, of a table for instance, is beyond 2 pi.
+pub(super) fn fault_of_turns(angle: f64) -> Option<[String; 2]> {
     (angle.abs() > TAU).then(|| {
         let radians = angle.to_radians();
         [
@@ -20,10 +38,10 @@ pub(super) fn fault(angle: f64) -> Option<[String; 2]> {
     })
 }
 
-/// Checks that no angle of a scene is larger than 2 pi in absolute value.
+/// Checks all angles of a scene.
 pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     let scene = &file.scene;
-    let at = |angle: f64, span: Range<usize>| match fault(angle) {
+    let at = |angle: Angle, span: Range<usize>| match fault(angle) {
         Some([message, help]) => Err(file.error_at(span, message, help)),
         None => Ok(()),
     };
@@ -33,9 +51,12 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         }
     }
     for angle in scene.locks.iter().filter_map(|lock| lock.angle.as_ref()) {
-        at(angle.0, angle.span())?;
+        at(**angle, angle.span())?;
     }
-    scene.studies.iter().filter_map(stop_angle).try_for_each(|angle| at(angle.0, angle.span()))
+    for drive in scene.drives.iter().filter(|drive| drive.lock.is_some()) {
+        at(*drive.to, drive.to.span())?;
+    }
+    scene.studies.iter().filter_map(stop_angle).try_for_each(|angle| at(**angle, angle.span()))
 }
 
 /// Returns the rest angles that the scene gives creases and facets.
@@ -46,7 +67,7 @@ fn rests(file: &SceneFile) -> impl Iterator<Item = &Located<RestSpec>> {
     creases.into_iter().chain(facets)
 }
 
-fn stop_angle(study: &StudySpec) -> Option<&Located<super::values::Finite>> {
+fn stop_angle(study: &StudySpec) -> Option<&Located<Angle>> {
     let stop = match &*study.kind {
         StudyKind::Trace(trace) => trace.stop.as_ref(),
         StudyKind::Path(path) => path.stop.as_ref(),
@@ -71,7 +92,7 @@ pub(super) fn notes(file: &SceneFile, terms: &Terms) -> Vec<String> {
         notes.push(format!("{rest} rest angles are {through}"));
     }
     let locks =
-        file.scene.locks.iter().filter(|lock| lock.angle.as_ref().is_some_and(|angle| beyond(&angle.0))).count();
+        file.scene.locks.iter().filter(|lock| lock.angle.as_ref().is_some_and(|angle| beyond(&angle.radians))).count();
     if locks > 0 {
         notes.push(format!("{locks} of the angles of locks are {through}"));
     }

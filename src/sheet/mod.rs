@@ -12,6 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub(crate) mod angle;
 mod assigned;
 pub(crate) mod assignment;
 pub(crate) mod assignment_fault;

@@ -114,7 +114,7 @@ fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> 
                 let help = "name a crease between two faces of the patch as [i, j, n1, n2]";
                 context.file.error_at(wanted.crease.span(), message, help)
             })?;
-            Some((edge, wanted.angle.0))
+            Some((edge, wanted.angle.radians))
         }
     };
     Ok(PathStop {

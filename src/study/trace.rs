@@ -62,7 +62,7 @@ fn stop(context: &Context<'_>, spec: &TraceSpec) -> Result<Stop, StudyError> {
                 let message = format!("the sheet has no crease [{i}, {j}, {n1}, {n2}]");
                 context.file.error_at(wanted.crease.span(), message, "name an edge as [i, j, n1, n2]")
             })?;
-            Some((edge, wanted.angle.0))
+            Some((edge, wanted.angle.radians))
         }
     };
     Ok(Stop {

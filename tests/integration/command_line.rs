@@ -29,7 +29,15 @@ fn a_wrong_scene_writes_nothing() {
 #[test]
 fn wrong_words_are_wrong_input() {
     let folder = tempfile::tempdir().unwrap();
-    for words in ["run none.toml", "run", "fold", "run a.toml --threads 0", "new miura", "new miura --seed -o"] {
+    for words in [
+        "run none.toml",
+        "run",
+        "fold",
+        "run a.toml --threads 0",
+        "new miura",
+        "new miura --seed -o",
+        "new mira --help",
+    ] {
         let output = foldwell(folder.path(), words);
         assert_eq!(output.status.code(), Some(2), "{words}");
         assert!(!output.stderr.is_empty() && output.stdout.is_empty(), "{words}");
@@ -69,4 +77,25 @@ fn schema_and_completions() {
     assert_eq!((schema.status.code(), json["title"].as_str()), (Some(0), Some("foldwell summary")));
     let script = foldwell(folder.path(), "completions bash");
     assert!(script.status.success() && String::from_utf8_lossy(&script.stdout).contains("_foldwell()"));
+}
+
+/// Claim: `new --help` lists every pattern, `new PATTERN --help` draws one and gives its parameters, wherever the word
+/// stands; nothing is written.
+#[test]
+fn patterns_have_help() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |words: &str| {
+        let output = foldwell(folder.path(), words);
+        assert!(output.status.success() && output.stderr.is_empty(), "{words}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let all = said("new --help");
+    assert!(foldwell::Pattern::names().all(|name| all.contains(&format!("  {name} "))), "{all}");
+    assert!(all == said("new -h") && all == said("new"));
+    let miura = said("new miura --help");
+    for part in ["One cell of Miura-ori", "--sector ANGLE", "[default: 60 deg]", "Usage: foldwell new miura"] {
+        assert!(miura.contains(part), "{miura}");
+    }
+    assert_eq!(miura, said("new miura --fold 3 --help -o a.fold"));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }

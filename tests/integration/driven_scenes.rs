@@ -92,6 +92,7 @@ fn drive(words: &str) -> Drive {
 fn drives() {
     let part = drive("part = \"lid\"\naxis = \"rz\"\nto = 1");
     assert_eq!(part, Drive { quantity: Driven::Part { part: 0, axis: 5 }, to: 1.0 });
+    assert_eq!(drive("part = \"lid\"\naxis = \"rz\"\nto = \"90 deg\"").to, std::f64::consts::FRAC_PI_2);
     let up = drive("vertices = \"top\"\naxis = \"z\"\nto = -0.5");
     assert_eq!(up, Drive { quantity: Driven::Vertices { vertices: vec![4], direction: Vec3::z() }, to: -0.5 });
     let Driven::Vertices { direction, .. } = drive("vertices = [3]\naxis = [0, 3, 4]\nto = 1").quantity else {
@@ -198,6 +199,11 @@ fn faults_of_drives() {
         (with_drive("lock = [0, 4, 0, 0]\nto = 1"), 3, "crease [0, 4, 0, 0] is not locked", "[[lock]]"),
         (format!("[[lock]]\ncrease = [0, 4, 0, 0]\nangle = 0.5\n{}", with_drive("lock = [0, 4, 0, 0]\nto = 0.5")), 7, "locked at 0.5 already", "another angle"),
         (with_drive("stiffness = \"facets\"\nto = 1"), 3, "the sheet has no facets", "[energy]"),
+        (with_drive("stiffness = \"bars\"\nto = \"60 deg\""), 4, "an angle at the end of a drive that turns nothing", "a number"),
+        (with_drive("vertices = [1]\naxis = \"z\"\nto = \"60 deg\""), 5, "an angle at the end of a drive that turns nothing", "a number"),
+        (with_part(&with_drive("part = \"lid\"\naxis = \"z\"\nto = \"1 rad\"")), 9, "an angle at the end of a drive that turns nothing", "a number"),
+        (with_part(&with_drive("part = \"lid\"\naxis = \"rz\"\nto = \"1 turn\"")), 9, "`1 turn` is no angle", "60 deg"),
+        (format!("[[lock]]\ncrease = [0, 4, 0, 0]\n{}", with_drive("lock = [0, 4, 0, 0]\nto = 60")), 6, "the angle 60 is beyond pi", "did you mean \"60 deg\""),
         (with_drive("stiffness = \"bars\"\nto = 0"), 4, "the stiffness is 0", "positive"),
         (with_drive("stiffness = \"plates\"\nto = 1"), 3, "unknown word `plates`", "bars"),
         (with_drive("stiffness = \"creases\"\nto = inf"), 4, "only bars are driven to exactly rigid", "finite"),
@@ -232,8 +238,8 @@ fn studies() {
         (
             study("drive = \"a\"\nstop = { crease_angle = { crease = [0, 1, 0, 0], angle = 60 } }"),
             13,
-            "more than a whole turn",
-            "radians",
+            "the angle 60 is beyond pi",
+            "did you mean \"60 deg\"",
         ),
     ];
     for (tables, line, message, help) in cases {

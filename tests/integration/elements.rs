@@ -278,7 +278,7 @@ fn facets_have_rest_angles() {
         assert!(found.tiling().facets().all(|k| (hinges.rest[k] - expected).abs() < 1e-14), "{rest}");
     }
     let found = miura("facets = { stiffness = 2.0, rest = 60 }\n", &[]).err().unwrap();
-    assert!(found.contains("the angle 60 is more than a whole turn"), "{found}");
+    assert!(found.contains("the angle 60 is beyond pi"), "{found}");
 }
 
 /// Claim: wrong tables are refused with their file and line, and incomplete ones with the edge that is missing.

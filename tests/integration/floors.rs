@@ -24,6 +24,7 @@ const FLOORS: &[(&str, u8)] = &[
     ("parameters", 7),
     ("describe", 7),
     ("progress", 7),
+    ("scenes", 7),
     ("cli", 8),
     ("main", 9),
 ];

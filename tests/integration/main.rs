@@ -54,6 +54,7 @@ mod rigid_motions;
 mod runs;
 mod schema;
 mod self_intersection;
+mod several_scenes;
 mod solver_limits;
 mod solver_textbook;
 mod sparse_spectra;

@@ -67,16 +67,20 @@ fn degrees_are_refused() {
         |angle: f64| format!("{}\n[[lock]]\ncrease = [0, 1, 0, 0]\nangle = {angle:?}", study("kind = \"relax\""));
     let stop = "kind = \"trace\"\nstop = { crease_angle = { crease = [0, 1, 0, 0], angle = 90 } }";
     let cases = [
-        (rest("60"), "60 degrees are 1.047198 rad"),
+        (rest("60"), "did you mean \"60 deg\", 1.047198 rad?"),
+        (rest("4"), "written with its unit, \"4 rad\""),
+        (rest("inf"), "expected a finite number"),
+        (rest("'60 grad'"), "`60 grad` is no angle"),
+        (rest("'400 deg'"), "more than a whole turn"),
         (rest("{ file = \"t.csv\" }"), "t.csv:2: the angle 30 is more than a whole turn"),
-        (lock(-10.0), "-10 degrees are -0.174533 rad"),
-        (study(stop), "90 degrees are 1.570796 rad"),
+        (lock(-10.0), "did you mean \"-10 deg\", -0.174533 rad?"),
+        (study(stop), "did you mean \"90 deg\", 1.570796 rad?"),
     ];
     for (more, words) in cases {
         let (status, said) = run("domain = \"screw\"", &more);
         assert!(status == 2 && said.contains(words), "{status}: {said}");
     }
-    let (_, said) = run("domain = \"screw\"", &rest("3.2"));
+    let (_, said) = run("domain = \"screw\"", &rest("'3.2 rad'"));
     assert!(said.contains("note: ") && said.contains("rest angles are beyond pi"), "{said}");
     let (status, said) = run("domain = \"screw\"", &rest("0.1"));
     assert!(status != 2 && !said.contains("note: "), "{said}");

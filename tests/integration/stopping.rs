@@ -3,7 +3,7 @@
 //!
 //! No test here measures time; `cargo bench --bench stopping` prints it.
 
-use foldwell::run::{Ledger, RunOptions, run_with_ledger};
+use foldwell::run::{Ledger, RunOptions, read_scene, run};
 use serde_json::Value;
 use std::fs;
 use std::ops::ControlFlow;
@@ -54,7 +54,7 @@ fn a_closed_ledger_is_the_last_word() {
         ControlFlow::Continue(())
     };
     let books = ledger.clone();
-    let worker = std::thread::spawn(move || run_with_ledger(&path, &options, &observer, &books));
+    let worker = std::thread::spawn(move || run(&read_scene(&path, &[])?, &options, &observer, &books));
     hung.recv().unwrap();
     let report = ledger.close().unwrap().unwrap();
     let expected = vec![("first".to_owned(), true, None), ("second".to_owned(), false, Some("interrupted".to_owned()))];

@@ -41,6 +41,9 @@ pub struct Summary {
     pub version: &'static str,
     /// The scene file, as it was named.
     pub scene: String,
+    /// Keys that were set in the scene from outside, as `key=value`; left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub settings: Vec<String>,
     /// A fingerprint of the scene and of every file that it names.
     pub digest: String,
     /// The sheet.
@@ -200,6 +203,7 @@ mod tests {
             version: "0",
             scene: "scene.toml".into(),
             digest: "0".into(),
+            settings: vec![],
             sheet: SheetSummary {
                 vertices: 4,
                 edges: 12,

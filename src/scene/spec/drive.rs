@@ -11,6 +11,7 @@ use serde::{Deserialize, Deserializer};
 use super::vertices::VertexSet;
 use crate::scene::Located;
 use crate::scene::values::{EdgeName, Label, Motions, Triple};
+use crate::sheet::angle::Angle;
 
 /// `[[part]]`: vertices of a patch that move as one rigid body.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -47,8 +48,8 @@ pub struct DriveSpec {
     /// The stiffness of this term.
     pub stiffness: Option<Located<DrivenTerm>>,
     /// The value at the end: a displacement or an angle from where the path begins, a factor, the angle of a lock, or a
-    /// stiffness (`inf`: exactly rigid).
-    pub to: Located<f64>,
+    /// stiffness (`inf`: exactly rigid). An angle may be a text with its unit, "60 deg".
+    pub to: Located<Angle>,
 }
 
 /// A term whose stiffness can be driven.

@@ -3,6 +3,7 @@
 use crate::scene::Located;
 use crate::scene::forms::{BranchChoice, Mode, StartSpec};
 use crate::scene::values::{Cells, Count, EdgeName, Finite, Name, Pair, Positive, WellPair};
+use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -149,8 +150,8 @@ pub struct StopSpec {
 pub struct CreaseAngle {
     /// The crease `[i, j, n1, n2]`.
     pub crease: Located<EdgeName>,
-    /// Its fold angle in radians.
-    pub angle: Located<Finite>,
+    /// Its fold angle.
+    pub angle: Located<Angle>,
 }
 
 /// `kind = "surface"`: all states without locks; `[[lock]]` does not apply to it.

@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4};
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{GenerateError, between, length};
+use super::super::angle::radians;
+use super::error::{GenerateError, angle_between, length};
 use super::grid::VertexGrid;
 use super::parts::Parts;
 use crate::math::Vec3;
@@ -25,10 +26,12 @@ pub struct Eggbox {
     pub a: f64,
     /// Side of the parallelograms along y. Default 1.
     pub b: f64,
-    /// Acute angle of the parallelograms, in `(0, pi/2)`. Default pi/3.
+    /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
+    #[serde(deserialize_with = "radians")]
     pub sector: f64,
     /// Slope `f` of the sides `a` in radians, in `(pi/2 - sector, pi/2)`; the cell is closed along one direction at
     /// either limit. Default pi/4.
+    #[serde(deserialize_with = "radians")]
     pub fold: f64,
 }
 
@@ -41,8 +44,8 @@ impl Default for Eggbox {
 impl Eggbox {
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
-        let sector = between("sector", self.sector, 0.0, FRAC_PI_2)?;
-        let f = between("fold", self.fold, FRAC_PI_2 - sector, FRAC_PI_2)?;
+        let sector = angle_between("sector", self.sector, 0.0, FRAC_PI_2)?;
+        let f = angle_between("fold", self.fold, FRAC_PI_2 - sector, FRAC_PI_2)?;
         let slope = libm::cos(sector) / libm::sin(f);
         let (x, y) = (a * libm::cos(f), b * (1.0 - slope * slope).max(0.0).sqrt());
         let (down1, down2) = (a * libm::sin(f), b * slope);

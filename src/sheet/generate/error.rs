@@ -6,12 +6,12 @@ use crate::sheet::error::Defect;
 #[derive(Debug, thiserror::Error)]
 pub enum GenerateError {
     /// No pattern has this name.
-    #[error("there is no pattern `{name}`; there are {}", known.join(", "))]
+    #[error("there is no pattern `{name}`; there are {known}")]
     Unknown {
         /// The name.
         name: String,
         /// The names of all patterns.
-        known: &'static [&'static str],
+        known: String,
     },
     /// A number is outside its range.
     #[error("`{name}` is {value}; it should be {} {low} and below {high}", if *closed { "at least" } else { "above" })]
@@ -19,6 +19,24 @@ pub enum GenerateError {
         /// The parameter.
         name: &'static str,
         /// Its value.
+        value: f64,
+        /// Lower end of the range.
+        low: f64,
+        /// Whether the lower end belongs to the range.
+        closed: bool,
+        /// Upper end of the range, which does not belong to it.
+        high: f64,
+    },
+    /// An angle is outside its range.
+    #[error(
+        "`{name}` is {value} rad; it should be {} {} and below {}{}", if *closed { "at least" } else { "above" },
+        short(*low), short(*high),
+        perhaps_degrees(*value, *high)
+    )]
+    Angle {
+        /// The parameter.
+        name: &'static str,
+        /// Its value in radians.
         value: f64,
         /// Lower end of the range.
         low: f64,
@@ -44,6 +62,17 @@ pub enum GenerateError {
     Mesh(#[from] Defect),
 }
 
+/// Returns a number with up to six decimals.
+fn short(value: f64) -> String {
+    let text = format!("{value:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Returns a question, if an angle that is too large would be in its range as a number of degrees.
+fn perhaps_degrees(value: f64, high: f64) -> String {
+    if value > high && value.to_radians() < high { format!("; did you mean \"{value} deg\"?") } else { String::new() }
+}
+
 /// Checks `low < value < high`.
 pub(super) fn between(name: &'static str, value: f64, low: f64, high: f64) -> Result<f64, GenerateError> {
     let good = low < value && value < high;
@@ -63,4 +92,16 @@ pub(super) fn length(name: &'static str, value: f64) -> Result<f64, GenerateErro
 
 pub(super) fn count(name: &'static str, value: usize, low: usize, high: usize) -> Result<usize, GenerateError> {
     if (low..=high).contains(&value) { Ok(value) } else { Err(GenerateError::Count { name, value, low, high }) }
+}
+
+/// Checks `low < value < high` of an angle in radians.
+pub(super) fn angle_between(name: &'static str, value: f64, low: f64, high: f64) -> Result<f64, GenerateError> {
+    let good = low < value && value < high;
+    if good { Ok(value) } else { Err(GenerateError::Angle { name, value, low, closed: false, high }) }
+}
+
+/// Checks `low <= value < high` of an angle in radians.
+pub(super) fn angle_from(name: &'static str, value: f64, low: f64, high: f64) -> Result<f64, GenerateError> {
+    let good = low <= value && value < high;
+    if good { Ok(value) } else { Err(GenerateError::Angle { name, value, low, closed: true, high }) }
 }

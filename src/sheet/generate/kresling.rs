@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{GenerateError, between, count, length};
+use super::super::angle::radians;
+use super::error::{GenerateError, angle_between, count, length};
 use super::grid::VertexGrid;
 use super::parts::Parts;
 use crate::math::Vec3;
@@ -33,6 +34,7 @@ pub struct Kresling {
     /// Height of a storey. Default 0.8.
     pub height: f64,
     /// Rotation of a storey against the one below in radians, in `(-pi, pi)`. Default pi/6.
+    #[serde(deserialize_with = "radians")]
     pub twist: f64,
     /// Radius of the polygons. Default 1.
     pub radius: f64,
@@ -51,7 +53,7 @@ impl Kresling {
         let sides = count("sides", self.sides, 3, 1000)?;
         let levels = count("levels", self.levels.unwrap_or(if self.closed { 1 } else { 3 }), 1, 1000)?;
         let (height, radius) = (length("height", self.height)?, length("radius", self.radius)?);
-        let twist = between("twist", self.twist, -PI, PI)?;
+        let twist = angle_between("twist", self.twist, -PI, PI)?;
         let vertex = |[k, j]: [usize; 2]| {
             let angle = TAU * k as f64 / sides as f64 + twist * j as f64;
             Vec3::new(radius * libm::cos(angle), radius * libm::sin(angle), height * j as f64)

@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{GenerateError, between, count, from, length};
+use super::super::angle::radians;
+use super::error::{GenerateError, angle_between, angle_from, count, length};
 use super::grid::VertexGrid;
 use super::parts::Parts;
 use crate::math::Vec3;
@@ -25,8 +26,10 @@ pub struct Miura {
     /// Side `b` of the parallelograms, along the zigzags. Default 1.
     pub b: f64,
     /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
+    #[serde(deserialize_with = "radians")]
     pub sector: f64,
     /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
+    #[serde(deserialize_with = "radians")]
     pub fold: f64,
 }
 
@@ -39,8 +42,10 @@ pub struct MiuraPatch {
     /// Side `b` of the parallelograms, along the zigzags. Default 1.
     pub b: f64,
     /// Acute angle `t` of the parallelograms in radians, in `(0, pi/2)`. Default pi/3.
+    #[serde(deserialize_with = "radians")]
     pub sector: f64,
     /// Angle `g` between the faces and the plane of the sheet in radians, in `[0, pi/2)`; 0 is flat. Default pi/12.
+    #[serde(deserialize_with = "radians")]
     pub fold: f64,
     /// Numbers of cells along the two directions, 1 to 500 each. Default `[5, 5]`.
     pub cells: [usize; 2],
@@ -77,8 +82,8 @@ impl Shape {
 impl Miura {
     fn shape(&self) -> Result<Shape, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
-        let t = between("sector", self.sector, 0.0, FRAC_PI_2)?;
-        let g = from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let t = angle_between("sector", self.sector, 0.0, FRAC_PI_2)?;
+        let g = angle_from("fold", self.fold, 0.0, FRAC_PI_2)?;
         let rise = libm::sin(t) * libm::sin(g);
         let run = libm::cos(g) * libm::tan(t);
         let q = (1.0 + run * run).sqrt();

@@ -40,6 +40,20 @@ pub use truss::Truss;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
+/// The names of the patterns, and a page about each.
+const HELP: [(&str, &str); 10] = [
+    ("miura", include_str!("help/miura.txt")),
+    ("miura-patch", include_str!("help/miura-patch.txt")),
+    ("eggbox", include_str!("help/eggbox.txt")),
+    ("waterbomb", include_str!("help/waterbomb.txt")),
+    ("yoshimura", include_str!("help/yoshimura.txt")),
+    ("kresling", include_str!("help/kresling.txt")),
+    ("square-twist", include_str!("help/square-twist.txt")),
+    ("truss", include_str!("help/truss.txt")),
+    ("random", include_str!("help/random.txt")),
+    ("random-developable", include_str!("help/random-developable.txt")),
+];
+
 /// A pattern with its parameters. In a file, the key `pattern = "miura"` and so on stands next to the parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "pattern", rename_all = "kebab-case")]
@@ -68,19 +82,18 @@ pub enum Pattern {
 
 impl Pattern {
     /// Returns the names of all patterns.
-    pub(crate) fn names() -> &'static [&'static str] {
-        &[
-            "miura",
-            "miura-patch",
-            "eggbox",
-            "waterbomb",
-            "yoshimura",
-            "kresling",
-            "square-twist",
-            "truss",
-            "random",
-            "random-developable",
-        ]
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        HELP.iter().map(|(name, _)| *name)
+    }
+
+    /// Returns a page about the pattern of this name: what it is, a drawing of its parameters, and the meaning, range and
+    /// default of each.
+    ///
+    /// # Errors
+    /// [`GenerateError::Unknown`] if no pattern has this name.
+    pub fn help(name: &str) -> Result<&'static str, GenerateError> {
+        let found = HELP.iter().find(|(known, _)| *known == name);
+        found.map(|(_, text)| *text).ok_or_else(|| unknown(name))
     }
 
     /// Returns the pattern of this name with the default of every parameter.
@@ -92,8 +105,12 @@ impl Pattern {
         Self::deserialize(IntoDeserializer::<serde::de::value::Error>::into_deserializer(
             pair.collect::<std::collections::BTreeMap<_, _>>(),
         ))
-        .map_err(|_| GenerateError::Unknown { name: name.to_owned(), known: Self::names() })
+        .map_err(|_| unknown(name))
     }
+}
+
+fn unknown(name: &str) -> GenerateError {
+    GenerateError::Unknown { name: name.to_owned(), known: Pattern::names().collect::<Vec<_>>().join(", ") }
 }
 
 /// Makes the sheet of a pattern.

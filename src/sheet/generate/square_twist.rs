@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{GenerateError, between, from, length};
+use super::super::angle::radians;
+use super::error::{GenerateError, angle_between, angle_from, length};
 use super::parts::Parts;
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
@@ -34,9 +35,11 @@ pub struct SquareTwist {
     /// Side of the squares between them. Default 2.
     pub b: f64,
     /// Acute angle of the parallelograms in radians, in `(0, pi/2)`. Default pi/4.
+    #[serde(deserialize_with = "radians")]
     pub twist: f64,
     /// Fold angle between the squares `a` and the parallelograms on their right in radians, in `[0, pi/2)`. Default
     /// 0.3.
+    #[serde(deserialize_with = "radians")]
     pub fold: f64,
 }
 
@@ -58,8 +61,8 @@ fn partner(u: f64, tangent: f64) -> f64 {
 impl SquareTwist {
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
-        let t = FRAC_PI_2 - between("twist", self.twist, 0.0, FRAC_PI_2)?;
-        let u = from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let t = FRAC_PI_2 - angle_between("twist", self.twist, 0.0, FRAC_PI_2)?;
+        let u = angle_from("fold", self.fold, 0.0, FRAC_PI_2)?;
         let w = if u == 0.0 { 0.0 } else { partner(u, libm::tan(t)) };
         let (along, across) = (b * libm::cos(t), b * libm::sin(t));
         let e = Vec3::new(along * libm::cos(u), across, along * libm::sin(u));

@@ -99,7 +99,7 @@ fn random_cells() {
 fn euler_characteristics() {
     for name in Pattern::names() {
         let info = Info::new(&generate(&Pattern::named(name).unwrap()).unwrap());
-        assert_eq!(info.euler_characteristic, i64::from(["miura-patch", "truss"].contains(name)), "{name}");
+        assert_eq!(info.euler_characteristic, i64::from(["miura-patch", "truss"].contains(&name)), "{name}");
         assert_eq!(info.maxwell_count_screw.is_some(), info.periodic);
     }
     let drum = Info::new(&sheet(r#"{"pattern": "kresling", "closed": true, "levels": 2}"#));
@@ -175,15 +175,15 @@ fn names() {
 fn bad_parameters() {
     let cases = [
         (r#"{"pattern": "miura", "a": -1}"#, "`a` is -1; it should be above 0 and below 1000000"),
-        (r#"{"pattern": "miura", "fold": 2}"#, "`fold` is 2; it should be at least 0 and below 1.57"),
+        (r#"{"pattern": "miura", "fold": 2}"#, "`fold` is 2 rad; it should be at least 0 and below 1.57"),
         (r#"{"pattern": "miura-patch", "cells": [5, 0]}"#, "`cells[1]` is 0; it should be from 1 to 500"),
-        (r#"{"pattern": "eggbox", "fold": 0.1}"#, "`fold` is 0.1; it should be above 0.5235"),
+        (r#"{"pattern": "eggbox", "fold": 0.1}"#, "`fold` is 0.1 rad; it should be above 0.5235"),
         (r#"{"pattern": "waterbomb", "b": 0}"#, "`b` is 0; it should be above 0"),
-        (r#"{"pattern": "yoshimura", "fold": -0.1}"#, "`fold` is -0.1; it should be at least 0"),
+        (r#"{"pattern": "yoshimura", "fold": -0.1}"#, "`fold` is -0.1 rad; it should be at least 0"),
         (r#"{"pattern": "kresling", "sides": 2}"#, "`sides` is 2; it should be from 3 to 1000"),
         (r#"{"pattern": "kresling", "closed": true, "levels": 0}"#, "`levels` is 0; it should be from 1 to 1000"),
         (r#"{"pattern": "truss", "height": 0}"#, "`height` is 0; it should be above 0"),
-        (r#"{"pattern": "square-twist", "twist": 0}"#, "`twist` is 0; it should be above 0"),
+        (r#"{"pattern": "square-twist", "twist": 0}"#, "`twist` is 0 rad; it should be above 0"),
         (r#"{"pattern": "random", "jitter": 0.25}"#, "`jitter` is 0.25; it should be at least 0 and below 0.25"),
         (r#"{"pattern": "random-developable", "size": [0, 2]}"#, "`size[0]` is 0; it should be from 1 to 1000"),
     ];
@@ -217,4 +217,56 @@ fn write_mesh_files() {
         let sheet = generate(&Pattern::named(name).unwrap()).unwrap();
         std::fs::write(mesh_path(name), fold::write(&sheet)).unwrap();
     }
+}
+
+/// Returns the keys of a page of help with their defaults, as values of TOML.
+fn documented(page: &str) -> Vec<(String, toml::Value)> {
+    let entries = page.split("\n  --").skip(1);
+    let parts = entries.map(|entry| {
+        let (key, _) = entry.split_once(' ').unwrap();
+        let (_, rest) = entry.split_once("[default: ").unwrap_or_else(|| panic!("{key} has no default"));
+        (key.replace('-', "_"), rest.split([']', ';']).next().unwrap().split(", closed").next().unwrap().to_owned())
+    });
+    let value = |text: String| match text.strip_suffix(" deg") {
+        Some(degrees) => degrees.parse::<f64>().unwrap().to_radians().into(),
+        None if text.contains(',') => format!("[{text}]").parse().unwrap(),
+        None => text.parse().unwrap(),
+    };
+    parts.map(|(key, text)| (key, value(text))).collect()
+}
+
+/// Claim: the page about a pattern names each of its parameters once, with the default that it has. Tolerance: that of
+/// degrees and radians.
+#[test]
+fn help_names_every_parameter() {
+    for name in Pattern::names() {
+        let page = Pattern::help(name).unwrap();
+        let mut defaults = toml::Table::try_from(Pattern::named(name).unwrap()).unwrap();
+        defaults.remove("pattern");
+        if name == "kresling" {
+            defaults.insert("levels".into(), 3.into()); // depends on `closed`
+        }
+        assert!(page.lines().all(|line| line.chars().count() <= 100), "{name}: a line is too long");
+        for (key, documented) in documented(page) {
+            let default =
+                defaults.remove(&key).unwrap_or_else(|| panic!("{name} has no parameter {key}, or names it twice"));
+            let number = |value: &toml::Value| value.as_float().or(value.as_integer().map(|n| n as f64));
+            match (number(&documented), number(&default)) {
+                (Some(a), Some(b)) => assert!((a - b).abs() < 1e-15, "{name}, {key}: {a} {b}"),
+                _ => assert_eq!(documented, default, "{name}, {key}"),
+            }
+        }
+        assert!(defaults.is_empty(), "{name} does not document {defaults:?}");
+    }
+}
+
+/// Claim: angles of patterns may have a unit, and degrees without one are refused with what they would be.
+#[test]
+fn angles_have_units() {
+    let with_unit = sheet(r#"{"pattern": "miura", "sector": "60 deg", "fold": "0.25 rad"}"#);
+    assert_eq!(with_unit, sheet(r#"{"pattern": "miura", "fold": 0.25}"#));
+    let refused = generate(&with(r#"{"pattern": "miura", "sector": 60}"#)).unwrap_err().to_string();
+    assert!(refused.contains("`sector` is 60 rad") && refused.contains("did you mean \"60 deg\"?"), "{refused}");
+    let refused = generate(&with(r#"{"pattern": "miura", "fold": -0.5}"#)).unwrap_err().to_string();
+    assert!(refused.contains("at least 0") && !refused.contains("did you mean"), "{refused}");
 }

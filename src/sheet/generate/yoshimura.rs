@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::{Deserialize, Serialize};
 
-use super::error::{GenerateError, from, length};
+use super::super::angle::radians;
+use super::error::{GenerateError, angle_from, length};
 use super::parts::Parts;
 use crate::math::Vec3;
 use crate::sheet::cell::{Corner, Sheet};
@@ -26,6 +27,7 @@ pub struct Yoshimura {
     /// Height of the triangles. Default 1.
     pub b: f64,
     /// Slope of the rows in radians, alternately up and down, in `[0, pi/2)`. Default 0.
+    #[serde(deserialize_with = "radians")]
     pub fold: f64,
 }
 
@@ -38,7 +40,7 @@ impl Default for Yoshimura {
 impl Yoshimura {
     pub(super) fn sheet(&self) -> Result<Sheet, GenerateError> {
         let (a, b) = (length("a", self.a)?, length("b", self.b)?);
-        let fold = from("fold", self.fold, 0.0, FRAC_PI_2)?;
+        let fold = angle_from("fold", self.fold, 0.0, FRAC_PI_2)?;
         let (run, rise) = (b * libm::cos(fold), b * libm::sin(fold));
         let low = |n1, n2| Corner { vertex: 0, shift: [n1, n2] };
         let high = |n1, n2| Corner { vertex: 1, shift: [n1, n2] };

@@ -1,0 +1,89 @@
+//! The scenes of one call of `foldwell run`: all are read and checked before the first is computed.
+
+use std::collections::BTreeMap;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use foldwell::run::{self, RunError, RunOptions};
+use foldwell::scene::{self, SceneFile, Setting};
+use thiserror::Error;
+
+/// The word that stands for standard input.
+const STANDARD_INPUT: &str = "-";
+/// The name of a scene from standard input, in messages and of its folder.
+const ITS_NAME: &str = "stdin";
+
+/// The reasons for which the scenes of a call cannot be computed.
+#[derive(Debug, Error)]
+pub(crate) enum ScenesError {
+    /// One of the scenes is wrong.
+    #[error(transparent)]
+    Run(RunError),
+    /// Standard input cannot be read, or is no text.
+    #[error("standard input: {0}")]
+    StandardInput(io::Error),
+    /// Two scenes have the same folder.
+    #[error(
+        "{} and {} would write into the same folder, {}; run them apart, each with its --out", first.display(),
+        second.display(), out.display()
+    )]
+    SameFolder {
+        /// The first scene.
+        first: PathBuf,
+        /// The second scene.
+        second: PathBuf,
+        /// Their folder.
+        out: PathBuf,
+    },
+}
+
+impl From<RunError> for ScenesError {
+    fn from(error: RunError) -> Self {
+        Self::Run(error)
+    }
+}
+
+/// Reads some scenes, sets keys in each, and returns them with the options of their runs. Several scenes are checked
+/// before any of them is computed; a single one is checked when it is run.
+///
+/// # Errors
+/// [`ScenesError`], with the first scene that would be refused.
+pub(crate) fn read(
+    paths: &[PathBuf],
+    settings: &[Setting],
+    options: &RunOptions,
+) -> Result<Vec<(SceneFile, RunOptions)>, ScenesError> {
+    let mut folders: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
+    let mut scenes = Vec::new();
+    for path in paths {
+        let out = folder(path, options.out.as_deref(), paths.len() > 1);
+        if let Some(first) = folders.insert(out.clone(), path) {
+            return Err(ScenesError::SameFolder { first: first.clone(), second: path.clone(), out });
+        }
+        scenes.push((read_one(path, settings)?, RunOptions { out: Some(out), ..options.clone() }));
+    }
+    if paths.len() > 1 {
+        scenes.iter().try_for_each(|(scene, options)| run::check(scene, options))?;
+    }
+    Ok(scenes)
+}
+
+/// Returns the folder for the files of a scene: named like the scene, or as `--out` says; of several scenes, below that.
+fn folder(scene: &Path, out: Option<&Path>, several: bool) -> PathBuf {
+    let name = if scene == Path::new(STANDARD_INPUT) { Path::new(ITS_NAME) } else { scene };
+    let stem = PathBuf::from(name.file_stem().unwrap_or_default());
+    match out {
+        Some(out) if several => out.join(stem),
+        Some(out) => out.to_owned(),
+        None => stem,
+    }
+}
+
+fn read_one(path: &Path, settings: &[Setting]) -> Result<SceneFile, ScenesError> {
+    if path != Path::new(STANDARD_INPUT) {
+        return Ok(run::read_scene(path, settings)?);
+    }
+    let mut text = String::new();
+    io::stdin().read_to_string(&mut text).map_err(ScenesError::StandardInput)?;
+    Ok(scene::parse_set(&text, ITS_NAME, settings).map_err(RunError::from)?)
+}

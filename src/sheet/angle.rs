@@ -1,0 +1,133 @@
+//! An angle in a file that a user writes: a number of radians, or a text with its unit.
+
+use std::borrow::Cow;
+use std::f64::consts::PI;
+use std::fmt;
+use std::str::FromStr;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer};
+
+/// An angle: `1.2`, in radians, or a text with its unit, `"60 deg"` or `"1.2 rad"`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Angle {
+    /// The angle in radians.
+    pub radians: f64,
+    /// Whether it was written with its unit.
+    pub has_unit: bool,
+}
+
+/// A degree in radians, and what it is off by rounding: with both, 60 degrees are the double nearest to pi/3.
+const DEGREE: f64 = PI / 180.0;
+const DEGREE_REMAINDER: f64 = 2.948_652_270_870_168_7e-19;
+
+/// The error in the text of an angle.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is no angle, expected a number of radians, or a text with a unit such as \"60 deg\" or \"1.2 rad\"")]
+pub struct AngleError(String);
+
+impl FromStr for Angle {
+    type Err = AngleError;
+
+    fn from_str(text: &str) -> Result<Self, AngleError> {
+        let wrong = || AngleError(text.to_owned());
+        let words = text.trim();
+        let number = words.trim_end_matches(|c: char| c.is_ascii_alphabetic() || c == '\u{b0}');
+        let value: f64 = number.trim_end().parse().map_err(|_| wrong())?;
+        let radians = match &words[number.len()..] {
+            "deg" | "\u{b0}" => value.mul_add(DEGREE, value * DEGREE_REMAINDER),
+            "rad" => value,
+            _ => return Err(wrong()),
+        };
+        if radians.is_finite() { Ok(Self { radians, has_unit: true }) } else { Err(wrong()) }
+    }
+}
+
+impl From<f64> for Angle {
+    fn from(radians: f64) -> Self {
+        Self { radians, has_unit: false }
+    }
+}
+
+/// Reads the forms of an angle; numbers are accepted as they are, infinite ones too.
+struct AngleForm;
+
+impl Visitor<'_> for AngleForm {
+    type Value = Angle;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a number of radians, or a text with a unit such as \"60 deg\"")
+    }
+
+    fn visit_f64<E: Error>(self, radians: f64) -> Result<Angle, E> {
+        Ok(radians.into())
+    }
+
+    fn visit_i64<E: Error>(self, radians: i64) -> Result<Angle, E> {
+        Ok((radians as f64).into())
+    }
+
+    fn visit_u64<E: Error>(self, radians: u64) -> Result<Angle, E> {
+        Ok((radians as f64).into())
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Angle, E> {
+        text.parse().map_err(E::custom)
+    }
+}
+
+impl<'de> Deserialize<'de> for Angle {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(AngleForm)
+    }
+}
+
+impl JsonSchema for Angle {
+    fn schema_name() -> Cow<'static, str> {
+        "Angle".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [
+            { "type": "number", "description": "in radians" },
+            { "type": "string", "pattern": "^ *[-+.0-9eE]+ *(deg|\u{b0}|rad) *$", "description": "with its unit: \"60 deg\"" },
+        ] })
+    }
+}
+
+/// Reads an angle as its number of radians.
+pub(crate) fn radians<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Angle::deserialize(deserializer).map(|angle| angle.radians)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_3;
+
+    /// Claim: all forms of 60 degrees are the same angle, to the last bit.
+    #[test]
+    fn units_are_read() {
+        #[derive(Deserialize)]
+        struct One {
+            a: Angle,
+        }
+        for text in ["\"60 deg\"", "\"60deg\"", "\" 6e1 deg \"", "\"60\u{b0}\"", "\"1.0471975511965979 rad\""] {
+            let One { a } = toml::from_str(&format!("a = {text}")).unwrap();
+            assert_eq!(a, Angle { radians: FRAC_PI_3, has_unit: true }, "{text}");
+        }
+        for (text, radians) in [("1.5", 1.5), ("-2", -2.0), ("inf", f64::INFINITY)] {
+            assert_eq!(toml::from_str::<One>(&format!("a = {text}")).unwrap().a, radians.into());
+        }
+    }
+
+    /// Claim: what is no angle is refused, with the forms that are.
+    #[test]
+    fn other_texts_are_refused() {
+        for text in ["", "60", "deg", "60 grad", "60 degrees", "1e999 rad", "nan deg", "60 deg deg", "6 0 deg"] {
+            let fault = text.parse::<Angle>().unwrap_err().to_string();
+            assert!(fault.contains("60 deg") && fault.contains(&format!("`{text}`")), "{fault}");
+        }
+    }
+}
