@@ -28,6 +28,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 
 TRIANGLE, LINE = 5, 3
 ON_LINES = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque"]
+PLACES = ["vertex", "cell1", "cell2"]
 CELL_ARRAYS = ON_LINES + ["self_intersecting", "edge"]
 SUMMARY = {"version", "scene", "digest", "sheet", "terms", "left_out", "studies"}
 SHEET = {"vertices", "edges", "faces", "polygons", "developable", "cells", "degrees_of_freedom"}
@@ -98,6 +99,10 @@ def check_vtu(checks, path):
     checks.that(used.size == 0 or (used.min() >= 0 and used.max() < len(grid["points"])), f"{path}: indices of points")
     displacement = grid["point_arrays"].get("displacement")
     checks.that(displacement is not None and displacement.shape == grid["points"].shape, f"{path}: array displacement")
+    for name in PLACES:
+        numbers = grid["point_arrays"].get(name)
+        checks.that(numbers is not None and len(numbers) == len(grid["points"]) and numbers.dtype.kind == "i",
+                    f"{path}: point array {name}")
     for name in CELL_ARRAYS:
         if not checks.that(name in cell_arrays and len(cell_arrays[name]) == len(types), f"{path}: array {name}"):
             return None
@@ -301,7 +306,7 @@ def check_table(checks, path, kind, edges):
     if kind == "path":
         between = header[len(PATH_COLUMNS):-edges]
         checks.that(header[: len(PATH_COLUMNS)] == PATH_COLUMNS, f"{path}: the first columns")
-        checks.that(between in ([], ["self_intersecting"]), f"{path}: the columns between, {between}")
+        checks.that(between in (["state"], ["self_intersecting", "state"]), f"{path}: the columns between, {between}")
         return None
     if kind not in ("relax", "trace", "surface", "wells"):
         return None
@@ -309,7 +314,7 @@ def check_table(checks, path, kind, edges):
     fold = header[-edges:]
     between = header[len(STATE_COLUMNS):-edges]
     checks.that(all(name.startswith("fold_") for name in fold), f"{path}: a column for every edge")
-    checks.that(between in ([], ["error_to_kinematic"]), f"{path}: the columns between, {between}")
+    checks.that(between in (["state"], ["error_to_kinematic", "state"]), f"{path}: the columns between, {between}")
     return [float(field) if field else np.nan for field in rows[-1][-edges:]] if rows else None
 
 

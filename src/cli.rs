@@ -19,7 +19,7 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
 use foldwell::output::summary::to_json;
-use foldwell::run::{self, Ledger, RunError, RunOptions, RunReport};
+use foldwell::run::{self, Ledger, Listed, RunError, RunOptions, RunReport};
 use foldwell::scene::{SceneFile, Setting};
 use miette::{Diagnostic, GraphicalReportHandler};
 
@@ -77,6 +77,12 @@ enum Command {
         /// Print JSON
         #[arg(long)]
         json: bool,
+        /// Print the numbers and names of the edges, their kinds, letters, lengths and angles, as CSV
+        #[arg(long, conflicts_with_all = ["json", "vertices"])]
+        edges: bool,
+        /// Print the numbers and coordinates of the vertices, as CSV
+        #[arg(long, conflicts_with = "json")]
+        vertices: bool,
     },
     /// Generate a pattern
     #[command(
@@ -183,7 +189,11 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             let options = RunOptions { out, threads: threads.map(usize::from), resume };
             run_scenes(scenes::read(&scenes, &set, &options)?, &Told { quiet, json })
         }
-        Command::Info { mesh_or_scene, set, json } => {
+        Command::Info { mesh_or_scene, set, edges: true, .. } => say(&run::list(&mesh_or_scene, &set, Listed::Edges)?),
+        Command::Info { mesh_or_scene, set, vertices: true, .. } => {
+            say(&run::list(&mesh_or_scene, &set, Listed::Vertices)?)
+        }
+        Command::Info { mesh_or_scene, set, json, .. } => {
             let info = run::info(&mesh_or_scene, &set)?;
             say(&if json { to_json(&info) } else { format!("{info}\n") })
         }

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
 use crate::output::picture::Picture;
-use crate::output::{files, vtk};
+use crate::output::{OutputError, files, vtk};
 use crate::scene::{SceneFile, Setting};
 use crate::sheet::build::{self, Drawing};
 use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
@@ -17,6 +17,7 @@ mod error;
 mod info;
 mod inputs;
 mod ledger;
+mod lists;
 mod report;
 mod resume;
 mod runner;
@@ -111,11 +112,38 @@ pub fn info(mesh_or_scene: &Path, settings: &[Setting]) -> Result<Counts, RunErr
         let assembly = crate::scene::build::assembly(&crate::scene::read_set(mesh_or_scene, settings)?)?;
         return Ok(Counts { sheet: Info::new(assembly.sheet()), energy: Some(EnergyCounts::new(&assembly)) });
     }
-    let sheet = read_mesh(mesh_or_scene, ".fold, .obj, .vtu or .toml")?;
-    if !settings.is_empty() {
-        return Err(RunError::NoScene { path: mesh_or_scene.into() });
+    Ok(Counts { sheet: Info::new(&sheet_of(mesh_or_scene, settings)?), energy: None })
+}
+
+/// Elements of a sheet that have numbers or names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Listed {
+    /// The vertices of a cell.
+    Vertices,
+    /// The edges of a cell.
+    Edges,
+}
+
+/// Returns the vertices or the edges of the sheet of a mesh or a scene as a table in CSV.
+///
+/// # Errors
+/// [`RunError`] if the file cannot be read or is wrong.
+pub fn list(mesh_or_scene: &Path, settings: &[Setting], listed: Listed) -> Result<String, RunError> {
+    let sheet = sheet_of(mesh_or_scene, settings)?;
+    let table = match listed {
+        Listed::Vertices => lists::vertices(&sheet),
+        Listed::Edges => lists::edges(&sheet),
+    };
+    Ok(table.to_csv().map_err(|fault| OutputError::Shape { path: mesh_or_scene.into(), fault })?)
+}
+
+/// Returns the sheet of a mesh, or of a scene in which some keys are set first.
+fn sheet_of(mesh_or_scene: &Path, settings: &[Setting]) -> Result<Sheet, RunError> {
+    if ending(mesh_or_scene) == "toml" {
+        return Ok(crate::scene::build::sheet(&crate::scene::read_set(mesh_or_scene, settings)?)?);
     }
-    Ok(Counts { sheet: Info::new(&sheet), energy: None })
+    let sheet = read_mesh(mesh_or_scene, ".fold, .obj, .vtu or .toml")?;
+    if settings.is_empty() { Ok(sheet) } else { Err(RunError::NoScene { path: mesh_or_scene.into() }) }
 }
 
 /// Converts a mesh between FOLD, OBJ and VTU, which are recognised by the endings of the file names. Returns a sentence
@@ -177,7 +205,6 @@ fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::OutputError;
     use crate::scene::SceneError;
     use std::io;
 

@@ -39,6 +39,8 @@ pub enum Artifact {
     },
     /// A list of pairs of a time and a file, with increasing times (`.pvd`).
     Series(Vec<(f64, String)>),
+    /// A script for ParaView (`.py`).
+    Script(String),
     /// A drawing (`.svg`), or the inconsistency that prevented it.
     Svg(Result<String, ShapeError>),
 }
@@ -71,7 +73,7 @@ impl Artifact {
             Self::Curves { curves, arrays } => vtk::write_curves(path, curves, arrays),
             Self::Grid { size, origin, spacing, arrays } => vtk::write_vti(path, *size, [*origin, *spacing], arrays),
             Self::Series(states) => vtk::write_pvd(path, states),
-            Self::Svg(Ok(text)) => files::write(path, text),
+            Self::Script(text) | Self::Svg(Ok(text)) => files::write(path, text),
             Self::Svg(Err(fault)) => Err(OutputError::Shape { path: path.into(), fault: fault.clone() }),
         }
     }

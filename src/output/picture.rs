@@ -18,6 +18,8 @@ pub struct Picture {
     pub points: Vec<Vec3>,
     /// Position in this state minus position in the drawn state, for each point.
     pub displacement: Vec<Vec3>,
+    /// Vertex of the sheet's cell, and the cell counted from the first one shown, of which each point is the copy.
+    pub places: Vec<(usize, [i32; 2])>,
     /// Points at the corners of each triangle, counter-clockwise seen from the side of the face normals.
     pub triangles: Vec<[usize; 3]>,
     /// 1 for triangles that pass through another one, 0 for the others; all 0 if self-intersection was not tested.
@@ -56,6 +58,7 @@ impl Picture {
         Self {
             displacement: points.iter().zip(&start).map(|(now, then)| now - then).collect(),
             points,
+            places: view.places.clone(),
             triangles: view.triangles.clone(),
             self_intersecting: vec![0; view.triangles.len()],
             lines: view.lines.clone(),
@@ -99,6 +102,7 @@ impl Picture {
         Self {
             points: corners.iter().map(|corner| sheet.position(*corner)).collect(),
             displacement: vec![Vec3::zeros(); corners.len()],
+            places: corners.iter().map(|corner| (corner.vertex, corner.shift)).collect(),
             self_intersecting: vec![0; triangles.len()],
             triangles,
             line_kinds: lines.iter().map(|(_, edge)| sheet.edges[*edge].kind).collect(),
@@ -131,6 +135,7 @@ impl Picture {
         let (points, faces, lines) = (self.points.len(), self.triangles.len(), self.lines.len());
         let arrays = [
             ("displacement", self.displacement.len(), points),
+            ("places", self.places.len(), points),
             ("self_intersecting", self.self_intersecting.len(), faces),
             ("line_kinds", self.line_kinds.len(), lines),
             ("line_edges", self.line_edges.len(), lines),
@@ -168,6 +173,7 @@ pub(super) mod samples {
         let none = f64::NAN;
         Picture {
             displacement: points.iter().map(|p| Vec3::new(0.0, 0.0, p.z)).collect(),
+            places: (0..points.len()).map(|vertex| (vertex, [0, 0])).collect(),
             points,
             triangles: vec![[0, 1, 2], [1, 0, 3]],
             self_intersecting: vec![0, 1],

@@ -55,19 +55,26 @@ impl Table {
         Self { header, rows: Vec::new() }
     }
 
-    /// Makes the table of the states of a study, with the columns of [`StateRow`] followed by the fold angles of the
-    /// edges of the cell. The column `error_to_kinematic` is present if at least one state has this value.
+    /// Makes the table of the states of a study, with the columns of [`StateRow`] followed by `state`, the number of the row
+    /// from 0, and the fold angles of the edges of the cell. The column `error_to_kinematic` is present if at least one
+    /// state has this value.
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
-        let columns = StateRow::COLUMNS.iter().copied().chain(compared.then_some("error_to_kinematic"));
+        let columns =
+            StateRow::COLUMNS.iter().copied().chain(compared.then_some("error_to_kinematic")).chain(["state"]);
         let fold = edges.iter().map(Self::fold_column);
         let header = columns.map(str::to_owned).chain(fold).collect();
-        Self { header, rows: states.iter().map(|state| state.values(compared)).collect() }
+        Self { header, rows: states.iter().enumerate().map(|(row, state)| state.values(row, compared)).collect() }
     }
 
     /// Returns the name of the column with the fold angle of an edge.
     pub(crate) fn fold_column(edge: &EdgeKey) -> String {
         format!("fold_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
+    }
+
+    /// Returns the number of rows.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
     }
 
     /// Appends a row.
@@ -84,7 +91,11 @@ impl Table {
         files::write(path, text)
     }
 
-    fn to_csv(&self) -> Result<String, ShapeError> {
+    /// Returns the text of the table.
+    ///
+    /// # Errors
+    /// [`ShapeError::Row`] if the length of a row differs from the number of columns.
+    pub(crate) fn to_csv(&self) -> Result<String, ShapeError> {
         let mut text = self.header.join(",");
         text.push('\n');
         for (row, values) in self.rows.iter().enumerate() {
@@ -187,7 +198,7 @@ impl StateRow {
         "self_intersecting",
     ];
 
-    fn values(&self, compared: bool) -> Vec<Value> {
+    fn values(&self, row: usize, compared: bool) -> Vec<Value> {
         let counts = [self.branch, self.sign, self.step].map(Value::from);
         let shape = [&[self.arc_length, self.curvature][..], &self.theta, &self.strain].concat();
         let solution = [&self.energy[..], &[self.residual_force, self.residual_length]].concat();
@@ -195,7 +206,8 @@ impl StateRow {
         let crossing = Value::from(self.self_intersecting.map(i64::from));
         let error = compared.then(|| Value::from(self.error_to_kinematic));
         let fold = self.fold.iter().map(|&angle| Value::Number(angle));
-        counts.into_iter().chain(numbers).chain([crossing]).chain(error).chain(fold).collect()
+        let row = [Value::Whole(row as i64)];
+        counts.into_iter().chain(numbers).chain([crossing]).chain(error).chain(row).chain(fold).collect()
     }
 }
 
@@ -233,8 +245,8 @@ mod tests {
         };
         let text = Table::of_states(&keys, &[state]).to_csv().unwrap();
         let lines: Vec<&str> = text.lines().collect();
-        assert!(lines[0].ends_with("self_intersecting,fold_0_1_0_-1,fold_0_3_0_0"), "{}", lines[0]);
-        assert_eq!(lines[1], ",-1,,1.0,2.0,3.0,4.0,5.0,,6.0,7.0,8.0,9.0,10.0,11.0,12.0,1,0.5,");
+        assert!(lines[0].ends_with("self_intersecting,state,fold_0_1_0_-1,fold_0_3_0_0"), "{}", lines[0]);
+        assert_eq!(lines[1], ",-1,,1.0,2.0,3.0,4.0,5.0,,6.0,7.0,8.0,9.0,10.0,11.0,12.0,1,0,0.5,");
         assert_eq!(lines[0].split(',').count(), lines[1].split(',').count());
     }
 
@@ -243,6 +255,6 @@ mod tests {
     fn rows_have_a_value_for_every_column() {
         let keys = [EdgeKey { i: 0, j: 1, shift: [0, 0] }];
         let table = Table::of_states(&keys, &[StateRow::default()]);
-        assert_eq!(table.to_csv(), Err(ShapeError::Row { row: 0, found: 17, expected: 18 }));
+        assert_eq!(table.to_csv(), Err(ShapeError::Row { row: 0, found: 18, expected: 19 }));
     }
 }

@@ -39,7 +39,8 @@ pub struct VtuMesh {
 
 /// Writes a state as a VTU file; its cells are the triangles, followed by the lines.
 ///
-/// Point array: `displacement`. Cell arrays: `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN
+/// Point arrays: `displacement`, and `vertex`, `cell1`, `cell2`, the vertex of the sheet's cell and the cell of which each
+/// point is the copy. Cell arrays: `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN
 /// on triangles), `self_intersecting` (0 on lines), and `edge`, the index of the edge of the cell of which the line is
 /// a copy (-1 on triangles).
 ///
@@ -228,8 +229,14 @@ fn attributes(picture: &Picture) -> Attributes {
     let on_lines = |values: &[f64]| IOBuffer::F64([&vec![f64::NAN; faces], values].concat());
     let crossing = [&picture.self_intersecting[..], &vec![0; picture.lines.len()]].concat();
     let edges = [&vec![-1; faces], &picture.line_edges[..]].concat();
+    let place = |of: &dyn Fn(&(usize, [i32; 2])) -> i32| IOBuffer::I32(picture.places.iter().map(of).collect());
     Attributes {
-        point: vec![array("displacement", ElementType::Vectors, coordinates(&picture.displacement))],
+        point: vec![
+            array("displacement", ElementType::Vectors, coordinates(&picture.displacement)),
+            scalars("vertex", place(&|(vertex, _)| *vertex as i32)),
+            scalars("cell1", place(&|(_, cell)| cell[0])),
+            scalars("cell2", place(&|(_, cell)| cell[1])),
+        ],
         cell: vec![
             scalars("fold_angle", on_lines(&picture.fold_angle)),
             scalars("rest_angle", on_lines(&picture.rest_angle)),
@@ -390,7 +397,8 @@ mod tests {
             };
             attributes.iter().map(length).collect()
         };
-        assert_eq!(lengths(&piece.data.point), [("displacement".to_owned(), 12)]);
+        let points = [("displacement", 12), ("vertex", 4), ("cell1", 4), ("cell2", 4)];
+        assert_eq!(lengths(&piece.data.point), points.map(|(name, length)| (name.to_owned(), length)));
         let names = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque", "self_intersecting", "edge"];
         assert_eq!(lengths(&piece.data.cell), names.map(|name| (name.to_owned(), 7)));
     }

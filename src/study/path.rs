@@ -217,28 +217,34 @@ const COLUMNS: [&str; 14] = [
 fn table(context: &Context<'_>, branches: &[PathBranch], marks: Option<&[Vec<Marks>]>) -> Table {
     let crossing = marks.map(|_| "self_intersecting");
     let fold = context.assembly.sheet().edges.iter().map(|edge| Table::fold_column(&edge.key));
-    let columns = COLUMNS.into_iter().chain(crossing).map(str::to_owned).chain(fold);
+    let columns = COLUMNS.into_iter().chain(crossing).chain(["state"]).map(str::to_owned).chain(fold);
     let mut table = Table::new(columns.collect());
     for (number, branch) in branches.iter().enumerate() {
         for (step, point) in branch.points.iter().enumerate() {
             let crossing = marks.map(|marks| marks[number].get(step).map(|marks| i64::from(marks.any)).into());
-            table.push(row(context, [number, step], point, crossing));
+            let state = table.len();
+            table.push(row(context, [number, step, state], point, crossing));
         }
     }
     table
 }
 
-fn row(context: &Context<'_>, place: [usize; 2], point: &PathPoint, crossing: Option<Value>) -> Vec<Value> {
+fn row(
+    context: &Context<'_>,
+    [branch, step, number]: [usize; 3],
+    point: &PathPoint,
+    crossing: Option<Value>,
+) -> Vec<Value> {
     let numbers = [point.arc_length, point.drive, point.reaction, point.work].map(Value::Number);
     let energy = energies::columns(context.assembly.terms(), &point.state).map(Value::from);
     let residuals = [point.residual_force, point.residual_length].map(Value::Number);
     let event = point.event.map_or(Value::Empty, |event| Value::Word(event_word(event)));
     let state = states::with_all_angles(context, &point.state);
     let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);
-    let place = place.map(|number| Value::Whole(number as i64));
-    let own = place.into_iter().chain(numbers).chain(energy).chain(residuals);
+    let [branch, step, number] = [branch, step, number].map(|number| Value::Whole(number as i64));
+    let own = [branch, step].into_iter().chain(numbers).chain(energy).chain(residuals);
     let own = own.chain([Value::Whole(point.negative_eigenvalues as i64), event]);
-    own.chain(crossing).chain(fold).collect()
+    own.chain(crossing).chain([number]).chain(fold).collect()
 }
 
 /// Adds the series of some states, the last state of the first branch, and the plot of reactions.

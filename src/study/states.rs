@@ -7,6 +7,7 @@ use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::state::{Cylinder, State, cylinder};
 use crate::output::artifact::Artifact;
 use crate::output::figure::sheet;
+use crate::output::paraview;
 use crate::output::picture::Picture;
 use crate::output::table::{StateRow, Table};
 use crate::scene::spec::Draw;
@@ -120,6 +121,7 @@ pub(crate) fn add_series_at(
         entries.push((k as f64, file));
     }
     answer.add(format!("{name}.pvd"), Artifact::Series(entries));
+    answer.add(format!("{name}-paraview.py"), Artifact::Script(paraview::script(name)));
 }
 
 /// Adds one picture as SVG, with the description `state`, if the study asks for it.

@@ -238,17 +238,20 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: 
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
             let compared = along.filter(|_| engine == Engine::Both);
-            rows.push(StateRow { error_to_kinematic: compared.map(|along| along.error), ..row });
             if step % path.every() == 0 || step + 1 == path.len() {
-                pictures.push(Shown { state, residuals: None, marks });
+                pictures.push((rows.len(), states::picture(context, &Shown { state, residuals: None, marks })));
             }
+            rows.push(StateRow { error_to_kinematic: compared.map(|along| along.error), ..row });
         }
         let (step, words) = path.shown();
         let within = if step + 1 < path.len() { step / path.every() } else { pictures.len() - first - 1 };
         shown = (first + within, words);
     }
     answer.add(format!("{}.csv", context.name()), states::table_of_rows(context, &rows));
-    states::add(answer, context, &pictures, Some((shown.0, &shown.1)));
+    if let Some((_, picture)) = pictures.get(shown.0) {
+        states::add_figure(answer, context, picture, &shown.1);
+    }
+    states::add_series_at(answer, context, pictures);
     add_paths(answer, context, paths, &rows);
     answer.state = saved_state(&model, paths);
 }

@@ -99,3 +99,43 @@ fn patterns_have_help() {
     assert_eq!(miura, said("new miura --fold 3 --help -o a.fold"));
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
+
+/// Claim: `info --edges` names every edge as the table of a run does, in the same order, with its length and the drawn angle
+/// of the mesh; `--vertices` lists the coordinates. Source: a Miura-ori cell, whose sides are 1. Tolerance: rounding.
+#[test]
+fn elements_are_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let said = |words: &str| {
+        let output = foldwell(folder.path(), words);
+        assert!(output.status.success(), "{words}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    said("new miura --fold 0.3 -o m.fold");
+    std::fs::write(
+        folder.path().join("m.toml"),
+        "sheet = { mesh = \"m.fold\" }\nenergy = { bars = { stiffness = 1.0 }, creases = { stiffness = 1.0 } }\n\
+         [[study]]\nname = \"a\"\nkind = \"relax\"\ndraw = []\n",
+    )
+    .unwrap();
+    said("run m.toml");
+    let table = std::fs::read_to_string(folder.path().join("m/a.csv")).unwrap();
+    let columns: Vec<&str> =
+        table.lines().next().unwrap().split(',').filter(|name| name.starts_with("fold_")).collect();
+    let listed = said("info m.fold --edges");
+    assert_eq!(listed, said("info m.toml --edges"));
+    let mut lines = listed.lines();
+    assert_eq!(lines.next(), Some("edge,i,j,n1,n2,kind,assignment,length,angle"));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let names: Vec<String> = rows.iter().map(|row| format!("fold_{}", row[1..5].join("_"))).collect();
+    assert_eq!(names, columns);
+    for (number, row) in rows.iter().enumerate() {
+        assert_eq!(row[0], number.to_string());
+        let [length, angle] = [row[7], row[8]].map(|field| field.parse::<f64>().unwrap());
+        let crease = row[5] == "crease";
+        assert_eq!(crease, row[6] == "M" || row[6] == "V", "{row:?}");
+        assert!(!crease || ((length - 1.0).abs() < 1e-14 && (angle > 0.0) == (row[6] == "V")), "{row:?}");
+    }
+    let vertices = said("info m.fold --vertices");
+    assert!(vertices.starts_with("vertex,x,y,z\n0,0.0,0.0,0.0\n1,") && vertices.lines().count() == 5, "{vertices}");
+    assert_eq!(foldwell(folder.path(), "info m.fold --edges --vertices").status.code(), Some(2));
+}

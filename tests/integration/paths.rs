@@ -204,7 +204,7 @@ fn files_of_a_path() {
     let run = Run::of("two-bars-push.toml", &[("kind = \"path\"", "kind = \"path\"\ncheck = [\"self-intersection\"]")]);
     let header = std::fs::read_to_string(run.file("pushed.csv")).unwrap();
     let expected = "branch,step,arc_length,drive,reaction,work,energy_bars,energy_creases,energy_facets,energy_total,\
-                    residual_force,residual_length,negative_eigenvalues,event,self_intersecting,fold_0_1_0_0,";
+                    residual_force,residual_length,negative_eigenvalues,event,self_intersecting,state,fold_0_1_0_0,";
     assert!(header.starts_with(expected), "{header}");
     let table = run.table("pushed");
     assert_eq!(table.len(), run.branch("pushed").steps);
