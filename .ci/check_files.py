@@ -29,7 +29,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 TRIANGLE, LINE = 5, 3
 ON_LINES = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque"]
 CELL_ARRAYS = ON_LINES + ["self_intersecting", "edge"]
-SUMMARY = {"version", "scene", "digest", "sheet", "terms", "left_out", "studies"}
+SUMMARY = {"version", "scene", "digest", "sheet", "terms", "left_out", "notes", "studies"}
 SHEET = {"vertices", "edges", "faces", "polygons", "developable", "cells", "degrees_of_freedom"}
 STUDY = {"name", "kind", "converged", "seconds", "error"}
 KINDS = {

@@ -196,7 +196,7 @@ fn run_scene(scene: &Path, options: &RunOptions, quiet: bool, json: bool) -> Res
             None => return Ok(INTERRUPTED),
         },
     };
-    for note in report.notes.iter().filter(|_| !quiet) {
+    for note in report.summary.notes.iter().filter(|_| !quiet) {
         // an error is ignored: there is no other place for the message if standard error is closed
         let _ = writeln!(io::stderr(), "note: {note}");
     }

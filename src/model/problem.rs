@@ -342,6 +342,14 @@ impl Model {
         }
     }
 
+    /// Makes the angles continue from these fold angles of the edges; not a number: where there is no hinge.
+    pub(crate) fn continue_from(&mut self, fold_angles: &[f64]) {
+        for term in self.soft.iter_mut().chain(&mut self.stiff).filter(|term| term.is_angle()) {
+            let angles: Vec<f64> = (0..term.len()).map(|k| fold_angles[term.edge(k)]).collect();
+            term.set_angles(&angles);
+        }
+    }
+
     fn terms(&self) -> impl Iterator<Item = &dyn Elements> {
         self.soft.iter().chain(&self.stiff).map(AsRef::as_ref)
     }

@@ -9,9 +9,9 @@ mod study;
 mod vertices;
 
 use super::Located;
-use super::forms::RestSpec;
+use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Finite, Fraction, Triple};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
@@ -137,7 +137,7 @@ pub struct BarsSpec {
     pub rest: Option<Located<RestLengthSpec>>,
 }
 
-/// `creases = { stiffness, rest }`.
+/// `creases = { stiffness, rest, fraction }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CreasesSpec {
@@ -145,9 +145,11 @@ pub struct CreasesSpec {
     pub stiffness: Located<StiffnessSpec>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
+    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
+    pub fraction: Option<Located<Fraction>>,
 }
 
-/// `facets = { stiffness, rest }`.
+/// `facets = { stiffness, rest, fraction }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacetsSpec {
@@ -155,6 +157,8 @@ pub struct FacetsSpec {
     pub stiffness: Located<StiffnessSpec>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
+    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
+    pub fraction: Option<Located<Fraction>>,
 }
 
 /// `[[lock]]`: a crease that keeps its fold angle in every cell.

@@ -62,6 +62,7 @@ mod started_states;
 mod stiffness;
 mod stopping;
 mod surface;
+mod targets;
 mod trace;
 mod tubes;
 mod unstressed;
