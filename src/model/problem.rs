@@ -16,6 +16,7 @@ mod bodies;
 pub(super) mod driving;
 mod energy;
 mod reference_state;
+mod softened;
 mod support;
 mod turning;
 mod unknowns;

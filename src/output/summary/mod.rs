@@ -20,7 +20,7 @@ pub use branches::{BranchesSummary, RaySummary};
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::ModesSummary;
 pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
-pub use relax::{EnergySummary, IterationSummary, MethodName, RelaxSummary};
+pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 pub use wells::{
