@@ -233,7 +233,7 @@ fn run_scenes(scenes: Vec<(SceneFile, RunOptions)>, told: &Told) -> Result<u8, F
     let mut summaries = Vec::new();
     for (scene, options) in scenes {
         let Some(report) = run_scene(scene, options, &watch)? else { return Ok(INTERRUPTED) };
-        for note in report.notes.iter().filter(|_| !told.quiet) {
+        for note in report.summary.notes.iter().filter(|_| !told.quiet) {
             // an error is ignored: there is no other place for the message if standard error is closed
             let _ = writeln!(io::stderr(), "note: {note}");
         }

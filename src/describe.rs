@@ -1,8 +1,8 @@
 //! The standard output of `foldwell run`: a line or a few for every study.
 
 use foldwell::output::summary::{
-    BranchesSummary, ModesSummary, PathSummary, RelaxSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary,
-    WellsSummary,
+    BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, StudyResult, StudySummary,
+    SurfaceSummary, TraceSummary, WellsSummary,
 };
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
@@ -42,7 +42,11 @@ fn describe_relaxation(relax: &RelaxSummary) -> String {
         (None, Some("not-established")) => ", it is not known whether the start is a branch point".into(),
         (None, _) => String::new(),
     };
-    format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}{branching}", relax.energy.total)
+    let left = relax.branch_choice.map_or(String::new(), |BranchChoiceSummary { hinges, on_rest_side, soft_bars }| {
+        let by = if soft_bars { ", by bars that stretch at first" } else { "" };
+        format!(", the start was left with {on_rest_side} of {hinges} hinges on the side of their rest angles{by}")
+    });
+    format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}{branching}{left}", relax.energy.total)
 }
 
 /// Describes the linear modes. Folding modes are counted separately, by fold angles: they are not a part of the zero

@@ -14,6 +14,7 @@ pub mod path;
 pub mod relax;
 pub mod restored;
 pub mod shown_cells;
+pub mod singular_start;
 pub mod start_state;
 pub mod state;
 pub mod surface;

@@ -2,6 +2,7 @@
 
 use super::apex;
 use super::method::{self, IntrinsicFailure, RelaxOptions};
+use super::singular_start::{self, BranchChoice};
 use super::state::State;
 use crate::model::{Assembly, Domain, Gauge, Model};
 use crate::solver::{
@@ -53,6 +54,10 @@ pub struct Relaxed {
     pub history: Vec<Step>,
     /// Why fold angles were given up, if they were tried as unknowns.
     pub intrinsic_failure: Option<IntrinsicFailure>,
+    /// The branch on which a flat or singular start was left; `None` for other starts.
+    pub branch_choice: Option<BranchChoice>,
+    /// Number of the first steps that were made with bars that stretch, to leave a singular start.
+    pub soft_steps: usize,
 }
 
 /// Relaxation failed; the last accepted state is here.
@@ -69,6 +74,8 @@ pub struct RelaxError {
     pub history: Vec<Step>,
     /// Why fold angles were given up, if they were tried as unknowns.
     pub intrinsic_failure: Option<IntrinsicFailure>,
+    /// Number of the first steps that were made with bars that stretch, to leave a singular start.
+    pub soft_steps: usize,
 }
 
 /// Says why it failed and how far it came, not the numbers of the state.
@@ -119,7 +126,15 @@ pub fn relax_from(
     let mut history = Vec::new();
     let (first, intrinsic_failure) =
         method::minimize_in_angles(model, &start, (options, method), observe, &mut history);
+    let mut soft_steps = 0;
     let found = match first.unwrap_or_else(|| minimize(model, start.clone(), options, observe)) {
+        Err(error) if error.failure == Failure::SingularStart && model.has_rigid_bars() => {
+            model.set_angles(&origin);
+            history.extend(error.history);
+            let left = singular_start::leave(model, place, options, observe, &mut history);
+            soft_steps = history.len();
+            left
+        }
         Err(error) if hopeless(error.failure) => Err(error),
         Err(error) => {
             model.set_angles(&origin);
@@ -144,14 +159,24 @@ pub fn relax_from(
                 let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
                 let failure = Failure::Uncertain { angle, force, tolerance: options.tolerance };
                 history.extend(found.history);
-                Err(Box::new(RelaxError { failure, state, x: found.x, history, intrinsic_failure }))
+                Err(Box::new(RelaxError { failure, state, x: found.x, history, intrinsic_failure, soft_steps }))
             }
-            _ => Ok(Relaxed { intrinsic_failure, ..finish(model, found, history) }),
+            _ => {
+                let branch_choice = BranchChoice::of(model, &found.x, &origin, soft_steps > 0);
+                Ok(Relaxed { intrinsic_failure, branch_choice, soft_steps, ..finish(model, found, history) })
+            }
         },
         Err(error) => {
             history.extend(error.history);
             let state = State::new(model, &error.x, &error.tension);
-            Err(Box::new(RelaxError { failure: error.failure, state, x: error.x, history, intrinsic_failure }))
+            Err(Box::new(RelaxError {
+                failure: error.failure,
+                state,
+                x: error.x,
+                history,
+                intrinsic_failure,
+                soft_steps,
+            }))
         }
     }
 }
@@ -316,5 +341,7 @@ fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed 
         self_stresses: settled.self_stresses,
         history,
         intrinsic_failure: None,
+        branch_choice: None,
+        soft_steps: 0,
     }
 }

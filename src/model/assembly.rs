@@ -6,8 +6,10 @@ use super::boundary::{Boundary, Drawn};
 use super::problem::{Gauge, Model};
 use super::stiffness::Stiffness;
 use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
+use crate::sheet::cell::is_folded_flat;
 use crate::sheet::{EdgeKind, Sheet, Tiling, tile};
 use std::collections::HashSet;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Largest change of a rest length from the drawn length, relative to it, that counts as rounding.
@@ -67,7 +69,7 @@ impl Assembly {
         let repeated = if boundary == Boundary::Screw { [1, 1] } else { cells };
         let tiling = tile(&sheet, repeated, boundary.is_periodic());
         let drawn = Drawn::new(&sheet, &tiling, boundary, 0.0);
-        let angles = drawn.fold_angles(&tiling);
+        let angles = on_sides_of_sheet(drawn.fold_angles(&tiling), &sheet, &tiling);
         let geometry = Geometry { sheet, tiling, boundary, shown: cells, angles };
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
@@ -257,6 +259,20 @@ impl Assembly {
 
     /// Builds the model of the bars and hinges, in the drawn state.
     pub fn model(&self, gauge: Gauge) -> Model {
-        assemble(&self.drawn, self.tiling(), &self.terms, gauge)
+        let mut model = assemble(&self.drawn, self.tiling(), &self.terms, gauge);
+        model.continue_from(self.drawn_angles());
+        model
     }
+}
+
+/// Returns the fold angles of a tiling with edges that are folded flat on the side that they have in the sheet: pi and
+/// -pi are drawn alike.
+fn on_sides_of_sheet(mut angles: Vec<f64>, sheet: &Sheet, tiling: &Tiling) -> Vec<f64> {
+    for (angle, tiled) in angles.iter_mut().zip(&tiling.edges).filter(|(angle, _)| is_folded_flat(**angle)) {
+        let side = sheet.drawn_angle(&sheet.edges[tiled.edge]).unwrap_or(*angle);
+        if side * *angle < 0.0 {
+            *angle += TAU.copysign(side);
+        }
+    }
+    angles
 }

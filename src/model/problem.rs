@@ -16,6 +16,7 @@ mod bodies;
 pub(super) mod driving;
 mod energy;
 mod reference_state;
+mod softened;
 mod support;
 mod turning;
 mod unknowns;
@@ -339,6 +340,14 @@ impl Model {
             let count = term.angles().len();
             term.set_angles(&angles[at..at + count]);
             at += count;
+        }
+    }
+
+    /// Makes the angles continue from these fold angles of the edges; not a number: where there is no hinge.
+    pub(crate) fn continue_from(&mut self, fold_angles: &[f64]) {
+        for term in self.soft.iter_mut().chain(&mut self.stiff).filter(|term| term.is_angle()) {
+            let angles: Vec<f64> = (0..term.len()).map(|k| fold_angles[term.edge(k)]).collect();
+            term.set_angles(&angles);
         }
     }
 

@@ -23,6 +23,9 @@ pub(super) fn not_kept(sheet: &Sheet, from: Option<MeshKind>, to: Option<MeshKin
         let count = sheet.assignments.len();
         notes.push(format!("VTU has no letters for edges: {count} that the drawing does not show are not kept"));
     }
+    if to == Some(MeshKind::Vtu) && !sheet.targets.is_empty() {
+        notes.push(format!("VTU has no target angles: {} that are not drawn are not kept", sheet.targets_not_drawn()));
+    }
     let stiffnesses = sheet.stiffness.hinges.len() + sheet.stiffness.bars.len();
     if to != Some(MeshKind::Fold) && stiffnesses > 0 {
         notes.push(format!("{stiffnesses} stiffnesses of edges are not kept: FOLD alone has a place for them"));

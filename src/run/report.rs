@@ -25,6 +25,4 @@ pub struct RunReport {
     pub kept: Vec<String>,
     /// Whether the observer stopped the run.
     pub interrupted: bool,
-    /// Remarks about the scene for the user.
-    pub notes: Vec<String>,
 }

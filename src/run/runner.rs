@@ -98,8 +98,8 @@ impl<'a> Runner<'a> {
             }
         }
         let places = summary.studies.iter().map(|study| self.order[study.name.as_str()]).collect();
-        let (out, kept, notes) = (self.out.clone(), self.kept.clone(), notes(self.file, self.assembly));
-        self.ledger.open(RunReport { summary, out, kept, interrupted: false, notes }, places)
+        let (out, kept) = (self.out.clone(), self.kept.clone());
+        self.ledger.open(RunReport { summary, out, kept, interrupted: false }, places)
     }
 
     /// Computes one study and writes its files; files that an earlier run wrote for it are removed. Does nothing if the
@@ -212,6 +212,7 @@ fn summary(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
         },
         terms,
         left_out,
+        notes: notes(file, assembly),
         studies: vec![],
     }
 }

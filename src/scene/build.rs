@@ -1,15 +1,17 @@
 //! The assembly of a scene: reads the mesh, and checks every value of the scene that refers to the sheet.
 
 use super::elements::{ElementKind, ElementValues, name};
-use super::forms::{Mode, ModeRest, RatesFile, RestSpec};
+use super::forms::{Mode, RatesFile};
 use super::places::Places;
+use super::rest::{ModeRest, RestSpec};
 use super::rows::{self, Column};
 use super::spec::{DomainSpec, Lattice};
-use super::values::EdgeName;
+use super::values::{EdgeName, Fraction};
 use super::{Located, SceneError, SceneFile, drives};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, AssemblyError, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
 use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate};
+use std::ops::Range;
 
 /// Reads the mesh of a scene and assembles the sheet, boundary conditions and terms of its studies.
 ///
@@ -40,7 +42,7 @@ pub fn drive(file: &SceneFile, assembly: &Assembly, name: &str) -> Result<Drive,
 
 /// Returns remarks about a scene for the user, made before its studies.
 pub(crate) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
-    super::turns::notes(file, assembly.terms())
+    super::notes::notes(file, assembly)
 }
 
 /// Returns the rates of a mode from its table, for every edge of the tiling; NaN if the table has none.
@@ -120,12 +122,13 @@ impl<'a> Reader<'a> {
         let creases = match &energy.creases {
             Some(spec) => Some(Hinges {
                 stiffness: self.values.stiffness(&spec.stiffness, ElementKind::Creases)?,
-                rest: self.rest(spec.rest.as_ref(), ElementKind::Creases, &rigid)?,
+                rest: self.rest((spec.rest.as_ref(), spec.fraction.as_ref()), ElementKind::Creases, &rigid)?,
             }),
             None => None,
         };
         let facets = if self.tiling.facets().next().is_some() {
-            let rest = energy.facets.as_ref().and_then(|spec| spec.rest.as_ref());
+            let spec = energy.facets.as_ref();
+            let rest = (spec.and_then(|spec| spec.rest.as_ref()), spec.and_then(|spec| spec.fraction.as_ref()));
             Some(Hinges { stiffness: facet_stiffness, rest: self.rest(rest, ElementKind::Facets, &rigid)? })
         } else {
             None
@@ -150,18 +153,40 @@ impl<'a> Reader<'a> {
     /// Returns the rest angle of every edge of the tiling; only those of hinges of this term are meant.
     fn rest(
         &self,
-        rest: Option<&Located<RestSpec>>,
+        (rest, fraction): (Option<&Located<RestSpec>>, Option<&Located<Fraction>>),
         of: ElementKind,
         rigid_facets: &[usize],
     ) -> Result<Vec<f64>, SceneError> {
         let Some(rest) = rest else { return Ok(self.angles.to_vec()) };
+        let part = |angles: Vec<f64>| {
+            let fraction = fraction.map_or(1.0, |fraction| fraction.0);
+            angles.into_iter().map(|angle| fraction * angle).collect()
+        };
         match &**rest {
+            RestSpec::Target => self.targets(fraction.map_or(1.0, |fraction| fraction.0), rest.span()),
+            RestSpec::Assigned => self.values.flat_folded(of, rest.span()).map(part),
+            RestSpec::Letters(letters) => self.values.angles_by_letter(letters, of, rest.span()).map(part),
             RestSpec::Drawn => Ok(self.angles.to_vec()),
             RestSpec::Flat => Ok(vec![0.0; self.angles.len()]),
             RestSpec::Angle(angle) => Ok(vec![angle.radians; self.angles.len()]),
             RestSpec::Mode(mode) => self.along_mode(mode, of, rigid_facets),
             RestSpec::File(name) => self.values.file_values(name, Column::Angle, of),
         }
+    }
+
+    /// Returns a fraction of the target angles of the mesh file; the drawn angles where it gives none.
+    fn targets(&self, fraction: f64, span: Range<usize>) -> Result<Vec<f64>, SceneError> {
+        let targets = &self.sheet.targets;
+        if targets.is_empty() {
+            let help = "fold angles of the mesh, if it has them, are the drawn ones: rest = \"drawn\"; rest = \"assigned\" \
+                        folds by the letters M and V";
+            return Err(self.file.error_at(span, "the mesh gives no target angles", help));
+        }
+        let target = |(k, drawn): (usize, &f64)| {
+            let given = targets.get(&self.sheet.edges[self.tiling.edges[k].edge].key);
+            given.map_or(*drawn, |target| fraction * target)
+        };
+        Ok(self.angles.iter().enumerate().map(target).collect())
     }
 
     fn along_mode(&self, rest: &ModeRest, of: ElementKind, rigid_facets: &[usize]) -> Result<Vec<f64>, SceneError> {

@@ -20,6 +20,7 @@ pub(super) fn check(file: &SceneFile) -> Checked {
     sheet(file)?;
     locks(file)?;
     super::turns::check(file)?;
+    fractions(file)?;
     places(file)?;
     names(file)?;
     super::drives::check(file)?;
@@ -87,6 +88,21 @@ fn locks(file: &SceneFile) -> Checked {
             format!("it is locked in line {line} already; [i, j, n1, n2] and [j, i, -n1, -n2] are the same crease"),
         ]
     })
+}
+
+/// Checks that fractions are given only where there are angles of which they can be a part.
+fn fractions(file: &SceneFile) -> Checked {
+    let energy = &file.scene.energy;
+    let creases = energy.creases.as_ref().map(|spec| (&spec.rest, &spec.fraction));
+    let facets = energy.facets.as_ref().map(|spec| (&spec.rest, &spec.fraction));
+    for (rest, fraction) in creases.into_iter().chain(facets) {
+        let Some(fraction) = fraction else { continue };
+        if !rest.as_ref().is_some_and(|rest| rest.has_fraction()) {
+            let help = "it belongs to rest = \"target\", \"assigned\" or { M = .., V = .. }; leave it out otherwise";
+            return Err(file.error_at(fraction.span(), "`fraction` is given without angles of a folded sheet", help));
+        }
+    }
+    Ok(())
 }
 
 fn places(file: &SceneFile) -> Checked {

@@ -4,7 +4,8 @@ use std::fmt;
 use std::fs;
 use std::path::PathBuf;
 
-use super::forms::{Mode, RestSpec, StartSpec};
+use super::forms::{Mode, StartSpec};
+use super::rest::RestSpec;
 use super::spec::{BarsSpec, EnergySpec, StudyKind};
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
 use super::{Located, SceneError, SceneFile};

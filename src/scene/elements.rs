@@ -6,6 +6,7 @@ use super::rows::{self, Column, TableRow};
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::{Assembly, RestLengths, Stiffness};
+use crate::sheet::angle::Angle;
 use crate::sheet::{Assignment, EdgeKey, EdgeKind, Sheet, Tiling};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
@@ -92,7 +93,9 @@ impl<'a> ElementValues<'a> {
         match &**spec {
             StiffnessSpec::Number(stiffness) => Ok((*stiffness).into()),
             StiffnessSpec::File(name) => Ok(self.file_values(name, Column::Stiffness, of)?.into()),
-            StiffnessSpec::Letters(letters) => self.by_letter(letters, of, spec.span()),
+            StiffnessSpec::Letters(letters) => {
+                Ok(self.each_by_letter((letters, "stiffness"), of, spec.span(), |_| None)?.into())
+            }
             StiffnessSpec::Mesh => self.given_by_mesh(of, spec.span()),
         }
     }
@@ -166,13 +169,41 @@ impl<'a> ElementValues<'a> {
         (0..self.tiling.edges.len()).filter(move |&k| of.is_at(self.tiling.edges[k].kind))
     }
 
-    /// Returns the stiffness of each element by the letter of its edge.
-    fn by_letter(
+    /// Returns the angle of each hinge in the sheet folded flat, by the letter of its edge: 0 where that is unassigned.
+    pub(super) fn flat_folded(&self, of: ElementKind, span: Range<usize>) -> Result<Vec<f64>, SceneError> {
+        let mut each = vec![0.0; self.tiling.edges.len()];
+        for k in self.edges(of) {
+            each[k] = self.letter(k).flat_folded_angle().unwrap_or(0.0);
+        }
+        if of == ElementKind::Creases && each.iter().all(|angle| *angle == 0.0) {
+            let help = "give `edges_assignment` in the mesh, or other rest angles";
+            return Err(self.file.error_at(span, "no crease has the letter M or V", help));
+        }
+        Ok(each)
+    }
+
+    /// Returns the rest angle of each hinge by the letter of its edge: 0 for creases that are flat or unassigned and for
+    /// diagonals, if the table does not give another.
+    pub(super) fn angles_by_letter(
         &self,
-        letters: &BTreeMap<Assignment, f64>,
+        letters: &BTreeMap<Assignment, Angle>,
         of: ElementKind,
         span: Range<usize>,
-    ) -> Result<Stiffness, SceneError> {
+    ) -> Result<Vec<f64>, SceneError> {
+        let letters = letters.iter().map(|(letter, angle)| (*letter, angle.radians)).collect();
+        let folds = |letter| matches!(letter, Assignment::Mountain | Assignment::Valley);
+        self.each_by_letter((&letters, "angle"), of, span, |letter| (!folds(letter)).then_some(0.0))
+    }
+
+    /// Returns the value of each element by the letter of its edge, or by the substitute of that letter; `default`
+    /// returns the value of a letter that the table does not have.
+    fn each_by_letter(
+        &self,
+        (letters, value): (&BTreeMap<Assignment, f64>, &str),
+        of: ElementKind,
+        span: Range<usize>,
+        default: impl Fn(Assignment) -> Option<f64>,
+    ) -> Result<Vec<f64>, SceneError> {
         let word = of.word();
         if let Some(letter) = letters.keys().find(|letter| !of.may_have(**letter)) {
             let help = "creases have the letters M, V, F and U; facets J (or F); bars all of these, B and C";
@@ -181,18 +212,24 @@ impl<'a> ElementValues<'a> {
         let mut each = vec![f64::NAN; self.tiling.edges.len()];
         let mut missing: BTreeMap<Assignment, usize> = BTreeMap::new();
         for k in self.edges(of) {
-            let letter = self.sheet.assignment(&self.sheet.edges[self.tiling.edges[k].edge]);
-            match letters.get(&letter).or_else(|| letters.get(&ElementKind::substitute(letter))) {
-                Some(stiffness) => each[k] = *stiffness,
+            let letter = self.letter(k);
+            let given = letters.get(&letter).or_else(|| letters.get(&ElementKind::substitute(letter)));
+            match given.copied().or_else(|| default(letter)) {
+                Some(value) => each[k] = value,
                 None => *missing.entry(letter).or_default() += 1,
             }
         }
         if missing.is_empty() {
-            return Ok(each.into());
+            return Ok(each);
         }
         let counts: Vec<String> = missing.iter().map(|(letter, count)| format!("{letter} ({count} {word}s)")).collect();
-        let message = format!("the table has no stiffness for the letters {}", counts.join(", "));
-        Err(self.file.error_at(span, message, format!("give every letter that a {word} has a stiffness")))
+        let message = format!("the table has no {value} for the letters {}", counts.join(", "));
+        Err(self.file.error_at(span, message, format!("give a value for every letter that a {word} has")))
+    }
+
+    /// Returns the letter of the edge of which an edge of the tiling is a copy.
+    fn letter(&self, edge: usize) -> Assignment {
+        self.sheet.assignment(&self.sheet.edges[self.tiling.edges[edge].edge])
     }
 
     /// Returns the stiffness that the mesh file gives each element.

@@ -10,33 +10,7 @@ use serde::de::{Error, MapAccess, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use super::Located;
-use super::values::{Finite, Positive, Triple};
-use crate::sheet::angle::Angle;
-
-/// Rest angles of creases or facets.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RestSpec {
-    /// The drawn fold angles.
-    Drawn,
-    /// Zero, the flat state.
-    Flat,
-    /// One angle for all hinges.
-    Angle(Angle),
-    /// The drawn fold angles plus an amplitude along a mode.
-    Mode(ModeRest),
-    /// A table with a row per hinge.
-    File(FileName),
-}
-
-/// `{ mode = .., amplitude = .. }`.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ModeRest {
-    /// The linear folding mode.
-    pub mode: Located<Mode>,
-    /// How far along it.
-    pub amplitude: Located<Finite>,
-}
+use super::values::{Positive, Triple};
 
 /// `{ file = "angles.csv" }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -113,66 +87,6 @@ pub enum BranchChoice {
     All,
     /// The branch with this number.
     Number(usize),
-}
-
-impl<'de> Deserialize<'de> for RestSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct RestForm;
-        impl<'de> Visitor<'de> for RestForm {
-            type Value = RestSpec;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"drawn\", \"flat\", an angle, { mode = [k11, k22, k12], amplitude = e } ")?;
-                f.write_str("or { file = \"angles.csv\" }")
-            }
-
-            fn visit_str<E: Error>(self, word: &str) -> Result<RestSpec, E> {
-                match word {
-                    "drawn" => Ok(RestSpec::Drawn),
-                    "flat" => Ok(RestSpec::Flat),
-                    angle if angle.starts_with(|c: char| !c.is_alphabetic()) => {
-                        angle.parse().map(RestSpec::Angle).map_err(E::custom)
-                    }
-                    _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
-                }
-            }
-
-            fn visit_f64<E: Error>(self, angle: f64) -> Result<RestSpec, E> {
-                Finite::try_from(angle).map(|angle| RestSpec::Angle(angle.0.into())).map_err(E::custom)
-            }
-
-            fn visit_i64<E: Error>(self, angle: i64) -> Result<RestSpec, E> {
-                Ok(RestSpec::Angle((angle as f64).into()))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RestSpec, A::Error> {
-                RestTable::deserialize(MapAccessDeserializer::new(map))?.into_rest().map_err(A::Error::custom)
-            }
-        }
-        deserializer.deserialize_any(RestForm)
-    }
-}
-
-/// The two tables of [`RestSpec`] in one, used to find out which of them was given.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RestTable {
-    mode: Option<Located<Mode>>,
-    amplitude: Option<Located<Finite>>,
-    file: Option<Located<PathBuf>>,
-}
-
-impl RestTable {
-    fn into_rest(self) -> Result<RestSpec, &'static str> {
-        match (self.mode, self.amplitude, self.file) {
-            (Some(mode), Some(amplitude), None) => Ok(RestSpec::Mode(ModeRest { mode, amplitude })),
-            (None, None, Some(file)) => Ok(RestSpec::File(FileName { file })),
-            (Some(_), None, None) => Err("`amplitude` is missing, expected { mode = [k11, k22, k12], amplitude = e }"),
-            (None, Some(_), None) => Err("`mode` is missing, expected { mode = [k11, k22, k12], amplitude = e }"),
-            (None, None, None) => Err("the table is empty, expected { mode, amplitude } or { file }"),
-            _ => Err("rest angles come from a mode and from a file at once, expected one of the two"),
-        }
-    }
 }
 
 impl<'de> Deserialize<'de> for Mode {
@@ -273,12 +187,6 @@ macro_rules! schema_any_of {
     };
 }
 
-schema_any_of!(RestSpec as "Rest", generator, [
-    { "enum": ["drawn", "flat"] },
-    generator.subschema_for::<Angle>(),
-    generator.subschema_for::<ModeRest>(),
-    generator.subschema_for::<FileName>(),
-]);
 schema_any_of!(
     Mode as "Mode",
     generator,

@@ -9,9 +9,9 @@ mod study;
 mod vertices;
 
 use super::Located;
-use super::forms::RestSpec;
+use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Fraction, Triple};
 use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -138,7 +138,7 @@ pub struct BarsSpec {
     pub rest: Option<Located<RestLengthSpec>>,
 }
 
-/// `creases = { stiffness, rest }`.
+/// `creases = { stiffness, rest, fraction }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CreasesSpec {
@@ -146,9 +146,11 @@ pub struct CreasesSpec {
     pub stiffness: Located<StiffnessSpec>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
+    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
+    pub fraction: Option<Located<Fraction>>,
 }
 
-/// `facets = { stiffness, rest }`.
+/// `facets = { stiffness, rest, fraction }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacetsSpec {
@@ -156,6 +158,8 @@ pub struct FacetsSpec {
     pub stiffness: Located<StiffnessSpec>,
     /// Rest angles; left out: as drawn.
     pub rest: Option<Located<RestSpec>>,
+    /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
+    pub fraction: Option<Located<Fraction>>,
 }
 
 /// `[[lock]]`: a crease that keeps its fold angle in every cell.

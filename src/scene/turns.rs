@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-use super::forms::RestSpec;
+use super::rest::RestSpec;
 use super::spec::{StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::model::Terms;
@@ -46,9 +46,7 @@ pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
         None => Ok(()),
     };
     for rest in rests(file) {
-        if let RestSpec::Angle(angle) = **rest {
-            at(angle, rest.span())?;
-        }
+        rest.angles().into_iter().try_for_each(|angle| at(angle, rest.span()))?;
     }
     for angle in scene.locks.iter().filter_map(|lock| lock.angle.as_ref()) {
         at(**angle, angle.span())?;

@@ -27,6 +27,9 @@ pub enum ValueError {
     /// A number that must be positive and finite is not.
     #[error("the number is {0}, expected a finite number above 0")]
     NotPositive(f64),
+    /// A fraction of rest angles is outside its range.
+    #[error("the fraction is {0}, expected a number from -1 (folded to the other side) to 1 (folded)")]
+    NoFraction(f64),
     /// A count is zero, negative or too large.
     #[error("the number is {0}, expected a whole number from 1 to {max}", max = u32::MAX)]
     NoCount(i64),
@@ -147,6 +150,20 @@ impl TryFrom<f64> for Positive {
 
     fn try_from(value: f64) -> Result<Self, ValueError> {
         if value > 0.0 && value.is_finite() { Ok(Self(value)) } else { Err(ValueError::NotPositive(value)) }
+    }
+}
+
+/// A part of the way from flat to folded: from -1 to 1, where negative numbers fold to the other side.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "f64")]
+#[schemars(extend("minimum" = -1, "maximum" = 1))]
+pub struct Fraction(pub f64);
+
+impl TryFrom<f64> for Fraction {
+    type Error = ValueError;
+
+    fn try_from(value: f64) -> Result<Self, ValueError> {
+        if (-1.0..=1.0).contains(&value) { Ok(Self(value)) } else { Err(ValueError::NoFraction(value)) }
     }
 }
 

@@ -6,7 +6,25 @@ use super::cell::{Edge, EdgeKind, Sheet};
 /// Largest magnitude in degrees of a drawn fold angle that counts as flat.
 pub(crate) const FLAT: f64 = 1e-9;
 
+/// Largest difference between two fold angles, in radians, that counts as rounding of a file: 1e-3 degrees.
+const SAME_ANGLE_RAD: f64 = 1e-3 * std::f64::consts::PI / 180.0;
+
+/// Whether two fold angles are the same up to full turns and rounding of a file.
+pub(crate) fn is_same_angle(a: f64, b: f64) -> bool {
+    let off = (a - b).rem_euclid(std::f64::consts::TAU);
+    off.min(std::f64::consts::TAU - off) <= SAME_ANGLE_RAD
+}
+
 impl Sheet {
+    /// Returns the number of creases and diagonals whose target angle differs from the drawn fold angle.
+    pub fn targets_not_drawn(&self) -> usize {
+        let differs = |edge: &&Edge| match (self.targets.get(&edge.key), self.drawn_angle(edge)) {
+            (Some(target), Some(drawn)) => edge.kind != EdgeKind::Boundary && !is_same_angle(*target, drawn),
+            _ => false,
+        };
+        self.edges.iter().filter(differs).count()
+    }
+
     /// Returns the assignment of an edge: that of the file, or what the drawing shows if the file gives none.
     pub fn assignment(&self, edge: &Edge) -> Assignment {
         self.assignments.get(&edge.key).copied().unwrap_or_else(|| self.drawn_assignment(edge))

@@ -37,6 +37,17 @@ impl Assignment {
         Self::LETTERS.iter().find(|(_, known)| *known == letter).map(|(assignment, _)| *assignment)
     }
 
+    /// Returns the fold angle of an edge with this letter in the sheet folded flat, in radians: -pi for a mountain, pi for
+    /// a valley, 0 for an edge that does not fold; `None` if the letter says nothing about it.
+    pub fn flat_folded_angle(self) -> Option<f64> {
+        match self {
+            Self::Mountain => Some(-std::f64::consts::PI),
+            Self::Valley => Some(std::f64::consts::PI),
+            Self::Flat | Self::Join => Some(0.0),
+            Self::Boundary | Self::Cut | Self::Unassigned => None,
+        }
+    }
+
     /// Returns the letter of the assignment in FOLD.
     pub(crate) fn letter(self) -> &'static str {
         Self::LETTERS.iter().find(|(known, _)| *known == self).map_or("U", |(_, letter)| letter)

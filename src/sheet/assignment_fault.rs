@@ -63,3 +63,10 @@ pub enum AssignmentFault {
         ends: DrawnEdge,
     },
 }
+
+impl AssignmentFault {
+    /// Whether the letter is that of the other side.
+    pub(crate) fn is_other_side(&self) -> bool {
+        matches!(self, Self::OtherSide { .. })
+    }
+}

@@ -117,12 +117,23 @@ pub struct Sheet {
     pub cut_from: Vec<usize>,
     /// Assignments of the file that differ from what the drawing shows; see [`Sheet::assignment`].
     pub assignments: BTreeMap<EdgeKey, Assignment>,
+    /// Fold angles that the file gives its edges, in radians, valley positive, if some of them are not the drawn ones:
+    /// the angles to which the sheet is to be folded. Empty if all of them are drawn, or the file gives none.
+    pub targets: BTreeMap<EdgeKey, f64>,
     /// Stiffnesses that the file gives its edges.
     pub stiffness: MeshStiffness,
     /// Named lists of vertices (`foldwell:names`), each vertex as the corner that the file draws.
     pub names: BTreeMap<String, Vec<Corner>>,
     /// Content of the file other than the shape.
     pub record: FileRecord,
+}
+
+/// Largest difference of a fold angle from pi or -pi, in radians, at which the edge counts as folded flat.
+const FOLDED_FLAT_RAD: f64 = 2e-5;
+
+/// Whether an edge with this fold angle is folded flat, up to rounding of a file.
+pub(crate) fn is_folded_flat(angle: f64) -> bool {
+    std::f64::consts::PI - angle.abs() < FOLDED_FLAT_RAD
 }
 
 impl Corner {
@@ -189,10 +200,23 @@ impl Sheet {
     }
 
     /// Returns the fold angle of an edge in the drawn state, in radians, valley positive; `None` for a boundary edge.
+    /// An edge that is folded flat is drawn alike at pi and at -pi: it has the side of its target angle or its letter,
+    /// if the file gives one of them.
     pub fn drawn_angle(&self, edge: &Edge) -> Option<f64> {
         let [left, right] = [edge.wings[0]?, edge.wings[1]?];
         let [i, j] = edge.key.ends();
-        Some(fold_angle([i, j, left, right].map(|corner| self.position(corner))))
+        let angle = fold_angle([i, j, left, right].map(|corner| self.position(corner)));
+        let side = if is_folded_flat(angle) { self.given_side(&edge.key) } else { None };
+        Some(match side {
+            Some(side) if side * angle < 0.0 => angle + std::f64::consts::TAU.copysign(side),
+            _ => angle,
+        })
+    }
+
+    /// Returns the sign of an edge's target angle or, without one, of the angle that its letter means.
+    fn given_side(&self, key: &EdgeKey) -> Option<f64> {
+        let of_letter = || self.assignments.get(key).and_then(|letter| letter.flat_folded_angle());
+        self.targets.get(key).copied().or_else(of_letter).filter(|angle| *angle != 0.0)
     }
 
     /// Returns the position of a corner in the drawn state.

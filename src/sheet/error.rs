@@ -2,6 +2,7 @@
 
 use super::assignment_fault::AssignmentFault;
 pub use super::drawn_edge::DrawnEdge;
+use super::fold_angle_fault::FoldAngleFault;
 use std::path::PathBuf;
 
 /// The reason why a file gives no sheet.
@@ -40,6 +41,8 @@ pub enum MeshPart {
     Face(usize),
     /// An entry of the list of edges.
     Edge(usize),
+    /// An entry of the list of fold angles.
+    FoldAngle(usize),
     /// The lattice vectors.
     Lattice,
     /// A listed opening.
@@ -370,21 +373,9 @@ pub enum Problem {
         /// Stiffness of the copy that is listed before.
         before: f64,
     },
-    /// A fold angle that contradicts the coordinates.
-    #[error(
-        "edge {edge} of the list, {ends}, has the fold angle {given} degrees, but the vertices draw {drawn} degrees \
-         (valley positive); give the drawn angle or null"
-    )]
-    FoldAngle {
-        /// Index in `edges_vertices`.
-        edge: usize,
-        /// Its ends.
-        ends: DrawnEdge,
-        /// Fold angle of the file, in degrees.
-        given: f64,
-        /// Fold angle that the vertices draw, in degrees.
-        drawn: f64,
-    },
+    /// A fold angle that the sheet cannot have.
+    #[error(transparent)]
+    FoldAngle(#[from] FoldAngleFault),
 }
 
 fn numbering(first: usize, last: usize) -> String {

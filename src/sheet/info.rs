@@ -56,6 +56,8 @@ pub struct Info {
     /// Least `4 sqrt(3) area / (sum of squared sides)` of a triangle: 1 for equilateral triangles, 0 for those
     /// without area.
     pub worst_triangle_quality: f64,
+    /// Number of creases and diagonals whose fold angle in the file is not the drawn one: a target of folding.
+    pub target_angles: usize,
     /// Number of frames of the file after the first one, which alone is read.
     pub further_frames: usize,
 }
@@ -89,9 +91,16 @@ impl Info {
             shortest_edge: lengths().fold(f64::INFINITY, f64::min),
             longest_edge: lengths().fold(0.0, f64::max),
             worst_triangle_quality: points(sheet).map(quality).fold(1.0, f64::min),
+            target_angles: sheet.targets_not_drawn(),
             further_frames: sheet.record.further_frames,
         }
     }
+}
+
+/// Says that so many fold angles of a file are targets.
+pub(crate) fn targets_said(count: usize) -> String {
+    let (angles, differ) = if count == 1 { ("angle", "differs") } else { ("angles", "differ") };
+    format!("{count} fold {angles} of the file {differ} from the drawn ones; rest = \"target\" uses them")
 }
 
 fn pieces(sheet: &Sheet) -> Vec<Vec<usize>> {
@@ -159,6 +168,9 @@ impl fmt::Display for Info {
         )?;
         writeln!(f, "edge lengths           {:.6} to {:.6}", self.shortest_edge, self.longest_edge)?;
         write!(f, "worst triangle         quality {:.4} (1: equilateral)", self.worst_triangle_quality)?;
+        if self.target_angles > 0 {
+            write!(f, "\ntarget angles          {}", targets_said(self.target_angles))?;
+        }
         match self.further_frames {
             0 => Ok(()),
             frames => write!(f, "\nframes                 the first; {frames} more in the file are not read"),

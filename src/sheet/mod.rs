@@ -21,6 +21,7 @@ pub(crate) mod cell;
 mod drawn_edge;
 pub(crate) mod error;
 pub mod fold;
+pub(crate) mod fold_angle_fault;
 pub mod generate;
 pub(crate) mod info;
 pub mod obj;

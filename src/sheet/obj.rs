@@ -7,6 +7,7 @@
 //! # foldwell:lattice x y z            (twice, for the two lattice vectors)
 //! # foldwell:hole a b c ...           (once for every opening of a periodic sheet)
 //! # foldwell:assignment a b C        (of an edge, where the drawing does not show it; the letters are those of FOLD)
+//! # foldwell:fold_angle a b 90.0     (target angle of an edge in degrees, if the drawing does not show it)
 //! # foldwell:metadata key value       (of FOLD, about the file and its frame; the value is JSON)
 //! # foldwell:description "text"
 //! ```
@@ -19,6 +20,7 @@ use super::assignment::Assignment;
 use super::build::{Drawing, build, draw};
 use super::cell::Sheet;
 use super::error::{Defect, MeshPart, Problem, SheetError};
+use super::fold::in_degrees;
 use super::text;
 use crate::math::Vec3;
 
@@ -83,6 +85,7 @@ struct Reader {
     face_lines: Vec<usize>,
     hole_lines: Vec<usize>,
     edge_lines: Vec<usize>,
+    angle_lines: Vec<usize>,
     metadata: Vec<(String, String)>,
     lattice_line: usize,
 }
@@ -126,6 +129,16 @@ impl Reader {
                 };
                 self.drawn.assignments.push(([a, b], assignment));
                 self.edge_lines.push(self.line);
+            }
+            "foldwell:fold_angle" => {
+                let (ends, degrees) = rest.trim().rsplit_once(char::is_whitespace).unwrap_or(("", rest));
+                let ends = self.corners(ends, "edge", self.drawn.fold_angles.len())?;
+                let degrees = degrees.parse().ok().filter(|degrees: &f64| degrees.is_finite());
+                let (&[a, b], Some(degrees)) = (&ends[..], degrees) else {
+                    return Err(wrong(rest, "fold angle", "two vertex numbers and degrees, `1 2 90.0`"));
+                };
+                self.drawn.fold_angles.push(([a, b], Some(degrees.to_radians())));
+                self.angle_lines.push(self.line);
             }
             "foldwell:metadata" => {
                 let (key, value) = rest.trim().split_once(char::is_whitespace).unwrap_or((rest, ""));
@@ -178,6 +191,7 @@ impl Reader {
             MeshPart::Hole(h) => self.hole_lines.get(h),
             MeshPart::Lattice => Some(&self.lattice_line),
             MeshPart::Edge(e) => self.edge_lines.get(e),
+            MeshPart::FoldAngle(e) => self.angle_lines.get(e),
             MeshPart::Mesh => None,
         };
         bad(name, line.copied().unwrap_or(self.line), *defect.problem)
@@ -223,6 +237,10 @@ pub fn write(sheet: &Sheet) -> String {
     }
     for ([a, b], assignment) in &drawn.assignments {
         let _ = writeln!(text, "# foldwell:assignment {} {} {assignment}", a + 1, b + 1);
+    }
+    for ([a, b], angle) in &drawn.fold_angles {
+        let degrees = in_degrees(angle.unwrap_or_default());
+        let _ = writeln!(text, "# foldwell:fold_angle {} {} {degrees:?}", a + 1, b + 1);
     }
     text
 }

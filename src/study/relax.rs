@@ -14,10 +14,14 @@ use crate::analysis::state::State;
 use crate::model::{Gauge, Model};
 use crate::numerics::larger;
 use crate::output::figure::rounded;
-use crate::output::summary::{IterationSummary, MethodName, RelaxSummary, StudyResult};
+use crate::output::summary::{BranchChoiceSummary, IterationSummary, MethodName, RelaxSummary, StudyResult};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{MethodSpec, RelaxSpec};
 use crate::solver::Step;
+
+/// What is said of a relaxation that fails after bars that stretch have left a singular start.
+const NO_BRANCH: &str = "the start is singular, and the state that bars that stretch reach from it has no rigid one nearby: \
+                         give bars a finite stiffness, or start a little folded";
 
 /// Checks that the model has an energy and that a start file fits the sheet.
 pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
@@ -79,6 +83,7 @@ fn not_found(context: &Context<'_>, first: &State, error: &RelaxError) -> Answer
     let self_intersecting = add_states(&mut answer, context, [first, &error.state], residuals, shown);
     let result = RelaxSummary { self_intersecting, ..last_of(context, error) };
     let why = reason(context.assembly, error.failure, &error.state);
+    let why = if error.soft_steps > 0 { format!("{why}; {NO_BRANCH}") } else { why };
     answer.conclude(StudyResult::Relax(result), None, Some(why));
     answer
 }
@@ -125,7 +130,12 @@ fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
         negative_eigenvalues: Some(relaxed.negative_eigenvalues),
         self_stresses: relaxed.self_stresses,
         intrinsic_failure: relaxed.intrinsic_failure.map(|failure| failure.to_string()),
-        history: history(&relaxed.history),
+        branch_choice: relaxed.branch_choice.map(|choice| BranchChoiceSummary {
+            hinges: choice.hinges,
+            on_rest_side: choice.on_rest_side,
+            soft_bars: choice.soft_bars,
+        }),
+        history: history(&relaxed.history, relaxed.soft_steps),
         ..RelaxSummary::default()
     }
 }
@@ -141,7 +151,7 @@ fn last_of(context: &Context<'_>, error: &RelaxError) -> RelaxSummary {
         residual_force: last.map_or(f64::NAN, |step| step.residual_force),
         residual_length: last.map_or(f64::NAN, |step| step.residual_length),
         intrinsic_failure: error.intrinsic_failure.map(|failure| failure.to_string()),
-        history: history(&error.history),
+        history: history(&error.history, error.soft_steps),
         ..RelaxSummary::default()
     }
 }
@@ -154,7 +164,8 @@ fn method(spec: MethodSpec) -> Method {
     }
 }
 
-fn history(steps: &[Step]) -> Vec<IterationSummary> {
+/// Returns the rows of the history, of which the first `soft` were made with bars that stretch.
+fn history(steps: &[Step], soft: usize) -> Vec<IterationSummary> {
     let row = |(iteration, step): (usize, &Step)| IterationSummary {
         iteration,
         energy: step.energy,
@@ -162,7 +173,11 @@ fn history(steps: &[Step]) -> Vec<IterationSummary> {
         residual_length: step.residual_length,
         step: step.fraction,
         shift: step.shift,
-        method: if step.intrinsic { MethodName::Intrinsic } else { MethodName::Vertices },
+        method: match step.intrinsic {
+            true => MethodName::Intrinsic,
+            false if iteration < soft => MethodName::SoftBars,
+            false => MethodName::Vertices,
+        },
     };
     steps.iter().enumerate().map(row).collect()
 }

@@ -219,7 +219,11 @@ fn wrong_edges() {
         (listed("[[0, 1], [2, 2]]"), 12, "edge 1 of the list runs from vertex 2 to itself"),
         (listed("[[0, 1], [1, 0]]"), 12, "edge 1 of the list is edge 0 again, [1, 0]"),
         (listed("[[1, 3]]"), 12, "edge 0 of the list, [1, 3], is a side of no face"),
-        (angle("90"), 13, "edge 0 of the list, [0, 2], has the fold angle 90 degrees, but the vertices draw 0 degrees"),
+        (
+            angle("270"),
+            13,
+            "edge 0 of the list, [0, 2], has the fold angle 270 degrees; a target angle should be between",
+        ),
         (
             wires(vertices, &["[0, 1]", "[1, 2]", "[2, 3]", "[3, 0]", "[0, 2]", "[1, 3]"]),
             14,

@@ -136,16 +136,27 @@ fn a_random_developable_patch_on_a_branch() {
     }
 }
 
-/// Claim: an exactly flat rigid patch whose rest angles are folded is reported as a singular start, at every size and
-/// for any rest angles.
+/// Claim: an exactly flat rigid patch whose rest angles are folded leaves the flat state, which is a singular start, and
+/// comes to rest on a branch, at every size and for any rest angles; its energy is below that of the flat state. Source:
+/// the energy of the flat state, half the squared rest angles times the lengths of the creases.
 #[test]
-fn a_flat_rigid_start_is_singular() {
+fn a_flat_rigid_patch_leaves_the_flat_state() {
     for cells in [[2, 2], [4, 4], [6, 6]] {
         for seed in 1..4 {
             let case = patch("open-flat", cells);
-            let error = case.relax(&Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed))).unwrap_err();
-            assert_eq!(error.failure, Failure::SingularStart, "{cells:?}, seed {seed}: {error}");
-            assert!(error.to_string().contains("leave along a branch"));
+            let rest = case.rest_per_hinge(0.1, seed);
+            let edges = case.tiling().edges.iter().zip(&rest).filter(|(edge, _)| edge.hinge().is_some());
+            let flat: f64 = edges
+                .map(|(edge, rest)| {
+                    let [a, b] = edge.ends.map(|site| case.tiling().positions[site.vertex]);
+                    0.5 * (b - a).norm() * rest * rest
+                })
+                .sum();
+            let found = case.relax(&Terms::bars_and_creases(RIGID, 1.0, rest)).unwrap();
+            converged(&found);
+            assert!(found.branch_choice.is_some_and(|choice| choice.soft_bars), "{cells:?}, seed {seed}");
+            assert_eq!(found.negative_eigenvalues, 0, "{cells:?}, seed {seed}");
+            assert!(found.state.total() < 0.99 * flat, "{cells:?}, seed {seed}: {} of {flat}", found.state.total());
         }
     }
 }

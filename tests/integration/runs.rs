@@ -226,20 +226,26 @@ fn a_state_that_is_not_stable_is_called_so() {
 #[test]
 fn a_failed_study_is_reported() {
     let out = tempfile::tempdir().unwrap();
-    let flat = "[sheet]\ngenerate = { pattern = \"random-developable\" }\ncells = [2, 2]\n[energy]\n\
-                bars = { stiffness = inf }\ncreases = { stiffness = 1.0, rest = 0.1 }\n";
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/degree-four.fold");
+    let lock = |vertex: usize, angle: f64| format!("[[lock]]\ncrease = [0, {vertex}, 0, 0]\nangle = {angle:?}\n");
+    let locked = format!(
+        "[sheet]\nmesh = {mesh:?}\n[energy]\nbars = {{ stiffness = inf }}\ncreases = {{ stiffness = 1.0 }}\n{}{}{}",
+        lock(1, 2.0),
+        lock(2, -2.0),
+        lock(3, 0.5)
+    );
     let studies =
-        [relax("flat", ""), relax("after", "start = \"flat\""), relax("free", "start = { random = 0.1, seed = 1 }")];
-    fs::write(out.path().join("a.toml"), flat.to_owned() + &studies.concat()).unwrap();
+        [relax("held", ""), relax("after", "start = \"held\""), relax("free", "start = { random = 0.1, seed = 1 }")];
+    fs::write(out.path().join("a.toml"), locked + &studies.concat()).unwrap();
     let said = foldwell(out.path(), &["run", "a.toml"]);
     assert_eq!(said.status.code(), Some(1), "{}", text(&said.stdout));
     let summary = json(&out.path().join("a/summary.json"));
     let of = |study: usize, key: &str| summary["studies"][study][key].clone();
     assert_eq!((of(0, "converged"), of(1, "converged")), (false.into(), false.into()));
-    assert!(of(0, "reason").as_str().unwrap().contains("singular start"), "{summary}");
+    assert!(of(0, "reason").as_str().unwrap().contains("cannot be met"), "{summary}");
     assert!(of(1, "reason").as_str().unwrap().contains("did not converge"), "{summary}");
     assert_eq!(of(2, "name"), "free");
-    assert!(out.path().join("a/flat.csv").exists());
+    assert!(out.path().join("a/held.csv").exists());
 }
 
 /// Claim: malformed input gives status 2 and writes nothing; a destination that cannot be written gives status 3. A

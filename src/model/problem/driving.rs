@@ -240,7 +240,7 @@ impl Model {
     }
 
     /// Returns the length in the reference state between the first two points of an element: of its edge.
-    fn length_of(&self, term: &dyn Elements, k: usize) -> f64 {
+    pub(super) fn length_of(&self, term: &dyn Elements, k: usize) -> f64 {
         let sites = term.sites(k);
         let points = &self.base[..self.points()];
         (self.domain.point(points, sites[1]) - self.domain.point(points, sites[0])).norm()

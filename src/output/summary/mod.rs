@@ -20,7 +20,7 @@ pub use branches::{BranchesSummary, RaySummary};
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::ModesSummary;
 pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
-pub use relax::{EnergySummary, IterationSummary, MethodName, RelaxSummary};
+pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 pub use wells::{
@@ -52,6 +52,8 @@ pub struct Summary {
     pub terms: Vec<String>,
     /// What the scene made unnecessary.
     pub left_out: Vec<String>,
+    /// Remarks about the scene: what is allowed, but may not be what was meant.
+    pub notes: Vec<String>,
     /// The studies, in the order of the scene.
     pub studies: Vec<StudySummary>,
 }
@@ -215,6 +217,7 @@ mod tests {
             },
             terms: vec!["bars".into()],
             left_out: vec!["facets".into()],
+            notes: vec!["note".into()],
             studies: vec![
                 study("a", "relax", Some(StudyResult::Relax(relax))),
                 study("b", "modes", Some(StudyResult::Modes(modes))),
@@ -232,7 +235,7 @@ mod tests {
     #[test]
     fn the_summary_has_its_keys() {
         let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
-        assert_eq!(keys(&json), ["digest", "left_out", "scene", "sheet", "studies", "terms", "version"]);
+        assert_eq!(keys(&json), ["digest", "left_out", "notes", "scene", "sheet", "studies", "terms", "version"]);
         let sheet = ["cells", "degrees_of_freedom", "developable", "edges", "faces", "polygons", "vertices"];
         assert_eq!(keys(&json["sheet"]), sheet);
         for key in ["name", "kind", "converged", "seconds", "error", "energy", "iterations", "factorizations"] {

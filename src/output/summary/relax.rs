@@ -50,11 +50,25 @@ pub struct RelaxSummary {
     #[serde(default)]
     #[schemars(extend("enum" = ["listed", "continuum", "not-established", null]))]
     pub directions_at_start: Option<String>,
+    /// The branch on which a flat sheet, or another singular start of rigid bars, was left; null for other starts.
+    #[serde(default)]
+    pub branch_choice: Option<BranchChoiceSummary>,
     /// Why fold angles were given up as unknowns; null where they were not tried or led to the result.
     #[serde(default)]
     pub intrinsic_failure: Option<String>,
     /// A row per iteration.
     pub history: Vec<IterationSummary>,
+}
+
+/// A branch of rigid folding, by the creases and soft facets that have a rest angle other than 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct BranchChoiceSummary {
+    /// Their number.
+    pub hinges: usize,
+    /// Number of those that are folded to the side of their rest angle.
+    pub on_rest_side: usize,
+    /// Whether rigid bars stretched on the way, since no motion relieves the torques at the start.
+    pub soft_bars: bool,
 }
 
 /// One iteration of a relaxation; null: not finite, before a relaxation failed.
@@ -90,4 +104,7 @@ pub enum MethodName {
     Vertices,
     /// Fold angles.
     Intrinsic,
+    /// Positions of the vertices, while rigid bars stretch to leave a singular start.
+    #[serde(rename = "soft-bars")]
+    SoftBars,
 }

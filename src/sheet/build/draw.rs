@@ -28,7 +28,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         (name.clone(), list.collect())
     };
     let names = sheet.names.iter().map(named).collect();
-    let assignments = assignments(sheet, &faces);
+    let (assignments, fold_angles) = (assignments(sheet, &faces), fold_angles(sheet, &faces));
     Drawing {
         title: sheet.title.clone(),
         description: sheet.description.clone(),
@@ -38,6 +38,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         lattice: sheet.lattice,
         holes,
         assignments,
+        fold_angles,
         names,
         first: 0,
     }
@@ -46,21 +47,30 @@ pub fn draw(sheet: &Sheet) -> Drawing {
 /// Returns the sides of faces whose assignment cannot be seen in the drawing, with that assignment.
 fn assignments(sheet: &Sheet, faces: &[Vec<usize>]) -> Vec<([usize; 2], Assignment)> {
     let joined = |edge: &&Edge| edge.kind == EdgeKind::Facet || sheet.assignments.contains_key(&edge.key);
-    let told: BTreeMap<EdgeKey, Assignment> =
-        sheet.edges.iter().filter(joined).map(|edge| (edge.key, sheet.assignment(edge))).collect();
+    let told = sheet.edges.iter().filter(joined).map(|edge| (edge.key, sheet.assignment(edge))).collect();
+    on_sides(sheet, faces, &told)
+}
+
+/// Returns the sides of faces that have target angles, with these angles.
+fn fold_angles(sheet: &Sheet, faces: &[Vec<usize>]) -> Vec<([usize; 2], Option<f64>)> {
+    on_sides(sheet, faces, &sheet.targets).into_iter().map(|(ends, angle)| (ends, Some(angle))).collect()
+}
+
+/// Returns each drawn side whose edge has a value once, with that value.
+fn on_sides<T: Copy>(sheet: &Sheet, faces: &[Vec<usize>], told: &BTreeMap<EdgeKey, T>) -> Vec<([usize; 2], T)> {
     let mut seen = BTreeSet::new();
-    let mut assignments = Vec::new();
+    let mut values = Vec::new();
     for (polygon, face) in sheet.polygons.iter().zip(faces) {
         for k in 0..polygon.len() {
             let next = (k + 1) % polygon.len();
             let key = EdgeKey::new(polygon[k], polygon[next]).0;
             let [i, j] = key.ends().map(|end| sheet.uncut(end));
-            if let Some(&assignment) = told.get(&key)
+            if let Some(&value) = told.get(&key)
                 && seen.insert(EdgeKey::new(i, j).0)
             {
-                assignments.push(([face[k], face[next]], assignment));
+                values.push(([face[k], face[next]], value));
             }
         }
     }
-    assignments
+    values
 }

@@ -24,6 +24,8 @@ pub struct Drawing {
     pub holes: Vec<Vec<usize>>,
     /// Assignments of drawn edges; the ends are indices into `coords`.
     pub assignments: Vec<([usize; 2], Assignment)>,
+    /// Fold angles that the file gives to drawn edges, in radians, valley positive; `None` where it gives none.
+    pub fold_angles: Vec<([usize; 2], Option<f64>)>,
     /// Named lists of vertices, as indices into `coords`.
     pub names: BTreeMap<String, Vec<usize>>,
     /// Number that the file gives to its first vertex and face: 0 in FOLD, 1 in OBJ. Only messages use it.

@@ -1,8 +1,8 @@
 //! The step from a drawn mesh to a sheet: one builder and one set of checks for all file formats and generators.
 //!
 //! Vertices are identified by lattice vectors (`identify`); faces become polygons of the cell (`faces`), which are
-//! separated along cuts (`cuts`) and split into triangles (`split`); then edges get their wings (`edges`) and
-//! assignments (`assign`).
+//! separated along cuts (`cuts`) and split into triangles (`split`); then edges get their wings (`edges`),
+//! assignments (`assign`) and target angles (`targets`).
 
 mod assign;
 mod cuts;
@@ -13,6 +13,7 @@ mod faces;
 mod identify;
 pub(crate) mod planar;
 mod split;
+mod targets;
 
 use super::cell::Sheet;
 use super::error::{Defect, MeshPart, Problem};
@@ -63,6 +64,7 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
         ..Sheet::default()
     };
     assign::assign(drawn, &identified, &mut sheet)?;
+    targets::keep(drawn, &identified, &mut sheet)?;
     faces::check_fans(drawn, &identified, &sheet)?;
     Ok((sheet, identified))
 }

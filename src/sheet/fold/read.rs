@@ -47,6 +47,7 @@ pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
     read_vertices(&source, &keys, &mut drawn, &mut rows)?;
     let edges = edges::read(&source, &keys, drawn.coords.len())?;
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
+    drawn.fold_angles = edges.fold_angles();
     read_faces(&source, &keys, &mut drawn, &mut rows, &edges)?;
     read_holes(&source, &keys, &mut drawn, &mut rows)?;
     drawn.names = read_names(&source, &keys, drawn.coords.len())?;
@@ -191,6 +192,7 @@ fn located(source: &Source, keys: &Keys, rows: &Rows, edges: &Edges, defect: Def
         MeshPart::Vertex(v) => rows.vertices.get(v).copied(),
         MeshPart::Face(f) => rows.faces.get(f).copied(),
         MeshPart::Edge(e) => edges.rows.get(e).copied(),
+        MeshPart::FoldAngle(e) => edges.angles.get(e).map(|(row, _)| *row),
         MeshPart::Lattice => keys.lattice,
         MeshPart::Hole(h) => rows.holes.get(h).copied(),
     };

@@ -58,7 +58,12 @@ fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
     let edges: Vec<Option<&Edge>> = sides.iter().map(|&(ends, _)| edge(ends)).collect();
     let letters = edges.iter().map(|edge| edge.map_or(Assignment::Unassigned, |edge| sheet.assignment(edge)));
     let letters: Vec<_> = letters.map(|assignment| format!("\"{assignment}\"")).collect();
-    let angles = edges.iter().map(|edge| edge.and_then(|edge| degrees(sheet, edge)));
+    let angle = |edge: &Edge| match sheet.targets.get(&edge.key) {
+        Some(target) => Some(in_degrees(*target)),
+        None if sheet.targets.is_empty() => degrees(sheet, edge),
+        None => None,
+    };
+    let angles = edges.iter().map(|edge| edge.and_then(angle));
     let angles: Vec<_> = angles.map(|angle| angle.map_or("null".to_owned(), |a| format!("{a:?}"))).collect();
     field(text, "edges_vertices", &rows(sides.iter().map(|(ends, _)| numbers(ends))));
     field(text, "edges_assignment", &format!("[{}]", letters.join(", ")));
@@ -95,6 +100,14 @@ fn corners(sheet: &Sheet, drawn: &Drawing) -> Vec<Corner> {
 fn degrees(sheet: &Sheet, edge: &Edge) -> Option<f64> {
     let angle = sheet.drawn_angle(edge).filter(|_| edge.kind != EdgeKind::Boundary)?.to_degrees();
     Some(if angle.abs() < FLAT { 0.0 } else { (angle * 1e9).round() / 1e9 })
+}
+
+/// Returns the degrees that are read as exactly this angle: the shortest of the numbers next to it that are.
+pub(crate) fn in_degrees(angle: f64) -> f64 {
+    let near = angle.to_degrees();
+    let rounded = [1e3, 1e6, 1e9, 1e12].map(|scale| (near * scale).round() / scale);
+    let candidates = rounded.into_iter().chain([near, near.next_up(), near.next_down()]);
+    candidates.into_iter().find(|degrees| degrees.to_radians() == angle).unwrap_or(near)
 }
 
 fn field(text: &mut String, key: &str, value: &str) {

@@ -53,10 +53,7 @@ pub enum Failure {
         gap: f64,
     },
     /// The force does not vanish, but to first order the rigid measures leave no motion that relieves it.
-    #[error(
-        "singular start: to first order the rigid measures leave no motion that relieves the force; \
-         leave along a branch"
-    )]
+    #[error("singular start: to first order the rigid measures leave no motion that relieves the force")]
     SingularStart,
     /// No step along the Newton direction lowers the merit.
     #[error("no step lowers the energy: residual force {force:.2e}, residual length {length:.2e}")]
