@@ -17,6 +17,7 @@ mod ledger;
 mod report;
 mod resume;
 mod runner;
+mod view;
 
 pub use crate::study::Observer;
 pub use crate::study::Progress;
@@ -25,6 +26,7 @@ pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
 pub use report::{RunOptions, RunReport};
 use runner::Runner;
+pub use view::view;
 
 /// Reads a scene, computes its studies and writes their files.
 ///

@@ -41,6 +41,8 @@ pub enum Artifact {
     Series(Vec<(f64, String)>),
     /// A drawing (`.svg`), or the inconsistency that prevented it.
     Svg(Result<String, ShapeError>),
+    /// A page to look at (`.html`).
+    Page(String),
 }
 
 /// Triangles and curves between common points.
@@ -71,7 +73,7 @@ impl Artifact {
             Self::Curves { curves, arrays } => vtk::write_curves(path, curves, arrays),
             Self::Grid { size, origin, spacing, arrays } => vtk::write_vti(path, *size, [*origin, *spacing], arrays),
             Self::Series(states) => vtk::write_pvd(path, states),
-            Self::Svg(Ok(text)) => files::write(path, text),
+            Self::Svg(Ok(text)) | Self::Page(text) => files::write(path, text),
             Self::Svg(Err(fault)) => Err(OutputError::Shape { path: path.into(), fault: fault.clone() }),
         }
     }

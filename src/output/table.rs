@@ -84,7 +84,11 @@ impl Table {
         files::write(path, text)
     }
 
-    fn to_csv(&self) -> Result<String, ShapeError> {
+    /// Returns the text of the table.
+    ///
+    /// # Errors
+    /// [`ShapeError::Row`] if the length of a row differs from the number of columns.
+    pub(crate) fn to_csv(&self) -> Result<String, ShapeError> {
         let mut text = self.header.join(",");
         text.push('\n');
         for (row, values) in self.rows.iter().enumerate() {

@@ -195,6 +195,7 @@ fn summary(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
     Summary {
         version: env!("CARGO_PKG_VERSION"),
         scene: file.path().display().to_string(),
+        title: file.title(),
         digest,
         sheet: SheetSummary {
             vertices: info.vertices,

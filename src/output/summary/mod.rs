@@ -41,6 +41,8 @@ pub struct Summary {
     pub version: &'static str,
     /// The scene file, as it was named.
     pub scene: String,
+    /// The title of the scene; the name of its file where it has none.
+    pub title: String,
     /// A fingerprint of the scene and of every file that it names.
     pub digest: String,
     /// The sheet.
@@ -199,6 +201,7 @@ mod tests {
         Summary {
             version: "0",
             scene: "scene.toml".into(),
+            title: "scene".into(),
             digest: "0".into(),
             sheet: SheetSummary {
                 vertices: 4,
@@ -228,7 +231,7 @@ mod tests {
     #[test]
     fn the_summary_has_its_keys() {
         let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
-        assert_eq!(keys(&json), ["digest", "left_out", "scene", "sheet", "studies", "terms", "version"]);
+        assert_eq!(keys(&json), ["digest", "left_out", "scene", "sheet", "studies", "terms", "title", "version"]);
         let sheet = ["cells", "degrees_of_freedom", "developable", "edges", "faces", "polygons", "vertices"];
         assert_eq!(keys(&json["sheet"]), sheet);
         for key in ["name", "kind", "converged", "seconds", "error", "energy", "iterations", "factorizations"] {
