@@ -30,7 +30,7 @@ TRIANGLE, LINE = 5, 3
 ON_LINES = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque"]
 PLACES = ["vertex", "cell1", "cell2"]
 CELL_ARRAYS = ON_LINES + ["self_intersecting", "edge"]
-SUMMARY = {"version", "scene", "digest", "sheet", "terms", "left_out", "notes", "studies"}
+SUMMARY = {"version", "scene", "title", "digest", "sheet", "terms", "left_out", "notes", "studies"}
 SHEET = {"vertices", "edges", "faces", "polygons", "developable", "cells", "degrees_of_freedom"}
 STUDY = {"name", "kind", "converged", "seconds", "error"}
 KINDS = {
@@ -392,13 +392,14 @@ def check_study(checks, out, study, summary):
 
 
 def energies_of(out, study):
-    """Energies of the states in the pictures of a study, in their order; of a trace, where each state is in a picture."""
+    """Energies of the states in the pictures of a study, in their order; of a trace, where its table has them."""
     if study["kind"] not in ("relax", "trace", "wells", "path"):
         return []
     header, rows = read_table(out / f"{study['name']}.csv")
     energies = [float(row[header.index("energy_total")] or "nan") for row in rows]
-    if study["kind"] == "path":
-        return [energies[row] for row in pictured_rows(out, study)]
+    if study["kind"] in ("path", "trace"):
+        found = [energies[row] for row in pictured_rows(out, study)]
+        return found if np.all(np.isfinite(found)) else []
     if study["kind"] == "relax":
         last = study["energy"]["total"]
         return energies[:-1] + [last]
@@ -407,7 +408,7 @@ def energies_of(out, study):
 
 
 def pictured_rows(out, study):
-    """The rows of the table of a path of which there are pictures: a picture has the number of its row."""
+    """The rows of the table of which there are pictures: a picture has the number of its row."""
     return sorted(int(file.stem.rpartition("_")[2]) for file in (out / study["name"]).glob("*.vtu"))
 
 

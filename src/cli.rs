@@ -104,6 +104,14 @@ enum Command {
         /// The file to write
         to: PathBuf,
     },
+    /// Write a page of the studies in the folder of a run, to be looked at in a browser, and print its path
+    View {
+        /// The folder of the run
+        folder: PathBuf,
+        /// The page [default: view.html in the folder]
+        #[arg(short, value_name = "FILE.html")]
+        o: Option<PathBuf>,
+    },
     /// Check the claims about this program, and write a report
     Validate {
         /// Only these claims [default: all]
@@ -212,6 +220,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             }
             Ok(0)
         }
+        Command::View { folder, o } => say(&format!("{}\n", run::view(&folder, o.as_deref())?.display())),
         Command::Validate { claims, quick, out } => validate(&ValidateOptions { quick, out, only: claims }),
         Command::Schema { of: Described::Scene } => say(&foldwell::scene::schema()),
         Command::Schema { of: Described::Summary } => say(&output::schema::schema()),

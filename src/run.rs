@@ -21,6 +21,7 @@ mod lists;
 mod report;
 mod resume;
 mod runner;
+mod view;
 
 pub use crate::study::Observer;
 pub use crate::study::Progress;
@@ -29,6 +30,7 @@ pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
 pub use report::{RunOptions, RunReport};
 use runner::Runner;
+pub use view::view;
 
 /// Reads a scene, computes its studies and writes their files.
 ///

@@ -43,6 +43,8 @@ pub enum Artifact {
     Script(String),
     /// A drawing (`.svg`), or the inconsistency that prevented it.
     Svg(Result<String, ShapeError>),
+    /// A page to look at (`.html`).
+    Page(String),
 }
 
 /// Triangles and curves between common points.
@@ -73,7 +75,7 @@ impl Artifact {
             Self::Curves { curves, arrays } => vtk::write_curves(path, curves, arrays),
             Self::Grid { size, origin, spacing, arrays } => vtk::write_vti(path, *size, [*origin, *spacing], arrays),
             Self::Series(states) => vtk::write_pvd(path, states),
-            Self::Script(text) | Self::Svg(Ok(text)) => files::write(path, text),
+            Self::Script(text) | Self::Page(text) | Self::Svg(Ok(text)) => files::write(path, text),
             Self::Svg(Err(fault)) => Err(OutputError::Shape { path: path.into(), fault: fault.clone() }),
         }
     }

@@ -47,6 +47,24 @@ pub enum RunError {
         /// The name of the pattern and a blank; empty if there is none of that name.
         pattern: String,
     },
+    /// A folder is not that of a run.
+    #[error("{}: not the folder of a run: {why}", path.display())]
+    #[diagnostic(help("name the folder that `foldwell run` wrote, the one with `summary.json`"))]
+    NoRun {
+        /// The folder.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// The page of a run would replace the page of one of its studies.
+    #[error("{}: this is the page of study `{study}`", path.display())]
+    #[diagnostic(help("name another file: -o FILE.html"))]
+    PageOfStudy {
+        /// The page.
+        path: PathBuf,
+        /// The study.
+        study: String,
+    },
     /// The kind of a file is unknown.
     #[error("{}: {}", path.display(), unknown_ending(ending))]
     #[diagnostic(help("expected one of {expected}"))]

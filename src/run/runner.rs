@@ -200,6 +200,7 @@ fn summary(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
         version: env!("CARGO_PKG_VERSION"),
         scene: file.path().display().to_string(),
         settings: file.settings().to_vec(),
+        title: file.title(),
         digest,
         sheet: SheetSummary {
             vertices: info.vertices,

@@ -6,7 +6,7 @@
 use super::spec::{StudyKind, StudySpec};
 
 /// Names of the files that a study of any kind may write; `@` is the name of the study.
-const ANY: [&str; 6] = ["@.csv", "@.svg", "@.pvd", "@-paraview.py", "@.state.json", "@/@_#.vtu"];
+const ANY: [&str; 7] = ["@.csv", "@.svg", "@.html", "@.pvd", "@-paraview.py", "@.state.json", "@/@_#.vtu"];
 const TRACE: &[&str] = &["@-strain.svg"];
 const SURFACE: &[&str] = &["@/@_#.vtp"];
 const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp"];

@@ -109,9 +109,9 @@ impl Context<'_> {
         self.interrupted.load(Ordering::Relaxed)
     }
 
-    /// Whether the study asks for this kind of picture.
+    /// Whether pictures of this kind are made: as files of their own, or for the page of the study.
     pub fn draws(&self, draw: Draw) -> bool {
-        self.study.draw.contains(&draw)
+        self.study.draw.contains(&draw) || self.study.draw.contains(&Draw::Html)
     }
 
     /// Returns a finder of self-intersections; `None` if the study does not ask for that check.

@@ -23,6 +23,7 @@ mod error;
 mod landscape;
 mod map;
 mod modes;
+mod page;
 mod path;
 mod path_plot;
 mod reason;
@@ -66,6 +67,12 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
 /// # Errors
 /// [`StudyError`] if the scene is wrong in a way that [`check`] does not detect, or if files cannot be read or kept.
 pub fn compute(context: &Context<'_>) -> Result<Answer, StudyError> {
+    let mut answer = compute_kind(context)?;
+    page::add(&mut answer, context);
+    Ok(answer)
+}
+
+fn compute_kind(context: &Context<'_>) -> Result<Answer, StudyError> {
     match &*context.study.kind {
         StudyKind::Relax(spec) => relax::compute(context, spec),
         StudyKind::Modes(spec) => modes::compute(context, spec),

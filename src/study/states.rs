@@ -89,11 +89,24 @@ pub(crate) fn picture_at(context: &Context<'_>, coordinates: Vec<f64>) -> Pictur
     picture(context, &Shown { state, residuals: None, marks })
 }
 
-/// Adds the VTK series of states, and the SVG picture of one of them with its description, as the study asks.
+/// Adds the VTK series of states, which are those of the rows of the table, and the SVG picture of one of them with its
+/// description, as the study asks.
 pub(crate) fn add(answer: &mut Answer, context: &Context<'_>, states: &[Shown], shown: Option<(usize, &str)>) {
-    let pictures: Vec<Picture> = states.iter().map(|shown| picture(context, shown)).collect();
-    let drawn = shown.and_then(|(number, state)| Some((pictures.get(number)?.clone(), state)));
-    add_series(answer, context, pictures);
+    add_rows(answer, context, states.iter().enumerate(), shown);
+}
+
+/// Adds the VTK series of states, each with the number of its row in the table, and the SVG picture of one of them, given
+/// by its place among these states, with its description, as the study asks.
+pub(crate) fn add_rows<'s>(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    states: impl IntoIterator<Item = (usize, &'s Shown)>,
+    shown: Option<(usize, &str)>,
+) {
+    let pictures: Vec<(usize, Picture)> =
+        states.into_iter().map(|(row, shown)| (row, picture(context, shown))).collect();
+    let drawn = shown.and_then(|(number, state)| Some((pictures.get(number)?.1.clone(), state)));
+    add_series_at(answer, context, pictures);
     if let Some((picture, state)) = drawn {
         add_figure(answer, context, &picture, state);
     }

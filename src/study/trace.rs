@@ -31,8 +31,9 @@ const MAX_STEP: f64 = 0.25;
 const TOLERANCE: f64 = 3e-14;
 /// Number of states examined for self-intersection between two calls of the observer.
 const OBSERVED: usize = 64;
-/// Largest number of pictures of a trajectory.
+/// Largest number of pictures of a trajectory, and that of states on the page of a study, which take far less room.
 const PICTURES: usize = 40;
+const STATES_ON_PAGE: usize = 200;
 
 /// Checks that trajectories can start from the drawn state: that of one cell, or of a finite sheet.
 pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
@@ -89,8 +90,9 @@ pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer,
         Err(error) => return Ok(Answer::failed(context.study, error)),
     };
     let relaxations = relaxed(context, spec.engine, &traced);
+    let pictures = if context.study.draw.contains(&Draw::Html) { STATES_ON_PAGE } else { PICTURES };
     let paths: Vec<Path<'_>> =
-        traced.iter().enumerate().map(|(k, traced)| Path { traced, relaxed: relaxations.get(k) }).collect();
+        traced.iter().enumerate().map(|(k, traced)| Path { traced, relaxed: relaxations.get(k), pictures }).collect();
     let mut answer = Answer::empty(context.study);
     add_files(&mut answer, context, spec.engine, &paths);
     // after an interruption during the search for self-intersections, the table lacks their entries
@@ -145,6 +147,8 @@ fn relaxed(context: &Context<'_>, engine: Engine, traced: &[Traced]) -> Vec<Rela
 struct Path<'a> {
     traced: &'a Traced,
     relaxed: Option<&'a RelaxedTrajectory>,
+    /// Largest number of its pictures, apart from that of the last state.
+    pictures: usize,
 }
 
 impl Path<'_> {
@@ -198,7 +202,7 @@ impl Path<'_> {
 
     /// Returns `n` such that every `n`-th state has a picture.
     fn every(&self) -> usize {
-        self.len().div_ceil(PICTURES)
+        self.len().div_ceil(self.pictures)
     }
 
     /// Returns the relaxation at a state; `None` at the drawn state, where trajectories begin and close.
@@ -238,20 +242,17 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: 
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
             let compared = along.filter(|_| engine == Engine::Both);
-            if step % path.every() == 0 || step + 1 == path.len() {
-                pictures.push((rows.len(), states::picture(context, &Shown { state, residuals: None, marks })));
-            }
             rows.push(StateRow { error_to_kinematic: compared.map(|along| along.error), ..row });
+            if step % path.every() == 0 || step + 1 == path.len() {
+                pictures.push((rows.len() - 1, Shown { state, residuals: None, marks }));
+            }
         }
         let (step, words) = path.shown();
         let within = if step + 1 < path.len() { step / path.every() } else { pictures.len() - first - 1 };
         shown = (first + within, words);
     }
     answer.add(format!("{}.csv", context.name()), states::table_of_rows(context, &rows));
-    if let Some((_, picture)) = pictures.get(shown.0) {
-        states::add_figure(answer, context, picture, &shown.1);
-    }
-    states::add_series_at(answer, context, pictures);
+    states::add_rows(answer, context, pictures.iter().map(|(row, shown)| (*row, shown)), Some((shown.0, &shown.1)));
     add_paths(answer, context, paths, &rows);
     answer.state = saved_state(&model, paths);
 }

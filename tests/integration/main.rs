@@ -42,6 +42,7 @@ mod landscape_runs;
 mod landscape_torus;
 mod loads_and_units;
 mod miura;
+mod pages;
 mod path_laws;
 mod paths;
 mod periodic;

@@ -24,14 +24,14 @@ const FLAT: f64 = 1e-6;
 const WEDGE: f64 = 150.0;
 
 /// Colours of one side of the sheet in full light and away from the light.
-struct Side {
-    light: Colour,
+pub(crate) struct Side {
+    pub light: Colour,
     dark: Colour,
 }
 
-const FRONT: Side = Side { light: Colour(255, 251, 240), dark: Colour(124, 136, 164) };
-const BACK: Side = Side { light: Colour(240, 214, 168), dark: Colour(150, 118, 92) };
-const CROSSING: Side = Side { light: Colour(246, 154, 138), dark: Colour(158, 72, 66) };
+pub(crate) const FRONT: Side = Side { light: Colour(255, 251, 240), dark: Colour(124, 136, 164) };
+pub(crate) const BACK: Side = Side { light: Colour(240, 214, 168), dark: Colour(150, 118, 92) };
+pub(crate) const CROSSING: Side = Side { light: Colour(246, 154, 138), dark: Colour(158, 72, 66) };
 
 /// Returns the figure of a state.
 ///

@@ -44,6 +44,8 @@ pub struct Summary {
     /// Keys that were set in the scene from outside, as `key=value`; left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub settings: Vec<String>,
+    /// The title of the scene; the name of its file where it has none.
+    pub title: String,
     /// A fingerprint of the scene and of every file that it names.
     pub digest: String,
     /// The sheet.
@@ -204,6 +206,7 @@ mod tests {
         Summary {
             version: "0",
             scene: "scene.toml".into(),
+            title: "scene".into(),
             digest: "0".into(),
             settings: vec![],
             sheet: SheetSummary {
@@ -235,7 +238,10 @@ mod tests {
     #[test]
     fn the_summary_has_its_keys() {
         let json: Value = serde_json::from_str(&sample().to_json()).unwrap();
-        assert_eq!(keys(&json), ["digest", "left_out", "notes", "scene", "sheet", "studies", "terms", "version"]);
+        assert_eq!(
+            keys(&json),
+            ["digest", "left_out", "notes", "scene", "sheet", "studies", "terms", "title", "version"]
+        );
         let sheet = ["cells", "degrees_of_freedom", "developable", "edges", "faces", "polygons", "vertices"];
         assert_eq!(keys(&json["sheet"]), sheet);
         for key in ["name", "kind", "converged", "seconds", "error", "energy", "iterations", "factorizations"] {

@@ -22,12 +22,12 @@ pub struct StudySpec {
     /// What is checked at every state.
     #[serde(default)]
     pub check: Vec<Check>,
-    /// The pictures: left out, all of them; empty, tables only.
-    #[serde(default = "every_picture")]
+    /// The pictures: left out, `vtk` and `svg`; empty, tables only.
+    #[serde(default = "usual_pictures")]
     pub draw: Vec<Draw>,
 }
 
-fn every_picture() -> Vec<Draw> {
+fn usual_pictures() -> Vec<Draw> {
     vec![Draw::Vtk, Draw::Svg]
 }
 
@@ -47,6 +47,8 @@ pub enum Draw {
     Vtk,
     /// One SVG.
     Svg,
+    /// One page with the states, plots and pictures, for a browser.
+    Html,
 }
 
 /// The kinds of studies.

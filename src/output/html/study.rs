@@ -1,0 +1,89 @@
+//! One study on a page.
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::content::Content;
+use super::numbers::Arrays;
+use super::sheet::{Numbered, SheetData};
+use super::table::{Fact, TableData, results};
+
+/// A study and its files.
+#[derive(Debug)]
+pub(crate) struct StudyFiles<'a> {
+    /// The study's part of `summary.json`.
+    summary: Map<String, Value>,
+    /// The files: names relative to the folder of the run, and contents.
+    files: Vec<(String, Content<'a>)>,
+}
+
+/// What a page shows of a study.
+#[derive(Debug, Serialize)]
+pub(super) struct StudyData {
+    name: String,
+    kind: String,
+    converged: bool,
+    reason: Option<String>,
+    facts: Vec<Fact>,
+    tables: Vec<TableData>,
+    figures: Vec<Figure>,
+    /// Names of the files that the page does not show.
+    others: Vec<String>,
+    sheet: Option<SheetData>,
+}
+
+#[derive(Debug, Serialize)]
+struct Figure {
+    name: String,
+    svg: String,
+}
+
+impl<'a> StudyFiles<'a> {
+    /// Collects a study and its files, whose order has no meaning.
+    pub(crate) fn new(summary: Map<String, Value>, files: impl IntoIterator<Item = (String, Content<'a>)>) -> Self {
+        let mut files: Vec<_> = files.into_iter().collect();
+        // numbers of five digits come after those of four
+        files.sort_by(|(a, _), (b, _)| (a.len(), a).cmp(&(b.len(), b)));
+        Self { summary, files }
+    }
+}
+
+impl StudyData {
+    pub(super) fn new(arrays: &mut Arrays, StudyFiles { summary, files }: &StudyFiles<'_>) -> Self {
+        let word = |key: &str| summary.get(key).and_then(Value::as_str).map(str::to_owned);
+        let (name, kind) = (word("name").unwrap_or_default(), word("kind").unwrap_or_default());
+        let (mut tables, mut figures, mut others) = (Vec::new(), Vec::new(), Vec::new());
+        for (file, content) in files {
+            match content {
+                Content::Table(text) => tables.push(TableData::of_text(arrays, file, text)),
+                Content::Figure(svg) => figures.push(Figure { name: file.clone(), svg: svg.clone().into_owned() }),
+                Content::State(_) | Content::StateRead(_) => {}
+                Content::Other => others.push(file.clone()),
+            }
+        }
+        let (facts, lists) = results(arrays, summary);
+        tables.extend(lists);
+        let moving = matches!(kind.as_str(), "modes" | "bloch");
+        let sheet = SheetData::new(arrays, &states(&name, files), own_table(&name, files), moving);
+        let converged = summary.get("converged").and_then(Value::as_bool).unwrap_or_default();
+        Self { converged, reason: word("reason"), name, kind, facts, tables, figures, others, sheet }
+    }
+}
+
+/// Returns the text of the table of a study that has a row for each state.
+fn own_table<'a>(name: &str, files: &'a [(String, Content<'_>)]) -> Option<&'a str> {
+    files.iter().find_map(|(file, content)| match content {
+        Content::Table(text) if file.strip_suffix(".csv") == Some(name) => Some(text.as_ref()),
+        _ => None,
+    })
+}
+
+/// Returns the states of a study, each with its row, which the file name `NAME/NAME_ROW.vtu` ends with. Modes of a
+/// `bloch` study have other names and no row.
+fn states<'a>(name: &str, files: &'a [(String, Content<'_>)]) -> Vec<Numbered<'a>> {
+    let prefix = format!("{name}/{name}_");
+    let row = |file: &str| file.strip_prefix(&prefix)?.strip_suffix(".vtu")?.parse().ok();
+    let state =
+        |(file, content): &'a (String, Content<'_>)| Some(Numbered { row: row(file), picture: content.picture()? });
+    files.iter().filter_map(state).collect()
+}
