@@ -131,7 +131,7 @@ const FAULTS: &[Fault] = &[
     fault(8, "creases = { stiffness = 1.0, rest = { mode = [1, 0, 0] } }", "8:37", "`amplitude` is missing", "expected { mode = [k11, k22, k12], amplitude = e }"),
     fault(8, "creases = { stiffness = 1.0, rest = { amplitude = 0.1 } }", "8:37", "`mode` is missing", "expected { mode = [k11, k22, k12], amplitude = e }"),
     fault(8, "creases = { stiffness = 1.0, rest = {} }", "8:37", "the table is empty", "expected { M = -1.0, V = 1.0 }, { mode, amplitude } or { file }"),
-    fault(8, "creases = { stiffness = 1.0, rest = { file = \"a.csv\", amplitude = 0.1 } }", "8:37", "rest angles come from a mode and from a file at once", "expected one of the two"),
+    fault(8, "creases = { stiffness = 1.0, rest = { file = \"a.csv\", amplitude = 0.1 } }", "8:37", "rest angles come from more than one of letters, a mode and a file", "expected one of the three"),
     fault(9, "facets = { stiffness = 10, angle = 1 }", "9:28", "unknown key `angle`", "the keys here are `stiffness` or `rest`"),
     fault(7, "bars = { stiffness = {} }", "7:22", "the table is empty", "expected { M = 1.0, V = 2.0, .. } or { file }"),
     fault(7, "bars = { stiffness = { M = 1, file = \"k.csv\" } }", "7:22", "stiffnesses come from letters and from a file at once", "expected one of the two"),
