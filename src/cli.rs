@@ -54,6 +54,9 @@ enum Command {
         /// Keep the studies that an interrupted run finished
         #[arg(long)]
         resume: bool,
+        /// Frame of the scene's FOLD file [default: that of the scene, or the first with a mesh]
+        #[arg(long, value_name = "N")]
+        frame: Option<usize>,
         /// Say nothing but errors
         #[arg(long)]
         quiet: bool,
@@ -65,6 +68,9 @@ enum Command {
     Info {
         /// A mesh (.fold, .obj, .vtu) or a scene (.toml): one cell of its mesh, and the energy of all cells
         mesh_or_scene: PathBuf,
+        /// Frame of the FOLD file: 0 is its top, those of file_frames are 1, 2, ... [default: the first with a mesh]
+        #[arg(long, value_name = "N")]
+        frame: Option<usize>,
         /// Print JSON
         #[arg(long)]
         json: bool,
@@ -84,6 +90,9 @@ enum Command {
         from: PathBuf,
         /// The file to write
         to: PathBuf,
+        /// Frame of the FOLD file: 0 is its top, those of file_frames are 1, 2, ... [default: the first with a mesh]
+        #[arg(long, value_name = "N")]
+        frame: Option<usize>,
     },
     /// Check the claims about this program, and write a report
     Validate {
@@ -156,12 +165,12 @@ pub(crate) fn main() -> ExitCode {
 
 fn dispatch(command: Command) -> Result<u8, Failure> {
     match command {
-        Command::Run { scene, out, threads, resume, quiet, json } => {
-            let options = RunOptions { out, threads: threads.map(usize::from), resume };
+        Command::Run { scene, out, threads, resume, frame, quiet, json } => {
+            let options = RunOptions { out, threads: threads.map(usize::from), resume, frame };
             run_scene(&scene, &options, quiet, json)
         }
-        Command::Info { mesh_or_scene, json } => {
-            let info = run::info(&mesh_or_scene)?;
+        Command::Info { mesh_or_scene, frame, json } => {
+            let info = run::info_of_frame(&mesh_or_scene, frame)?;
             say(&if json { to_json(&info) } else { format!("{info}\n") })
         }
         Command::New { pattern, parameters } => {
@@ -169,8 +178,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             run::new_mesh(&table, &out)?;
             Ok(0)
         }
-        Command::Convert { from, to } => {
-            for note in run::convert(&from, &to)? {
+        Command::Convert { from, to, frame } => {
+            for note in run::convert_frame(&from, &to, frame)? {
                 // an error is ignored: there is no other place for the message if standard error is closed
                 let _ = writeln!(io::stderr(), "{}: {note}", to.display());
             }

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::numerics::parallel::Threads;
 use crate::output::picture::Picture;
 use crate::output::{files, vtk};
-use crate::sheet::build::{self, Drawing};
+use crate::sheet::build;
 use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
 
 mod belongings;
@@ -57,7 +57,10 @@ fn run_on_these_threads(
     if MeshKind::of(scene).is_some() {
         return Err(RunError::NoScene { path: scene.into() });
     }
-    let file = crate::scene::read(scene)?;
+    let file = crate::scene::read(scene)?.with_frame(options.frame);
+    if let (Some(frame), None) = (options.frame, &file.scene.sheet.mesh) {
+        return Err(RunError::NoFrames { path: scene.into(), frame });
+    }
     if file.scene.studies.is_empty() {
         let help =
             "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
@@ -93,11 +96,19 @@ pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
 /// # Errors
 /// [`RunError`] if the file cannot be read or is wrong.
 pub fn info(mesh_or_scene: &Path) -> Result<Counts, RunError> {
+    info_of_frame(mesh_or_scene, None)
+}
+
+/// Does the same as [`info`] for one frame of the FOLD file, if its number is given.
+///
+/// # Errors
+/// [`RunError`], as [`info`]; also if there is no such frame.
+pub fn info_of_frame(mesh_or_scene: &Path, frame: Option<usize>) -> Result<Counts, RunError> {
     if ending(mesh_or_scene) == "toml" {
-        let assembly = crate::scene::build::assembly(&crate::scene::read(mesh_or_scene)?)?;
+        let assembly = crate::scene::build::assembly(&crate::scene::read(mesh_or_scene)?.with_frame(frame))?;
         return Ok(Counts { sheet: Info::new(assembly.sheet()), energy: Some(EnergyCounts::new(&assembly)) });
     }
-    let sheet = read_mesh(mesh_or_scene, ".fold, .obj, .vtu or .toml")?;
+    let sheet = read_mesh(mesh_or_scene, frame, ".fold, .obj, .vtu or .toml")?;
     Ok(Counts { sheet: Info::new(&sheet), energy: None })
 }
 
@@ -107,14 +118,22 @@ pub fn info(mesh_or_scene: &Path) -> Result<Counts, RunError> {
 /// # Errors
 /// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written.
 pub fn convert(from: &Path, to: &Path) -> Result<Vec<String>, RunError> {
-    let sheet = read_mesh(from, MESHES)?;
+    convert_frame(from, to, None)
+}
+
+/// Does the same as [`convert`] for one frame of a FOLD file, if its number is given.
+///
+/// # Errors
+/// [`RunError`], as [`convert`]; also if there is no such frame.
+pub fn convert_frame(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
+    let sheet = read_mesh(from, frame, MESHES)?;
     match MeshKind::of(to) {
         Some(MeshKind::Fold) => files::write(to, fold::write(&sheet))?,
         Some(MeshKind::Obj) => files::write(to, obj::write(&sheet))?,
         Some(MeshKind::Vtu) => vtk::write_vtu(to, &Picture::drawn(&sheet))?,
         None => return Err(RunError::Ending { path: to.into(), ending: ending(to), expected: MESHES }),
     }
-    Ok(convert::not_kept(&sheet, MeshKind::of(from), MeshKind::of(to)))
+    Ok(convert::not_kept(&sheet, MeshKind::of(to)))
 }
 
 const MESHES: &str = ".fold, .obj or .vtu";
@@ -142,15 +161,25 @@ fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
-fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
-    match MeshKind::of(path) {
-        Some(MeshKind::Fold) => Ok(fold::read(path)?),
+fn read_mesh(path: &Path, frame: Option<usize>, expected: &'static str) -> Result<Sheet, RunError> {
+    match (MeshKind::of(path), frame) {
+        (Some(MeshKind::Obj | MeshKind::Vtu), Some(frame)) => Err(RunError::NoFrames { path: path.into(), frame }),
+        (kind, _) => read_kind(path, kind, frame, expected),
+    }
+}
+
+fn read_kind(
+    path: &Path,
+    kind: Option<MeshKind>,
+    frame: Option<usize>,
+    expected: &'static str,
+) -> Result<Sheet, RunError> {
+    match kind {
+        Some(MeshKind::Fold) => Ok(fold::read_frame(path, frame)?),
         Some(MeshKind::Obj) => Ok(obj::read(path)?),
         Some(MeshKind::Vtu) => {
-            let mesh = vtk::read_vtu(path)?;
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let faces = mesh.triangles.iter().map(|t| t.to_vec()).collect();
-            let drawn = Drawing { title, coords: mesh.points, faces, ..Drawing::default() };
+            let drawn = convert::drawing(vtk::read_vtu(path)?, title);
             build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
         }
         None => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),

@@ -19,6 +19,7 @@ use super::picture::Picture;
 use super::strain_space::StrainSurface;
 use super::{OutputError, files};
 use crate::math::Vec3;
+use crate::sheet::Assignment;
 
 /// The mesh of a sheet read from a VTU file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,6 +32,8 @@ pub struct VtuMesh {
     pub lines: Vec<[usize; 2]>,
     /// Fold angle of each line in radians; `None` if the file has no such array.
     pub fold_angle: Option<Vec<f64>>,
+    /// Letter of each line; `None` if the file has no such array, or other numbers in it.
+    pub letters: Option<Vec<Assignment>>,
     /// Force along each line, positive in tension; `None` if the file has no such array.
     pub tension: Option<Vec<f64>>,
     /// Torque of the hinge on each line; `None` if the file has no such array.
@@ -40,8 +43,8 @@ pub struct VtuMesh {
 /// Writes a state as a VTU file; its cells are the triangles, followed by the lines.
 ///
 /// Point array: `displacement`. Cell arrays: `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN
-/// on triangles), `self_intersecting` (0 on lines), and `edge`, the index of the edge of the cell of which the line is
-/// a copy (-1 on triangles).
+/// on triangles), `self_intersecting` (0 on lines), `edge`, the index of the edge of the cell of which the line is a copy,
+/// and `assignment`, 0 to 6 for the letters B, M, V, F, U, C, J (both -1 on triangles).
 ///
 /// # Errors
 /// [`OutputError::Shape`] if the arrays of the picture are inconsistent, [`OutputError::Write`].
@@ -228,6 +231,8 @@ fn attributes(picture: &Picture) -> Attributes {
     let on_lines = |values: &[f64]| IOBuffer::F64([&vec![f64::NAN; faces], values].concat());
     let crossing = [&picture.self_intersecting[..], &vec![0; picture.lines.len()]].concat();
     let edges = [&vec![-1; faces], &picture.line_edges[..]].concat();
+    let letters = picture.letters.iter().map(|letter| letter.number() as i32);
+    let letters = vec![-1; faces].into_iter().chain(letters).collect();
     Attributes {
         point: vec![array("displacement", ElementType::Vectors, coordinates(&picture.displacement))],
         cell: vec![
@@ -239,6 +244,7 @@ fn attributes(picture: &Picture) -> Attributes {
             scalars("torque", on_lines(&picture.torque)),
             scalars("self_intersecting", IOBuffer::U8(crossing)),
             scalars("edge", IOBuffer::I32(edges)),
+            scalars("assignment", IOBuffer::I32(letters)),
         ],
     }
 }
@@ -294,6 +300,8 @@ fn parse_vtu(bytes: &[u8]) -> Result<VtuMesh, VtuFault> {
     let line_cells = mesh.add_cells(piece.cells)?;
     let on_lines = |name: &str| numbers_on(name, &piece.data, &line_cells);
     (mesh.fold_angle, mesh.tension, mesh.torque) = (on_lines("fold_angle"), on_lines("tension"), on_lines("torque"));
+    let letters = on_lines("assignment");
+    mesh.letters = letters.and_then(|numbers| numbers.into_iter().map(Assignment::from_number).collect());
     Ok(mesh)
 }
 
@@ -373,6 +381,7 @@ mod tests {
         assert_eq!((&mesh.points, &mesh.triangles, &mesh.lines), (&picture.points, &picture.triangles, &picture.lines));
         let bits = |angles: &[f64]| angles.iter().map(|a| a.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&mesh.fold_angle.unwrap()), bits(&picture.fold_angle));
+        assert_eq!(mesh.letters.unwrap(), picture.letters);
         assert_eq!(bits(&mesh.tension.unwrap()), bits(&picture.tension));
         assert_eq!(bits(&mesh.torque.unwrap()), bits(&picture.torque));
     }
@@ -391,7 +400,17 @@ mod tests {
             attributes.iter().map(length).collect()
         };
         assert_eq!(lengths(&piece.data.point), [("displacement".to_owned(), 12)]);
-        let names = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque", "self_intersecting", "edge"];
+        let names = [
+            "fold_angle",
+            "rest_angle",
+            "strain",
+            "energy",
+            "tension",
+            "torque",
+            "self_intersecting",
+            "edge",
+            "assignment",
+        ];
         assert_eq!(lengths(&piece.data.cell), names.map(|name| (name.to_owned(), 7)));
     }
 
@@ -439,7 +458,13 @@ mod tests {
     fn an_empty_picture_reads_back() {
         assert_eq!(
             parse_vtu(&written(&Picture::default())).unwrap(),
-            VtuMesh { fold_angle: Some(vec![]), tension: Some(vec![]), torque: Some(vec![]), ..<_>::default() }
+            VtuMesh {
+                fold_angle: Some(vec![]),
+                letters: Some(vec![]),
+                tension: Some(vec![]),
+                torque: Some(vec![]),
+                ..<_>::default()
+            }
         );
     }
 

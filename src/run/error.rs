@@ -46,6 +46,15 @@ pub enum RunError {
         /// The names of the known patterns.
         names: String,
     },
+    /// A frame is asked for of a file that has none.
+    #[error("{}: frame {frame} is asked for, but this file has no frames", path.display())]
+    #[diagnostic(help("frames are those of FOLD files; leave out --frame"))]
+    NoFrames {
+        /// The file.
+        path: PathBuf,
+        /// The frame.
+        frame: usize,
+    },
     /// The kind of a file is unknown.
     #[error("{}: {}", path.display(), unknown_ending(ending))]
     #[diagnostic(help("expected one of {expected}"))]

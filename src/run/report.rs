@@ -12,6 +12,8 @@ pub struct RunOptions {
     pub threads: Option<usize>,
     /// Whether to keep the studies that an interrupted run finished.
     pub resume: bool,
+    /// Frame of the mesh, in place of the scene's.
+    pub frame: Option<usize>,
 }
 
 /// The report of a run.

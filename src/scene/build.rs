@@ -60,7 +60,7 @@ pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> 
 pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let spec = &file.scene.sheet;
     if let Some(mesh) = &spec.mesh {
-        return Ok(fold::read(&file.resolve(mesh))?);
+        return Ok(fold::read_frame(&file.resolve(mesh), file.frame())?);
     }
     let Some(table) = &spec.generate else {
         return Err(file.error_at(0..0, "the sheet has no mesh", "give `mesh = \"file.fold\"` or `generate = { .. }`"));

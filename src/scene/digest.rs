@@ -21,6 +21,9 @@ pub(crate) fn digest(file: &SceneFile) -> Result<String, SceneError> {
     let mut hash = Fingerprint::default();
     hash.add(env!("CARGO_PKG_VERSION").as_bytes());
     hash.add(file.text().as_bytes());
+    if let Some(frame) = file.frame() {
+        hash.add(&frame.to_le_bytes());
+    }
     for path in named_files(file) {
         hash.add(&fs::read(&path).map_err(|source| SceneError::Read { path, source })?);
     }

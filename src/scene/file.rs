@@ -18,6 +18,8 @@ use super::spec::Scene;
 pub struct SceneFile {
     /// The scene.
     pub scene: Scene,
+    /// The frame of the mesh that is asked for in place of the scene's.
+    frame: Option<usize>,
     path: PathBuf,
     text: Arc<NamedSource<String>>,
 }
@@ -27,7 +29,18 @@ impl SceneFile {
     /// to it.
     pub(super) fn unchecked(text: &str, path: &Path) -> Result<Self, SceneError> {
         let source = Arc::new(NamedSource::new(path.display().to_string(), text.to_owned()).with_language("TOML"));
-        Ok(Self { scene: deserialize(&source)?, path: path.to_path_buf(), text: source })
+        Ok(Self { scene: deserialize(&source)?, frame: None, path: path.to_path_buf(), text: source })
+    }
+
+    /// Returns the scene with another frame of its mesh, if one is given.
+    #[must_use]
+    pub fn with_frame(self, frame: Option<usize>) -> Self {
+        Self { frame, ..self }
+    }
+
+    /// Returns the number of the frame of the mesh that is asked for.
+    pub(super) fn frame(&self) -> Option<usize> {
+        self.frame.or(self.scene.sheet.frame.as_deref().copied())
     }
 
     /// Returns the path of the scene file, as it was passed to [`read`](super::read) or [`parse`](super::parse).

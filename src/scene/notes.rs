@@ -3,7 +3,7 @@
 use super::SceneFile;
 use super::rest::RestSpec;
 use crate::model::Assembly;
-use crate::sheet::info::targets_said;
+use crate::sheet::info::{frames_said, targets_said};
 use crate::sheet::{Assignment, EdgeKind};
 
 /// Returns remarks about a scene, made before its studies.
@@ -11,6 +11,8 @@ pub(super) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
     let mut notes = super::turns::notes(file, assembly.terms());
     notes.extend(one_angle_for_both_sides(file, assembly));
     notes.extend(unused_targets(file, assembly));
+    let record = &assembly.sheet().record;
+    notes.extend(frames_said(record.frame, record.further_frames).filter(|_| file.frame().is_none()));
     notes
 }
 

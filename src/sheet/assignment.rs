@@ -48,6 +48,16 @@ impl Assignment {
         }
     }
 
+    /// Returns the number of the assignment, 0 to 6 for B, M, V, F, U, C, J, where a file has numbers only.
+    pub(crate) fn number(self) -> usize {
+        Self::LETTERS.iter().position(|(known, _)| *known == self).unwrap_or_default()
+    }
+
+    /// Returns the assignment with this number; `None` if there is none.
+    pub(crate) fn from_number(number: f64) -> Option<Self> {
+        (0..Self::LETTERS.len()).find(|k| *k as f64 == number).map(|k| Self::LETTERS[k].0)
+    }
+
     /// Returns the letter of the assignment in FOLD.
     pub(crate) fn letter(self) -> &'static str {
         Self::LETTERS.iter().find(|(known, _)| *known == self).map_or("U", |(_, letter)| letter)

@@ -126,7 +126,8 @@ fn letters_come_back() {
     for edges in [&edges[..], &[([1, 4], "C"), ([7, 4], "C")]] {
         let sheet = fold::parse(&squares(edges, metadata), "a.fold").unwrap();
         assert_eq!(fold::parse(&fold::write(&sheet), "b.fold").unwrap(), sheet);
-        assert_eq!(obj::parse(&obj::write(&sheet), "b.obj").unwrap(), sheet);
+        // OBJ has no list of edges, whose order it could keep
+        assert_eq!(obj::parse(&obj::write(&sheet), "b.obj").unwrap(), Sheet { listed_edges: vec![], ..sheet });
     }
 }
 
@@ -151,12 +152,12 @@ fn convert_keeps_letters_and_says_what_it_drops() {
     let of = |letter: &str| letters.iter().filter(|l| **l == letter).count();
     assert_eq!((of("M"), of("V"), of("U"), of("B"), of("F")), (2, 1, 1, 8, 0));
     assert_eq!((&value["file_author"], &value["frame_title"]), (&"A. B.".into(), &"f".into()));
-    assert!(said.contains("2 further frames") && said.contains("`faceOrders`") && !said.contains("author"), "{said}");
+    assert!(said.contains("2 other frames") && said.contains("`faceOrders`") && !said.contains("author"), "{said}");
     let (said, _) = convert(&from, &to_vtu);
     assert!(said.contains("`file_author`"), "{said}");
     let info = Info::new(&fold::read(&from).unwrap());
     assert_eq!(info.further_frames, 2);
-    assert!(info.to_string().contains("2 more in the file"));
+    assert!(info.to_string().contains("frame 0 is read; 2 others are not"));
 }
 
 /// Claim: a file that was written by this program is converted without any message.
