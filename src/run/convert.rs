@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::MeshKind;
 use crate::output::vtk::VtuMesh;
 use crate::sheet::build::Drawing;
+use crate::sheet::info::TURNED_OVER;
 use crate::sheet::{Assignment, Sheet};
 
 /// Largest magnitude of a fold angle, in radians, at which a mountain or valley may be drawn on the other side.
@@ -44,6 +45,9 @@ pub(super) fn not_kept(sheet: &Sheet, to: Option<MeshKind>) -> Vec<String> {
         let (frames, are) =
             if frames == 1 { ("1 other frame".into(), "is") } else { (format!("{frames} other frames"), "are") };
         notes.push(format!("{frames} in `file_frames` {are} not kept, only frame {} is", sheet.record.frame));
+    }
+    if sheet.record.turned_over {
+        notes.push(TURNED_OVER.to_owned());
     }
     if to == Some(MeshKind::Obj) && !sheet.listed_edges.is_empty() {
         notes.push("OBJ has no list of edges: their order is not kept".to_owned());

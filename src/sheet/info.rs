@@ -19,6 +19,10 @@ const THIN_QUALITY: f64 = 1e-3;
 /// Number of thin triangles that are named.
 const NAMED: usize = 3;
 
+/// What is said of a mesh whose faces were turned over.
+pub(crate) const TURNED_OVER: &str =
+    "all faces of the file are turned over, to the side from which its letters M and V are seen";
+
 /// A triangle, and its quality as in [`Info::worst_triangle_quality`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ThinTriangle {
@@ -79,6 +83,10 @@ pub struct Info {
     pub thinnest: Vec<ThinTriangle>,
     /// Number of creases and diagonals whose fold angle in the file is not the drawn one: a target of folding.
     pub target_angles: usize,
+    /// Number of creases that are drawn folded to the other side than their target angle.
+    pub drawn_against_targets: usize,
+    /// Whether all faces of the file were turned over, since its letters are those of the other side.
+    pub turned_over: bool,
     /// Number of vertices that stand where another one stands, as those of layers that touch; ends of cuts are not counted.
     pub touching_vertices: usize,
     /// Number of the frame that is read: 0 is the top of the file.
@@ -122,6 +130,8 @@ impl Info {
                 thin
             },
             target_angles: sheet.targets_not_drawn(),
+            drawn_against_targets: sheet.drawn_against_targets()[0],
+            turned_over: sheet.record.turned_over,
             touching_vertices: touching(sheet),
             frame: sheet.record.frame,
             further_frames: sheet.record.further_frames,
@@ -224,6 +234,13 @@ impl fmt::Display for Info {
         }
         if self.target_angles > 0 {
             write!(f, "\ntarget angles          {}", targets_said(self.target_angles))?;
+        }
+        if self.drawn_against_targets > 0 {
+            let count = self.drawn_against_targets;
+            write!(f, "\n                       {count} creases are drawn on the other side than their targets")?;
+        }
+        if self.turned_over {
+            write!(f, "\nturned over            {TURNED_OVER}")?;
         }
         if self.touching_vertices > 0 {
             write!(f, "\ntouching layers        {} vertices stand where others stand", self.touching_vertices)?;

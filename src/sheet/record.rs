@@ -8,6 +8,8 @@ pub struct FileRecord {
     pub metadata: Vec<(String, String)>,
     /// Keys that are neither used nor kept.
     pub left_out: Vec<String>,
+    /// Whether all faces were turned over, since the letters of the file are those of the other side.
+    pub turned_over: bool,
     /// Number of the frame that is read: 0 is the top of the file.
     pub frame: usize,
     /// Number of the other frames of the file, which are not read.
