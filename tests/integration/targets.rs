@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use std::fs;
 use std::process::Command;
 
-use foldwell::Assembly;
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::scene::{SceneError, build, parse};
 use foldwell::sheet::{Assignment, Info, Sheet, fold, obj};
+use foldwell::{Assembly, Rest};
 use std::ops::ControlFlow;
 
 /// A half-folded sheet as Origami Simulator exports it: drawn at 109.84 degrees with 6 digits, target 180.
@@ -164,6 +164,12 @@ fn rest_angles_follow_targets_and_letters() {
     let signs = target.iter().filter(|(_, angle)| *angle == 0.2 * PI).count();
     assert_eq!((signs, target.len()), (4, 6));
     assert_eq!(rest(FLAT, "\"assigned\"").unwrap()[0].1, PI);
+    for form in [Rest::Target(0.2), Rest::Assigned(0.2)] {
+        let built = Assembly::patch(read(FLAT), [1, 1]).creases(1.0).rest(form).build().unwrap();
+        let angles = built.terms().creases.as_ref().unwrap().rest.iter().zip(built.drawn_angles());
+        let hinges = angles.filter(|(_, drawn)| !drawn.is_nan()).map(|(rest, _)| *rest);
+        assert!(hinges.eq(target.iter().map(|(_, angle)| *angle)));
+    }
     // linear from the flat state, not from the drawn one
     let half = rest(HALF_FOLDED, "\"target\", fraction = 0.5").unwrap();
     let valley = half.iter().find(|(ends, _)| *ends == [1, 4]).unwrap();

@@ -1,8 +1,7 @@
 //! Thin triangles: those that a mesh has, and those that splitting polygons must not make.
 
-use foldwell::sheet::{Assignment, Info, fold};
+use foldwell::sheet::{Info, fold};
 use foldwell::{Assembly, Rest, Sheet, relax};
-use std::f64::consts::PI;
 
 /// Returns a waterbomb base in which a vertex at the height `h` over the crease [4, 5] makes a sliver with it.
 fn with_sliver(h: f64) -> String {
@@ -15,13 +14,7 @@ fn with_sliver(h: f64) -> String {
 }
 
 fn energy_folded(sheet: Sheet) -> f64 {
-    let angle = |edge| match sheet.assignment(edge) {
-        Assignment::Mountain => -0.2 * PI,
-        Assignment::Valley => 0.2 * PI,
-        _ => 0.0,
-    };
-    let rest = sheet.edges.iter().map(angle).collect();
-    let assembly = Assembly::patch(sheet, [1, 1]).bars(1e4).creases(1.0).rest(Rest::PerEdge(rest)).build().unwrap();
+    let assembly = Assembly::patch(sheet, [1, 1]).bars(1e4).creases(1.0).rest(Rest::Assigned(0.2)).build().unwrap();
     let found = relax(&assembly).unwrap();
     assert!(found.residual_force < 1e-11 && found.negative_eigenvalues == 0);
     found.state.total()
