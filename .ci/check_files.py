@@ -29,7 +29,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 TRIANGLE, LINE = 5, 3
 ON_LINES = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque"]
 PLACES = ["vertex", "cell1", "cell2"]
-CELL_ARRAYS = ON_LINES + ["self_intersecting", "edge"]
+CELL_ARRAYS = ON_LINES + ["self_intersecting", "edge", "assignment"]
 SUMMARY = {"version", "scene", "title", "digest", "sheet", "terms", "left_out", "notes", "studies"}
 SHEET = {"vertices", "edges", "faces", "polygons", "developable", "cells", "degrees_of_freedom"}
 STUDY = {"name", "kind", "converged", "seconds", "error"}
@@ -112,6 +112,8 @@ def check_vtu(checks, path):
     checks.that(np.all(np.isin(cell_arrays["self_intersecting"], [0, 1])), f"{path}: self_intersecting is 0 or 1")
     checks.that(np.all(cell_arrays["edge"][faces] == -1), f"{path}: edge is -1 on triangles")
     checks.that(np.all(cell_arrays["edge"][lines] >= 0), f"{path}: every line has an edge")
+    checks.that(np.all(cell_arrays["assignment"][faces] == -1), f"{path}: assignment is -1 on triangles")
+    checks.that(np.all(np.isin(cell_arrays["assignment"][lines], range(7))), f"{path}: every line has a letter")
     check_meshio(checks, path, grid)
     check_indices(checks, path)
     return grid

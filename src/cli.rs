@@ -19,7 +19,7 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
 use foldwell::output::summary::to_json;
-use foldwell::run::{self, Ledger, Listed, RunError, RunOptions, RunReport};
+use foldwell::run::{self, Ledger, Listed, RunError, RunOptions, RunReport, Wanted};
 use foldwell::scene::{SceneFile, Setting};
 use miette::{Diagnostic, GraphicalReportHandler};
 
@@ -60,6 +60,9 @@ enum Command {
         /// Keep the studies that an interrupted run finished
         #[arg(long)]
         resume: bool,
+        /// Frame of the scene's FOLD file [default: that of the scene, or the first with a mesh]
+        #[arg(long, value_name = "N")]
+        frame: Option<usize>,
         /// Say nothing but errors
         #[arg(long)]
         quiet: bool,
@@ -74,6 +77,9 @@ enum Command {
         /// Set a key of the scene, as in energy.bars.stiffness=1e4; may be repeated
         #[arg(long, value_name = "KEY=VALUE")]
         set: Vec<Setting>,
+        /// Frame of the FOLD file: 0 is its top, those of file_frames are 1, 2, ... [default: the first with a mesh]
+        #[arg(long, value_name = "N")]
+        frame: Option<usize>,
         /// Print JSON
         #[arg(long)]
         json: bool,
@@ -103,6 +109,9 @@ enum Command {
         from: PathBuf,
         /// The file to write
         to: PathBuf,
+        /// Frame of the FOLD file: 0 is its top, those of file_frames are 1, 2, ... [default: the first with a mesh]
+        #[arg(long, value_name = "N")]
+        frame: Option<usize>,
     },
     /// Write a page of the studies in the folder of a run, to be looked at in a browser, and print its path
     View {
@@ -193,17 +202,19 @@ pub(crate) fn main() -> ExitCode {
 
 fn dispatch(command: Command) -> Result<u8, Failure> {
     match command {
-        Command::Run { scenes, out, set, threads, resume, quiet, json } => {
+        Command::Run { scenes, out, mut set, threads, resume, frame, quiet, json } => {
+            set.extend(frame.map(Setting::of_frame));
             let options = RunOptions { out, threads: threads.map(usize::from), resume };
             run_scenes(scenes::read(&scenes, &set, &options)?, &Told { quiet, json })
         }
-        Command::Info { mesh_or_scene, set, edges: true, .. } => say(&run::list(&mesh_or_scene, &set, Listed::Edges)?),
-        Command::Info { mesh_or_scene, set, vertices: true, .. } => {
-            say(&run::list(&mesh_or_scene, &set, Listed::Vertices)?)
-        }
-        Command::Info { mesh_or_scene, set, json, .. } => {
-            let info = run::info(&mesh_or_scene, &set)?;
-            say(&if json { to_json(&info) } else { format!("{info}\n") })
+        Command::Info { mesh_or_scene, set, frame, json, edges, vertices } => {
+            let wanted = Wanted { settings: set, frame };
+            say(&match (edges, vertices) {
+                (true, _) => run::list(&mesh_or_scene, &wanted, Listed::Edges)?,
+                (_, true) => run::list(&mesh_or_scene, &wanted, Listed::Vertices)?,
+                _ if json => to_json(&run::info(&mesh_or_scene, &wanted)?),
+                _ => format!("{}\n", run::info(&mesh_or_scene, &wanted)?),
+            })
         }
         Command::New { pattern, parameters } => {
             if parameters::ask_for_help(&pattern, &parameters) {
@@ -213,8 +224,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             run::new_mesh(&table, &out)?;
             Ok(0)
         }
-        Command::Convert { from, to } => {
-            for note in run::convert(&from, &to)? {
+        Command::Convert { from, to, frame } => {
+            for note in run::convert(&from, &to, frame)? {
                 // an error is ignored: there is no other place for the message if standard error is closed
                 let _ = writeln!(io::stderr(), "{}: {note}", to.display());
             }

@@ -8,7 +8,7 @@ use crate::numerics::parallel::Threads;
 use crate::output::picture::Picture;
 use crate::output::{OutputError, files, vtk};
 use crate::scene::{SceneFile, Setting};
-use crate::sheet::build::{self, Drawing};
+use crate::sheet::build;
 use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
 
 mod belongings;
@@ -104,17 +104,25 @@ pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
     Ok(files::write(out, fold::write(&sheet))?)
 }
 
-/// Returns counts and measures of the sheet of a mesh or a scene, and of the energy of a scene, in which some keys are
-/// set first.
+/// What is wanted of a mesh or a scene beside its file.
+#[derive(Clone, Debug, Default)]
+pub struct Wanted {
+    /// Keys of the scene that are set first.
+    pub settings: Vec<Setting>,
+    /// The frame of the FOLD file; `None` for that of the scene, or the first with a mesh.
+    pub frame: Option<usize>,
+}
+
+/// Returns counts and measures of the sheet of a mesh or a scene, and of the energy of a scene.
 ///
 /// # Errors
-/// [`RunError`] if the file cannot be read or is wrong.
-pub fn info(mesh_or_scene: &Path, settings: &[Setting]) -> Result<Counts, RunError> {
+/// [`RunError`] if the file cannot be read or is wrong, if there is no such frame, and if keys of a mesh are set.
+pub fn info(mesh_or_scene: &Path, wanted: &Wanted) -> Result<Counts, RunError> {
     if ending(mesh_or_scene) == "toml" {
-        let assembly = crate::scene::build::assembly(&crate::scene::read_set(mesh_or_scene, settings)?)?;
+        let assembly = crate::scene::build::assembly(&wanted.scene(mesh_or_scene)?)?;
         return Ok(Counts { sheet: Info::new(assembly.sheet()), energy: Some(EnergyCounts::new(&assembly)) });
     }
-    Ok(Counts { sheet: Info::new(&sheet_of(mesh_or_scene, settings)?), energy: None })
+    Ok(Counts { sheet: Info::new(&wanted.sheet(mesh_or_scene)?), energy: None })
 }
 
 /// Elements of a sheet that have numbers or names.
@@ -129,9 +137,9 @@ pub enum Listed {
 /// Returns the vertices or the edges of the sheet of a mesh or a scene as a table in CSV.
 ///
 /// # Errors
-/// [`RunError`] if the file cannot be read or is wrong.
-pub fn list(mesh_or_scene: &Path, settings: &[Setting], listed: Listed) -> Result<String, RunError> {
-    let sheet = sheet_of(mesh_or_scene, settings)?;
+/// [`RunError`], as [`info`].
+pub fn list(mesh_or_scene: &Path, wanted: &Wanted, listed: Listed) -> Result<String, RunError> {
+    let sheet = wanted.sheet(mesh_or_scene)?;
     let table = match listed {
         Listed::Vertices => lists::vertices(&sheet),
         Listed::Edges => lists::edges(&sheet),
@@ -139,29 +147,36 @@ pub fn list(mesh_or_scene: &Path, settings: &[Setting], listed: Listed) -> Resul
     Ok(table.to_csv().map_err(|fault| OutputError::Shape { path: mesh_or_scene.into(), fault })?)
 }
 
-/// Returns the sheet of a mesh, or of a scene in which some keys are set first.
-fn sheet_of(mesh_or_scene: &Path, settings: &[Setting]) -> Result<Sheet, RunError> {
-    if ending(mesh_or_scene) == "toml" {
-        return Ok(crate::scene::build::sheet(&crate::scene::read_set(mesh_or_scene, settings)?)?);
+impl Wanted {
+    fn scene(&self, path: &Path) -> Result<SceneFile, RunError> {
+        let settings: Vec<Setting> = self.settings.iter().cloned().chain(self.frame.map(Setting::of_frame)).collect();
+        Ok(crate::scene::read_set(path, &settings)?)
     }
-    let sheet = read_mesh(mesh_or_scene, ".fold, .obj, .vtu or .toml")?;
-    if settings.is_empty() { Ok(sheet) } else { Err(RunError::NoScene { path: mesh_or_scene.into() }) }
+
+    fn sheet(&self, mesh_or_scene: &Path) -> Result<Sheet, RunError> {
+        if ending(mesh_or_scene) == "toml" {
+            return Ok(crate::scene::build::sheet(&self.scene(mesh_or_scene)?)?);
+        }
+        let sheet = read_mesh(mesh_or_scene, self.frame, ".fold, .obj, .vtu or .toml")?;
+        if self.settings.is_empty() { Ok(sheet) } else { Err(RunError::NoScene { path: mesh_or_scene.into() }) }
+    }
 }
 
-/// Converts a mesh between FOLD, OBJ and VTU, which are recognised by the endings of the file names. Returns a sentence
-/// for each part of the mesh that the new file does not keep.
+/// Converts a mesh between FOLD, OBJ and VTU, which are recognised by the endings of the file names; of a FOLD file the
+/// given frame, or the first with a mesh. Returns a sentence for each part of the mesh that the new file does not keep.
 ///
 /// # Errors
-/// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written.
-pub fn convert(from: &Path, to: &Path) -> Result<Vec<String>, RunError> {
-    let sheet = read_mesh(from, MESHES)?;
+/// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written, and if there is no such
+/// frame.
+pub fn convert(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
+    let sheet = read_mesh(from, frame, MESHES)?;
     match MeshKind::of(to) {
         Some(MeshKind::Fold) => files::write(to, fold::write(&sheet))?,
         Some(MeshKind::Obj) => files::write(to, obj::write(&sheet))?,
         Some(MeshKind::Vtu) => vtk::write_vtu(to, &Picture::drawn(&sheet))?,
         None => return Err(RunError::Ending { path: to.into(), ending: ending(to), expected: MESHES }),
     }
-    Ok(convert::not_kept(&sheet, MeshKind::of(from), MeshKind::of(to)))
+    Ok(convert::not_kept(&sheet, MeshKind::of(to)))
 }
 
 const MESHES: &str = ".fold, .obj or .vtu";
@@ -189,15 +204,25 @@ fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
-fn read_mesh(path: &Path, expected: &'static str) -> Result<Sheet, RunError> {
-    match MeshKind::of(path) {
-        Some(MeshKind::Fold) => Ok(fold::read(path)?),
+fn read_mesh(path: &Path, frame: Option<usize>, expected: &'static str) -> Result<Sheet, RunError> {
+    match (MeshKind::of(path), frame) {
+        (Some(MeshKind::Obj | MeshKind::Vtu), Some(frame)) => Err(RunError::NoFrames { path: path.into(), frame }),
+        (kind, _) => read_kind(path, kind, frame, expected),
+    }
+}
+
+fn read_kind(
+    path: &Path,
+    kind: Option<MeshKind>,
+    frame: Option<usize>,
+    expected: &'static str,
+) -> Result<Sheet, RunError> {
+    match kind {
+        Some(MeshKind::Fold) => Ok(fold::read_frame(path, frame)?),
         Some(MeshKind::Obj) => Ok(obj::read(path)?),
         Some(MeshKind::Vtu) => {
-            let mesh = vtk::read_vtu(path)?;
             let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let faces = mesh.triangles.iter().map(|t| t.to_vec()).collect();
-            let drawn = Drawing { title, coords: mesh.points, faces, ..Drawing::default() };
+            let drawn = convert::drawing(vtk::read_vtu(path)?, title);
             build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
         }
         None => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),

@@ -18,7 +18,8 @@ fn threads() -> usize {
 /// The most threads that there were at any step of a run, and at its end.
 fn most_threads(scene: &str, threads_wanted: usize) -> usize {
     let folder = tempfile::tempdir().unwrap();
-    let options = RunOptions { out: Some(folder.path().into()), threads: Some(threads_wanted), resume: false };
+    let options =
+        RunOptions { out: Some(folder.path().into()), threads: Some(threads_wanted), ..RunOptions::default() };
     let scene = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("meshes/{scene}.toml"));
     let most = AtomicUsize::new(0);
     let count = || _ = most.fetch_max(threads(), Ordering::Relaxed);

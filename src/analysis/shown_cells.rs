@@ -3,7 +3,7 @@
 use crate::math::Vec3;
 use crate::model::{Assembly, Domain, Drawn, Site};
 use crate::sheet::tiling::{TiledEdge, TiledTriangle};
-use crate::sheet::{Sheet, Tiling, tile};
+use crate::sheet::{Assignment, EdgeKind, Sheet, Tiling, tile};
 use std::collections::HashMap;
 
 /// The cells on which a state is shown: a patch, one period of a torus, some cells of a screw.
@@ -21,6 +21,8 @@ pub struct ShownCells {
     pub beside: Vec<Vec<usize>>,
     /// Edge of the model's tiling of which each line of the patch is a copy.
     pub edges: Vec<usize>,
+    /// Letter of each edge of the patch; a crease at the rim, which lacks a face, is a boundary.
+    pub letters: Vec<Assignment>,
     /// Vertex of the sheet's cell, and the cell counted from the first one shown, at each point.
     pub places: Vec<(usize, [i32; 2])>,
     /// Vertex of the model, and the copy of it, at each point.
@@ -90,6 +92,7 @@ impl ShownCells {
             lines: placed.iter().map(|ends| ends.map(&point)).collect(),
             beside: patch.edges.iter().map(|e| beside(e.ends).iter().map(|(face, _)| *face).collect()).collect(),
             edges: patch.edges.iter().map(edge).collect(),
+            letters: letters(sheet, &patch),
             sites: places.iter().map(site).collect(),
             places,
             patch,
@@ -139,6 +142,17 @@ impl ShownCells {
         let place = |p: &Vec3| <[f64; 3]>::from(p - drawn.origin);
         fits.then(|| points[..home].iter().flat_map(place).collect())
     }
+}
+
+/// The letter of each edge of the patch.
+fn letters(sheet: &Sheet, patch: &Tiling) -> Vec<Assignment> {
+    let of_cell: Vec<Assignment> = sheet.edges.iter().map(|edge| sheet.assignment(edge)).collect();
+    let letter = |tiled: &TiledEdge| match (tiled.kind, of_cell[tiled.edge]) {
+        (EdgeKind::Boundary, Assignment::Cut) => Assignment::Cut,
+        (EdgeKind::Boundary, _) => Assignment::Boundary,
+        (_, letter) => letter,
+    };
+    patch.edges.iter().map(letter).collect()
 }
 
 /// The images that elements end at, in a fixed order, and the number of the point at a site.

@@ -213,6 +213,23 @@ impl Assembly {
         &self.geometry.angles
     }
 
+    /// Returns the fold angles of the sheet folded flat by its letters, one for each edge of the tiling, in radians: -pi for
+    /// mountains, pi for valleys and 0 for all others.
+    pub fn assigned_angles(&self) -> Vec<f64> {
+        let sheet = self.sheet();
+        let letters: Vec<_> = sheet.edges.iter().map(|edge| sheet.assignment(edge)).collect();
+        let edges = self.tiling().edges.iter();
+        edges.map(|tiled| letters[tiled.edge].flat_folded_angle().unwrap_or(0.0)).collect()
+    }
+
+    /// Returns this part of the target angles of the file, one for each edge of the tiling, in radians; the drawn angle of
+    /// an edge for which it gives none.
+    pub fn target_angles(&self, part: f64) -> Vec<f64> {
+        let target = |edge: usize| self.sheet().targets.get(&self.sheet().edges[edge].key);
+        let edges = self.tiling().edges.iter().zip(self.drawn_angles());
+        edges.map(|(tiled, drawn)| target(tiled.edge).map_or(*drawn, |angle| part * angle)).collect()
+    }
+
     /// Returns [`Assembly::drawn_angles`] with zero where there is no hinge.
     pub fn drawn_angles_or_zero(&self) -> Vec<f64> {
         self.drawn_angles().iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect()

@@ -20,6 +20,10 @@ pub enum Rest {
     Flat,
     /// The same angle for every hinge.
     Angle(f64),
+    /// This part of the angles of the sheet folded flat by its letters: -pi for mountains, pi for valleys, 0 for others.
+    Assigned(f64),
+    /// This part of the target angles of the file; the drawn angle where it gives none.
+    Target(f64),
     /// One angle for each edge of the tiling, in the tiling's order; only those of hinges of this kind are used.
     PerEdge(Vec<f64>),
 }
@@ -287,6 +291,8 @@ fn angles(assembly: &Assembly, rest: Rest) -> Result<Vec<f64>, AssemblyError> {
         Rest::Drawn => Ok(assembly.drawn_angles().to_vec()),
         Rest::Flat => Ok(vec![0.0; edges]),
         Rest::Angle(angle) => Ok(vec![angle; edges]),
+        Rest::Assigned(part) => Ok(assembly.assigned_angles().into_iter().map(|angle| part * angle).collect()),
+        Rest::Target(part) => Ok(assembly.target_angles(part)),
         Rest::PerEdge(angles) if angles.len() == edges => Ok(angles),
         Rest::PerEdge(angles) => Err(AssemblyError::Count { what: "rest angles", given: angles.len(), edges }),
     }

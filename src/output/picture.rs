@@ -6,7 +6,7 @@ use crate::analysis::shown_cells::ShownCells;
 use crate::analysis::state::State;
 use crate::math::Vec3;
 use crate::model::{Assembly, Drawn};
-use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
+use crate::sheet::{Assignment, Corner, EdgeKey, EdgeKind, Sheet};
 use std::collections::HashMap;
 
 /// A state of a sheet as a mesh, in which copies of vertices in other cells are points of their own.
@@ -28,6 +28,8 @@ pub struct Picture {
     pub lines: Vec<[usize; 2]>,
     /// Kind of each edge: crease, facet or boundary.
     pub line_kinds: Vec<EdgeKind>,
+    /// Letter of each edge: that of the mesh file, or what its drawing shows.
+    pub letters: Vec<Assignment>,
     /// Index of the edge of the sheet's cell of which each line is a copy.
     pub line_edges: Vec<i32>,
     /// Fold angle of each edge in radians, valley positive.
@@ -63,6 +65,7 @@ impl Picture {
             self_intersecting: vec![0; view.triangles.len()],
             lines: view.lines.clone(),
             line_kinds: view.patch.edges.iter().map(|edge| edge.kind).collect(),
+            letters: view.letters.clone(),
             line_edges: view.patch.edges.iter().map(|edge| edge.edge as i32).collect(),
             fold_angle: on_lines(&state.fold_angle),
             rest_angle: on_lines(&state.rest_angle),
@@ -106,6 +109,7 @@ impl Picture {
             self_intersecting: vec![0; triangles.len()],
             triangles,
             line_kinds: lines.iter().map(|(_, edge)| sheet.edges[*edge].kind).collect(),
+            letters: lines.iter().map(|(_, edge)| sheet.assignment(&sheet.edges[*edge])).collect(),
             line_edges: lines.iter().map(|(_, edge)| *edge as i32).collect(),
             fold_angle: lines.iter().map(|(_, edge)| angle(*edge)).collect(),
             lines: lines.into_iter().map(|(ends, _)| ends).collect(),
@@ -138,6 +142,7 @@ impl Picture {
             ("places", self.places.len(), points),
             ("self_intersecting", self.self_intersecting.len(), faces),
             ("line_kinds", self.line_kinds.len(), lines),
+            ("letters", self.letters.len(), lines),
             ("line_edges", self.line_edges.len(), lines),
             ("fold_angle", self.fold_angle.len(), lines),
             ("rest_angle", self.rest_angle.len(), lines),
@@ -179,6 +184,7 @@ pub(super) mod samples {
             self_intersecting: vec![0, 1],
             lines: vec![[0, 1], [1, 2], [2, 0], [0, 3], [3, 1]],
             line_kinds: [vec![EdgeKind::Crease], vec![EdgeKind::Boundary; 4]].concat(),
+            letters: [vec![Assignment::Valley], vec![Assignment::Boundary; 4]].concat(),
             line_edges: vec![0, 1, 2, 3, 4],
             fold_angle: vec![angle, none, none, none, none],
             rest_angle: vec![0.0, none, none, none, none],

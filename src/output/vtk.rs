@@ -19,7 +19,7 @@ use super::picture::Picture;
 use super::strain_space::StrainSurface;
 use super::{OutputError, files};
 use crate::math::Vec3;
-use crate::sheet::EdgeKind;
+use crate::sheet::{Assignment, EdgeKind};
 
 /// The mesh of a sheet read from a VTU file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +32,8 @@ pub struct VtuMesh {
     pub lines: Vec<[usize; 2]>,
     /// Fold angle of each line in radians; `None` if the file has no such array.
     pub fold_angle: Option<Vec<f64>>,
+    /// Letter of each line; `None` if the file has no such array, or other numbers in it.
+    pub letters: Option<Vec<Assignment>>,
     /// Force along each line, positive in tension; `None` if the file has no such array.
     pub tension: Option<Vec<f64>>,
     /// Torque of the hinge on each line; `None` if the file has no such array.
@@ -42,8 +44,8 @@ pub struct VtuMesh {
 ///
 /// Point arrays: `displacement`, and `vertex`, `cell1`, `cell2`, the vertex of the sheet's cell and the cell of which each
 /// point is the copy. Cell arrays: `fold_angle`, `rest_angle`, `strain`, `energy`, `tension`, `torque` (NaN
-/// on triangles), `self_intersecting` (0 on lines), and `edge`, the index of the edge of the cell of which the line is
-/// a copy (-1 on triangles).
+/// on triangles), `self_intersecting` (0 on lines), `edge`, the index of the edge of the cell of which the line is a copy,
+/// and `assignment`, 0 to 6 for the letters B, M, V, F, U, C, J (both -1 on triangles).
 ///
 /// # Errors
 /// [`OutputError::Shape`] if the arrays of the picture are inconsistent, [`OutputError::Write`].
@@ -231,6 +233,8 @@ fn attributes(picture: &Picture) -> Attributes {
     let crossing = [&picture.self_intersecting[..], &vec![0; picture.lines.len()]].concat();
     let edges = [&vec![-1; faces], &picture.line_edges[..]].concat();
     let place = |of: &dyn Fn(&(usize, [i32; 2])) -> i32| IOBuffer::I32(picture.places.iter().map(of).collect());
+    let letters = picture.letters.iter().map(|letter| letter.number() as i32);
+    let letters = vec![-1; faces].into_iter().chain(letters).collect();
     Attributes {
         point: vec![
             array("displacement", ElementType::Vectors, coordinates(&picture.displacement)),
@@ -247,6 +251,7 @@ fn attributes(picture: &Picture) -> Attributes {
             scalars("torque", on_lines(&picture.torque)),
             scalars("self_intersecting", IOBuffer::U8(crossing)),
             scalars("edge", IOBuffer::I32(edges)),
+            scalars("assignment", IOBuffer::I32(letters)),
         ],
     }
 }
@@ -292,8 +297,7 @@ pub fn read_vtu(path: &Path) -> Result<VtuMesh, OutputError> {
 /// Reads the picture of a state from a VTU file that [`write_vtu`] has written. Arrays that the file lacks are NaN, or 0
 /// for marks and displacements; edges are numbered by their lines where the file has no numbers.
 ///
-/// Lines without a fold angle are boundaries, and all others creases: the file does not tell diagonals of polygons from
-/// creases.
+/// Without letters in the file, lines without a fold angle are boundaries and all others creases.
 ///
 /// # Errors
 /// [`OutputError::Read`] if the file cannot be read, [`OutputError::Vtu`] if its content is not valid.
@@ -313,13 +317,17 @@ fn parse_picture(bytes: &[u8]) -> Result<Picture, VtuFault> {
     let marks = numbers_on("self_intersecting", &piece.data, &face_cells);
     let edges = numbers_on("edge", &piece.data, &line_cells);
     let fold_angle = on_lines("fold_angle");
-    let kind = |angle: &f64| if angle.is_nan() { EdgeKind::Boundary } else { EdgeKind::Crease };
+    let letters = numbers_on("assignment", &piece.data, &line_cells);
+    let letters = letters.and_then(|numbers| numbers.into_iter().map(Assignment::from_number).collect());
+    let letters: Vec<Assignment> =
+        letters.unwrap_or_else(|| fold_angle.iter().map(|angle| Assignment::of_angle(*angle)).collect());
     Ok(Picture {
         places: places(&piece.data, mesh.points.len()),
         displacement: displacements(&piece.data, mesh.points.len()),
         self_intersecting: marks
             .map_or(vec![0; mesh.triangles.len()], |marks| marks.iter().map(|&mark| u8::from(mark > 0.0)).collect()),
-        line_kinds: fold_angle.iter().map(kind).collect(),
+        line_kinds: letters.iter().map(|&letter| kind(letter)).collect(),
+        letters,
         line_edges: edges.map_or((0..lines as i32).collect(), |edges| edges.iter().map(|&edge| edge as i32).collect()),
         rest_angle: on_lines("rest_angle"),
         strain: on_lines("strain"),
@@ -331,6 +339,15 @@ fn parse_picture(bytes: &[u8]) -> Result<Picture, VtuFault> {
         triangles: mesh.triangles,
         lines: mesh.lines,
     })
+}
+
+/// Returns the kind of an edge with this letter.
+fn kind(letter: Assignment) -> EdgeKind {
+    match letter {
+        Assignment::Boundary | Assignment::Cut => EdgeKind::Boundary,
+        Assignment::Join => EdgeKind::Facet,
+        Assignment::Mountain | Assignment::Valley | Assignment::Flat | Assignment::Unassigned => EdgeKind::Crease,
+    }
 }
 
 /// Returns the vertices and cells of which the points are copies; each point is a vertex of its own if the file does not say.
@@ -372,6 +389,8 @@ fn parse_vtu(bytes: &[u8]) -> Result<VtuMesh, VtuFault> {
     let line_cells = mesh.add_cells(piece.cells)?;
     let on_lines = |name: &str| numbers_on(name, &piece.data, &line_cells);
     (mesh.fold_angle, mesh.tension, mesh.torque) = (on_lines("fold_angle"), on_lines("tension"), on_lines("torque"));
+    let letters = on_lines("assignment");
+    mesh.letters = letters.and_then(|numbers| numbers.into_iter().map(Assignment::from_number).collect());
     Ok(mesh)
 }
 
@@ -461,6 +480,7 @@ mod tests {
         assert_eq!((&mesh.points, &mesh.triangles, &mesh.lines), (&picture.points, &picture.triangles, &picture.lines));
         let bits = |angles: &[f64]| angles.iter().map(|a| a.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&mesh.fold_angle.unwrap()), bits(&picture.fold_angle));
+        assert_eq!(mesh.letters.unwrap(), picture.letters);
         assert_eq!(bits(&mesh.tension.unwrap()), bits(&picture.tension));
         assert_eq!(bits(&mesh.torque.unwrap()), bits(&picture.torque));
     }
@@ -495,7 +515,17 @@ mod tests {
         };
         let points = [("displacement", 12), ("vertex", 4), ("cell1", 4), ("cell2", 4)];
         assert_eq!(lengths(&piece.data.point), points.map(|(name, length)| (name.to_owned(), length)));
-        let names = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque", "self_intersecting", "edge"];
+        let names = [
+            "fold_angle",
+            "rest_angle",
+            "strain",
+            "energy",
+            "tension",
+            "torque",
+            "self_intersecting",
+            "edge",
+            "assignment",
+        ];
         assert_eq!(lengths(&piece.data.cell), names.map(|name| (name.to_owned(), 7)));
     }
 
@@ -543,7 +573,13 @@ mod tests {
     fn an_empty_picture_reads_back() {
         assert_eq!(
             parse_vtu(&written(&Picture::default())).unwrap(),
-            VtuMesh { fold_angle: Some(vec![]), tension: Some(vec![]), torque: Some(vec![]), ..<_>::default() }
+            VtuMesh {
+                fold_angle: Some(vec![]),
+                letters: Some(vec![]),
+                tension: Some(vec![]),
+                torque: Some(vec![]),
+                ..<_>::default()
+            }
         );
     }
 

@@ -1,17 +1,56 @@
-//! The parts of a mesh file that a conversion does not keep.
+//! Meshes of VTU files, and the parts of a mesh file that a conversion does not keep.
+
+use std::collections::BTreeSet;
 
 use super::MeshKind;
-use crate::sheet::{EdgeKind, Sheet};
+use crate::output::vtk::VtuMesh;
+use crate::sheet::build::Drawing;
+use crate::sheet::info::TURNED_OVER;
+use crate::sheet::{Assignment, Sheet};
+
+/// Largest magnitude of a fold angle, in radians, at which a mountain or valley may be drawn on the other side.
+const FLAT_RAD: f64 = 1e-6;
+
+/// Returns the mesh of a VTU file as a drawing. Lines that are assigned J are diagonals of polygons and become facets;
+/// a mountain or valley that the state has folded to the other side is what the state shows.
+pub(super) fn drawing(mesh: VtuMesh, title: String) -> Drawing {
+    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+    let sides = |t: &[usize; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]].map(sorted);
+    let sides: BTreeSet<[usize; 2]> = mesh.triangles.iter().flat_map(sides).collect();
+    let letters = mesh.letters.unwrap_or_default();
+    let angles = mesh.fold_angle.unwrap_or_else(|| vec![0.0; letters.len()]);
+    let told = mesh.lines.iter().zip(letters).zip(angles).filter_map(|((ends, letter), angle)| {
+        let contrary = match letter {
+            Assignment::Mountain => angle > FLAT_RAD,
+            Assignment::Valley => angle < -FLAT_RAD,
+            Assignment::Boundary => true,
+            _ => false,
+        };
+        (!contrary && sides.contains(&sorted(*ends))).then_some((*ends, letter))
+    });
+    Drawing {
+        title,
+        assignments: told.collect(),
+        coords: mesh.points,
+        faces: mesh.triangles.iter().map(|t| t.to_vec()).collect(),
+        ..Drawing::default()
+    }
+}
 
 /// Returns a sentence for each part of the file of `sheet` that is not in the new file.
-pub(super) fn not_kept(sheet: &Sheet, from: Option<MeshKind>, to: Option<MeshKind>) -> Vec<String> {
+pub(super) fn not_kept(sheet: &Sheet, to: Option<MeshKind>) -> Vec<String> {
     let mut notes = Vec::new();
-    match sheet.record.further_frames {
-        0 => {}
-        1 => notes.push("1 further frame in `file_frames` is not kept, only the first frame is read".to_owned()),
-        count => {
-            notes.push(format!("{count} further frames in `file_frames` are not kept, only the first frame is read"))
-        }
+    let frames = sheet.record.further_frames;
+    if frames > 0 && (to != Some(MeshKind::Fold) || sheet.record.frames.is_none()) {
+        let (frames, are) =
+            if frames == 1 { ("1 other frame".into(), "is") } else { (format!("{frames} other frames"), "are") };
+        notes.push(format!("{frames} in `file_frames` {are} not kept, only frame {} is", sheet.record.frame));
+    }
+    if sheet.record.turned_over {
+        notes.push(TURNED_OVER.to_owned());
+    }
+    if to == Some(MeshKind::Obj) && !sheet.listed_edges.is_empty() {
+        notes.push("OBJ has no list of edges: their order is not kept".to_owned());
     }
     if !sheet.record.left_out.is_empty() {
         notes.push(format!("not kept: {}", quoted(sheet.record.left_out.iter())));
@@ -19,19 +58,12 @@ pub(super) fn not_kept(sheet: &Sheet, from: Option<MeshKind>, to: Option<MeshKin
     if to == Some(MeshKind::Vtu) && !sheet.record.metadata.is_empty() {
         notes.push(format!("not kept: {}", quoted(sheet.record.metadata.iter().map(|(key, _)| key))));
     }
-    if to == Some(MeshKind::Vtu) && !sheet.assignments.is_empty() {
-        let count = sheet.assignments.len();
-        notes.push(format!("VTU has no letters for edges: {count} that the drawing does not show are not kept"));
-    }
     if to == Some(MeshKind::Vtu) && !sheet.targets.is_empty() {
         notes.push(format!("VTU has no target angles: {} that are not drawn are not kept", sheet.targets_not_drawn()));
     }
     let stiffnesses = sheet.stiffness.hinges.len() + sheet.stiffness.bars.len();
     if to != Some(MeshKind::Fold) && stiffnesses > 0 {
         notes.push(format!("{stiffnesses} stiffnesses of edges are not kept: FOLD alone has a place for them"));
-    }
-    if from == Some(MeshKind::Vtu) && sheet.edges.iter().any(|edge| edge.kind == EdgeKind::Crease) {
-        notes.push("VTU does not tell diagonals of polygons from creases: all edges are creases now".to_owned());
     }
     notes
 }

@@ -65,6 +65,15 @@ pub enum RunError {
         /// The study.
         study: String,
     },
+    /// A frame is asked for of a file that has none.
+    #[error("{}: frame {frame} is asked for, but this file has no frames", path.display())]
+    #[diagnostic(help("frames are those of FOLD files; leave out --frame"))]
+    NoFrames {
+        /// The file.
+        path: PathBuf,
+        /// The frame.
+        frame: usize,
+    },
     /// The kind of a file is unknown.
     #[error("{}: {}", path.display(), unknown_ending(ending))]
     #[diagnostic(help("expected one of {expected}"))]

@@ -60,7 +60,7 @@ pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> 
 pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let spec = &file.scene.sheet;
     if let Some(mesh) = &spec.mesh {
-        return Ok(fold::read(&file.resolve(mesh))?);
+        return Ok(fold::read_frame(&file.resolve(mesh), file.scene.sheet.frame.as_deref().copied())?);
     }
     let Some(table) = &spec.generate else {
         return Err(file.error_at(0..0, "the sheet has no mesh", "give `mesh = \"file.fold\"` or `generate = { .. }`"));
@@ -164,7 +164,7 @@ impl<'a> Reader<'a> {
         };
         match &**rest {
             RestSpec::Target => self.targets(fraction.map_or(1.0, |fraction| fraction.0), rest.span()),
-            RestSpec::Assigned => self.values.flat_folded(of, rest.span()).map(part),
+            RestSpec::Assigned => self.flat_folded(of, rest.span()).map(part),
             RestSpec::Letters(letters) => self.values.angles_by_letter(letters, of, rest.span()).map(part),
             RestSpec::Drawn => Ok(self.angles.to_vec()),
             RestSpec::Flat => Ok(vec![0.0; self.angles.len()]),
@@ -174,19 +174,24 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Returns the angles of the sheet folded flat by its letters.
+    fn flat_folded(&self, of: ElementKind, span: Range<usize>) -> Result<Vec<f64>, SceneError> {
+        let angles = self.assembly.assigned_angles();
+        if of == ElementKind::Creases && angles.iter().all(|angle| *angle == 0.0) {
+            let help = "give `edges_assignment` in the mesh, or other rest angles";
+            return Err(self.file.error_at(span, "no crease has the letter M or V", help));
+        }
+        Ok(angles)
+    }
+
     /// Returns a fraction of the target angles of the mesh file; the drawn angles where it gives none.
     fn targets(&self, fraction: f64, span: Range<usize>) -> Result<Vec<f64>, SceneError> {
-        let targets = &self.sheet.targets;
-        if targets.is_empty() {
+        if self.sheet.targets.is_empty() {
             let help = "fold angles of the mesh, if it has them, are the drawn ones: rest = \"drawn\"; rest = \"assigned\" \
                         folds by the letters M and V";
             return Err(self.file.error_at(span, "the mesh gives no target angles", help));
         }
-        let target = |(k, drawn): (usize, &f64)| {
-            let given = targets.get(&self.sheet.edges[self.tiling.edges[k].edge].key);
-            given.map_or(*drawn, |target| fraction * target)
-        };
-        Ok(self.angles.iter().enumerate().map(target).collect())
+        Ok(self.assembly.target_angles(fraction))
     }
 
     fn along_mode(&self, rest: &ModeRest, of: ElementKind, rigid_facets: &[usize]) -> Result<Vec<f64>, SceneError> {

@@ -39,6 +39,10 @@ fn sheet(file: &SceneFile) -> Checked {
         }
         _ => {}
     }
+    if let Some(frame) = sheet.frame.as_ref().filter(|_| sheet.mesh.is_none()) {
+        let help = "it belongs to mesh = \"file.fold\"; leave it out otherwise";
+        return Err(file.error_at(frame.span(), "`frame` is given for a pattern", help));
+    }
     match &sheet.lattice {
         Some(lattice) if sheet.domain() != DomainSpec::Torus => {
             let help = "it belongs to domain = \"torus\"; leave it out otherwise";

@@ -169,19 +169,6 @@ impl<'a> ElementValues<'a> {
         (0..self.tiling.edges.len()).filter(move |&k| of.is_at(self.tiling.edges[k].kind))
     }
 
-    /// Returns the angle of each hinge in the sheet folded flat, by the letter of its edge: 0 where that is unassigned.
-    pub(super) fn flat_folded(&self, of: ElementKind, span: Range<usize>) -> Result<Vec<f64>, SceneError> {
-        let mut each = vec![0.0; self.tiling.edges.len()];
-        for k in self.edges(of) {
-            each[k] = self.letter(k).flat_folded_angle().unwrap_or(0.0);
-        }
-        if of == ElementKind::Creases && each.iter().all(|angle| *angle == 0.0) {
-            let help = "give `edges_assignment` in the mesh, or other rest angles";
-            return Err(self.file.error_at(span, "no crease has the letter M or V", help));
-        }
-        Ok(each)
-    }
-
     /// Returns the rest angle of each hinge by the letter of its edge: 0 for creases that are flat or unassigned and for
     /// diagonals, if the table does not give another.
     pub(super) fn angles_by_letter(

@@ -3,7 +3,7 @@
 use super::SceneFile;
 use super::rest::RestSpec;
 use crate::model::Assembly;
-use crate::sheet::info::targets_said;
+use crate::sheet::info::{TURNED_OVER, frames_said, targets_said};
 use crate::sheet::{Assignment, EdgeKind};
 
 /// Returns remarks about a scene, made before its studies.
@@ -11,6 +11,18 @@ pub(super) fn notes(file: &SceneFile, assembly: &Assembly) -> Vec<String> {
     let mut notes = super::turns::notes(file, assembly.terms());
     notes.extend(one_angle_for_both_sides(file, assembly));
     notes.extend(unused_targets(file, assembly));
+    if assembly.sheet().record.turned_over {
+        notes.push(TURNED_OVER.to_owned());
+    }
+    let [against, folded] = assembly.sheet().drawn_against_targets();
+    if against > 0 {
+        notes.push(format!(
+            "{against} of {folded} folded creases are drawn on the other side than the target angles of the file; if it is \
+             most of them, the pattern is folded backwards or its faces are listed clockwise"
+        ));
+    }
+    let record = &assembly.sheet().record;
+    notes.extend(frames_said(record.frame, record.further_frames).filter(|_| file.scene.sheet.frame.is_none()));
     notes
 }
 

@@ -58,6 +58,18 @@ fn there_are(names: &[String]) -> String {
     if names.is_empty() { "it is empty".into() } else { format!("there are {}", names.join(", ")) }
 }
 
+impl Setting {
+    /// Returns the setting of the frame of the mesh, `sheet.frame`.
+    pub fn of_frame(frame: usize) -> Self {
+        let value = i64::try_from(frame).unwrap_or(i64::MAX);
+        Self {
+            text: format!("sheet.frame={frame}"),
+            keys: ["sheet", "frame"].map(Key::new).to_vec(),
+            value: value.into(),
+        }
+    }
+}
+
 impl FromStr for Setting {
     type Err = SettingError;
 

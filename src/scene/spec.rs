@@ -59,6 +59,8 @@ pub struct Scene {
 pub struct SheetSpec {
     /// A FOLD file with one cell of the sheet.
     pub mesh: Option<Located<PathBuf>>,
+    /// The frame of the FOLD file: 0 is its top, those of `file_frames` are 1, 2, ...; left out: the first with a mesh.
+    pub frame: Option<Located<usize>>,
     /// A pattern and its parameters, `{ pattern = "miura", .. }`, as `foldwell new` takes them.
     #[schemars(with = "Option<std::collections::BTreeMap<String, serde_json::Value>>")]
     pub generate: Option<Located<toml::Table>>,

@@ -25,6 +25,15 @@ impl Sheet {
         self.edges.iter().filter(differs).count()
     }
 
+    /// Returns the number of creases that are drawn folded to the other side than their target angle, and that of all
+    /// creases that are drawn folded and have a target angle.
+    pub fn drawn_against_targets(&self) -> [usize; 2] {
+        let creases = self.edges.iter().filter(|edge| edge.kind == EdgeKind::Crease);
+        let both = creases.filter_map(|edge| Some(self.targets.get(&edge.key)? * self.drawn_angle(edge)?));
+        let folded: Vec<f64> = both.filter(|product| product.abs() > SAME_ANGLE_RAD * SAME_ANGLE_RAD).collect();
+        [folded.iter().filter(|product| **product < 0.0).count(), folded.len()]
+    }
+
     /// Returns the assignment of an edge: that of the file, or what the drawing shows if the file gives none.
     pub fn assignment(&self, edge: &Edge) -> Assignment {
         self.assignments.get(&edge.key).copied().unwrap_or_else(|| self.drawn_assignment(edge))

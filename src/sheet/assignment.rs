@@ -1,5 +1,6 @@
 //! Edge assignments, the letters of FOLD that say how an edge folds.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 /// The assignment of an edge in FOLD 1.2.
@@ -45,6 +46,26 @@ impl Assignment {
             Self::Valley => Some(std::f64::consts::PI),
             Self::Flat | Self::Join => Some(0.0),
             Self::Boundary | Self::Cut | Self::Unassigned => None,
+        }
+    }
+
+    /// Returns the number of the assignment, 0 to 6 for B, M, V, F, U, C, J, where a file has numbers only.
+    pub(crate) fn number(self) -> usize {
+        Self::LETTERS.iter().position(|(known, _)| *known == self).unwrap_or_default()
+    }
+
+    /// Returns the assignment with this number; `None` if there is none.
+    pub(crate) fn from_number(number: f64) -> Option<Self> {
+        (0..Self::LETTERS.len()).find(|k| *k as f64 == number).map(|k| Self::LETTERS[k].0)
+    }
+
+    /// Returns the assignment that a drawn fold angle in radians shows; a boundary if it is not a number.
+    pub(crate) fn of_angle(angle: f64) -> Self {
+        match angle.partial_cmp(&0.0) {
+            None => Self::Boundary,
+            Some(Ordering::Less) => Self::Mountain,
+            Some(Ordering::Equal) => Self::Flat,
+            Some(Ordering::Greater) => Self::Valley,
         }
     }
 

@@ -124,6 +124,8 @@ pub struct Sheet {
     pub stiffness: MeshStiffness,
     /// Named lists of vertices (`foldwell:names`), each vertex as the corner that the file draws.
     pub names: BTreeMap<String, Vec<Corner>>,
+    /// The edges in the order of the file, each by its drawn ends; empty if that is the order along the faces.
+    pub listed_edges: Vec<[Corner; 2]>,
     /// Content of the file other than the shape.
     pub record: FileRecord,
 }

@@ -3,6 +3,7 @@
 use super::assignment_fault::AssignmentFault;
 pub use super::drawn_edge::DrawnEdge;
 use super::fold_angle_fault::FoldAngleFault;
+use super::frame_fault::FrameFault;
 use std::path::PathBuf;
 
 /// The reason why a file gives no sheet.
@@ -165,7 +166,8 @@ pub enum Problem {
     },
     /// Two drawn vertices have the same position.
     #[error(
-        "vertex {vertex} stands where vertex {other} stands; every place should have one vertex, shared by its faces"
+        "vertex {vertex} stands where vertex {other} stands; a place should have one vertex, except where different faces of \
+         a finite sheet touch that are all listed"
     )]
     DuplicateVertex {
         /// The later one.
@@ -373,6 +375,9 @@ pub enum Problem {
         /// Stiffness of the copy that is listed before.
         before: f64,
     },
+    /// A frame that cannot be read.
+    #[error(transparent)]
+    Frame(#[from] FrameFault),
     /// A fold angle that the sheet cannot have.
     #[error(transparent)]
     FoldAngle(#[from] FoldAngleFault),

@@ -1,15 +1,36 @@
 //! Counts and measures of a sheet, available before anything is computed with it.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use serde::Serialize;
 
 use super::assignment::Assignment;
+use super::build::coincident;
 use super::cell::{Corner, EdgeKind, Sheet};
 use crate::math::Vec3;
 
 /// Largest angle defect, in radians, of a sheet that is called developable.
 const DEVELOPABLE: f64 = 1e-9;
+
+/// Quality below which a triangle is thin: relaxations reach their tolerance on triangles of 2e-4 and, in tests of single
+/// thin triangles, fail on most of 2e-5, because rounding of their corners turns them by an angle of its own.
+const THIN_QUALITY: f64 = 1e-3;
+/// Number of thin triangles that are named.
+const NAMED: usize = 3;
+
+/// What is said of a mesh whose faces were turned over.
+pub(crate) const TURNED_OVER: &str =
+    "all faces of the file are turned over, to the side from which its letters M and V are seen";
+
+/// A triangle, and its quality as in [`Info::worst_triangle_quality`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ThinTriangle {
+    /// Numbers of its corners in the cell.
+    pub vertices: [usize; 3],
+    /// Its quality.
+    pub quality: f64,
+}
 
 /// Counts and measures of one cell, or of a finite sheet.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -56,9 +77,21 @@ pub struct Info {
     /// Least `4 sqrt(3) area / (sum of squared sides)` of a triangle: 1 for equilateral triangles, 0 for those
     /// without area.
     pub worst_triangle_quality: f64,
+    /// Number of triangles of a quality below 1e-3, on which a relaxation may not reach its tolerance.
+    pub thin_triangles: usize,
+    /// The thinnest of them, up to three.
+    pub thinnest: Vec<ThinTriangle>,
     /// Number of creases and diagonals whose fold angle in the file is not the drawn one: a target of folding.
     pub target_angles: usize,
-    /// Number of frames of the file after the first one, which alone is read.
+    /// Number of creases that are drawn folded to the other side than their target angle.
+    pub drawn_against_targets: usize,
+    /// Whether all faces of the file were turned over, since its letters are those of the other side.
+    pub turned_over: bool,
+    /// Number of vertices that stand where another one stands, as those of layers that touch; ends of cuts are not counted.
+    pub touching_vertices: usize,
+    /// Number of the frame that is read: 0 is the top of the file.
+    pub frame: usize,
+    /// Number of the other frames of the file.
     pub further_frames: usize,
 }
 
@@ -69,7 +102,7 @@ impl Info {
         let free = 3 * sheet.vertices.len() as i64 - sheet.edges.len() as i64;
         let lengths =
             || sheet.edges.iter().map(|e| e.key.ends().map(|c| sheet.position(c))).map(|[i, j]| (j - i).norm());
-        let defect = largest_angle_defect(sheet);
+        let (defect, mut thin) = (largest_angle_defect(sheet), thin_triangles(sheet));
         Self {
             title: sheet.title.clone(),
             periodic: sheet.lattice.is_some(),
@@ -91,10 +124,34 @@ impl Info {
             shortest_edge: lengths().fold(f64::INFINITY, f64::min),
             longest_edge: lengths().fold(0.0, f64::max),
             worst_triangle_quality: points(sheet).map(quality).fold(1.0, f64::min),
+            thin_triangles: thin.len(),
+            thinnest: {
+                thin.truncate(NAMED);
+                thin
+            },
             target_angles: sheet.targets_not_drawn(),
+            drawn_against_targets: sheet.drawn_against_targets()[0],
+            turned_over: sheet.record.turned_over,
+            touching_vertices: touching(sheet),
+            frame: sheet.record.frame,
             further_frames: sheet.record.further_frames,
         }
     }
+}
+
+/// Returns the thin triangles, the thinnest first.
+fn thin_triangles(sheet: &Sheet) -> Vec<ThinTriangle> {
+    let all = sheet.triangles.iter().zip(points(sheet));
+    let all = all.map(|(t, x)| ThinTriangle { vertices: t.corners.map(|corner| corner.vertex), quality: quality(x) });
+    let mut thin: Vec<ThinTriangle> = all.filter(|triangle| triangle.quality < THIN_QUALITY).collect();
+    thin.sort_by(|a, b| a.quality.total_cmp(&b.quality));
+    thin
+}
+
+/// Returns the number of drawn vertices that share their place with another one.
+fn touching(sheet: &Sheet) -> usize {
+    let pairs = coincident(&sheet.vertices[..sheet.vertices.len() - sheet.cut_from.len()]);
+    pairs.into_iter().flatten().collect::<BTreeSet<_>>().len()
 }
 
 /// Says that so many fold angles of a file are targets.
@@ -168,14 +225,37 @@ impl fmt::Display for Info {
         )?;
         writeln!(f, "edge lengths           {:.6} to {:.6}", self.shortest_edge, self.longest_edge)?;
         write!(f, "worst triangle         quality {:.4} (1: equilateral)", self.worst_triangle_quality)?;
+        if self.thin_triangles > 0 {
+            let named = self.thinnest.iter().map(|thin| format!("{:?} of {:.1e}", thin.vertices, thin.quality));
+            let named = named.collect::<Vec<_>>().join(", ");
+            let more = if self.thin_triangles > self.thinnest.len() { ", .." } else { "" };
+            let count = self.thin_triangles;
+            write!(f, "\nthin triangles         {count} of quality under {THIN_QUALITY:?}: {named}{more}")?;
+        }
         if self.target_angles > 0 {
             write!(f, "\ntarget angles          {}", targets_said(self.target_angles))?;
         }
-        match self.further_frames {
-            0 => Ok(()),
-            frames => write!(f, "\nframes                 the first; {frames} more in the file are not read"),
+        if self.drawn_against_targets > 0 {
+            let count = self.drawn_against_targets;
+            write!(f, "\n                       {count} creases are drawn on the other side than their targets")?;
+        }
+        if self.turned_over {
+            write!(f, "\nturned over            {TURNED_OVER}")?;
+        }
+        if self.touching_vertices > 0 {
+            write!(f, "\ntouching layers        {} vertices stand where others stand", self.touching_vertices)?;
+        }
+        match frames_said(self.frame, self.further_frames) {
+            None => Ok(()),
+            Some(said) => write!(f, "\nframes                 {said}"),
         }
     }
+}
+
+/// Says which frame of a file is read, if it has several.
+pub(crate) fn frames_said(frame: usize, others: usize) -> Option<String> {
+    let (more, are) = if others == 1 { ("other is", "it") } else { ("others are", "another") };
+    (others > 0).then(|| format!("frame {frame} is read; {others} {more} not, `--frame n` reads {are}"))
 }
 
 #[cfg(test)]

@@ -4,10 +4,16 @@
 /// not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileRecord {
-    /// Keys about the file and its frame, such as `file_author`, with their values as JSON text.
+    /// Keys that are kept, such as `file_author`, with their values as JSON text.
     pub metadata: Vec<(String, String)>,
     /// Keys that are neither used nor kept.
     pub left_out: Vec<String>,
-    /// Number of frames of the file after the first one, which alone is read.
+    /// Whether all faces were turned over, since the letters of the file are those of the other side.
+    pub turned_over: bool,
+    /// Number of the frame that is read: 0 is the top of the file.
+    pub frame: usize,
+    /// Number of the other frames of the file, which are not read.
     pub further_frames: usize,
+    /// The text of `file_frames`, if the frames can be kept beside the one that is read.
+    pub frames: Option<String>,
 }

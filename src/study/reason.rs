@@ -38,7 +38,9 @@ fn unmet_lock(assembly: &Assembly, state: &State) -> Option<String> {
 }
 
 fn thin_triangle(assembly: &Assembly) -> Option<String> {
-    let quality = Info::new(assembly.sheet()).worst_triangle_quality;
+    let info = Info::new(assembly.sheet());
+    let quality = info.worst_triangle_quality;
+    let named = info.thinnest.first().map_or(String::new(), |thin| format!(", with the vertices {:?}", thin.vertices));
     (quality < THIN)
-        .then(|| format!("the worst triangle of the sheet is thin, of quality {quality:.1e} (1: equilateral)"))
+        .then(|| format!("the worst triangle of the sheet is thin, of quality {quality:.1e} (1: equilateral){named}"))
 }

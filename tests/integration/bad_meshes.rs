@@ -108,7 +108,17 @@ fn wrong_vertices() {
         (square(&[]).replace("[0, 0, 0]", "[0, 0, 0, 0]"), 3, "vertex 0 has 4 coordinates"),
         (square(&[]).replace("[1, 1, 0]", "[1, 1e60, 0]"), 5, "vertex 2 has the coordinate 1e60"),
         (with("[5, 5, 5]"), 7, "vertex 4 belongs to no face"),
-        (with("[1, 1, 0]"), 7, "vertex 4 stands where vertex 2 stands"),
+        (square(&[]).replace("[1, 1, 0]", "[1, 0, 0]"), 5, "vertex 2 stands where vertex 1 stands"),
+        (
+            square(&["\"foldwell:lattice\": [[9, 0, 0], [0, 9, 0]]"]).replace("[1, 1, 0]", "[1, 0, 0]"),
+            5,
+            "vertex 2 stands",
+        ),
+        (
+            wires(&["[0, 0]", "[1, 0]", "[0, 1]", "[1, 0]"], &["[0, 1]", "[1, 2]", "[2, 0]", "[0, 3]"]),
+            6,
+            "vertex 3 stands where vertex 1 stands",
+        ),
         (square(&[]).replace("[0, 2, 3]", "[0, 2, 4]"), 10, "face 1 names vertex 4; vertices are numbered 0 to 3"),
         (square(&[]).replace("[0, 2, 3]", "[0, 2, -1]"), 10, "face 1 names vertex -1"),
         (square(&[]).replace("3]", "99999999999999999999999]"), 10, "face 1 names vertex 99999999999999999999999"),

@@ -110,7 +110,7 @@ const FAULTS: &[Fault] = &[
     fault(5, "cells = [4, 6, 2]", "5:9", "the list has 3 values", "expected 2"),
     fault(5, "cells = [4000000000, 4000000000]", "5:9", "4000000000 x 4000000000 cells are more than can be numbered", "expected at most 2147483647 in all"),
     fault(5, "cells = [99999999999999999999, 1]", "5:10", "invalid type: integer `99999999999999999999` as i128", "expected a whole number"),
-    fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "the keys here are `mesh`, `generate`, `domain`, `cells`, `lattice`"),
+    fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "the keys here are `mesh`, `frame`, `generate`, `domain`, `cells`, `lattice`"),
     fault(5, "cells = [4, 6]\nlattice = \"free\"", "6:11", "`lattice` is given for a patch", "it belongs to domain = \"torus\"; leave it out otherwise"),
     fault(4, "domain = \"screw\"", "14:10", "a load on a screw domain", "loads and pins need domain = \"patch\""),
     // the energy
@@ -132,7 +132,7 @@ const FAULTS: &[Fault] = &[
     fault(8, "creases = { stiffness = 1.0, rest = { amplitude = 0.1 } }", "8:37", "`mode` is missing", "expected { mode = [k11, k22, k12], amplitude = e }"),
     fault(8, "creases = { stiffness = 1.0, rest = {} }", "8:37", "the table is empty", "expected { M = -1.0, V = 1.0 }, { mode, amplitude } or { file }"),
     fault(8, "creases = { stiffness = 1.0, rest = { file = \"a.csv\", amplitude = 0.1 } }", "8:37", "rest angles come from more than one of letters, a mode and a file", "expected one of the three"),
-    fault(9, "facets = { stiffness = 10, angle = 1 }", "9:28", "unknown key `angle`", "the keys here are `stiffness` or `rest`"),
+    fault(9, "facets = { stiffness = 10, angle = 1 }", "9:28", "unknown key `angle`", "the keys here are `stiffness`, `rest`, `fraction`"),
     fault(7, "bars = { stiffness = {} }", "7:22", "the table is empty", "expected { M = 1.0, V = 2.0, .. } or { file }"),
     fault(7, "bars = { stiffness = { M = 1, file = \"k.csv\" } }", "7:22", "stiffnesses come from letters and from a file at once", "expected one of the two"),
     fault(7, "bars = { stiffness = { Q = 1 } }", "7:24", "unknown key `Q`", "the keys here are `M`, `V`, `F`, `U`, `B`, `C`, `J`, `file`"),

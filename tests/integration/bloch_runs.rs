@@ -15,7 +15,7 @@ fn cases() -> PathBuf {
 }
 
 fn run(scene: &Path, out: &Path, resume: bool) -> Result<RunReport, RunError> {
-    let options = RunOptions { out: Some(out.into()), threads: None, resume };
+    let options = RunOptions { out: Some(out.into()), resume, ..RunOptions::default() };
     run_scene(scene, &options, &|_| ControlFlow::Continue(()))
 }
 

@@ -275,7 +275,7 @@ fn names_are_converted() {
     let folder = tempfile::tempdir().unwrap();
     let [from, to] = ["roof.fold", "copy.fold"].map(|name| folder.path().join(name));
     std::fs::write(&from, ROOF).unwrap();
-    let notes = foldwell::run::convert(Path::new(&from), Path::new(&to)).unwrap();
+    let notes = foldwell::run::convert(Path::new(&from), Path::new(&to), None).unwrap();
     assert!(notes.is_empty(), "{notes:?}");
     assert_eq!(fold::read(&to).unwrap().names, fold::read(&from).unwrap().names);
 }

@@ -46,14 +46,8 @@ fn read(text: &str) -> Sheet {
 
 /// Relaxes a pattern with rigid faces whose creases rest at 0.2 of the flat fold.
 fn folded(text: &str, bars: f64) -> Result<Relaxed, Box<RelaxError>> {
-    let sheet = read(text);
-    let angle = |edge| match sheet.assignment(edge) {
-        Assignment::Mountain => -0.2 * PI,
-        Assignment::Valley => 0.2 * PI,
-        _ => 0.0,
-    };
-    let rest = sheet.edges.iter().map(angle).collect();
-    relax(&Assembly::patch(sheet, [1, 1]).bars(bars).creases(1.0).rest(Rest::PerEdge(rest)).build().unwrap())
+    let pattern = Assembly::patch(read(text), [1, 1]).bars(bars).creases(1.0);
+    relax(&pattern.rest(Rest::Assigned(0.2)).build().unwrap())
 }
 
 /// Claim: patterns that fold rigidly leave the flat state on the branch of their letters, with all creases on the side

@@ -31,7 +31,7 @@ const RIGID: &str = "bars = { stiffness = inf }\ncreases = { stiffness = 1.0 }";
 const SOFT: &str = "bars = { stiffness = 1e3 }\ncreases = { stiffness = 1.0 }";
 
 fn run(scene: &Path, out: &Path, (threads, resume): (usize, bool), most_steps: usize) -> StudySummary {
-    let options = RunOptions { out: Some(out.into()), threads: Some(threads), resume };
+    let options = RunOptions { out: Some(out.into()), threads: Some(threads), resume, ..RunOptions::default() };
     let seen = AtomicUsize::new(0);
     let observer = |_: &_| {
         let go_on = seen.fetch_add(1, Ordering::Relaxed) < most_steps;
@@ -189,7 +189,7 @@ fn rates_of_facets_name_modes() {
         assert!(along.predicted_coefficient.is_some() && along.fit_agrees != Some(false), "{along:?}");
     }
     let refused = |expected: &str| {
-        let options = RunOptions { out: Some(folder.path().join("none")), threads: Some(1), resume: false };
+        let options = RunOptions { out: Some(folder.path().join("none")), threads: Some(1), ..RunOptions::default() };
         let error = run_scene(&scene, &options, &|_: &_| ControlFlow::Continue(())).unwrap_err();
         assert!(error.exit_status() == 2 && error.to_string().contains(expected), "{error}");
     };

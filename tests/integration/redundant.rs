@@ -8,7 +8,7 @@ use foldwell::model::{Assembly, Boundary, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate;
 use foldwell::sheet::generate::{MiuraPatch, Pattern, Random, RandomDevelopable};
-use foldwell::solver::{Failure, Options, Problem};
+use foldwell::solver::{Options, Problem};
 
 const RIGID: f64 = f64::INFINITY;
 

@@ -2,7 +2,7 @@
 
 use crate::common::assert_refused;
 use foldwell::model::{AssemblyError, RestLengths};
-use foldwell::run::info;
+use foldwell::run::{Wanted, info};
 use foldwell::sheet::generate::{Pattern, Truss};
 use foldwell::solver::Failure;
 use foldwell::{Assembly, RIGID, generate, relax};
@@ -175,7 +175,7 @@ fn info_counts_what_is_set() {
                 bars = { stiffness = inf, rest = 1.02 }\ncreases = { stiffness = { M = inf, V = 2 } }\n\
                 facets = { stiffness = 3, rest = 0.1 }\n";
     fs::write(&path, text).unwrap();
-    let counts = info(&path, &[]).unwrap();
+    let counts = info(&path, &Wanted::default()).unwrap();
     let energy = counts.energy.clone().unwrap();
     let (bars, creases, facets) = (energy.bars.unwrap(), energy.creases.unwrap(), energy.facets.unwrap());
     assert_eq!((bars.elements, bars.rigid, bars.rest_not_drawn, bars.softest), (12, 12, 12, None));
@@ -188,5 +188,5 @@ fn info_counts_what_is_set() {
     assert!(said.contains("bars                   12, all rigid; 12 rest lengths are not the drawn ones"), "{said}");
     assert!(said.contains(&format!("creases                8, stiffness 2.0, {mountains} of them rigid")), "{said}");
     fs::write(folder.path().join("m.fold"), foldwell::sheet::fold::write(&sheet)).unwrap();
-    assert_eq!(info(&folder.path().join("m.fold"), &[]).unwrap().energy, None);
+    assert_eq!(info(&folder.path().join("m.fold"), &Wanted::default()).unwrap().energy, None);
 }

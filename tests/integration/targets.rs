@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use std::fs;
 use std::process::Command;
 
-use foldwell::Assembly;
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::scene::{SceneError, build, parse};
 use foldwell::sheet::{Assignment, Info, Sheet, fold, obj};
+use foldwell::{Assembly, Rest};
 use std::ops::ControlFlow;
 
 /// A half-folded sheet as Origami Simulator exports it: drawn at 109.84 degrees with 6 digits, target 180.
@@ -88,10 +88,10 @@ fn angles_that_no_edge_can_have_are_refused() {
     assert_eq!(read(&copies.replace("30", "null")).targets.len(), 1);
 }
 
-/// Claim: a crease that a simulator left on the other side than letter and target is accepted, and a sheet most of
-/// whose creases are so is refused, because its faces are listed clockwise.
+/// Claim: creases that a simulator left on the other side than letter and target are accepted and counted, one of them
+/// or, where the pattern is folded backwards, all; without targets they are refused.
 #[test]
-fn a_few_creases_may_be_drawn_on_the_other_side() {
+fn creases_may_be_drawn_on_the_other_side_than_their_targets() {
     let strip = |folds: [f64; 3]| {
         let (mut at, mut heading) = ([0.0, 0.0], 0.0);
         let mut points = Vec::new();
@@ -110,7 +110,12 @@ fn a_few_creases_may_be_drawn_on_the_other_side() {
     let one_off = read(&strip([0.5, -0.1, 0.5]));
     assert_eq!(one_off.targets.len(), 3);
     assert_eq!(one_off.edges.iter().filter(|edge| one_off.assignment(edge) == Assignment::Valley).count(), 3);
-    let message = fold::parse(&strip([-0.5, 0.1, -0.5]), "a.fold").unwrap_err().to_string();
+    assert_eq!(one_off.drawn_against_targets(), [1, 3]);
+    let backwards = Info::new(&read(&strip([-0.5, -0.1, -0.5])));
+    assert_eq!((backwards.drawn_against_targets, backwards.target_angles), (3, 3));
+    assert!(backwards.to_string().contains("3 creases are drawn on the other side than their targets"), "{backwards}");
+    let plain = strip([-0.5, 0.1, -0.5]).replace("edges_foldAngle", "old:foldAngle");
+    let message = fold::parse(&plain, "a.fold").unwrap_err().to_string();
     assert!(message.contains("turn all faces over"), "{message}");
 }
 
@@ -159,6 +164,12 @@ fn rest_angles_follow_targets_and_letters() {
     let signs = target.iter().filter(|(_, angle)| *angle == 0.2 * PI).count();
     assert_eq!((signs, target.len()), (4, 6));
     assert_eq!(rest(FLAT, "\"assigned\"").unwrap()[0].1, PI);
+    for form in [Rest::Target(0.2), Rest::Assigned(0.2)] {
+        let built = Assembly::patch(read(FLAT), [1, 1]).creases(1.0).rest(form).build().unwrap();
+        let angles = built.terms().creases.as_ref().unwrap().rest.iter().zip(built.drawn_angles());
+        let hinges = angles.filter(|(_, drawn)| !drawn.is_nan()).map(|(rest, _)| *rest);
+        assert!(hinges.eq(target.iter().map(|(_, angle)| *angle)));
+    }
     // linear from the flat state, not from the drawn one
     let half = rest(HALF_FOLDED, "\"target\", fraction = 0.5").unwrap();
     let valley = half.iter().find(|(ends, _)| *ends == [1, 4]).unwrap();

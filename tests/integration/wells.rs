@@ -414,7 +414,7 @@ const RIGID: &str =
 const DRAWN: &str = "bars = { stiffness = inf }\ncreases = { stiffness = 1.0 }";
 
 fn run(scene: &Path, out: &Path, threads: usize, most_steps: usize) -> (StudySummary, Option<WellsSummary>) {
-    let options = RunOptions { out: Some(out.into()), threads: Some(threads), resume: false };
+    let options = RunOptions { out: Some(out.into()), threads: Some(threads), ..RunOptions::default() };
     let seen = AtomicUsize::new(0);
     let observer = |_: &_| {
         let go_on = seen.fetch_add(1, Ordering::Relaxed) < most_steps;

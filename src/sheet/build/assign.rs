@@ -18,7 +18,6 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
     }
     let known = edges_by_drawn_name(sheet);
     let (rim, targets) = (drawn_rim(drawn), targets(drawn));
-    let mut contrary = Contrary::default();
     for (e, &(ends, assignment)) in drawn.assignments.iter().enumerate() {
         let [a, b] = ends.map(|v| identified.corner[v]);
         let numbers = known.get(&EdgeKey::new(a, b).0).map(Vec::as_slice).unwrap_or_default();
@@ -35,12 +34,12 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
             if assignment == Assignment::Boundary && rim.get(&sorted(ends)) == Some(&1) && drawn.lattice.is_some() {
                 continue;
             }
-            match fault(sheet, edge, (e, drawn.edge_name(ends)), assignment) {
-                Some(problem) if targets.contains(&(sorted(ends), assignment)) && problem.is_other_side() => {
-                    contrary.add(e, problem);
-                }
-                Some(problem) => return Err(Defect::new(MeshPart::Edge(e), Problem::Assignment(problem))),
-                None => contrary.others += usize::from(is_folded(sheet, edge)),
+            // a simulator folds some creases to the other side, or the whole pattern backwards
+            let aimed =
+                |problem: &AssignmentFault| problem.is_other_side() && targets.contains(&(sorted(ends), assignment));
+            let found = fault(sheet, edge, (e, drawn.edge_name(ends)), assignment);
+            if let Some(problem) = found.filter(|problem| !aimed(problem)) {
+                return Err(Defect::new(MeshPart::Edge(e), Problem::Assignment(problem)));
             }
             let (key, shown) = (edge.key, sheet.drawn_assignment(edge));
             if assignment != shown {
@@ -48,34 +47,7 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
             }
         }
     }
-    contrary.check()
-}
-
-/// Edges that have letter and target angle of one side and are drawn on the other one. A simulator that folds a sheet
-/// leaves a few of them; if they are the majority, the faces are listed clockwise.
-#[derive(Default)]
-struct Contrary {
-    /// The first of them.
-    first: Option<(usize, AssignmentFault)>,
-    count: usize,
-    /// Number of folded edges without contradiction.
-    others: usize,
-}
-
-impl Contrary {
-    fn add(&mut self, edge: usize, fault: AssignmentFault) {
-        self.first.get_or_insert((edge, fault));
-        self.count += 1;
-    }
-
-    fn check(self) -> Result<(), Defect> {
-        match self.first {
-            Some((edge, fault)) if self.count > self.others => {
-                Err(Defect::new(MeshPart::Edge(edge), Problem::Assignment(fault)))
-            }
-            _ => Ok(()),
-        }
-    }
+    Ok(())
 }
 
 /// Returns the drawn edges with a target angle that is not zero, each with the letter of its side.
@@ -87,11 +59,6 @@ fn targets(drawn: &Drawing) -> BTreeSet<([usize; 2], Assignment)> {
     drawn.fold_angles.iter().filter_map(side).collect()
 }
 
-fn is_folded(sheet: &Sheet, edge: &Edge) -> bool {
-    let drawn = sheet.drawn_angle(edge).unwrap_or(0.0).to_degrees();
-    drawn.abs() > SIDE_TOLERANCE && drawn.abs() < 180.0 - SIDE_TOLERANCE
-}
-
 fn fault(
     sheet: &Sheet,
     found: &Edge,
@@ -99,7 +66,7 @@ fn fault(
     assignment: Assignment,
 ) -> Option<AssignmentFault> {
     let drawn = sheet.drawn_angle(found).unwrap_or(0.0).to_degrees();
-    let folded = is_folded(sheet, found);
+    let folded = drawn.abs() > SIDE_TOLERANCE && drawn.abs() < 180.0 - SIDE_TOLERANCE;
     match (assignment, found.kind) {
         (Assignment::Boundary, EdgeKind::Crease | EdgeKind::Facet) => {
             Some(AssignmentFault::BoundaryInside { edge, ends })

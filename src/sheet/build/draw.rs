@@ -33,6 +33,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         title: sheet.title.clone(),
         description: sheet.description.clone(),
         planar: false,
+        folded: false,
         coords,
         faces,
         lattice: sheet.lattice,

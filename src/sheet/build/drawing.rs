@@ -16,6 +16,8 @@ pub struct Drawing {
     pub coords: Vec<Vec3>,
     /// Whether the mesh is drawn in the plane, so that edges must not cross.
     pub planar: bool,
+    /// Whether the mesh is drawn in a folded state, whose layers may lie on each other.
+    pub folded: bool,
     /// Faces, counter-clockwise, as indices into `coords`.
     pub faces: Vec<Vec<usize>>,
     /// The two lattice vectors.

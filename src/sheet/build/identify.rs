@@ -1,8 +1,9 @@
 //! Identifies drawn vertices that are the same vertex of the cell.
 //!
 //! Two drawn vertices that differ by a lattice vector, within 1e-6 of the shorter lattice vector, are one vertex; the
-//! one that comes first in the file is in cell (0, 0) and gives the position. In a finite sheet no two vertices may
-//! be closer than 1e-9 of the sheet's extent.
+//! one that comes first in the file is in cell (0, 0) and gives the position. In a finite sheet every drawn vertex is a
+//! vertex of its own: layers of a folded sheet touch, and vertices of different faces may stand at one place, closer
+//! than 1e-9 of the sheet's extent. Faces cannot be rebuilt there, and no face may have two such corners.
 
 use std::collections::HashMap;
 
@@ -31,7 +32,61 @@ impl Identified {
 
 /// Identifies the vertices of `drawn`.
 pub(super) fn identify(drawn: &Drawing) -> Result<Identified, Defect> {
-    let metric = Metric::new(drawn);
+    match drawn.lattice {
+        Some(lattice) => identify_periodic(drawn, &Metric::periodic(lattice)),
+        None => {
+            check_corners(drawn)?;
+            let count = drawn.coords.len();
+            Ok(Identified { corner: (0..count).map(Corner::home).collect(), homes: (0..count).collect() })
+        }
+    }
+}
+
+/// Returns each vertex of a finite sheet that stands where an earlier one stands, together with the first one there.
+pub(crate) fn coincident(coords: &[Vec3]) -> Vec<[usize; 2]> {
+    if coords.is_empty() {
+        return vec![];
+    }
+    let metric = Metric::finite(coords);
+    let mut buckets: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
+    let mut pairs = Vec::new();
+    for (v, x) in coords.iter().enumerate() {
+        let bucket = metric.bucket(*x);
+        let near = metric.around(bucket).into_iter().filter_map(|b| buckets.get(&b)).flatten().copied();
+        match near.filter(|&w| (coords[w] - x).norm() <= metric.tolerance).min() {
+            Some(first) => pairs.push([v, first]),
+            None => buckets.entry(bucket).or_default().push(v),
+        }
+    }
+    pairs
+}
+
+/// Checks that every place has one vertex, as rebuilding faces from edges needs it.
+pub(crate) fn check_places(drawn: &Drawing) -> Result<(), Defect> {
+    coincident(&drawn.coords).first().map_or(Ok(()), |&[vertex, other]| Err(duplicate(drawn, vertex, other)))
+}
+
+/// Checks that the corners of every face stand at different places.
+fn check_corners(drawn: &Drawing) -> Result<(), Defect> {
+    let first: HashMap<usize, usize> = coincident(&drawn.coords).into_iter().map(|[v, first]| (v, first)).collect();
+    let at = |v: &usize| first.get(v).copied().unwrap_or(*v);
+    for face in drawn.faces.iter().filter(|face| face.iter().any(|v| first.contains_key(v))) {
+        let mut seen = HashMap::new();
+        for &v in face {
+            if let Some(other) = seen.insert(at(&v), v).filter(|other| *other != v) {
+                return Err(duplicate(drawn, v.max(other), v.min(other)));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn duplicate(drawn: &Drawing, vertex: usize, other: usize) -> Defect {
+    let problem = Problem::DuplicateVertex { vertex: drawn.name(vertex), other: drawn.name(other) };
+    Defect::new(MeshPart::Vertex(vertex), problem)
+}
+
+fn identify_periodic(drawn: &Drawing, metric: &Metric) -> Result<Identified, Defect> {
     let mut buckets: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
     let mut taken: HashMap<Corner, usize> = HashMap::new();
     let mut found = Identified { corner: Vec::with_capacity(drawn.coords.len()), homes: Vec::new() };
@@ -40,7 +95,7 @@ pub(super) fn identify(drawn: &Drawing) -> Result<Identified, Defect> {
         let near = metric.around(bucket).into_iter().filter_map(|b| buckets.get(&b)).flatten();
         let copy = near.copied().filter(|&c| metric.shift(drawn, x, found.homes[c]).is_some()).min();
         let corner = match copy {
-            Some(c) => copy_corner(drawn, &metric, v, c, found.homes[c])?,
+            Some(c) => copy_corner(drawn, metric, v, c, found.homes[c])?,
             None => {
                 buckets.entry(bucket).or_default().push(found.homes.len());
                 found.homes.push(v);
@@ -48,8 +103,7 @@ pub(super) fn identify(drawn: &Drawing) -> Result<Identified, Defect> {
             }
         };
         if let Some(other) = taken.insert(corner, v) {
-            let problem = Problem::DuplicateVertex { vertex: drawn.name(v), other: drawn.name(other) };
-            return Err(Defect::new(MeshPart::Vertex(v), problem));
+            return Err(duplicate(drawn, v, other));
         }
         found.corner.push(corner);
     }
@@ -79,13 +133,6 @@ struct Metric {
 }
 
 impl Metric {
-    fn new(drawn: &Drawing) -> Self {
-        match drawn.lattice {
-            Some(lattice) => Self::periodic(lattice),
-            None => Self::finite(&drawn.coords),
-        }
-    }
-
     fn finite(coords: &[Vec3]) -> Self {
         let low = coords.iter().fold(coords[0], |m, x| m.inf(x));
         let high = coords.iter().fold(coords[0], |m, x| m.sup(x));
@@ -129,10 +176,7 @@ impl Metric {
     /// Returns the numbers of lattice vectors from the drawn vertex `home` to `x`; `None` if `x` is not a copy of it.
     fn shift(&self, drawn: &Drawing, x: Vec3, home: usize) -> Option<[f64; 2]> {
         let d = x - drawn.coords[home];
-        let n: [f64; 2] = match drawn.lattice {
-            Some(_) => [self.axes[0].dot(&d).round(), self.axes[1].dot(&d).round()],
-            None => [0.0, 0.0],
-        };
+        let n = [self.axes[0].dot(&d).round(), self.axes[1].dot(&d).round()];
         let [l1, l2] = drawn.lattice.unwrap_or_default();
         ((d - l1 * n[0] - l2 * n[1]).norm() <= self.tolerance).then_some(n)
     }
@@ -164,13 +208,20 @@ mod tests {
         assert_eq!(identify(&far).unwrap().homes, [0, 1]);
     }
 
-    /// Claim: two vertices at the same position are refused, with and without a lattice.
+    /// Claim: two vertices at the same position are refused with a lattice, where faces are rebuilt, and as corners of one
+    /// face; otherwise they are two vertices.
     #[test]
     fn one_place_one_vertex() {
-        for lattice in [None, Some([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])] {
-            let twice = drawn(&[[0.0; 3], [0.5, 0.5, 0.0], [0.5, 0.5, 1e-12]], lattice);
-            let defect = identify(&twice).unwrap_err();
-            assert_eq!(*defect.problem, Problem::DuplicateVertex { vertex: 2, other: 1 });
-        }
+        let places = [[0.0; 3], [0.5, 0.5, 0.0], [0.5, 0.5, 1e-12], [1.0, 0.0, 0.0]];
+        let problem = Problem::DuplicateVertex { vertex: 2, other: 1 };
+        let periodic = drawn(&places, Some([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0]]));
+        assert_eq!(*identify(&periodic).unwrap_err().problem, problem);
+        let mut finite = drawn(&places, None);
+        assert_eq!(*check_places(&finite).unwrap_err().problem, problem);
+        finite.faces = vec![vec![0, 1, 3], vec![0, 3, 2]];
+        assert_eq!(identify(&finite).unwrap().homes, [0, 1, 2, 3]);
+        assert_eq!(coincident(&finite.coords), [[2, 1]]);
+        finite.faces = vec![vec![0, 1, 3, 2]];
+        assert_eq!(*identify(&finite).unwrap_err().problem, problem);
     }
 }

@@ -12,6 +12,7 @@ mod edges;
 mod faces;
 mod identify;
 pub(crate) mod planar;
+mod rebuild;
 mod split;
 mod targets;
 
@@ -22,7 +23,8 @@ pub(crate) use assign::edges_by_drawn_name;
 pub use draw::draw;
 pub use drawing::Drawing;
 pub(crate) use faces::sides as drawn_sides;
-pub(crate) use identify::Identified;
+pub(crate) use identify::{Identified, check_places, coincident};
+pub(crate) use rebuild::rebuild_faces;
 
 /// Builds the sheet that `drawn` draws.
 ///
@@ -37,7 +39,7 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
     check_numbers(drawn)?;
     let mut identified = identify::identify(drawn)?;
     faces::check(drawn, &identified)?;
-    if drawn.planar {
+    if drawn.planar && !drawn.folded && !is_turned(drawn) {
         planar::check_crossings(drawn, &faces::sides(drawn))?;
     }
     let mut polygons: Vec<_> = drawn.faces.iter().map(|face| identified.corners(face)).collect();
@@ -67,6 +69,14 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
     targets::keep(drawn, &identified, &mut sheet)?;
     faces::check_fans(drawn, &identified, &sheet)?;
     Ok((sheet, identified))
+}
+
+/// Whether some faces of a plane drawing run clockwise and others counter-clockwise: then it shows a sheet that is folded
+/// flat, whose layers lie on each other.
+fn is_turned(drawn: &Drawing) -> bool {
+    let areas = drawn.faces.iter().map(|face| planar::area(&drawn.coords, face));
+    let sides: Vec<f64> = areas.filter(|area| *area != 0.0).collect();
+    sides.iter().any(|area| *area < 0.0) && sides.iter().any(|area| *area > 0.0)
 }
 
 /// Checks that there are vertices and faces, that coordinates are finite, and that the lattice spans an area.

@@ -71,6 +71,7 @@ pub(crate) fn faces_of(drawn: &Drawing, edges: &[[usize; 2]]) -> Result<Vec<Vec<
     if let Some(&([a, b], place)) = placed.iter().find(|([a, b], _)| (x[*a] - x[*b]).xy().norm() == 0.0) {
         return Err(Defect::new(place, Problem::Upright { edge: drawn.edge_name([a, b]) }));
     }
+    super::check_places(drawn)?;
     check_crossings(drawn, &placed)?;
     let (walks, owner) = walks(&rounds(x, edges), edges);
     if let Some((e, &[a, b])) = edges.iter().enumerate().find(|(_, [a, b])| owner[&(*a, *b)] == owner[&(*b, *a)]) {
@@ -133,7 +134,7 @@ fn walks(rounds: &[Vec<usize>], edges: &[[usize; 2]]) -> (Vec<Vec<usize>>, Owner
 }
 
 /// Returns the area of a closed walk seen from above, counter-clockwise positive.
-fn area(x: &[Vec3], walk: &[usize]) -> f64 {
+pub(super) fn area(x: &[Vec3], walk: &[usize]) -> f64 {
     let origin = x[walk[0]];
     let pairs = walk.iter().zip(walk.iter().cycle().skip(1));
     pairs.map(|(&a, &b)| (x[a] - origin).xy().perp(&(x[b] - origin).xy())).sum::<f64>() / 2.0

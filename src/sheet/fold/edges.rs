@@ -20,6 +20,8 @@ pub(super) struct Edges<'a> {
     pub ends: Vec<[usize; 2]>,
     /// Fold angle in degrees of each edge, `None` for null, together with its place in the text.
     pub angles: Vec<(&'a RawValue, Option<f64>)>,
+    /// Whether the faces are rebuilt from the edges.
+    pub rebuilt: bool,
     /// Assignment of each edge.
     pub assignments: Vec<Assignment>,
 }

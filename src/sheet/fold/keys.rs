@@ -1,34 +1,83 @@
-//! The keys of a FOLD file that define the sheet, as unparsed text.
+//! The keys of a frame of a FOLD file, as unparsed text.
 
-use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::fmt;
+
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
 use serde_json::value::RawValue;
 
+/// The keys of a frame and their values, not parsed yet. Keys that are there twice are refused, and those whose value is
+/// null left out.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Values<'a>(pub BTreeMap<String, &'a RawValue>);
+
+impl<'a> Values<'a> {
+    pub(super) fn get(&self, key: &str) -> Option<&'a RawValue> {
+        self.0.get(key).copied()
+    }
+}
+
+impl<'de> Deserialize<'de> for Values<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Unique;
+        impl<'de> Visitor<'de> for Unique {
+            type Value = Values<'de>;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a FOLD file, one JSON object in braces")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Values<'de>, A::Error> {
+                let mut values = BTreeMap::new();
+                while let Some(key) = map.next_key::<String>()? {
+                    if values.contains_key(&key) {
+                        return Err(A::Error::custom(format!("duplicate field `{key}`")));
+                    }
+                    values.insert(key, map.next_value::<&RawValue>()?);
+                }
+                values.retain(|_, value| value.get() != "null");
+                Ok(Values(values))
+            }
+        }
+        deserializer.deserialize_map(Unique)
+    }
+}
+
 /// Values of the keys that are read, not parsed yet.
-#[derive(Deserialize)]
-#[serde(expecting = "a FOLD file, one JSON object in braces")]
 pub(super) struct Keys<'a> {
-    #[serde(borrow)]
     pub(super) file_title: Option<&'a RawValue>,
-    #[serde(borrow)]
     pub(super) file_description: Option<&'a RawValue>,
-    #[serde(borrow)]
+    pub(super) frame_classes: Option<&'a RawValue>,
     pub(super) vertices_coords: Option<&'a RawValue>,
-    #[serde(borrow)]
     pub(super) faces_vertices: Option<&'a RawValue>,
-    #[serde(borrow)]
-    pub edges_vertices: Option<&'a RawValue>,
-    #[serde(borrow)]
-    pub edges_assignment: Option<&'a RawValue>,
-    #[serde(borrow, rename = "edges_foldAngle")]
-    pub edges_fold_angle: Option<&'a RawValue>,
-    #[serde(borrow, rename = "foldwell:lattice")]
+    pub(super) edges_vertices: Option<&'a RawValue>,
+    pub(super) edges_assignment: Option<&'a RawValue>,
+    pub(super) edges_fold_angle: Option<&'a RawValue>,
     pub(super) lattice: Option<&'a RawValue>,
-    #[serde(borrow, rename = "foldwell:holes")]
     pub(super) holes: Option<&'a RawValue>,
-    #[serde(borrow, rename = "foldwell:stiffness")]
     pub(super) stiffness: Option<&'a RawValue>,
-    #[serde(borrow, rename = "foldwell:bar_stiffness")]
     pub(super) bar_stiffness: Option<&'a RawValue>,
-    #[serde(borrow, rename = "foldwell:names")]
     pub(super) names: Option<&'a RawValue>,
+}
+
+impl<'a> Keys<'a> {
+    pub(super) fn new(values: &Values<'a>) -> Self {
+        let get = |key: &str| values.get(key);
+        Self {
+            file_title: get("file_title"),
+            file_description: get("file_description"),
+            frame_classes: get("frame_classes"),
+            vertices_coords: get("vertices_coords"),
+            faces_vertices: get("faces_vertices"),
+            edges_vertices: get("edges_vertices"),
+            edges_assignment: get("edges_assignment"),
+            edges_fold_angle: get("edges_foldAngle"),
+            lattice: get("foldwell:lattice"),
+            holes: get("foldwell:holes"),
+            stiffness: get("foldwell:stiffness"),
+            bar_stiffness: get("foldwell:bar_stiffness"),
+            names: get("foldwell:names"),
+        }
+    }
 }

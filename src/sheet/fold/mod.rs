@@ -11,8 +11,8 @@
 //! The letters of `edges_assignment` have their meaning in FOLD 1.2. `C` cuts a finite sheet along the edge. `J`
 //! joins the two faces to one polygon, of which the edge is a diagonal. An edge with `B` has one face only: a rebuilt
 //! face whose sides are all boundaries is a hole. An edge with `M` or `V` may be flat, as in a crease pattern, but
-//! not folded to the other side. Of several frames only the first is read. Keys about the file and its frame are
-//! kept, others are listed as left out.
+//! not folded to the other side. One frame is read, the first with a mesh or that of a given number; see [`parse_frame`].
+//! Keys about the file and its frame are kept, and so are all others of a finite sheet whose numbering is kept.
 //!
 //! ```
 //! use foldwell::sheet::fold::{parse, write};
@@ -25,6 +25,7 @@
 //! ```
 
 mod edges;
+mod frames;
 mod keys;
 mod locate;
 mod read;
@@ -32,7 +33,7 @@ mod record;
 mod stiffness;
 mod write;
 
-pub use read::{parse, read};
+pub use read::{parse, parse_frame, read, read_frame};
 pub(crate) use write::in_degrees;
 pub use write::write;
 

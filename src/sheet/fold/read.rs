@@ -1,6 +1,6 @@
 //! Reading sheets from FOLD files.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde_json::value::RawValue;
@@ -8,12 +8,14 @@ use serde_json::value::RawValue;
 use super::edges::{self, Edges};
 use super::keys::Keys;
 use super::locate::Source;
-use super::{record, stiffness};
+use super::{frames, record, stiffness};
 use crate::math::Vec3;
+use crate::sheet::assigned::is_same_angle;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::build::{Drawing, build_identified, planar};
-use crate::sheet::cell::Sheet;
+use crate::sheet::build::{Drawing, build, build_identified, edges_by_drawn_name, rebuild_faces};
+use crate::sheet::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
 use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
+use crate::sheet::record::FileRecord;
 use crate::sheet::text;
 
 /// The parts of the mesh as they stand in the text, for the line of messages.
@@ -29,8 +31,16 @@ struct Rows<'a> {
 /// # Errors
 /// [`SheetError::Read`] if the file does not exist or cannot be read, otherwise as [`parse`].
 pub fn read(path: &Path) -> Result<Sheet, SheetError> {
+    read_frame(path, None)
+}
+
+/// Reads one frame of the file at `path`; see [`parse_frame`].
+///
+/// # Errors
+/// As [`read`]; also if there is no such frame, or its parents lead back to it.
+pub fn read_frame(path: &Path, frame: Option<usize>) -> Result<Sheet, SheetError> {
     let text = text::read_text(path).map_err(|source| SheetError::Read { path: path.to_owned(), source })?;
-    parse(&text, &path.display().to_string())
+    parse_frame(&text, &path.display().to_string(), frame)
 }
 
 /// Reads the sheet of a FOLD text. `name` is the name of its file: it appears in messages, and is the title if the
@@ -39,28 +49,41 @@ pub fn read(path: &Path) -> Result<Sheet, SheetError> {
 /// # Errors
 /// [`SheetError::Bad`] with line, column, and the vertex, face or edge that is wrong.
 pub fn parse(text: &str, name: &str) -> Result<Sheet, SheetError> {
+    parse_frame(text, name, None)
+}
+
+/// Reads one frame of a FOLD text: 0 is the top of the file, and those of `file_frames` are numbered from 1. If no number
+/// is given it is the first frame with a mesh. Keys are inherited as `frame_inherit` and `frame_parent` say.
+///
+/// # Errors
+/// As [`parse`]; also if there is no such frame, or its parents lead back to it.
+pub fn parse_frame(text: &str, name: &str, frame: Option<usize>) -> Result<Sheet, SheetError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source { name, text };
-    let keys: Keys = serde_json::from_str(text).map_err(|e| source.syntax(&e))?;
+    let frame = frames::choose(&source, frame)?;
+    let keys = Keys::new(&frame.values);
     let mut rows = Rows::default();
     let mut drawn = head(&source, &keys)?;
     read_vertices(&source, &keys, &mut drawn, &mut rows)?;
-    let edges = edges::read(&source, &keys, drawn.coords.len())?;
+    let mut edges = edges::read(&source, &keys, drawn.coords.len())?;
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
     drawn.fold_angles = edges.fold_angles();
     read_faces(&source, &keys, &mut drawn, &mut rows, &edges)?;
     read_holes(&source, &keys, &mut drawn, &mut rows)?;
     drawn.names = read_names(&source, &keys, drawn.coords.len())?;
+    edges.rebuilt = keys.faces_vertices.is_none();
     let locate = |defect| located(&source, &keys, &rows, &edges, defect);
-    if keys.faces_vertices.is_none() {
-        drawn.faces = planar::faces_of(&drawn, &edges.ends).map_err(locate)?;
-        drop_openings(&mut drawn);
-        drop_holes(&mut drawn);
+    if edges.rebuilt {
+        rebuild_faces(&mut drawn, &edges.ends).map_err(locate)?;
     }
-    let (mut sheet, identified) = build_identified(&drawn).map_err(locate)?;
+    let turned = turned_over(&drawn);
+    let drawn = turned.as_ref().unwrap_or(&drawn);
+    let (mut sheet, identified) = build_identified(drawn).map_err(locate)?;
     edges::check(&source, &edges, &sheet, &identified)?;
     sheet.stiffness = stiffness::read(&source, &keys, &edges, &sheet, &identified)?;
-    sheet.record = record::read(&source)?;
+    let order = record::order(drawn, &edges.ends);
+    sheet.listed_edges = order.into_iter().map(|ends| ends.map(|v| identified.corner[v])).collect();
+    sheet.record = FileRecord { turned_over: turned.is_some(), ..record::read(&frame, drawn, &edges) };
     Ok(sheet)
 }
 
@@ -72,6 +95,7 @@ fn head(source: &Source, keys: &Keys) -> Result<Drawing, SheetError> {
     Ok(Drawing {
         title: string(keys.file_title, "file_title")?.unwrap_or_else(stem),
         description: string(keys.file_description, "file_description")?.unwrap_or_default(),
+        folded: keys.frame_classes.is_some_and(|classes| classes.get().contains("\"foldedForm\"")),
         lattice: keys.lattice.map(|value| lattice(source, value)).transpose()?,
         ..Drawing::default()
     })
@@ -160,29 +184,28 @@ fn read_names(source: &Source, keys: &Keys, count: usize) -> Result<BTreeMap<Str
     lists.into_iter().map(read).collect()
 }
 
-/// Removes rebuilt faces that are listed as openings.
-fn drop_openings(drawn: &mut Drawing) {
-    let sorted = |list: &Vec<usize>| {
-        let mut list = list.clone();
-        list.sort_unstable();
-        list
-    };
-    let holes: Vec<_> = drawn.holes.iter().map(sorted).collect();
-    drawn.faces.retain(|face| !holes.contains(&sorted(face)));
-}
-
-/// Removes rebuilt faces that the assignments show to be holes: all their sides are boundaries, and every side has a
-/// face on its other side.
-fn drop_holes(drawn: &mut Drawing) {
-    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-    let boundary = drawn.assignments.iter().filter(|(_, assignment)| *assignment == Assignment::Boundary);
-    let boundary: BTreeSet<[usize; 2]> = boundary.map(|(ends, _)| sorted(*ends)).collect();
-    let sides = |face: &Vec<usize>| -> Vec<[usize; 2]> {
-        (0..face.len()).map(|k| sorted([face[k], face[(k + 1) % face.len()]])).collect()
-    };
-    let mut faces: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    drawn.faces.iter().flat_map(sides).for_each(|side| *faces.entry(side).or_default() += 1);
-    drawn.faces.retain(|face| !sides(face).iter().all(|side| boundary.contains(side) && faces[side] == 2));
+/// Returns the mesh with all faces turned over if its letters are those of the other side: at least two creases are drawn
+/// as mountains and valleys, and every one of them is drawn as the other one.
+fn turned_over(drawn: &Drawing) -> Option<Drawing> {
+    let folds = |letter| matches!(letter, Assignment::Mountain | Assignment::Valley);
+    let letters: Vec<_> = drawn.assignments.iter().filter(|(_, letter)| folds(*letter)).collect();
+    if drawn.lattice.is_some() || !drawn.fold_angles.is_empty() || letters.len() < 2 {
+        return None;
+    }
+    let bare = Drawing { assignments: vec![], ..drawn.clone() };
+    let sheet = build(&bare).ok()?;
+    let known = edges_by_drawn_name(&sheet);
+    let shown = letters.iter().filter_map(|(ends, letter)| {
+        let [a, b] = ends.map(Corner::home);
+        let edge = &sheet.edges[*known.get(&EdgeKey::new(a, b).0)?.first()?];
+        let angle = sheet.drawn_angle(edge).filter(|angle| !is_folded_flat(*angle) && !is_same_angle(*angle, 0.0))?;
+        Some((angle > 0.0) == (*letter == Assignment::Valley))
+    });
+    let agree: Vec<bool> = shown.collect();
+    (agree.len() > 1 && agree.iter().all(|agrees| !agrees)).then(|| {
+        let turn = |face: &Vec<usize>| face[..1].iter().chain(face[1..].iter().rev()).copied().collect();
+        Drawing { faces: drawn.faces.iter().map(turn).collect(), ..drawn.clone() }
+    })
 }
 
 /// Adds to a defect of the mesh the line of the text that has the defective part.

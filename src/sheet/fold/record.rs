@@ -1,13 +1,13 @@
 //! The keys of a FOLD file that do not define its sheet.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use serde_json::Value;
-use serde_json::value::RawValue;
 
-use super::locate::Source;
+use super::edges::Edges;
+use super::frames::Frame;
 use super::stiffness::{BARS, HINGES};
-use crate::sheet::error::SheetError;
+use crate::sheet::build::{Drawing, drawn_sides};
 use crate::sheet::record::FileRecord;
 
 /// Keys about the file and its frame, whose values are kept.
@@ -57,24 +57,42 @@ const DERIVED: [&str; 9] = [
 pub(super) const CLASSES: &str = "[\"singleModel\"]";
 pub(super) const ATTRIBUTES: &str = "[\"3D\"]";
 
-/// Reads the content of the text other than the shape of its sheet.
-pub(super) fn read(source: &Source) -> Result<FileRecord, SheetError> {
-    let keys: BTreeMap<String, &RawValue> = serde_json::from_str(source.text).map_err(|e| source.syntax(&e))?;
-    let mut record = FileRecord::default();
-    for (key, value) in keys {
+/// Reads the content of a frame other than the shape of its sheet. All keys are kept of a finite sheet whose vertices,
+/// edges and faces keep their numbers when it is written; otherwise only those about the file and its frame.
+pub(super) fn read(frame: &Frame, drawn: &Drawing, edges: &Edges) -> FileRecord {
+    let all_listed = edges.ends.is_empty() || edges.ends.len() == drawn_sides(drawn).len();
+    let numbered = drawn.lattice.is_none() && all_listed;
+    let mut record = FileRecord { frame: frame.number, further_frames: frame.others, ..FileRecord::default() };
+    for (key, value) in &frame.values.0 {
         let name = key.as_str();
+        let text = if KEPT.contains(&name) { kept(name, value.get()) } else { on_one_line(value.get()) };
         if name == "file_frames" {
-            record.further_frames = serde_json::from_str(value.get()).map_or(0, |frames: Vec<&RawValue>| frames.len());
-        } else if KEPT.contains(&name) {
-            let text = kept(name, value.get());
-            if !text.is_empty() {
-                record.metadata.push((key, text));
-            }
-        } else if !USED.contains(&name) && !DERIVED.contains(&name) {
-            record.left_out.push(key);
+            let whole = numbered && frame.number == 0 && frame.others > 0;
+            record.frames = whole.then_some(text);
+        } else if USED.contains(&name) || DERIVED.contains(&name) || text.is_empty() {
+            continue;
+        } else if KEPT.contains(&name) || (numbered && !(name.starts_with("faces_") && edges.rebuilt)) {
+            record.metadata.push((key.clone(), text));
+        } else {
+            record.left_out.push(key.clone());
         }
     }
-    Ok(record)
+    record
+}
+
+/// Returns the listed edges, followed by the sides that are not listed; empty if that is the order of the sides.
+pub(super) fn order(drawn: &Drawing, listed: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let sides: Vec<[usize; 2]> = drawn_sides(drawn).into_iter().map(|(ends, _)| ends).collect();
+    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+    let known: BTreeSet<[usize; 2]> = listed.iter().map(|ends| sorted(*ends)).collect();
+    let others = sides.iter().filter(|ends| !known.contains(&sorted(**ends)));
+    let order: Vec<[usize; 2]> = listed.iter().chain(others).copied().collect();
+    if order == sides { vec![] } else { order }
+}
+
+/// Returns a JSON text without line breaks, which are white space there.
+fn on_one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
 }
 
 /// Returns the value as it is to be written again; empty if every written file has it. The attribute `2D` becomes

@@ -1,5 +1,6 @@
 //! Writing sheets to FOLD files.
 
+use std::collections::BTreeMap;
 use std::fmt::{Display, Write};
 
 use super::record::{ATTRIBUTES, CLASSES};
@@ -43,6 +44,9 @@ pub fn write(sheet: &Sheet) -> String {
     }
     field(&mut text, "vertices_coords", &rows(drawn.coords.iter().map(|x| numbers(x.iter()))));
     write_edges(&mut text, sheet, &drawn);
+    if let Some(frames) = &sheet.record.frames {
+        field(&mut text, "file_frames", frames);
+    }
     let _ = write!(text, "  \"faces_vertices\": {}\n}}\n", rows(drawn.faces.iter().map(numbers)));
     text
 }
@@ -50,12 +54,12 @@ pub fn write(sheet: &Sheet) -> String {
 fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
     let known = edges_by_drawn_name(sheet);
     let corners = corners(sheet, drawn);
-    let sides = drawn_sides(drawn);
+    let sides = listed(sheet, drawn, &corners);
     let edge = |ends: [usize; 2]| {
         let numbers = known.get(&EdgeKey::new(corners[ends[0]], corners[ends[1]]).0);
         numbers.and_then(|numbers| numbers.first()).map(|&number| &sheet.edges[number])
     };
-    let edges: Vec<Option<&Edge>> = sides.iter().map(|&(ends, _)| edge(ends)).collect();
+    let edges: Vec<Option<&Edge>> = sides.iter().map(|&ends| edge(ends)).collect();
     let letters = edges.iter().map(|edge| edge.map_or(Assignment::Unassigned, |edge| sheet.assignment(edge)));
     let letters: Vec<_> = letters.map(|assignment| format!("\"{assignment}\"")).collect();
     let angle = |edge: &Edge| match sheet.targets.get(&edge.key) {
@@ -65,7 +69,7 @@ fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
     };
     let angles = edges.iter().map(|edge| edge.and_then(angle));
     let angles: Vec<_> = angles.map(|angle| angle.map_or("null".to_owned(), |a| format!("{a:?}"))).collect();
-    field(text, "edges_vertices", &rows(sides.iter().map(|(ends, _)| numbers(ends))));
+    field(text, "edges_vertices", &rows(sides.iter().map(numbers)));
     field(text, "edges_assignment", &format!("[{}]", letters.join(", ")));
     field(text, "edges_foldAngle", &format!("[{}]", angles.join(", ")));
     for (key, given) in [(HINGES, &sheet.stiffness.hinges), (BARS, &sheet.stiffness.bars)] {
@@ -74,6 +78,23 @@ fn write_edges(text: &mut String, sheet: &Sheet, drawn: &Drawing) {
             field(text, key, &format!("[{}]", values.collect::<Vec<_>>().join(", ")));
         }
     }
+}
+
+/// Returns the drawn sides of faces in the order of the file from which the sheet was read.
+fn listed(sheet: &Sheet, drawn: &Drawing, corners: &[Corner]) -> Vec<[usize; 2]> {
+    let sides = drawn_sides(drawn).into_iter().map(|(ends, _)| ends);
+    if sheet.listed_edges.is_empty() {
+        return sides.collect();
+    }
+    let number: BTreeMap<Corner, usize> = corners.iter().enumerate().map(|(v, corner)| (*corner, v)).collect();
+    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+    let mut left: BTreeMap<[usize; 2], usize> = sides.enumerate().map(|(k, ends)| (sorted(ends), k)).collect();
+    let in_file = sheet.listed_edges.iter().filter_map(|[a, b]| Some([*number.get(a)?, *number.get(b)?]));
+    let mut list: Vec<[usize; 2]> = in_file.filter(|ends| left.remove(&sorted(*ends)).is_some()).collect();
+    let mut others: Vec<(usize, [usize; 2])> = left.into_iter().map(|(ends, k)| (k, ends)).collect();
+    others.sort_unstable();
+    list.extend(others.into_iter().map(|(_, ends)| ends));
+    list
 }
 
 /// Returns a stiffness as JSON text, which has no infinite numbers.

@@ -1,0 +1,199 @@
+//! Frames of FOLD files, and what conversions keep of a file: frames, order of edges, other programs' keys, facets.
+
+use foldwell::run::{RunOptions, Wanted, convert, info, run_scene};
+use foldwell::sheet::{Assignment, EdgeKind, Info, fold};
+use serde_json::Value;
+use std::f64::consts::PI;
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const FRAMES: &str = include_str!("../cases/fold/frames.fold");
+const BELOW: &str = include_str!("../cases/fold/frames-below.fold");
+
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/fold").join(name)
+}
+
+fn drawn_valley(text: &str, frame: Option<usize>) -> f64 {
+    let sheet = fold::parse_frame(text, "a.fold", frame).unwrap();
+    let crease = sheet.edges.iter().find(|edge| edge.kind == EdgeKind::Crease).unwrap();
+    assert_eq!(sheet.assignment(crease), Assignment::Valley);
+    sheet.drawn_angle(crease).unwrap()
+}
+
+/// Claim: frame 0 is the top of the file, and others inherit the keys that they do not have from their parents, along
+/// chains; the other frames are counted and said. Source: FOLD 1.2, `frame_inherit` and `frame_parent`.
+#[test]
+fn frames_inherit() {
+    assert_eq!(drawn_valley(FRAMES, None), 0.0);
+    assert_eq!(drawn_valley(FRAMES, Some(1)), PI);
+    assert!((drawn_valley(FRAMES, Some(2)) - PI / 2.0).abs() < 1e-15);
+    let targets =
+        [0, 1, 2].map(|frame| Info::new(&fold::parse_frame(FRAMES, "a.fold", Some(frame)).unwrap()).target_angles);
+    assert_eq!(targets, [1, 0, 0]);
+    assert_eq!(fold::parse_frame(FRAMES, "a.fold", Some(3)).unwrap().vertices.len(), 3);
+    let found = Info::new(&fold::parse_frame(FRAMES, "a.fold", Some(2)).unwrap());
+    assert_eq!((found.frame, found.further_frames), (2, 3));
+    assert!(found.to_string().contains("frame 2 is read; 3 others are not"), "{found}");
+}
+
+/// Claim: without a mesh at the top the first frame that has one is read, and this is said.
+#[test]
+fn the_first_frame_with_a_mesh_is_read() {
+    let sheet = fold::parse(BELOW, "a.fold").unwrap();
+    let found = Info::new(&sheet);
+    assert_eq!((found.frame, found.further_frames, sheet.vertices.len(), sheet.title.as_str()), (2, 2, 4, "steps"));
+    assert_eq!(fold::parse_frame(BELOW, "a.fold", Some(3)).unwrap().vertices, sheet.vertices);
+    let message = fold::parse_frame(BELOW, "a.fold", Some(1)).unwrap_err().to_string();
+    assert!(message.contains("`vertices_coords` is missing"), "{message}");
+}
+
+/// Claim: frames that do not exist, or whose parents lead back to them, are refused at their place.
+#[test]
+fn wrong_frames_are_refused() {
+    let circle = BELOW.replace("\"frame_parent\": 2", "\"frame_parent\": 3");
+    let cases = [
+        (BELOW.to_owned(), 9, "a.fold:1:1: there is no frame 9; frames are 0, the top of the file, and 1 to 3"),
+        ("{}".to_owned(), 1, "there is no frame 1; the file has frame 0 only"),
+        (circle, 3, "a.fold:7:41: frame 3 inherits from itself"),
+        (BELOW.replace("_parent\": 2", "_parent\": 7"), 3, "a.fold:7:41: `frame_parent` of frame 3 is 7; frames are 0"),
+        (
+            BELOW.replace("_parent\": 2", "_parent\": \"a\""),
+            3,
+            "`frame_parent` is `\"a\"`; it should be the number of a frame",
+        ),
+        (BELOW.replace("_inherit\": true", "_inherit\": 1"), 3, "`frame_inherit` is `1`; it should be true or false"),
+        ("{\"file_frames\": {}}".to_owned(), 0, "`file_frames` is `{}`; it should be a list of frames"),
+        ("{\"file_frames\": [1]}".to_owned(), 0, "frame 1 of `file_frames` is `1`; it should be an object"),
+    ];
+    for (text, frame, words) in cases {
+        let message = fold::parse_frame(&text, "a.fold", Some(frame)).unwrap_err().to_string();
+        assert!(message.contains(words), "{words}\n{message}");
+    }
+}
+
+/// Claim: a scene and every command take the number of a frame; a run without one says which frame it reads, and files
+/// without frames refuse it with status 2.
+#[test]
+fn commands_take_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.fold"), FRAMES).unwrap();
+    let run = |sheet: &str, frame: Option<usize>| {
+        let scene = format!(
+            "[sheet]\nmesh = \"a.fold\"\n{sheet}[energy]\nbars = {{ stiffness = 1e3 }}\ncreases = {{ stiffness = 1.0 }}\n\
+             [[study]]\nname = \"a\"\nkind = \"relax\"\n"
+        );
+        let file = folder.path().join("s.toml");
+        fs::write(&file, scene).unwrap();
+        let options = RunOptions { out: Some(folder.path().join("out")), frame, ..RunOptions::default() };
+        let summary = run_scene(&file, &options, &|_| ControlFlow::Continue(())).unwrap().summary;
+        let table = fs::read_to_string(folder.path().join("out/a.csv")).unwrap();
+        let column = table.lines().next().unwrap().split(',').position(|name| name == "fold_0_2_0_0").unwrap();
+        let angle: f64 = table.lines().nth(1).unwrap().split(',').nth(column).unwrap().parse().unwrap();
+        (angle, summary.notes, summary.digest)
+    };
+    let (angle, notes, first) = run("", None);
+    assert_eq!(angle, 0.0);
+    assert!(notes.iter().any(|note| note.starts_with("frame 0 is read; 3 others are not")), "{notes:?}");
+    let (angle, notes, second) = run("frame = 2\n", None);
+    assert!((angle - PI / 2.0).abs() < 1e-15 && notes.is_empty() && second != first, "{angle} {notes:?}");
+    assert_eq!(run("frame = 2\n", Some(1)).0, PI);
+    assert_eq!(
+        info(&folder.path().join("a.fold"), &Wanted { frame: Some(3), ..Wanted::default() }).unwrap().sheet.vertices,
+        3
+    );
+    assert_eq!(
+        info(&folder.path().join("s.toml"), &Wanted { frame: Some(3), ..Wanted::default() }).unwrap().sheet.vertices,
+        3
+    );
+    convert(&folder.path().join("a.fold"), &folder.path().join("b.obj"), Some(3)).unwrap();
+    let status = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_foldwell"));
+        let output = command.args(arguments).current_dir(&folder).output().unwrap();
+        (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    for arguments in [&["info", "b.obj", "--frame", "1"][..], &["convert", "b.obj", "c.fold", "--frame", "0"]] {
+        let (code, said) = status(arguments);
+        assert!(code == 2 && said.contains("this file has no frames"), "{said}");
+    }
+    assert!(!folder.path().join("c.fold").exists());
+    assert_eq!(status(&["info", "a.fold", "--frame", "3"]).0, 0);
+    let (code, said) = status(&["convert", "a.fold", "d.fold", "--frame", "4"]);
+    assert!(code == 2 && said.contains("there is no frame 4"), "{said}");
+}
+
+/// Claim: a finite sheet keeps order and direction of its edges, its letters and target angles, and the keys of other
+/// programs and frames word for word; the result is the same when it is converted again. What cannot be kept is said.
+#[test]
+fn conversion_keeps_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    assert_eq!(convert(&path("frames.fold"), &place("b.fold"), None).unwrap(), Vec::<String>::new());
+    let text = fs::read_to_string(place("b.fold")).unwrap();
+    let [before, after]: [Value; 2] = [FRAMES, &text].map(|text| serde_json::from_str(text).unwrap());
+    let kept = [
+        "file_author",
+        "file_classes",
+        "frame_title",
+        "frame_classes",
+        "edges_vertices",
+        "edges_assignment",
+        "faces_vertices",
+        "faceOrders",
+        "vertices_re:weight",
+        "re:scene",
+        "file_frames",
+    ];
+    for key in kept {
+        assert_eq!(before[key], after[key], "{key}");
+    }
+    assert!(text.contains("[1, 2, 3, 4.50]"), "numbers are kept as they are written");
+    assert_eq!(after["edges_foldAngle"], serde_json::json!([180.0, 0.0, 0.0, 0.0, 0.0]));
+    convert(&place("b.fold"), &place("c.fold"), None).unwrap();
+    assert_eq!(fs::read_to_string(place("c.fold")).unwrap(), text);
+    // another frame alone is not the file with all of them
+    let notes = convert(&path("frames.fold"), &place("d.fold"), Some(1)).unwrap();
+    assert_eq!(notes, ["3 other frames in `file_frames` are not kept, only frame 1 is"]);
+    let notes = convert(&path("frames.fold"), &place("d.obj"), None).unwrap();
+    assert!(notes[0].contains("3 other frames") && notes[1].contains("OBJ has no list of edges"), "{notes:?}");
+    // edges that are not listed get numbers of their own, so that lists by number have no meaning any more
+    let partial =
+        FRAMES.replace(",\n[3, 0]\n]", "\n]").replace(", \"B\"],", "],").replace("180, 0, 0, 0, 0", "180, 0, 0, 0");
+    fs::write(place("e.fold"), partial).unwrap();
+    let notes = convert(&place("e.fold"), &place("f.fold"), None).unwrap();
+    assert!(notes[1].contains("`faceOrders`") && notes[1].contains("`re:scene`"), "{notes:?}");
+}
+
+/// Claim: a state keeps its facets and letters on the way from FOLD to VTU and back to FOLD: the diagonals of polygons
+/// are joined edges, and a crease that the state has folded over is what the state shows.
+#[test]
+fn facets_and_letters_survive_vtu() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    let scene = format!(
+        "[sheet]\nmesh = {:?}\n[energy]\nbars = {{ stiffness = 1e4 }}\nfacets = {{ stiffness = 10 }}\n\
+         creases = {{ stiffness = 1.0, rest = \"assigned\", fraction = 0.2 }}\n[[study]]\nname = \"a\"\nkind = \"relax\"\n",
+        path("square-twist-rigid.fold")
+    );
+    fs::write(place("s.toml"), scene).unwrap();
+    let options = RunOptions { out: Some(place("out")), ..RunOptions::default() };
+    assert!(run_scene(&place("s.toml"), &options, &|_| ControlFlow::Continue(())).unwrap().summary.converged());
+    let flat = fold::read(&path("square-twist-rigid.fold")).unwrap();
+    for state in ["out/a/a_0000.vtu", "out/a/a_0001.vtu"] {
+        convert(&place(state), &place("b.fold"), None).unwrap();
+        convert(&place("b.fold"), &place("c.vtu"), None).unwrap();
+        convert(&place("c.vtu"), &place("d.fold"), None).unwrap();
+        for name in ["b.fold", "d.fold"] {
+            let sheet = fold::read(&place(name)).unwrap();
+            let count = |sheet: &foldwell::Sheet, letter| {
+                sheet.edges.iter().filter(|edge| sheet.assignment(edge) == letter).count()
+            };
+            for letter in [Assignment::Join, Assignment::Mountain, Assignment::Valley, Assignment::Boundary] {
+                assert_eq!(count(&sheet, letter), count(&flat, letter), "{state} {name} {letter}");
+            }
+            assert_eq!(Info::new(&sheet).facets, Info::new(&flat).facets);
+        }
+    }
+}
