@@ -197,6 +197,8 @@ mod tests {
                     .map(|k| crate::math::Vec3::new(wave(3 * k), wave(3 * k + 1), wave(3 * k + 2)))
                     .collect(),
                 displacement: vec![crate::math::Vec3::zeros(); points],
+                places: vec![(0, [0, 0]); points],
+                letters: vec![crate::sheet::Assignment::Valley; lines],
                 triangles: (0..triangles).map(|k| [k % points, (k + 1) % points, (k + 5) % points]).collect(),
                 self_intersecting: vec![0; triangles],
                 lines: (0..lines).map(|k| [k % points, (k + 1) % points]).collect(),
