@@ -67,3 +67,4 @@ mod tubes;
 mod unstressed;
 mod validate;
 mod wells;
+mod wells_of_parts;
