@@ -14,6 +14,7 @@ mod error;
 mod info;
 mod inputs;
 mod ledger;
+mod log;
 mod report;
 mod resume;
 mod runner;

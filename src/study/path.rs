@@ -7,7 +7,10 @@ use super::path_plot::{Words, event_word, figure};
 use super::states::{self, Shown};
 use super::{energies, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
-use crate::analysis::path::{PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStart, PathStop, follow_path};
+use crate::analysis::path::{
+    PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint, PathRecord, PathStart, PathStop,
+    resume_path,
+};
 use crate::model::{Assembly, Drive, Driven, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
@@ -64,9 +67,22 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
         step += 1;
         context.step_with_residual(step, None, larger(point.residual_force, point.residual_length))
     };
-    match follow_path(context.assembly, &drive, start, &options, &mut observe) {
-        Ok(branches) => Ok(answer(context, (drive_name(context, spec), &drive), &branches)),
-        Err(failure) => Ok(Answer::failed(context.study, failure)),
+    let log = format!("{}.path.jsonl", context.name());
+    let kept = context.checkpoints.log(&log)?;
+    let record: PathRecord = kept.iter().map_while(|line| serde_json::from_str(line).ok()).collect();
+    let mut fault = None;
+    let mut keep = |entry: &PathEntry| {
+        // numbers and words only, so that serialization cannot fail
+        let line = serde_json::to_string(entry).unwrap_or_default();
+        fault = context.checkpoints.log_line(&log, &line).err();
+        fault.is_none()
+    };
+    let callbacks = PathCallbacks { observe: &mut observe, keep: &mut keep };
+    let found = resume_path(context.assembly, &drive, start, &options, record, callbacks);
+    match (found, fault) {
+        (_, Some(fault)) => Err(fault.into()),
+        (Ok(branches), None) => Ok(answer(context, (drive_name(context, spec), &drive), &branches)),
+        (Err(failure), None) => Ok(Answer::failed(context.study, failure)),
     }
 }
 

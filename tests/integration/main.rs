@@ -50,6 +50,7 @@ mod redundant;
 mod refused_scenes;
 mod rest_lengths;
 mod restarts;
+mod resumed_paths;
 mod rigid_motions;
 mod runs;
 mod schema;

@@ -1,9 +1,22 @@
-//! The elastic hinges of a model: creases and facets of finite stiffness, whether or not they have a tension as unknown.
+//! The soft elements of a model, and its elastic hinges: creases and facets of finite stiffness, whether or not they have a
+//! tension as unknown.
 
 use super::Model;
 use crate::model::element::{Elements, Spring};
 
 impl Model {
+    /// Number of elements of the soft terms.
+    pub(super) fn soft_elements(&self) -> usize {
+        self.soft.iter().map(|term| term.len()).sum()
+    }
+
+    /// Returns by how much each soft element is off its rest value.
+    pub(super) fn off_rest(&self, x: &[f64]) -> Vec<f64> {
+        let all = self.coordinates(x);
+        let elements = self.soft.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
+        elements.map(|(term, k)| term.value(k, &self.domain, &all) - term.spring(k).rest).collect()
+    }
+
     /// Returns the numbers of the elastic hinges in the order of [`Model::values`].
     pub(crate) fn elastic_hinges(&self) -> Vec<usize> {
         let elements = self.terms().flat_map(|term| (0..term.len()).map(move |k| is_elastic_hinge(term, k)));
