@@ -233,6 +233,16 @@ impl PathObserver<DrivenModel> for Seen<'_> {
     }
 }
 
+/// Checks that a drive has an effect on an assembly in its drawn state.
+///
+/// # Errors
+/// [`DriveError`] if it has none.
+pub fn check_drive(assembly: &Assembly, drive: &Drive) -> Result<(), DriveError> {
+    let model = assembly.model(Gauge::Held);
+    let drawn = model.values(&model.start());
+    DrivenModel::new(model, drive, drawn, false).map(|_| ())
+}
+
 /// Makes the driven model and finds its equilibrium at the beginning.
 fn begin(
     assembly: &Assembly,

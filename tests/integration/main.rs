@@ -67,5 +67,6 @@ mod trace;
 mod tubes;
 mod unstressed;
 mod validate;
+mod waterbomb_base;
 mod wells;
 mod wells_of_parts;
