@@ -18,6 +18,7 @@ mod info;
 mod inputs;
 mod ledger;
 mod lists;
+mod log;
 mod report;
 mod resume;
 mod runner;

@@ -5,7 +5,10 @@ use super::relax::relax_from;
 use super::state::State;
 use crate::math::fold_angle::fold_angle;
 use crate::model::{Assembly, Drive, DriveError, DrivenModel, Gauge, Model};
-use crate::solver::path::{self, Branch, BranchEnd, MarkedState, PathError, PathMark, PathSettings, PathState, Watch};
+use crate::solver::path::{
+    self, Branch, BranchEnd, MarkedState, PathError, PathMark, PathObserver, PathSettings, PathState, Watch,
+};
+pub use crate::solver::path::{PathEntry, PathRecord};
 use crate::solver::{Failure, Options, Problem, Start};
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -166,6 +169,30 @@ pub fn follow_path(
     options: &PathOptions,
     observe: &mut dyn FnMut(usize, &PathPoint) -> bool,
 ) -> Result<Vec<PathBranch>, PathFailure> {
+    resume_path(assembly, drive, start, options, PathRecord::default(), PathCallbacks { observe, keep: &mut |_| true })
+}
+
+/// What sees a path while it is followed.
+pub struct PathCallbacks<'a> {
+    /// Sees the number of the branch and every new state, and returns false to stop; not those of a record.
+    pub observe: &'a mut dyn FnMut(usize, &PathPoint) -> bool,
+    /// Sees every new entry of the record before `observe` sees its states, and returns false to stop.
+    pub keep: &'a mut dyn FnMut(&PathEntry) -> bool,
+}
+
+/// Does the same as [`follow_path`], and goes on from what an interrupted run of the same path has recorded: of that
+/// nothing is computed again.
+///
+/// # Errors
+/// As [`follow_path`].
+pub fn resume_path(
+    assembly: &Assembly,
+    drive: &Drive,
+    start: Option<PathStart>,
+    options: &PathOptions,
+    record: PathRecord,
+    callbacks: PathCallbacks<'_>,
+) -> Result<Vec<PathBranch>, PathFailure> {
     let (mut driven, first) = begin(assembly, drive, start, options)?;
     let measures = assembly.model(Gauge::Held).compliance().len();
     let settings = PathSettings {
@@ -177,16 +204,43 @@ pub fn follow_path(
         ..PathSettings::default()
     };
     let mut watch = Stops::new(assembly, &options.stop);
-    let mut branches: Vec<Vec<PathPoint>> = vec![];
-    let mut see = |number: usize, driven: &DrivenModel, marked: &MarkedState| {
-        let point = point(driven, marked, measures);
-        branches.resize_with(branches.len().max(number + 1), Vec::new);
-        let go_on = observe(number, &point);
-        branches[number].push(point);
-        go_on
-    };
-    let found = path::follow_path(&mut driven, first, &settings, &mut watch, &mut see)?;
-    Ok(found.iter().zip(branches).map(|(branch, points)| ended(branch, points)).collect())
+    let mut seen = Seen { measures, branches: vec![], callbacks };
+    let found = path::follow_path(&mut driven, first, &settings, &mut watch, &mut seen, record)?;
+    Ok(found.iter().zip(seen.branches).map(|(branch, points)| ended(branch, points)).collect())
+}
+
+/// The points of a path so far, and its observers.
+struct Seen<'a> {
+    /// Number of stiff measures of the model without drive.
+    measures: usize,
+    branches: Vec<Vec<PathPoint>>,
+    callbacks: PathCallbacks<'a>,
+}
+
+impl PathObserver<DrivenModel> for Seen<'_> {
+    fn state(&mut self, branch: usize, driven: &DrivenModel, marked: &MarkedState) -> bool {
+        self.known_state(branch, driven, marked);
+        self.branches[branch].last().is_none_or(|point| (self.callbacks.observe)(branch, point))
+    }
+
+    fn known_state(&mut self, branch: usize, driven: &DrivenModel, marked: &MarkedState) {
+        self.branches.resize_with(self.branches.len().max(branch + 1), Vec::new);
+        self.branches[branch].push(point(driven, marked, self.measures));
+    }
+
+    fn entry(&mut self, entry: &PathEntry) -> bool {
+        (self.callbacks.keep)(entry)
+    }
+}
+
+/// Checks that a drive has an effect on an assembly in its drawn state.
+///
+/// # Errors
+/// [`DriveError`] if it has none.
+pub fn check_drive(assembly: &Assembly, drive: &Drive) -> Result<(), DriveError> {
+    let model = assembly.model(Gauge::Held);
+    let drawn = model.values(&model.start());
+    DrivenModel::new(model, drive, drawn, false).map(|_| ())
 }
 
 /// Makes the driven model and finds its equilibrium at the beginning.
@@ -220,7 +274,7 @@ fn begin(
 }
 
 fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoint {
-    let MarkedState { state, mark, work } = marked;
+    let MarkedState { state, mark, work, .. } = marked;
     let PathState { x, tension, parameter, conjugate: [conjugate, _], .. } = state;
     PathPoint {
         arc_length: state.arc_length,

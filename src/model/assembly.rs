@@ -102,6 +102,14 @@ impl Assembly {
         Self { terms: Arc::new(terms), ..self.clone() }
     }
 
+    /// Returns the same assembly with no bar stiffer than this `EA` (a force): softer ones keep their stiffness, and all
+    /// their rest lengths.
+    pub fn with_bars_at_most(&self, stiffness: f64) -> Self {
+        let Some(bars) = &self.terms().bars else { return self.clone() };
+        let bars = Bars { stiffness: bars.stiffness.at_most(stiffness), rest: bars.rest.clone() };
+        self.with_terms(Terms { bars: Some(bars), ..self.terms().clone() })
+    }
+
     /// Returns the same assembly with all bars of one stiffness `EA` (a force); [`RIGID`] keeps their lengths. Their rest
     /// lengths stay what they are.
     pub fn with_bars(&self, stiffness: f64) -> Self {
@@ -153,15 +161,15 @@ impl Assembly {
         &self.terms
     }
 
-    /// Returns the stiffness `EA` of the bars, of the softest one if they differ; infinite if the assembly has no bars.
+    /// Returns the stiffness `EA` of the bars, of the stiffest one if they differ; infinite if the assembly has no bars.
     pub fn bar_stiffness(&self) -> f64 {
-        self.terms.bar_stiffness().map_or(RIGID, Stiffness::softest)
+        self.terms.bar_stiffness().map_or(RIGID, Stiffness::stiffest)
     }
 
-    /// Returns the stiffness of the creases, torque per radian and length, of the softest one if they differ; 1 if the
-    /// assembly has no crease energy.
+    /// Returns the stiffness of the creases that are not rigid, torque per radian and length, the median one if they
+    /// differ; 1 if the assembly has no crease energy.
     pub fn crease_stiffness(&self) -> f64 {
-        self.terms.creases.as_ref().map_or(1.0, |creases| creases.stiffness.softest())
+        self.terms.creases.as_ref().map_or(1.0, |creases| creases.stiffness.median())
     }
 
     /// Whether all bars are at rest at their drawn lengths, up to rounding; also true if there are none.

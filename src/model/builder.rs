@@ -61,91 +61,86 @@ pub struct Builder {
     sheet: Sheet,
     cells: [usize; 2],
     boundary: Boundary,
+    given: Given,
+}
+
+/// What a builder was told, in the names of the sheet.
+#[derive(Clone, Debug, Default)]
+struct Given {
     bars: Option<Stiffness>,
     lengths: Option<RestLengths>,
     creases: Option<Stiffness>,
     rest: Option<Rest>,
-    facets: Stiffness,
+    facets: Option<Stiffness>,
     facet_rest: Rest,
     locks: Vec<(EdgeKey, Option<f64>)>,
-    pins: Vec<(usize, [usize; 2], [bool; 3])>,
-    loads: Vec<(usize, [usize; 2], Vec3)>,
-    guides: Vec<(usize, [usize; 2], Vec3)>,
+    pins: Vec<(NamedVertex, [bool; 3])>,
+    loads: Vec<(NamedVertex, Vec3)>,
+    guides: Vec<(NamedVertex, Vec3)>,
     parts: Vec<(Vec<NamedVertex>, [bool; 6])>,
 }
 
 impl Builder {
     pub(super) fn new(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Self {
-        let (bars, lengths, creases, rest, facet_rest, locks, pins, loads, guides, parts) = Default::default();
-        let facets = RIGID.into();
-        Self {
-            sheet,
-            cells,
-            boundary,
-            bars,
-            lengths,
-            creases,
-            rest,
-            facets,
-            facet_rest,
-            locks,
-            pins,
-            loads,
-            guides,
-            parts,
-        }
+        Self { sheet, cells, boundary, given: Given::default() }
     }
 
     /// Gives every edge a bar of stiffness `EA`, in force per strain; [`RIGID`] keeps its length exactly. The stiffness
     /// is one number, or a list with one for each edge of the tiling.
     #[must_use]
-    pub fn bars(self, stiffness: impl Into<Stiffness>) -> Self {
-        Self { bars: Some(stiffness.into()), ..self }
+    pub fn bars(mut self, stiffness: impl Into<Stiffness>) -> Self {
+        self.given.bars = Some(stiffness.into());
+        self
     }
 
     /// Sets the rest lengths of the bars. Without this call they are the drawn lengths.
     #[must_use]
-    pub fn rest_lengths(self, lengths: RestLengths) -> Self {
-        Self { lengths: Some(lengths), ..self }
+    pub fn rest_lengths(mut self, lengths: RestLengths) -> Self {
+        self.given.lengths = Some(lengths);
+        self
     }
 
     /// Gives every crease this stiffness, in torque per radian and length: one number, or a list with one for each edge
     /// of the tiling, of which only those of creases are used.
     #[must_use]
-    pub fn creases(self, stiffness: impl Into<Stiffness>) -> Self {
-        Self { creases: Some(stiffness.into()), ..self }
+    pub fn creases(mut self, stiffness: impl Into<Stiffness>) -> Self {
+        self.given.creases = Some(stiffness.into());
+        self
     }
 
     /// Gives the diagonals of polygons this stiffness, in torque per radian and length: one number, or a list with one
     /// for each edge of the tiling, of which only those of diagonals are used. Without this call polygons are rigid.
     #[must_use]
-    pub fn facets(self, stiffness: impl Into<Stiffness>) -> Self {
-        Self { facets: stiffness.into(), ..self }
+    pub fn facets(mut self, stiffness: impl Into<Stiffness>) -> Self {
+        self.given.facets = Some(stiffness.into());
+        self
     }
 
     /// Sets the rest angles of the diagonals of polygons. Without this call they are the drawn angles.
     #[must_use]
-    pub fn facet_rest(self, rest: Rest) -> Self {
-        Self { facet_rest: rest, ..self }
+    pub fn facet_rest(mut self, rest: Rest) -> Self {
+        self.given.facet_rest = rest;
+        self
     }
 
     /// Sets the rest angles of the creases. Without this call they are the drawn angles.
     #[must_use]
-    pub fn rest(self, rest: Rest) -> Self {
-        Self { rest: Some(rest), ..self }
+    pub fn rest(mut self, rest: Rest) -> Self {
+        self.given.rest = Some(rest);
+        self
     }
 
     /// Locks a crease of the cell, in all its copies, at a fold angle in radians; `None` locks it at the drawn angle.
     #[must_use]
     pub fn lock(mut self, crease: EdgeKey, angle: Option<f64>) -> Self {
-        self.locks.push((crease, angle));
+        self.given.locks.push((crease, angle));
         self
     }
 
     /// Pins a vertex of a cell: its coordinates along the axes (x, y, z) that are true keep their drawn values.
     #[must_use]
     pub fn pin(mut self, vertex: usize, cell: [usize; 2], axes: [bool; 3]) -> Self {
-        self.pins.push((vertex, cell, axes));
+        self.given.pins.push(((vertex, cell), axes));
         self
     }
 
@@ -153,7 +148,7 @@ impl Builder {
     /// roller on an inclined plane, or of a vertex in a plane of symmetry.
     #[must_use]
     pub fn guide(mut self, vertex: usize, cell: [usize; 2], normal: [f64; 3]) -> Self {
-        self.guides.push((vertex, cell, Vec3::from(normal).normalize()));
+        self.given.guides.push(((vertex, cell), Vec3::from(normal).normalize()));
         self
     }
 
@@ -161,14 +156,14 @@ impl Builder {
     /// rotations about x, y, z through the centroid of its vertices. See [`Part`].
     #[must_use]
     pub fn part(mut self, vertices: impl IntoIterator<Item = (usize, [usize; 2])>, free: [bool; 6]) -> Self {
-        self.parts.push((vertices.into_iter().collect(), free));
+        self.given.parts.push((vertices.into_iter().collect(), free));
         self
     }
 
     /// Applies a force (x, y, z) to a vertex of a cell.
     #[must_use]
     pub fn load(mut self, vertex: usize, cell: [usize; 2], force: [f64; 3]) -> Self {
-        self.loads.push((vertex, cell, Vec3::from(force)));
+        self.given.loads.push(((vertex, cell), Vec3::from(force)));
         self
     }
 
@@ -179,49 +174,29 @@ impl Builder {
     /// positive number, rest values are given without a stiffness, the length of a list does not match the tiling, a
     /// crease or a vertex does not exist, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
-        let Self {
-            sheet,
-            cells,
-            boundary,
-            bars,
-            lengths,
-            creases,
-            rest,
-            facets,
-            facet_rest,
-            locks,
-            pins,
-            loads,
-            guides,
-            parts,
-        } = self;
+        let Self { sheet, cells, boundary, given } = self;
         let bare = Assembly::without_terms(sheet, cells, boundary)?;
-        let creases = match (creases, rest) {
+        let creases = match (given.creases, given.rest) {
             (None, Some(_)) => return Err(AssemblyError::RestWithoutCreases),
             (None, None) => None,
             (Some(stiffness), rest) => Some((stiffness, rest.unwrap_or_default())),
         };
         let creases = creases.map(|given| hinges(&bare, ("creases", EdgeKind::Crease), given)).transpose()?;
-        let facets = hinges(&bare, ("facets", EdgeKind::Facet), (facets, facet_rest))?;
+        let facets = (given.facets.unwrap_or(RIGID.into()), given.facet_rest);
+        let facets = hinges(&bare, ("facets", EdgeKind::Facet), facets)?;
         let facets = bare.tiling().facets().next().map(|_| facets);
-        let mut terms = Terms { bars: with_lengths(&bare, bars, lengths)?, creases, facets, ..Terms::default() };
-        for (crease, angle) in locks {
-            terms
-                .locks
-                .extend(copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.drawn_angles()[k]))));
+        let bars = with_lengths(&bare, given.bars, given.lengths)?;
+        let mut terms = Terms { bars, creases, facets, ..Terms::default() };
+        for (crease, angle) in given.locks {
+            let locked = copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.drawn_angles()[k])));
+            terms.locks.extend(locked);
         }
-        for (vertex, cell, axes) in pins {
-            terms.pins.push((numbered(&bare, vertex, cell)?, axes));
-        }
-        for (vertex, cell, normal) in guides {
-            terms.guides.push((numbered(&bare, vertex, cell)?, normal));
-        }
-        for (vertices, free) in parts {
-            let numbers = vertices.into_iter().map(|(vertex, cell)| numbered(&bare, vertex, cell));
+        terms.pins = on_vertices(&bare, given.pins)?;
+        terms.guides = on_vertices(&bare, given.guides)?;
+        terms.loads = on_vertices(&bare, given.loads)?;
+        for (vertices, free) in given.parts {
+            let numbers = vertices.into_iter().map(|vertex| numbered(&bare, vertex));
             terms.parts.push(Part { vertices: numbers.collect::<Result<_, _>>()?, free });
-        }
-        for (vertex, cell, force) in loads {
-            terms.loads.push((numbered(&bare, vertex, cell)?, force));
         }
         match terms.unbalanced_axis() {
             Some((axis, force)) => Err(AssemblyError::Unbalanced { axis, force }),
@@ -305,8 +280,13 @@ fn copies(assembly: &Assembly, crease: EdgeKey) -> Result<Vec<usize>, AssemblyEr
     Ok((0..tiling.edges.len()).filter(|&k| tiling.edges[k].edge == edge && !angles[k].is_nan()).collect())
 }
 
+/// Returns what is given on vertices of cells, on the vertices of the tiling.
+fn on_vertices<T>(assembly: &Assembly, given: Vec<(NamedVertex, T)>) -> Result<Vec<(usize, T)>, AssemblyError> {
+    given.into_iter().map(|(vertex, what)| Ok((numbered(assembly, vertex)?, what))).collect()
+}
+
 /// Returns the number that a cell's vertex has in the tiling.
-fn numbered(assembly: &Assembly, vertex: usize, cell: [usize; 2]) -> Result<usize, AssemblyError> {
+fn numbered(assembly: &Assembly, (vertex, cell): NamedVertex) -> Result<usize, AssemblyError> {
     let (count, cells) = (assembly.sheet().vertices.len(), assembly.tiling().cells);
     let there = vertex < count && cell[0] < cells[0] && cell[1] < cells[1];
     if there {

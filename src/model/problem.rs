@@ -15,6 +15,8 @@ use std::sync::Arc;
 mod bodies;
 pub(super) mod driving;
 mod energy;
+mod hinges;
+mod kept;
 mod reference_state;
 mod softened;
 mod support;

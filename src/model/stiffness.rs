@@ -57,6 +57,26 @@ impl Stiffness {
         self.values().fold(f64::INFINITY, f64::min)
     }
 
+    /// Returns the largest stiffness of an element; zero if there is none.
+    pub fn stiffest(&self) -> f64 {
+        self.values().fold(0.0, f64::max)
+    }
+
+    /// Returns the lower median of the stiffnesses of all elements that are not rigid; infinite if there is none.
+    pub fn median(&self) -> f64 {
+        let mut soft: Vec<f64> = self.values().filter(|stiffness| stiffness.is_finite()).collect();
+        soft.sort_by(f64::total_cmp);
+        soft.get(soft.len().saturating_sub(1) / 2).copied().unwrap_or(f64::INFINITY)
+    }
+
+    /// Returns the stiffness with no element stiffer than this.
+    pub fn at_most(&self, most: f64) -> Self {
+        match self {
+            Self::Uniform(stiffness) => Self::Uniform(stiffness.min(most)),
+            Self::PerEdge(each) => Self::PerEdge(each.iter().map(|k| if *k > most { most } else { *k }).collect()),
+        }
+    }
+
     /// Whether all elements are rigid.
     pub fn is_rigid(&self) -> bool {
         self.values().all(f64::is_infinite)
@@ -113,6 +133,8 @@ mod tests {
         let mixed = each().at_elements(|edge| edge != 0);
         assert!(mixed.of(0).is_nan() && mixed.uniform().is_none());
         assert!((mixed.softest(), mixed.is_rigid(), mixed.has_rigid()) == (2.0, false, true));
+        assert!((mixed.stiffest(), mixed.median(), mixed.at_most(3.0).of(1)) == (f64::INFINITY, 2.0, 3.0));
+        assert!(mixed.at_most(3.0).of(0).is_nan() && mixed.at_most(3.0).of(2) == 2.0);
         let rigid = mixed.rigid_part().unwrap();
         assert!(rigid.is_rigid() && rigid.of(1).is_nan() && rigid.of(3).is_infinite());
         assert_eq!(Stiffness::from(3.0).rigid_part(), None);

@@ -60,16 +60,29 @@ impl Table {
     /// state has this value.
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
-        let columns =
-            StateRow::COLUMNS.iter().copied().chain(compared.then_some("error_to_kinematic")).chain(["state"]);
-        let fold = edges.iter().map(Self::fold_column);
-        let header = columns.map(str::to_owned).chain(fold).collect();
-        Self { header, rows: states.iter().enumerate().map(|(row, state)| state.values(row, compared)).collect() }
+        let columns = StateRow::PLACE.into_iter().chain(Solution::COLUMNS).chain(["self_intersecting"]);
+        let columns = columns.chain(compared.then_some("error_to_kinematic")).chain(["state"]);
+        let table = Self::with_edges(columns, "fold", edges.iter());
+        Self { rows: states.iter().enumerate().map(|(row, state)| state.values(row, compared)).collect(), ..table }
+    }
+
+    /// Makes a table without rows with these columns, followed by one for each edge, whose name begins with this word.
+    pub(crate) fn with_edges<'a>(
+        columns: impl IntoIterator<Item = &'a str>,
+        word: &str,
+        edges: impl Iterator<Item = &'a EdgeKey>,
+    ) -> Self {
+        let of_edges = edges.map(|edge| Self::edge_column(word, edge));
+        Self::new(columns.into_iter().map(str::to_owned).chain(of_edges).collect())
     }
 
     /// Returns the name of the column with the fold angle of an edge.
     pub(crate) fn fold_column(edge: &EdgeKey) -> String {
-        format!("fold_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
+        Self::edge_column("fold", edge)
+    }
+
+    fn edge_column(word: &str, edge: &EdgeKey) -> String {
+        format!("{word}_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }
 
     /// Returns the number of rows.
@@ -145,6 +158,29 @@ impl From<Option<i64>> for Value {
     }
 }
 
+/// Energies and residuals of a state, as all tables list them; values that were not computed are `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Solution {
+    /// Energies of the bars, the creases and the facets, and their sum.
+    pub energy: [Option<f64>; 4],
+    /// Largest unbalanced force, relative to the largest force of any term.
+    pub residual_force: Option<f64>,
+    /// Largest error of a length, relative to the mean edge length.
+    pub residual_length: Option<f64>,
+}
+
+impl Solution {
+    /// Names of the columns.
+    pub(crate) const COLUMNS: [&str; 6] =
+        ["energy_bars", "energy_creases", "energy_facets", "energy_total", "residual_force", "residual_length"];
+
+    /// Returns the values of the columns.
+    pub(crate) fn values(&self) -> impl Iterator<Item = Value> + use<> {
+        let residuals = [self.residual_force, self.residual_length];
+        self.energy.into_iter().chain(residuals).map(Value::from)
+    }
+}
+
 /// A row of the table of a study, which describes one state; values that were not computed are `None`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct StateRow {
@@ -162,12 +198,8 @@ pub(crate) struct StateRow {
     pub theta: [Option<f64>; 2],
     /// Components 11, 22 and 12 of the lattice strain.
     pub strain: [Option<f64>; 3],
-    /// Energies of the bars, the creases and the facets, and their sum.
-    pub energy: [Option<f64>; 4],
-    /// Largest unbalanced force, relative to the largest force of any term.
-    pub residual_force: Option<f64>,
-    /// Largest error of a length, relative to the mean edge length.
-    pub residual_length: Option<f64>,
+    /// Energies and residuals.
+    pub solution: Solution,
     /// Whether faces pass through each other.
     pub self_intersecting: Option<bool>,
     /// Largest difference between a fold angle and that of the exact kinematics, in radians.
@@ -177,32 +209,14 @@ pub(crate) struct StateRow {
 }
 
 impl StateRow {
-    /// Names of the columns before the fold angles.
-    pub(crate) const COLUMNS: [&str; 17] = [
-        "branch",
-        "sign",
-        "step",
-        "arc_length",
-        "curvature",
-        "theta1",
-        "theta2",
-        "strain11",
-        "strain22",
-        "strain12",
-        "energy_bars",
-        "energy_creases",
-        "energy_facets",
-        "energy_total",
-        "residual_force",
-        "residual_length",
-        "self_intersecting",
-    ];
+    /// Names of the columns before energies and residuals.
+    const PLACE: [&str; 10] =
+        ["branch", "sign", "step", "arc_length", "curvature", "theta1", "theta2", "strain11", "strain22", "strain12"];
 
     fn values(&self, row: usize, compared: bool) -> Vec<Value> {
         let counts = [self.branch, self.sign, self.step].map(Value::from);
         let shape = [&[self.arc_length, self.curvature][..], &self.theta, &self.strain].concat();
-        let solution = [&self.energy[..], &[self.residual_force, self.residual_length]].concat();
-        let numbers = shape.into_iter().chain(solution).map(Value::from);
+        let numbers = shape.into_iter().map(Value::from).chain(self.solution.values());
         let crossing = Value::from(self.self_intersecting.map(i64::from));
         let error = compared.then(|| Value::from(self.error_to_kinematic));
         let fold = self.fold.iter().map(|&angle| Value::Number(angle));
@@ -236,9 +250,11 @@ mod tests {
             curvature: Some(2.0),
             theta: [Some(3.0), Some(4.0)],
             strain: [Some(5.0), None, Some(6.0)],
-            energy: [Some(7.0), Some(8.0), Some(9.0), Some(10.0)],
-            residual_force: Some(11.0),
-            residual_length: Some(12.0),
+            solution: Solution {
+                energy: [Some(7.0), Some(8.0), Some(9.0), Some(10.0)],
+                residual_force: Some(11.0),
+                residual_length: Some(12.0),
+            },
             self_intersecting: Some(true),
             fold: vec![0.5, f64::NAN],
             ..StateRow::default()

@@ -3,7 +3,7 @@
 use super::belongings::Belongings;
 use super::ledger::{INTERRUPTED, Ledger};
 use super::resume::{self, PreviousRun};
-use super::{RunError, RunOptions, RunReport, inputs};
+use super::{RunError, RunOptions, RunReport, inputs, log};
 use crate::analysis::shown_cells::ShownCells;
 use crate::model::Assembly;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
@@ -27,6 +27,8 @@ pub(crate) struct Runner<'a> {
     view: ShownCells,
     /// The folder of the files.
     out: PathBuf,
+    /// Digest of the input, with which logs begin.
+    digest: String,
     resumed: bool,
     earlier: PreviousAnswers,
     kept: Vec<String>,
@@ -56,6 +58,7 @@ impl<'a> Runner<'a> {
             file,
             assembly,
             view,
+            digest: String::new(),
             resumed: false,
             earlier: PreviousAnswers::default(),
             kept: Vec::new(),
@@ -82,6 +85,7 @@ impl<'a> Runner<'a> {
         let digest = digest(self.file)?;
         let previous = if resume { PreviousRun::read(&self.out, &digest) } else { PreviousRun::default() };
         self.resumed = previous.is_of_this_scene();
+        self.digest.clone_from(&digest);
         self.take_over(summary(self.file, self.assembly, digest), &previous)
     }
 
@@ -188,6 +192,17 @@ impl Checkpoints for Runner<'_> {
 
     fn keep(&self, file: &str, table: &Table) -> Result<(), OutputError> {
         table.write(&self.path(file))
+    }
+
+    fn log(&self, file: &str) -> Result<Vec<String>, OutputError> {
+        let path = self.out.join(file);
+        let kept = if self.resumed { log::lines(&path, &self.digest) } else { vec![] };
+        log::begin(&path, &self.digest, &kept)?;
+        Ok(kept)
+    }
+
+    fn log_line(&self, file: &str, line: &str) -> Result<(), OutputError> {
+        log::append(&self.out.join(file), line)
     }
 }
 

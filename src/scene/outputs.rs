@@ -13,7 +13,7 @@ const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp"];
 const BLOCH: &[&str] = &["@/@_determinant.vti", "@/@_zero_lines.vtp", "@/@_mode_#.vtu"];
 const BANDS: &[&str] = &["@_bands.csv"];
 const WELLS: &[&str] = &["@-barriers.csv"];
-const PATH: &[&str] = &["@-reaction.svg"];
+const PATH: &[&str] = &["@-reaction.svg", "@.path.jsonl"];
 
 /// Returns the files that a study with these settings can write.
 pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {

@@ -124,7 +124,9 @@ fn checked(field: &str, column: &'static str, of: Column) -> Result<f64, TableFa
             }
         }
         Column::Stiffness => {
-            number.filter(|k| *k > 0.0).ok_or_else(|| TableFault::Stiffness { field: field.into(), column })
+            // a number too large for a double is not meant to be rigid
+            let known = number.filter(|k| *k > 0.0 && (k.is_finite() || !field.contains(|c: char| c.is_ascii_digit())));
+            known.ok_or_else(|| TableFault::Stiffness { field: field.into(), column })
         }
         Column::Length => {
             let length = number.filter(|length| *length > 0.0 && length.is_finite());

@@ -53,6 +53,19 @@ pub trait Checkpoints: Sync {
     /// # Errors
     /// [`OutputError`] if the table cannot be kept.
     fn keep(&self, file: &str, table: &Table) -> Result<(), OutputError>;
+
+    /// Returns the lines of a log that an interrupted run kept, without the last one if it is incomplete; no lines if it
+    /// kept none. New lines follow these.
+    ///
+    /// # Errors
+    /// [`OutputError`] if the log cannot be begun.
+    fn log(&self, file: &str) -> Result<Vec<String>, OutputError>;
+
+    /// Appends a line to a log, which is removed when the study is finished.
+    ///
+    /// # Errors
+    /// [`OutputError`] if the log cannot be written.
+    fn log_line(&self, file: &str, line: &str) -> Result<(), OutputError>;
 }
 
 /// A study in its scene, the argument of [`super::check`] and [`super::compute`].

@@ -2,6 +2,7 @@
 
 use super::answer::Answer;
 use super::context::Context;
+use super::energies;
 use super::error::StudyError;
 use super::{map, relax};
 use crate::analysis::landscape::samples::{Landscape, Sample, landscape};
@@ -11,12 +12,11 @@ use crate::numerics::{larger, worst};
 use crate::output::figure::chart::{self, Chart, Point, Series};
 use crate::output::figure::rounded;
 use crate::output::summary::{LandscapeSummary, ModeLandscape, SampleSummary, StudyResult};
-use crate::output::table::{Table, Value};
+use crate::output::table::{Solution, Table, Value};
 use crate::scene::Located;
 use crate::scene::build;
 use crate::scene::forms::Mode;
 use crate::scene::spec::{Draw, LandscapeSpec};
-use crate::sheet::EdgeKey;
 
 /// Checks that the sheet is a patch or torus of a periodic sheet with bars and creases, without locks, pins and loads.
 pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), StudyError> {
@@ -255,34 +255,22 @@ fn energies(title: &str, found: &[Along]) -> Chart {
 /// Returns a row for each sample: the mode, the amplitude, the energies, and on patches the rest angles minus the drawn
 /// ones.
 fn table(assembly: &Assembly, found: &[Along]) -> Table {
-    let names = [
-        "mode",
-        "k11",
-        "k22",
-        "k12",
-        "amplitude",
-        "energy_bars",
-        "energy_creases",
-        "energy_facets",
-        "energy_total",
-        "residual_force",
-        "residual_length",
-        "iterations",
-        "rounds",
-    ];
-    let rest = |key: &EdgeKey| format!("rest_{}_{}_{}_{}", key.i, key.j, key.shift[0], key.shift[1]);
     let uniform = if assembly.tiling().periodic { &[] } else { assembly.sheet().edges.as_slice() };
-    let rests = uniform.iter().map(|edge| rest(&edge.key));
-    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).chain(rests).collect());
+    let columns = ["mode", "k11", "k22", "k12", "amplitude"].into_iter().chain(Solution::COLUMNS);
+    let columns = columns.chain(["iterations", "rounds"]);
+    let mut table = Table::with_edges(columns, "rest", uniform.iter().map(|edge| &edge.key));
     for (number, along) in found.iter().enumerate() {
         for sample in along.samples() {
-            let (relaxed, state) = (&sample.relaxed, &sample.relaxed.state);
-            let facets = assembly.terms().facets.as_ref().map(|_| state.energy_facets);
+            let relaxed = &sample.relaxed;
+            let solution = Solution {
+                energy: energies::columns(assembly.terms(), &relaxed.state),
+                residual_force: Some(relaxed.residual_force),
+                residual_length: Some(relaxed.residual_length),
+            };
             let mut row = vec![Value::Whole(number as i64)];
             row.extend((0..3).map(|k| Value::from(along.curvature.map(|curvature| curvature[k]))));
-            row.extend([sample.amplitude, state.energy_bars, state.energy_creases].map(Value::Number));
-            row.push(Value::from(facets));
-            row.extend([state.total(), relaxed.residual_force, relaxed.residual_length].map(Value::Number));
+            row.push(Value::Number(sample.amplitude));
+            row.extend(solution.values());
             row.extend([sample.iterations, sample.rounds].map(|count| Value::Whole(count as i64)));
             row.extend(uniform.iter().zip(&sample.rest).map(|(_, angle)| Value::Number(*angle)));
             table.push(row);

@@ -46,7 +46,7 @@ pub use surface::left_out;
 /// # Errors
 /// [`StudyError`] with the place in the scene and a proposed correction.
 pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
-    if !matches!(*context.study.kind, StudyKind::Relax(_) | StudyKind::Path(_)) {
+    if !matches!(*context.study.kind, StudyKind::Relax(_) | StudyKind::Path(_) | StudyKind::Wells(_)) {
         supported::no_parts(context)?;
     }
     match &*context.study.kind {

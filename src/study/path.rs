@@ -7,12 +7,15 @@ use super::path_plot::{Words, event_word, figure};
 use super::states::{self, Shown};
 use super::{energies, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
-use crate::analysis::path::{PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStart, PathStop, follow_path};
-use crate::model::{Assembly, Drive, Driven, Gauge};
+use crate::analysis::path::{
+    PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint, PathRecord, PathStart, PathStop,
+    check_drive, resume_path,
+};
+use crate::model::{Assembly, Drive, DriveError, Driven, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
 use crate::output::summary::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary, StudyResult};
-use crate::output::table::{Table, Value};
+use crate::output::table::{Solution, Table, Value};
 use crate::scene::build;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{Draw, PathSpec};
@@ -30,6 +33,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
         return Err(context.refuse("there is no energy whose equilibria a path could follow", help).into());
     }
     moves(context, spec)?;
+    has_effect(context, spec)?;
     stop(context, spec)?;
     match spec.start.as_ref().map(|start| (&**start, start.span())) {
         Some((StartSpec::Random(_), span)) => {
@@ -64,9 +68,22 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
         step += 1;
         context.step_with_residual(step, None, larger(point.residual_force, point.residual_length))
     };
-    match follow_path(context.assembly, &drive, start, &options, &mut observe) {
-        Ok(branches) => Ok(answer(context, (drive_name(context, spec), &drive), &branches)),
-        Err(failure) => Ok(Answer::failed(context.study, failure)),
+    let log = format!("{}.path.jsonl", context.name());
+    let kept = context.checkpoints.log(&log)?;
+    let record: PathRecord = kept.iter().map_while(|line| serde_json::from_str(line).ok()).collect();
+    let mut fault = None;
+    let mut keep = |entry: &PathEntry| {
+        // numbers and words only, so that serialization cannot fail
+        let line = serde_json::to_string(entry).unwrap_or_default();
+        fault = context.checkpoints.log_line(&log, &line).err();
+        fault.is_none()
+    };
+    let callbacks = PathCallbacks { observe: &mut observe, keep: &mut keep };
+    let found = resume_path(context.assembly, &drive, start, &options, record, callbacks);
+    match (found, fault) {
+        (_, Some(fault)) => Err(fault.into()),
+        (Ok(branches), None) => Ok(answer(context, (drive_name(context, spec), &drive), &branches)),
+        (Err(failure), None) => Ok(Answer::failed(context.study, failure)),
     }
 }
 
@@ -98,6 +115,23 @@ fn moves(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
     let help =
         "loads and rest angles begin at 0 in the drawn state, and at 1 in the state of an earlier study or of a file";
     Err(context.file.error_at(span, message, help).into())
+}
+
+/// Checks that a driven stiffness is one number, and another one than that at the end.
+fn has_effect(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyError> {
+    let drive = drive(context, spec)?;
+    let Driven::Stiffness(_) = drive.quantity else { return Ok(()) };
+    check_drive(context.assembly, &drive).map_err(|error| {
+        let name = drive_name(context, spec);
+        let table = context.file.scene.drives.iter().find(|drive| drive.name.0 == name);
+        let span = table.map_or(0..0, |table| table.to.span());
+        let help = "a driven stiffness goes from the one number that its term has in [energy] to another one";
+        let message = match error {
+            DriveError::NoWay { .. } => format!("the driven stiffness is {} at the beginning already", drive.to),
+            other => other.to_string(),
+        };
+        context.file.error_at(span, message, help).into()
+    })
 }
 
 /// Returns the stops. The angle of a crease is that of its copy in the middle cell, as in the table.
@@ -196,29 +230,14 @@ fn marks(context: &Context<'_>, branches: &[PathBranch]) -> Option<Vec<Vec<Marks
     Some(all)
 }
 
-const COLUMNS: [&str; 14] = [
-    "branch",
-    "step",
-    "arc_length",
-    "drive",
-    "reaction",
-    "work",
-    "energy_bars",
-    "energy_creases",
-    "energy_facets",
-    "energy_total",
-    "residual_force",
-    "residual_length",
-    "negative_eigenvalues",
-    "event",
-];
-
 /// Returns the table of all states; where it was asked for, with the column `self_intersecting`.
 fn table(context: &Context<'_>, branches: &[PathBranch], marks: Option<&[Vec<Marks>]>) -> Table {
     let crossing = marks.map(|_| "self_intersecting");
-    let fold = context.assembly.sheet().edges.iter().map(|edge| Table::fold_column(&edge.key));
-    let columns = COLUMNS.into_iter().chain(crossing).chain(["state"]).map(str::to_owned).chain(fold);
-    let mut table = Table::new(columns.collect());
+    let place = ["branch", "step", "arc_length", "drive", "reaction", "work"].into_iter();
+    let columns =
+        place.chain(Solution::COLUMNS).chain(["negative_eigenvalues", "event"]).chain(crossing).chain(["state"]);
+    let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
+    let mut table = Table::with_edges(columns, "fold", edges);
     for (number, branch) in branches.iter().enumerate() {
         for (step, point) in branch.points.iter().enumerate() {
             let crossing = marks.map(|marks| marks[number].get(step).map(|marks| i64::from(marks.any)).into());
@@ -236,13 +255,16 @@ fn row(
     crossing: Option<Value>,
 ) -> Vec<Value> {
     let numbers = [point.arc_length, point.drive, point.reaction, point.work].map(Value::Number);
-    let energy = energies::columns(context.assembly.terms(), &point.state).map(Value::from);
-    let residuals = [point.residual_force, point.residual_length].map(Value::Number);
+    let solution = Solution {
+        energy: energies::columns(context.assembly.terms(), &point.state),
+        residual_force: Some(point.residual_force),
+        residual_length: Some(point.residual_length),
+    };
     let event = point.event.map_or(Value::Empty, |event| Value::Word(event_word(event)));
     let state = states::with_all_angles(context, &point.state);
     let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);
     let [branch, step, number] = [branch, step, number].map(|number| Value::Whole(number as i64));
-    let own = [branch, step].into_iter().chain(numbers).chain(energy).chain(residuals);
+    let own = [branch, step].into_iter().chain(numbers).chain(solution.values());
     let own = own.chain([Value::Whole(point.negative_eigenvalues as i64), event]);
     own.chain(crossing).chain([number]).chain(fold).collect()
 }

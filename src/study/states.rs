@@ -9,7 +9,7 @@ use crate::output::artifact::Artifact;
 use crate::output::figure::sheet;
 use crate::output::paraview;
 use crate::output::picture::Picture;
-use crate::output::table::{StateRow, Table};
+use crate::output::table::{Solution, StateRow, Table};
 use crate::scene::spec::Draw;
 
 /// A state to be written or drawn, with its residuals and self-intersections.
@@ -51,9 +51,11 @@ fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
         curvature: of(|c| c.curvature),
         theta: [of(|c| c.theta[0]), of(|c| c.theta[1])],
         strain: [of(|c| c.strain[0]), of(|c| c.strain[1]), of(|c| c.strain[2])],
-        energy: energies::columns(assembly.terms(), state),
-        residual_force: shown.residuals.map(|r| r[0]),
-        residual_length: shown.residuals.map(|r| r[1]),
+        solution: Solution {
+            energy: energies::columns(assembly.terms(), state),
+            residual_force: shown.residuals.map(|r| r[0]),
+            residual_length: shown.residuals.map(|r| r[1]),
+        },
         self_intersecting: shown.marks.as_ref().map(|marks| marks.any),
         fold: cell_angles(context, state),
         ..StateRow::default()

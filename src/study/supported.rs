@@ -6,14 +6,14 @@ use super::error::StudyError;
 /// What supports stiffnesses and rest values that this study does not.
 const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
 
-/// Checks that there are no rigid parts and no pins along a direction, which relaxations and paths alone know.
+/// Checks that there are no rigid parts and no pins along a direction, which relaxations, paths and wells alone know.
 pub(super) fn no_parts(context: &Context<'_>) -> Result<(), StudyError> {
     let (terms, kind) = (context.assembly.terms(), context.study.kind.name());
     let given = [("rigid parts", !terms.parts.is_empty()), ("pins along a direction", !terms.guides.is_empty())];
     match given.into_iter().find(|(_, given)| *given) {
         None => Ok(()),
         Some((what, _)) => {
-            let help = "leave out [[part]] and the key `normal` of [[pin]], or ask for relax or path";
+            let help = "leave out [[part]] and the key `normal` of [[pin]], or ask for relax, path or wells";
             Err(context.refuse(format!("studies of kind {kind} do not know {what}"), help).into())
         }
     }

@@ -17,7 +17,7 @@ use crate::output::artifact::Artifact;
 use crate::output::figure::surface::{self as figure, PathPoint};
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{PieceSummary, StudyResult, SurfaceSummary};
-use crate::output::table::{StateRow, Table};
+use crate::output::table::{Solution, StateRow, Table};
 use crate::scene::spec::{Draw, StudyKind, StudySpec, SurfaceSpec};
 use crate::scene::values::Count;
 use crate::scene::{Located, SceneFile};
@@ -178,9 +178,7 @@ fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRo
         curvature: Some(shape.curvature),
         theta: shape.theta.map(Some),
         strain: shape.strain.map(Some),
-        energy: energies::columns_if_any(terms, state),
-        residual_force: None,
-        residual_length: None,
+        solution: Solution { energy: energies::columns_if_any(terms, state), ..Solution::default() },
         self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
         error_to_kinematic: None,
         fold: point.angles.clone(),
@@ -199,7 +197,7 @@ fn mesh(assembly: &Assembly, surface: &Surface, rows: &[StateRow]) -> StrainSurf
         curvature: shapes().map(|shape| shape.curvature).collect(),
         theta: shapes().map(|shape| shape.theta).collect(),
         folds: assembly.sheet().edges.iter().enumerate().map(fold).collect(),
-        energy: rows.iter().map(|row| row.energy[3]).collect(),
+        energy: rows.iter().map(|row| row.solution.energy[3]).collect(),
         self_intersecting: rows.iter().map(|row| row.self_intersecting.map(u8::from)).collect(),
     }
 }

@@ -19,7 +19,7 @@ use crate::output::figure::rounded;
 use crate::output::figure::surface::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{ArcLength, RayName, StudyResult, TraceSummary, TrajectorySummary, TurningPoint};
-use crate::output::table::StateRow;
+use crate::output::table::{Solution, StateRow};
 use crate::scene::forms::BranchChoice;
 use crate::scene::spec::{Draw, Engine, TraceSpec};
 use crate::sheet::EdgeKey;
@@ -320,9 +320,11 @@ fn row(
         curvature: shape.map(|(curvature, ..)| curvature),
         theta: [0, 1].map(|k| shape.map(|(_, theta, _)| theta[k])),
         strain: [0, 1, 2].map(|k| shape.map(|(.., strain)| strain[k])),
-        energy: energies::columns_if_any(assembly.terms(), state),
-        residual_length: along.map(|along| along.relaxed.residual_length),
-        residual_force: along.map(|along| along.relaxed.residual_force),
+        solution: Solution {
+            energy: energies::columns_if_any(assembly.terms(), state),
+            residual_length: along.map(|along| along.relaxed.residual_length),
+            residual_force: along.map(|along| along.relaxed.residual_force),
+        },
         self_intersecting,
         error_to_kinematic: None,
         fold: state.fold_angle.clone(),

@@ -45,17 +45,17 @@ pub(crate) fn check(context: &Context<'_>, spec: &WellsSpec) -> Result<(), Study
         let help = "give bars (inf: rigid) and creases a stiffness, that of creases finite";
         return refuse("wells are those of the energy of bars and creases", help);
     }
-    supported::one_stiffness_each(context, "wells")?;
     supported::drawn_lengths(context, "wells")?;
     if !terms.loads.is_empty() && free_rigid_motions(context.assembly) > 0 {
         let help = "pin three vertices that do not lie on a line, or leave out [[load]]";
         return refuse("wells under loads are those of a sheet that pins hold in place", help);
     }
-    if spec.rigid && !(terms.pins.is_empty() && terms.loads.is_empty()) {
-        let help = "leave out `rigid`, or [[pin]] and [[load]]";
-        return refuse("with `rigid` wells are sought in fold angles, which pins and loads do not know", help);
+    let free = [terms.pins.is_empty(), terms.guides.is_empty(), terms.parts.is_empty(), terms.loads.is_empty()];
+    if spec.rigid && !free.into_iter().all(|free| free) {
+        let help = "leave out `rigid`, or [[pin]], [[part]] and [[load]]";
+        return refuse("with `rigid` wells are sought in fold angles, which pins, parts and loads do not know", help);
     }
-    Ok(())
+    if spec.rigid { supported::drawn_rigid_hinges(context, "wells of rigid states") } else { Ok(()) }
 }
 
 /// The reason for which a pass that was found has no energy.
@@ -90,7 +90,7 @@ impl Tally {
 /// The results of a study of wells.
 struct FoundWells {
     tally: Tally,
-    /// Stiffness of the sheet's bars.
+    /// Stiffness of the sheet's stiffest bars.
     stiffness: f64,
     wells: Vec<Well>,
     crossing: Vec<bool>,

@@ -146,3 +146,54 @@ pub fn assert_refused(scene: impl Fn(&Path) -> PathBuf, expected: &str) {
     assert!(error.to_string().contains(expected), "{expected}: {error}");
     assert!(error.exit_status() == 2 && !out.exists());
 }
+
+/// Force and energy along a path, from its table.
+pub struct ForceCurve {
+    /// Drive, reaction and energy of every state of the first branch.
+    pub states: Vec<[f64; 3]>,
+}
+
+impl ForceCurve {
+    /// Reads the table of a path.
+    pub fn read(table: &Path) -> Self {
+        let text = std::fs::read_to_string(table).expect("the path has a table");
+        let header: Vec<&str> = text.lines().next().expect("a header").split(',').collect();
+        let columns = ["drive", "reaction", "energy_total"].map(|name| header.iter().position(|found| *found == name));
+        let row = |line: &str| {
+            let fields: Vec<&str> = line.split(',').collect();
+            (fields[0] == "0")
+                .then(|| columns.map(|k| fields[k.expect("a column of every path")].parse().expect("a number")))
+        };
+        Self { states: text.lines().skip(1).filter_map(row).collect() }
+    }
+
+    /// Returns the energy where the drive has this value, by a cubic whose slopes are the reactions.
+    pub fn energy_at(&self, drive: f64) -> f64 {
+        let pair = self.states.windows(2).find(|pair| (pair[0][0] - drive) * (pair[1][0] - drive) <= 0.0);
+        let pair = pair.expect("the path passes that value");
+        let size = pair[1][0] - pair[0][0];
+        let part = (drive - pair[0][0]) / size;
+        Self::between(pair, part)
+    }
+
+    /// Returns the energy where the reaction first changes its sign after the beginning, in the same way.
+    pub fn energy_without_force(&self) -> f64 {
+        let pair = self.states.windows(2).skip(1).find(|pair| pair[0][1] * pair[1][1] < 0.0);
+        let pair = pair.expect("the reaction changes its sign");
+        let ([x, f, e], [y, g, u]) = (pair[0], pair[1]);
+        let slope = |t: f64| {
+            6.0 * t * (1.0 - t) * (u - e) / (y - x) + (1.0 - t) * (1.0 - 3.0 * t) * f + t * (3.0 * t - 2.0) * g
+        };
+        let (mut a, mut b) = (0.0, 1.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (a + b);
+            if slope(a) * slope(middle) <= 0.0 { b = middle } else { a = middle }
+        }
+        Self::between(pair, a)
+    }
+
+    fn between(pair: &[[f64; 3]], t: f64) -> f64 {
+        let ([x, f, e], [y, g, u], r) = (pair[0], pair[1], 1.0 - t);
+        (1.0 + 2.0 * t) * r * r * e + t * t * (3.0 - 2.0 * t) * u + (y - x) * (t * r * r * f - t * t * r * g)
+    }
+}

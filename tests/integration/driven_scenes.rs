@@ -172,6 +172,14 @@ fn faults_of_parts() {
         ("[[part]]\nname = \"b\"\nvertices = [2, 3]\nfree = [\"w\"]".into(), 4, "`w` is no motion", "\"rz\""),
         ("[[part]]\nname = \"b\"\nvertices = [2, 3]\nfree = [\"z\", \"z\"]".into(), 4, "`z` is no motion, or is listed twice", "once"),
         ("[[part]]\nname = \"b c\"\nvertices = [2, 3]".into(), 2, "`b c` is not a name", "letters"),
+        ("[[part]]\nvertices = [0, 1, 2]".into(), 1, "missing key `name`", ""),
+        ("[[part]]\nname = 3\nvertices = [0, 1, 2]".into(), 2, "integer `3`", ""),
+        ("[[part]]\nname = \"b\"".into(), 1, "missing key `vertices`", ""),
+        ("[[part]]\nname = \"b\"\nvertices = \"rmi\"".into(), 3, "the mesh names no vertices `rmi`", "\"rim\""),
+        ("[[part]]\nname = \"b\"\nvertices = [9]".into(), 3, "there is no vertex 9", "0 to 4"),
+        ("[[part]]\nname = \"b\"\nvertices = [0, 1, 2]\nfree = \"z\"".into(), 4, "string \"z\"", ""),
+        ("[[part]]\nname = \"b\"\nvertices = [0, 1, 2]\nfree = [1]".into(), 4, "integer `1`", ""),
+        ("[[part]]\nname = \"b\"\nvertices = [0, 1, 2]\naxis = \"z\"".into(), 4, "unknown key `axis`", ""),
     ]);
 }
 
@@ -207,6 +215,24 @@ fn faults_of_drives() {
         (with_drive("stiffness = \"bars\"\nto = 0"), 4, "the stiffness is 0", "positive"),
         (with_drive("stiffness = \"plates\"\nto = 1"), 3, "unknown word `plates`", "bars"),
         (with_drive("stiffness = \"creases\"\nto = inf"), 4, "only bars are driven to exactly rigid", "finite"),
+        ("[[drive]]\nrest = true\nto = 1".into(), 1, "missing key `name`", ""),
+        ("[[drive]]\nname = \"d e\"\nrest = true\nto = 1".into(), 2, "`d e` is not a name", "letters"),
+        (with_drive("rest = true"), 1, "missing key `to`", ""),
+        (with_drive("rest = true\nto = \"a\""), 4, "string \"a\"", ""),
+        (with_drive("rest = true\nto = nan"), 4, "NaN", ""),
+        (with_drive("rest = true\nto = 1\nfrom = 0"), 5, "unknown key `from`", ""),
+        (with_drive("rest = \"flat\"\nto = 1"), 3, "string \"flat\"", ""),
+        (with_drive("load = 1\nto = 1"), 3, "integer `1`", ""),
+        (with_drive("part = 1\naxis = \"z\"\nto = 1"), 3, "integer `1`", ""),
+        (with_drive("vertices = [9]\naxis = \"z\"\nto = 1"), 3, "there is no vertex 9", "0 to 4"),
+        (with_drive("vertices = [3]\nto = 1"), 2, "the drive has no axis", ""),
+        (with_drive("vertices = [3]\naxis = \"w\"\nto = 1"), 4, "string \"w\"", ""),
+        (with_drive("vertices = [3]\naxis = [0, 1]\nto = 1"), 4, "the list has 2 values", ""),
+        (with_drive("vertices = [3]\naxis = [0, 0, nan]\nto = 1"), 4, "NaN", ""),
+        (with_drive("lock = [0, 4]\nto = 1"), 3, "the list has 2 values", ""),
+        (with_drive("lock = [0, 4, 0, 0.5]\nto = 1"), 3, "floating point `0.5`", ""),
+        (with_drive("stiffness = 3\nto = 1"), 3, "", ""),
+        (with_drive("stiffness = \"bars\"\nto = nan"), 4, "NaN", "positive"),
         (format!("{}\n{}", with_drive("rest = true\nto = 1"), with_drive("rest = true\nto = 2")), 6, "two drives have the name `d`", "line"),
     ]);
 }
@@ -281,8 +307,8 @@ fn names_are_converted() {
 }
 
 /// Claim: studies that cannot begin are refused before anything is computed or written: relaxations whose loads only a
-/// drive supports, drives that end where they begin, paths without energy, paths from random displacements, and studies
-/// other than relax and path with rigid parts or pins along a direction.
+/// drive supports, drives that end where they begin, driven stiffnesses that are not one number, paths without energy, paths from random displacements, and studies
+/// other than relax, path and wells with rigid parts or pins along a direction.
 #[test]
 fn studies_that_cannot_begin() {
     let energy = "[energy]\nbars = { stiffness = 1.0 }\n";
@@ -294,6 +320,21 @@ fn studies_that_cannot_begin() {
     let cases = [
         (format!("{energy}{load}{up}{}", study("kind = \"relax\"")), "only a drive supports the loads"),
         (format!("{energy}{load}{factor}{path}"), "the path of study `a` ends where it begins"),
+        (
+            format!("{energy}{}{path}", with_drive("stiffness = \"bars\"\nto = 1\n")),
+            "the driven stiffness is 1 at the beginning already",
+        ),
+        (
+            format!("[energy]\nbars = {{ stiffness = inf }}\n{}{path}", with_drive("stiffness = \"bars\"\nto = inf\n")),
+            "the driven stiffness is inf at the beginning already",
+        ),
+        (
+            format!(
+                "[energy]\nbars = {{ stiffness = {{ V = 1, B = 2, M = 1, F = 1 }} }}\n{}{path}",
+                with_drive("stiffness = \"bars\"\nto = 3\n")
+            ),
+            "the bars do not all have the same stiffness",
+        ),
         (format!("{up}{path}"), "there is no energy whose equilibria a path could follow"),
         (
             format!("{energy}{up}{}", study("kind = \"path\"\nstart = { random = 0.1, seed = 1 }")),

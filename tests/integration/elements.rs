@@ -298,6 +298,14 @@ fn wrong_tables_are_refused() {
             "i,j,n1,n2,stiffness\n0,1,0,0,nan\n",
             "k.csv:2: `nan` in column `stiffness` is not a positive number or `inf`",
         ),
+        // too large for a number, which is not the same as rigid
+        (
+            "i,j,n1,n2,stiffness\n0,1,0,0,1e999\n",
+            "k.csv:2: `1e999` in column `stiffness` is not a positive number or `inf`",
+        ),
+        ("i,j,n1,n2,stiffness\n0,1,0,0\n", "k.csv:2: the line has 4 fields, expected 5"),
+        ("i,j,n1,n2,stiffness\n0,1.5,0,0,1\n", "k.csv:2: `1.5` in column `j` is not a whole number"),
+        ("i,j,n1,n2,stiffness\n", "k.csv:1: the table has no rows"),
         ("i,j,n1,n2,stiffness\n1,2,0,0,1\n", "k.csv:2: the sheet has no crease [1, 2, 0, 0]"),
         ("i,j,n1,n2,stiffness\n0,1,0,0,1\n1,0,0,0,1\n", "k.csv:3: the edge is given twice, first in line 2"),
         ("i,j,n1,n2,stiffness\n0,1,0,0,1\n", "s.toml:6:34: k.csv has no row for crease [1, 3, 0, 0] of cell [0, 0]"),

@@ -212,7 +212,7 @@ fn loads_need_pins_that_hold() {
     let load = "[[load]]\nvertex = 0\nforce = [0.0, 0.0, -1e-3]\n";
     let two = format!("{}{}{load}", pin(1), pin(3));
     common::assert_refused(|folder| scene(folder, &two, ""), "a sheet that pins hold in place");
-    common::assert_refused(|folder| scene(folder, &pin(1), "rigid = true"), "which pins and loads do not know");
+    common::assert_refused(|folder| scene(folder, &pin(1), "rigid = true"), "which pins, parts and loads do not know");
     let pull = Vec3::new(0.0, 0.0, -1e-3);
     let case = on(parse(PYRAMID), [1, 1], Boundary::Patch);
     let held = |vertices: &[usize]| {

@@ -11,7 +11,7 @@ use foldwell::analysis::wells::settle::MinimumTracker;
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::Gauge;
-use foldwell::model::{Assembly, Boundary, Terms};
+use foldwell::model::{Assembly, Boundary, Hinges, Terms};
 use foldwell::numerics::parallel::Threads;
 use foldwell::output::summary::{StudyResult, StudySummary, WellsSummary};
 use foldwell::run::{RunOptions, run_scene};
@@ -360,6 +360,15 @@ fn translations_are_not_told_apart() {
     assert!(common::distance(&angles, &moved) > 0.1);
     assert_eq!(distance(case.rest_per_cell(0.1, 1)), 0.0);
     assert!(distance(case.rest_per_hinge(0.1, 1)) > 0.1);
+    // one bar, or one crease, that is stiffer than its copies
+    for (bar, crease) in [(2e3, 1.0), (1e3, 2.0)] {
+        let stiffer = |common: f64, one: f64| -> Vec<f64> {
+            (0..case.edges()).map(|edge| if edge == 0 { one } else { common }).collect()
+        };
+        let creases = Hinges { stiffness: stiffer(1.0, crease).into(), rest: case.rest_per_cell(0.1, 1) };
+        let terms = Terms { bars: Some(stiffer(1e3, bar).into()), creases: Some(creases), ..Terms::default() };
+        assert!(Translations::new(&case.with_terms(terms)).distance(&angles, &moved) > 0.1, "{bar} {crease}");
+    }
 }
 
 /// Claim: starts are bitwise the same for one thread and for two, in the same order.

@@ -1,9 +1,11 @@
 //! The barrier between two wells: a path with soft bars, its pass, and the pass followed to the sheet's own stiffness.
 //!
-//! With bars a hundred times as stiff as the creases states hang together also across folded states that do not, so the
+//! With bars at most a hundred times as stiff as the creases states hang together also across folded states that do not, so the
 //! string method ([`super::string`]) finds a path there. The highest state of its row is close to a pass; Newton's
 //! method ([`super::pass`]) makes it one, and goes on from it in bars ten times as stiff, and so on, up to those of the
-//! sheet; infinity is the last step. Where that ends early the path is sought again in stiffer bars, and at last in those
+//! sheet; infinity is the last step. Where bars differ each is as stiff as this allows and no stiffer than it is in the sheet:
+//! the stiffness of a stage is that of its stiffest bars, and softer ones are their own all the way. The median crease is
+//! what they are compared with. Where that ends early the path is sought again in stiffer bars, and at last in those
 //! of the sheet itself: some wells exist only because bars are as stiff as they are. There its states are held ever more
 //! strongly if they slide down from a pass that is steep against the creases. At the end the
 //! pass counts only where its Hessian has exactly one negative eigenvalue, it lies above the wells between which it was
@@ -244,7 +246,7 @@ fn from_softness(
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Barrier, BarrierError> {
     let failed = |failure| BarrierError::Path { stiffness, failure };
-    let mut settler = MinimumTracker::new(&assembly.with_bars(stiffness), strength);
+    let mut settler = MinimumTracker::new(&assembly.with_bars_at_most(stiffness), strength);
     let mut soft = Vec::new();
     for well in between {
         let place = &wells[well].settled.place;
@@ -267,7 +269,7 @@ fn from_softness(
     let Followed { pass, heights, singular } = followed(assembly, first, stiffness)?;
     let own =
         if singular { heights.last().map_or(stiffness, |height| height.stiffness) } else { assembly.bar_stiffness() };
-    let ends = sides(&assembly.with_bars(own), &pass, &along, OPTIONS).map_err(failed)?;
+    let ends = sides(&assembly.with_bars_at_most(own), &pass, &along, OPTIONS).map_err(failed)?;
     let comparison = Comparison::new(assembly);
     let number = |end: &Settled| which(wells, &end.relaxed.state, &comparison);
     let higher = between.iter().map(|well| wells[*well].settled.energy).fold(f64::NEG_INFINITY, f64::max);
@@ -319,7 +321,7 @@ fn near_top(
 fn index_one(assembly: &Assembly, stiffness: f64, near: [&Settled; 3]) -> Result<Pass, BarrierError> {
     let mut why = None;
     for state in near {
-        let reason = match equilibrium(&assembly.with_bars(stiffness), &state.place, OPTIONS) {
+        let reason = match equilibrium(&assembly.with_bars_at_most(stiffness), &state.place, OPTIONS) {
             Ok(pass) if pass.negative_eigenvalues == 1 => return Ok(pass),
             Ok(pass) => BarrierError::Index { stiffness, found: pass.negative_eigenvalues },
             Err(failure) => BarrierError::NoPass { stiffness, failure },
@@ -344,7 +346,7 @@ fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<Followed
     let (mut pass, mut at, mut factor) = (first, stiffness, STIFFER);
     while at < goal {
         let next = if at >= ALMOST_RIGID * creases { goal } else { (at * factor).min(goal) };
-        match equilibrium(&assembly.with_bars(next), &pass.place, OPTIONS) {
+        match equilibrium(&assembly.with_bars_at_most(next), &pass.place, OPTIONS) {
             Ok(found) if found.negative_eigenvalues == 1 && (next.is_finite() || near(&found, &pass)) => {
                 heights.push(Height { stiffness: next, energy: found.energy });
                 (pass, at, factor) = (found, next, (factor * factor).min(STIFFER));

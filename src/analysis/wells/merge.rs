@@ -1,19 +1,19 @@
 //! Wells told apart by their fold angles: rigid motions change none of them, and the translations of a torus exchange
-//! them. Where pins make a difference between places of one shape ([`super::placement`]) they are told apart by these too.
+//! them. Where pins or rigid parts make a difference between places of one shape ([`super::placement`]) they are told apart by these too.
 //!
-//! A translation counts where it leaves rest angles and locked angles as they are. Angles are not taken modulo whole
+//! A translation counts where it leaves stiffnesses, rest angles and locked angles as they are. Angles are not taken modulo whole
 //! turns, because the energy is not: a crease wound once more is another well, and passes through itself.
 
 use super::placement::Placement;
 use super::settle::Settled;
 use crate::analysis::state::State;
-use crate::model::{Assembly, Hinges};
+use crate::model::{Assembly, Hinges, Stiffness};
 use std::collections::HashMap;
 
 /// Largest difference of a fold angle between two finds of one well, in radians.
 pub(crate) const SAME_WELL_ANGLE_RAD: f64 = 1e-5;
 
-/// Rest angles of copies of a crease that are the same differ by no more, in radians.
+/// Rest angles of copies of a crease that are the same differ by no more, in radians; stiffnesses relative to them.
 const ROUNDING: f64 = 1e-9;
 
 /// A stable state.
@@ -58,17 +58,24 @@ impl Translations {
     }
 }
 
-/// Whether rest angles and locks go over into themselves.
+/// Whether stiffnesses, rest angles and locks go over into themselves.
 fn unfelt(assembly: &Assembly, moved: &[usize]) -> bool {
     let terms = assembly.terms();
+    let even = |stiffness: &Stiffness| {
+        let mut pairs = moved.iter().enumerate().map(|(from, &to)| [from, to].map(|edge| stiffness.of(edge)));
+        pairs.all(|[a, b]| a == b || (a - b).abs() <= ROUNDING * a.abs() || (a.is_nan() && b.is_nan()))
+    };
     let same = |hinges: &Option<Hinges>| {
-        let Some(Hinges { rest, .. }) = hinges else { return true };
+        let Some(Hinges { rest, stiffness }) = hinges else { return true };
         let mut pairs = rest.iter().zip(moved).map(|(from, &to)| [*from, rest[to]]);
-        pairs.all(|[a, b]| (a - b).abs() <= ROUNDING || (a.is_nan() && b.is_nan()))
+        even(stiffness) && pairs.all(|[a, b]| (a - b).abs() <= ROUNDING || (a.is_nan() && b.is_nan()))
     };
     let locks: HashMap<usize, f64> = terms.locks.iter().copied().collect();
     let locked = |edge: usize, angle: f64| locks.get(&edge).is_some_and(|other| (other - angle).abs() <= ROUNDING);
-    same(&terms.creases) && same(&terms.facets) && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
+    let bars = terms.bar_stiffness().is_none_or(even);
+    bars && same(&terms.creases)
+        && same(&terms.facets)
+        && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
 }
 
 /// What tells whether two states are the same well.

@@ -11,7 +11,7 @@ use super::work::Work;
 use crate::analysis::start_state::StartState;
 use crate::analysis::state::State;
 use crate::model::{Assembly, Gauge, Model};
-use crate::solver::{Failure, Options, Problem, Start, StationaryPoint, stationary_point};
+use crate::solver::{Failure, Options, Start, StationaryPoint, stationary_point};
 
 /// Largest change of a fold angle in a step.
 const LONGEST_ANGLE_STEP_RAD: f64 = 0.2;
@@ -38,7 +38,7 @@ pub struct Pass {
     pub place: StartState,
     /// What it looks like.
     pub state: State,
-    /// Fold angles of the soft hinges.
+    /// Fold angles of the elastic hinges.
     pub rho: Vec<f64>,
     /// Its elastic energy less the work of loads from the drawn state.
     pub energy: f64,
@@ -66,8 +66,7 @@ pub(crate) fn equilibrium(assembly: &Assembly, from: &StartState, options: Optio
 
 fn pass(model: &Model, found: StationaryPoint, work: &Work) -> Pass {
     let state = State::new(model, &found.x, &found.tension);
-    let mut rho = model.values(&found.x);
-    rho.truncate(model.layout().soft.len());
+    let rho = model.hinge_angles(&found.x);
     Pass {
         place: StartState { coordinates: state.coordinates.clone(), angles: model.angles(), tension: found.tension },
         rho,

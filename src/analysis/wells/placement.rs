@@ -1,14 +1,16 @@
-//! Pins: whether they say more about a state than its shape, and whether two states of one shape are one for them.
+//! Pins, guides and rigid parts: whether they say more about a state than its shape, and whether two states of one shape are
+//! one for them.
 //!
 //! Pins that only take rigid motions away, such as three, two and one coordinate of three vertices, hold no shape: every
 //! shape of the free sheet can be placed on them. Then states of one shape count as one. Other pins hold the shape too,
 //! and one shape can be held by them in several places, between which the sheet has to bend: a triangle on two pinned
 //! vertices, whose third one is kept in a plane, stands on either side of that plane's zero line. Two states of one shape
-//! then are one if a rigid motion that the pins leave free leads from one to the other.
+//! then are one if a rigid motion that the pins leave free leads from one to the other. Guides, and the coordinates of
+//! parts that are not free, count as pins do.
 
 use crate::math::{Vec3, rotation};
-use crate::model::gauge;
-use crate::model::{Assembly, Domain};
+use crate::model::gauge::{self, Motion};
+use crate::model::{Assembly, Domain, Gauge, Model};
 use crate::numerics::dense::small::shortest_solution;
 use nalgebra::{DMatrix, DVector};
 
@@ -17,95 +19,81 @@ const STEPS: usize = 60;
 const LONGEST_TURN_RAD: f64 = 0.5;
 /// Distance of two vertices, over the mean edge, up to which they are in the same place.
 const SAME_PLACE: f64 = 1e-4;
-/// Weight of pinned coordinates against others.
+/// Weight of what is kept against the coordinates of vertices.
 const WEIGHT: f64 = 1e6;
 /// Singular values, relative, of motions that are none.
 const DEPENDENT: f64 = 1e-12;
 
-/// What pins say about the place of a sheet.
+/// What pins, guides and parts say about the place of a sheet.
 #[derive(Clone, Debug)]
-pub(crate) struct Placement {
-    domain: Domain,
-    /// Indices of the pinned coordinates.
-    pinned: Vec<usize>,
-    mean_edge: f64,
-}
+pub(crate) struct Placement(Assembly);
 
 impl Placement {
-    /// Of the pins of a patch; `None` where the shape says all.
+    /// Of the pins, guides and parts of a patch; `None` where the shape says all.
     pub(crate) fn new(assembly: &Assembly) -> Option<Self> {
-        let terms = assembly.terms();
-        let pinned = pinned(assembly);
-        let shapes = pinned.is_empty() || (!holds_shape(assembly) && terms.loads.is_empty());
-        let placement = || Self { domain: assembly.drawn().domain.clone(), pinned, mean_edge: assembly.mean_edge() };
-        (!shapes).then(placement)
+        let model = assembly.model(Gauge::Free);
+        let kept = kept(&model);
+        let shapes = kept == 0 || (only_against_motions(&model, kept) && assembly.terms().loads.is_empty());
+        (!shapes).then(|| Self(assembly.clone()))
     }
 
-    /// Whether a rigid motion that the pins leave free leads from one state to another of the same shape.
+    /// Whether a rigid motion that is left free leads from one state to another of the same shape.
     ///
     /// The sheet is moved towards the other state by rigid motions, step by step, each the one that brings all vertices
-    /// closest and leaves those that are pinned where they are.
+    /// closest and leaves where it is what is kept.
     pub(crate) fn leads(&self, from: &[f64], to: &[f64]) -> bool {
+        let (model, edge) = (self.0.model(Gauge::Free), self.0.mean_edge());
         let mut at = from.to_vec();
         for _ in 0..STEPS {
             let apart = at.iter().zip(to).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            if apart <= SAME_PLACE * self.mean_edge {
+            if apart <= SAME_PLACE * edge {
                 return true;
             }
-            let Some(step) = self.step(&at, to) else { return false };
+            let Some(step) = step(&model, &at, to) else { return false };
             moved(&mut at, &step);
         }
         false
     }
-
-    /// Returns the best rigid motion: a translation and then a rotation vector about the centroid.
-    fn step(&self, at: &[f64], to: &[f64]) -> Option<[Vec3; 2]> {
-        let motions = gauge::rigid_motions(&self.domain, at, true);
-        let rows = motions.len() + self.pinned.len();
-        let place = |row: usize| match row.checked_sub(motions.len()) {
-            None => (row, 1.0),
-            Some(pin) => (self.pinned[pin], WEIGHT),
-        };
-        let matrix = DMatrix::from_fn(rows, 6, |row, motion| place(row).1 * motions[place(row).0][motion]);
-        let right = DVector::from_fn(rows, |row, _| place(row).1 * (to[place(row).0] - at[place(row).0]));
-        let found = shortest_solution(matrix, &right, DEPENDENT)?;
-        let (points, centre) = (points(at), centre(at));
-        let size = points.map(|p| (p - centre).norm()).fold(f64::MIN_POSITIVE, f64::max);
-        let [shift, turn] = [Vec3::new(found[0], found[1], found[2]), Vec3::new(found[3], found[4], found[5]) / size];
-        let part = (LONGEST_TURN_RAD / turn.norm().max(LONGEST_TURN_RAD)).min(1.0);
-        Some([part * shift, part * turn])
-    }
 }
 
-/// Whether pins hold more than rigid motions.
+/// Returns the best rigid motion: a translation and then a rotation vector about the centroid.
+fn step(model: &Model, at: &[f64], to: &[f64]) -> Option<[Vec3; 2]> {
+    let motions = gauge::rigid_motions(model.domain(), at, true);
+    let free = motions.iter().zip(to.iter().zip(at)).map(|(rates, (to, at))| (*rates, to - at));
+    let kept = model.kept(at).into_iter().zip(model.kept(to));
+    let kept = kept.map(|(at, to)| (WEIGHT * at.rates, WEIGHT * (to.value - at.value)));
+    let rows: Vec<(Motion, f64)> = free.chain(kept).collect();
+    let matrix = DMatrix::from_fn(rows.len(), 6, |row, motion| rows[row].0[motion]);
+    let right = DVector::from_fn(rows.len(), |row, _| rows[row].1);
+    let found = shortest_solution(matrix, &right, DEPENDENT)?;
+    let (points, centre) = (points(at), centre(at));
+    let size = points.map(|p| (p - centre).norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let [shift, turn] = [Vec3::new(found[0], found[1], found[2]), Vec3::new(found[3], found[4], found[5]) / size];
+    let part = (LONGEST_TURN_RAD / turn.norm().max(LONGEST_TURN_RAD)).min(1.0);
+    Some([part * shift, part * turn])
+}
+
+/// Whether pins, guides and parts hold more than rigid motions.
 pub(crate) fn holds_shape(assembly: &Assembly) -> bool {
-    let pinned = pinned(assembly);
-    let [all, free] = rigid_motions(assembly, &pinned);
-    !pinned.is_empty() && all - free < pinned.len()
+    let model = assembly.model(Gauge::Free);
+    let kept = kept(&model);
+    model.has_parts() || (kept > 0 && !only_against_motions(&model, kept))
 }
 
-/// Returns the number of rigid motions that pins leave free.
+/// Returns the number of rigid motions that pins, guides and parts leave free.
 pub fn free_rigid_motions(assembly: &Assembly) -> usize {
-    rigid_motions(assembly, &pinned(assembly))[1]
+    assembly.model(Gauge::Free).rigid_motion_counts()[1]
 }
 
-/// Returns the numbers of rigid motions of the drawn state without pins, and with these coordinates pinned.
-fn rigid_motions(assembly: &Assembly, pinned: &[usize]) -> [usize; 2] {
-    let drawn = assembly.drawn();
-    let motions = gauge::rigid_motions(&drawn.domain, &drawn.coordinates, true);
-    let mut held = vec![false; motions.len()];
-    let all = gauge::choose(&motions, &held).len();
-    pinned.iter().for_each(|&k| held[k] = true);
-    [all, gauge::choose(&motions, &held).len()]
+/// Whether this number of coordinates that are kept only prevent rigid motions, each another one.
+fn only_against_motions(model: &Model, kept: usize) -> bool {
+    let [all, free] = model.rigid_motion_counts();
+    all - free == kept
 }
 
-fn pinned(assembly: &Assembly) -> Vec<usize> {
-    let coordinates = |(vertex, axes): &(usize, [bool; 3])| {
-        let first = 3 * *vertex;
-        let axes = *axes;
-        (0..3).filter(move |axis| axes[*axis]).map(move |axis| first + axis)
-    };
-    assembly.terms().pins.iter().flat_map(coordinates).collect()
+/// Number of coordinates that pins and parts of a patch, and guides, keep.
+fn kept(model: &Model) -> usize {
+    if matches!(model.domain(), Domain::Patch) { model.kept(&model.coordinates(&model.start())).len() } else { 0 }
 }
 
 fn points(coordinates: &[f64]) -> impl Iterator<Item = Vec3> {

@@ -17,7 +17,7 @@ use crate::solver::{Options, Problem, Start, Step};
 pub struct Settled {
     /// Where it is.
     pub place: StartState,
-    /// Fold angles of the soft hinges.
+    /// Fold angles of the elastic hinges.
     pub rho: Vec<f64>,
     /// Elastic energy less the work of loads from the drawn state; what holds it near its target is left out.
     pub energy: f64,
@@ -31,8 +31,12 @@ pub struct MinimumTracker {
     held: Model,
     /// How much stiffer than its creases is what holds the sheet.
     strength: f64,
+    /// Numbers of the elastic hinges among all elements, their rest angles and stiffnesses.
+    hinges: Vec<usize>,
     rest: Vec<f64>,
     stiffness: Vec<f64>,
+    /// For each stiff measure whether it is an elastic hinge.
+    is_hinge: Vec<bool>,
     work: Work,
 }
 
@@ -40,11 +44,13 @@ impl MinimumTracker {
     /// The settler of an assembly; what holds it near fold angles is `strength` times as stiff as its creases.
     pub fn new(assembly: &Assembly, strength: f64) -> Self {
         let (free, mut held) = (assembly.model(Gauge::Held), assembly.model(Gauge::Held));
-        let count = free.layout().soft.len();
-        held.scale_soft(&vec![1.0 + strength; count]);
-        let springs = free.soft().iter().flat_map(|term| (0..term.len()).map(move |k| term.spring(k)));
-        let (rest, stiffness) = springs.map(|spring| (spring.rest, spring.stiffness)).unzip();
-        Self { free, held, strength, rest, stiffness, work: Work::new(assembly) }
+        held.scale_hinges(1.0 + strength);
+        let hinges = free.elastic_hinges();
+        let (rest, stiffness) = free.hinge_springs().iter().map(|spring| (spring.rest, spring.stiffness)).unzip();
+        let soft: usize = free.soft().iter().map(|term| term.len()).sum();
+        let mut is_hinge = vec![false; free.compliance().len()];
+        hinges.iter().filter_map(|number| number.checked_sub(soft)).for_each(|measure| is_hinge[measure] = true);
+        Self { free, held, strength, hinges, rest, stiffness, is_hinge, work: Work::new(assembly) }
     }
 
     /// The drawn state.
@@ -59,7 +65,7 @@ impl MinimumTracker {
         StartState { coordinates, angles: restored::angles(&self.free, fold_angle), tension }
     }
 
-    /// Stiffness of the soft hinges: the metric.
+    /// Stiffness of the elastic hinges: the metric.
     pub(crate) fn stiffness(&self) -> &[f64] {
         &self.stiffness
     }
@@ -79,7 +85,7 @@ impl MinimumTracker {
         Ok(self.settled(relaxed, false))
     }
 
-    /// The same held near these fold angles of the soft hinges.
+    /// The same held near these fold angles of the elastic hinges.
     ///
     /// # Errors
     /// [`RelaxError`] where the relaxation does not converge.
@@ -91,8 +97,8 @@ impl MinimumTracker {
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Settled, Box<RelaxError>> {
         let mut rests = self.held.rests();
-        for (at, target) in target.iter().enumerate() {
-            rests[at] = (self.rest[at] + self.strength * target) / (1.0 + self.strength);
+        for ((hinge, rest), target) in self.hinges.iter().zip(&self.rest).zip(target) {
+            rests[*hinge] = (rest + self.strength * target) / (1.0 + self.strength);
         }
         self.held.set_rests(&rests, &rests, 1.0);
         let relaxed = relax_from_state(&mut self.held, from, false, options, observe)?;
@@ -107,11 +113,11 @@ impl MinimumTracker {
 
     fn settled(&self, relaxed: Relaxed, held: bool) -> Settled {
         let model = if held { &self.held } else { &self.free };
-        let mut rho = model.values(&relaxed.x);
-        rho.truncate(self.rest.len());
-        let creases = rho.iter().zip(&self.rest).zip(&self.stiffness).map(|((rho, rest), k)| k * (rho - rest).powi(2));
-        let stiff = relaxed.tension.iter().zip(model.compliance()).map(|(t, c)| c * t * t);
-        let elastic = 0.5 * (creases.sum::<f64>() + stiff.sum::<f64>());
+        let rho = model.hinge_angles(&relaxed.x);
+        let hinges = rho.iter().zip(&self.rest).zip(&self.stiffness).map(|((rho, rest), k)| k * (rho - rest).powi(2));
+        let others = relaxed.tension.iter().zip(model.compliance()).zip(&self.is_hinge).filter(|(_, hinge)| !**hinge);
+        let others = others.map(|((t, c), _)| c * t * t);
+        let elastic = 0.5 * (hinges.sum::<f64>() + others.sum::<f64>());
         let energy = elastic - self.work.to(&relaxed.state.coordinates);
         let (coordinates, tension) = (relaxed.state.coordinates.clone(), relaxed.tension.clone());
         Settled { place: StartState { coordinates, angles: model.angles(), tension }, rho, energy, relaxed }

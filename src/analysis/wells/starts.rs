@@ -1,9 +1,10 @@
 //! Random starts: the sheet crumpled to random fold angles, with soft bars, and then released.
 //!
-//! Every crease is given a rest angle at random around the drawn one, every coordinate is moved at random (flat sheets
-//! have to leave the flat state), a screw gets an axis at random, and the sheet relaxes with bars of at most a thousand
-//! times the stiffness of its creases, so that no folded state is out of reach; on pins that hold its shape, of a
-//! thousand, a hundred and ten times by turns. From there it relaxes with its own bars
+//! Every crease that is not rigid is given a rest angle at random around the drawn one, every coordinate is moved at random
+//! (flat sheets have to leave the flat state), rigid parts by as much as their vertices are in the mean, a screw gets an
+//! axis at random, and the sheet relaxes with bars of at most a thousand times the stiffness of its median crease, so that
+//! no folded state is out of reach; on pins that hold its shape, and with rigid parts, of a thousand, a hundred and ten
+//! times by turns. From there it relaxes with its own bars
 //! and rest angles. Where that ends in no well the start is made anew, a few times. Its random numbers depend on the
 //! seed and its own number alone.
 //!
@@ -24,7 +25,7 @@ use std::f64::consts::PI;
 
 /// Stiffness of bars over that of creases while the sheet is crumpled.
 const SOFT: f64 = 1e3;
-/// The same for a sheet whose shape pins hold, by turns: they make bars resist that a free sheet would not stretch.
+/// The same for a sheet whose shape pins or parts hold, by turns: they make bars resist that a free sheet would not stretch.
 const SOFT_ON_PINS: [f64; 3] = [1e3, 1e2, 1e1];
 /// Random part of a coordinate, over the mean edge.
 const MOVED: f64 = 0.05;
@@ -177,10 +178,13 @@ fn crumpled(
     let angles = centre.map_or(assembly.drawn_angles(), |centre| &centre.angles);
     let mut terms = assembly.terms().clone();
     if let Some(creases) = &mut terms.creases {
-        creases.rest = angles.iter().map(|angle| angle + within(spread)).collect();
-        let soft = assembly.bar_stiffness().min(softness * creases.stiffness.softest());
+        let random = angles.iter().map(|angle| angle + within(spread));
+        let rigid = |edge: usize| creases.stiffness.of(edge).is_infinite();
+        let rest =
+            random.zip(&creases.rest).enumerate().map(|(edge, (random, own))| if rigid(edge) { *own } else { random });
+        creases.rest = rest.collect();
         if let Some(bars) = &mut terms.bars {
-            bars.stiffness = soft.into();
+            bars.stiffness = bars.stiffness.at_most(softness * creases.stiffness.median());
         }
         // loads that the sheet bears could fold soft bars over
         terms.loads.clear();

@@ -102,9 +102,18 @@ impl Bodies {
         }
     }
 
-    /// Sets the poses to those that bring the parts closest to where their vertices are. Of the rotation vectors of one
-    /// rotation the one nearest to that of `before` is taken.
+    /// Sets the poses to those that bring the parts closest to where their vertices are, their coordinates that are not
+    /// free to zero. Of the rotation vectors of one rotation the one nearest to that of `before` is taken.
     pub(super) fn find_poses(&self, generalised: &mut [f64], before: &[f64]) {
+        self.find_all_poses(generalised, before);
+        let first = generalised.len() - self.coordinates();
+        let held = self.free().enumerate().filter(|(_, free)| !free);
+        held.for_each(|(k, _)| generalised[first + k] = 0.0);
+    }
+
+    /// Sets the poses to those that bring the parts closest to where their vertices are, as if all their coordinates
+    /// were free.
+    pub(super) fn find_all_poses(&self, generalised: &mut [f64], before: &[f64]) {
         for (part, body) in self.bodies.iter().enumerate() {
             let pose = self.pose(part, generalised);
             let points = |k: usize| Vec3::from_column_slice(&generalised[3 * k..3 * k + 3]);
@@ -115,8 +124,7 @@ impl Bodies {
             let turn = nearest_turn(rotation::log(&nearest_rotation(&moment)), self.rotation(part, before));
             let moved = centroid - body.centroid;
             let found = [moved.x, moved.y, moved.z, turn.x, turn.y, turn.z];
-            let kept = found.iter().zip(&body.part.free).map(|(found, free)| if *free { *found } else { 0.0 });
-            kept.enumerate().for_each(|(k, value)| generalised[pose + k] = value);
+            generalised[pose..pose + POSE].copy_from_slice(&found);
         }
     }
 

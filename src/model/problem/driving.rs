@@ -190,18 +190,6 @@ impl Effect {
 }
 
 impl Model {
-    /// Number of elements of the soft terms.
-    pub(super) fn soft_elements(&self) -> usize {
-        self.soft.iter().map(|term| term.len()).sum()
-    }
-
-    /// Returns by how much each soft element is off its rest value.
-    fn off_rest(&self, x: &[f64]) -> Vec<f64> {
-        let all = self.coordinates(x);
-        let elements = self.soft.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-        elements.map(|(term, k)| term.value(k, &self.domain, &all) - term.spring(k).rest).collect()
-    }
-
     /// Returns the gradient of the potential of the loads, for a factor of 1.
     fn load_rates(&self, x: &[f64]) -> Vec<f64> {
         let mut rates = vec![0.0; self.free.len()];
@@ -277,6 +265,14 @@ impl Model {
 impl ParametrizedProblem for DrivenModel {
     fn parameter(&self) -> f64 {
         self.parameter
+    }
+
+    fn reference(&self) -> Vec<f64> {
+        self.model.angles()
+    }
+
+    fn set_reference(&mut self, reference: &[f64]) {
+        self.model.set_angles(reference);
     }
 
     fn set_parameter(&mut self, value: f64) {

@@ -61,11 +61,7 @@ impl Model {
     /// Returns which coordinates are held if these are the rigid motions: the pinned ones, those of poses that are not
     /// free, and those that the gauge adds; then that the values of supports are.
     pub(super) fn chosen(&self, motions: &[gauge::Motion]) -> Vec<bool> {
-        let mut held = vec![false; motions.len()];
-        self.pinned.iter().for_each(|&k| held[k] = true);
-        let poses = self.points()..self.base.len();
-        poses.zip(self.bodies.free()).for_each(|(k, free)| held[k] = !free);
-        held[self.base.len()..].fill(true);
+        let mut held = self.held_by_conditions(motions.len());
         if self.gauge == Gauge::Held {
             gauge::choose(motions, &held).into_iter().for_each(|k| held[k] = true);
         }

@@ -25,13 +25,18 @@ const SEED: u64 = 7;
 const LEAST_ACROSS: f64 = 1e-3;
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
-    /// First states of the branches that leave at a branch point where this many eigenvalues vanish: two for each
-    /// null vector, where they are found.
-    pub(super) fn leaving(&mut self, point: &PathState, multiplicity: usize) -> Result<Vec<PathState>, PathError> {
+    /// First states of the branches that leave at a branch point where this many eigenvalues vanish, each with the
+    /// reference of the problem there: two for each null vector, where they are found. Where several eigenvalues vanish
+    /// there may be more branches, in directions between the null vectors.
+    pub(super) fn leaving(
+        &mut self,
+        point: &PathState,
+        multiplicity: usize,
+    ) -> Result<Vec<(PathState, Vec<f64>)>, PathError> {
         let mut found = vec![];
         for direction in self.null_vectors(point, multiplicity)? {
             for sign in [1.0, -1.0] {
-                found.extend(self.leave(point, &direction, sign)?);
+                found.extend(self.leave(point, &direction, sign)?.map(|first| (first, self.problem.reference())));
             }
         }
         Ok(found)

@@ -16,18 +16,22 @@
 //! | `bordered`, `corrector` | the linear system with the parameter as an unknown, and Newton's method with it |
 //! | `interpolant`, `follower` | states between two others, and steps |
 //! | `events`, `work`, `branching` | special states, the work along the path, and directions that leave it |
-//! | `run` | branches from their beginning to their end |
+//! | `run`, `exits`, `switching` | branches from their beginning to their end, and from one to the next |
+//! | `record` | what an interrupted run has found, and how a later one goes on from it |
 //! | `outcome` | settings and results |
 
 mod bordered;
 mod branching;
 mod corrector;
 mod events;
+mod exits;
 mod follower;
 mod interpolant;
 mod outcome;
 mod problem;
+mod record;
 mod run;
+mod switching;
 #[cfg(test)]
 mod tests;
 mod work;
@@ -36,11 +40,12 @@ use super::newton::Start;
 pub use events::Watch;
 pub use outcome::{Branch, BranchEnd, MarkedState, PathError, PathMark, PathSettings};
 pub use problem::{ParametrizedProblem, PathState, Rates};
+pub use record::{PathEntry, PathObserver, PathRecord};
 use run::Run;
 
 /// Follows the equilibria of a problem from a start near one, at the problem's present parameter, towards the target of
-/// the settings; then, if the settings ask for it, the branches that leave at branch points. `observe` sees the number
-/// of the branch and every state, and returns false to stop.
+/// the settings; then, if the settings ask for it, the branches that leave at branch points. `record` is what an earlier
+/// run of the same path has found, empty if there was none; of that nothing is computed again.
 ///
 /// # Errors
 /// [`PathError`] if no equilibrium is found to begin with, or a linear system is too large.
@@ -49,11 +54,12 @@ pub fn follow_path<P: ParametrizedProblem>(
     start: Start,
     settings: &PathSettings,
     watch: &mut dyn Watch<P>,
-    observe: &mut dyn FnMut(usize, &P, &MarkedState) -> bool,
+    observer: &mut dyn PathObserver<P>,
+    record: PathRecord,
 ) -> Result<Vec<Branch>, PathError> {
     let tension = start.tension.unwrap_or_else(|| vec![0.0; problem.layout().stiff.len()]);
     let sign = if settings.target < problem.parameter() { -1.0 } else { 1.0 };
-    let mut run = Run::new(problem, settings, watch, observe)?;
+    let mut run = Run::new(problem, settings, watch, observer, record)?;
     run.main_branch(start.x, tension, sign)?;
     run.other_branches()?;
     Ok(run.branches)

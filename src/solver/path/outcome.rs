@@ -2,6 +2,7 @@
 
 use super::problem::PathState;
 use crate::numerics::factor::FactorError;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Tolerance, steps and end of a path.
@@ -38,7 +39,7 @@ impl Default for PathSettings {
 }
 
 /// A kind of special state, located between two ordinary ones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PathMark {
     /// The parameter has an extremum along the path.
     ParameterTurns,
@@ -51,7 +52,7 @@ pub enum PathMark {
 }
 
 /// The reason for which a branch ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum BranchEnd {
     /// The parameter is the target's.
     Target,
@@ -79,7 +80,7 @@ pub struct Branch {
 }
 
 /// A state of a branch.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MarkedState {
     /// The state.
     pub state: PathState,
@@ -87,6 +88,8 @@ pub struct MarkedState {
     pub mark: Option<PathMark>,
     /// Integral of the conjugate quantity over the parameter, from the first state of the path.
     pub work: f64,
+    /// What accepted states had changed in the problem; see [`super::ParametrizedProblem::reference`].
+    pub reference: Vec<f64>,
 }
 
 /// The reason for which a path cannot be followed.

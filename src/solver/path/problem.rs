@@ -2,6 +2,7 @@
 
 use crate::solver::linearization::Linearization;
 use crate::solver::problem::Problem;
+use serde::{Deserialize, Serialize};
 
 /// A problem that depends on one parameter.
 pub trait ParametrizedProblem: Problem {
@@ -9,6 +10,12 @@ pub trait ParametrizedProblem: Problem {
     fn parameter(&self) -> f64;
     /// Sets the parameter.
     fn set_parameter(&mut self, value: f64);
+    /// Returns what accepted states have changed in the problem: values from which measures continue, for instance.
+    fn reference(&self) -> Vec<f64> {
+        vec![]
+    }
+    /// Restores what [`ParametrizedProblem::reference`] returned.
+    fn set_reference(&mut self, _reference: &[f64]) {}
     /// Natural size of a change of the parameter; positive.
     fn parameter_scale(&self) -> f64;
     /// Rates by the parameter, at fixed unknowns and tensions, of the gradient of the energy (tensions of stiff
@@ -21,7 +28,7 @@ pub trait ParametrizedProblem: Problem {
 }
 
 /// Rates of a state, or a difference of two states.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rates {
     /// Of the unknowns.
     pub x: Vec<f64>,
@@ -32,7 +39,7 @@ pub struct Rates {
 }
 
 /// An equilibrium on a path.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathState {
     /// Arc length from the beginning of the branch. Its square is that of the unknowns' root mean square, in their unit
     /// of length, plus that of the parameter in units of its scale.

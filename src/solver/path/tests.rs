@@ -103,8 +103,18 @@ impl<P> Watch<P> for Nothing {
     }
 }
 
+impl<P> PathObserver<P> for Nothing {
+    fn state(&mut self, _branch: usize, _problem: &P, _state: &MarkedState) -> bool {
+        true
+    }
+    fn known_state(&mut self, _branch: usize, _problem: &P, _state: &MarkedState) {}
+    fn entry(&mut self, _entry: &PathEntry) -> bool {
+        true
+    }
+}
+
 fn follow(problem: &mut Textbook, x: Vec<f64>, settings: &PathSettings) -> Vec<Branch> {
-    follow_path(problem, Start::from(x), settings, &mut Nothing, &mut |_, _, _| true).unwrap()
+    follow_path(problem, Start::from(x), settings, &mut Nothing, &mut Nothing, PathRecord::default()).unwrap()
 }
 
 fn marked(branch: &Branch, mark: PathMark) -> Vec<&PathState> {
@@ -254,4 +264,45 @@ fn a_column_buckles() {
     }
     let ends: Vec<f64> = branches[1..].iter().map(|b| b.states[b.states.len() - 1].state.x[0]).collect();
     assert!((ends[0] + ends[1]).abs() <= 1e-10 && ends[0].abs() > 1.0, "{ends:?}");
+}
+
+/// Claim: a state is found on its branch, and not on another one at a distance of a thousandth of a step. Tolerance: the
+/// interpolant between states 0.1 apart is off by a fifth of that distance, so that Newton's method leads to the nearer
+/// branch. Source: branches `y = sin(3 u) +- d`, `u = load`, of the energy
+/// `(u - load)^2/2 + z^3/3 - d^2 z` with `z = y - sin(3 u)`.
+#[test]
+fn neighbouring_branches_are_told_apart() {
+    const APART: f64 = 5e-5;
+    let mut pair = Textbook {
+        layout: Textbook::layout(2, 0),
+        compliance: vec![],
+        scale: vec![],
+        parameter: 0.0,
+        way: 1.0,
+        soft: |x, load| {
+            let (sin, cos) = (3.0 * x[1]).sin_cos();
+            let (off, along) = (x[0] - sin, x[1] - load);
+            let slope = off * off - APART * APART;
+            let energy = 0.5 * along * along + off.powi(3) / 3.0 - APART * APART * off;
+            let bend = 1.0 + 9.0 * sin * slope + 18.0 * cos * cos * off;
+            (energy, vec![slope, along - 3.0 * cos * slope], vec![2.0 * off, -6.0 * cos * off, bend])
+        },
+        stiff: |_, _| vec![],
+        rates: |_| [vec![0.0, -1.0], vec![]],
+        conjugate: |_, _| 0.0,
+    };
+    let mut follower = follower::Follower::new(&mut pair, PathSettings::default()).unwrap();
+    let mut states = vec![];
+    for (load, side) in [(0.0, 1.0), (0.04, 1.0), (0.1, 1.0), (0.06, 1.0), (0.06, -1.0)] {
+        let x = vec![f64::sin(3.0 * load) + side * APART, load];
+        let guess = corrector::Guess { x, tension: vec![], parameter: load };
+        let (mut state, _) = follower.settle(guess, &bordered::Plane::of_parameter(2, 1.0), 0.0).unwrap().unwrap();
+        // between the chord and the curve, which differ by less than what is told apart
+        state.arc_length = load * (1.0 + 9.0 + 2.0f64).sqrt() / std::f64::consts::SQRT_2;
+        states.push(state);
+    }
+    let [from, middle, to, on, beside] = &states[..] else { panic!("five states") };
+    assert!(follower.passes(from, to, on).unwrap());
+    assert!(!follower.passes(from, to, beside).unwrap());
+    assert!(!follower.passes(from, middle, on).unwrap(), "beyond the second state");
 }

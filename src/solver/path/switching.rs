@@ -1,0 +1,91 @@
+//! Branches that leave a path at its branch points.
+
+use super::exits::Exit;
+use super::interpolant::Cubic;
+use super::outcome::{BranchEnd, MarkedState, PathError, PathMark};
+use super::problem::{ParametrizedProblem, PathState};
+use super::run::Run;
+
+impl<P: ParametrizedProblem> Run<'_, P> {
+    /// Follows the branches that leave at the branch points found, theirs too.
+    pub fn other_branches(&mut self) -> Result<(), PathError> {
+        let mut number = 0;
+        while self.follower.settings.switch && number < self.branches.len() {
+            let known = self.exits.len();
+            if self.is_interrupted() {
+                return Ok(());
+            }
+            self.find_exits(number)?;
+            for exit in known..self.exits.len() {
+                if self.branches.len() >= self.follower.settings.branches || self.is_interrupted() {
+                    return Ok(());
+                }
+                let Exit { first, reference, .. } = self.exits[exit].clone();
+                self.follower.problem.set_reference(&reference);
+                if !self.is_known(&first)? {
+                    self.leave(exit)?;
+                }
+            }
+            number += 1;
+        }
+        Ok(())
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.branches.last().is_some_and(|branch| branch.end == BranchEnd::Interrupted)
+    }
+
+    /// Finds the ways out of the branch points of a branch that no other one has.
+    fn find_exits(&mut self, number: usize) -> Result<(), PathError> {
+        for point in self.new_points(number) {
+            self.points.push(point.clone());
+            let Some(PathMark::BranchPoint(multiplicity)) = point.mark else { continue };
+            self.follower.problem.set_reference(&point.reference);
+            for (first, reference) in self.follower.leaving(&point.state, multiplicity)? {
+                self.exits.push(Exit { point: point.clone(), first, reference, taken_by: None });
+            }
+        }
+        Ok(())
+    }
+
+    /// The branch points of a branch that no other one has.
+    fn new_points(&self, number: usize) -> Vec<MarkedState> {
+        let mut new: Vec<MarkedState> = vec![];
+        for marked in &self.branches[number].states {
+            let branches = matches!(marked.mark, Some(PathMark::BranchPoint(_)));
+            let same = |point: &MarkedState| self.follower.are_same(&point.state, &marked.state);
+            if branches && !self.points.iter().chain(&new).any(same) {
+                new.push(marked.clone());
+            }
+        }
+        new
+    }
+
+    /// Follows the branch that leaves through an exit.
+    fn leave(&mut self, exit: usize) -> Result<(), PathError> {
+        self.exits[exit].taken_by = Some(self.branches.len());
+        let Exit { point, first, .. } = self.exits[exit].clone();
+        let from = PathState { arc_length: 0.0, ..point.state.clone() };
+        // the tangent at the branch point is that of the other path
+        let chord = Cubic::new(&from, &first).chord();
+        let rate = (first.conjugate[0] - from.conjugate[0]) / first.arc_length;
+        let conjugate = [from.conjugate[0], rate];
+        let begin = PathState { tangent: chord.scaled(1.0 / first.arc_length), conjugate, ..from };
+        let work = point.work + self.follower.work(&begin, &first, self.largest[1])?;
+        let first = self.marked(first, None, work);
+        self.branch(vec![MarkedState { state: begin, ..point }, first])
+    }
+
+    /// Whether a state is on a branch that has been followed.
+    fn is_known(&mut self, state: &PathState) -> Result<bool, PathError> {
+        for branch in 0..self.branches.len() {
+            for second in 1..self.branches[branch].states.len() {
+                let pair = [second - 1, second].map(|k| self.branches[branch].states[k].state.clone());
+                if self.follower.passes(&pair[0], &pair[1], state)? {
+                    return Ok(true);
+                }
+            }
+        }
+        Ok(false)
+    }
+}

@@ -1,0 +1,164 @@
+//! Paths that are interrupted, and go on from where they were.
+
+use foldwell::run::{Progress, RunOptions, RunReport, run_scene};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+/// Writes a scene of `meshes` with its meshes into a folder, with words of it replaced.
+fn scene(folder: &Path, name: &str, replaced: &[(&str, &str)]) -> PathBuf {
+    let meshes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    for mesh in ["drum.fold", "kresling.fold", "two-bars.fold", "waterbomb-base.fold"] {
+        fs::copy(meshes.join(mesh), folder.join(mesh)).unwrap();
+    }
+    let mut text = fs::read_to_string(meshes.join(format!("{name}.toml"))).unwrap();
+    for (old, new) in replaced {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    let path = folder.join(format!("{name}.toml"));
+    fs::write(&path, text).unwrap();
+    path
+}
+
+/// Runs a scene and stops it at this state; returns the report and the number of states that were computed.
+fn run(scene: &Path, out: &Path, resume: bool, stop_at: usize) -> (RunReport, usize) {
+    let options = RunOptions { out: Some(out.into()), resume, ..RunOptions::default() };
+    let states = AtomicUsize::new(0);
+    let observer = |progress: &Progress| {
+        // states have residuals, and what is asked of them afterwards has none
+        let now = states.fetch_add(usize::from(!progress.residual.is_nan()), Ordering::Relaxed);
+        if now + 1 >= stop_at { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let report = run_scene(scene, &options, &observer).unwrap();
+    (report, states.into_inner())
+}
+
+/// Returns the files of a run by name, of the summary everything but computing times.
+fn files(out: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![out.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                folders.push(entry);
+                continue;
+            }
+            let mut bytes = fs::read(&entry).unwrap();
+            if entry.ends_with("summary.json") {
+                let mut summary: Value = serde_json::from_slice(&bytes).unwrap();
+                let studies = summary["studies"].as_array_mut().unwrap();
+                studies.iter_mut().for_each(|study| study["seconds"] = Value::Null);
+                bytes = serde_json::to_vec(&summary).unwrap();
+            }
+            found.insert(entry.strip_prefix(out).unwrap().to_path_buf(), bytes);
+        }
+    }
+    found
+}
+
+fn assert_same(found: &Path, expected: &Path, what: &str) {
+    let (found, expected) = (files(found), files(expected));
+    assert_eq!(found.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>(), "{what}");
+    for (name, bytes) in &expected {
+        assert!(found[name] == *bytes, "{what}: {} differs", name.display());
+    }
+}
+
+/// A scene, what is replaced in it, and where it is stopped.
+type Case<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a [usize]);
+
+/// Claim: a path that is stopped at any of its states, on any of its branches, and is resumed, has the files of one that was
+/// not stopped, to the last byte; of its states none is computed twice. The paths: two branches that leave another one and
+/// return, one under a growing load, and one with watched stops and self-intersections. Source: each step is determined by the two states before
+/// it, which are kept with all their digits.
+#[test]
+fn an_interrupted_path_goes_on() {
+    let stop = "stop = { crease_angle = { crease = [0, 6, 0, 0], angle = 6 }, self_intersection = true }";
+    let stops = ("max_step = 0.05", &*format!("max_step = 0.02\n{stop}\ncheck = [\"self-intersection\"]"));
+    let cases: [Case; 3] =
+        [("bellows", &[], &[1, 32, 33, 70]), ("two-bars-load", &[], &[2, 30]), ("drum-path", &[stops], &[1, 20])];
+    for (name, replaced, interruptions) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = scene(folder.path(), name, replaced);
+        let whole = folder.path().join("whole");
+        let (report, all) = run(&scene, &whole, false, usize::MAX);
+        assert!(report.summary.converged(), "{name}");
+        for &stop in interruptions {
+            let what = format!("{name}, stopped at {stop} of {all}");
+            let out = folder.path().join(format!("stopped-{stop}"));
+            let (report, first) = run(&scene, &out, false, stop);
+            assert!(report.interrupted && first == stop && stop < all, "{what}");
+            let log = out.join(format!("{}.path.jsonl", report.summary.studies[0].name));
+            assert!(log.exists(), "{what}");
+            let (report, second) = run(&scene, &out, true, usize::MAX);
+            assert!(report.summary.converged() && !log.exists(), "{what}");
+            assert!(first + second <= all, "{what}: {second} more were computed");
+            assert_same(&out, &whole, &what);
+        }
+    }
+}
+
+/// Claim: the same if the run is interrupted twice, and if its log ends in the middle of a line, as where a computer stops.
+#[test]
+fn a_torn_log_loses_one_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), "two-bars-load", &[]);
+    let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
+    let (_, all) = run(&scene, &whole, false, usize::MAX);
+    run(&scene, &out, false, 20);
+    run(&scene, &out, true, 20);
+    let log = out.join("loaded.path.jsonl");
+    let bytes = fs::read(&log).unwrap();
+    fs::write(&log, &bytes[..bytes.len() - 100]).unwrap();
+    let (_, rest) = run(&scene, &out, true, usize::MAX);
+    assert!((all - 42..=all - 38).contains(&rest), "{rest} of {all}");
+    assert_same(&out, &whole, "torn");
+}
+
+/// Claim: a log of another scene is not used, also where a run of this one was interrupted before it began its own.
+#[test]
+fn a_log_of_another_scene_is_not_used() {
+    let folder = tempfile::tempdir().unwrap();
+    let other = scene(folder.path(), "two-bars-load", &[]);
+    let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
+    run(&other, &out, false, 20);
+    let log = out.join("loaded.path.jsonl");
+    let stale = fs::read(&log).unwrap();
+    let scene = scene(folder.path(), "two-bars-load", &[("title", "# another digest\ntitle")]);
+    let (_, all) = run(&scene, &whole, false, usize::MAX);
+    run(&scene, &out, false, 1);
+    fs::write(&log, stale).unwrap();
+    assert_eq!(run(&scene, &out, true, usize::MAX).1, all);
+    assert_same(&out, &whole, "stale");
+}
+
+/// Claim: a program that is killed in the middle of a path leaves what a resumed one goes on from, to the same files.
+#[test]
+fn a_killed_path_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), "bellows", &[("switch = true", "switch = true\nmax_step = 0.025")]);
+    let program = |out: &str, resume: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_foldwell"));
+        program.current_dir(folder.path()).args(["run", scene.to_str().unwrap(), "--out", out, "--quiet"]).args(resume);
+        program.stderr(Stdio::null()).stdout(Stdio::null());
+        program
+    };
+    assert!(program("whole", &[]).status().unwrap().success());
+    let log = folder.path().join("out/pressed.path.jsonl");
+    let lines = || fs::read(&log).unwrap_or_default().iter().filter(|byte| **byte == b'\n').count();
+    let mut killed = program("out", &[]).spawn().unwrap();
+    while lines() < 30 && killed.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert!(lines() >= 30 && !folder.path().join("out/pressed.csv").exists(), "it was killed on its way");
+    assert!(program("out", &["--resume"]).status().unwrap().success());
+    assert_same(&folder.path().join("out"), &folder.path().join("whole"), "killed");
+}
