@@ -1,6 +1,6 @@
 //! Frames of FOLD files, and what conversions keep of a file: frames, order of edges, other programs' keys, facets.
 
-use foldwell::run::{Ledger, RunOptions, Wanted, convert, info, read_scene};
+use foldwell::run::{Ledger, RunOptions, Wanted, convert, info, read_scene, run_scene};
 use foldwell::scene::Setting;
 use foldwell::sheet::{Assignment, EdgeKind, Info, fold};
 use serde_json::Value;
