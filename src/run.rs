@@ -13,7 +13,9 @@ use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
 
 mod belongings;
 mod convert;
+mod ending;
 mod error;
+mod film;
 mod info;
 mod inputs;
 mod ledger;
@@ -23,10 +25,14 @@ mod report;
 mod resume;
 mod runner;
 mod view;
+mod written;
 
+pub use crate::output::film::FilmOptions;
 pub use crate::study::Observer;
 pub use crate::study::Progress;
+use ending::ending;
 pub use error::RunError;
+pub use film::film;
 pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
 pub use report::{RunOptions, RunReport};
@@ -199,10 +205,6 @@ impl MeshKind {
             _ => None,
         }
     }
-}
-
-fn ending(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
 fn read_mesh(path: &Path, frame: Option<usize>, expected: &'static str) -> Result<Sheet, RunError> {

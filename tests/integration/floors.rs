@@ -35,6 +35,9 @@ const OWNED: &[(&str, &[&str])] = &[
     ("parry3d_f64", &["analysis/intersections/"]),
     ("robust", &["analysis/intersections/contact.rs"]),
     ("vtkio", &["output/vtk.rs"]),
+    ("base64", &["output/html/"]),
+    ("tiny_skia", &["output/film.rs"]),
+    ("gif", &["output/film.rs"]),
     ("clap", &["cli.rs", "parameters.rs"]),
     ("clap_complete", &["cli.rs"]),
 ];
