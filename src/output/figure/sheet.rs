@@ -283,7 +283,7 @@ mod tests {
         assert!(text.contains("<title>a &amp; b &lt; c</title>") && text.contains(">relaxed<"));
         assert_eq!(paths(&text).len(), 1 + 2 + 5 + 2 + 1);
         assert_eq!(text, svg(&samples::hinge(0.8), &Annotations::default(), &caption("a & b < c")).unwrap());
-        assert_eq!(drawn(&samples::hinge(0.8), &caption("a")).crowded(), 0);
+        assert_eq!(drawn(&samples::hinge(0.8), &Annotations::default(), &caption("a")).crowded(), 0);
     }
 
     /// Claim: valleys (positive fold angles) are blue and mountains red, on the sheet and in the legend, which gives
