@@ -33,7 +33,10 @@ const FLOORS: &[(&str, u8)] = &[
 const OWNED: &[(&str, &[&str])] = &[
     ("faer", &["numerics/"]),
     ("parry3d_f64", &["analysis/intersections/"]),
-    ("robust", &["analysis/intersections/contact.rs"]),
+    ("robust", &["analysis/intersections/contact.rs", "sheet/pattern/arrangement.rs"]),
+    ("roxmltree", &["sheet/pattern/"]),
+    ("simplecss", &["sheet/pattern/svg_style.rs"]),
+    ("svgtypes", &["sheet/pattern/svg"]),
     ("vtkio", &["output/vtk.rs"]),
     ("clap", &["cli.rs", "parameters.rs"]),
     ("clap_complete", &["cli.rs"]),
