@@ -19,7 +19,7 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
 use foldwell::output::summary::to_json;
-use foldwell::run::{self, Ledger, Listed, RunError, RunOptions, RunReport, Wanted};
+use foldwell::run::{self, FilmOptions, Ledger, Listed, RunError, RunOptions, RunReport, Wanted};
 use foldwell::scene::{SceneFile, Setting};
 use foldwell::sheet::pattern::Cleanup;
 use miette::{Diagnostic, GraphicalReportHandler};
@@ -127,6 +127,23 @@ enum Command {
         /// The page [default: view.html in the folder]
         #[arg(short, value_name = "FILE.html")]
         o: Option<PathBuf>,
+    },
+    /// Write a film of the states of a study, or of each study of a run that has some, and print the path
+    Film {
+        /// The folder of the run, or the series of one study (NAME.pvd)
+        from: PathBuf,
+        /// The film, a .gif, or a .mp4 where ffmpeg is [default: NAME.gif beside NAME.pvd]
+        #[arg(short, value_name = "FILE")]
+        o: Option<PathBuf>,
+        /// Frames in a second
+        #[arg(long, default_value_t = 12, value_parser = clap::value_parser!(u16).range(1..=50))]
+        fps: u16,
+        /// Width in pixels
+        #[arg(long, default_value_t = 640, value_parser = clap::value_parser!(u16).range(64..=4096))]
+        size: u16,
+        /// Number of the branch [default: the first]
+        #[arg(long, value_name = "N")]
+        branch: Option<i64>,
     },
     /// Check the claims about this program, and write a report
     Validate {
@@ -245,6 +262,11 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             Ok(0)
         }
         Command::View { folder, o } => say(&format!("{}\n", run::view(&folder, o.as_deref())?.display())),
+        Command::Film { from, o, fps, size, branch } => {
+            let options = FilmOptions { width: size, frames_per_second: fps };
+            let films = run::film(&from, o.as_deref(), branch, options)?;
+            say(&films.iter().map(|film| format!("{}\n", film.display())).collect::<String>())
+        }
         Command::Validate { claims, quick, out } => validate(&ValidateOptions { quick, out, only: claims }),
         Command::Schema { of: Described::Scene } => say(&foldwell::scene::schema()),
         Command::Schema { of: Described::Summary } => say(&output::schema::schema()),

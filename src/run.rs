@@ -12,7 +12,9 @@ use crate::sheet::{Info, Pattern, Sheet, fold, generate};
 
 mod belongings;
 mod convert;
+mod ending;
 mod error;
+mod film;
 mod info;
 mod inputs;
 mod ledger;
@@ -23,13 +25,17 @@ mod report;
 mod resume;
 mod runner;
 mod view;
+mod written;
 
+pub use crate::output::film::FilmOptions;
 pub use crate::study::Observer;
 pub use crate::study::Progress;
+use ending::ending;
 pub use error::RunError;
+pub use film::film;
 pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
-use meshes::{MeshKind, ending, read_mesh};
+use meshes::{MeshKind, read_mesh};
 pub use report::{RunOptions, RunReport};
 use runner::Runner;
 pub use view::view;

@@ -7,6 +7,7 @@ pub(crate) mod error;
 pub(crate) mod fault;
 pub mod figure;
 pub mod files;
+pub(crate) mod film;
 pub(crate) mod html;
 pub(crate) mod paraview;
 pub mod picture;

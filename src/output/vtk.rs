@@ -232,15 +232,16 @@ fn attributes(picture: &Picture) -> Attributes {
     let on_lines = |values: &[f64]| IOBuffer::F64([&vec![f64::NAN; faces], values].concat());
     let crossing = [&picture.self_intersecting[..], &vec![0; picture.lines.len()]].concat();
     let edges = [&vec![-1; faces], &picture.line_edges[..]].concat();
-    let place = |of: &dyn Fn(&(usize, [i32; 2])) -> i32| IOBuffer::I32(picture.places.iter().map(of).collect());
+    let vertex = picture.places.iter().map(|(vertex, _)| *vertex as i32).collect();
+    let cell = |axis: usize| IOBuffer::I32(picture.places.iter().map(|(_, cell)| cell[axis]).collect());
     let letters = picture.letters.iter().map(|letter| letter.number() as i32);
     let letters = vec![-1; faces].into_iter().chain(letters).collect();
     Attributes {
         point: vec![
             array("displacement", ElementType::Vectors, coordinates(&picture.displacement)),
-            scalars("vertex", place(&|(vertex, _)| *vertex as i32)),
-            scalars("cell1", place(&|(_, cell)| cell[0])),
-            scalars("cell2", place(&|(_, cell)| cell[1])),
+            scalars("vertex", IOBuffer::I32(vertex)),
+            scalars("cell1", cell(0)),
+            scalars("cell2", cell(1)),
         ],
         cell: vec![
             scalars("fold_angle", on_lines(&picture.fold_angle)),

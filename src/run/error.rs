@@ -84,6 +84,40 @@ pub enum RunError {
         /// What the sheet is instead.
         reason: NotFlat,
     },
+    /// A study has no states of which a film could be made.
+    #[error("{}: no study with two states or more to film", path.display())]
+    #[diagnostic(help("states are the files NAME/NAME_0000.vtu, ...: draw = [\"vtk\"] in a study writes them"))]
+    NothingToFilm {
+        /// The folder or the series.
+        path: PathBuf,
+    },
+    /// A study has no states on a branch.
+    #[error("{}: there is no branch {branch}", path.display())]
+    #[diagnostic(help("the branches are {}", known.iter().map(i64::to_string).collect::<Vec<_>>().join(", ")))]
+    NoBranch {
+        /// The series.
+        path: PathBuf,
+        /// Number of the branch.
+        branch: i64,
+        /// Numbers of the branches that there are.
+        known: Vec<i64>,
+    },
+    /// One file cannot be the film of several studies.
+    #[error("{}: one file for the films of {}", path.display(), studies.join(", "))]
+    #[diagnostic(help("name one of them: {}.pvd", studies[0]))]
+    SeveralFilms {
+        /// The file.
+        path: PathBuf,
+        /// The studies.
+        studies: Vec<String>,
+    },
+    /// There is no program that writes films of this kind.
+    #[error("{}: MP4 is written by ffmpeg, which is not on the PATH", path.display())]
+    #[diagnostic(help("install ffmpeg, or name a file that ends in .gif"))]
+    NoFfmpeg {
+        /// The film.
+        path: PathBuf,
+    },
     /// The kind of a file is unknown.
     #[error("{}: {}", path.display(), unknown_ending(ending))]
     #[diagnostic(help("expected one of {expected}"))]

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::convert;
+use super::ending::ending;
 use super::error::RunError;
 use crate::output::picture::Picture;
 use crate::output::{files, vtk};
@@ -36,11 +37,6 @@ impl MeshKind {
             _ => Format::of(path).map(Self::Lines),
         }
     }
-}
-
-/// Returns the ending of a file name in small letters; empty if it has none.
-pub(super) fn ending(path: &Path) -> String {
-    path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
 /// Reads a mesh; `expected` are the endings that messages name.

@@ -38,6 +38,9 @@ const OWNED: &[(&str, &[&str])] = &[
     ("simplecss", &["sheet/pattern/svg_style.rs"]),
     ("svgtypes", &["sheet/pattern/svg"]),
     ("vtkio", &["output/vtk.rs"]),
+    ("base64", &["output/html/"]),
+    ("tiny_skia", &["output/film.rs"]),
+    ("gif", &["output/film.rs"]),
     ("clap", &["cli.rs", "parameters.rs"]),
     ("clap_complete", &["cli.rs"]),
 ];

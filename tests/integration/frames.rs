@@ -1,6 +1,7 @@
 //! Frames of FOLD files, and what conversions keep of a file: frames, order of edges, other programs' keys, facets.
 
-use foldwell::run::{RunOptions, Wanted, convert, info, run_scene};
+use foldwell::run::{Ledger, RunOptions, Wanted, convert, info, read_scene, run_scene};
+use foldwell::scene::Setting;
 use foldwell::sheet::{Assignment, EdgeKind, Info, fold};
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -87,8 +88,11 @@ fn commands_take_frames() {
         );
         let file = folder.path().join("s.toml");
         fs::write(&file, scene).unwrap();
-        let options = RunOptions { out: Some(folder.path().join("out")), frame, ..RunOptions::default() };
-        let summary = run_scene(&file, &options, &|_| ControlFlow::Continue(())).unwrap().summary;
+        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
+        let settings: Vec<Setting> = frame.map(Setting::of_frame).into_iter().collect();
+        let scene = read_scene(&file, &settings).unwrap();
+        let summary =
+            foldwell::run::run(&scene, &options, &|_| ControlFlow::Continue(()), &Ledger::default()).unwrap().summary;
         let table = fs::read_to_string(folder.path().join("out/a.csv")).unwrap();
         let column = table.lines().next().unwrap().split(',').position(|name| name == "fold_0_2_0_0").unwrap();
         let angle: f64 = table.lines().nth(1).unwrap().split(',').nth(column).unwrap().parse().unwrap();

@@ -26,6 +26,7 @@ mod elements;
 mod empty_answers;
 mod engines;
 mod files;
+mod films;
 mod flat_patterns;
 mod floors;
 mod folding_theory;

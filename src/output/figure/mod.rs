@@ -9,16 +9,17 @@
 
 mod axes;
 pub mod bloch;
-mod canvas;
+pub(crate) mod canvas;
 pub mod chart;
 mod contour;
+pub(crate) mod film;
 mod hidden;
 pub(crate) mod palette;
 pub(crate) mod projection;
 pub mod reaction;
 pub mod sheet;
 pub mod sphere;
-mod style;
+pub(crate) mod style;
 pub mod surface;
 
 pub use axes::rounded;

@@ -16,8 +16,10 @@ use crate::output::fault::ShapeError;
 use crate::sheet::EdgeKind;
 
 /// Margin around the sheet, and height of the legend below it.
-const ROOM: f64 = 60.0;
+pub(super) const ROOM: f64 = 60.0;
 const LEGEND: f64 = 64.0;
+/// Width of the outlines by which faces meet without gaps.
+pub(crate) const TILE: f64 = 0.7;
 /// Fold angle in radians below which a crease is drawn as flat.
 const FLAT: f64 = 1e-6;
 /// Length of the longest wedge of the legend.
@@ -47,7 +49,7 @@ fn drawn(picture: &Picture, caption: &Caption) -> Canvas {
     let place = |point: &Vec3| Vec3::from(view.place(point));
     let sheet: Vec<Vec3> = picture.points.iter().map(place).collect();
     let shadow: Vec<Vec3> = shadow_on_floor(picture, &view).iter().map(place).collect();
-    let frame = Frame::around(sheet.iter().chain(&shadow));
+    let frame = Frame::around(sheet.iter().chain(&shadow), HEAD);
     let mut canvas = Canvas::new(frame.height + LEGEND, caption);
     paint_shadow(&mut canvas, picture, &frame, &shadow);
     paint_sheet(&mut canvas, picture, &frame, &view, &sheet);
@@ -57,18 +59,19 @@ fn drawn(picture: &Picture, caption: &Caption) -> Canvas {
 }
 
 /// The mapping from the plane of projection to the figure.
-struct Frame {
+pub(super) struct Frame {
     left: f64,
     top: f64,
     scale: f64,
-    height: f64,
+    pub(super) height: f64,
     /// Whether there is any finite point.
     filled: bool,
 }
 
 impl Frame {
-    /// Fits the points into the width of the figure, and into a height of at most three quarters of the width.
-    fn around<'a>(places: impl Iterator<Item = &'a Vec3>) -> Self {
+    /// Fits the points into the width of the figure, and into a height of at most three quarters of the width, below a
+    /// head of this height.
+    pub(super) fn around<'a>(places: impl Iterator<Item = &'a Vec3>, head: f64) -> Self {
         let finite = places.filter(|place| is_finite(place));
         let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
         let (low, high) = finite.fold(none, |(low, high), place| (low.inf(place), high.sup(place)));
@@ -77,7 +80,7 @@ impl Frame {
         let scale = (room / extent.x).min(0.75 * room / extent.y).min(f64::MAX);
         let left = 0.5 * (low.x + high.x) - 0.5 * WIDTH / scale;
         let filled = low.x <= high.x;
-        Self { left, top: high.y + HEAD / scale, scale, height: extent.y * scale + HEAD + ROOM, filled }
+        Self { left, top: high.y + head / scale, scale, height: extent.y * scale + head + ROOM, filled }
     }
 
     fn on_paper(&self, place: &Vec3) -> PaperPoint {
@@ -116,20 +119,38 @@ fn paint_shadow(canvas: &mut Canvas, picture: &Picture, frame: &Frame, shadow: &
 }
 
 fn paint_sheet(canvas: &mut Canvas, picture: &Picture, frame: &Frame, view: &Projection, sheet: &[Vec3]) {
+    canvas.group(TILE);
+    for Shape { places, closed, style } in shapes(picture, frame, view, &Pen::new(picture, frame, sheet), sheet) {
+        if closed { canvas.polygon(&places, style) } else { canvas.line(&places, style) }
+    }
+    canvas.end();
+}
+
+/// A polygon or a line of a figure.
+pub(crate) struct Shape {
+    /// Its corners.
+    pub places: Vec<PaperPoint>,
+    /// Whether it is a polygon.
+    pub closed: bool,
+    /// Its style.
+    pub style: Style,
+}
+
+/// Returns the faces and edges of a state from back to front; `sheet` are its points as the projection places them.
+pub(super) fn shapes(picture: &Picture, frame: &Frame, view: &Projection, pen: &Pen, sheet: &[Vec3]) -> Vec<Shape> {
     let corners = |points: &[usize]| points.iter().map(|&point| sheet[point]).collect();
     let faces = picture.triangles.iter().map(|triangle| corners(triangle));
     let lines = picture.lines.iter().map(|line| corners(line));
     let pieces = faces.chain(lines).enumerate().map(|(item, corners)| Piece::new(corners, item));
-    let pen = Pen::new(picture, frame, sheet);
-    canvas.group(0.7);
-    for Piece { corners, item, .. } in back_to_front(pieces.collect()) {
-        let places: Vec<PaperPoint> = corners.iter().map(|corner| frame.on_paper(corner)).collect();
-        match item.checked_sub(picture.triangles.len()) {
-            None => canvas.polygon(&places, Style::tile(shade(picture, view, item))),
-            Some(line) => canvas.line(&places, pen.style(picture, line)),
+    let shape = |Piece { corners, item, .. }: &Piece| {
+        let line = item.checked_sub(picture.triangles.len());
+        Shape {
+            places: corners.iter().map(|corner| frame.on_paper(corner)).collect(),
+            closed: line.is_none(),
+            style: line.map_or_else(|| Style::tile(shade(picture, view, *item)), |line| pen.style(picture, line)),
         }
-    }
-    canvas.end();
+    };
+    back_to_front(pieces.collect()).iter().map(shape).collect()
 }
 
 /// Returns the colour of a face: that of its visible side, between dark and light.
@@ -149,13 +170,13 @@ fn shade(picture: &Picture, view: &Projection, face: usize) -> Colour {
 
 /// The style of edges: line widths increase with the fold angle relative to the largest one, and scale with the size of
 /// the faces in the figure.
-struct Pen {
-    sharpest: f64,
-    unit: f64,
+pub(super) struct Pen {
+    pub(super) sharpest: f64,
+    pub(super) unit: f64,
 }
 
 impl Pen {
-    fn new(picture: &Picture, frame: &Frame, sheet: &[Vec3]) -> Self {
+    pub(super) fn new(picture: &Picture, frame: &Frame, sheet: &[Vec3]) -> Self {
         let length = |&[a, b]: &[usize; 2]| (sheet[a] - sheet[b]).xy().norm();
         let lengths = picture.lines.iter().map(length).filter(|length| length.is_finite());
         let mean = lengths.sum::<f64>() / picture.lines.len().max(1) as f64;
@@ -289,7 +310,7 @@ mod tests {
     #[test]
     fn scale() {
         let places = [Vec3::zeros(), Vec3::new(8.0, 4.0, 0.0)];
-        let frame = Frame::around(places.iter());
+        let frame = Frame::around(places.iter(), HEAD);
         let mut canvas = Canvas::new(100.0, &Caption::default());
         scale_bar(&mut canvas, &frame);
         let [a, b] = places.map(|place| frame.on_paper(&place));

@@ -21,10 +21,14 @@ pub(crate) struct Area {
 /// The style of lines and areas; by default nothing is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Style {
-    fill: Option<Colour>,
-    stroke: Option<(Colour, f64)>,
-    dash: Option<[f64; 2]>,
-    opacity: Option<f64>,
+    /// Colour of the area.
+    pub fill: Option<Colour>,
+    /// Colour and width of the line; the width 0 is that of the group.
+    pub stroke: Option<(Colour, f64)>,
+    /// Lengths of dashes and gaps.
+    pub dash: Option<[f64; 2]>,
+    /// Opacity, from 0 to 1.
+    pub opacity: Option<f64>,
 }
 
 /// The style of text.

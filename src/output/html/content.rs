@@ -30,6 +30,15 @@ impl<'a> Content<'a> {
         }
     }
 
+    /// Returns the state of the sheet, if this is one.
+    pub(crate) fn into_picture(self) -> Option<Picture> {
+        match self {
+            Self::State(picture) => Some(picture.clone()),
+            Self::StateRead(picture) => Some(*picture),
+            Self::Table(_) | Self::Figure(_) | Self::Other => None,
+        }
+    }
+
     /// Returns what a page shows of a file that is not yet written; `None` for a collection of other files, and for what
     /// cannot be written.
     pub(crate) fn of(artifact: &'a Artifact) -> Option<Self> {
