@@ -3,7 +3,6 @@
 use std::fmt;
 
 use super::assignment::Assignment;
-use super::error::Problem;
 
 /// A line of a crease pattern as messages name it: by the coordinates of its ends, in the file's own directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +84,7 @@ pub enum PatternFault {
         /// The line.
         line: LineName,
         /// What is wrong with its edge.
-        problem: Box<Problem>,
+        problem: String,
     },
     /// The lines are not connected.
     #[error(

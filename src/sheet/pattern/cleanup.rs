@@ -153,7 +153,7 @@ fn located(lines: &[Line], pieces: &[Piece], defect: Defect) -> Misdrawn {
     let problem = match (*defect.problem, number.map(|k| lines[k].name())) {
         (Problem::LooseEdge { .. }, Some(line)) => PatternFault::Loose { line }.into(),
         (Problem::Pieces { pieces }, _) => PatternFault::Pieces { pieces }.into(),
-        (problem, Some(line)) => PatternFault::Line { line, problem: Box::new(problem) }.into(),
+        (problem, Some(line)) => PatternFault::Line { line, problem: problem.to_string() }.into(),
         (problem, None) => problem,
     };
     (number, problem)
