@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::output::OutputError;
 use crate::output::summary::Files;
-use crate::scene::outputs::{is_one_of, outputs, owned};
+use crate::scene::outputs::{growing_table, is_one_of, outputs, owned};
 use crate::scene::{Fingerprint, SceneFile};
 
 /// The assignment of files to studies.
@@ -45,6 +45,19 @@ impl Belongings {
         beside.chain(inside).filter(is_own).collect::<BTreeSet<_>>().into_iter().collect()
     }
 
+    /// Removes the tables that an earlier run was filling: a run that goes on from this one would take their rows for its
+    /// own, if this one ends before it begins to fill them.
+    ///
+    /// # Errors
+    /// [`OutputError::Write`] if a table cannot be removed.
+    pub(crate) fn remove_growing_tables(&self, file: &SceneFile) -> Result<(), OutputError> {
+        for study in &file.scene.studies {
+            let table = growing_table(study).filter(|table| self.present(&study.name.0).contains(table));
+            table.map_or(Ok(()), |table| remove(&self.out.join(table)))?;
+        }
+        Ok(())
+    }
+
     /// Removes the files that an earlier run wrote for a study of this name and this run did not write, and the study's
     /// folder if it is then empty.
     ///
@@ -53,14 +66,7 @@ impl Belongings {
     pub(crate) fn remove_others(&self, name: &str, written: &BTreeSet<PathBuf>) -> Result<(), OutputError> {
         let old = self.present(name).into_iter().map(|file| self.out.join(file));
         let old: Vec<PathBuf> = old.filter(|path| !written.contains(path)).collect();
-        for path in &old {
-            match fs::remove_file(path) {
-                Err(source) if source.kind() != ErrorKind::NotFound => {
-                    return Err(OutputError::Write { path: path.clone(), source });
-                }
-                _ => {}
-            }
-        }
+        old.iter().try_for_each(|path| remove(path))?;
         if !old.is_empty() {
             // fails, as intended, if the folder is not empty
             let _ = fs::remove_dir(self.out.join(name));
@@ -84,5 +90,13 @@ impl Belongings {
         }
         files.digest = digest.to_string();
         Ok(files)
+    }
+}
+
+/// Removes a file, if it is there.
+fn remove(path: &Path) -> Result<(), OutputError> {
+    match fs::remove_file(path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => Err(OutputError::Write { path: path.into(), source }),
+        _ => Ok(()),
     }
 }

@@ -86,6 +86,9 @@ impl<'a> Runner<'a> {
         let previous = if resume { PreviousRun::read(&self.out, &digest) } else { PreviousRun::default() };
         self.resumed = previous.is_of_this_scene();
         self.digest.clone_from(&digest);
+        if !self.resumed {
+            self.belongings.remove_growing_tables(self.file)?;
+        }
         self.take_over(summary(self.file, self.assembly, digest), &previous)
     }
 

@@ -30,6 +30,14 @@ pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
     named(&study.name.0, ANY.iter().chain(own[0]).chain(own[1]))
 }
 
+/// Returns the table that a study fills while it runs, and from which it goes on after an interruption.
+pub(crate) fn growing_table(study: &StudySpec) -> Option<String> {
+    match &*study.kind {
+        StudyKind::Landscape(spec) if spec.map.is_some() => Some(format!("{}-map.csv", study.name.0)),
+        _ => None,
+    }
+}
+
 /// Returns the files that a study of this name can have written, whatever its kind was.
 pub(crate) fn owned(name: &str) -> Vec<String> {
     let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS, PATH].into_iter().flatten();

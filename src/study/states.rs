@@ -6,7 +6,7 @@ use super::energies;
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::state::{Cylinder, State, cylinder};
 use crate::output::artifact::Artifact;
-use crate::output::figure::sheet;
+use crate::output::figure::{Annotations, sheet};
 use crate::output::paraview;
 use crate::output::picture::Picture;
 use crate::output::table::{Solution, StateRow, Table};
@@ -142,6 +142,8 @@ pub(crate) fn add_series_at(
 /// Adds one picture as SVG, with the description `state`, if the study asks for it.
 pub(crate) fn add_figure(answer: &mut Answer, context: &Context<'_>, picture: &Picture, state: &str) {
     if context.draws(Draw::Svg) {
-        answer.add(format!("{}.svg", context.name()), sheet::svg(picture, &context.caption(state)));
+        let numbers = context.study.draw.contains(&Draw::Numbers);
+        let added = Annotations { loads: context.assembly.terms().loads.clone(), numbers };
+        answer.add(format!("{}.svg", context.name()), sheet::svg(picture, &added, &context.caption(state)));
     }
 }

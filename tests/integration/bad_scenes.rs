@@ -176,7 +176,7 @@ const FAULTS: &[Fault] = &[
     fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace, path; the keys here are `start`, `tolerance`, `method`"),
     fault(28, "start = \"third\"", "28:9", "no earlier study is called `third`", "\"drawn\", the name of an earlier study with states (here \"first\"), { random, seed } or a .vtu file"),
     fault(29, "check = [\"overlap\"]", "29:10", "unknown word `overlap`", "expected `self-intersection`"),
-    fault(30, "draw = [\"png\"]", "30:9", "unknown word `png`", "expected `vtk` or `svg`"),
+    fault(30, "draw = [\"png\"]", "30:9", "unknown word `png`", "expected one of `vtk`, `svg`, `numbers`, `html`"),
     fault(38, "engine = \"fast\"", "38:10", "unknown word `fast`", "expected one of `kinematic`, `energy`, `both`"),
     fault(39, "branch = -2", "39:10", "invalid value: integer `-2`", "expected \"all\" or the number of a branch, counted from 0"),
     fault(41, "stop = {}", "41:8", "no condition to stop at", "give one of arc_length, curvature, crease_angle = { crease, angle }, self_intersection = true"),

@@ -1,7 +1,7 @@
 //! `foldwell film`: an animated GIF of the states of a study, or an MP4 by ffmpeg.
 
 use foldwell::math::Vec3;
-use foldwell::sheet::EdgeKind;
+use foldwell::sheet::{Assignment, EdgeKind};
 use foldwell::{Picture, write_vtu};
 use std::fs;
 use std::path::Path;
@@ -44,6 +44,8 @@ fn square(side: f64) -> Picture {
     let none = vec![f64::NAN; 4];
     Picture {
         displacement: vec![Vec3::zeros(); 4],
+        places: (0..4).map(|vertex| (vertex, [0, 0])).collect(),
+        letters: vec![Assignment::Boundary; 4],
         points,
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         self_intersecting: vec![0; 2],

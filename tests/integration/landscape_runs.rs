@@ -65,6 +65,22 @@ fn maps_go_on_where_they_stopped() {
     }
 }
 
+/// Claim: a map does not go on from the rows of another scene, which an earlier run left in the folder, if the run in
+/// between was stopped before it began its own.
+#[test]
+fn maps_of_other_scenes_are_not_continued() {
+    let folder = tempfile::tempdir().unwrap();
+    let [fresh, shared] = ["fresh", "shared"].map(|name| folder.path().join(name));
+    let soft = scene(folder.path(), PATCH, SOFT, MAP);
+    assert!(run(&soft, &shared, (2, false), usize::MAX).converged);
+    let rigid = scene(folder.path(), PATCH, RIGID, MAP);
+    assert!(!run(&rigid, &shared, (2, false), 0).converged);
+    assert!(run(&rigid, &shared, (2, true), usize::MAX).converged);
+    assert!(run(&rigid, &fresh, (2, false), usize::MAX).converged);
+    let map = |folder: &Path| fs::read_to_string(folder.join("a-map.csv")).unwrap();
+    assert!(map(&shared) == map(&fresh));
+}
+
 /// Claim: a wave on a torus is named, relaxed and predicted; its summary gives the wave, and no curvature.
 #[test]
 fn waves_are_named() {

@@ -7,6 +7,7 @@
 //! quadrilaterals of a height field `z(x, y)` by their means, while sheets fold over and through themselves. Both would
 //! be suitable for charts only, and then there would be two ways to make a figure.
 
+mod annotations;
 mod axes;
 pub mod bloch;
 pub(crate) mod canvas;
@@ -22,6 +23,7 @@ pub mod sphere;
 pub(crate) mod style;
 pub mod surface;
 
+pub use annotations::Annotations;
 pub use axes::rounded;
 pub use canvas::Caption;
 pub use style::escaped;

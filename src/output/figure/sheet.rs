@@ -4,6 +4,7 @@
 //! Mountains (negative fold angles) are red and valleys blue; the line width increases with the fold angle. Every face
 //! has an outline in the colour of its filling, because otherwise thin gaps would show between faces.
 
+use super::annotations::{self, Annotations};
 use super::axes::{number, round_step};
 use super::canvas::{Canvas, Caption, HEAD, MARGIN, WIDTH};
 use super::hidden::{Piece, back_to_front};
@@ -35,26 +36,40 @@ pub(crate) const FRONT: Side = Side { light: Colour(255, 251, 240), dark: Colour
 pub(crate) const BACK: Side = Side { light: Colour(240, 214, 168), dark: Colour(150, 118, 92) };
 pub(crate) const CROSSING: Side = Side { light: Colour(246, 154, 138), dark: Colour(158, 72, 66) };
 
-/// Returns the figure of a state.
+/// Returns the figure of a state, with annotations.
 ///
 /// # Errors
 /// The first inconsistent array or index of the picture.
-pub fn svg(picture: &Picture, caption: &Caption) -> Result<String, ShapeError> {
+pub fn svg(picture: &Picture, added: &Annotations, caption: &Caption) -> Result<String, ShapeError> {
     picture.check()?;
-    Ok(drawn(picture, caption).finish())
+    if let Some(&(point, _)) = added.loads.iter().find(|(point, _)| *point >= picture.points.len()) {
+        return Err(ShapeError::NoSuchPoint { point, count: picture.points.len() });
+    }
+    Ok(drawn(picture, added, caption).finish())
 }
 
-fn drawn(picture: &Picture, caption: &Caption) -> Canvas {
+fn drawn(picture: &Picture, added: &Annotations, caption: &Caption) -> Canvas {
     let view = Projection::of(&picture.points, &picture.triangles);
     let place = |point: &Vec3| Vec3::from(view.place(point));
     let sheet: Vec<Vec3> = picture.points.iter().map(place).collect();
     let shadow: Vec<Vec3> = shadow_on_floor(picture, &view).iter().map(place).collect();
-    let frame = Frame::around(sheet.iter().chain(&shadow), HEAD);
+    let arrows: Vec<[Vec3; 2]> = added.arrows(&picture.points).iter().map(|ends| ends.map(|end| place(&end))).collect();
+    let frame = Frame::around(sheet.iter().chain(&shadow).chain(arrows.iter().flatten()), HEAD);
     let mut canvas = Canvas::new(frame.height + LEGEND, caption);
     paint_shadow(&mut canvas, picture, &frame, &shadow);
     paint_sheet(&mut canvas, picture, &frame, &view, &sheet);
     scale_bar(&mut canvas, &frame);
     legend(&mut canvas, picture, &frame);
+    for ends in &arrows {
+        annotations::arrow(&mut canvas, ends.each_ref().map(|end| frame.on_paper(end)));
+    }
+    if added.largest() > 0.0 {
+        annotations::key(&mut canvas, [MARGIN, frame.height + LEGEND / 2.0 + 12.0], added.largest());
+    }
+    if added.numbers {
+        let numbers = picture.places.iter().map(|(vertex, _)| *vertex);
+        annotations::vertex_numbers(&mut canvas, numbers.zip(sheet.iter().map(|place| frame.on_paper(place))));
+    }
     canvas
 }
 
@@ -253,7 +268,7 @@ mod tests {
     }
 
     fn drawing(picture: &Picture) -> String {
-        svg(picture, &caption("")).unwrap()
+        svg(picture, &Annotations::default(), &caption("")).unwrap()
     }
 
     fn paths(text: &str) -> Vec<&str> {
@@ -264,11 +279,11 @@ mod tests {
     /// title and state are in the caption; equal pictures give equal bytes.
     #[test]
     fn everything_is_drawn_once() {
-        let text = svg(&samples::hinge(0.8), &caption("a & b < c")).unwrap();
+        let text = svg(&samples::hinge(0.8), &Annotations::default(), &caption("a & b < c")).unwrap();
         assert!(text.contains("<title>a &amp; b &lt; c</title>") && text.contains(">relaxed<"));
         assert_eq!(paths(&text).len(), 1 + 2 + 5 + 2 + 1);
-        assert_eq!(text, svg(&samples::hinge(0.8), &caption("a & b < c")).unwrap());
-        assert_eq!(drawn(&samples::hinge(0.8), &caption("a")).crowded(), 0);
+        assert_eq!(text, svg(&samples::hinge(0.8), &Annotations::default(), &caption("a & b < c")).unwrap());
+        assert_eq!(drawn(&samples::hinge(0.8), &Annotations::default(), &caption("a")).crowded(), 0);
     }
 
     /// Claim: valleys (positive fold angles) are blue and mountains red, on the sheet and in the legend, which gives
@@ -334,6 +349,6 @@ mod tests {
             assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
         }
         picture.strain.pop();
-        assert!(svg(&picture, &caption("")).is_err());
+        assert!(svg(&picture, &Annotations::default(), &caption("")).is_err());
     }
 }

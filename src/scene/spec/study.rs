@@ -47,6 +47,8 @@ pub enum Draw {
     Vtk,
     /// One SVG.
     Svg,
+    /// The numbers of the vertices, in the SVG.
+    Numbers,
     /// One page with the states, plots and pictures, for a browser.
     Html,
 }
