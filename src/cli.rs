@@ -21,6 +21,7 @@ use foldwell::output;
 use foldwell::output::summary::to_json;
 use foldwell::run::{self, FilmOptions, Ledger, Listed, RunError, RunOptions, RunReport, Wanted};
 use foldwell::scene::{SceneFile, Setting};
+use foldwell::sheet::pattern::Cleanup;
 use miette::{Diagnostic, GraphicalReportHandler};
 
 use crate::describe::describe_run;
@@ -72,7 +73,7 @@ enum Command {
     },
     /// Counts and measures of the sheet of a mesh or a scene, and of the energy of a scene
     Info {
-        /// A mesh (.fold, .obj, .vtu) or a scene (.toml): one cell of its mesh, and the energy of all cells
+        /// A mesh (.fold, .obj, .vtu, .svg, .cp, .opx) or a scene (.toml): one cell of its mesh, and the energy of all cells
         mesh_or_scene: PathBuf,
         /// Set a key of the scene, as in energy.bars.stiffness=1e4; may be repeated
         #[arg(long, value_name = "KEY=VALUE")]
@@ -103,7 +104,7 @@ enum Command {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         parameters: Vec<String>,
     },
-    /// Convert a mesh between FOLD, OBJ and VTU
+    /// Convert a mesh: from FOLD, OBJ, VTU, SVG, CP or OPX to FOLD, OBJ, VTU, STL, SVG or CP
     Convert {
         /// The file that is there
         from: PathBuf,
@@ -112,6 +113,12 @@ enum Command {
         /// Frame of the FOLD file: 0 is its top, those of file_frames are 1, 2, ... [default: the first with a mesh]
         #[arg(long, value_name = "N")]
         frame: Option<usize>,
+        /// Merge vertices of a flat crease pattern within this distance, in units of the file
+        #[arg(long, value_name = "TOL")]
+        merge: Option<f64>,
+        /// Split edges of a flat crease pattern where they cross or touch
+        #[arg(long)]
+        split: bool,
     },
     /// Write a page of the studies in the folder of a run, to be looked at in a browser, and print its path
     View {
@@ -241,8 +248,14 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             run::new_mesh(&table, &out)?;
             Ok(0)
         }
-        Command::Convert { from, to, frame } => {
-            for note in run::convert(&from, &to, frame)? {
+        Command::Convert { from, to, frame, merge, split } => {
+            let cleanup = Cleanup { merge, split };
+            let notes = if cleanup == Cleanup::default() {
+                run::convert(&from, &to, frame)?
+            } else {
+                run::convert_cleaned(&from, &to, frame, &cleanup)?
+            };
+            for note in notes {
                 // an error is ignored: there is no other place for the message if standard error is closed
                 let _ = writeln!(io::stderr(), "{}: {note}", to.display());
             }

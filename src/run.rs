@@ -5,11 +5,10 @@ use std::path::Path;
 
 use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
-use crate::output::picture::Picture;
-use crate::output::{OutputError, files, vtk};
+use crate::output::{OutputError, files};
 use crate::scene::{SceneFile, Setting};
-use crate::sheet::build;
-use crate::sheet::{Info, Pattern, Sheet, fold, generate, obj};
+use crate::sheet::pattern::Cleanup;
+use crate::sheet::{Info, Pattern, Sheet, fold, generate};
 
 mod belongings;
 mod convert;
@@ -21,6 +20,7 @@ mod inputs;
 mod ledger;
 mod lists;
 mod log;
+mod meshes;
 mod report;
 mod resume;
 mod runner;
@@ -35,6 +35,7 @@ pub use error::RunError;
 pub use film::film;
 pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
+use meshes::{MeshKind, read_mesh};
 pub use report::{RunOptions, RunReport};
 use runner::Runner;
 pub use view::view;
@@ -164,72 +165,34 @@ impl Wanted {
         if ending(mesh_or_scene) == "toml" {
             return Ok(crate::scene::build::sheet(&self.scene(mesh_or_scene)?)?);
         }
-        let sheet = read_mesh(mesh_or_scene, self.frame, ".fold, .obj, .vtu or .toml")?;
+        let sheet = read_mesh(mesh_or_scene, self.frame, meshes::READ_OR_SCENE)?;
         if self.settings.is_empty() { Ok(sheet) } else { Err(RunError::NoScene { path: mesh_or_scene.into() }) }
     }
 }
 
-/// Converts a mesh between FOLD, OBJ and VTU, which are recognised by the endings of the file names; of a FOLD file the
-/// given frame, or the first with a mesh. Returns a sentence for each part of the mesh that the new file does not keep.
+/// Converts a mesh between the formats that are recognised by the endings of file names; of a FOLD file the given frame,
+/// or the first with a mesh. Returns a sentence for each part of the mesh that the new file does not keep.
 ///
 /// # Errors
-/// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written, and if there is no such
-/// frame.
+/// [`RunError`] if a file cannot be read, is wrong, has an unknown ending or cannot be written, if there is no such
+/// frame, and if the new file is for flat sheets and the sheet is not flat.
 pub fn convert(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
-    let sheet = read_mesh(from, frame, MESHES)?;
-    match MeshKind::of(to) {
-        Some(MeshKind::Fold) => files::write(to, fold::write(&sheet))?,
-        Some(MeshKind::Obj) => files::write(to, obj::write(&sheet))?,
-        Some(MeshKind::Vtu) => vtk::write_vtu(to, &Picture::drawn(&sheet))?,
-        None => return Err(RunError::Ending { path: to.into(), ending: ending(to), expected: MESHES }),
-    }
-    Ok(convert::not_kept(&sheet, MeshKind::of(to)))
+    meshes::write(&read_mesh(from, frame, meshes::READ)?, to)
 }
 
-const MESHES: &str = ".fold, .obj or .vtu";
-
-/// The kinds of files that hold a mesh, recognised by the endings of their names.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum MeshKind {
-    Fold,
-    Obj,
-    Vtu,
-}
-
-impl MeshKind {
-    fn of(path: &Path) -> Option<Self> {
-        match ending(path).as_str() {
-            "fold" => Some(Self::Fold),
-            "obj" => Some(Self::Obj),
-            "vtu" => Some(Self::Vtu),
-            _ => None,
-        }
-    }
-}
-
-fn read_mesh(path: &Path, frame: Option<usize>, expected: &'static str) -> Result<Sheet, RunError> {
-    match (MeshKind::of(path), frame) {
-        (Some(MeshKind::Obj | MeshKind::Vtu), Some(frame)) => Err(RunError::NoFrames { path: path.into(), frame }),
-        (kind, _) => read_kind(path, kind, frame, expected),
-    }
-}
-
-fn read_kind(
-    path: &Path,
-    kind: Option<MeshKind>,
+/// Does the same as [`convert`] with a flat crease pattern whose vertices are merged, and whose edges are split where
+/// they cross and touch.
+///
+/// # Errors
+/// As [`convert`]; also if the mesh is no flat finite crease pattern, if edges that lie on each other differ, and if the
+/// merging distance is not positive or too large.
+pub fn convert_cleaned(
+    from: &Path,
+    to: &Path,
     frame: Option<usize>,
-    expected: &'static str,
-) -> Result<Sheet, RunError> {
-    match kind {
-        Some(MeshKind::Fold) => Ok(fold::read_frame(path, frame)?),
-        Some(MeshKind::Obj) => Ok(obj::read(path)?),
-        Some(MeshKind::Vtu) => {
-            let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let drawn = convert::drawing(vtk::read_vtu(path)?, title);
-            build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
-        }
-        None => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),
-    }
+    cleanup: &Cleanup,
+) -> Result<Vec<String>, RunError> {
+    meshes::write(&meshes::read_cleaned(from, frame, cleanup)?, to)
 }
 
 #[cfg(test)]

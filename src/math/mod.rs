@@ -31,3 +31,5 @@ pub(crate) mod taylor;
 
 /// A point or a vector in space, in the user's unit of length.
 pub type Vec3 = nalgebra::Vector3<f64>;
+/// A point or vector in the plane.
+pub(crate) type Vec2 = nalgebra::Vector2<f64>;

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::MeshKind;
 use crate::output::vtk::VtuMesh;
 use crate::sheet::build::Drawing;
 use crate::sheet::info::TURNED_OVER;
-use crate::sheet::{Assignment, Sheet};
+use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
 
 /// Largest magnitude of a fold angle, in radians, at which a mountain or valley may be drawn on the other side.
 const FLAT_RAD: f64 = 1e-6;
@@ -37,11 +36,12 @@ pub(super) fn drawing(mesh: VtuMesh, title: String) -> Drawing {
     }
 }
 
-/// Returns a sentence for each part of the file of `sheet` that is not in the new file.
-pub(super) fn not_kept(sheet: &Sheet, to: Option<MeshKind>) -> Vec<String> {
+/// Returns a sentence for each part of the file of `sheet` that a file of this ending does not keep.
+pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     let mut notes = Vec::new();
+    let (is_fold, name) = (ending == "fold", ending.to_uppercase());
     let frames = sheet.record.further_frames;
-    if frames > 0 && (to != Some(MeshKind::Fold) || sheet.record.frames.is_none()) {
+    if frames > 0 && (!is_fold || sheet.record.frames.is_none()) {
         let (frames, are) =
             if frames == 1 { ("1 other frame".into(), "is") } else { (format!("{frames} other frames"), "are") };
         notes.push(format!("{frames} in `file_frames` {are} not kept, only frame {} is", sheet.record.frame));
@@ -49,23 +49,43 @@ pub(super) fn not_kept(sheet: &Sheet, to: Option<MeshKind>) -> Vec<String> {
     if sheet.record.turned_over {
         notes.push(TURNED_OVER.to_owned());
     }
-    if to == Some(MeshKind::Obj) && !sheet.listed_edges.is_empty() {
+    if ending == "obj" && !sheet.listed_edges.is_empty() {
         notes.push("OBJ has no list of edges: their order is not kept".to_owned());
     }
     if !sheet.record.left_out.is_empty() {
         notes.push(format!("not kept: {}", quoted(sheet.record.left_out.iter())));
     }
-    if to == Some(MeshKind::Vtu) && !sheet.record.metadata.is_empty() {
+    if !["fold", "obj"].contains(&ending) && !sheet.record.metadata.is_empty() {
         notes.push(format!("not kept: {}", quoted(sheet.record.metadata.iter().map(|(key, _)| key))));
     }
-    if to == Some(MeshKind::Vtu) && !sheet.targets.is_empty() {
-        notes.push(format!("VTU has no target angles: {} that are not drawn are not kept", sheet.targets_not_drawn()));
+    if ["vtu", "stl"].contains(&ending) && !sheet.targets.is_empty() {
+        notes.push(format!(
+            "{name} has no target angles: {} that are not drawn are not kept",
+            sheet.targets_not_drawn()
+        ));
+    }
+    let partial = partly_folded(sheet);
+    if ending == "cp" && partial > 0 {
+        notes.push(format!("CP has no target angles: {partial} that are not those of a flat fold are not kept"));
+    }
+    if ending == "stl" && (sheet.lattice.is_some() || !sheet.assignments.is_empty()) {
+        notes.push("STL has triangles only: lattice vectors and letters of edges are not kept".to_owned());
     }
     let stiffnesses = sheet.stiffness.hinges.len() + sheet.stiffness.bars.len();
-    if to != Some(MeshKind::Fold) && stiffnesses > 0 {
+    if !is_fold && stiffnesses > 0 {
         notes.push(format!("{stiffnesses} stiffnesses of edges are not kept: FOLD alone has a place for them"));
     }
     notes
+}
+
+/// Returns the number of creases whose target angle is not that of their letter in a flat fold.
+fn partly_folded(sheet: &Sheet) -> usize {
+    let is_partial = |edge: &&Edge| match (sheet.targets.get(&edge.key), sheet.assignment(edge).flat_folded_angle()) {
+        (Some(target), Some(folded)) => (target - folded).abs() > FLAT_RAD,
+        (Some(target), None) => *target != 0.0,
+        (None, _) => false,
+    };
+    sheet.edges.iter().filter(|edge| edge.kind == EdgeKind::Crease).filter(is_partial).count()
 }
 
 fn quoted<'k>(keys: impl Iterator<Item = &'k String>) -> String {

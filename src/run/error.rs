@@ -4,6 +4,7 @@ use crate::output::OutputError;
 use crate::scene::SceneError;
 use crate::sheet::SheetError;
 use crate::sheet::error::Defect;
+use crate::sheet::pattern::NotFlat;
 use crate::study::StudyError;
 use miette::Diagnostic;
 use std::path::PathBuf;
@@ -73,6 +74,15 @@ pub enum RunError {
         path: PathBuf,
         /// The frame.
         frame: usize,
+    },
+    /// A sheet is to be written as a crease pattern and is not flat.
+    #[error("{}: {reason}", path.display())]
+    #[diagnostic(help("write another format, .fold, .obj or .vtu, or start from the flat crease pattern"))]
+    NotFlat {
+        /// The file.
+        path: PathBuf,
+        /// What the sheet is instead.
+        reason: NotFlat,
     },
     /// A study has no states of which a film could be made.
     #[error("{}: no study with two states or more to film", path.display())]

@@ -10,8 +10,10 @@ use super::values::{EdgeName, Fraction};
 use super::{Located, SceneError, SceneFile, drives};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, AssemblyError, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
+use crate::sheet::pattern::{self, Format};
 use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate};
 use std::ops::Range;
+use std::path::Path;
 
 /// Reads the mesh of a scene and assembles the sheet, boundary conditions and terms of its studies.
 ///
@@ -60,7 +62,7 @@ pub(crate) fn rates(file: &SceneFile, assembly: &Assembly, name: &RatesFile) -> 
 pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let spec = &file.scene.sheet;
     if let Some(mesh) = &spec.mesh {
-        return Ok(fold::read_frame(&file.resolve(mesh), file.scene.sheet.frame.as_deref().copied())?);
+        return mesh_of(file, &file.resolve(mesh));
     }
     let Some(table) = &spec.generate else {
         return Err(file.error_at(0..0, "the sheet has no mesh", "give `mesh = \"file.fold\"` or `generate = { .. }`"));
@@ -69,6 +71,22 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     let pattern: generate::Pattern =
         (**table).clone().try_into().map_err(|e: toml::de::Error| wrong(e.message().into()))?;
     generate::generate(&pattern).map_err(|error| wrong(error.to_string()))
+}
+
+/// Reads the mesh at `path` in the format of its ending; FOLD if that is unknown.
+fn mesh_of(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
+    let frame = file.scene.sheet.frame.as_ref();
+    let format = Format::of(path);
+    match frame {
+        Some(frame) if format.is_some() => {
+            let help = "frames are those of FOLD files; leave out `frame`";
+            Err(file.error_at(frame.span(), "a crease pattern of lines has no frames", help))
+        }
+        _ => Ok(match format {
+            Some(format) => pattern::read(path, format)?,
+            None => fold::read_frame(path, frame.map(|frame| **frame))?,
+        }),
+    }
 }
 
 fn boundary(file: &SceneFile, sheet: &Sheet) -> Result<Boundary, SceneError> {

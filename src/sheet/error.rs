@@ -4,6 +4,7 @@ use super::assignment_fault::AssignmentFault;
 pub use super::drawn_edge::DrawnEdge;
 use super::fold_angle_fault::FoldAngleFault;
 use super::frame_fault::FrameFault;
+use super::pattern_fault::PatternFault;
 use std::path::PathBuf;
 
 /// The reason why a file gives no sheet.
@@ -381,6 +382,9 @@ pub enum Problem {
     /// A fold angle that the sheet cannot have.
     #[error(transparent)]
     FoldAngle(#[from] FoldAngleFault),
+    /// Lines that are not a crease pattern.
+    #[error(transparent)]
+    Pattern(#[from] PatternFault),
 }
 
 fn numbering(first: usize, last: usize) -> String {

@@ -26,8 +26,11 @@ pub(crate) mod frame_fault;
 pub mod generate;
 pub(crate) mod info;
 pub mod obj;
+pub mod pattern;
+pub(crate) mod pattern_fault;
 pub mod pieces;
 pub(crate) mod record;
+pub mod stl;
 pub(crate) mod text;
 pub(crate) mod tiling;
 

@@ -51,10 +51,10 @@ fn files_of_the_wrong_kind() {
     assert!(foldwell(folder.path(), "new miura -o m.fold").status.success());
     for (words, parts) in [
         ("run m.fold", ["m.fold: this is a mesh, not a scene", "under [sheet], mesh = \"m.fold\""]),
-        ("info m", ["m: a file without an ending", "expected one of .fold, .obj, .vtu or .toml"]),
+        ("info m", ["m: a file without an ending", "expected one of .fold, .obj, .vtu, .svg, .cp, .opx or .toml"]),
         (
-            "convert m.fold m.stl",
-            ["m.stl: files ending in `stl` are not known here", "expected one of .fold, .obj or .vtu"],
+            "convert m.fold m.dxf",
+            ["m.dxf: files ending in `dxf` are not known here", "expected one of .fold, .obj, .vtu, .stl, .svg or .cp"],
         ),
     ] {
         let output = foldwell(folder.path(), words);

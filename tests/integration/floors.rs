@@ -33,7 +33,10 @@ const FLOORS: &[(&str, u8)] = &[
 const OWNED: &[(&str, &[&str])] = &[
     ("faer", &["numerics/"]),
     ("parry3d_f64", &["analysis/intersections/"]),
-    ("robust", &["analysis/intersections/contact.rs"]),
+    ("robust", &["analysis/intersections/contact.rs", "sheet/pattern/arrangement.rs"]),
+    ("roxmltree", &["sheet/pattern/"]),
+    ("simplecss", &["sheet/pattern/svg_style.rs"]),
+    ("svgtypes", &["sheet/pattern/svg"]),
     ("vtkio", &["output/vtk.rs"]),
     ("base64", &["output/html/"]),
     ("tiny_skia", &["output/film.rs"]),

@@ -19,6 +19,7 @@ mod bloch_runs;
 mod branches;
 mod circles;
 mod command_line;
+mod corpus;
 mod disturbed_runs;
 mod drawings;
 mod driven_scenes;

@@ -96,6 +96,16 @@ pub(crate) fn sides(drawn: &Drawing) -> Vec<PlacedSide> {
     sides
 }
 
+/// Returns the listed edges, followed by the sides that are not listed; empty if that is the order of the sides.
+pub(crate) fn listed_order(drawn: &Drawing, listed: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let sides: Vec<[usize; 2]> = sides(drawn).into_iter().map(|(ends, _)| ends).collect();
+    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
+    let known: BTreeSet<[usize; 2]> = listed.iter().map(|ends| sorted(*ends)).collect();
+    let others = sides.iter().filter(|ends| !known.contains(&sorted(**ends)));
+    let order: Vec<[usize; 2]> = listed.iter().chain(others).copied().collect();
+    if order == sides { vec![] } else { order }
+}
+
 /// Checks that the triangles around every vertex form one fan, open at a rim and closed elsewhere.
 pub(super) fn check_fans(drawn: &Drawing, identified: &Identified, sheet: &Sheet) -> Result<(), Defect> {
     for (v, steps) in fans(sheet).iter().enumerate() {

@@ -24,6 +24,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod clean;
 mod edges;
 mod frames;
 mod keys;
@@ -33,6 +34,7 @@ mod record;
 mod stiffness;
 mod write;
 
+pub use clean::{parse_cleaned, read_cleaned};
 pub use read::{parse, parse_frame, read, read_frame};
 pub(crate) use write::in_degrees;
 pub use write::write;

@@ -12,7 +12,7 @@ use super::{frames, record, stiffness};
 use crate::math::Vec3;
 use crate::sheet::assigned::is_same_angle;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::build::{Drawing, build, build_identified, edges_by_drawn_name, rebuild_faces};
+use crate::sheet::build::{Drawing, build, build_identified, edges_by_drawn_name, listed_order, rebuild_faces};
 use crate::sheet::cell::{Corner, EdgeKey, Sheet, is_folded_flat};
 use crate::sheet::error::{Defect, MeshPart, Problem, SheetError};
 use crate::sheet::record::FileRecord;
@@ -20,9 +20,9 @@ use crate::sheet::text;
 
 /// The parts of the mesh as they stand in the text, for the line of messages.
 #[derive(Default)]
-struct Rows<'a> {
+pub(super) struct Rows<'a> {
     vertices: Vec<&'a RawValue>,
-    faces: Vec<&'a RawValue>,
+    pub(super) faces: Vec<&'a RawValue>,
     holes: Vec<&'a RawValue>,
 }
 
@@ -81,13 +81,13 @@ pub fn parse_frame(text: &str, name: &str, frame: Option<usize>) -> Result<Sheet
     let (mut sheet, identified) = build_identified(drawn).map_err(locate)?;
     edges::check(&source, &edges, &sheet, &identified)?;
     sheet.stiffness = stiffness::read(&source, &keys, &edges, &sheet, &identified)?;
-    let order = record::order(drawn, &edges.ends);
+    let order = listed_order(drawn, &edges.ends);
     sheet.listed_edges = order.into_iter().map(|ends| ends.map(|v| identified.corner[v])).collect();
     sheet.record = FileRecord { turned_over: turned.is_some(), ..record::read(&frame, drawn, &edges) };
     Ok(sheet)
 }
 
-fn head(source: &Source, keys: &Keys) -> Result<Drawing, SheetError> {
+pub(super) fn head(source: &Source, keys: &Keys) -> Result<Drawing, SheetError> {
     let string = |value: Option<&RawValue>, key: &str| -> Result<Option<String>, SheetError> {
         value.map(|v| source.typed(v, || format!("`{key}`"), "a text in quotes")).transpose()
     };
@@ -107,7 +107,7 @@ fn lattice(source: &Source, value: &RawValue) -> Result<[Vec3; 2], SheetError> {
     Ok([l1.into(), l2.into()])
 }
 
-fn read_vertices<'a>(
+pub(super) fn read_vertices<'a>(
     source: &Source<'a>,
     keys: &Keys<'a>,
     drawn: &mut Drawing,
@@ -134,7 +134,7 @@ fn read_vertices<'a>(
     Ok(())
 }
 
-fn read_faces<'a>(
+pub(super) fn read_faces<'a>(
     source: &Source<'a>,
     keys: &Keys<'a>,
     drawn: &mut Drawing,

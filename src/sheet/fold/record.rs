@@ -1,7 +1,5 @@
 //! The keys of a FOLD file that do not define its sheet.
 
-use std::collections::BTreeSet;
-
 use serde_json::Value;
 
 use super::edges::Edges;
@@ -61,7 +59,15 @@ pub(super) const ATTRIBUTES: &str = "[\"3D\"]";
 /// edges and faces keep their numbers when it is written; otherwise only those about the file and its frame.
 pub(super) fn read(frame: &Frame, drawn: &Drawing, edges: &Edges) -> FileRecord {
     let all_listed = edges.ends.is_empty() || edges.ends.len() == drawn_sides(drawn).len();
-    let numbered = drawn.lattice.is_none() && all_listed;
+    record(frame, edges, drawn.lattice.is_none() && all_listed)
+}
+
+/// Reads the same of a sheet whose vertices, edges and faces get other numbers.
+pub(super) fn read_renumbered(frame: &Frame, edges: &Edges) -> FileRecord {
+    record(frame, edges, false)
+}
+
+fn record(frame: &Frame, edges: &Edges, numbered: bool) -> FileRecord {
     let mut record = FileRecord { frame: frame.number, further_frames: frame.others, ..FileRecord::default() };
     for (key, value) in &frame.values.0 {
         let name = key.as_str();
@@ -78,16 +84,6 @@ pub(super) fn read(frame: &Frame, drawn: &Drawing, edges: &Edges) -> FileRecord 
         }
     }
     record
-}
-
-/// Returns the listed edges, followed by the sides that are not listed; empty if that is the order of the sides.
-pub(super) fn order(drawn: &Drawing, listed: &[[usize; 2]]) -> Vec<[usize; 2]> {
-    let sides: Vec<[usize; 2]> = drawn_sides(drawn).into_iter().map(|(ends, _)| ends).collect();
-    let sorted = |[a, b]: [usize; 2]| [a.min(b), a.max(b)];
-    let known: BTreeSet<[usize; 2]> = listed.iter().map(|ends| sorted(*ends)).collect();
-    let others = sides.iter().filter(|ends| !known.contains(&sorted(**ends)));
-    let order: Vec<[usize; 2]> = listed.iter().chain(others).copied().collect();
-    if order == sides { vec![] } else { order }
 }
 
 /// Returns a JSON text without line breaks, which are white space there.

@@ -1,0 +1,99 @@
+//! The formats of mesh files, recognised by the endings of their names.
+
+use std::path::Path;
+
+use super::convert;
+use super::ending::ending;
+use super::error::RunError;
+use crate::output::picture::Picture;
+use crate::output::{files, vtk};
+use crate::sheet::pattern::{self, Cleanup, Format};
+use crate::sheet::{Sheet, build, fold, obj, stl};
+
+/// Endings of meshes that are read.
+pub(super) const READ: &str = ".fold, .obj, .vtu, .svg, .cp or .opx";
+/// Endings of meshes and scenes.
+pub(super) const READ_OR_SCENE: &str = ".fold, .obj, .vtu, .svg, .cp, .opx or .toml";
+/// Endings of meshes that are written.
+const WRITTEN: &str = ".fold, .obj, .vtu, .stl, .svg or .cp";
+/// Endings of flat crease patterns that can be cleaned.
+const CLEANED: &str = ".fold, .svg, .cp or .opx";
+
+/// The kinds of files that hold a mesh.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum MeshKind {
+    Fold,
+    Obj,
+    Vtu,
+    Lines(Format),
+}
+
+impl MeshKind {
+    pub(super) fn of(path: &Path) -> Option<Self> {
+        match ending(path).as_str() {
+            "fold" => Some(Self::Fold),
+            "obj" => Some(Self::Obj),
+            "vtu" => Some(Self::Vtu),
+            _ => Format::of(path).map(Self::Lines),
+        }
+    }
+}
+
+/// Reads a mesh; `expected` are the endings that messages name.
+pub(super) fn read_mesh(path: &Path, frame: Option<usize>, expected: &'static str) -> Result<Sheet, RunError> {
+    match MeshKind::of(path) {
+        Some(MeshKind::Fold) => Ok(fold::read_frame(path, frame)?),
+        Some(kind) => match frame {
+            Some(frame) => Err(RunError::NoFrames { path: path.into(), frame }),
+            None => read_kind(path, kind),
+        },
+        None => Err(RunError::Ending { path: path.into(), ending: ending(path), expected }),
+    }
+}
+
+fn read_kind(path: &Path, kind: MeshKind) -> Result<Sheet, RunError> {
+    match kind {
+        MeshKind::Fold => Ok(fold::read(path)?),
+        MeshKind::Obj => Ok(obj::read(path)?),
+        MeshKind::Lines(format) => Ok(pattern::read(path, format)?),
+        MeshKind::Vtu => {
+            let title = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let drawn = convert::drawing(vtk::read_vtu(path)?, title);
+            build::build(&drawn).map_err(|defect| RunError::NoSheet { path: path.into(), defect })
+        }
+    }
+}
+
+/// Reads a flat crease pattern and cleans it up.
+pub(super) fn read_cleaned(path: &Path, frame: Option<usize>, cleanup: &Cleanup) -> Result<Sheet, RunError> {
+    match (MeshKind::of(path), frame) {
+        (Some(MeshKind::Fold), _) => Ok(fold::read_cleaned(path, frame, cleanup)?),
+        (Some(_), Some(frame)) => Err(RunError::NoFrames { path: path.into(), frame }),
+        (Some(MeshKind::Lines(format)), None) => Ok(pattern::read_cleaned(path, format, cleanup)?),
+        _ => Err(RunError::Ending { path: path.into(), ending: ending(path), expected: CLEANED }),
+    }
+}
+
+/// Writes a sheet into a file of the format of its ending. Returns a sentence for each part that the file does not keep.
+pub(super) fn write(sheet: &Sheet, to: &Path) -> Result<Vec<String>, RunError> {
+    let refused = |reason| RunError::NotFlat { path: to.into(), reason };
+    let mut changed = 0;
+    match ending(to).as_str() {
+        "fold" => files::write(to, fold::write(sheet))?,
+        "obj" => files::write(to, obj::write(sheet))?,
+        "vtu" => vtk::write_vtu(to, &Picture::drawn(sheet))?,
+        "stl" => files::write(to, stl::write(sheet))?,
+        "svg" => files::write(to, pattern::write_svg(sheet).map_err(refused)?)?,
+        "cp" => {
+            let (text, others) = pattern::write_cp(sheet).map_err(refused)?;
+            changed = others;
+            files::write(to, text)?;
+        }
+        ending => return Err(RunError::Ending { path: to.into(), ending: ending.into(), expected: WRITTEN }),
+    }
+    let mut notes = convert::not_kept(sheet, &ending(to));
+    if changed > 0 {
+        notes.push(format!("CP has no hinges, joints and cuts: {changed} lines are written as auxiliary or boundary"));
+    }
+    Ok(notes)
+}

@@ -1,0 +1,71 @@
+//! The flat drawing of a sheet, as files of lines need it.
+
+use crate::sheet::assignment::Assignment;
+use crate::sheet::build::{draw, drawn_sides, edges_by_drawn_name};
+use crate::sheet::cell::{Corner, EdgeKey, Sheet};
+
+/// Largest difference in z, relative to the extent, of a sheet that counts as flat.
+const FLAT: f64 = 1e-9;
+
+/// The reason why a sheet is not a crease pattern that lines can draw.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NotFlat {
+    /// The sheet is folded, or not parallel to the plane of x and y.
+    #[error("a crease pattern is flat, and the vertices of this sheet lie between z = {low} and z = {high}")]
+    Raised {
+        /// Least z of all vertices.
+        low: f64,
+        /// Largest z of all vertices.
+        high: f64,
+    },
+    /// The sheet is periodic.
+    #[error("the sheet is periodic, and files of lines have no lattice vectors")]
+    Periodic,
+    /// Faces lie upside down: the sheet is folded flat.
+    #[error("the sheet is folded flat: some of its faces lie upside down")]
+    FoldedFlat,
+}
+
+/// An edge of a flat sheet: its ends, letter and target angle in radians.
+pub(super) struct FlatEdge {
+    pub ends: [[f64; 2]; 2],
+    pub letter: Assignment,
+    pub target: Option<f64>,
+}
+
+/// Returns the drawn edges of a flat sheet in the order of its file; diagonals of polygons only where the file lists them.
+pub(super) fn edges(sheet: &Sheet) -> Result<Vec<FlatEdge>, NotFlat> {
+    check(sheet)?;
+    let drawn = draw(sheet);
+    let known = edges_by_drawn_name(sheet);
+    let sides = drawn_sides(&drawn).into_iter().map(|(ends, _)| ends.map(Corner::home));
+    let list: Vec<[Corner; 2]> =
+        if sheet.listed_edges.is_empty() { sides.collect() } else { sheet.listed_edges.clone() };
+    let edge = |[a, b]: [Corner; 2]| {
+        let number = *known.get(&EdgeKey::new(a, b).0)?.first()?;
+        let edge = &sheet.edges[number];
+        let ends = [a, b].map(|end| sheet.position(end)).map(|x| [x.x, x.y]);
+        let is_cut = known[&EdgeKey::new(a, b).0].len() > 1;
+        let letter = if is_cut { Assignment::Cut } else { sheet.assignment(edge) };
+        Some(FlatEdge { ends, letter, target: sheet.targets.get(&edge.key).copied() })
+    };
+    Ok(list.into_iter().filter_map(edge).collect())
+}
+
+fn check(sheet: &Sheet) -> Result<(), NotFlat> {
+    if sheet.lattice.is_some() {
+        return Err(NotFlat::Periodic);
+    }
+    let first = sheet.vertices.first().copied().unwrap_or_default();
+    let [low, high] = sheet.vertices.iter().fold([first; 2], |[low, high], x| [low.inf(x), high.sup(x)]);
+    let extent = (high - low).max();
+    if high.z - low.z > FLAT * extent {
+        return Err(NotFlat::Raised { low: low.z, high: high.z });
+    }
+    let up = |corners: [Corner; 3]| {
+        let [a, b, c] = corners.map(|corner| sheet.position(corner).xy());
+        (b - a).perp(&(c - a)) > 0.0
+    };
+    let is_up = sheet.triangles.iter().filter(|triangle| up(triangle.corners)).count();
+    if is_up == 0 || is_up == sheet.triangles.len() { Ok(()) } else { Err(NotFlat::FoldedFlat) }
+}

@@ -1,0 +1,47 @@
+//! ORIPA's `.opx` files: the lines as Java beans in XML.
+//!
+//! ```text
+//! <object class="oripa.OriLineProxy">
+//!   <void property="type"><int>2</int></void>
+//!   <void property="x0"><double>-200.0</double></void>     (properties of value 0 are left out)
+//!   ...
+//! ```
+
+use roxmltree::{Document, Node};
+
+use super::cp::{typed, value};
+use super::line::Lines;
+use super::xml;
+use crate::sheet::pattern_fault::PatternFault;
+
+/// Ending of the Java class of a line: `oripa.OriLineProxy`, in later versions in another package.
+const LINE: &str = "OriLineProxy";
+
+/// Reads the lines of a text.
+pub(super) fn lines(text: &str) -> Lines {
+    let document = xml::document(text, "an OPX file")?;
+    let objects = document.descendants().filter(|node| node.attribute("class").is_some_and(|c| c.ends_with(LINE)));
+    let objects = objects.filter(|node| node.has_tag_name("object"));
+    let lines = objects.map(|object| {
+        let place = xml::place(&document, object);
+        line(&document, object).map_err(|fault| (place, fault.into()))
+    });
+    let title = document.descendants().find(|node| node.attribute("property") == Some("title"));
+    let title = title.and_then(|node| node.first_element_child()).and_then(|node| node.text()).unwrap_or_default();
+    Ok((lines.collect::<Result<_, _>>()?, title.trim().to_owned()))
+}
+
+fn line(document: &Document, object: Node) -> Result<super::line::Line, PatternFault> {
+    let given = |name: &str| {
+        let property = object.children().find(|node| node.attribute("property") == Some(name))?;
+        Some(property.first_element_child().and_then(|node| node.text()).unwrap_or_default().trim())
+    };
+    let mut numbers = [0.0; 4];
+    for (number, name) in numbers.iter_mut().zip(["x0", "y0", "x1", "y1"]) {
+        if let Some(word) = given(name) {
+            let finite = word.parse().ok().filter(|number: &f64| number.is_finite());
+            *number = finite.ok_or_else(|| value(word, "coordinate", "a finite number"))?;
+        }
+    }
+    typed(given("type").unwrap_or("0"), numbers, xml::place(document, object))
+}

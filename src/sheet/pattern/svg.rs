@@ -1,0 +1,164 @@
+//! SVG drawings with the colours of Origami Simulator.
+//!
+//! Shapes with a stroke are lines of the pattern: `line`, `polyline`, `polygon`, `rect` and `path`, in groups and clones
+//! (`use`), with their transforms. Lengths are those of the drawing's own coordinates: the size of the page does not
+//! count. What has no stroke, or is not displayed, is ignored, and so are texts and images.
+
+use roxmltree::{Document, Node};
+use svgtypes::{Color, Transform};
+
+use super::colour;
+use super::cp::value;
+use super::line::{Line, Lines, flip};
+use super::svg_shape::{length, segments};
+use super::svg_style::{Properties, Rules, Style};
+use super::xml;
+use crate::math::Vec2;
+use crate::sheet::assignment::Assignment;
+use crate::sheet::error::Problem;
+use crate::sheet::pattern_fault::PatternFault;
+
+/// Most elements in each other, clones included.
+const DEEPEST: usize = 200;
+
+/// Most elements, clones included; clones of clones can be many in a short file.
+const MOST_ELEMENTS: usize = 1_000_000;
+
+/// Reads the lines of a text.
+pub(super) fn lines(text: &str) -> Lines {
+    let document = xml::document(text, "an SVG file")?;
+    let root = document.root_element();
+    if root.tag_name().name() != "svg" {
+        let fault = value(root.tag_name().name(), "outermost element of an SVG file", "`svg`");
+        return Err((xml::place(&document, root), fault.into()));
+    }
+    let title = root.children().find(|node| node.tag_name().name() == "title").and_then(|node| node.text());
+    let mut drawing = Drawing { document: &document, rules: Rules::new(&document), elements: 0, lines: vec![] };
+    drawing.read(root, &Around::default(), 0)?;
+    if drawing.lines.is_empty() {
+        return Err(([1, 1], PatternFault::Empty { right: "draw shapes with a coloured stroke" }.into()));
+    }
+    Ok((drawing.lines, title.unwrap_or_default().trim().to_owned()))
+}
+
+/// What the elements around an element say.
+#[derive(Clone, Copy, Default)]
+struct Around {
+    style: Style,
+    transform: Transform,
+}
+
+struct Drawing<'d, 'input> {
+    document: &'d Document<'input>,
+    rules: Rules<'d>,
+    elements: usize,
+    lines: Vec<Line>,
+}
+
+impl<'d, 'input> Drawing<'d, 'input> {
+    /// Reads an element and those in it.
+    fn read(&mut self, node: Node<'d, 'input>, around: &Around, depth: usize) -> Result<(), ([usize; 2], Problem)> {
+        let place = xml::place(self.document, node);
+        let located = |fault: PatternFault| (place, Problem::from(fault));
+        self.elements += 1;
+        if depth > DEEPEST || self.elements > MOST_ELEMENTS {
+            let right = "there should be at most 1,000,000 of them, clones included, and at most 200 in each other";
+            return Err(located(PatternFault::Element { element: "too many elements".into(), right }));
+        }
+        let properties = self.rules.properties(node);
+        let mut here = around.with(&properties).map_err(located)?;
+        if !here.style.displayed {
+            return Ok(());
+        }
+        match node.tag_name().name() {
+            "svg" | "symbol" if depth > 0 && node.has_attribute("viewBox") => {
+                let element = format!("`{}` with a `viewBox` of its own", node.tag_name().name());
+                Err(located(PatternFault::Element { element, right: "only the outermost `svg` should have one" }))
+            }
+            "svg" | "g" | "a" | "switch" | "symbol" => {
+                if depth > 0 && node.tag_name().name() == "svg" {
+                    here.shift(node).map_err(located)?;
+                }
+                node.children().filter(Node::is_element).try_for_each(|child| self.read(child, &here, depth + 1))
+            }
+            "use" => {
+                here.shift(node).map_err(located)?;
+                let original = self.original(node).map_err(located)?;
+                self.read(original, &here, depth + 1)
+            }
+            _ => self.shape(node, &here, place).map_err(located),
+        }
+    }
+
+    /// Returns the element of which another one is a clone.
+    fn original(&self, node: Node<'d, 'input>) -> Result<Node<'d, 'input>, PatternFault> {
+        let named = node.attributes().find(|attribute| attribute.name() == "href").map(|name| name.value());
+        let id = named.and_then(|name| name.strip_prefix('#'));
+        let found = id.and_then(|id| self.document.descendants().find(|other| other.attribute("id") == Some(id)));
+        found.ok_or_else(|| value(named.unwrap_or_default(), "element of this file", "`#` and the `id` of an element"))
+    }
+
+    fn shape(&mut self, node: Node, here: &Around, place: [usize; 2]) -> Result<(), PatternFault> {
+        let Some(colour) = here.style.stroke.filter(|colour| here.style.visible && colour.alpha > 0) else {
+            return Ok(());
+        };
+        let Some(segments) = segments(node)? else { return Ok(()) };
+        let [red, green, blue] = [colour.red, colour.green, colour.blue];
+        let name = || format!("#{red:02x}{green:02x}{blue:02x}");
+        let wrong = || value(&name(), "colour of a line", colour::RIGHT);
+        let letter = colour::letter([red, green, blue]).ok_or_else(wrong)?;
+        let angle = angle(letter, here.style.opacity * here.style.stroke_opacity, colour);
+        let line = |ends: [Vec2; 2]| {
+            let ends = ends.map(|end| here.placed(end));
+            Line { ends, letter, angle, auxiliary: false, place, flipped: true }
+        };
+        self.lines.extend(segments.into_iter().map(line));
+        Ok(())
+    }
+}
+
+/// Returns the target angle in degrees of a line of this opacity.
+fn angle(letter: Assignment, opacity: f64, colour: Color) -> Option<f64> {
+    let folded = opacity * f64::from(colour.alpha) / 255.0 * 180.0;
+    match letter {
+        Assignment::Mountain => Some(flip(folded)),
+        Assignment::Valley => Some(folded),
+        Assignment::Flat => Some(0.0),
+        _ => None,
+    }
+}
+
+impl Around {
+    /// Returns what an element with these properties says to those in it.
+    fn with(&self, properties: &Properties) -> Result<Self, PatternFault> {
+        let style = self.style.of(properties)?;
+        let Some(text) = properties.get("transform").filter(|text| **text != "none") else {
+            return Ok(Self { style, ..*self });
+        };
+        let own = text
+            .parse()
+            .map_err(|_| value(text, "transform", "`translate(1 2)`, `matrix(1 0 0 1 0 0)` or the like"))?;
+        Ok(Self { style, transform: product(self.transform, own) })
+    }
+
+    /// Translates by the attributes `x` and `y` of an element.
+    fn shift(&mut self, node: Node) -> Result<(), PatternFault> {
+        let shift = Transform::new(1.0, 0.0, 0.0, 1.0, length(node, "x")?, length(node, "y")?);
+        self.transform = product(self.transform, shift);
+        Ok(())
+    }
+
+    /// Returns a point of an element as a point of the sheet, whose y points upwards.
+    fn placed(&self, x: Vec2) -> Vec2 {
+        let Transform { a, b, c, d, e, f } = self.transform;
+        Vec2::new(a * x.x + c * x.y + e, flip(b * x.x + d * x.y + f))
+    }
+}
+
+/// Returns the transform that does first `second`, then `first`.
+fn product(first: Transform, second: Transform) -> Transform {
+    let Transform { a, b, c, d, e, f } = first;
+    let column = |x: f64, y: f64| [a * x + c * y, b * x + d * y];
+    let [[p, q], [r, s], [t, u]] = [column(second.a, second.b), column(second.c, second.d), column(second.e, second.f)];
+    Transform::new(p, q, r, s, t + e, u + f)
+}

@@ -1,0 +1,145 @@
+//! The strokes of SVG elements: attributes, style sheets and `style`, with what is inherited.
+
+use std::collections::BTreeMap;
+
+use roxmltree::{Document, Node};
+use simplecss::{AttributeOperator, DeclarationTokenizer, PseudoClass, StyleSheet};
+use svgtypes::{Color, Paint};
+
+use super::cp::value;
+use crate::sheet::pattern_fault::PatternFault;
+
+/// The properties that are used here.
+const USED: [&str; 7] = ["stroke", "stroke-opacity", "opacity", "display", "visibility", "color", "transform"];
+
+/// How elements are drawn, as far as a crease pattern needs it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Style {
+    /// Colour of the stroke; `None` for shapes without one.
+    pub stroke: Option<Color>,
+    /// Opacity of the stroke alone, from 0 to 1.
+    pub stroke_opacity: f64,
+    /// Opacity of the element and all groups around it.
+    pub opacity: f64,
+    /// Whether the element is visible.
+    pub visible: bool,
+    /// Whether the element and those in it are drawn at all.
+    pub displayed: bool,
+    color: Color,
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        let (opacity, color) = (1.0, Color::black());
+        Self { stroke: None, stroke_opacity: opacity, opacity, visible: true, displayed: true, color }
+    }
+}
+
+/// The rules of all style sheets of a document.
+pub(super) struct Rules<'a>(StyleSheet<'a>);
+
+/// The values of the properties of an element.
+pub(super) type Properties<'a> = BTreeMap<&'a str, &'a str>;
+
+impl<'a> Rules<'a> {
+    pub(super) fn new(document: &'a Document) -> Self {
+        let mut rules = StyleSheet::new();
+        for text in
+            document.descendants().filter(|node| node.has_tag_name("style") || node.tag_name().name() == "style")
+        {
+            text.children().filter_map(|child| child.text()).for_each(|text| rules.parse_more(text));
+        }
+        Self(rules)
+    }
+
+    /// Returns the properties that an element is given; important rules come before `style`, that before other rules, and
+    /// they before attributes.
+    pub(super) fn properties(&self, node: Node<'a, '_>) -> Properties<'a> {
+        let attributes = node.attributes().map(|attribute| (attribute.name(), attribute.value()));
+        let attributes: Vec<(String, &str)> = attributes.map(|(name, value)| (name.to_owned(), value)).collect();
+        let matching: Vec<_> = self.0.rules.iter().filter(|rule| rule.selector.matches(&Element(node))).collect();
+        let ruled = |important: bool| {
+            let declared = matching.iter().flat_map(|rule| &rule.declarations);
+            declared.filter(move |d| d.important == important).map(|d| (d.name, d.value)).collect::<Vec<_>>()
+        };
+        let own = DeclarationTokenizer::from(node.attribute("style").unwrap_or_default()).map(|d| (d.name, d.value));
+        let attributes = attributes.iter().map(|(name, value)| (name.as_str(), *value));
+        let mut properties = Properties::new();
+        for (name, value) in attributes.chain(ruled(false)).chain(own).chain(ruled(true)) {
+            if let Some(known) = USED.iter().find(|known| **known == name) {
+                properties.insert(known, value.trim());
+            }
+        }
+        properties
+    }
+}
+
+impl Style {
+    /// Returns the style of an element in one of this style.
+    pub(super) fn of(&self, properties: &Properties) -> Result<Self, PatternFault> {
+        let given = |name: &str| properties.get(name).copied().filter(|value| *value != "inherit");
+        let mut style = *self;
+        if let Some(text) = given("color") {
+            style.color = text.parse().map_err(|_| value(text, "colour", "`#f00`, `red` or `rgb(255, 0, 0)`"))?;
+        }
+        if let Some(text) = given("stroke") {
+            style.stroke = stroke(text, style.color, self.stroke)?;
+        }
+        if let Some(text) = given("stroke-opacity") {
+            style.stroke_opacity = opacity(text)?;
+        }
+        if let Some(text) = given("opacity") {
+            style.opacity = self.opacity * opacity(text)?;
+        }
+        style.displayed = self.displayed && given("display") != Some("none");
+        if let Some(text) = given("visibility") {
+            style.visible = text == "visible";
+        }
+        Ok(style)
+    }
+}
+
+fn stroke(text: &str, color: Color, inherited: Option<Color>) -> Result<Option<Color>, PatternFault> {
+    let right = "a colour, `#f00`, `red` or `rgb(255, 0, 0)`, or `none`";
+    match Paint::from_str(text) {
+        Ok(Paint::None) => Ok(None),
+        Ok(Paint::Inherit) => Ok(inherited),
+        Ok(Paint::CurrentColor) => Ok(Some(color)),
+        Ok(Paint::Color(color)) => Ok(Some(color)),
+        _ => Err(value(text, "colour of a stroke", right)),
+    }
+}
+
+fn opacity(text: &str) -> Result<f64, PatternFault> {
+    let number = match text.strip_suffix('%') {
+        Some(percent) => percent.trim().parse().map(|number: f64| number / 100.0),
+        None => text.parse(),
+    };
+    let number = number.ok().filter(|number: &f64| number.is_finite());
+    number.map(|number| number.clamp(0.0, 1.0)).ok_or_else(|| value(text, "opacity", "a number from 0 to 1"))
+}
+
+/// An element whose selectors are matched.
+struct Element<'a, 'input>(Node<'a, 'input>);
+
+impl simplecss::Element for Element<'_, '_> {
+    fn parent_element(&self) -> Option<Self> {
+        self.0.parent_element().map(Element)
+    }
+
+    fn prev_sibling_element(&self) -> Option<Self> {
+        self.0.prev_sibling_element().map(Element)
+    }
+
+    fn has_local_name(&self, name: &str) -> bool {
+        self.0.tag_name().name() == name
+    }
+
+    fn attribute_matches(&self, local_name: &str, operator: AttributeOperator<'_>) -> bool {
+        self.0.attribute(local_name).is_some_and(|value| operator.matches(value))
+    }
+
+    fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
+        class == PseudoClass::FirstChild && self.0.prev_sibling_element().is_none()
+    }
+}

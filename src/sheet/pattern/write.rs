@@ -1,0 +1,79 @@
+//! Writing flat sheets as crease patterns of lines.
+
+use std::fmt::Write;
+
+use super::colour;
+use super::cp::TYPES;
+use super::flat::{NotFlat, edges};
+use super::line::flip;
+use crate::sheet::assignment::Assignment;
+use crate::sheet::cell::Sheet;
+
+/// Returns a flat sheet as an SVG drawing with the colours of Origami Simulator, y downwards; mountains and valleys have
+/// the opacity of their target angles, or 1 where the sheet has none. [`parse`](super::parse) reads it back with the
+/// same lines.
+///
+/// # Errors
+/// [`NotFlat`] if the sheet is folded or periodic.
+pub fn write_svg(sheet: &Sheet) -> Result<String, NotFlat> {
+    let edges = edges(sheet)?;
+    let ends = || edges.iter().flat_map(|edge| edge.ends);
+    let [mut low, mut high] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for [x, y] in ends() {
+        low = [low[0].min(x), low[1].min(flip(y))];
+        high = [high[0].max(x), high[1].max(flip(y))];
+    }
+    let extent = (high[0] - low[0]).max(high[1] - low[1]);
+    let margin = 0.02 * extent;
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:?} {:?} {:?} {:?}\">\n",
+        low[0] - margin,
+        low[1] - margin,
+        high[0] - low[0] + 2.0 * margin,
+        high[1] - low[1] + 2.0 * margin,
+    );
+    let _ = writeln!(text, "<title>{}</title>", escaped(&sheet.title));
+    let _ = writeln!(text, "<g fill=\"none\" stroke-width=\"{:?}\">", 0.003 * extent);
+    for edge in edges {
+        let [[x1, y1], [x2, y2]] = edge.ends.map(|[x, y]| [x, flip(y)]);
+        let colour = colour::of_letter(edge.letter);
+        let _ = write!(text, "<line x1=\"{x1:?}\" y1=\"{y1:?}\" x2=\"{x2:?}\" y2=\"{y2:?}\" stroke=\"{colour}\"");
+        let _ = match edge.target.filter(|_| matches!(edge.letter, Assignment::Mountain | Assignment::Valley)) {
+            Some(target) if opacity(target) != 1.0 => writeln!(text, " opacity=\"{:?}\"/>", opacity(target)),
+            _ => writeln!(text, "/>"),
+        };
+    }
+    text.push_str("</g>\n</svg>\n");
+    Ok(text)
+}
+
+/// Returns the opacity that is read as exactly this target angle: the shortest of the numbers next to it that are.
+fn opacity(target: f64) -> f64 {
+    let target = target.abs();
+    let near = target.to_degrees() / 180.0;
+    let rounded = [1e3, 1e6, 1e9, 1e12].map(|scale| (near * scale).round() / scale);
+    let candidates = rounded.into_iter().chain([near, near.next_up(), near.next_down()]);
+    candidates.into_iter().find(|opacity| (opacity * 180.0).to_radians() == target).unwrap_or(near)
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// Returns a flat sheet as a `.cp` file of ORIPA, y downwards, which has no target angles; and the number of edges whose
+/// letter it does not have: hinges, facets and joints become auxiliary lines, cuts boundaries.
+///
+/// # Errors
+/// [`NotFlat`] if the sheet is folded or periodic.
+pub fn write_cp(sheet: &Sheet) -> Result<(String, usize), NotFlat> {
+    let (mut text, mut changed) = (String::new(), 0);
+    for edge in edges(sheet)? {
+        let [[x1, y1], [x2, y2]] = edge.ends.map(|[x, y]| [x, flip(y)]);
+        let auxiliary = |letter| !matches!(letter, Assignment::Cut);
+        let known = TYPES.iter().rfind(|(_, letter, ..)| *letter == edge.letter).map(|(number, ..)| *number);
+        changed += usize::from(known.is_none());
+        let number = known.unwrap_or(if auxiliary(edge.letter) { 4 } else { 1 });
+        let _ = writeln!(text, "{number} {x1:?} {y1:?} {x2:?} {y2:?}");
+    }
+    Ok((text, changed))
+}
