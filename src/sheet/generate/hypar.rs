@@ -16,7 +16,7 @@ const SOURCE: &str = "Pleated hyperbolic paraboloid: traditional; E. D. Demaine,
 /// and the diagonals from the centre to the corners.
 ///
 /// Polygon `k` has the distance `k width` from the centre. Polygons are mountains and valleys by turns, the outermost
-/// one is the rim. The diagonals between polygons `k` and `k+1` have the letter of polygon `k+1`, so that every vertex but
+/// one is the rim. The diagonals between polygons `k` and `k+1` have the letter of polygon `k`, so that every vertex but
 /// the centre has three creases of one letter and one of the other.
 ///
 /// Vertex 0 is the centre, vertex `1 + (k-1) sides + s` the corner `s` of polygon `k`. With pleats that do not bend, this
@@ -57,7 +57,7 @@ impl Hypar {
         };
         let side_of = |k: usize| if k.is_multiple_of(2) { PI } else { -PI };
         let diagonals = (0..pleats * sides).map(|n| (n / sides, n % sides));
-        let diagonals = diagonals.map(|(k, s)| ([at(k, s), at(k + 1, s)], side_of(k + 1)));
+        let diagonals = diagonals.map(|(k, s)| ([at(k, s), at(k + 1, s)], side_of(k)));
         let polygons = (0..(pleats - 1) * sides).map(|n| (1 + n / sides, n % sides));
         let polygons = polygons.map(|(k, s)| ([at(k, s), at(k, s + 1)], side_of(k)));
         let angles = diagonals.chain(polygons).collect();

@@ -97,7 +97,7 @@ fn the_hypar_has_letters_of_flat_folding() {
         let hypar = sheet(&format!(r#"{{"pattern": "hypar", "sides": {sides}, "pleats": {pleats}}}"#));
         let letters = letters_at_vertices(&hypar);
         assert_eq!((hypar.vertices.len(), letters.len()), (1 + sides * pleats, 1 + sides * (pleats - 1)));
-        assert_eq!(letters[0], [sides, 0]);
+        assert_eq!(letters[0], [0, sides]);
         assert!(letters[1..].iter().all(|[m, v]| m.abs_diff(*v) == 2 && m + v == 4), "{letters:?}");
     }
 }
