@@ -3,7 +3,7 @@
 use foldwell::analysis::relax::{RelaxError, Relaxed};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::{Assignment, EdgeKind, Sheet, fold};
-use foldwell::{Assembly, RIGID, Rest, relax};
+use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
 use std::f64::consts::PI;
 use std::fmt::Write;
 use std::fs;
@@ -149,6 +149,23 @@ fn the_branch_is_said() {
         said.contains("the start was left with 6 of 6 hinges on the side of their rest angles, by bars that"),
         "{said}"
     );
+}
+
+/// Claim: a flat patch of Resch's pattern folds all the way to its target angles, with soft and with rigid bars; its
+/// tiles then lie in one plane, every side of a tile on that of another one, so that the energy vanishes; half
+/// way it does not, since no rigid state has half of all these angles. Source: the rotations by these angles close around every vertex (a test of the
+/// generator). Tolerance: the energy is quadratic in angles that the solver finds to 1e-8 or better.
+#[test]
+fn resch_folds_to_its_target_angles() {
+    for (bars, part) in [(1e3, 1.0), (RIGID, 1.0), (1e3, 0.5)] {
+        let sheet = generate(&Pattern::named("resch").unwrap()).unwrap();
+        let pattern = Assembly::patch(sheet, [3, 3]).bars(bars).creases(1.0).rest(Rest::Target(part));
+        let found = relax(&pattern.build().unwrap()).unwrap();
+        let choice = found.branch_choice.unwrap();
+        assert!(choice.hinges > 50 && choice.on_rest_side == choice.hinges, "{choice:?}");
+        let energy = found.state.total();
+        assert_eq!(energy < 1e-16, part == 1.0, "bars {bars}, part {part}: {energy:e}");
+    }
 }
 
 /// Returns the vertices that no boundary edge reaches, each with the directions of its creases in radians, in order, and
