@@ -2,8 +2,8 @@
 
 use foldwell::analysis::relax::{RelaxError, Relaxed};
 use foldwell::run::{RunOptions, run_scene};
-use foldwell::sheet::{Assignment, Sheet, fold};
-use foldwell::{Assembly, RIGID, Rest, relax};
+use foldwell::sheet::{Assignment, EdgeKind, Sheet, fold};
+use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
 use std::f64::consts::PI;
 use std::fmt::Write;
 use std::fs;
@@ -12,6 +12,7 @@ use std::ops::ControlFlow;
 use super::targets::FLAT as WATERBOMB;
 
 const BIRD_BASE: &str = include_str!("../cases/fold/bird-base.fold");
+const CRANE: &str = include_str!("../../meshes/crane.fold");
 const TWIST: &str = include_str!("../cases/fold/square-twist.fold");
 const RIGID_TWIST: &str = include_str!("../cases/fold/square-twist-rigid.fold");
 
@@ -148,4 +149,64 @@ fn the_branch_is_said() {
         said.contains("the start was left with 6 of 6 hinges on the side of their rest angles, by bars that"),
         "{said}"
     );
+}
+
+/// Claim: a flat patch of Resch's pattern folds all the way to its target angles, with soft and with rigid bars; its
+/// tiles then lie in one plane, every side of a tile on that of another one, so that the energy vanishes; half
+/// way it does not, since no rigid state has half of all these angles. Source: the rotations by these angles close around every vertex (a test of the
+/// generator). Tolerance: the energy is quadratic in angles that the solver finds to 1e-8 or better.
+#[test]
+fn resch_folds_to_its_target_angles() {
+    for (bars, part) in [(1e3, 1.0), (RIGID, 1.0), (1e3, 0.5)] {
+        let sheet = generate(&Pattern::named("resch").unwrap()).unwrap();
+        let pattern = Assembly::patch(sheet, [3, 3]).bars(bars).creases(1.0).rest(Rest::Target(part));
+        let found = relax(&pattern.build().unwrap()).unwrap();
+        let choice = found.branch_choice.unwrap();
+        assert!(choice.hinges > 50 && choice.on_rest_side == choice.hinges, "{choice:?}");
+        let energy = found.state.total();
+        assert_eq!(energy < 1e-16, part == 1.0, "bars {bars}, part {part}: {energy:e}");
+    }
+}
+
+/// Returns the vertices that no boundary edge reaches, each with the directions of its creases in radians, in order, and
+/// their letters.
+fn inner_vertices(sheet: &Sheet) -> Vec<Vec<(f64, Assignment)>> {
+    let mut creases = vec![Some(vec![]); sheet.vertices.len()];
+    for edge in sheet.edges.iter().filter(|edge| edge.kind != EdgeKind::Facet) {
+        let [i, j] = edge.key.ends();
+        for (from, to) in [(i, j), (j, i)] {
+            let way = sheet.position(to) - sheet.position(from);
+            match (&mut creases[from.vertex], sheet.assignment(edge)) {
+                (rim, Assignment::Boundary) => *rim = None,
+                (Some(list), letter) => list.push((way.y.atan2(way.x), letter)),
+                (None, _) => {}
+            }
+        }
+    }
+    let inner = creases.into_iter().flatten();
+    inner
+        .map(|mut list| {
+            list.sort_by(|a, b| a.0.total_cmp(&b.0));
+            list
+        })
+        .collect()
+}
+
+/// Claim: each inner vertex of the crane folds flat: every other angle between its creases adds up to pi, and mountains
+/// and valleys differ by two in number. Source: the theorems of Kawasaki and Maekawa (T. Hull, Project Origami, 2nd ed.,
+/// CRC Press 2013, activities 20 and 21). Tolerance: rounding, over the shortest crease of 0.04.
+#[test]
+fn the_crane_folds_flat_at_every_vertex() {
+    let crane = read(CRANE);
+    let inner = inner_vertices(&crane);
+    assert_eq!((crane.vertices.len(), crane.polygons.len(), inner.len()), (48, 52, 38));
+    for creases in inner {
+        let count = creases.len();
+        let between = |k: usize| (creases[(k + 1) % count].0 - creases[k].0).rem_euclid(2.0 * PI);
+        let every_other: f64 = (0..count).step_by(2).map(between).sum();
+        assert!(count % 2 == 0 && (every_other - PI).abs() < 1e-12, "{creases:?}: {every_other}");
+        let letters = |letter| creases.iter().filter(|crease| crease.1 == letter).count();
+        let [mountains, valleys] = [Assignment::Mountain, Assignment::Valley].map(letters);
+        assert!(mountains + valleys == count && mountains.abs_diff(valleys) == 2, "{creases:?}");
+    }
 }
