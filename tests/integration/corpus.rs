@@ -1,4 +1,4 @@
-//! Crease patterns as the programs of the field write them: 92 files, each in the dialect of a program, with what is to
+//! Crease patterns as the programs of the field write them: 91 files, each in the dialect of a program, with what is to
 //! come of it. They are made here, by small generators, so that every count is known without reading anything.
 
 use foldwell::analysis::relax::{RelaxError, Relaxed};
@@ -579,4 +579,62 @@ fn all_colours_are_written_as_they_are_read() {
         let folded = generate(&Pattern::named(name).unwrap()).unwrap();
         assert!(pattern::write_svg(&folded).is_err() && pattern::write_cp(&folded).is_err());
     }
+}
+
+/// Claim: the program cleans, converts and relaxes these files: a drawing goes to FOLD, and a FOLD file whose edges cross
+/// is split on request and refused without; frames are asked for in vain; a scene reads a drawing.
+#[test]
+fn the_program_reads_patterns() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |words: &str| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_foldwell"));
+        let output = command.current_dir(folder.path()).args(words.split(' ')).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let square = &patterns()[2];
+    std::fs::write(folder.path().join("a.svg"), inkscape(square)).unwrap();
+    let crossed = r#"{"vertices_coords": [[0,0],[1,0],[1,1],[0,1]],
+        "edges_vertices": [[0,1],[1,2],[2,3],[3,0],[0,2],[1,3]], "edges_assignment": ["B","B","B","B","M","V"]}"#;
+    std::fs::write(folder.path().join("b.fold"), crossed).unwrap();
+    for words in
+        ["convert a.svg a.fold", "convert a.fold a.stl", "convert a.fold a.cp", "convert b.fold c.fold --split"]
+    {
+        let (status, said) = run(words);
+        assert_eq!(status, Some(0), "{words}: {said}");
+    }
+    let stl = std::fs::read_to_string(folder.path().join("a.stl")).unwrap();
+    assert_eq!(stl.matches("facet normal 0.0 0.0 1.0").count(), 6);
+    for (words, part) in [
+        ("convert b.fold d.fold", "cross or touch"),
+        ("info a.svg --frame 1", "this file has no frames"),
+        ("convert a.stl d.fold", "expected one of .fold, .obj, .vtu, .svg, .cp or .opx"),
+        ("convert a.fold d.vtu --split --frame 3", "there is no frame 3"),
+        ("convert a.stl d.fold --split", "expected one of .fold, .svg, .cp or .opx"),
+    ] {
+        let (status, said) = run(words);
+        assert!(status == Some(2) && said.contains(part), "{words}: {said}");
+    }
+    let scene = "[sheet]\nmesh = \"a.svg\"\n[energy]\nbars = { stiffness = 1e4 }\n\
+                 creases = { stiffness = 1.0, rest = \"target\", fraction = 0.2 }\n[[study]]\nname = \"r\"\nkind = \"relax\"\n";
+    std::fs::write(folder.path().join("s.toml"), scene).unwrap();
+    assert_eq!(run("run s.toml --quiet"), (Some(0), String::new()));
+    let (status, said) = run("run s.toml --quiet --frame 1");
+    assert!(status == Some(2) && said.contains("a crease pattern of lines has no frames"), "{said}");
+}
+
+/// Claim: states of simulators are read as they are drawn, with their targets: half folded with all angles on the way, and
+/// folded flat in two dimensions with `faceOrders`, as Flat-Folder writes it; they go to no file of lines.
+#[test]
+fn folded_states_are_read_and_not_drawn_as_lines() {
+    let half = fold::parse(include_str!("../cases/fold/simulator-half-folded.fold"), "half.fold").unwrap();
+    assert_eq!((half.vertices.len(), half.targets_not_drawn()), (6, 1));
+    let state = r#"{"file_spec": 1.1, "file_creator": "flat-folder", "file_classes": ["singleModel"],
+        "frame_classes": ["foldedForm"], "vertices_coords": [[1,0],[0,0],[1,0],[1,1],[0,1],[1,1]],
+        "edges_vertices": [[0,1],[1,2],[2,3],[3,4],[4,5],[5,0],[1,4]], "edges_assignment": ["B","B","B","B","B","B","V"],
+        "faces_vertices": [[0,1,4,5],[1,2,3,4]], "faceOrders": [[0,1,1]]}"#;
+    let state = fold::parse(state, "state.fold").unwrap();
+    assert_eq!((state.vertices.len(), state.polygons.len()), (6, 2));
+    let refused = |sheet: &Sheet| pattern::write_svg(sheet).unwrap_err().to_string();
+    assert!(refused(&half).contains("a crease pattern is flat"), "{}", refused(&half));
+    assert!(refused(&state).contains("folded flat"), "{}", refused(&state));
 }
