@@ -12,7 +12,8 @@ pub fn write(sheet: &Sheet) -> String {
     let mut text = format!("solid {name}\n");
     for triangle in &sheet.triangles {
         let [a, b, c] = triangle.corners.map(|corner| sheet.position(corner));
-        let normal = (b - a).cross(&(c - a)).normalize();
+        // zero is written without a sign
+        let normal = (b - a).cross(&(c - a)).normalize().add_scalar(0.0);
         let _ = writeln!(text, "facet normal {:?} {:?} {:?}\n  outer loop", normal.x, normal.y, normal.z);
         for x in [a, b, c] {
             let _ = writeln!(text, "    vertex {:?} {:?} {:?}", x.x, x.y, x.z);

@@ -55,8 +55,8 @@ pub fn parse_cleaned(text: &str, name: &str, frame: Option<usize>, cleanup: &Cle
     let (lines, places): (Vec<Line>, Vec<&RawValue>) = lines(&drawn, &edges, &rows).into_iter().unzip();
     let title = Drawing { title: drawn.title.clone(), description: drawn.description.clone(), ..Drawing::default() };
     let mut sheet = sheet_of_lines(&lines, cleanup, title).map_err(|(line, problem)| match line {
-        Some(line) => source.at(places[line], problem),
-        None => source.at_start(problem),
+        Some(line) => source.at(places[line], *problem),
+        None => source.at_start(*problem),
     })?;
     edges.rebuilt = true;
     sheet.record = record::read_renumbered(&frame, &edges);

@@ -32,7 +32,7 @@ pub struct Cleanup {
 }
 
 /// A problem together with the number of the line that has it; `None` for the pattern as a whole.
-pub(crate) type Misdrawn = (Option<usize>, Problem);
+pub(crate) type Misdrawn = (Option<usize>, Box<Problem>);
 
 /// Returns the sheet whose creases and rim are `lines`, with the title and description of `head`. Its vertices are
 /// numbered in the order of the lines.
@@ -154,7 +154,7 @@ fn located(lines: &[Line], pieces: &[Piece], defect: Defect) -> Misdrawn {
         (Problem::LooseEdge { .. }, Some(line)) => PatternFault::Loose { line }.into(),
         (Problem::Pieces { pieces }, _) => PatternFault::Pieces { pieces }.into(),
         (problem, Some(line)) => PatternFault::Line { line, problem: problem.to_string() }.into(),
-        (problem, None) => problem,
+        (problem, None) => Box::new(problem),
     };
     (number, problem)
 }

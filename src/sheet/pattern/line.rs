@@ -3,10 +3,19 @@
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::error::Problem;
-use crate::sheet::pattern_fault::LineName;
+use crate::sheet::pattern_fault::{LineName, PatternFault};
 
 /// The lines of a file, and its title if it has one; an error has its line and column.
-pub(super) type Lines = Result<(Vec<Line>, String), ([usize; 2], Problem)>;
+pub(super) type Lines = Result<(Vec<Line>, String), Misread>;
+
+/// A problem together with the line and column of the file that have it.
+pub(super) type Misread = ([usize; 2], Box<Problem>);
+
+impl From<PatternFault> for Box<Problem> {
+    fn from(fault: PatternFault) -> Self {
+        Self::new(fault.into())
+    }
+}
 
 /// A line of a crease pattern and what is to become of it.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -120,11 +120,11 @@ pub fn parse_cleaned(text: &str, name: &str, format: Format, cleanup: &Cleanup) 
         Format::Cp => cp::lines(text),
         Format::Opx => opx::lines(text),
     };
-    let bad = |[line, column]: [usize; 2], problem: Problem| SheetError::Bad {
+    let bad = |[line, column]: [usize; 2], problem: Box<Problem>| SheetError::Bad {
         name: name.to_owned(),
         line,
         column,
-        problem: Box::new(problem),
+        problem,
     };
     let (lines, mut title) = read.map_err(|(place, problem)| bad(place, problem))?;
     if title.is_empty() {

@@ -9,13 +9,12 @@ use svgtypes::{Color, Transform};
 
 use super::colour;
 use super::cp::value;
-use super::line::{Line, Lines, flip};
+use super::line::{Line, Lines, Misread, flip};
 use super::svg_shape::{length, segments};
 use super::svg_style::{Properties, Rules, Style};
 use super::xml;
 use crate::math::Vec2;
 use crate::sheet::assignment::Assignment;
-use crate::sheet::error::Problem;
 use crate::sheet::pattern_fault::PatternFault;
 
 /// Most elements in each other, clones included.
@@ -57,9 +56,9 @@ struct Drawing<'d, 'input> {
 
 impl<'d, 'input> Drawing<'d, 'input> {
     /// Reads an element and those in it.
-    fn read(&mut self, node: Node<'d, 'input>, around: &Around, depth: usize) -> Result<(), ([usize; 2], Problem)> {
+    fn read(&mut self, node: Node<'d, 'input>, around: &Around, depth: usize) -> Result<(), Misread> {
         let place = xml::place(self.document, node);
-        let located = |fault: PatternFault| (place, Problem::from(fault));
+        let located = |fault: PatternFault| (place, Box::from(fault));
         self.elements += 1;
         if depth > DEEPEST || self.elements > MOST_ELEMENTS {
             let right = "there should be at most 1,000,000 of them, clones included, and at most 200 in each other";

@@ -2,11 +2,11 @@
 
 use roxmltree::{Document, Node, ParsingOptions};
 
-use crate::sheet::error::Problem;
+use super::line::Misread;
 use crate::sheet::pattern_fault::PatternFault;
 
 /// Parses a text as the XML of `format`. SVG files of Illustrator have a document type with entities.
-pub(super) fn document<'t>(text: &'t str, format: &'static str) -> Result<Document<'t>, ([usize; 2], Problem)> {
+pub(super) fn document<'t>(text: &'t str, format: &'static str) -> Result<Document<'t>, Misread> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     Document::parse_with_options(text, options).map_err(|error| {
         let at = error.pos();
