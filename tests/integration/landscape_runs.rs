@@ -31,7 +31,7 @@ const RIGID: &str = "bars = { stiffness = inf }\ncreases = { stiffness = 1.0 }";
 const SOFT: &str = "bars = { stiffness = 1e3 }\ncreases = { stiffness = 1.0 }";
 
 fn run(scene: &Path, out: &Path, (threads, resume): (usize, bool), most_steps: usize) -> StudySummary {
-    let options = RunOptions { out: Some(out.into()), threads: Some(threads), resume, ..RunOptions::default() };
+    let options = RunOptions { out: Some(out.into()), threads: Some(threads), resume };
     let seen = AtomicUsize::new(0);
     let observer = |_: &_| {
         let go_on = seen.fetch_add(1, Ordering::Relaxed) < most_steps;
