@@ -21,10 +21,16 @@ FIGURE_FOLDER = ROOT / "validation/figures"
 FIGURES = {
     "bellows": "bellows/pressed",
     "bellows-reaction": "bellows/pressed-reaction",
+    "bird-base": "bird-base/folded",
     "degree-four": "degree-four/folded",
+    "drum": "drum-path/crush",
     "drum-path": "drum-path/crush-reaction",
+    "eggbox": "eggbox/relaxed",
     "flat-quad-folded": "flat-quad/folding",
     "flat-quad-strain": "flat-quad/folding-strain",
+    "helical-tube": "helical-tube/relaxed",
+    "hypar": "hypar/folded",
+    "hypar-hexagon": "hypar-hexagon/folded",
     "kirigami-bloch": "kirigami-bloch/modes",
     "kirigami-polarized-bloch": "kirigami-polarized-bloch/modes",
     "kresling": "kresling/pressed",
@@ -37,6 +43,9 @@ FIGURES = {
     "near-cross-wells": "near-cross-wells/wells",
     "quad-cell-folded": "quad-cell/roll",
     "quad-cell-strain": "quad-cell/roll-strain",
+    "resch": "resch/folded",
+    "resch-folded": "resch-folded/folded",
+    "square-twist": "square-twist/folded",
     "star": "star/relaxed",
     "star-bloch": "star-bloch/modes",
     "star-cylinder-bloch": "star-cylinder-bloch/modes",
@@ -49,6 +58,7 @@ FIGURES = {
     "waterbomb": "waterbomb/relaxed",
     "waterbomb-push": "waterbomb-push/pushed",
     "waterbomb-push-reaction": "waterbomb-push/pushed-reaction",
+    "yoshimura": "yoshimura/relaxed",
 }
 PIXEL = 0.25  # of 1,200; places are rounded to 0.1
 NUMBER = r"([+-]?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?)"

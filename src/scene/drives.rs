@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::places::{Places, motions};
-use super::spec::{AxisSpec, DomainSpec, DriveSpec, DrivenTerm, VertexSet};
+use super::spec::{AxisSpec, DomainSpec, DriveEnd, DriveSpec, DrivenTerm, VertexSet};
 use super::values::{EdgeName, Motions};
 use super::{Located, SceneError, SceneFile};
 use crate::math::Vec3;
@@ -100,7 +100,7 @@ pub(super) fn resolve(file: &SceneFile, assembly: &Assembly, spec: &DriveSpec) -
             Driven::Stiffness(kind)
         }
     };
-    Ok(Drive { quantity, to: spec.to.radians })
+    Ok(Drive { quantity, to: spec.to.0.radians })
 }
 
 /// Returns the one quantity that a drive names.
@@ -148,7 +148,7 @@ fn quantity<'a>(file: &SceneFile, drive: &'a DriveSpec) -> Result<Quantity<'a>, 
 
 /// Checks the value at the end of a drive, as far as the scene alone says where it begins.
 fn end(file: &SceneFile, drive: &DriveSpec, quantity: &Quantity<'_>) -> Result<(), SceneError> {
-    let Angle { radians: to, has_unit } = *drive.to;
+    let DriveEnd(Angle { radians: to, has_unit }) = *drive.to;
     let wrong = |message: String, help: &str| Err(file.error_at(drive.to.span(), message, help));
     let turns = match quantity {
         Quantity::Lock(_) => true,
@@ -251,11 +251,11 @@ fn lock(
         let help = format!("add [[lock]] with crease = [{i}, {j}, {n1}, {n2}]; the drive changes its angle");
         return Err(file.error_at(crease.span(), message, help));
     }
-    if locks.iter().all(|(_, angle)| *angle == spec.to.radians) {
+    if locks.iter().all(|(_, angle)| *angle == spec.to.0.radians) {
         let help = "give another angle, in radians, to which the lock is driven";
         return Err(file.error_at(
             spec.to.span(),
-            format!("the crease is locked at {} already", spec.to.radians),
+            format!("the crease is locked at {} already", spec.to.0.radians),
             help,
         ));
     }

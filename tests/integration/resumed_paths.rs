@@ -79,7 +79,7 @@ type Case<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a [usize]);
 /// it, which are kept with all their digits.
 #[test]
 fn an_interrupted_path_goes_on() {
-    let stop = "stop = { crease_angle = { crease = [0, 6, 0, 0], angle = 6 }, self_intersection = true }";
+    let stop = "stop = { crease_angle = { crease = [0, 6, 0, 0], angle = \"6 rad\" }, self_intersection = true }";
     let stops = ("max_step = 0.05", &*format!("max_step = 0.02\n{stop}\ncheck = [\"self-intersection\"]"));
     let cases: [Case; 3] =
         [("bellows", &[], &[1, 32, 33, 70]), ("two-bars-load", &[], &[2, 30]), ("drum-path", &[stops], &[1, 20])];

@@ -49,7 +49,20 @@ pub struct DriveSpec {
     pub stiffness: Option<Located<DrivenTerm>>,
     /// The value at the end: a displacement or an angle from where the path begins, a factor, the angle of a lock, or a
     /// stiffness (`inf`: exactly rigid). An angle may be a text with its unit, "60 deg".
-    pub to: Located<Angle>,
+    pub to: Located<DriveEnd>,
+}
+
+/// The value at the end of a drive: a number, or, of an angle, a text with its unit.
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema)]
+#[schemars(transparent)]
+pub struct DriveEnd(pub Angle);
+
+impl<'de> Deserialize<'de> for DriveEnd {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let right = "expected a number, or of an angle a text with its unit such as \"60 deg\"";
+        let wrong = |_| D::Error::custom(format!("this is no end of a drive, {right}"));
+        Angle::deserialize(deserializer).map(Self).map_err(wrong)
+    }
 }
 
 /// A term whose stiffness can be driven.

@@ -14,10 +14,12 @@
 mod eggbox;
 mod error;
 mod grid;
+mod hypar;
 mod kresling;
 mod miura;
 mod parts;
 mod random;
+mod resch;
 mod square_twist;
 mod truss;
 mod waterbomb;
@@ -32,16 +34,18 @@ use serde::{Deserialize, Serialize};
 use super::cell::Sheet;
 pub use eggbox::Eggbox;
 pub use error::GenerateError;
+pub use hypar::Hypar;
 pub use kresling::Kresling;
 pub use miura::{Miura, MiuraPatch};
 pub use random::{Random, RandomDevelopable};
+pub use resch::Resch;
 pub use square_twist::SquareTwist;
 pub use truss::Truss;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
 /// The names of the patterns, and a page about each.
-const HELP: [(&str, &str); 10] = [
+const HELP: [(&str, &str); 12] = [
     ("miura", include_str!("help/miura.txt")),
     ("miura-patch", include_str!("help/miura-patch.txt")),
     ("eggbox", include_str!("help/eggbox.txt")),
@@ -49,6 +53,8 @@ const HELP: [(&str, &str); 10] = [
     ("yoshimura", include_str!("help/yoshimura.txt")),
     ("kresling", include_str!("help/kresling.txt")),
     ("square-twist", include_str!("help/square-twist.txt")),
+    ("resch", include_str!("help/resch.txt")),
+    ("hypar", include_str!("help/hypar.txt")),
     ("truss", include_str!("help/truss.txt")),
     ("random", include_str!("help/random.txt")),
     ("random-developable", include_str!("help/random-developable.txt")),
@@ -72,6 +78,10 @@ pub enum Pattern {
     Kresling(Kresling),
     /// One cell of square twists.
     SquareTwist(SquareTwist),
+    /// One flat cell of Ron Resch's triangular tessellation.
+    Resch(Resch),
+    /// The flat crease pattern of the pleated hyperbolic paraboloid.
+    Hypar(Hypar),
     /// The two-bar truss of von Mises.
     Truss(Truss),
     /// A random cell that cannot be flattened.
@@ -127,6 +137,8 @@ pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
         Pattern::Yoshimura(p) => p.sheet(),
         Pattern::Kresling(p) => p.sheet(),
         Pattern::SquareTwist(p) => p.sheet(),
+        Pattern::Resch(p) => p.sheet(),
+        Pattern::Hypar(p) => p.sheet(),
         Pattern::Truss(p) => p.sheet(),
         Pattern::Random(p) => p.sheet(),
         Pattern::RandomDevelopable(p) => p.sheet(),

@@ -2,8 +2,10 @@
 
 use super::error::GenerateError;
 use crate::math::Vec3;
+use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, build, draw};
-use crate::sheet::cell::{Corner, Sheet};
+use crate::sheet::cell::{Corner, EdgeKey, Sheet};
+use std::f64::consts::PI;
 
 /// The parts of a sheet that a generator gives; edges and triangles are computed from them.
 pub(super) struct Parts {
@@ -28,5 +30,17 @@ impl Parts {
         };
         let drawn: Drawing = draw(&bare);
         Ok(build(&drawn)?)
+    }
+
+    /// Makes a flat sheet whose edges fold to these angles, in radians, valley positive: each gets the letter of its side,
+    /// and its angle as a target unless all of them fold flat.
+    pub(crate) fn folding(self, parameters: String, angles: Vec<([Corner; 2], f64)>) -> Result<Sheet, GenerateError> {
+        let mut sheet = self.sheet(parameters)?;
+        let angles: Vec<_> = angles.into_iter().map(|([a, b], angle)| (EdgeKey::new(a, b).0, angle)).collect();
+        sheet.assignments.extend(angles.iter().map(|&(key, angle)| (key, Assignment::of_angle(angle))));
+        if angles.iter().any(|(_, angle)| angle.abs() < PI) {
+            sheet.targets.extend(angles);
+        }
+        Ok(sheet)
     }
 }

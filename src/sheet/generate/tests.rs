@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_3, PI};
 use std::path::PathBuf;
 
 use super::*;
-use crate::sheet::{EdgeKind, Info, fold};
+use crate::sheet::{Assignment, EdgeKind, Info, fold};
 
 fn edge_lengths(sheet: &Sheet) -> Vec<f64> {
     sheet.edges.iter().map(|e| e.key.ends().map(|c| sheet.position(c))).map(|[i, j]| (j - i).norm()).collect()
@@ -73,6 +73,62 @@ fn square_twist_folds() {
     assert!(angles.iter().all(|a| a.abs() > 0.1), "{angles:?}");
 }
 
+/// Returns the letters of the creases at each vertex that no boundary edge reaches, as numbers of mountains and valleys.
+fn letters_at_vertices(sheet: &Sheet) -> Vec<[usize; 2]> {
+    let mut letters = vec![Some([0, 0]); sheet.vertices.len()];
+    for edge in &sheet.edges {
+        for end in [edge.key.i, edge.key.j] {
+            letters[end] = match (letters[end], sheet.assignment(edge)) {
+                (_, Assignment::Boundary) | (None, _) => None,
+                (Some([m, v]), Assignment::Mountain) => Some([m + 1, v]),
+                (Some([m, v]), Assignment::Valley) => Some([m, v + 1]),
+                (unchanged, _) => unchanged,
+            };
+        }
+    }
+    letters.into_iter().flatten().collect()
+}
+
+/// Claim: at the inner vertices of the hypar but its centre, mountains and valleys differ by two in number. Source:
+/// Maekawa's theorem. At the centre all creases have one letter, as the pattern is folded by hand.
+#[test]
+fn the_hypar_has_letters_of_flat_folding() {
+    for (sides, pleats) in [(3, 2), (4, 6), (6, 5)] {
+        let hypar = sheet(&format!(r#"{{"pattern": "hypar", "sides": {sides}, "pleats": {pleats}}}"#));
+        let letters = letters_at_vertices(&hypar);
+        assert_eq!((hypar.vertices.len(), letters.len()), (1 + sides * pleats, 1 + sides * (pleats - 1)));
+        assert_eq!(letters[0], [0, sides]);
+        assert!(letters[1..].iter().all(|[m, v]| m.abs_diff(*v) == 2 && m + v == 4), "{letters:?}");
+    }
+}
+
+/// Claim: around each vertex of Resch's pattern the rotations about the creases by their target angles, in order, give
+/// the identity, which is the condition for rigid faces to meet. Source: S.-M. belcastro, T. Hull, Linear Algebra Appl.
+/// 348, 273 (2002), theorem 2. Tolerance: rounding of six products.
+#[test]
+fn the_target_angles_of_resch_close_around_every_vertex() {
+    for a in [1.0, 2.5] {
+        let cell = sheet(&format!(r#"{{"pattern": "resch", "a": {a}}}"#));
+        assert_eq!((cell.vertices.len(), cell.edges.len(), cell.triangles.len()), (4, 12, 8));
+        for vertex in 0..4 {
+            let mut creases: Vec<(f64, Vec3, f64)> = vec![];
+            for edge in &cell.edges {
+                let [i, j] = edge.key.ends().map(|end| cell.position(end));
+                let ways = [(edge.key.i, j - i), (edge.key.j, i - j)];
+                let from_here = ways.into_iter().filter(|(end, _)| *end == vertex);
+                creases
+                    .extend(from_here.map(|(_, way)| (way.y.atan2(way.x), way.normalize(), cell.targets[&edge.key])));
+            }
+            assert_eq!(creases.len(), 6);
+            creases.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let turn = |(_, way, angle): &(f64, Vec3, f64)| nalgebra::Rotation3::new(way * *angle);
+            let product = creases.iter().map(turn).fold(nalgebra::Rotation3::identity(), |all, one| all * one);
+            let error = (product.matrix() - nalgebra::Matrix3::identity()).norm();
+            assert!(error < 1e-14, "vertex {vertex}: {error:e}");
+        }
+    }
+}
+
 /// Claim: random cells are triangulated, generic or flat as their pattern says, differ by seed, and have positive
 /// areas seen from above up to the largest jitter.
 #[test]
@@ -99,7 +155,7 @@ fn random_cells() {
 fn euler_characteristics() {
     for name in Pattern::names() {
         let info = Info::new(&generate(&Pattern::named(name).unwrap()).unwrap());
-        assert_eq!(info.euler_characteristic, i64::from(["miura-patch", "truss"].contains(&name)), "{name}");
+        assert_eq!(info.euler_characteristic, i64::from(["miura-patch", "truss", "hypar"].contains(&name)), "{name}");
         assert_eq!(info.maxwell_count_screw.is_some(), info.periodic);
     }
     let drum = Info::new(&sheet(r#"{"pattern": "kresling", "closed": true, "levels": 2}"#));
@@ -184,6 +240,9 @@ fn bad_parameters() {
         (r#"{"pattern": "kresling", "closed": true, "levels": 0}"#, "`levels` is 0; it should be from 1 to 1000"),
         (r#"{"pattern": "truss", "height": 0}"#, "`height` is 0; it should be above 0"),
         (r#"{"pattern": "square-twist", "twist": 0}"#, "`twist` is 0 rad; it should be above 0"),
+        (r#"{"pattern": "resch", "a": 0}"#, "`a` is 0; it should be above 0"),
+        (r#"{"pattern": "hypar", "pleats": 1}"#, "`pleats` is 1; it should be from 2 to 200"),
+        (r#"{"pattern": "hypar", "sides": 2}"#, "`sides` is 2; it should be from 3 to 100"),
         (r#"{"pattern": "random", "jitter": 0.25}"#, "`jitter` is 0.25; it should be at least 0 and below 0.25"),
         (r#"{"pattern": "random-developable", "size": [0, 2]}"#, "`size[0]` is 0; it should be from 1 to 1000"),
     ];
