@@ -93,12 +93,14 @@ async function checkSheet(page, where) {
     await page.locator("#reset").click();
     await drawn(page);
     that(turned.bytes !== (await seen(page, "#canvas")).bytes, `${where}: the mouse turns the sheet, and Reset view turns it back`);
-    const before = await page.locator(moving ? "#amplitude" : "#slider").inputValue();
+    const control = moving ? "#amplitude" : "#slider";
+    const before = await page.locator(control).inputValue();
     if (states > 1 || moving) {
         await page.locator("#play").click();
-        await page.waitForTimeout(400);
+        const plays = page.waitForFunction(([name, value]) => document.querySelector(name).value !== value, [control, before],
+            { timeout: 10_000 });
+        that(await plays.then(() => true, () => false), `${where}: it plays`);
         await page.locator("#play").click();
-        that(before !== await page.locator(moving ? "#amplitude" : "#slider").inputValue(), `${where}: it plays`);
     }
 }
 
