@@ -37,7 +37,7 @@ const OWNED: &[(&str, &[&str])] = &[
     ("roxmltree", &["sheet/pattern/"]),
     ("simplecss", &["sheet/pattern/svg_style.rs"]),
     ("svgtypes", &["sheet/pattern/svg"]),
-    ("vtkio", &["output/vtk.rs"]),
+    ("vtkio", &["output/vtk.rs", "output/vtk/"]),
     ("base64", &["output/html/"]),
     ("tiny_skia", &["output/film.rs"]),
     ("gif", &["output/film.rs"]),
