@@ -1,8 +1,8 @@
 """Shows SERIES_NAME.pvd in ParaView: faces in the colour of paper, creases as tubes, mountains red and valleys blue.
 
-In ParaView: File > Load State..., this file. In a shell, also without a display, with the last state as a picture:
+In ParaView: File > Load State..., this file. In a shell, for a picture of the last state, or of the one with this number:
 
-    pvpython SERIES_NAME-paraview.py PICTURE.png
+    pvpython SERIES_NAME-paraview.py PICTURE.png [STATE]
 """
 import math
 import os
@@ -80,6 +80,8 @@ def main():
     scene = simple.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.GoToLast()
+    if len(sys.argv) > 2:
+        scene.AnimationTime = view.ViewTime = float(sys.argv[2])
     creases = show(reader, view)
     scale = colours(largest)
     legend(simple.GetScalarBar(scale, view), largest)
