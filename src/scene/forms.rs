@@ -1,16 +1,16 @@
 //! Values of a scene that have more than one written form: a word, a number or a table.
 
 use std::borrow::Cow;
-use std::fmt;
 use std::path::PathBuf;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Error, MapAccess, SeqAccess, Unexpected, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Unexpected};
 
 use super::Located;
 use super::values::{Positive, Triple};
+use super::written::{Written, read_as_written};
 
 /// `{ file = "angles.csv" }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -89,86 +89,55 @@ pub enum BranchChoice {
     Number(usize),
 }
 
-impl<'de> Deserialize<'de> for Mode {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct ModeForm;
-        impl<'de> Visitor<'de> for ModeForm {
-            type Value = Mode;
+read_as_written!(Mode, StartSpec, BranchChoice);
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a curvature tensor [k11, k22, k12], { rates = \"file.csv\" } or { wave = [m1, m2] }")
-            }
+impl Written for Mode {
+    const FORMS: &str = "a curvature tensor [k11, k22, k12], { rates = \"file.csv\" } or { wave = [m1, m2] }";
 
-            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Mode, A::Error> {
-                match Triple::deserialize(SeqAccessDeserializer::new(seq))?.0 {
-                    [0.0, 0.0, 0.0] => {
-                        Err(A::Error::custom("the mode is zero, expected a curvature tensor [k11, k22, k12]"))
-                    }
-                    tensor => Ok(Mode::Curvature(tensor)),
-                }
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Mode, A::Error> {
-                let table = ModeTable::deserialize(MapAccessDeserializer::new(map))?;
-                match (table.rates, table.wave) {
-                    (Some(rates), None) => Ok(Mode::Rates(RatesFile { rates })),
-                    (None, Some(wave)) => Ok(Mode::Wave(Wave { wave })),
-                    (None, None) => Err(A::Error::custom("the table is empty, expected { rates } or { wave }")),
-                    _ => Err(A::Error::custom("a mode has rates and a wave at once, expected one of the two")),
-                }
-            }
+    fn from_list<'de, A: SeqAccess<'de>>(seq: A) -> Result<Self, A::Error> {
+        match Triple::deserialize(SeqAccessDeserializer::new(seq))?.0 {
+            [0.0, 0.0, 0.0] => Err(A::Error::custom("the mode is zero, expected a curvature tensor [k11, k22, k12]")),
+            tensor => Ok(Self::Curvature(tensor)),
         }
-        deserializer.deserialize_any(ModeForm)
+    }
+
+    fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        let table = ModeTable::deserialize(MapAccessDeserializer::new(map))?;
+        match (table.rates, table.wave) {
+            (Some(rates), None) => Ok(Self::Rates(RatesFile { rates })),
+            (None, Some(wave)) => Ok(Self::Wave(Wave { wave })),
+            (None, None) => Err(A::Error::custom("the table is empty, expected { rates } or { wave }")),
+            _ => Err(A::Error::custom("a mode has rates and a wave at once, expected one of the two")),
+        }
     }
 }
 
-impl<'de> Deserialize<'de> for StartSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct StartForm;
-        impl<'de> Visitor<'de> for StartForm {
-            type Value = StartSpec;
+impl Written for StartSpec {
+    const FORMS: &str = "\"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file";
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file")
-            }
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        Ok(match word {
+            "drawn" => Self::Drawn,
+            file if file.ends_with(".vtu") => Self::File(file.into()),
+            name => Self::Study(name.into()),
+        })
+    }
 
-            fn visit_str<E: Error>(self, word: &str) -> Result<StartSpec, E> {
-                Ok(match word {
-                    "drawn" => StartSpec::Drawn,
-                    file if file.ends_with(".vtu") => StartSpec::File(file.into()),
-                    name => StartSpec::Study(name.into()),
-                })
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<StartSpec, A::Error> {
-                RandomStart::deserialize(MapAccessDeserializer::new(map)).map(StartSpec::Random)
-            }
-        }
-        deserializer.deserialize_any(StartForm)
+    fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        RandomStart::deserialize(MapAccessDeserializer::new(map)).map(Self::Random)
     }
 }
 
-impl<'de> Deserialize<'de> for BranchChoice {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct BranchForm;
-        impl Visitor<'_> for BranchForm {
-            type Value = BranchChoice;
+impl Written for BranchChoice {
+    const FORMS: &str = "\"all\" or the number of a branch, counted from 0";
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"all\" or the number of a branch, counted from 0")
-            }
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        if word == "all" { Ok(Self::All) } else { Err(E::invalid_value(Unexpected::Str(word), &Self::FORMS)) }
+    }
 
-            fn visit_str<E: Error>(self, word: &str) -> Result<BranchChoice, E> {
-                if word == "all" { Ok(BranchChoice::All) } else { Err(E::invalid_value(Unexpected::Str(word), &self)) }
-            }
-
-            fn visit_i64<E: Error>(self, number: i64) -> Result<BranchChoice, E> {
-                let number =
-                    usize::try_from(number).map_err(|_| E::invalid_value(Unexpected::Signed(number), &self))?;
-                Ok(BranchChoice::Number(number))
-            }
-        }
-        deserializer.deserialize_any(BranchForm)
+    fn from_whole<E: Error>(number: i64) -> Result<Self, E> {
+        let number = usize::try_from(number).map_err(|_| E::invalid_value(Unexpected::Signed(number), &Self::FORMS))?;
+        Ok(Self::Number(number))
     }
 }
 

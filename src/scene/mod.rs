@@ -25,6 +25,7 @@ pub(crate) mod spec;
 pub(crate) mod stiffness;
 mod turns;
 pub(crate) mod values;
+mod written;
 
 pub(crate) use digest::{Fingerprint, digest, named_files};
 pub use error::SceneError;

@@ -2,17 +2,17 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::PathBuf;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, MapAccess, Unexpected, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, MapAccess, Unexpected};
 
 use super::Located;
 use super::forms::{FileName, Mode};
 use super::values::Finite;
+use super::written::{Written, read_as_written};
 use crate::sheet::Assignment;
 use crate::sheet::angle::Angle;
 
@@ -63,45 +63,37 @@ pub struct ModeRest {
     pub amplitude: Located<Finite>,
 }
 
-impl<'de> Deserialize<'de> for RestSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct RestForm;
-        impl<'de> Visitor<'de> for RestForm {
-            type Value = RestSpec;
+read_as_written!(RestSpec);
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(
-                    "\"drawn\", \"flat\", \"target\", \"assigned\", an angle, { M = -1.0, V = 1.0, F = 0.0 }, ",
-                )?;
-                f.write_str("{ mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }")
-            }
+impl Written for RestSpec {
+    const FORMS: &str = concat!(
+        "\"drawn\", \"flat\", \"target\", \"assigned\", an angle, { M = -1.0, V = 1.0, F = 0.0 }, ",
+        "{ mode = [k11, k22, k12], amplitude = e } or { file = \"angles.csv\" }",
+    );
 
-            fn visit_str<E: Error>(self, word: &str) -> Result<RestSpec, E> {
-                match word {
-                    "drawn" => Ok(RestSpec::Drawn),
-                    "flat" => Ok(RestSpec::Flat),
-                    "target" => Ok(RestSpec::Target),
-                    "assigned" => Ok(RestSpec::Assigned),
-                    angle if angle.starts_with(|c: char| !c.is_alphabetic()) => {
-                        angle.parse().map(RestSpec::Angle).map_err(E::custom)
-                    }
-                    _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
-                }
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "drawn" => Ok(Self::Drawn),
+            "flat" => Ok(Self::Flat),
+            "target" => Ok(Self::Target),
+            "assigned" => Ok(Self::Assigned),
+            angle if angle.starts_with(|c: char| !c.is_alphabetic()) => {
+                angle.parse().map(Self::Angle).map_err(E::custom)
             }
-
-            fn visit_f64<E: Error>(self, angle: f64) -> Result<RestSpec, E> {
-                Finite::try_from(angle).map(|angle| RestSpec::Angle(angle.0.into())).map_err(E::custom)
-            }
-
-            fn visit_i64<E: Error>(self, angle: i64) -> Result<RestSpec, E> {
-                Ok(RestSpec::Angle((angle as f64).into()))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RestSpec, A::Error> {
-                RestTable::deserialize(MapAccessDeserializer::new(map))?.into_rest().map_err(A::Error::custom)
-            }
+            _ => Err(E::invalid_value(Unexpected::Str(word), &Self::FORMS)),
         }
-        deserializer.deserialize_any(RestForm)
+    }
+
+    fn from_number<E: Error>(angle: f64) -> Result<Self, E> {
+        Finite::try_from(angle).map(|angle| Self::Angle(angle.0.into())).map_err(E::custom)
+    }
+
+    fn from_whole<E: Error>(angle: i64) -> Result<Self, E> {
+        Ok(Self::Angle((angle as f64).into()))
+    }
+
+    fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        RestTable::deserialize(MapAccessDeserializer::new(map))?.into_rest().map_err(A::Error::custom)
     }
 }
 

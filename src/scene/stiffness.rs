@@ -2,17 +2,17 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::PathBuf;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, MapAccess, Unexpected, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, MapAccess, Unexpected};
 
 use super::Located;
 use super::forms::FileName;
 use super::values::{Positive, Stiffness};
+use super::written::{Written, read_as_written};
 use crate::sheet::Assignment;
 
 /// Stiffness of the elements of a term.
@@ -81,34 +81,26 @@ impl Letters {
     }
 }
 
-impl<'de> Deserialize<'de> for StiffnessSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct StiffnessForm;
-        impl<'de> Visitor<'de> for StiffnessForm {
-            type Value = StiffnessSpec;
+read_as_written!(StiffnessSpec, RestLengthSpec);
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a number, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }")
-            }
+impl Written for StiffnessSpec {
+    const FORMS: &str = "a number, \"mesh\", { M = 1.0, V = 2.0, .. } or { file = \"k.csv\" }";
 
-            fn visit_str<E: Error>(self, word: &str) -> Result<StiffnessSpec, E> {
-                let mesh = (word == "mesh").then_some(StiffnessSpec::Mesh);
-                mesh.ok_or_else(|| E::invalid_value(Unexpected::Str(word), &self))
-            }
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        let mesh = (word == "mesh").then_some(Self::Mesh);
+        mesh.ok_or_else(|| E::invalid_value(Unexpected::Str(word), &Self::FORMS))
+    }
 
-            fn visit_f64<E: Error>(self, stiffness: f64) -> Result<StiffnessSpec, E> {
-                Stiffness::try_from(stiffness).map(|stiffness| StiffnessSpec::Number(stiffness.0)).map_err(E::custom)
-            }
+    fn from_number<E: Error>(stiffness: f64) -> Result<Self, E> {
+        Stiffness::try_from(stiffness).map(|stiffness| Self::Number(stiffness.0)).map_err(E::custom)
+    }
 
-            fn visit_i64<E: Error>(self, stiffness: i64) -> Result<StiffnessSpec, E> {
-                self.visit_f64(stiffness as f64)
-            }
+    fn from_whole<E: Error>(stiffness: i64) -> Result<Self, E> {
+        Self::from_number(stiffness as f64)
+    }
 
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<StiffnessSpec, A::Error> {
-                Letters::deserialize(MapAccessDeserializer::new(map))?.into_spec().map_err(A::Error::custom)
-            }
-        }
-        deserializer.deserialize_any(StiffnessForm)
+    fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        Letters::deserialize(MapAccessDeserializer::new(map))?.into_spec().map_err(A::Error::custom)
     }
 }
 
@@ -138,34 +130,24 @@ pub enum RestLengthSpec {
     File(FileName),
 }
 
-impl<'de> Deserialize<'de> for RestLengthSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct LengthForm;
-        impl<'de> Visitor<'de> for LengthForm {
-            type Value = RestLengthSpec;
+impl Written for RestLengthSpec {
+    const FORMS: &str = "\"drawn\", a factor on the drawn lengths or { file = \"lengths.csv\" }";
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"drawn\", a factor on the drawn lengths or { file = \"lengths.csv\" }")
-            }
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        let drawn = (word == "drawn").then_some(Self::Drawn);
+        drawn.ok_or_else(|| E::invalid_value(Unexpected::Str(word), &Self::FORMS))
+    }
 
-            fn visit_str<E: Error>(self, word: &str) -> Result<RestLengthSpec, E> {
-                let drawn = (word == "drawn").then_some(RestLengthSpec::Drawn);
-                drawn.ok_or_else(|| E::invalid_value(Unexpected::Str(word), &self))
-            }
+    fn from_number<E: Error>(factor: f64) -> Result<Self, E> {
+        Positive::try_from(factor).map(|factor| Self::Factor(factor.0)).map_err(E::custom)
+    }
 
-            fn visit_f64<E: Error>(self, factor: f64) -> Result<RestLengthSpec, E> {
-                Positive::try_from(factor).map(|factor| RestLengthSpec::Factor(factor.0)).map_err(E::custom)
-            }
+    fn from_whole<E: Error>(factor: i64) -> Result<Self, E> {
+        Self::from_number(factor as f64)
+    }
 
-            fn visit_i64<E: Error>(self, factor: i64) -> Result<RestLengthSpec, E> {
-                self.visit_f64(factor as f64)
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RestLengthSpec, A::Error> {
-                FileName::deserialize(MapAccessDeserializer::new(map)).map(RestLengthSpec::File)
-            }
-        }
-        deserializer.deserialize_any(LengthForm)
+    fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        FileName::deserialize(MapAccessDeserializer::new(map)).map(Self::File)
     }
 }
 

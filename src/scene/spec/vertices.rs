@@ -1,14 +1,14 @@
 //! Sets of vertices of a patch, in the forms in which a scene names them.
 
 use std::borrow::Cow;
-use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Error, MapAccess, SeqAccess, Unexpected, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Unexpected};
 
 use crate::scene::values::Exactly;
+use crate::scene::written::{Written, read_as_written};
 
 /// A set of vertices of a patch.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,86 +84,60 @@ impl SetTable {
     }
 }
 
-impl<'de> Deserialize<'de> for VertexSet {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct SetForm;
-        impl<'de> Visitor<'de> for SetForm {
-            type Value = VertexSet;
+read_as_written!(VertexSet, VertexName, Coordinate);
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a list of vertices v or [v, c1, c2], a name of the mesh, { where = { z = \"max\" } } ")?;
-                f.write_str("or { box = [[x, y, z], [x, y, z]] }")
-            }
+impl Written for VertexSet {
+    const FORMS: &str = concat!(
+        "a list of vertices v or [v, c1, c2], a name of the mesh, { where = { z = \"max\" } } ",
+        "or { box = [[x, y, z], [x, y, z]] }",
+    );
 
-            fn visit_str<E: Error>(self, name: &str) -> Result<VertexSet, E> {
-                Ok(VertexSet::Name(name.into()))
-            }
+    fn from_word<E: Error>(name: &str) -> Result<Self, E> {
+        Ok(Self::Name(name.into()))
+    }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<VertexSet, A::Error> {
-                Deserialize::deserialize(SeqAccessDeserializer::new(seq)).map(VertexSet::List)
-            }
+    fn from_list<'de, A: SeqAccess<'de>>(seq: A) -> Result<Self, A::Error> {
+        Deserialize::deserialize(SeqAccessDeserializer::new(seq)).map(Self::List)
+    }
 
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<VertexSet, A::Error> {
-                SetTable::deserialize(MapAccessDeserializer::new(map))?.into_set().map_err(A::Error::custom)
-            }
-        }
-        deserializer.deserialize_any(SetForm)
+    fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        SetTable::deserialize(MapAccessDeserializer::new(map))?.into_set().map_err(A::Error::custom)
     }
 }
 
-impl<'de> Deserialize<'de> for VertexName {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NameForm;
-        impl<'de> Visitor<'de> for NameForm {
-            type Value = VertexName;
+impl Written for VertexName {
+    const FORMS: &str = "a vertex: v, in cell [0, 0], or [v, c1, c2], counted from 0";
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a vertex: v, in cell [0, 0], or [v, c1, c2], counted from 0")
-            }
+    fn from_whole<E: Error>(number: i64) -> Result<Self, E> {
+        let vertex = usize::try_from(number);
+        let vertex = vertex.map_err(|_| E::invalid_value(Unexpected::Signed(number), &Self::FORMS))?;
+        Ok(VertexName { vertex, cell: [0, 0] })
+    }
 
-            fn visit_i64<E: Error>(self, number: i64) -> Result<VertexName, E> {
-                let vertex = usize::try_from(number);
-                let vertex = vertex.map_err(|_| E::invalid_value(Unexpected::Signed(number), &self))?;
-                Ok(VertexName { vertex, cell: [0, 0] })
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<VertexName, A::Error> {
-                let Exactly([vertex, c1, c2]) = Exactly::deserialize(SeqAccessDeserializer::new(seq))?;
-                Ok(VertexName { vertex, cell: [c1, c2] })
-            }
-        }
-        deserializer.deserialize_any(NameForm)
+    fn from_list<'de, A: SeqAccess<'de>>(seq: A) -> Result<Self, A::Error> {
+        let Exactly([vertex, c1, c2]) = Exactly::deserialize(SeqAccessDeserializer::new(seq))?;
+        Ok(VertexName { vertex, cell: [c1, c2] })
     }
 }
 
-impl<'de> Deserialize<'de> for Coordinate {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct CoordinateForm;
-        impl Visitor<'_> for CoordinateForm {
-            type Value = Coordinate;
+impl Written for Coordinate {
+    const FORMS: &str = "\"min\", \"max\" or a finite number";
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"min\", \"max\" or a finite number")
-            }
-
-            fn visit_str<E: Error>(self, word: &str) -> Result<Coordinate, E> {
-                match word {
-                    "min" => Ok(Coordinate::Least),
-                    "max" => Ok(Coordinate::Largest),
-                    _ => Err(E::invalid_value(Unexpected::Str(word), &self)),
-                }
-            }
-
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Coordinate, E> {
-                let finite = Some(value).filter(|value| value.is_finite());
-                finite.map(Coordinate::At).ok_or_else(|| E::invalid_value(Unexpected::Float(value), &self))
-            }
-
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Coordinate, E> {
-                Ok(Coordinate::At(value as f64))
-            }
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "min" => Ok(Self::Least),
+            "max" => Ok(Self::Largest),
+            _ => Err(E::invalid_value(Unexpected::Str(word), &Self::FORMS)),
         }
-        deserializer.deserialize_any(CoordinateForm)
+    }
+
+    fn from_number<E: Error>(value: f64) -> Result<Self, E> {
+        let finite = Some(value).filter(|value| value.is_finite());
+        finite.map(Self::At).ok_or_else(|| E::invalid_value(Unexpected::Float(value), &Self::FORMS))
+    }
+
+    fn from_whole<E: Error>(value: i64) -> Result<Self, E> {
+        Ok(Self::At(value as f64))
     }
 }
 

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde_json::value::RawValue;
 
-use super::edges::{self, Edges};
+use super::edges::Edges;
 use super::keys::Keys;
 use super::locate::Source;
-use super::read::{Rows, head, read_faces, read_vertices};
+use super::read::{Rows, read_drawing};
 use super::{frames, record};
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::Drawing;
@@ -44,11 +44,7 @@ pub fn parse_cleaned(text: &str, name: &str, frame: Option<usize>, cleanup: &Cle
     let source = Source { name, text };
     let frame = frames::choose(&source, frame)?;
     let keys = Keys::new(&frame.values);
-    let mut rows = Rows::default();
-    let mut drawn = head(&source, &keys)?;
-    read_vertices(&source, &keys, &mut drawn, &mut rows)?;
-    let mut edges = edges::read(&source, &keys, drawn.coords.len())?;
-    read_faces(&source, &keys, &mut drawn, &mut rows, &edges)?;
+    let (drawn, rows, mut edges) = read_drawing(&source, &keys)?;
     if let Some(found) = no_flat_pattern(&drawn) {
         return Err(source.at_start(PatternFault::NotFlat { found }.into()));
     }

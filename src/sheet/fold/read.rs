@@ -62,13 +62,9 @@ pub fn parse_frame(text: &str, name: &str, frame: Option<usize>) -> Result<Sheet
     let source = Source { name, text };
     let frame = frames::choose(&source, frame)?;
     let keys = Keys::new(&frame.values);
-    let mut rows = Rows::default();
-    let mut drawn = head(&source, &keys)?;
-    read_vertices(&source, &keys, &mut drawn, &mut rows)?;
-    let mut edges = edges::read(&source, &keys, drawn.coords.len())?;
+    let (mut drawn, mut rows, mut edges) = read_drawing(&source, &keys)?;
     drawn.assignments = edges.ends.iter().copied().zip(edges.assignments.iter().copied()).collect();
     drawn.fold_angles = edges.fold_angles();
-    read_faces(&source, &keys, &mut drawn, &mut rows, &edges)?;
     read_holes(&source, &keys, &mut drawn, &mut rows)?;
     drawn.names = read_names(&source, &keys, drawn.coords.len())?;
     edges.rebuilt = keys.faces_vertices.is_none();
@@ -87,7 +83,20 @@ pub fn parse_frame(text: &str, name: &str, frame: Option<usize>) -> Result<Sheet
     Ok(sheet)
 }
 
-pub(super) fn head(source: &Source, keys: &Keys) -> Result<Drawing, SheetError> {
+/// Reads title, vertices, edges and faces of a frame.
+pub(super) fn read_drawing<'a>(
+    source: &Source<'a>,
+    keys: &Keys<'a>,
+) -> Result<(Drawing, Rows<'a>, Edges<'a>), SheetError> {
+    let mut rows = Rows::default();
+    let mut drawn = head(source, keys)?;
+    read_vertices(source, keys, &mut drawn, &mut rows)?;
+    let edges = edges::read(source, keys, drawn.coords.len())?;
+    read_faces(source, keys, &mut drawn, &mut rows, &edges)?;
+    Ok((drawn, rows, edges))
+}
+
+fn head(source: &Source, keys: &Keys) -> Result<Drawing, SheetError> {
     let string = |value: Option<&RawValue>, key: &str| -> Result<Option<String>, SheetError> {
         value.map(|v| source.typed(v, || format!("`{key}`"), "a text in quotes")).transpose()
     };
@@ -107,7 +116,7 @@ fn lattice(source: &Source, value: &RawValue) -> Result<[Vec3; 2], SheetError> {
     Ok([l1.into(), l2.into()])
 }
 
-pub(super) fn read_vertices<'a>(
+fn read_vertices<'a>(
     source: &Source<'a>,
     keys: &Keys<'a>,
     drawn: &mut Drawing,
@@ -134,7 +143,7 @@ pub(super) fn read_vertices<'a>(
     Ok(())
 }
 
-pub(super) fn read_faces<'a>(
+fn read_faces<'a>(
     source: &Source<'a>,
     keys: &Keys<'a>,
     drawn: &mut Drawing,

@@ -1,0 +1,85 @@
+//! Reading of values that a scene can write in more than one form: as a word, a number, a list or a table.
+
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::Deserializer;
+use serde::de::{Error, MapAccess, SeqAccess, Unexpected, Visitor};
+
+/// A value with more than one written form. A form that the value does not have is refused, with the forms that it has.
+pub(super) trait Written: Sized {
+    /// The forms, as they stand after "expected" in messages.
+    const FORMS: &'static str;
+
+    /// Reads a text in quotes.
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        Err(E::invalid_type(Unexpected::Str(word), &Self::FORMS))
+    }
+
+    /// Reads a number with a decimal point or an exponent.
+    fn from_number<E: Error>(number: f64) -> Result<Self, E> {
+        Err(E::invalid_type(Unexpected::Float(number), &Self::FORMS))
+    }
+
+    /// Reads a whole number.
+    fn from_whole<E: Error>(number: i64) -> Result<Self, E> {
+        Err(E::invalid_type(Unexpected::Signed(number), &Self::FORMS))
+    }
+
+    /// Reads a list in brackets.
+    fn from_list<'de, A: SeqAccess<'de>>(_: A) -> Result<Self, A::Error> {
+        Err(A::Error::invalid_type(Unexpected::Seq, &Self::FORMS))
+    }
+
+    /// Reads a table.
+    fn from_table<'de, A: MapAccess<'de>>(_: A) -> Result<Self, A::Error> {
+        Err(A::Error::invalid_type(Unexpected::Map, &Self::FORMS))
+    }
+}
+
+/// Reads a value in the form in which it is written.
+pub(super) fn read<'de, T: Written, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+    deserializer.deserialize_any(AnyForm(PhantomData))
+}
+
+/// Implements `Deserialize` by the forms of a value.
+macro_rules! read_as_written {
+    ($($type:ty),+) => {$(
+        impl<'de> serde::Deserialize<'de> for $type {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                $crate::scene::written::read(deserializer)
+            }
+        }
+    )+};
+}
+pub(super) use read_as_written;
+
+struct AnyForm<T>(PhantomData<T>);
+
+impl<'de, T: Written> Visitor<'de> for AnyForm<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(T::FORMS)
+    }
+
+    fn visit_str<E: Error>(self, word: &str) -> Result<T, E> {
+        T::from_word(word)
+    }
+
+    fn visit_f64<E: Error>(self, number: f64) -> Result<T, E> {
+        T::from_number(number)
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<T, E> {
+        T::from_whole(number)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<T, A::Error> {
+        T::from_list(list)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<T, A::Error> {
+        T::from_table(table)
+    }
+}
