@@ -274,7 +274,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
     }
 }
 
-/// What a run prints.
+/// Options for the messages of a run.
 struct Told {
     quiet: bool,
     json: bool,

@@ -112,7 +112,7 @@ pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
     Ok(files::write(out, fold::write(&sheet))?)
 }
 
-/// What is wanted of a mesh or a scene beside its file.
+/// Options for reading a mesh or a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Wanted {
     /// Keys of the scene that are set first.

@@ -172,7 +172,7 @@ pub fn follow_path(
     resume_path(assembly, drive, start, options, PathRecord::default(), PathCallbacks { observe, keep: &mut |_| true })
 }
 
-/// What sees a path while it is followed.
+/// Functions that are called while a path is followed: with each new state, and with each entry of the record of the path.
 pub struct PathCallbacks<'a> {
     /// Sees the number of the branch and every new state, and returns false to stop; not those of a record.
     pub observe: &'a mut dyn FnMut(usize, &PathPoint) -> bool,

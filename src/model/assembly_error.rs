@@ -35,7 +35,7 @@ pub enum AssemblyError {
     /// A list has not one entry for each edge of the tiling.
     #[error("{given} {what} were given for {edges} edges of the tiling")]
     Count {
-        /// What the list holds.
+        /// Name of the entries of the list.
         what: &'static str,
         /// Number of entries that were given.
         given: usize,

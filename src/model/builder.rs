@@ -64,7 +64,7 @@ pub struct Builder {
     given: Given,
 }
 
-/// What a builder was told, in the names of the sheet.
+/// The settings of a builder, by the names of vertices and edges of the sheet.
 #[derive(Clone, Debug, Default)]
 struct Given {
     bars: Option<Stiffness>,

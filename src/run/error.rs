@@ -54,7 +54,7 @@ pub enum RunError {
     NoRun {
         /// The folder.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Description of the error.
         why: String,
     },
     /// The page of a run would replace the page of one of its studies.
@@ -81,7 +81,7 @@ pub enum RunError {
     NotFlat {
         /// The file.
         path: PathBuf,
-        /// What the sheet is instead.
+        /// The reason for which it is not flat.
         reason: NotFlat,
     },
     /// A study has no states of which a film could be made.

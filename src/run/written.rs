@@ -1,4 +1,4 @@
-//! What a run has written into its folder, read back.
+//! Reader of the files that a run has written into its folder.
 
 use std::fs;
 use std::path::Path;

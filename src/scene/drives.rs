@@ -13,7 +13,7 @@ use crate::sheet::angle::Angle;
 /// Part of a direction along which a vertex is held, up to which it counts as free to move along the direction.
 const FREE: f64 = 1e-12;
 
-/// What a drive names, once it is known to be one quantity.
+/// The one quantity that a drive names.
 enum Quantity<'a> {
     Part(&'a Located<String>, &'a Located<AxisSpec>),
     Vertices(&'a Located<VertexSet>, &'a Located<AxisSpec>),

@@ -10,7 +10,7 @@ use super::error::{SceneError, TableFault};
 use super::values::directed_edge;
 use crate::sheet::EdgeKey;
 
-/// What the last column of a table holds.
+/// The quantity in the last column of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Column {
     /// Rest angles in radians.

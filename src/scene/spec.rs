@@ -45,7 +45,7 @@ pub struct Scene {
     /// Vertices of a patch that move as rigid bodies.
     #[serde(default, rename = "part")]
     pub parts: Vec<PartSpec>,
-    /// What paths drive.
+    /// The quantities that paths drive.
     #[serde(default, rename = "drive")]
     pub drives: Vec<DriveSpec>,
     /// What to compute, in this order.

@@ -84,7 +84,8 @@ pub struct TriangleSide {
 /// The stiffnesses that a mesh file gives its edges, by the names of the edges; edges without a value are left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshStiffness {
-    /// Of the hinges, creases and diagonals of polygons: torque per radian and unit length; infinite for rigid hinges.
+    /// Stiffnesses of the hinges (creases and diagonals of polygons), a torque per radian and unit length; infinite for rigid
+    /// hinges.
     pub hinges: BTreeMap<EdgeKey, f64>,
     /// `EA` of the bars, a force; infinite for rigid bars.
     pub bars: BTreeMap<EdgeKey, f64>,

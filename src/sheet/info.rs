@@ -19,7 +19,7 @@ const THIN_QUALITY: f64 = 1e-3;
 /// Number of thin triangles that are named.
 const NAMED: usize = 3;
 
-/// What is said of a mesh whose faces were turned over.
+/// Remark about a mesh whose faces were turned over.
 pub(crate) const TURNED_OVER: &str =
     "all faces of the file are turned over, to the side from which its letters M and V are seen";
 

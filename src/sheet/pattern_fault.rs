@@ -32,7 +32,7 @@ pub enum PatternFault {
     Value {
         /// The value, shortened.
         found: String,
-        /// What it should be.
+        /// Name of the expected kind of value.
         what: &'static str,
         /// An example, or the values that are known.
         right: &'static str,
@@ -48,7 +48,7 @@ pub enum PatternFault {
     /// There are no lines.
     #[error("there is no line to fold along; {right}")]
     Empty {
-        /// What the file should have.
+        /// Description of a file that has lines.
         right: &'static str,
     },
     /// A coordinate is not finite or larger than 1e50.
@@ -83,7 +83,7 @@ pub enum PatternFault {
     Line {
         /// The line.
         line: LineName,
-        /// What is wrong with its edge.
+        /// Description of the error of its edge.
         problem: String,
     },
     /// The lines are not connected.
@@ -108,7 +108,7 @@ pub enum PatternFault {
     /// A sheet that cannot be merged or split, since it is not a flat crease pattern of its own.
     #[error("vertices are merged and edges split in flat finite crease patterns only; {found}")]
     NotFlat {
-        /// What the mesh is instead.
+        /// Description of the mesh.
         found: &'static str,
     },
 }

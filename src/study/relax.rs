@@ -19,7 +19,7 @@ use crate::scene::forms::StartSpec;
 use crate::scene::spec::{MethodSpec, RelaxSpec};
 use crate::solver::Step;
 
-/// What is said of a relaxation that fails after bars that stretch have left a singular start.
+/// Reason for the failure of a relaxation that has left a singular start with extensible bars.
 const NO_BRANCH: &str = "the start is singular, and the state that bars that stretch reach from it has no rigid one nearby: \
                          give bars a finite stiffness, or start a little folded";
 

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::error::StudyError;
 
-/// What supports stiffnesses and rest values that this study does not.
+/// Help for a study that does not support stiffnesses and rest values of single elements.
 const SUPPORTED: &str = "`relax` supports stiffnesses and rest values of single elements";
 
 /// Checks that there are no rigid parts and no pins along a direction, which relaxations, paths and wells alone know.

@@ -1,4 +1,4 @@
-//! What holds along every driven path: the reaction is the force that the rest of the sheet feels, states do not depend on
+//! Laws of driven paths: the reaction is the force that the rest of the sheet feels, states do not depend on
 //! the way that led to them, a relaxation finds them too, and a drum has the states of its closed form at every stiffness
 //! of its creases, and stiffer and stiffer bars lead to the rigid limit.
 

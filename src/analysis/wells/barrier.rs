@@ -1,16 +1,17 @@
 //! The barrier between two wells: a path with soft bars, its pass, and the pass followed to the sheet's own stiffness.
 //!
-//! With bars at most a hundred times as stiff as the creases states hang together also across folded states that do not, so the
-//! string method ([`super::string`]) finds a path there. The highest state of its row is close to a pass; Newton's
-//! method ([`super::pass`]) makes it one, and goes on from it in bars ten times as stiff, and so on, up to those of the
-//! sheet; infinity is the last step. Where bars differ each is as stiff as this allows and no stiffer than it is in the sheet:
-//! the stiffness of a stage is that of its stiffest bars, and softer ones are their own all the way. The median crease is
-//! what they are compared with. Where that ends early the path is sought again in stiffer bars, and at last in those
-//! of the sheet itself: some wells exist only because bars are as stiff as they are. There its states are held ever more
-//! strongly if they slide down from a pass that is steep against the creases. At the end the
-//! pass counts only where its Hessian has exactly one negative eigenvalue, it lies above the wells between which it was
-//! sought, and the sheet descends from it into two different wells: those, or others on the way, which are reported
-//! then.
+//! Soft bars, at most a hundred times as stiff as the creases, let the sheet deform from one well to the other even where no
+//! rigidly folded states connect them. The string method ([`super::string`]) finds such a path. The highest state on it is close
+//! to a pass. Newton's method ([`super::pass`]) converges to the pass, and follows it while the bars become ten times as stiff in
+//! each stage, until they have the stiffness of the sheet; infinite stiffness is the last stage.
+//!
+//! Where bars differ, the stiffness of a stage limits that of every bar: softer bars keep their own. The unit is the stiffness of
+//! the median crease. If a stage fails, the path is sought again with stiffer bars, and at last with those of the sheet itself,
+//! because some wells exist for stiff bars only. States that slide down from a steep pass are then held with increasing
+//! strength.
+//!
+//! A pass is accepted if its Hessian has exactly one negative eigenvalue, if its energy is above that of both wells, and if the
+//! descents to its two sides end in different wells. If these are other wells than the given two, they are reported.
 
 use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
 use super::pass::{Pass, equilibrium, sides};

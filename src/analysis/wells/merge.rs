@@ -78,7 +78,7 @@ fn unfelt(assembly: &Assembly, moved: &[usize]) -> bool {
         && locks.iter().all(|(edge, angle)| locked(moved[*edge], *angle))
 }
 
-/// What tells whether two states are the same well.
+/// A test of whether two states are the same well.
 #[derive(Clone, Debug)]
 pub struct Comparison {
     translations: Translations,
@@ -86,7 +86,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Of the states of a sheet.
+    /// Prepares the test for the states of a sheet.
     pub fn new(assembly: &Assembly) -> Self {
         Self { translations: Translations::new(assembly), placement: Placement::new(assembly) }
     }

@@ -24,11 +24,13 @@ const DESCENT_OPTIONS: Options = Options { tolerance: 1e-10, iterations: 60 };
 const STRONGER: i32 = 4;
 const WEAKER: f64 = 4.0;
 
-/// Of a careful descent: the most steps, the part of a push with which it begins, the longest step over the way from the
-/// pass, and the step in radians after which it is free.
+/// Largest number of steps of a careful descent.
 const CAREFUL_STEPS: usize = 300;
+/// Displacement with which a careful descent begins, relative to that of an ordinary descent.
 const FIRST_PUSH: f64 = 0.1;
+/// Largest step of a careful descent, relative to its distance from the pass.
 const PART_OF_WAY: f64 = 0.5;
+/// Step in radians below which a careful descent is continued without limits.
 const AT_REST_RAD: f64 = 1e-4;
 
 /// An equilibrium that Newton's method found.

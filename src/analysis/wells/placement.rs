@@ -24,12 +24,12 @@ const WEIGHT: f64 = 1e6;
 /// Singular values, relative, of motions that are none.
 const DEPENDENT: f64 = 1e-12;
 
-/// What pins, guides and parts say about the place of a sheet.
+/// The conditions that pins, guides and parts impose on the position of a sheet as a whole.
 #[derive(Clone, Debug)]
 pub(crate) struct Placement(Assembly);
 
 impl Placement {
-    /// Of the pins, guides and parts of a patch; `None` where the shape says all.
+    /// Returns the conditions for the pins, guides and parts of a patch; `None` if two states of one shape are always one.
     pub(crate) fn new(assembly: &Assembly) -> Option<Self> {
         let model = assembly.model(Gauge::Free);
         let kept = kept(&model);

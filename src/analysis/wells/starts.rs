@@ -159,7 +159,8 @@ fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number
     last
 }
 
-/// What the sheet does with its own bars and rest angles, from a state whose tensions are used if `warm`.
+/// Relaxes the sheet with its own bars and rest angles from a state, and returns the outcome; the tensions of the state are used
+/// if `warm`.
 fn released(assembly: &Assembly, from: &StartState, warm: bool, options: Options) -> Outcome {
     match MinimumTracker::new(assembly, 1.0).free(from, warm, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),

@@ -15,7 +15,7 @@ struct Load {
 }
 
 impl Work {
-    /// Of the loads of an assembly.
+    /// Returns the work of the loads of an assembly.
     pub(crate) fn new(assembly: &Assembly) -> Self {
         let coordinates = &assembly.drawn().coordinates;
         let load = |&(vertex, force): &(usize, Vec3)| Load { vertex, force, drawn: point(coordinates, vertex) };

@@ -19,11 +19,11 @@ pub struct DrivenModel {
     parameter: f64,
     target: f64,
     way: f64,
-    /// What the parameter moves.
+    /// The part of the model that changes with the parameter.
     effect: Effect,
 }
 
-/// What a parameter changes in a model.
+/// The parts of a model that can change with a parameter.
 enum Effect {
     /// Prescribed values of the stiff measures with these numbers: the parameter plus an offset for each.
     Prescribed(Vec<(usize, f64)>),

@@ -13,7 +13,7 @@ const LOAD: Colour = Colour(30, 110, 60);
 /// Length and half the width of the head of an arrow.
 const HEAD: [f64; 2] = [13.0, 5.0];
 
-/// What is added to the figure of a sheet.
+/// Additions to the figure of a sheet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Annotations {
     /// Points with loads, and the forces on them.

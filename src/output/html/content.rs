@@ -1,4 +1,4 @@
-//! What a page takes from the files of a study: tables, states of the sheet, and drawings.
+//! The content of a page, taken from the files of a study: tables, states of the sheet, and drawings.
 
 use std::borrow::Cow;
 

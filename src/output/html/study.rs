@@ -17,7 +17,7 @@ pub(crate) struct StudyFiles<'a> {
     files: Vec<(String, Content<'a>)>,
 }
 
-/// What a page shows of a study.
+/// The data of a study on a page.
 #[derive(Debug, Serialize)]
 pub(super) struct StudyData {
     name: String,

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct PathSummary {
     /// Name of the drive.
     pub drive: String,
-    /// What it drives.
+    /// The kind of the driven quantity.
     #[schemars(extend("enum" = ["displacement", "rotation", "load", "lock", "rest", "stiffness"]))]
     pub driven: String,
     /// Its value at the end that was asked for; null: infinite stiffness.
@@ -54,7 +54,7 @@ pub struct PathBranchSummary {
 /// A state of a path at which something special happens.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PathEventSummary {
-    /// What happens.
+    /// The kind of the event.
     #[schemars(extend("enum" = ["limit-load", "limit-displacement", "branch-point", "self-intersection", "stop"]))]
     pub event: String,
     /// The driven value; null: infinite stiffness.

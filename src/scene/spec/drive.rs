@@ -1,16 +1,16 @@
 //! `[[part]]` and `[[drive]]`: vertices that move as one body, and the quantities that a path drives.
 
 use std::borrow::Cow;
-use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::SeqAccessDeserializer;
-use serde::de::{Error, SeqAccess, Unexpected, Visitor};
+use serde::de::{Error, SeqAccess, Unexpected};
 use serde::{Deserialize, Deserializer};
 
 use super::vertices::VertexSet;
 use crate::scene::Located;
 use crate::scene::values::{EdgeName, Label, Motions, Triple};
+use crate::scene::written::{Written, read_as_written};
 use crate::sheet::angle::Angle;
 
 /// `[[part]]`: vertices of a patch that move as one rigid body.
@@ -37,7 +37,7 @@ pub struct DriveSpec {
     pub part: Option<Located<String>>,
     /// The vertices that are moved along `axis`; across it they are free.
     pub vertices: Option<Located<VertexSet>>,
-    /// Of a part one of "x", "y", "z", "rx", "ry", "rz"; of vertices one of "x", "y", "z" or a direction [x, y, z].
+    /// The axis: for a part one of "x", "y", "z", "rx", "ry", "rz"; for vertices one of "x", "y", "z" or a direction [x, y, z].
     pub axis: Option<Located<AxisSpec>>,
     /// true: a factor of all loads.
     pub load: Option<Located<bool>>,
@@ -86,29 +86,21 @@ pub enum AxisSpec {
     Direction([f64; 3]),
 }
 
-impl<'de> Deserialize<'de> for AxisSpec {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct AxisForm;
-        impl<'de> Visitor<'de> for AxisForm {
-            type Value = AxisSpec;
+read_as_written!(AxisSpec);
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("one of \"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\", or a direction [x, y, z]")
-            }
+impl Written for AxisSpec {
+    const FORMS: &str = "one of \"x\", \"y\", \"z\", \"rx\", \"ry\", \"rz\", or a direction [x, y, z]";
 
-            fn visit_str<E: Error>(self, word: &str) -> Result<AxisSpec, E> {
-                let found = Motions::NAMES.iter().position(|name| *name == word);
-                found.map(AxisSpec::Motion).ok_or_else(|| E::invalid_value(Unexpected::Str(word), &self))
-            }
+    fn from_word<E: Error>(word: &str) -> Result<Self, E> {
+        let found = Motions::NAMES.iter().position(|name| *name == word);
+        found.map(Self::Motion).ok_or_else(|| E::invalid_value(Unexpected::Str(word), &Self::FORMS))
+    }
 
-            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<AxisSpec, A::Error> {
-                match Triple::deserialize(SeqAccessDeserializer::new(seq))?.0 {
-                    [0.0, 0.0, 0.0] => Err(A::Error::custom("the direction is zero, expected a direction [x, y, z]")),
-                    direction => Ok(AxisSpec::Direction(direction)),
-                }
-            }
+    fn from_list<'de, A: SeqAccess<'de>>(seq: A) -> Result<Self, A::Error> {
+        match Triple::deserialize(SeqAccessDeserializer::new(seq))?.0 {
+            [0.0, 0.0, 0.0] => Err(A::Error::custom("the direction is zero, expected a direction [x, y, z]")),
+            direction => Ok(Self::Direction(direction)),
         }
-        deserializer.deserialize_any(AxisForm)
     }
 }
 

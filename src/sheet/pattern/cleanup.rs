@@ -1,4 +1,4 @@
-//! From the lines of a crease pattern to the mesh that they draw.
+//! Conversion of the lines of a crease pattern to the mesh that they draw.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -21,7 +21,7 @@ const COARSEST: f64 = 0.1;
 /// Largest difference of two fold angles in degrees that lines on each other may have.
 const SAME_ANGLE_DEG: f64 = 1e-3;
 
-/// What is done to the vertices and edges of a flat crease pattern before its faces are found.
+/// Options for the clean-up of vertices and edges of a flat crease pattern, before its faces are found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cleanup {
     /// Distance within which vertices are merged, in units of the drawing; `None` for 1e-4 of its extent, the larger

@@ -80,7 +80,7 @@ impl Format {
     }
 }
 
-/// What is done to lines if nothing else is wanted.
+/// The default clean-up of lines.
 const AS_DRAWN: Cleanup = Cleanup { merge: None, split: true };
 
 /// Reads the crease pattern of the file at `path`.

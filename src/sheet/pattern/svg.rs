@@ -40,7 +40,7 @@ pub(super) fn lines(text: &str) -> Lines {
     Ok((drawing.lines, title.unwrap_or_default().trim().to_owned()))
 }
 
-/// What the elements around an element say.
+/// Properties that an element inherits from the elements around it.
 #[derive(Clone, Copy, Default)]
 struct Around {
     style: Style,

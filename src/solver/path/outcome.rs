@@ -88,7 +88,7 @@ pub struct MarkedState {
     pub mark: Option<PathMark>,
     /// Integral of the conjugate quantity over the parameter, from the first state of the path.
     pub work: f64,
-    /// What accepted states had changed in the problem; see [`super::ParametrizedProblem::reference`].
+    /// Reference values of the problem after this state was accepted; see [`super::ParametrizedProblem::reference`].
     pub reference: Vec<f64>,
 }
 

@@ -30,11 +30,11 @@ pub trait ParametrizedProblem: Problem {
 /// Rates of a state, or a difference of two states.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rates {
-    /// Of the unknowns.
+    /// Rates of the unknowns.
     pub x: Vec<f64>,
-    /// Of the tensions of the stiff measures.
+    /// Rates of the tensions of the stiff measures.
     pub tension: Vec<f64>,
-    /// Of the parameter.
+    /// Rate of the parameter.
     pub parameter: f64,
 }
 

@@ -61,7 +61,7 @@ fn is_finite(marked: &MarkedState) -> bool {
     state.x.iter().chain(&state.tension).all(|value| value.is_finite())
 }
 
-/// What sees a path while it is followed.
+/// An observer of a path while it is followed: it receives each state and each entry of the record, and can stop the path.
 pub trait PathObserver<P> {
     /// Sees a new state of a branch; returns false to stop.
     fn state(&mut self, branch: usize, problem: &P, state: &MarkedState) -> bool;

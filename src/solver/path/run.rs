@@ -12,7 +12,7 @@ pub(super) struct Run<'a, P: ParametrizedProblem> {
     pub follower: Follower<'a, P>,
     watch: &'a mut dyn Watch<P>,
     observer: &'a mut dyn PathObserver<P>,
-    /// What an interrupted run has found.
+    /// Results of an interrupted run.
     record: PathRecord,
     origin: f64,
     pub branches: Vec<Branch>,
@@ -23,7 +23,7 @@ pub(super) struct Run<'a, P: ParametrizedProblem> {
     pub largest: [f64; 2],
 }
 
-/// What a branch needs to go on.
+/// The data from which a branch is continued.
 #[derive(Default)]
 struct Way {
     /// The last two ordinary states, or those with which the branch begins.
