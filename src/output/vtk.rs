@@ -314,6 +314,26 @@ mod tests {
         assert_eq!((found.line_edges, found.displacement), (vec![0, 1, 2, 3, 4], vec![Vec3::zeros(); 4]));
     }
 
+    /// Claim: `vertex`, `cell1` and `cell2` say of which vertex and cell each point is the copy.
+    #[test]
+    fn points_have_their_vertex_and_cell() {
+        let places = vec![(3, [0, 0]), (1, [2, -1]), (0, [-4, 5]), (2, [7, 7])];
+        let picture = Picture { places: places.clone(), ..samples::hinge(0.3) };
+        assert_eq!(parse_picture(&written(&picture)).unwrap().places, places);
+        let vtk = Vtk::parse_xml(&written(&picture)[..]).unwrap();
+        let piece = UnstructuredGridPiece::try_from(vtk.data).unwrap();
+        let numbers = |name: &str| -> Vec<i32> {
+            let named = |attribute: &Attribute| match attribute {
+                Attribute::DataArray(array) if array.name == name => array.data.cast_into(),
+                _ => None,
+            };
+            piece.data.point.iter().find_map(named).unwrap()
+        };
+        assert_eq!(numbers("vertex"), [3, 1, 0, 2]);
+        assert_eq!(numbers("cell1"), [0, 2, -4, 7]);
+        assert_eq!(numbers("cell2"), [0, -1, 5, 7]);
+    }
+
     /// Every documented array is present, with a value for every cell.
     #[test]
     fn every_array_has_its_length() {

@@ -559,6 +559,25 @@ fn patterns_go_there_and_back() {
     }
 }
 
+/// Claim: the target angle of a fold is its opacity times 180 degrees, in a line and over the groups around it, negative for
+/// mountains. Source: the definition of Origami Simulator. Tolerance: none, the products of these numbers are exact.
+#[test]
+fn opacity_is_the_part_of_a_whole_fold() {
+    let rim = "<rect width=\"4\" height=\"4\" stroke=\"#000\"/>";
+    for (line, degrees) in [
+        ("<line x2=\"4\" y2=\"4\" stroke=\"#f00\"/>", -180.0),
+        ("<line x2=\"4\" y2=\"4\" stroke=\"#f00\" opacity=\"0.5\"/>", -90.0),
+        ("<line x2=\"4\" y2=\"4\" stroke=\"#00f\" stroke-opacity=\"25%\"/>", 45.0),
+        ("<g opacity=\"0.5\"><line x2=\"4\" y2=\"4\" stroke=\"#00f\" style=\"opacity:0.5\"/></g>", 45.0),
+    ] {
+        let text = format!("<svg xmlns=\"http://www.w3.org/2000/svg\">{rim}{line}</svg>");
+        let sheet = pattern::parse(&text, "a", Format::Svg).unwrap();
+        let folds: Vec<f64> =
+            sheet.targets.values().map(|target| target.to_degrees()).filter(|fold| *fold != 0.0).collect();
+        assert_eq!(folds, [degrees], "{line}");
+    }
+}
+
 /// Claim: all letters survive a drawing: hinges, facets, joints and cuts have their colours, a hole stays a hole, and a
 /// folded or periodic sheet is refused.
 #[test]

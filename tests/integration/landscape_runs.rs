@@ -71,9 +71,17 @@ fn maps_go_on_where_they_stopped() {
 fn maps_of_other_scenes_are_not_continued() {
     let folder = tempfile::tempdir().unwrap();
     let [fresh, shared] = ["fresh", "shared"].map(|name| folder.path().join(name));
-    let soft = scene(folder.path(), PATCH, SOFT, MAP);
+    // the study before the map is the one that is stopped
+    let after_a_relaxation = |energy: &str| {
+        let path = scene(folder.path(), PATCH, energy, MAP);
+        let text = fs::read_to_string(&path).unwrap();
+        let relaxed = "[[study]]\nname = \"first\"\nkind = \"relax\"\n[[study]]\nname = \"a\"";
+        fs::write(&path, text.replace("[[study]]\nname = \"a\"", relaxed)).unwrap();
+        path
+    };
+    let soft = after_a_relaxation(SOFT);
     assert!(run(&soft, &shared, (2, false), usize::MAX).converged);
-    let rigid = scene(folder.path(), PATCH, RIGID, MAP);
+    let rigid = after_a_relaxation(RIGID);
     assert!(!run(&rigid, &shared, (2, false), 0).converged);
     assert!(run(&rigid, &shared, (2, true), usize::MAX).converged);
     assert!(run(&rigid, &fresh, (2, false), usize::MAX).converged);

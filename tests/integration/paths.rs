@@ -208,6 +208,8 @@ fn files_of_a_path() {
     assert!(header.starts_with(expected), "{header}");
     let table = run.table("pushed");
     assert_eq!(table.len(), run.branch("pushed").steps);
+    let numbers: Vec<String> = (0..table.len()).map(|row| row.to_string()).collect();
+    assert!(table.iter().map(|row| &row["state"]).eq(&numbers), "the column `state` numbers the rows");
     assert_eq!(run.branch("pushed").self_intersecting, Some(false));
     let series = std::fs::read_to_string(run.file("pushed.pvd")).unwrap();
     for (row, _) in
