@@ -104,6 +104,34 @@ fn an_interrupted_path_goes_on() {
     }
 }
 
+/// Claim: the same where a crease is folded beyond pi before the path is stopped: its angle goes on from there, and not from
+/// the one within a turn that the positions show.
+#[test]
+fn angles_beyond_pi_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let hinge = "{\"vertices_coords\": [[0, 0, 0], [0, 1, 0], [-1, 0.5, 0], [1, 0.5, 0]],\
+                 \"faces_vertices\": [[0, 1, 2], [1, 0, 3]]}";
+    fs::write(folder.path().join("hinge.fold"), hinge).unwrap();
+    let scene = folder.path().join("hinge.toml");
+    fs::write(
+        &scene,
+        "[sheet]\nmesh = \"hinge.fold\"\n[energy]\nbars = { stiffness = 10.0 }\ncreases = { stiffness = 1.0 }\n\
+         [[lock]]\ncrease = [0, 1, 0, 0]\n[[drive]]\nname = \"d\"\nlock = [0, 1, 0, 0]\nto = \"340 deg\"\n\
+         [[study]]\nname = \"turned\"\nkind = \"path\"\nmax_step = 0.1\n",
+    )
+    .unwrap();
+    let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
+    let (report, all) = run(&scene, &whole, false, usize::MAX);
+    assert!(report.summary.converged());
+    let (_, first) = run(&scene, &out, false, 3 * all / 4);
+    let (report, second) = run(&scene, &out, true, usize::MAX);
+    assert!(report.summary.converged() && first + second <= all, "{first} {second} {all}");
+    let table = fs::read_to_string(out.join("turned.csv")).unwrap();
+    let last: f64 = table.lines().last().unwrap().rsplit(',').find(|field| !field.is_empty()).unwrap().parse().unwrap();
+    assert!((last - 340_f64.to_radians()).abs() < 1e-12, "{table}");
+    assert_same(&out, &whole, "beyond pi");
+}
+
 /// Claim: the same if the run is interrupted twice, and if its log ends in the middle of a line, as where a computer stops.
 #[test]
 fn a_torn_log_loses_one_step() {

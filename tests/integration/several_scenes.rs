@@ -111,7 +111,10 @@ fn several_scenes_are_checked_first() {
     fs::write(path.join("a.toml"), SCENE).unwrap();
     fs::write(path.join("sub/a.toml"), SCENE).unwrap();
     fs::write(path.join("wrong.toml"), format!("{SCENE}start = \"other\"\n")).unwrap();
+    let misfit = format!("{SCENE}[[lock]]\ncrease = [0, 9, 0, 0]\n"); // only the sheet shows that there is no such crease
+    fs::write(path.join("misfit.toml"), misfit).unwrap();
     for (words, part) in [
+        (["run", "a.toml", "misfit.toml"], "misfit.toml:11:10: the sheet has no crease [0, 9, 0, 0]"),
         (["run", "a.toml", "wrong.toml"], "wrong.toml:10:9: no earlier study is called `other`"),
         (["run", "a.toml", "none.toml"], "none.toml: cannot be read"),
         (["run", "a.toml", "sub/a.toml"], "a.toml and sub/a.toml would write into the same folder, a"),
@@ -119,7 +122,7 @@ fn several_scenes_are_checked_first() {
         let output = foldwell(path, &words, "");
         assert_eq!(output.status.code(), Some(2), "{}", said(&output));
         assert!(said(&output).contains(part), "{}", said(&output));
-        assert_eq!(folders(path), ["a.toml", "sub", "wrong.toml"]);
+        assert_eq!(folders(path), ["a.toml", "misfit.toml", "sub", "wrong.toml"]);
     }
     let hard = SCENE.replace("kind = \"relax\"", "kind = \"relax\"\ntolerance = 1e-300");
     fs::write(path.join("hard.toml"), hard).unwrap();
