@@ -15,6 +15,7 @@ mod convert;
 mod ending;
 mod error;
 mod film;
+mod folder;
 mod info;
 mod inputs;
 mod ledger;
@@ -25,7 +26,6 @@ mod report;
 mod resume;
 mod runner;
 mod view;
-mod written;
 
 pub use crate::output::film::FilmOptions;
 pub use crate::study::Observer;

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::RunError;
 use super::ending::ending;
-use super::written::{contents, study_name, summary};
+use super::folder::{contents, study_name, summary};
 use crate::output::OutputError;
 use crate::output::film::{FilmOptions, Reel, write_gif, write_mp4};
 use crate::output::html::Content;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value};
 
 use super::RunError;
-use super::written::{contents, study_name, summary};
+use super::folder::{contents, study_name, summary};
 use crate::output::html::{StudyFiles, page};
 use crate::output::{OutputError, files};
 
