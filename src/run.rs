@@ -16,6 +16,7 @@ mod ending;
 mod error;
 mod film;
 mod folder;
+mod in_memory;
 mod info;
 mod inputs;
 mod ledger;
@@ -33,6 +34,7 @@ pub use crate::study::Progress;
 use ending::ending;
 pub use error::RunError;
 pub use film::film;
+pub use in_memory::{Computed, compute};
 pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
 use meshes::{MeshKind, read_mesh};
@@ -103,13 +105,20 @@ fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
 /// # Errors
 /// [`RunError`] if a parameter is wrong or the file cannot be written.
 pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
+    Ok(files::write(out, fold::write(&new_sheet(table)?))?)
+}
+
+/// Generates the sheet of a pattern from the table `{ pattern = "miura", .. }`.
+///
+/// # Errors
+/// [`RunError::Pattern`] if there is no such pattern or a parameter is wrong.
+pub fn new_sheet(table: &toml::Table) -> Result<Sheet, RunError> {
     let name = table.get("pattern").and_then(toml::Value::as_str).unwrap_or_default();
     Pattern::help(name).map_err(|error| RunError::Pattern { message: error.to_string(), pattern: String::new() })?;
     let refused = |message: String| RunError::Pattern { message, pattern: format!("{name} ") };
     let pattern: Pattern =
         table.clone().try_into().map_err(|error: toml::de::Error| refused(error.message().to_owned()))?;
-    let sheet = generate(&pattern).map_err(|error| refused(error.to_string()))?;
-    Ok(files::write(out, fold::write(&sheet))?)
+    generate(&pattern).map_err(|error| refused(error.to_string()))
 }
 
 /// Options for reading a mesh or a scene.
@@ -168,6 +177,24 @@ impl Wanted {
         let sheet = read_mesh(mesh_or_scene, self.frame, meshes::READ_OR_SCENE)?;
         if self.settings.is_empty() { Ok(sheet) } else { Err(RunError::NoScene { path: mesh_or_scene.into() }) }
     }
+}
+
+/// Reads the sheet of a mesh in the format of its ending; of a FOLD file the given frame, or the first with a mesh.
+///
+/// # Errors
+/// [`RunError`] if the file cannot be read, is wrong or has an unknown ending, and if there is no such frame.
+pub fn read_sheet(path: &Path, frame: Option<usize>) -> Result<Sheet, RunError> {
+    read_mesh(path, frame, meshes::READ)
+}
+
+/// Writes a sheet into a file of the format of its ending. Returns a sentence for each part of the sheet that the file
+/// does not keep.
+///
+/// # Errors
+/// [`RunError`] if the ending is unknown, if the file cannot be written, and if it is for flat sheets and the sheet is
+/// not flat.
+pub fn write_sheet(sheet: &Sheet, path: &Path) -> Result<Vec<String>, RunError> {
+    meshes::write(sheet, path)
 }
 
 /// Converts a mesh between the formats that are recognised by the endings of file names; of a FOLD file the given frame,

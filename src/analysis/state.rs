@@ -70,6 +70,13 @@ impl State {
         state
     }
 
+    /// Returns the state with these fold angles of the edges that are not hinges of its model.
+    pub(crate) fn with_angles(mut self, angles: Vec<f64>) -> Self {
+        let unknown = self.fold_angle.iter_mut().zip(angles).filter(|(known, _)| known.is_nan());
+        unknown.for_each(|(known, angle)| *known = angle);
+        self
+    }
+
     /// Adds element `k` of a term, whose measure has this value and which has this force and this energy.
     fn add(&mut self, term: &dyn Elements, k: usize, value: f64, [force, energy]: [f64; 2]) {
         let (edge, spring) = (term.edge(k), term.spring(k));

@@ -66,7 +66,7 @@ impl Artifact {
     /// # Errors
     /// [`OutputError::Shape`] if the parts of the content are inconsistent, [`OutputError::Write`] if the file cannot
     /// be written.
-    pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
+    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
         match self {
             Self::Table(table) => table.write(path),
             Self::State(picture) => vtk::write_vtu(path, picture),

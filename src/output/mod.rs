@@ -2,7 +2,7 @@
 //!
 //! All files are written through [`files`], so that a file appears complete or not at all.
 
-pub(crate) mod artifact;
+pub mod artifact;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod figure;
@@ -15,9 +15,11 @@ pub mod schema;
 pub(crate) mod sequence;
 pub(crate) mod strain_space;
 pub mod summary;
-pub(crate) mod table;
+pub mod table;
 pub mod vtk;
 
+pub use artifact::Artifact;
 pub use error::OutputError;
 pub use picture::Picture;
 pub use strain_space::StrainSurface;
+pub use table::{Column, Table};

@@ -42,6 +42,37 @@ pub(crate) enum Value {
     Word(&'static str),
 }
 
+/// The values of a column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Column {
+    /// Whole numbers, and no row without one.
+    Whole(Vec<i64>),
+    /// Numbers; NaN where there is none.
+    Numbers(Vec<f64>),
+    /// Words; empty where there is none.
+    Words(Vec<String>),
+}
+
+impl Column {
+    fn new(values: impl Iterator<Item = Value> + Clone) -> Self {
+        let whole = |value| if let Value::Whole(number) = value { Some(number) } else { None };
+        let number = |value| match value {
+            Value::Empty => Some(f64::NAN),
+            Value::Whole(number) => Some(number as f64),
+            Value::Number(number) => Some(number),
+            Value::Word(_) => None,
+        };
+        let text = |value: Value| {
+            let mut text = String::new();
+            value.append_to(&mut text);
+            text
+        };
+        let wholes = values.clone().map(whole).collect::<Option<_>>().map(Self::Whole);
+        let numbers = || values.clone().map(number).collect::<Option<_>>().map(Self::Numbers);
+        wholes.or_else(numbers).unwrap_or_else(|| Self::Words(values.map(text).collect()))
+    }
+}
+
 /// A table to be written to a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -88,6 +119,14 @@ impl Table {
     /// Returns the number of rows.
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Returns the names of the columns with their values, one for each row.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, Column)> {
+        self.header
+            .iter()
+            .enumerate()
+            .map(|(at, name)| (name.as_str(), Column::new(self.rows.iter().map(|row| row[at]))))
     }
 
     /// Appends a row.

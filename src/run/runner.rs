@@ -89,7 +89,7 @@ impl<'a> Runner<'a> {
         if !self.resumed {
             self.belongings.remove_growing_tables(self.file)?;
         }
-        self.take_over(summary(self.file, self.assembly, digest), &previous)
+        self.take_over(summary_of(self.file, self.assembly, digest), &previous)
     }
 
     /// Takes over the studies that an earlier run finished, and removes its unfinished files.
@@ -209,7 +209,8 @@ impl Checkpoints for Runner<'_> {
     }
 }
 
-fn summary(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
+/// Returns the summary of a run without its studies.
+pub(super) fn summary_of(file: &SceneFile, assembly: &Assembly, digest: String) -> Summary {
     let info = Info::new(assembly.sheet());
     let (terms, mut left_out) = built_terms(assembly);
     left_out.extend(file.scene.studies.iter().filter_map(|study| study::left_out(assembly, study)));

@@ -20,7 +20,14 @@ use std::path::Path;
 /// # Errors
 /// [`SceneError`] if the mesh cannot be read, or the scene refers to a part of the sheet that does not exist.
 pub fn assembly(file: &SceneFile) -> Result<Assembly, SceneError> {
-    let sheet = sheet(file)?;
+    assembly_of(file, sheet(file)?)
+}
+
+/// Does the same as [`assembly`] with a sheet that is there already, instead of the mesh of the scene.
+///
+/// # Errors
+/// [`SceneError`] if the scene refers to a part of the sheet that does not exist.
+pub fn assembly_of(file: &SceneFile, sheet: Sheet) -> Result<Assembly, SceneError> {
     let boundary = boundary(file, &sheet)?;
     super::memory::check(file, &sheet)?;
     let bare = Assembly::without_terms(sheet, file.scene.sheet.cells(), boundary);

@@ -45,7 +45,7 @@ impl SceneFile {
     }
 
     /// Returns the path of the scene file, as it was passed to [`read`](super::read) or [`parse`](super::parse).
-    pub(crate) fn path(&self) -> &Path {
+    pub fn path(&self) -> &Path {
         &self.path
     }
 
@@ -60,7 +60,8 @@ impl SceneFile {
         self.scene.title.clone().unwrap_or_else(stem)
     }
 
-    pub(super) fn text(&self) -> &str {
+    /// Returns the text of the scene, in which keys are set.
+    pub fn text(&self) -> &str {
         self.text.inner()
     }
 

@@ -70,7 +70,7 @@ impl Assignment {
     }
 
     /// Returns the letter of the assignment in FOLD.
-    pub(crate) fn letter(self) -> &'static str {
+    pub fn letter(self) -> &'static str {
         Self::LETTERS.iter().find(|(known, _)| *known == self).map_or("U", |(_, letter)| letter)
     }
 }

@@ -1,5 +1,8 @@
 //! The answer of a study: its part of the summary, its files, and the data that later studies start from or draw.
 
+use crate::analysis::restored::{self, Forces};
+use crate::analysis::state::State;
+use crate::model::{Assembly, Gauge};
 use crate::output::artifact::Artifact;
 use crate::output::figure::surface::PathPoint;
 use crate::output::summary::{StudyResult, StudySummary};
@@ -29,6 +32,24 @@ pub struct SavedState {
     /// Tensions of the stiff elements; `None` if the study does not compute them.
     #[serde(default)]
     pub tension: Option<Vec<f64>>,
+}
+
+impl SavedState {
+    /// Returns the state with the quantities of every edge; angles of edges that are not hinges of the assembly are in
+    /// (-pi, pi]. `None` if the state is not one of this assembly.
+    pub fn state(&self, assembly: &Assembly) -> Option<State> {
+        let mut model = assembly.model(Gauge::Held);
+        let fits = self.coordinates.len() == assembly.drawn().coordinates.len();
+        if !(fits && self.angles.len() == model.angles().len()) {
+            return None;
+        }
+        model.set_angles(&self.angles);
+        let x = model.start_from(self.coordinates.clone());
+        let forces = self.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
+        let tension = restored::tensions(&model, &x, &forces);
+        let state = State { coordinates: self.coordinates.clone(), ..State::new(&model, &x, &tension) };
+        Some(state.with_angles(assembly.fold_angles_at(&self.coordinates)))
+    }
 }
 
 impl Answer {

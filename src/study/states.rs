@@ -22,12 +22,9 @@ pub(crate) struct Shown {
     pub marks: Option<Marks>,
 }
 
-/// Returns the state with the fold angle of every edge between two faces. Angles of edges that are not hinges of the
-/// model are computed from the coordinates, in (-pi, pi].
+/// Returns the state with the fold angle of every edge between two faces.
 pub(crate) fn with_all_angles(context: &Context<'_>, state: &State) -> State {
-    let angles = context.assembly.fold_angles_at(&state.coordinates);
-    let known = |(known, other): (&f64, f64)| if known.is_nan() { other } else { *known };
-    State { fold_angle: state.fold_angle.iter().zip(angles).map(known).collect(), ..state.clone() }
+    state.clone().with_angles(context.assembly.fold_angles_at(&state.coordinates))
 }
 
 /// Returns the table of states, with one row for each.

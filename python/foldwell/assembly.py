@@ -1,0 +1,336 @@
+"""Assemblies: a sheet with boundary conditions and terms, and its energy as a function."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _foldwell
+from .arrays import vector
+from .sheet import Sheet
+from .state import State
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_array, csr_array
+
+__all__ = ["RIGID", "Assembly"]
+
+#: The stiffness of exactly rigid bars and hinges.
+RIGID = math.inf
+
+Table = Mapping[str, Any]
+Stiffness = float | str | Table | NDArray[Any]
+Rest = float | str | Table | NDArray[Any]
+EdgeName = Sequence[int]
+
+
+class Assembly:
+    """A sheet with its boundary conditions and terms: what studies are about.
+
+    The terms are those of a scene, with the names and forms of its keys; the book describes them. Wherever a scene takes a table
+    in a file, an array is taken here: one number for each edge of the sheet's cell (`sheet.edges`), or for each edge of the model
+    (`assembly.edges`); numbers at edges that are no element of the term are not read.
+    """
+
+    def __init__(self, inner: _foldwell.Assembly) -> None:
+        self._inner = inner
+
+    @classmethod
+    def patch(cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), **terms: Any) -> Assembly:
+        """Makes a patch: `cells[0]` times `cells[1]` cells with free edges, or a finite sheet.
+
+        Args:
+            sheet: The sheet.
+            cells: Numbers of cells along the two lattice vectors.
+            bars: Stiffness of the bars `EA`, a force, of every edge: a number, `RIGID`, a dict by letters, "mesh", or an array.
+                Left out: no bars.
+            rest_lengths: Rest lengths of the bars: "drawn", a factor on the drawn ones, or an array. Left out: drawn.
+            creases: Stiffness of the creases: torque per radian and per length. Forms as for `bars`.
+            rest: Rest angles of the creases in radians: a number, "drawn", "flat", "assigned", "target", a dict by letters
+                (`{"M": -1.0, "V": 1.0}`), a mode (`{"mode": [k11, k22, k12], "amplitude": a}`), or an array. Left out: drawn.
+            fraction: Factor on the rest angles "assigned", "target" and by letters, from 0 to 1.
+            facets: Stiffness of the diagonals of polygons. Left out: rigid.
+            facet_rest: Rest angles of the facets, as `rest`.
+            locks: Creases that keep their angle: a dict from names `(i, j, n1, n2)` to angles in radians (None: the drawn one),
+                or names alone.
+            pins: Vertices that are held, each a dict as `[[pin]]`: `{"vertex": 3, "cell": (0, 0), "axes": "xyz"}`.
+            loads: Forces on vertices, each a dict as `[[load]]`: `{"vertex": 3, "cell": (0, 0), "force": (0, 0, -1.0)}`.
+            parts: Vertices that move as rigid bodies, each a dict as `[[part]]`.
+            drives: Quantities that `path` drives, each a dict as `[[drive]]`.
+
+        Raises:
+            SceneError: a value is wrong, or does not fit the sheet.
+            ValueError, TypeError: an array has the wrong length, type or numbers.
+        """
+        return cls._build(sheet, {"domain": "patch", "cells": cells}, terms)
+
+    @classmethod
+    def torus(
+        cls, sheet: Sheet, cells: tuple[int, int] = (1, 1), *, lattice: str = "free", **terms: Any
+    ) -> Assembly:
+        """Makes a torus: cells that repeat, whose lattice vectors are unknowns (`lattice="free"`) or stay as drawn ("fixed").
+
+        Terms as in `patch`, without pins, loads and parts.
+        """
+        return cls._build(sheet, {"domain": "torus", "cells": cells, "lattice": lattice}, terms)
+
+    @classmethod
+    def screw(cls, sheet: Sheet, cells: tuple[int, int] = (6, 6), **terms: Any) -> Assembly:
+        """Makes a screw: one cell repeated by two commuting screw motions, so that the sheet can be a cylinder.
+
+        Args:
+            sheet: The sheet.
+            cells: Cells of pictures; they have no influence on numbers.
+            terms: As in `patch`, without pins, loads and parts.
+        """
+        return cls._build(sheet, {"domain": "screw", "cells": cells}, terms)
+
+    @classmethod
+    def from_scene(
+        cls, scene: str | os.PathLike[str] | Table, *, set: Table | None = None, base: str | os.PathLike[str] = ""
+    ) -> Assembly:
+        """Builds the assembly of a scene, whose studies are ignored.
+
+        Args:
+            scene: Path of a scene file, or its content as a dict.
+            set: Keys that are set first, by their path: `{"energy.bars.stiffness": 1e4}`.
+            base: Folder to which paths in a dict are relative; left out: the current one.
+
+        Raises:
+            SceneError: the scene is wrong.
+        """
+        given = dict(scene) if isinstance(scene, Mapping) else Path(scene)
+        return cls(_foldwell.Assembly(given, Path(base), settings(set), None))
+
+    @classmethod
+    def _build(cls, sheet: Sheet, place: Table, terms: dict[str, Any]) -> Assembly:
+        if not isinstance(sheet, Sheet):
+            raise TypeError(f"sheet is a {type(sheet).__name__}, expected a foldwell.Sheet")
+        scene: dict[str, Any] = {"sheet": {"mesh": sheet.title or "sheet", **place}}
+        with tempfile.TemporaryDirectory() as folder:
+            scene.update(_terms(terms, _Tables(sheet, place, Path(folder))))
+            return cls(_foldwell.Assembly(scene, Path(), [], sheet._inner))
+
+    @property
+    def sheet(self) -> Sheet:
+        """The sheet."""
+        return Sheet(self._inner.sheet)
+
+    @property
+    def cells(self) -> tuple[int, int]:
+        """Numbers of cells of the model."""
+        first, second = self._inner.cells
+        return (first, second)
+
+    @property
+    def edges(self) -> NDArray[np.int64]:
+        """The edges of the model: the two numbers of the cell and the name `i, j, n1, n2` of each, shape (m, 6)."""
+        return self._inner.edges
+
+    @property
+    def kinds(self) -> NDArray[np.str_]:
+        """Kind of each edge of the model: "crease", "facet" or "boundary", shape (m,)."""
+        return np.array(self._inner.kinds)
+
+    @property
+    def drawn(self) -> State:
+        """The drawn state."""
+        return self.state(self.start)
+
+    @cached_property
+    def _forms(self) -> _foldwell.Forms:
+        return self._inner.forms()
+
+    @cached_property
+    def start(self) -> NDArray[np.float64]:
+        """The unknowns `x` of the drawn state.
+
+        The unknowns are the coordinates of the vertices, `x.reshape(-1, 3)` on a patch without pins and parts; those that pins hold
+        are left out. A torus with free lattice and a screw have unknowns of the lattice after them.
+        """
+        return self._forms.start
+
+    def _x(self, x: ArrayLike) -> NDArray[np.float64]:
+        return vector(x, "x", len(self.start))
+
+    def unknowns(self, result: Any) -> NDArray[np.float64]:
+        """Returns the unknowns `x` of the final state of a result, or of its `coordinates`.
+
+        Raises:
+            ValueError: the result has no final state, or is one of another assembly.
+        """
+        coordinates = getattr(result, "coordinates", result)
+        return self._forms.unknowns_at(np.ascontiguousarray(coordinates, dtype=np.float64))
+
+    def state(self, x: ArrayLike) -> State:
+        """Returns the state with these unknowns: positions, angles, strains, forces and energies."""
+        return State(self._forms.state_at(self._x(x)))
+
+    def energy(self, x: ArrayLike) -> float:
+        """Returns the energy of the springs minus the work of the loads. Rigid elements have none: see `constraints`.
+
+        Fold angles continue from those of the drawn state, so that the energy is smooth while no angle goes further than pi from it.
+
+        Raises:
+            ValueError, TypeError: `x` has the wrong length or type, or a number in it is not finite.
+        """
+        return self._forms.energy(self._x(x))
+
+    def gradient(self, x: ArrayLike) -> NDArray[np.float64]:
+        """Returns the derivative of the energy by the unknowns, shape of `x`."""
+        return self._forms.gradient(self._x(x))
+
+    def hessian(self, x: ArrayLike) -> csc_array[Any, Any]:
+        """Returns the second derivative of the energy, a symmetric `scipy.sparse.csc_array`. Needs SciPy."""
+        from scipy.sparse import csc_array, tril
+
+        values, rows, begins = self._forms.hessian(self._x(x))
+        lower = csc_array((values, rows, begins), shape=(len(self.start), len(self.start)))
+        return csc_array(lower + tril(lower, -1).T)
+
+    def constraints(self, x: ArrayLike) -> NDArray[np.float64]:
+        """Returns the lengths and angles of rigid elements minus their rest values; zero where the constraints hold."""
+        return self._forms.constraints(self._x(x))
+
+    def constraint_jacobian(self, x: ArrayLike) -> csr_array[Any, Any]:
+        """Returns the derivative of the constraints, a `scipy.sparse.csr_array`. Needs SciPy."""
+        return self._rows(self._forms.constraint_jacobian(self._x(x)))
+
+    def lengths(self, x: ArrayLike) -> NDArray[np.float64]:
+        """Returns the length of each edge of the model; NaN inside rigid parts."""
+        return self._forms.measures(self._x(x), False)
+
+    def lengths_jacobian(self, x: ArrayLike) -> csr_array[Any, Any]:
+        """Returns the derivative of `lengths`, a `scipy.sparse.csr_array`. Needs SciPy."""
+        return self._rows(self._forms.measures_jacobian(self._x(x), False))
+
+    def fold_angles(self, x: ArrayLike) -> NDArray[np.float64]:
+        """Returns the fold angle of each edge of the model in radians, valley positive; NaN where there is no hinge.
+
+        Angles continue from those of the drawn state, as in `energy`.
+        """
+        return self._forms.measures(self._x(x), True)
+
+    def fold_angles_jacobian(self, x: ArrayLike) -> csr_array[Any, Any]:
+        """Returns the derivative of `fold_angles`, a `scipy.sparse.csr_array`; rows of edges without a hinge are empty."""
+        return self._rows(self._forms.measures_jacobian(self._x(x), True))
+
+    def _rows(self, sparse: tuple[NDArray[Any], NDArray[Any], NDArray[Any]]) -> csr_array[Any, Any]:
+        from scipy.sparse import csr_array
+
+        found = csr_array(sparse, shape=(len(sparse[2]) - 1, len(self.start)))
+        found.sum_duplicates()
+        return found
+
+    def closure(self, rho: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Returns the closure of the faces around the interior vertices of the cell: the exact conditions on fold angles.
+
+        Args:
+            rho: Fold angle of each edge of the cell in radians, valley positive, shape (m,), as `sheet.edges`; those at the rim
+                are not read.
+
+        Returns:
+            The residual, the rotation vector of the product of rotations around each vertex, three numbers for each interior
+            vertex, and its derivative by the angles, shape (3 v, m). A set of angles folds rigidly if the residual is zero.
+        """
+        sheet = self._inner.sheet
+        return _foldwell.closure(sheet, vector(rho, "rho", len(sheet.edges)))
+
+    def __repr__(self) -> str:
+        return f"<foldwell.Assembly of {self.sheet.title!r}: {self.cells[0]} x {self.cells[1]} cells>"
+
+
+class _Tables:
+    """Arrays as the tables that a scene names."""
+
+    def __init__(self, sheet: Sheet, place: Table, folder: Path) -> None:
+        self._sheet = sheet
+        self._place = place
+        self._folder = folder
+
+    @cached_property
+    def _bare(self) -> _foldwell.Assembly:
+        return _foldwell.Assembly({"sheet": {"mesh": "sheet", **self._place}}, Path(), [], self._sheet._inner)
+
+    def value(self, given: Any, term: str, name: str, column: str) -> Any:
+        """Returns a value of a scene: an array as a table in a file, everything else as it is."""
+        if not isinstance(given, np.ndarray) or given.ndim == 0:
+            return given
+        of_cell = given.shape == self._sheet.kinds.shape
+        edges = self._sheet.edges if of_cell else self._bare.edges
+        kinds = self._sheet.kinds if of_cell else np.array(self._bare.kinds)
+        here = np.full(len(kinds), True) if term == "bars" else kinds == term.removesuffix("s")
+        rigid = column == "stiffness" and given.dtype.kind == "f"
+        wanted = given if given.shape != here.shape else np.where(here, given, 0.0)
+        vector(np.where(np.isposinf(wanted), 1.0, wanted) if rigid else wanted, name, (len(self._sheet.kinds), len(edges)))
+        rows = [
+            ",".join(map(str, [*edge, repr(value)]))
+            for edge, value in zip(edges[here].tolist(), given[here].tolist(), strict=True)
+        ]
+        header = "i,j,n1,n2" if of_cell else "cell1,cell2,i,j,n1,n2"
+        path = self._folder / f"{name}.csv"
+        path.write_text("\n".join([f"{header},{column}", *rows]) + "\n")
+        return {"file": path}
+
+
+def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
+    """Returns the tables of a scene for the keyword arguments of `Assembly.patch`."""
+    known = {
+        *("bars", "rest_lengths", "creases", "rest", "fraction", "facets", "facet_rest"),
+        *("locks", "pins", "loads", "parts", "drives"),
+    }
+    if unknown := terms.keys() - known:
+        raise TypeError(f"unknown argument {sorted(unknown)[0]!r}; the terms are {', '.join(sorted(known))}")
+    given = {name: value for name, value in terms.items() if value is not None}
+    stiffness = {name: tables.value(given.get(name), name, name, "stiffness") for name in ("bars", "creases", "facets")}
+    energy: dict[str, dict[str, Any]] = {k: {"stiffness": v} for k, v in stiffness.items() if v is not None}
+    for term, name, column in [
+        ("bars", "rest_lengths", "length"),
+        ("creases", "rest", "angle"),
+        ("facets", "facet_rest", "angle"),
+    ]:
+        if name in given:
+            if term not in energy:
+                raise TypeError(f"{name} is given without {term}")
+            energy[term]["rest"] = tables.value(given[name], term, name, column)
+    if "fraction" in given:
+        energy.setdefault("creases", {})["fraction"] = given["fraction"]
+    scene: dict[str, Any] = {"energy": energy, "lock": _locks(given.get("locks", ()))}
+    scene |= {name: [dict(table) for table in given.get(f"{name}s", ())] for name in ("pin", "load", "part", "drive")}
+    return {name: value for name, value in scene.items() if value}
+
+
+def _locks(locks: Mapping[Any, Any] | Iterable[EdgeName]) -> list[dict[str, Any]]:
+    pairs = locks.items() if isinstance(locks, Mapping) else ((crease, None) for crease in locks)
+    return [{"crease": list(crease), "angle": angle} for crease, angle in pairs]
+
+
+def settings(given: Table | None) -> list[str]:
+    """Returns keys that are to be set as the texts `key=value` that the program reads."""
+    return [f"{path}={_written(value)}" for path, value in (given or {}).items()]
+
+
+def _written(value: Any) -> str:
+    """Returns a value as it is written in TOML."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(os.fspath(value), ensure_ascii=False)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f'"{key}" = {_written(inner)}' for key, inner in value.items()) + " }"
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(map(_written, value)) + "]"
+    raise TypeError(f"a {type(value).__name__} is no value of a scene")

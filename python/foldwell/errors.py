@@ -1,0 +1,73 @@
+"""The exceptions of foldwell."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .results import Result
+    from .state import State
+
+__all__ = ["DidNotConverge", "FoldwellError", "OutputError", "SceneError", "SheetError"]
+
+
+class FoldwellError(Exception):
+    """Base of the exceptions of foldwell.
+
+    Attributes:
+        message: What is wrong.
+        help: What would be right, if the program can say.
+        file: Name of the file or scene with the mistake, if it is known.
+        line: Its line there, from 1, if it is known.
+    """
+
+    def __init__(
+        self, message: str, help: str | None = None, file: str | None = None, line: int | None = None
+    ) -> None:
+        super().__init__(message, help, file, line)
+        self.message = message
+        self.help = help
+        self.file = file
+        self.line = line
+
+    def __str__(self) -> str:
+        return f"{self.message}\n  help: {self.help}" if self.help else self.message
+
+
+class SceneError(FoldwellError, ValueError):
+    """Something that was given is wrong: a key of a scene, an argument, or a combination of them. Nothing was computed."""
+
+
+class SheetError(SceneError):
+    """A mesh is wrong, or cannot be read."""
+
+
+class OutputError(FoldwellError):
+    """A file cannot be read or written: no space, no permission."""
+
+
+class DidNotConverge(FoldwellError):
+    """A study did not reach its answer. What it reached is in `result`.
+
+    Attributes:
+        result: The study as far as it came; `result.summary["reason"]` says why it ended.
+    """
+
+    def __init__(self, message: str, result: Result) -> None:
+        super().__init__(message)
+        self.result = result
+
+    def __reduce__(self) -> tuple[type[FoldwellError], tuple[str]]:
+        return (FoldwellError, (self.message,))  # a result cannot go to another process
+
+    @property
+    def state(self) -> State | None:
+        """The last state, if the study kept it."""
+        states = self.result.states
+        return states[-1] if states else None
+
+    @property
+    def history(self) -> list[dict[str, Any]]:
+        """The steps of a relaxation, each a dict as in `summary.json`; empty for other studies."""
+        found: list[dict[str, Any]] = self.result.summary.get("history", [])
+        return found

@@ -1,0 +1,167 @@
+"""Results of studies and runs."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _foldwell
+from .state import State
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["Result", "Run"]
+
+Column = NDArray[Any]
+
+
+class Result:
+    """The answer of a study.
+
+    Attributes:
+        summary: What `summary.json` says of the study, a dict; the keys of each kind are described in the book.
+    """
+
+    def __init__(self, inner: _foldwell.Answer, study: Mapping[str, Any]) -> None:
+        self._inner = inner
+        self._study = dict(study)
+        self.summary: dict[str, Any] = json.loads(inner.summary)
+
+    @property
+    def name(self) -> str:
+        """Name of the study."""
+        return str(self.summary["name"])
+
+    @property
+    def kind(self) -> str:
+        """Kind of the study."""
+        return str(self.summary["kind"])
+
+    @property
+    def converged(self) -> bool:
+        """Whether the study reached its answer."""
+        return bool(self.summary["converged"])
+
+    @cached_property
+    def tables(self) -> dict[str, dict[str, Column]]:
+        """The tables of the study, by the names of their files: for each column its values, one for each row.
+
+        Numbers that were not computed are NaN.
+        """
+        return {
+            name: {column: np.asarray(values) for column, values in (self._inner.table(name) or {}).items()}
+            for name in self._inner.table_names
+        }
+
+    @property
+    def table(self) -> dict[str, Column]:
+        """The table `NAME.csv` of the study; the first of its tables if it has none of that name, empty if it has none at all."""
+        named = self.tables.get(f"{self.name}.csv")
+        return named if named is not None else next(iter(self.tables.values()), {})
+
+    @cached_property
+    def states(self) -> list[State]:
+        """The states that the study kept, in the order of its table; empty if `draw` lacks "vtk"."""
+        return [State(state) for state in self._inner.states]
+
+    @cached_property
+    def state(self) -> State:
+        """The final state.
+
+        Raises:
+            ValueError: the study has none.
+        """
+        found = self._inner.state()
+        if found is None:
+            raise ValueError(f"a study of kind {self.kind} that ended like this has no final state; see `states`")
+        return State(found)
+
+    @property
+    def coordinates(self) -> NDArray[np.float64]:
+        """All coordinates of the final state, as `Assembly.unknowns` takes them.
+
+        Raises:
+            ValueError: the study has no final state.
+        """
+        found = self._inner.coordinates
+        if found is None:
+            raise ValueError(f"a study of kind {self.kind} that ended like this has no final state")
+        return found
+
+    def to_pandas(self) -> Any:
+        """Returns `table` as a `pandas.DataFrame`. Needs pandas."""
+        import pandas
+
+        return pandas.DataFrame(self.table)
+
+    def to_pyvista(self) -> Any:
+        """Returns the final state, or else the last one that was kept, as a `pyvista.UnstructuredGrid`. Needs PyVista."""
+        return self._shown().to_pyvista()
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws what the study is about: the curves of a path, trace or landscape, otherwise its state. Needs Matplotlib."""
+        from .plots import draw_result
+
+        return draw_result(self, ax)
+
+    def _shown(self) -> State:
+        if self._inner.coordinates is None and self.states:
+            return self.states[-1]
+        return self.state
+
+    def save(self, folder: str | os.PathLike[str]) -> list[Path]:
+        """Writes the files of the study, as `foldwell run` does, into a folder. Returns their paths.
+
+        Raises:
+            OutputError: a file cannot be written.
+        """
+        return [Path(folder) / name for name in self._inner.save(Path(folder))]
+
+    def _repr_svg_(self) -> str | None:
+        """The drawing of the study, which notebooks show; only with "svg" in `draw`."""
+        drawings = self._inner.drawings
+        return drawings[0][1] if drawings else None
+
+    def __repr__(self) -> str:
+        end = "converged" if self.converged else f"did not converge: {self.summary.get('reason')}"
+        return f"<foldwell.Result {self.name!r}: {self.kind}, {end}>"
+
+
+class Run(Mapping[str, Result]):
+    """The results of a scene, by the names of its studies.
+
+    Attributes:
+        summary: The content of `summary.json`, a dict.
+        interrupted: Whether the callback stopped the run; studies after that are missing.
+    """
+
+    def __init__(self, summary: dict[str, Any], results: list[Result], interrupted: bool) -> None:
+        self.summary = summary
+        self.interrupted = interrupted
+        self._results = {result.name: result for result in results}
+
+    @property
+    def converged(self) -> bool:
+        """Whether all studies reached their answers."""
+        return not self.interrupted and all(study["converged"] for study in self.summary["studies"])
+
+    def __getitem__(self, name: str) -> Result:
+        return self._results[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._results)
+
+    def __len__(self) -> int:
+        return len(self._results)
+
+    def __repr__(self) -> str:
+        studies = ", ".join(f"{study['name']} ({study['kind']})" for study in self.summary["studies"])
+        return f"<foldwell.Run {self.summary['title']!r}: {studies}>"

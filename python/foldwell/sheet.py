@@ -1,0 +1,191 @@
+"""Sheets: one cell of a periodic sheet, or a finite sheet."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, TextIO
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _foldwell
+from .arrays import matrix
+
+__all__ = ["Sheet", "generate", "pattern_help", "patterns"]
+
+
+class Sheet:
+    """A sheet: vertices, polygons and the edges between them; one cell and two lattice vectors if it is periodic.
+
+    Sheets come from files (`Sheet.read`), from arrays (`Sheet.from_arrays`) and from patterns (`generate`), all through the same
+    checks. They do not change.
+    """
+
+    def __init__(self, inner: _foldwell.Sheet) -> None:
+        self._inner = inner
+
+    @classmethod
+    def read(cls, source: str | os.PathLike[str] | TextIO, *, frame: int | None = None) -> Sheet:
+        """Reads a mesh.
+
+        Args:
+            source: Path of a .fold, .obj, .vtu, .svg, .cp or .opx file, or an open text file in the FOLD format.
+            frame: Frame of a FOLD file: 0 is its top, those of `file_frames` are 1, 2, ...; left out: the first with a mesh.
+
+        Raises:
+            SheetError: the file cannot be read or draws no sheet; the message names the place.
+            ValueError: the open file is closed.
+        """
+        if isinstance(source, (str, os.PathLike)):
+            return cls(_foldwell.Sheet.read(Path(source), frame))
+        return cls(_foldwell.Sheet.parse(source.read(), str(getattr(source, "name", "<text>")), frame))
+
+    @classmethod
+    def from_arrays(
+        cls,
+        vertices: ArrayLike,
+        faces: Sequence[Sequence[int]] | NDArray[np.integer[Any]],
+        *,
+        lattice: ArrayLike | None = None,
+        edges: ArrayLike | None = None,
+        letters: Sequence[str] | None = None,
+        fold_angles: ArrayLike | None = None,
+        title: str = "",
+    ) -> Sheet:
+        """Makes a sheet from arrays.
+
+        Args:
+            vertices: Positions, shape (n, 3), or (n, 2) in the plane.
+            faces: Polygons as vertex numbers, counter-clockwise. In a periodic sheet the vertices include the copies in
+                neighbouring cells that the faces of one cell need; they are found by the lattice vectors.
+            lattice: The two lattice vectors, shape (2, 3); left out: the sheet is finite.
+            edges: Ends of edges, shape (m, 2), to which `letters` and `fold_angles` belong.
+            letters: Letter of each edge as in FOLD: "M" mountain, "V" valley, "F" flat, "B" boundary, "C" cut, "U" unassigned.
+            fold_angles: Fold angle of each edge in radians, positive for valleys; where they differ from the drawn ones they are
+                targets (`rest="target"`). NaN: none.
+            title: Name of the sheet.
+
+        Raises:
+            ValueError: an array has the wrong shape, or numbers that are not finite.
+            SheetError: the arrays draw no sheet; the message names the vertex, edge or face.
+        """
+        points = matrix(vertices, "vertices", (2, 3))
+        fold: dict[str, Any] = {
+            "file_spec": 1.2,
+            "file_title": title,
+            "vertices_coords": points.tolist(),
+            "faces_vertices": [[int(vertex) for vertex in face] for face in faces],
+        }
+        if lattice is not None:
+            fold["foldwell:lattice"] = matrix(lattice, "lattice", (2, 3), rows=2).tolist()
+        if edges is not None:
+            fold["edges_vertices"] = np.asarray(edges, dtype=np.int64).reshape(-1, 2).tolist()
+        if letters is not None:
+            fold["edges_assignment"] = [str(letter) for letter in letters]
+        if fold_angles is not None:
+            degrees = np.degrees(np.asarray(fold_angles, dtype=float)).tolist()
+            fold["edges_foldAngle"] = [None if np.isnan(angle) else angle for angle in degrees]
+        return cls(_foldwell.Sheet.parse(json.dumps(fold), "arrays", None))
+
+    @property
+    def title(self) -> str:
+        """Name of the sheet."""
+        return self._inner.title
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """Drawn positions of the vertices of the cell, shape (n, 3)."""
+        return self._inner.vertices
+
+    @property
+    def lattice(self) -> NDArray[np.float64] | None:
+        """The two lattice vectors, shape (2, 3); None for a finite sheet."""
+        return self._inner.lattice
+
+    @property
+    def edges(self) -> NDArray[np.int64]:
+        """Names `i, j, n1, n2` of the edges of the cell, diagonals of polygons included: from vertex `i` to vertex `j` of the cell
+        `(n1, n2)`; shape (m, 4)."""
+        return self._inner.edges
+
+    @property
+    def kinds(self) -> NDArray[np.str_]:
+        """Kind of each edge: "crease", "facet" (a diagonal of a polygon) or "boundary", shape (m,)."""
+        return np.array(self._inner.kinds)
+
+    @property
+    def letters(self) -> NDArray[np.str_]:
+        """Letter of each edge: that of the file, or what the drawing shows, shape (m,)."""
+        return np.array(self._inner.letters)
+
+    @property
+    def fold_angles(self) -> NDArray[np.float64]:
+        """Drawn fold angle of each edge in radians, positive for valleys, 0 at the rim, shape (m,)."""
+        return self._inner.fold_angles
+
+    @property
+    def polygons(self) -> list[list[tuple[int, int, int]]]:
+        """Corners of the polygons of the cell, counter-clockwise: vertex and the two numbers of its cell."""
+        return self._inner.polygons
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """Counts and measures, as `foldwell info --json` prints them."""
+        found: dict[str, Any] = json.loads(self._inner.info())
+        return found
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the sheet in the format of the ending: .fold, .obj, .vtu, .stl, .svg or .cp. Warns of what the file does not keep.
+
+        Raises:
+            SceneError: the ending is unknown, or a flat format is asked for and the sheet is not flat.
+            OutputError: the file cannot be written.
+        """
+        for note in self._inner.write(Path(path)):
+            warnings.warn(note, stacklevel=2)
+
+    def to_fold(self) -> dict[str, Any]:
+        """Returns the content of a FOLD file of the sheet."""
+        found: dict[str, Any] = json.loads(self._inner.to_fold())
+        return found
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws one cell as it is drawn, as `State.plot` does. Needs Matplotlib."""
+        from .assembly import Assembly
+
+        return Assembly.patch(self).drawn.plot(ax)
+
+    def __repr__(self) -> str:
+        kind = "finite sheet" if self.lattice is None else "periodic cell"
+        return f"<foldwell.Sheet {self.title!r}: {kind}, {len(self.vertices)} vertices, {len(self.edges)} edges>"
+
+
+def generate(pattern: str, **parameters: Any) -> Sheet:
+    """Makes the sheet of a pattern.
+
+    Args:
+        pattern: One of `patterns()`.
+        **parameters: As `pattern_help(pattern)` lists them, with `_` for `-`. Angles are radians, or texts such as "60 deg".
+
+    Raises:
+        SceneError: there is no such pattern, or a parameter is unknown or outside its range.
+    """
+    return Sheet(_foldwell.Sheet.generate({"pattern": pattern, **parameters}))
+
+
+def patterns() -> list[str]:
+    """Returns the names of the patterns."""
+    return _foldwell.patterns()
+
+
+def pattern_help(pattern: str) -> str:
+    """Returns a page about a pattern: what it is, a drawing, and meaning, range and default of each parameter.
+
+    Raises:
+        ValueError: there is no such pattern.
+    """
+    return _foldwell.pattern_help(pattern)

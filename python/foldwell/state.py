@@ -1,0 +1,138 @@
+"""States of a sheet."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _foldwell
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["State"]
+
+
+class State:
+    """A sheet in one state, as ParaView shows it: points, faces, and quantities on the edges.
+
+    Arrays of numbers are views of the memory of the program, without a copy, and cannot be written. `n` is the number of
+    points, `m` of edges and `f` of faces. A patch has its vertices cell by cell. A torus also has the points of the neighbouring
+    cells that its edges end at, and a screw all points of the cells that are shown.
+    """
+
+    def __init__(self, inner: _foldwell.State) -> None:
+        self._inner = inner
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """Positions of the points, shape (n, 3), in the unit of length of the sheet."""
+        return self._inner.positions
+
+    @property
+    def displacements(self) -> NDArray[np.float64]:
+        """Positions minus those of the drawn state, shape (n, 3)."""
+        return self._inner.displacements
+
+    @property
+    def places(self) -> NDArray[np.int64]:
+        """Vertex of the cell, and the two numbers of the cell, of which each point is a copy, shape (n, 3)."""
+        return self._inner.places
+
+    @property
+    def faces(self) -> NDArray[np.int64]:
+        """Points at the corners of each triangle, counter-clockwise seen from the side of the normals, shape (f, 3)."""
+        return self._inner.faces
+
+    @property
+    def self_intersecting(self) -> NDArray[np.uint8]:
+        """1 for triangles that pass through others, shape (f,); all 0 unless the study has `check=["self_intersection"]`."""
+        return self._inner.self_intersecting
+
+    @property
+    def edges(self) -> NDArray[np.int64]:
+        """Points at the ends of each edge, shape (m, 2)."""
+        return self._inner.edges
+
+    @property
+    def kinds(self) -> NDArray[np.str_]:
+        """Kind of each edge, "crease", "facet" or "boundary", shape (m,)."""
+        return np.array(self._inner.kinds)
+
+    @property
+    def letters(self) -> NDArray[np.str_]:
+        """Letter of each edge in the FOLD format, "M", "V", "F", "B", ..., shape (m,)."""
+        return np.array(self._inner.letters)
+
+    @property
+    def cell_edges(self) -> NDArray[np.int32]:
+        """Number of the edge of the sheet's cell of which each edge is a copy, shape (m,)."""
+        return self._inner.cell_edges
+
+    @property
+    def fold_angles(self) -> NDArray[np.float64]:
+        """Fold angle of each edge in radians, positive for valleys, shape (m,); NaN at the rim."""
+        return self._inner.fold_angles
+
+    @property
+    def rest_angles(self) -> NDArray[np.float64]:
+        """Fold angle in radians at which each hinge has no torque, shape (m,)."""
+        return self._inner.rest_angles
+
+    @property
+    def strains(self) -> NDArray[np.float64]:
+        """Strain `L / L0 - 1` of each bar, shape (m,)."""
+        return self._inner.strains
+
+    @property
+    def energies(self) -> NDArray[np.float64]:
+        """Energy of the bar and the hinge of each edge together, shape (m,)."""
+        return self._inner.energies
+
+    @property
+    def tensions(self) -> NDArray[np.float64]:
+        """Force along each bar, positive in tension, shape (m,)."""
+        return self._inner.tensions
+
+    @property
+    def torques(self) -> NDArray[np.float64]:
+        """Torque of the hinge of each edge, the derivative of its energy by the fold angle, shape (m,)."""
+        return self._inner.torques
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the state as a VTU file, which ParaView, PyVista and meshio read.
+
+        Raises:
+            OutputError: the file cannot be written.
+        """
+        self._inner.save(Path(path))
+
+    def to_pyvista(self) -> Any:
+        """Returns the state as a `pyvista.UnstructuredGrid` with the arrays of the VTU files. Needs PyVista."""
+        import pyvista
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "state.vtu"
+            self.save(path)
+            return pyvista.read(path)
+
+    def plot(self, ax: Axes | None = None, *, paper: str = "#e8e2d4") -> Axes:
+        """Draws the sheet in 3D: faces in the colour `paper`, valleys blue, mountains red, other edges grey. Needs Matplotlib.
+
+        Args:
+            ax: Axes with `projection="3d"`; new ones if left out.
+
+        Returns:
+            The axes.
+        """
+        from .plots import draw_state
+
+        return draw_state(self, ax, paper)
+
+    def __repr__(self) -> str:
+        return f"<foldwell.State: {len(self.positions)} points, {len(self._inner.kinds)} edges, {len(self.faces)} faces>"

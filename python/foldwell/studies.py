@@ -1,0 +1,281 @@
+"""Studies: one function for each kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _foldwell
+from .arrays import vector
+from .assembly import Assembly
+from .errors import DidNotConverge
+from .progress import Progress, listener
+from .results import Result
+
+__all__ = ["bloch", "branches", "landscape", "modes", "path", "relax", "surface", "trace", "wells"]
+
+Start = str | Result | Mapping[str, Any] | None
+Mode = Sequence[float] | NDArray[Any] | Mapping[str, Any]
+
+
+def relax(
+    assembly: Assembly,
+    *,
+    start: Start = None,
+    tolerance: float | None = None,
+    method: str | None = None,
+    **common: Any,
+) -> Result:
+    """Finds an equilibrium of the energy by Newton's method.
+
+    Args:
+        assembly: The sheet and its energy.
+        start: The state where it starts: the result of a study of the same assembly, a .vtu file, or `{"random": amplitude,
+            "seed": n}`. Left out: as drawn.
+        tolerance: Bound on both scaled residuals.
+        method: The unknowns: "vertices", "intrinsic" (fold angles), or "auto", the default.
+        **common: As for every study, see `compute`.
+    """
+    return compute(assembly, "relax", {"tolerance": tolerance, "method": method}, start=start, **common)
+
+
+def modes(assembly: Assembly, *, start: Start = None, eigenvalues: int | None = None, **common: Any) -> Result:
+    """Counts zero modes and self stresses, and finds the lowest eigenvalues of the energy's Hessian.
+
+    Args:
+        assembly: The sheet and its energy.
+        start: The state whose modes are wanted, as in `relax`.
+        eigenvalues: How many; left out: none.
+        **common: As for every study, see `compute`.
+    """
+    return compute(assembly, "modes", {"eigenvalues": eigenvalues}, start=start, **common)
+
+
+def branches(assembly: Assembly, **common: Any) -> Result:
+    """Finds the directions in which rigid folding leaves the drawn state.
+
+    Args:
+        assembly: The sheet.
+        **common: As for every study, see `compute`.
+    """
+    return compute(assembly, "branches", {}, **common)
+
+
+def trace(
+    assembly: Assembly,
+    *,
+    engine: str | None = None,
+    branch: int | str | None = None,
+    max_step: float | None = None,
+    tolerance: float | None = None,
+    stop: Mapping[str, Any] | None = None,
+    **common: Any,
+) -> Result:
+    """Follows the trajectories along which the sheet folds.
+
+    Args:
+        assembly: The sheet, with locks so that its folded states are curves.
+        engine: What is solved at every step: "kinematic" (closure of the fold angles, the default), "energy" (relaxation) or "both".
+        branch: Number of the branch that is followed; left out: all.
+        max_step: Longest step in arc length of fold angles, radians.
+        tolerance: Bound on the residual.
+        stop: Conditions of which the first ends a trajectory: `arc_length`, `curvature`, `crease_angle`
+            (`{"crease": (i, j, n1, n2), "angle": a}`), `self_intersection` (bool).
+        **common: As for every study, see `compute`.
+    """
+    keys = {"engine": engine, "branch": branch, "max_step": max_step, "tolerance": tolerance, "stop": stop}
+    return compute(assembly, "trace", keys, **common)
+
+
+def surface(
+    assembly: Assembly, *, resolution: int | None = None, max_curvature: float | None = None, **common: Any
+) -> Result:
+    """Finds the surface of folded states of one cell.
+
+    Args:
+        assembly: The sheet as a screw or a torus of one cell; locks do not apply.
+        resolution: States along each direction over a whole turn of fold angles; left out: 32.
+        max_curvature: Curvature at which the surface ends, 1/length; left out: one over the square root of the cell's area.
+        **common: As for every study, see `compute`.
+    """
+    return compute(assembly, "surface", {"resolution": resolution, "max_curvature": max_curvature}, **common)
+
+
+def landscape(
+    assembly: Assembly,
+    modes: Iterable[Mode],
+    amplitudes: Sequence[float] | NDArray[Any],
+    *,
+    map: Mapping[str, Any] | None = None,
+    **common: Any,
+) -> Result:
+    """Measures the energy along folding modes.
+
+    Args:
+        assembly: The sheet and its energy.
+        modes: Curvature tensors `(k11, k22, k12)` that the modes make at unit amplitude, or arrays with the rate of the fold angle of
+            each edge of the cell, or `{"wave": (m1, m2)}` on a torus.
+        amplitudes: Amplitudes along each mode, positive.
+        map: Energies in all directions: `{"amplitude": a, "rings": n}`.
+        **common: As for every study, see `compute`.
+    """
+    with TemporaryDirectory() as folder:
+        given = [_mode(mode, assembly, Path(folder) / f"mode-{k}.csv") for k, mode in enumerate(modes)]
+        keys = {"modes": given, "amplitudes": np.asarray(amplitudes, dtype=float), "map": map}
+        return compute(assembly, "landscape", keys, **common)
+
+
+def _mode(mode: Mode, assembly: Assembly, path: Path) -> Any:
+    """Returns a mode of a scene; rates of edges are written to a file."""
+    if isinstance(mode, Mapping) or len(mode) == 3:
+        return mode
+    edges = assembly.sheet.edges
+    rates = vector(mode, "mode", len(edges))
+    folds = assembly.sheet.kinds != "boundary"
+    rows = [",".join(map(str, [*edge, repr(rate)])) for edge, rate in zip(edges[folds].tolist(), rates[folds].tolist(), strict=True)]
+    path.write_text("\n".join(["i,j,n1,n2,rate", *rows]) + "\n")
+    return {"rates": path}
+
+
+def bloch(
+    assembly: Assembly,
+    *,
+    start: Start = None,
+    grid: tuple[int, int] | None = None,
+    q1: Sequence[float] | NDArray[Any] | None = None,
+    modes: Sequence[tuple[float, float]] | None = None,
+    path: Sequence[tuple[float, float]] | None = None,
+    **common: Any,
+) -> Result:
+    """Finds the modes of nonzero wavenumber of a periodic sheet.
+
+    Args:
+        assembly: The sheet.
+        start: The state whose modes are wanted: the result of a study of one cell. Left out: as drawn.
+        grid: Wavenumbers sampled along each direction; left out: (256, 256).
+        q1: First wavenumbers at which decay rates are wanted, radians per cell; left out: 32 that divide the zone evenly.
+        modes: Modes of which the displacement is kept, each `(q1, kappa2)`.
+        path: Corners `(q1, q2)` of a path through the zone along which the bands of the energy are wanted.
+        **common: As for every study, see `compute`.
+    """
+    keys = {"grid": grid, "q1": q1, "modes": modes, "path": path}
+    return compute(assembly, "bloch", keys, start=start, **common)
+
+
+def wells(
+    assembly: Assembly,
+    *,
+    start: Start = None,
+    starts: int | None = None,
+    seed: int | None = None,
+    spread: float | None = None,
+    barriers: Sequence[tuple[int, int]] | None = None,
+    rigid: bool | None = None,
+    resolution: int | None = None,
+    max_curvature: float | None = None,
+    **common: Any,
+) -> Result:
+    """Finds stable states and the barriers between them.
+
+    Args:
+        assembly: The sheet and its energy.
+        start: The state around which random starts are crumpled, as in `relax`.
+        starts: Number of random starts; left out: 64.
+        seed: Seed of their random numbers; left out: 0.
+        spread: Largest distance of their fold angles from those of the start, radians; left out: pi.
+        barriers: Pairs of wells, numbered by rising energy from 0, between which the barrier is wanted.
+        rigid: Whether wells and passes are also sought in fold angles alone.
+        resolution: With `rigid`, states over a whole turn of fold angles; left out: 64.
+        max_curvature: With `rigid`, curvature up to which the states of a screw are sought, 1/length.
+        **common: As for every study, see `compute`.
+    """
+    keys = {"starts": starts, "seed": seed, "spread": spread, "barriers": barriers, "rigid": rigid}
+    keys |= {"resolution": resolution, "max_curvature": max_curvature}
+    return compute(assembly, "wells", keys, start=start, **common)
+
+
+def path(
+    assembly: Assembly,
+    *,
+    drive: str | None = None,
+    start: Start = None,
+    tolerance: float | None = None,
+    max_step: float | None = None,
+    switch: bool | None = None,
+    stop: Mapping[str, Any] | None = None,
+    **common: Any,
+) -> Result:
+    """Follows equilibria along a driven quantity.
+
+    Args:
+        assembly: The sheet with its energy and `drives`.
+        drive: Name of the drive; may be left out where there is one.
+        start: Where it starts: the result of a study; left out: as drawn.
+        tolerance: Bound on both scaled residuals.
+        max_step: Longest step in arc length.
+        switch: Whether branches that leave at branch points are followed too.
+        stop: Conditions of which the first ends a branch, as in `trace`.
+        **common: As for every study, see `compute`.
+    """
+    keys = {"drive": drive, "tolerance": tolerance, "max_step": max_step, "switch": switch, "stop": stop}
+    return compute(assembly, "path", keys, start=start, **common)
+
+
+def compute(
+    assembly: Assembly,
+    kind: str,
+    keys: Mapping[str, Any],
+    *,
+    start: Start = None,
+    name: str | None = None,
+    draw: Sequence[str] = ("vtk",),
+    check: Sequence[str] = (),
+    threads: int | None = None,
+    progress: Progress = None,
+    must_converge: bool = True,
+) -> Result:
+    """Computes a study of any kind, given by the keys of its table in a scene.
+
+    Args:
+        assembly: The sheet with its boundary conditions and terms.
+        kind: Kind of the study.
+        keys: Its keys; those with the value None are left out.
+        start: The state where it starts, for kinds that have one.
+        name: Name of the study; left out: its kind.
+        draw: What is kept to be drawn: "vtk" for states and maps, "svg" for a drawing, "html" for a page.
+        check: What is checked at every state: "self_intersection".
+        threads: Number of threads; left out: as many as there are processors. Numbers do not depend on it.
+        progress: True for a bar by tqdm, or a function `progress(study, step, of, residual)` that is called after every step; if it
+            returns False, the study stops.
+        must_converge: Whether a study that did not reach its answer raises `DidNotConverge`; otherwise look at `result.converged`.
+
+    Returns:
+        The result.
+
+    Raises:
+        SceneError: the study does not fit the sheet, or a key is wrong.
+        DidNotConverge: it did not reach its answer; the exception has what it reached.
+        KeyboardInterrupt: at Ctrl-C, soon after the key.
+    """
+    study = {"name": name or kind, "kind": kind, "draw": list(draw), "check": list(check), **keys}
+    earlier: list[tuple[Mapping[str, Any], _foldwell.Answer]] = []
+    if isinstance(start, Result):
+        before = {**start._study, "name": "start" if start.name == study["name"] else start.name}
+        before.pop("start", None)  # it is computed already
+        earlier.append((before, start._inner))
+        study["start"] = before["name"]
+    elif start is not None:
+        study["start"] = start
+    names = [(str(before["name"]), answer) for before, answer in earlier]
+    with listener(progress) as callback:
+        tables = [dict(before) for before, _ in earlier] + [study]
+        _, answers, _ = assembly._inner.compute(tables, names, threads, callback)
+    result = Result(answers[0], study)
+    if must_converge and not result.converged:
+        raise DidNotConverge(f"{result.name}: {result.summary.get('reason', 'no answer')}", result)
+    return result

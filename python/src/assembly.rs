@@ -1,0 +1,113 @@
+//! Assemblies: sheets with boundary conditions and terms, and the studies of them.
+
+use crate::answer::{Answer, answers};
+use crate::arrays::{Array2, rows};
+use crate::errors::raise;
+use crate::forms::Forms;
+use crate::run::Given;
+use crate::sheet::Sheet;
+use crate::values::{table, text};
+use crate::watch::watched;
+use foldwell::run::{self, RunError};
+use foldwell::scene::{build, parse};
+use foldwell::study::PreviousAnswers;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use toml::{Table, Value};
+
+/// A sheet with its boundary conditions and terms; see `foldwell.Assembly`.
+#[pyclass(frozen, module = "foldwell._foldwell", subclass)]
+pub(crate) struct Assembly {
+    pub assembly: foldwell::Assembly,
+    /// The scene of the assembly without studies.
+    scene: Table,
+    /// The path of the scene, to which paths in it are relative.
+    path: PathBuf,
+}
+
+#[pymethods]
+impl Assembly {
+    /// Builds the assembly of a scene; `sheet` replaces its mesh.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        scene: Given<'_>,
+        base: PathBuf,
+        settings: Vec<String>,
+        sheet: Option<&Bound<'_, Sheet>>,
+    ) -> PyResult<Self> {
+        let file = scene.read(py, &base, &settings)?;
+        let sheet = sheet.map(|sheet| sheet.get().sheet.clone());
+        let built = py.detach(|| match sheet {
+            Some(sheet) => build::assembly_of(&file, sheet),
+            None => build::assembly(&file),
+        });
+        let assembly = built.map_err(|error| raise(py, &error.into()))?;
+        let mut scene: Table = file.text().parse().unwrap_or_default(); // it was read above
+        scene.retain(|key, _| key != "study" && key != "sweep");
+        Ok(Self { assembly, scene, path: file.path().to_owned() })
+    }
+
+    /// Computes studies, given as the tables of a scene. `earlier` are answers from which they start, by the names of their studies,
+    /// which are among `studies` too. Returns the summary as JSON, the answers, and whether the run was interrupted.
+    fn compute(
+        &self,
+        py: Python<'_>,
+        studies: Vec<Bound<'_, PyDict>>,
+        earlier: Vec<(String, Py<Answer>)>,
+        threads: Option<usize>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, Vec<Answer>, bool)> {
+        let studies = studies.iter().map(|study| Ok(Value::Table(table(study)?))).collect::<PyResult<_>>()?;
+        let mut scene = self.scene.clone();
+        scene.insert("study".to_owned(), Value::Array(studies));
+        let file = parse(&text(&scene)?, &self.path).map_err(|error| raise(py, &error.into()))?;
+        let states = earlier.iter().filter_map(|(name, answer)| Some((name.clone(), answer.get().saved.clone()?)));
+        let earlier = PreviousAnswers { states: states.collect(), ..PreviousAnswers::default() };
+        let assembly = &self.assembly;
+        let work = |observer: run::Observer<'_>| run::compute(&file, assembly, earlier, threads, observer);
+        let computed: Result<_, RunError> = watched(py, progress, work)?;
+        answers(py, assembly, computed)
+    }
+
+    /// Returns the energy as a function of the unknowns.
+    fn forms(&self, py: Python<'_>) -> Forms {
+        py.detach(|| Forms::new(&self.assembly))
+    }
+
+    /// The sheet.
+    #[getter]
+    fn sheet(&self) -> Sheet {
+        Sheet { sheet: self.assembly.sheet().clone() }
+    }
+
+    /// The edges of the model: cell and name of each.
+    #[getter]
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, i64>> {
+        let (sheet, tiling) = (self.assembly.sheet(), self.assembly.tiling());
+        let row = |edge: &foldwell::sheet::TiledEdge| {
+            let [i, j, n1, n2] = crate::sheet::name(sheet.edges[edge.edge].key);
+            [edge.cell[0] as i64, edge.cell[1] as i64, i, j, n1, n2]
+        };
+        rows(py, tiling.edges.iter().flat_map(row).collect(), 6)
+    }
+
+    /// The kinds of the edges of the model.
+    #[getter]
+    fn kinds(&self) -> Vec<&'static str> {
+        self.assembly.tiling().edges.iter().map(|edge| crate::sheet::kind_word(edge.kind)).collect()
+    }
+
+    /// The numbers of cells of the model.
+    #[getter]
+    fn cells(&self) -> [usize; 2] {
+        self.assembly.tiling().cells
+    }
+
+    /// The scene of the assembly, without studies, as text.
+    #[getter]
+    fn scene(&self) -> PyResult<String> {
+        text(&self.scene)
+    }
+}

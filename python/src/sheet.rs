@@ -1,0 +1,118 @@
+//! Sheets: read, generated, written and looked at.
+
+use crate::arrays::{Array1, Array2, points, rows, vector};
+use crate::errors::{raise, raise_sheet};
+use crate::values::table;
+use foldwell::kinematics::drawn_fold_angles;
+use foldwell::run;
+use foldwell::sheet::{Assignment, EdgeKey, EdgeKind, Info, fold, obj};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+
+/// A sheet; see `foldwell.Sheet`.
+#[pyclass(frozen, module = "foldwell._foldwell", subclass)]
+pub(crate) struct Sheet {
+    pub sheet: foldwell::Sheet,
+}
+
+#[pymethods]
+impl Sheet {
+    /// Reads a mesh file in the format of its ending.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf, frame: Option<usize>) -> PyResult<Self> {
+        run::read_sheet(&path, frame).map(|sheet| Self { sheet }).map_err(|error| raise(py, &error))
+    }
+
+    /// Reads the text of a FOLD file, or of an OBJ file if `name` ends in `.obj`.
+    #[staticmethod]
+    fn parse(py: Python<'_>, text: &str, name: &str, frame: Option<usize>) -> PyResult<Self> {
+        let parsed = match (name.to_lowercase().ends_with(".obj"), frame) {
+            (true, _) => obj::parse(text, name),
+            (false, frame) => fold::parse_frame(text, name, frame),
+        };
+        parsed.map(|sheet| Self { sheet }).map_err(|error| raise_sheet(py, error))
+    }
+
+    /// Generates a pattern from its table.
+    #[staticmethod]
+    fn generate(py: Python<'_>, pattern: &Bound<'_, PyDict>) -> PyResult<Self> {
+        run::new_sheet(&table(pattern)?).map(|sheet| Self { sheet }).map_err(|error| raise(py, &error))
+    }
+
+    /// Writes the sheet; returns what the file does not keep.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
+        run::write_sheet(&self.sheet, &path).map_err(|error| raise(py, &error))
+    }
+
+    /// Returns the text of a FOLD file of the sheet.
+    fn to_fold(&self) -> String {
+        fold::write(&self.sheet)
+    }
+
+    /// Returns counts and measures of the sheet as JSON.
+    fn info(&self) -> String {
+        serde_json::to_string(&Info::new(&self.sheet)).unwrap_or_default()
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.sheet.title
+    }
+
+    #[getter]
+    fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, f64>> {
+        points(py, &self.sheet.vertices)
+    }
+
+    #[getter]
+    fn lattice<'py>(&self, py: Python<'py>) -> PyResult<Option<Array2<'py, f64>>> {
+        self.sheet.lattice.as_ref().map(|lattice| points(py, lattice)).transpose()
+    }
+
+    #[getter]
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, i64>> {
+        rows(py, self.sheet.edges.iter().flat_map(|edge| name(edge.key)).collect(), 4)
+    }
+
+    #[getter]
+    fn kinds(&self) -> Vec<&'static str> {
+        self.sheet.edges.iter().map(|edge| kind_word(edge.kind)).collect()
+    }
+
+    #[getter]
+    fn letters(&self) -> Vec<&'static str> {
+        self.sheet.edges.iter().map(|edge| letter_word(self.sheet.assignment(edge))).collect()
+    }
+
+    #[getter]
+    fn fold_angles<'py>(&self, py: Python<'py>) -> Array1<'py, f64> {
+        vector(py, drawn_fold_angles(&self.sheet))
+    }
+
+    /// The corners of the polygons, each as vertex and cell.
+    #[getter]
+    fn polygons(&self) -> Vec<Vec<(usize, i32, i32)>> {
+        let polygons = self.sheet.polygons.iter();
+        polygons.map(|corners| corners.iter().map(|c| (c.vertex, c.shift[0], c.shift[1])).collect()).collect()
+    }
+}
+
+/// Returns the name of an edge as numbers.
+pub(crate) fn name(key: EdgeKey) -> [i64; 4] {
+    [key.i as i64, key.j as i64, i64::from(key.shift[0]), i64::from(key.shift[1])]
+}
+
+/// Returns the word for a kind of edge.
+pub(crate) fn kind_word(kind: EdgeKind) -> &'static str {
+    match kind {
+        EdgeKind::Crease => "crease",
+        EdgeKind::Facet => "facet",
+        EdgeKind::Boundary => "boundary",
+    }
+}
+
+/// Returns the letter of an assignment in FOLD.
+pub(crate) fn letter_word(assignment: Assignment) -> &'static str {
+    assignment.letter()
+}

@@ -1,0 +1,103 @@
+//! States of a sheet as arrays.
+
+use crate::arrays::{Array1, Array2, indices, rows, view, view_of_points};
+use crate::errors::raise;
+use crate::sheet::{kind_word, letter_word};
+use foldwell::Picture;
+use foldwell::write_vtu;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+
+/// A state of a sheet; see `foldwell.State`.
+#[pyclass(frozen, module = "foldwell._foldwell", subclass)]
+pub(crate) struct State {
+    pub picture: Picture,
+}
+
+#[pymethods]
+impl State {
+    #[getter]
+    fn positions<'py>(slf: &Bound<'py, Self>) -> Array2<'py, f64> {
+        view_of_points(slf, &slf.get().picture.points)
+    }
+
+    #[getter]
+    fn displacements<'py>(slf: &Bound<'py, Self>) -> Array2<'py, f64> {
+        view_of_points(slf, &slf.get().picture.displacement)
+    }
+
+    #[getter]
+    fn places<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, i64>> {
+        let place = |(vertex, [a, b]): &(usize, [i32; 2])| [*vertex as i64, i64::from(*a), i64::from(*b)];
+        rows(py, self.picture.places.iter().flat_map(place).collect(), 3)
+    }
+
+    #[getter]
+    fn faces<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, i64>> {
+        indices(py, &self.picture.triangles)
+    }
+
+    #[getter]
+    fn self_intersecting<'py>(slf: &Bound<'py, Self>) -> Array1<'py, u8> {
+        view(slf, &slf.get().picture.self_intersecting)
+    }
+
+    #[getter]
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, i64>> {
+        indices(py, &self.picture.lines)
+    }
+
+    #[getter]
+    fn kinds(&self) -> Vec<&'static str> {
+        self.picture.line_kinds.iter().map(|kind| kind_word(*kind)).collect()
+    }
+
+    #[getter]
+    fn letters(&self) -> Vec<&'static str> {
+        self.picture.letters.iter().map(|letter| letter_word(*letter)).collect()
+    }
+
+    #[getter]
+    fn cell_edges<'py>(slf: &Bound<'py, Self>) -> Array1<'py, i32> {
+        view(slf, &slf.get().picture.line_edges)
+    }
+
+    #[getter]
+    fn fold_angles<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
+        view(slf, &slf.get().picture.fold_angle)
+    }
+
+    #[getter]
+    fn rest_angles<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
+        view(slf, &slf.get().picture.rest_angle)
+    }
+
+    #[getter]
+    fn strains<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
+        view(slf, &slf.get().picture.strain)
+    }
+
+    #[getter]
+    fn energies<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
+        view(slf, &slf.get().picture.energy)
+    }
+
+    #[getter]
+    fn tensions<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
+        view(slf, &slf.get().picture.tension)
+    }
+
+    #[getter]
+    fn torques<'py>(slf: &Bound<'py, Self>) -> Array1<'py, f64> {
+        view(slf, &slf.get().picture.torque)
+    }
+
+    /// Returns the addresses of the positions and the fold angles in the memory of the library.
+    fn addresses(&self) -> [usize; 2] {
+        [self.picture.points.as_ptr().addr(), self.picture.fold_angle.as_ptr().addr()]
+    }
+
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        write_vtu(&path, &self.picture).map_err(|error| raise(py, &error.into()))
+    }
+}

@@ -1,0 +1,132 @@
+//! Runs that write no file: the answers of the studies of a scene stay in memory.
+
+use super::RunError;
+use super::runner::summary_of;
+use crate::analysis::shown_cells::ShownCells;
+use crate::model::Assembly;
+use crate::numerics::parallel::Threads;
+use crate::output::OutputError;
+use crate::output::summary::Summary;
+use crate::output::table::Table;
+use crate::scene::SceneFile;
+use crate::scene::spec::StudySpec;
+use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// The answers of the studies of a scene.
+#[derive(Debug)]
+pub struct Computed {
+    /// What `summary.json` would contain, without a digest of the input.
+    pub summary: Summary,
+    /// The answers of the studies that were computed, in the order of the scene.
+    pub answers: Vec<Answer>,
+    /// Whether the observer stopped the run; studies after that are missing.
+    pub interrupted: bool,
+}
+
+/// Computes the studies of a scene on an assembly of its sheet and writes nothing.
+///
+/// The assembly is that of the scene ([`scene::build::assembly`](crate::scene::build::assembly)), or one of the same
+/// sheet, boundary conditions, locks, parts and drives with other stiffnesses and rest values. Studies whose final state
+/// is in `earlier` are not computed: others start from these states.
+///
+/// ```
+/// use foldwell::{run, scene};
+/// use std::ops::ControlFlow;
+///
+/// let text = r#"
+///     sheet = { generate = { pattern = "miura" }, cells = [2, 2] }
+///     energy = { bars = { stiffness = inf }, creases = { stiffness = 1.0, rest = "flat" } }
+///     study = [{ name = "relaxed", kind = "relax" }]
+/// "#;
+/// let file = scene::parse(text, "miura.toml")?;
+/// let assembly = scene::build::assembly(&file)?;
+/// let computed = run::compute(&file, &assembly, Default::default(), Some(1), &|_| ControlFlow::Continue(()))?;
+/// assert!(computed.answers[0].summary.converged);
+/// # Ok::<(), foldwell::run::RunError>(())
+/// ```
+///
+/// # Errors
+/// [`RunError`] if a study does not fit the sheet; nothing was computed then.
+pub fn compute(
+    file: &SceneFile,
+    assembly: &Assembly,
+    earlier: PreviousAnswers,
+    threads: Option<usize>,
+    observer: Observer,
+) -> Result<Computed, RunError> {
+    let work = || {
+        let mut run = InMemory {
+            file,
+            assembly,
+            view: ShownCells::new(assembly),
+            earlier,
+            observer,
+            interrupted: AtomicBool::new(false),
+        };
+        let wanted: Vec<&StudySpec> =
+            file.scene.studies.iter().filter(|study| !run.earlier.states.contains_key(&study.name.0)).collect();
+        wanted.iter().try_for_each(|study| study::check(&run.context(study)))?;
+        let mut answers = Vec::new();
+        for study in wanted {
+            if !run.interrupted.load(Ordering::Relaxed) {
+                answers.push(run.answer(study)?);
+            }
+        }
+        let mut summary = summary_of(file, assembly, String::new());
+        summary.studies = answers.iter().map(|answer| answer.summary.clone()).collect();
+        Ok(Computed { summary, answers, interrupted: run.interrupted.into_inner() })
+    };
+    Threads::new(threads).install(work)
+}
+
+struct InMemory<'a> {
+    file: &'a SceneFile,
+    assembly: &'a Assembly,
+    view: ShownCells,
+    earlier: PreviousAnswers,
+    observer: Observer<'a>,
+    interrupted: AtomicBool,
+}
+
+impl InMemory<'_> {
+    fn answer(&mut self, study: &StudySpec) -> Result<Answer, RunError> {
+        let clock = Instant::now();
+        let mut answer = study::compute(&self.context(study))?;
+        answer.summary.seconds = clock.elapsed().as_secs_f64();
+        if self.interrupted.load(Ordering::Relaxed) && !answer.summary.converged {
+            answer.summary.reason = Some(super::ledger::INTERRUPTED.to_owned());
+        }
+        let name = &answer.summary.name;
+        self.earlier.paths.insert(name.clone(), answer.paths.clone());
+        self.earlier.states.extend(answer.state.clone().map(|state| (name.clone(), state)));
+        Ok(answer)
+    }
+
+    fn context<'b>(&'b self, study: &'b StudySpec) -> Context<'b> {
+        let Self { file, assembly, view, earlier, observer, interrupted } = self;
+        Context { file, assembly, view, study, earlier, checkpoints: &NotKept, observer: *observer, interrupted }
+    }
+}
+
+/// Checkpoints of a run that cannot be resumed.
+struct NotKept;
+
+impl Checkpoints for NotKept {
+    fn rows(&self, _file: &str, _columns: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
+        Ok(Vec::new())
+    }
+
+    fn keep(&self, _file: &str, _table: &Table) -> Result<(), OutputError> {
+        Ok(())
+    }
+
+    fn log(&self, _file: &str) -> Result<Vec<String>, OutputError> {
+        Ok(Vec::new())
+    }
+
+    fn log_line(&self, _file: &str, _line: &str) -> Result<(), OutputError> {
+        Ok(())
+    }
+}
