@@ -26,7 +26,7 @@ def draw_state(state: State, ax: Axes | None, paper: str) -> Axes:
 
     axes: Any = plt.figure().add_subplot(projection="3d") if ax is None else ax
     points, angles = state.positions, np.nan_to_num(state.fold_angles)
-    axes.add_collection3d(Poly3DCollection(points[state.faces], facecolors=paper, edgecolors="none", shade=True))
+    axes.add_collection3d(Poly3DCollection(points[state.faces], facecolors=paper, edgecolors=paper, linewidths=0, shade=True))
     colours = np.where(angles > FOLDED, VALLEY, np.where(angles < -FOLDED, MOUNTAIN, OTHER))
     shown = state.kinds != "facet"
     axes.add_collection3d(Line3DCollection(points[state.edges[shown]], colors=colours[shown], linewidths=1.2))
@@ -35,7 +35,8 @@ def draw_state(state: State, ax: Axes | None, paper: str) -> Axes:
     axes.set(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), zlim=(low[2], low[2] + size[2]))
     axes.set_box_aspect(size)
     axes.set_axis_off()
-    return axes
+    drawn: Axes = axes
+    return drawn
 
 
 #: For each kind with curves: columns of the abscissa and the ordinate, and the column that tells curves apart.
@@ -63,4 +64,5 @@ def draw_result(result: Result, ax: Axes | None) -> Axes:
     axes.set(xlabel=along.replace("_", " "), ylabel=value, title=result.name)
     if len(np.unique(curves)) > 1:
         axes.legend()
-    return axes
+    drawn: Axes = axes
+    return drawn
