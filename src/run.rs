@@ -92,12 +92,18 @@ pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
 
 /// Builds the model of a scene that has something to compute.
 fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
+    has_studies(file)?;
+    Ok(crate::scene::build::assembly(file)?)
+}
+
+/// Checks that a scene has something to compute.
+fn has_studies(file: &SceneFile) -> Result<(), RunError> {
     if file.scene.studies.is_empty() {
         let help =
             "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
         return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
     }
-    Ok(crate::scene::build::assembly(file)?)
+    Ok(())
 }
 
 /// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it as a FOLD file.

@@ -265,6 +265,8 @@ class _Tables:
         """Returns a value of a scene: an array as a table in a file, everything else as it is."""
         if not isinstance(given, np.ndarray) or given.ndim == 0:
             return given
+        if given.dtype.kind not in "fiu":
+            raise TypeError(f"{name} has numbers of type {given.dtype}, expected real numbers")
         of_cell = given.shape == self._sheet.kinds.shape
         edges = self._sheet.edges if of_cell else self._bare.edges
         kinds = self._sheet.kinds if of_cell else np.array(self._bare.kinds)

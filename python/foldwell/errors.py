@@ -24,11 +24,14 @@ class FoldwellError(Exception):
     def __init__(
         self, message: str, help: str | None = None, file: str | None = None, line: int | None = None
     ) -> None:
-        super().__init__(message, help, file, line)
+        super().__init__(message)
         self.message = message
         self.help = help
         self.file = file
         self.line = line
+
+    def __reduce__(self) -> tuple[type[FoldwellError], tuple[str | int | None, ...]]:
+        return (type(self), (self.message, self.help, self.file, self.line))
 
     def __str__(self) -> str:
         return f"{self.message}\n  help: {self.help}" if self.help else self.message
@@ -57,7 +60,7 @@ class DidNotConverge(FoldwellError):
         super().__init__(message)
         self.result = result
 
-    def __reduce__(self) -> tuple[type[FoldwellError], tuple[str]]:
+    def __reduce__(self) -> tuple[type[FoldwellError], tuple[str | int | None, ...]]:
         return (FoldwellError, (self.message,))  # a result cannot go to another process
 
     @property

@@ -33,7 +33,7 @@ def draw_state(state: State, ax: Axes | None, paper: str) -> Axes:
     low, high = points.min(axis=0), points.max(axis=0)
     size = np.maximum(high - low, 1e-3 * max(float((high - low).max()), 1e-300))
     axes.set(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), zlim=(low[2], low[2] + size[2]))
-    axes.set_box_aspect(size)
+    axes.set_box_aspect(size, zoom=1.4)
     axes.set_axis_off()
     drawn: Axes = axes
     return drawn
@@ -41,9 +41,9 @@ def draw_state(state: State, ax: Axes | None, paper: str) -> Axes:
 
 #: For each kind with curves: columns of the abscissa and the ordinate, and the column that tells curves apart.
 CURVES = {
-    "path": ("value", "energy", "branch"),
+    "path": ("drive", "reaction", "branch"),
     "trace": ("arc_length", "curvature", "branch"),
-    "landscape": ("amplitude", "energy", "mode"),
+    "landscape": ("amplitude", "energy_total", "mode"),
 }
 
 
@@ -61,7 +61,7 @@ def draw_result(result: Result, ax: Axes | None) -> Axes:
     for curve in np.unique(curves):
         here = curves == curve
         axes.plot(table[along][here], table[value][here], marker=".", label=f"{apart} {curve}")
-    axes.set(xlabel=along.replace("_", " "), ylabel=value, title=result.name)
+    axes.set(xlabel=along.replace("_", " "), ylabel=value.replace("_", " "), title=result.name)
     if len(np.unique(curves)) > 1:
         axes.legend()
     drawn: Axes = axes

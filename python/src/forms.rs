@@ -127,6 +127,7 @@ impl Forms {
         let x = self.unknowns(&x)?;
         let tension = self.linearized(x).1;
         let state = foldwell::analysis::state::State::new(&self.model, x, &tension);
+        let state = state.with_angles(self.assembly.fold_angles_at(&self.model.coordinates(x)));
         Ok(State { picture: Picture::new(&self.assembly, &state) })
     }
 

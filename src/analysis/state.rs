@@ -71,7 +71,7 @@ impl State {
     }
 
     /// Returns the state with these fold angles of the edges that are not hinges of its model.
-    pub(crate) fn with_angles(mut self, angles: Vec<f64>) -> Self {
+    pub fn with_angles(mut self, angles: Vec<f64>) -> Self {
         let unknown = self.fold_angle.iter_mut().zip(angles).filter(|(known, _)| known.is_nan());
         unknown.for_each(|(known, angle)| *known = angle);
         self

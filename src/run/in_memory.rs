@@ -48,7 +48,7 @@ pub struct Computed {
 /// ```
 ///
 /// # Errors
-/// [`RunError`] if a study does not fit the sheet; nothing was computed then.
+/// [`RunError`] if there is no study, or one does not fit the sheet; nothing was computed then.
 pub fn compute(
     file: &SceneFile,
     assembly: &Assembly,
@@ -56,6 +56,7 @@ pub fn compute(
     threads: Option<usize>,
     observer: Observer,
 ) -> Result<Computed, RunError> {
+    super::has_studies(file)?;
     let work = || {
         let mut run = InMemory {
             file,

@@ -1,0 +1,92 @@
+"""Sheets from files, arrays and patterns."""
+
+import io
+import warnings
+
+import foldwell as fw
+import numpy as np
+import pytest
+from conftest import ROOT
+
+SQUARE = ([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2], [0, 2, 3]])
+
+
+def test_every_pattern_is_generated_and_described():
+    for pattern in fw.patterns():
+        sheet = fw.generate(pattern)
+        assert len(sheet.edges) == len(sheet.kinds) == len(sheet.letters) == len(sheet.fold_angles)
+        assert "[default: " in fw.pattern_help(pattern)
+
+
+def test_arrays_make_the_sheet_that_they_draw():
+    sheet = fw.Sheet.from_arrays(*SQUARE, edges=[[0, 2]], letters=["V"], fold_angles=[1.0], title="square")
+    assert sheet.title == "square" and sheet.lattice is None
+    assert sheet.vertices.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    diagonal = int(np.flatnonzero(sheet.kinds == "crease")[0])
+    assert sheet.edges[diagonal].tolist() == [0, 2, 0, 0] and sheet.letters[diagonal] == "V"
+    assert (sheet.kinds == "boundary").sum() == 4
+    # the fold angle differs from the drawn one, 0: it is a target
+    folded = fw.relax(fw.Assembly.patch(sheet, bars=fw.RIGID, creases=1.0, rest="target"))
+    assert folded.state.fold_angles[diagonal] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_periodic_sheet_of_arrays_is_that_of_the_generator(miura):
+    fold = miura.to_fold()
+    again = fw.Sheet.from_arrays(fold["vertices_coords"], fold["faces_vertices"], lattice=fold["foldwell:lattice"])
+    assert np.array_equal(again.vertices, miura.vertices) and np.array_equal(again.edges, miura.edges)
+    assert np.array_equal(again.lattice, miura.lattice)
+
+
+def test_files_are_read_and_written(tmp_path, miura):
+    miura.save(tmp_path / "a.fold")
+    again = fw.Sheet.read(tmp_path / "a.fold")
+    assert np.array_equal(again.vertices, miura.vertices)
+    with open(tmp_path / "a.fold") as file:
+        assert np.array_equal(fw.Sheet.read(file).vertices, miura.vertices)
+    with pytest.warns(UserWarning, match="STL"):
+        miura.save(tmp_path / "a.stl")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        fw.convert(tmp_path / "a.fold", tmp_path / "b.vtu")
+    assert (tmp_path / "b.vtu").stat().st_size > 0
+
+
+def test_info_is_that_of_the_program(miura):
+    assert miura.info["vertices"] == len(miura.vertices)
+
+
+def test_mistakes_are_named(tmp_path):
+    with pytest.raises(fw.SheetError, match=r"no-such\.fold"):
+        fw.Sheet.read("no-such.fold")
+    with pytest.raises(fw.SceneError, match="there is no pattern `miurra`"):
+        fw.generate("miurra")
+    with pytest.raises(fw.SceneError, match="unknown"):
+        fw.generate("miura", no_such_parameter=3)
+    with pytest.raises(ValueError, match="closed"):
+        file = open(ROOT / "meshes/miura.fold")
+        file.close()
+        fw.Sheet.read(file)
+    with pytest.raises(fw.SheetError, match="<text>"):
+        fw.Sheet.read(io.StringIO("{"))
+    (tmp_path / "a.txt").write_text("")
+    with pytest.raises(fw.SceneError, match=r"\.fold, \.obj"):
+        fw.Sheet.read(tmp_path / "a.txt")
+
+
+@pytest.mark.parametrize(
+    ("vertices", "faces", "error", "words"),
+    [
+        ([[0, 0], [1, 0], [np.nan, 1]], [[0, 1, 2]], ValueError, r"vertices\[2\] is not finite"),
+        ([[0, 0], [1, 0], [np.inf, 1]], [[0, 1, 2]], ValueError, r"vertices\[2\] is not finite"),
+        ([0.0, 1.0, 2.0], [[0, 1, 2]], ValueError, r"vertices has shape \(3,\), expected"),
+        ([[0, 0, 0, 0]], [[0, 0, 0]], ValueError, r"shape \(1, 4\)"),
+        ([["a", "b"]], [[0, 0, 0]], TypeError, "expected real numbers"),
+        (np.zeros((3, 2), dtype=complex), [[0, 1, 2]], TypeError, "complex128"),
+        ([[0, 0], [1, 0], [1, 1]], [[0, 1, 7]], fw.SheetError, "7"),
+        ([[0, 0], [1, 0], [1, 1]], [[0, 1, 1]], fw.SheetError, "face"),
+        ([[0, 0], [1, 0], [1, 1]], [], fw.SheetError, "face"),
+    ],
+)
+def test_wrong_arrays_are_refused(vertices, faces, error, words):
+    with pytest.raises(error, match=words):
+        fw.Sheet.from_arrays(vertices, faces)
