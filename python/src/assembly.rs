@@ -65,10 +65,10 @@ impl Assembly {
         let file = parse(&text(&scene)?, &self.path).map_err(|error| raise(py, &error.into()))?;
         let states = earlier.iter().filter_map(|(name, answer)| Some((name.clone(), answer.get().saved.clone()?)));
         let earlier = PreviousAnswers { states: states.collect(), ..PreviousAnswers::default() };
-        let assembly = &self.assembly;
-        let work = |observer: run::Observer<'_>| run::compute(&file, assembly, earlier, threads, observer);
+        let assembly = self.assembly.clone();
+        let work = move |observer: run::Observer<'_>| run::compute(&file, &assembly, earlier, threads, observer);
         let computed: Result<_, RunError> = watched(py, progress, work)?;
-        answers(py, assembly, computed)
+        answers(py, &self.assembly, computed)
     }
 
     /// Returns the energy as a function of the unknowns.

@@ -53,11 +53,17 @@ pub(crate) fn run_scene(
     let file = scene.read(py, &base, &settings)?;
     if let Some(out) = out {
         let options = RunOptions { out: Some(out), threads, resume };
-        let work = |observer: run::Observer<'_>| run::run(&file, &options, observer, &Ledger::default());
-        let report = watched(py, progress, work)?.map_err(|error| raise(py, &error))?;
+        let ledger = Ledger::default();
+        let record = ledger.clone();
+        let work = move |observer: run::Observer<'_>| run::run(&file, &options, observer, &record);
+        let ended = watched(py, progress, work);
+        if ended.is_err() {
+            ledger.close().map_err(|error| raise(py, &error))?; // at Ctrl-C: what is finished is recorded
+        }
+        let report = ended?.map_err(|error| raise(py, &error))?;
         return Ok((serde_json::to_string(&report.summary).unwrap_or_default(), vec![], report.interrupted));
     }
-    let work = |observer: run::Observer<'_>| {
+    let work = move |observer: run::Observer<'_>| {
         let assembly = build::assembly(&file)?;
         let computed = run::compute(&file, &assembly, Default::default(), threads, observer);
         Ok((assembly, computed))

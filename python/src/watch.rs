@@ -3,72 +3,93 @@
 
 use crate::errors::bug;
 use foldwell::run::{Observer, Progress};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::{Duration, Instant};
 
 /// Time between two looks at signals.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// Longest time that the end of the interpreter waits for work to stop.
-const FAREWELL: Duration = Duration::from_secs(20);
+/// Longest time that the end of the interpreter waits for threads of Python.
+const FAREWELL: Duration = Duration::from_secs(5);
 
 /// Whether the interpreter is about to end.
 static ENDING: AtomicBool = AtomicBool::new(false);
-/// Number of pieces of work that are going on.
+/// Number of threads of Python that wait for work.
 static AT_WORK: AtomicUsize = AtomicUsize::new(0);
 
+/// What a thread that works says.
+enum News<R> {
+    Progress(Progress),
+    /// It has ended, with its result or the words of a panic.
+    Done(Result<R, String>),
+}
+
 /// Does some work on a thread of its own while the calling thread, which lets other Python threads run, calls
-/// `progress(study, step, of, residual)` after every step. The work is stopped if the callback returns `False` or raises
-/// an exception, or at Ctrl-C; exceptions are raised here.
-pub(crate) fn watched<R: Send>(
+/// `progress(study, step, of, residual)` after every step. If the callback returns `False`, the work stops after its step
+/// and its result is returned. At Ctrl-C, at an exception in the callback and when the interpreter ends, the exception is
+/// raised at once; the thread, which never touches Python, ends after its step by itself.
+pub(crate) fn watched<R: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(Observer<'_>) -> R + Send,
+    work: impl FnOnce(Observer<'_>) -> R + Send + 'static,
 ) -> PyResult<R> {
     let callback = progress.map(|callback| callback.clone().unbind());
-    let listens = callback.is_some();
-    let stop = AtomicBool::new(false);
-    let (sender, receiver) = mpsc::channel::<Progress>();
+    let stop = Arc::new(AtomicBool::new(false));
+    let receiver = spawned(work, callback.is_some(), stop.clone());
     AT_WORK.fetch_add(1, Ordering::SeqCst);
-    let stop = &stop;
-    let (done, heard) = py.detach(move || {
-        thread::scope(|scope| {
-            let worker = scope.spawn(move || {
-                let observer = |progress: &Progress| {
-                    if listens {
-                        let _ = sender.send(progress.clone()); // the receiver lives longer
-                    }
-                    let stopped = stop.load(Ordering::Relaxed) || ENDING.load(Ordering::Relaxed);
-                    if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-                };
-                let done = work(&observer);
-                drop(sender);
-                done
-            });
-            let mut heard = Ok(());
-            loop {
-                let said = match receiver.recv_timeout(PATIENCE) {
-                    Ok(progress) => Python::attach(|py| tell(py, callback.as_ref(), &progress)),
-                    Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals().map(|()| true)),
-                    Err(RecvTimeoutError::Disconnected) => break,
-                };
-                if heard.is_ok() && !matches!(said, Ok(true)) {
-                    stop.store(true, Ordering::Relaxed);
-                    heard = said.map(|_| ());
-                }
-            }
-            (worker.join(), heard)
-        })
-    });
+    let waited = py.detach(move || wait(&receiver, callback.as_ref(), &stop));
     AT_WORK.fetch_sub(1, Ordering::SeqCst);
-    heard?;
-    done.map_err(|panic| {
-        let words = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        bug(py, format!("an error of foldwell itself, please report it: {}", words.unwrap_or("no words")))
-    })
+    waited?.map_err(|words| bug(py, format!("an error of foldwell itself, please report it: {words}")))
+}
+
+/// Starts the work, which sends its progress if someone listens, and its end.
+fn spawned<R: Send + 'static>(
+    work: impl FnOnce(Observer<'_>) -> R + Send + 'static,
+    listens: bool,
+    stop: Arc<AtomicBool>,
+) -> Receiver<News<R>> {
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || {
+        let observer = |progress: &Progress| {
+            if listens {
+                let _ = sender.send(News::Progress(progress.clone())); // nobody hears it after Ctrl-C
+            }
+            if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let done = catch_unwind(AssertUnwindSafe(|| work(&observer))).map_err(|panic| {
+            let words = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+            words.unwrap_or("no words").to_owned()
+        });
+        let _ = sender.send(News::Done(done));
+    });
+    receiver
+}
+
+/// Waits for the end of the work, or for a reason not to wait for it.
+fn wait<R>(
+    receiver: &Receiver<News<R>>,
+    callback: Option<&Py<PyAny>>,
+    stop: &AtomicBool,
+) -> PyResult<Result<R, String>> {
+    loop {
+        let heard = match receiver.recv_timeout(PATIENCE) {
+            Ok(News::Done(done)) => return Ok(done),
+            Ok(News::Progress(progress)) => Python::attach(|py| tell(py, callback, &progress)),
+            Err(_) => Python::attach(|py| py.check_signals().map(|()| true)),
+        };
+        let ending = ENDING.load(Ordering::Relaxed).then(|| PyKeyboardInterrupt::new_err("the interpreter ends"));
+        if !matches!(heard, Ok(true)) || ending.is_some() {
+            stop.store(true, Ordering::Relaxed);
+            heard?;
+            ending.map_or(Ok(()), Err)?;
+        }
+    }
 }
 
 /// Calls the callback; returns whether to go on.
@@ -80,7 +101,7 @@ fn tell(py: Python<'_>, callback: Option<&Py<PyAny>>, progress: &Progress) -> Py
     Ok(said.is_none() || said.is_truthy()?)
 }
 
-/// Stops all work and waits for it; the package calls this when the interpreter ends.
+/// Ends the waiting for work; the package calls this when the interpreter ends.
 #[pyfunction]
 pub(crate) fn stop_all(py: Python<'_>) {
     ENDING.store(true, Ordering::SeqCst);
