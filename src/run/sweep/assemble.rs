@@ -80,8 +80,13 @@ fn table(sweep: &Sweep, rows: &[Row]) -> String {
 fn columns(sweep: &Sweep, rows: &[Row]) -> Vec<String> {
     let studies = sweep.file().scene.studies.iter();
     let order: BTreeMap<&str, usize> = studies.enumerate().map(|(k, study)| (study.name.0.as_str(), k)).collect();
-    let found: BTreeSet<&String> = rows.iter().flat_map(|row| row.scalars.keys()).collect();
-    let mut columns: Vec<String> = found.into_iter().cloned().collect();
+    let found: BTreeSet<String> = rows.iter().flat_map(|row| row.scalars.keys().cloned()).collect();
+    // a result that is a table at some points and null at others has the columns of the table
+    let is_table = |column: &str| {
+        let inside = format!("{column}.");
+        found.iter().any(|other| other.starts_with(&inside))
+    };
+    let mut columns: Vec<String> = found.iter().filter(|column| !is_table(column)).cloned().collect();
     columns.sort_by_key(|column| {
         column.split('.').next().and_then(|name| order.get(name).copied()).unwrap_or(order.len())
     });

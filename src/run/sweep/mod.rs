@@ -10,6 +10,8 @@ mod record;
 mod scalars;
 mod shard;
 
+use std::collections::BTreeSet;
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -68,6 +70,7 @@ pub fn sweep(
     files::remove_drafts(&out);
     let kept = if options.resume { record::finished(&sweep, &out, &own) } else { Vec::new() };
     let rest: Vec<usize> = own.iter().copied().filter(|index| kept.binary_search(index).is_err()).collect();
+    remove_leftovers(&sweep, &out)?;
     assemble(&sweep, &out)?;
     let (done, pool) = (AtomicUsize::new(kept.len()), Pool::new(options.threads, rest.len()));
     let of_run = RunOptions { out: Some(out.clone()), threads: Some(pool.threads_of_point()), ..*options };
@@ -170,12 +173,26 @@ fn point_folder(out: &Path, index: usize) -> PathBuf {
     out.join(POINTS).join(format!("{index:04}"))
 }
 
+/// Removes the files of points that an earlier, longer sweep wrote and this one does not have.
+fn remove_leftovers(sweep: &Sweep, out: &Path) -> Result<(), RunError> {
+    let base = sweep.base()?;
+    for entry in fs::read_dir(out.join(POINTS)).into_iter().flatten().flatten() {
+        let number = entry.file_name().to_str().and_then(|name| name.parse::<usize>().ok());
+        if number.is_some_and(|number| number >= sweep.len() && point_folder(out, number) == entry.path()) {
+            clear(&base, &entry.path())?;
+            record::forget_failure(&entry.path())?;
+            // fails, as intended, if the folder is not empty
+            let _ = fs::remove_dir(entry.path());
+        }
+    }
+    Ok(())
+}
+
 /// Removes the files that an earlier run wrote into the folder of a point.
 fn clear(scene: &SceneFile, folder: &Path) -> Result<(), RunError> {
     let belongings = Belongings::new(scene, folder);
     for study in &scene.scene.studies {
-        belongings.remove_others(&study.name.0, &Default::default())?;
+        belongings.remove_others(&study.name.0, &BTreeSet::new())?;
     }
-    record::remove(&folder.join(record::SUMMARY))?;
-    Ok(())
+    Ok(record::remove(&folder.join(record::SUMMARY))?)
 }

@@ -1,6 +1,7 @@
 //! `[sweep]`: keys of the scene that take several values.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -92,20 +93,22 @@ impl SweepRange {
 
 /// The table forms of [`SweepValues`].
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 struct AxisTable {
     linear: Option<Exactly<f64, 3>>,
     log: Option<Exactly<f64, 3>>,
     seeds: Option<Exactly<i64, 2>>,
     file: Option<PathBuf>,
+    /// Keys that no form has: those of the scene, where quotes were forgotten.
+    #[serde(flatten)]
+    others: BTreeMap<String, IgnoredAny>,
 }
 
 read_as_written!(SweepValues);
 
 impl Written for SweepValues {
     const FORMS: &str = "a list of values, { linear = [from, to, count] }, { log = [from, to, count] } or \
-                         { seeds = [from, count] }; a key is written in quotes, as in \"energy.bars.stiffness\" = [1e2, 1e4]; \
-                         points = \"points.csv\" is a table of points";
+                         { seeds = [from, count] }, for a key in quotes, as in \"energy.bars.stiffness\" = [1e2, 1e4]; or a table, \
+                         points = \"points.csv\"";
 
     fn from_word<E: Error>(word: &str) -> Result<Self, E> {
         Ok(Self::File(word.into()))
@@ -120,26 +123,30 @@ impl Written for SweepValues {
     }
 
     fn from_table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
-        let wrong = |why: String| A::Error::custom(why);
-        match AxisTable::deserialize(MapAccessDeserializer::new(map))? {
-            AxisTable { linear: Some(range), log: None, seeds: None, file: None } => {
-                SweepRange::new(range.0).map(Self::Linear).map_err(wrong)
-            }
-            AxisTable { linear: None, log: Some(range), seeds: None, file: None } => {
-                SweepRange::of_logarithms(range.0).map(Self::Log).map_err(wrong)
-            }
-            AxisTable { linear: None, log: None, seeds: Some(Exactly([from, count])), file: None } => {
-                let most = i64::MAX - from.max(0);
-                let counted = usize::try_from(count).ok().filter(|_| from >= 0 && (1..=most).contains(&count));
-                let message = || {
-                    format!(
-                        "the seeds are {count} numbers from {from}, expected [from, count] with from >= 0 and count >= 1"
-                    )
-                };
-                Ok(Self::Seeds { from, count: counted.ok_or_else(|| wrong(message()))? })
-            }
-            AxisTable { linear: None, log: None, seeds: None, file: Some(file) } => Ok(Self::File(file)),
-            _ => Err(wrong(format!("the table has no form of an axis, or several, expected {}", Self::FORMS))),
+        let AxisTable { linear, log, seeds, file, others } = AxisTable::deserialize(MapAccessDeserializer::new(map))?;
+        let found = match (linear, log, seeds, file) {
+            (Some(Exactly(range)), None, None, None) => SweepRange::new(range).map(Self::Linear),
+            (None, Some(Exactly(range)), None, None) => SweepRange::of_logarithms(range).map(Self::Log),
+            (None, None, Some(Exactly(seeds)), None) => Self::seeds(seeds),
+            (None, None, None, Some(file)) => Ok(Self::File(file)),
+            _ => Err(format!("the axis has no values, or values in several forms, expected {}", Self::FORMS)),
+        };
+        let found = match others.keys().next() {
+            Some(key) => Err(format!("`{key}` is no form of values, expected {}", Self::FORMS)),
+            None => found,
+        };
+        found.map_err(A::Error::custom)
+    }
+}
+
+impl SweepValues {
+    fn seeds([from, count]: [i64; 2]) -> Result<Self, String> {
+        let most = i64::MAX - from.max(0);
+        match usize::try_from(count).ok().filter(|_| from >= 0 && (1..=most).contains(&count)) {
+            Some(count) => Ok(Self::Seeds { from, count }),
+            None => Err(format!(
+                "there are {count} seeds from {from}, expected [from, count] with a first seed of 0 or more and a count of 1 or more"
+            )),
         }
     }
 }
