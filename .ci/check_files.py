@@ -26,6 +26,8 @@ import pyvista
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
+import published
+
 TRIANGLE, LINE = 5, 3
 ON_LINES = ["fold_angle", "rest_angle", "strain", "energy", "tension", "torque"]
 PLACES = ["vertex", "cell1", "cell2"]
@@ -478,7 +480,7 @@ def main():
     parser.add_argument("--render", metavar="PICTURE")
     arguments = parser.parse_args()
     checks = Checks()
-    lasts = [check_run(checks, out) for out in arguments.out]
+    lasts = [check_run(checks, Path(run)) for out in arguments.out for run in published.runs_in(out)]
     if arguments.render and checks.that(lasts[-1], "there is a state to render"):
         render(lasts[-1], arguments.render)
     print(f"{checks.passed} passed, {checks.failed} failed")

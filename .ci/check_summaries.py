@@ -12,7 +12,7 @@ import sys
 import published
 
 # keys that are there only where there is something to say
-MAY_BE_ABSENT = {"reason", "files", "map", "wave", "error_of_curvature", "error_of_strain", "error_of_theta"}
+MAY_BE_ABSENT = {"settings", "reason", "files", "map", "wave", "error_of_curvature", "error_of_strain", "error_of_theta"}
 
 
 def tables(value, path=()):
@@ -66,6 +66,12 @@ def main():
     schema_path, *runs = sys.argv[1:]
     schema, check = published.schema(schema_path)
     found, tried, kinds = [], 0, set()
+    _, check_sweep = published.schema(os.path.join(os.path.dirname(schema_path), "sweep.json"))
+    for run in runs:
+        if os.path.exists(sweep := os.path.join(run, "sweep.json")):
+            with open(sweep) as file:
+                found += [f"{sweep}: {error.json_path}: {error.message[:300]}" for error in check_sweep.iter_errors(json.load(file))]
+    runs = [folder for run in runs for folder in published.runs_in(run)]
     for run in runs:
         with open(os.path.join(run, "summary.json")) as file:
             summary = json.load(file)

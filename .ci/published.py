@@ -1,5 +1,6 @@
 """Published JSON schemas. Needs: jsonschema."""
 import json
+import pathlib
 
 import jsonschema
 
@@ -11,3 +12,9 @@ def schema(path):
     validator = jsonschema.validators.validator_for(schema)
     validator.check_schema(schema)
     return schema, validator(schema)
+
+
+def runs_in(folder):
+    """The folders of the runs in a folder: those of the points of a sweep, or the folder itself."""
+    folder = pathlib.Path(folder)
+    return sorted(folder.glob("points/*")) if (folder / "sweep.json").exists() else [folder]

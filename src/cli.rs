@@ -8,6 +8,8 @@
 //! | 3 | reading or writing an existing file or folder failed |
 //! | 130 | stopped by Ctrl-C; finished studies are written |
 
+mod runs;
+
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -19,15 +21,15 @@ use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
 use foldwell::output::summary::to_json;
-use foldwell::run::{self, FilmOptions, Ledger, Listed, RunError, RunOptions, RunReport, Wanted};
-use foldwell::scene::{SceneFile, Setting};
+use foldwell::run::{self, FilmOptions, Listed, RunError, RunOptions, Shard, Wanted};
+use foldwell::scene::Setting;
 use foldwell::sheet::pattern::Cleanup;
 use miette::{Diagnostic, GraphicalReportHandler};
 
-use crate::describe::describe_run;
 use crate::parameters::{self, ParameterError};
 use crate::progress::Watch;
 use crate::scenes::{self, ScenesError};
+use runs::{Told, run_scenes, status_of};
 
 const FAILED: u8 = 1;
 const WRONG_INPUT: u8 = 2;
@@ -58,9 +60,12 @@ enum Command {
         /// Number of threads [default: as many as the machine has]
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
         threads: Option<u16>,
-        /// Keep the studies that an interrupted run finished
+        /// Keep the studies that an interrupted run finished, of a sweep the points
         #[arg(long)]
         resume: bool,
+        /// Compute part I of N of the points of a sweep: every Nth from the Ith
+        #[arg(long, value_name = "I/N")]
+        shard: Option<Shard>,
         /// Frame of the scene's FOLD file [default: that of the scene, or the first with a mesh]
         #[arg(long, value_name = "N")]
         frame: Option<usize>,
@@ -156,7 +161,7 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
-    /// Print the JSON schema of a scene, or of the summary that a run writes
+    /// Print the JSON schema of a scene, or of the summary that a run or a sweep writes
     Schema {
         /// Of what
         #[arg(value_enum, default_value_t)]
@@ -177,6 +182,8 @@ enum Described {
     Scene,
     /// `summary.json`
     Summary,
+    /// `sweep.json`
+    Sweep,
 }
 
 /// The reasons for which a command failed.
@@ -226,10 +233,10 @@ pub(crate) fn main() -> ExitCode {
 
 fn dispatch(command: Command) -> Result<u8, Failure> {
     match command {
-        Command::Run { scenes, out, mut set, threads, resume, frame, quiet, json } => {
+        Command::Run { scenes, out, mut set, threads, resume, shard, frame, quiet, json } => {
             set.extend(frame.map(Setting::of_frame));
             let options = RunOptions { out, threads: threads.map(usize::from), resume };
-            run_scenes(scenes::read(&scenes, &set, &options)?, &Told { quiet, json })
+            run_scenes(scenes::read(&scenes, &set, &options)?, shard, &Told { quiet, json })
         }
         Command::Info { mesh_or_scene, set, frame, json, edges, vertices } => {
             let wanted = Wanted { settings: set, frame };
@@ -270,63 +277,8 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Validate { claims, quick, out } => validate(&ValidateOptions { quick, out, only: claims }),
         Command::Schema { of: Described::Scene } => say(&foldwell::scene::schema()),
         Command::Schema { of: Described::Summary } => say(&output::schema::schema()),
+        Command::Schema { of: Described::Sweep } => say(&output::schema::of_sweep()),
         Command::Completions { shell } => say(&completions(shell)),
-    }
-}
-
-/// Options for the messages of a run.
-struct Told {
-    quiet: bool,
-    json: bool,
-}
-
-/// Computes the studies of some scenes, one scene after the other; the status is that of the first that has another
-/// than 0. Ctrl-C ends the scene at work and leaves out those after it.
-fn run_scenes(scenes: Vec<(SceneFile, RunOptions)>, told: &Told) -> Result<u8, Failure> {
-    let watch = Arc::new(Watch::new(told.quiet));
-    let (several, mut status) = (scenes.len() > 1, 0);
-    let mut summaries = Vec::new();
-    for (scene, options) in scenes {
-        let Some(report) = run_scene(scene, options, &watch)? else { return Ok(INTERRUPTED) };
-        for note in report.summary.notes.iter().filter(|_| !told.quiet) {
-            // an error is ignored: there is no other place for the message if standard error is closed
-            let _ = writeln!(io::stderr(), "note: {note}");
-        }
-        if !told.quiet && !told.json {
-            say(&describe_run(&report))?;
-        }
-        let own = status_of(report.interrupted, report.summary.converged());
-        summaries.push(report.summary);
-        status = if status == 0 || own == INTERRUPTED { own } else { status };
-        if own == INTERRUPTED {
-            break;
-        }
-    }
-    match &summaries[..] {
-        _ if !told.json => Ok(0),
-        [summary] if !several => say(&summary.to_json()),
-        _ => say(&to_json(&summaries)),
-    }?;
-    Ok(status)
-}
-
-/// Computes the studies of one scene; `None` if Ctrl-C ended the run before its summary was begun.
-fn run_scene(scene: SceneFile, options: RunOptions, watch: &Arc<Watch>) -> Result<Option<RunReport>, Failure> {
-    let ledger = Ledger::default();
-    let books = ledger.clone();
-    let found = watch.over(move |watch| run::run(&scene, &options, &|step| watch.step(step), &books));
-    watch.finish();
-    match found.map_err(Failure::Thread)? {
-        Some(report) => Ok(Some(report?)),
-        None => Ok(ledger.close()?),
-    }
-}
-
-fn status_of(interrupted: bool, converged: bool) -> u8 {
-    match (interrupted, converged) {
-        (true, _) => INTERRUPTED,
-        (false, true) => 0,
-        (false, false) => FAILED,
     }
 }
 

@@ -1,11 +1,15 @@
 //! The standard output of `foldwell run`: a line or a few for every study.
 
+mod sweep;
+
 use foldwell::output::summary::{
     BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, StudyResult, StudySummary,
     SurfaceSummary, TraceSummary, WellsSummary,
 };
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
+
+pub(crate) use sweep::describe_sweep;
 
 /// Returns the descriptions of the studies of a run, one after the other.
 pub(crate) fn describe_run(report: &RunReport) -> String {

@@ -26,6 +26,7 @@ mod meshes;
 mod report;
 mod resume;
 mod runner;
+mod sweep;
 mod view;
 
 pub use crate::output::film::FilmOptions;
@@ -40,7 +41,11 @@ pub use ledger::Ledger;
 use meshes::{MeshKind, read_mesh};
 pub use report::{RunOptions, RunReport};
 use runner::Runner;
+pub use sweep::{Shard, ShardError, SweepReport, assemble, assemble_at, points, run_point, sweep};
 pub use view::view;
+
+/// Exit status where the input is wrong.
+const WRONG_INPUT: u8 = 2;
 
 /// Reads a scene, computes its studies and writes their files.
 ///
@@ -67,6 +72,10 @@ pub fn read_scene(path: &Path, settings: &[Setting]) -> Result<SceneFile, RunErr
 /// # Errors
 /// [`RunError`], as [`run_scene`].
 pub fn run(file: &SceneFile, options: &RunOptions, observer: Observer, ledger: &Ledger) -> Result<RunReport, RunError> {
+    if let Some(sweep) = &file.scene.sweep {
+        let help = "its points are computed by `foldwell run`, in the library by `run::sweep`; or leave out [sweep]";
+        return Err(file.error_at(sweep.span(), "this scene is a sweep", help).into());
+    }
     Threads::new(options.threads).install(|| {
         let assembly = assembly(file)?;
         let mut runner = Runner::new(file, &assembly, options, observer, ledger)?;
@@ -81,11 +90,14 @@ pub fn run(file: &SceneFile, options: &RunOptions, observer: Observer, ledger: &
     })
 }
 
-/// Does the checks that [`run`] does before it computes anything; writes nothing.
+/// Does the checks that [`run`] does before it computes anything, of a sweep those of every point; writes nothing.
 ///
 /// # Errors
-/// [`RunError`] if [`run`] would refuse the scene.
+/// [`RunError`] if [`run`] would refuse the scene, or one of the points of its sweep.
 pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
+    if file.scene.sweep.is_some() {
+        return sweep::check(file, options);
+    }
     let unobserved = |_: &Progress| ControlFlow::Continue(());
     Runner::new(file, &assembly(file)?, options, &unobserved, &Ledger::default()).map(|_| ())
 }

@@ -4,16 +4,25 @@
 //! The schema allows no keys other than those described. A study that gave a result has all keys of its kind; the other
 //! studies have none of them.
 
-use schemars::Schema;
 use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
-use super::summary::Summary;
+use super::summary::{Summary, SweepSummary};
 
 /// Returns the JSON schema (draft 2020-12) of `summary.json`, pretty-printed.
 pub fn schema() -> String {
+    schema_of::<Summary>()
+}
+
+/// Returns the JSON schema (draft 2020-12) of `sweep.json`, pretty-printed.
+pub fn of_sweep() -> String {
+    schema_of::<SweepSummary>()
+}
+
+fn schema_of<T: JsonSchema>() -> String {
     let generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
-    let mut root = generator.into_root_schema_for::<Summary>();
+    let mut root = generator.into_root_schema_for::<T>();
     close(&mut root);
     if let Some(Value::Object(tables)) = root.get_mut("$defs") {
         tables.values_mut().filter_map(|table| table.try_into().ok()).for_each(close);

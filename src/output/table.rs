@@ -29,6 +29,15 @@ pub(crate) fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<f64>>,
     Ok(lines.map(row).collect())
 }
 
+/// Returns a line of a table with texts: one with a comma, a quote or a line break stands in quotes.
+pub(crate) fn csv_line<'a>(fields: impl Iterator<Item = &'a str>) -> String {
+    let special = |letter: char| matches!(letter, ',' | '"' | '\n' | '\r');
+    let field = |text: &str| {
+        if text.contains(special) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    };
+    fields.map(field).collect::<Vec<_>>().join(",") + "\n"
+}
+
 /// A value of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Value {

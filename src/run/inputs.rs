@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use super::sweep;
 use crate::scene::outputs::{is_one_of, outputs};
 use crate::scene::spec::StudySpec;
 use crate::scene::{SceneError, SceneFile, named_files};
@@ -58,7 +59,9 @@ pub(crate) fn check(file: &SceneFile, out: &Path) -> Result<(), SceneError> {
     if !out.exists() {
         return Ok(());
     }
-    let summary = ["summary.json".to_owned()];
+    let sweeps = file.scene.sweep.is_some();
+    let summary: &[&str] = if sweeps { &[sweep::TABLE, sweep::SUMMARY] } else { &["summary.json"] };
+    let summary: Vec<String> = summary.iter().map(|&name| name.to_owned()).collect();
     let refused = |input: &Input, study: Option<&StudySpec>| {
         let span = study.map_or(0..0, |study| study.name.span());
         let who = study.map_or("the summary of this run".to_owned(), |study| format!("study `{}`", study.name.0));
@@ -70,7 +73,8 @@ pub(crate) fn check(file: &SceneFile, out: &Path) -> Result<(), SceneError> {
             return Err(refused(&input, None));
         }
         let of_study = |study: &&StudySpec| input.is_among(out, Some(&study.name.0), &outputs(study));
-        if let Some(study) = file.scene.studies.iter().find(of_study) {
+        // the studies of a sweep write into the folders of its points
+        if let Some(study) = file.scene.studies.iter().filter(|_| !sweeps).find(of_study) {
             return Err(refused(&input, Some(study)));
         }
     }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use super::forms::{Mode, StartSpec};
 use super::rest::RestSpec;
-use super::spec::{BarsSpec, EnergySpec, StudyKind};
+use super::spec::{BarsSpec, EnergySpec, StudyKind, SweepValues};
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
 use super::{Located, SceneError, SceneFile};
 
@@ -80,6 +80,10 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
             found.extend(spec.modes.iter().filter_map(|mode| rates(mode)));
         }
     }
+    let axes = scene.sweep.iter().flat_map(|sweep| &sweep.axes);
+    found.extend(
+        axes.filter_map(|axis| if let SweepValues::File(path) = &*axis.values { Some(path.clone()) } else { None }),
+    );
     found.into_iter().map(|path| file.resolve(&path)).collect()
 }
 

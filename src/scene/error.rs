@@ -134,6 +134,15 @@ pub enum TableFault {
         /// Line in which the edge was given first.
         first: usize,
     },
+    /// A column of a table of points has no key.
+    #[error("a column has no key; the header has the paths of keys, as in energy.bars.stiffness")]
+    NoKey,
+    /// A field of a table of points is empty.
+    #[error("`{0}` has no value in this row")]
+    NoValue(String),
+    /// The scene of a point is wrong.
+    #[error("{0}")]
+    Point(String),
     /// The table has a header and no rows.
     #[error("the table has no rows")]
     Empty,

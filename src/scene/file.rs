@@ -39,6 +39,13 @@ impl SceneFile {
         Ok(Self { scene: deserialize(&source)?, path: path.to_path_buf(), text: source, settings })
     }
 
+    /// Reads another text in the place of this one, in which some more keys are set, without checking it.
+    pub(super) fn with(&self, text: &str, settings: &[Setting]) -> Result<Self, SceneError> {
+        let mut file = Self::unchecked(text, &self.path, settings)?;
+        file.settings.splice(0..0, self.settings.iter().cloned());
+        Ok(file)
+    }
+
     /// Returns the keys that were set in the text, each as `key=value`.
     pub(crate) fn settings(&self) -> &[String] {
         &self.settings

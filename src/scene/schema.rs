@@ -57,7 +57,10 @@ mod tests {
     #[test]
     fn schema_names_the_tables_of_a_scene() {
         let schema: Value = serde_json::from_str(&schema()).unwrap();
-        assert_eq!(properties(&schema), ["drive", "energy", "load", "lock", "part", "pin", "sheet", "study", "title"]);
+        assert_eq!(
+            properties(&schema),
+            ["drive", "energy", "load", "lock", "part", "pin", "sheet", "study", "sweep", "title"]
+        );
         assert_eq!(schema["required"], serde_json::json!(["sheet"]));
     }
 

@@ -59,6 +59,40 @@ fn there_are(names: &[String]) -> String {
 }
 
 impl Setting {
+    /// Returns the setting of the key with this path; the value is written as in TOML, a text needs no quotes.
+    ///
+    /// # Errors
+    /// [`SettingError::Form`] if the path is none of TOML.
+    pub(super) fn new(path: &str, value: &str) -> Result<Self, SettingError> {
+        let text = format!("{path}={value}");
+        let Ok(keys) = Key::parse(path.trim()) else { return Err(SettingError::Form(text)) };
+        let value = value.trim();
+        let value = value.parse().unwrap_or_else(|_| Value::from(value));
+        Ok(Self { text, keys, value })
+    }
+
+    /// Returns the first key of the path.
+    pub(super) fn table(&self) -> &str {
+        self.keys.first().map_or("", Key::get)
+    }
+
+    /// Whether another setting has the same path.
+    pub(super) fn same_key(&self, other: &Self) -> bool {
+        self.keys.iter().map(Key::get).eq(other.keys.iter().map(Key::get))
+    }
+
+    /// Returns the value as a field of a table: numbers with the fewest digits that are read back exactly, texts without
+    /// quotes, lists and tables as in TOML.
+    pub(super) fn field(&self) -> String {
+        match &self.value {
+            Value::String(text) => text.value().clone(),
+            Value::Integer(number) => number.value().to_string(),
+            Value::Float(number) => float(*number.value()),
+            Value::Boolean(word) => word.value().to_string(),
+            other => other.to_string().trim().to_owned(),
+        }
+    }
+
     /// Returns the setting of the frame of the mesh, `sheet.frame`.
     pub fn of_frame(frame: usize) -> Self {
         let value = i64::try_from(frame).unwrap_or(i64::MAX);
@@ -76,11 +110,14 @@ impl FromStr for Setting {
     fn from_str(text: &str) -> Result<Self, SettingError> {
         let form = || SettingError::Form(text.to_owned());
         let (path, value) = text.split_once('=').ok_or_else(form)?;
-        let keys = Key::parse(path.trim()).map_err(|_| form())?;
-        let value = value.trim();
-        let value = value.parse().unwrap_or_else(|_| Value::from(value));
-        Ok(Self { text: text.to_owned(), keys, value })
+        let setting = Self::new(path, value).map_err(|_| form())?;
+        Ok(Self { text: text.to_owned(), ..setting })
     }
+}
+
+/// Writes a number as TOML has it, with the fewest digits that are read back exactly.
+pub(super) fn float(number: f64) -> String {
+    if number.is_nan() { "nan".to_owned() } else { format!("{number:?}") }
 }
 
 impl fmt::Display for Setting {
@@ -100,6 +137,13 @@ pub fn apply(text: &str, settings: &[Setting]) -> Result<String, SettingError> {
         set(document.as_table_mut(), &setting.keys, setting)?;
     }
     Ok(document.to_string())
+}
+
+/// Returns the text of a scene without one of its tables, and the comment before it; the other lines stay as they are.
+pub(super) fn without(text: &str, table: &str) -> String {
+    let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
+    document.remove(table);
+    document.to_string()
 }
 
 /// Sets the key with this path below `table`.

@@ -6,6 +6,7 @@
 
 mod drive;
 mod study;
+mod sweep;
 mod vertices;
 
 use super::Located;
@@ -19,6 +20,7 @@ use std::path::PathBuf;
 
 pub use drive::*;
 pub use study::*;
+pub use sweep::*;
 pub use vertices::*;
 
 /// A whole scene.
@@ -51,6 +53,8 @@ pub struct Scene {
     /// What to compute, in this order.
     #[serde(default, rename = "study")]
     pub studies: Vec<StudySpec>,
+    /// Keys that take several values, at each of which the studies are computed.
+    pub sweep: Option<Located<SweepSpec>>,
 }
 
 /// `[sheet]`: exactly one of `mesh` and `generate`.

@@ -69,6 +69,7 @@ mod started_states;
 mod stiffness;
 mod stopping;
 mod surface;
+mod sweep;
 mod targets;
 mod thin;
 mod touching;

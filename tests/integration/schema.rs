@@ -5,8 +5,9 @@ use std::fs;
 use std::path::Path;
 
 /// Returns names of the files in `validation/schema`, and the output of `foldwell schema NAME`.
-fn schemas() -> [(&'static str, String); 2] {
-    [("scene", foldwell::scene::schema()), ("summary", foldwell::output::schema::schema())]
+fn schemas() -> [(&'static str, String); 3] {
+    use foldwell::output::schema::{of_sweep, schema};
+    [("scene", foldwell::scene::schema()), ("summary", schema()), ("sweep", of_sweep())]
 }
 
 /// Claim: the files of the repository and the output of the program agree to the byte, so that a key that was added,
@@ -35,7 +36,7 @@ fn constants(schema: &Value) -> Vec<&str> {
 /// Claim: the kinds of studies are the same in the schemas of scenes and of summaries.
 #[test]
 fn scenes_and_summaries_know_the_same_studies() {
-    let [scene, summary] = schemas().map(|(_, text)| serde_json::from_str::<Value>(&text).unwrap());
+    let [scene, summary, _] = schemas().map(|(_, text)| serde_json::from_str::<Value>(&text).unwrap());
     let mut asked = constants(&scene["$defs"]["StudySpec"]);
     let mut answered = constants(&summary["$defs"]["StudySummary"]);
     asked.sort_unstable();
@@ -53,7 +54,7 @@ fn findings(schema: &Value, place: &str) -> Vec<String> {
     open.into_iter().chain(silent.map(|(name, _)| format!("{place}.{name} says nothing"))).collect()
 }
 
-/// Claim: every key of a summary is described, and no table allows other keys; the results of studies are parts of the
+/// Claim: every key of a summary, also of a sweep, is described, and no table allows other keys; the results of studies are parts of the
 /// table of a study, which allows no other keys.
 #[test]
 fn every_key_of_a_summary_is_described() {
@@ -62,6 +63,9 @@ fn every_key_of_a_summary_is_described() {
     for (name, table) in summary["$defs"].as_object().unwrap() {
         found.extend(findings(table, name));
     }
+    let sweep: Value = serde_json::from_str(&foldwell::output::schema::of_sweep()).unwrap();
+    found.extend(findings(&sweep, "sweep"));
+    found.extend(findings(&sweep["$defs"]["UnansweredPoint"], "unanswered"));
     let answers = summary["$defs"]["StudySummary"]["allOf"].as_array().unwrap();
     assert_eq!(answers.len(), 9);
     for answer in answers {

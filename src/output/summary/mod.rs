@@ -12,6 +12,7 @@ mod modes;
 mod path;
 mod relax;
 mod surface;
+mod sweep;
 mod trace;
 mod wells;
 
@@ -22,6 +23,7 @@ pub use modes::ModesSummary;
 pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
 pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
 pub use surface::{PieceSummary, SurfaceSummary};
+pub use sweep::{PointStatus, SweepSummary, UnansweredPoint};
 pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 pub use wells::{
     BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, WellSummary, WellsSummary,

@@ -1,0 +1,120 @@
+//! The table of a sweep, made from the folders of its points.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use super::record::Record;
+use super::{SUMMARY, TABLE, folder, point_folder, points, scalars};
+use crate::output::files;
+use crate::output::summary::{PointStatus, SweepSummary, UnansweredPoint};
+use crate::output::table::csv_line;
+use crate::run::{RunError, RunOptions};
+use crate::scene::{SceneFile, Sweep, digest};
+
+/// A row of the table: what became of a point, why, and its scalar results.
+struct Row {
+    status: PointStatus,
+    reason: String,
+    scalars: BTreeMap<String, String>,
+}
+
+/// Collects the finished points from their folders and writes the table and the summary of a sweep into `out`; returns the
+/// summary. The bytes of the table depend on the results of the points alone, not on the runs that computed them.
+///
+/// Several runs may do this at once. Each looks again after it has written, and writes once more if a point was finished
+/// meanwhile: so the table that is written last has all points.
+///
+/// # Errors
+/// [`RunError`] if the scene of a point is refused, or if a file cannot be written.
+pub fn assemble(sweep: &Sweep, out: &Path) -> Result<SweepSummary, RunError> {
+    let mut rows = (0..sweep.len()).map(|index| row(sweep, out, index)).collect::<Result<Vec<_>, RunError>>()?;
+    loop {
+        let summary = summary(sweep, &rows)?;
+        files::write(&out.join(TABLE), table(sweep, &rows))?;
+        files::write(&out.join(SUMMARY), summary.to_json())?;
+        let mut news = false;
+        for &index in &summary.missing {
+            rows[index] = row(sweep, out, index)?;
+            news |= rows[index].status != PointStatus::Missing;
+        }
+        if !news {
+            return Ok(summary);
+        }
+    }
+}
+
+/// Does the same for the sweep of a scene in the folder of its run, for a program that ends a run without waiting for it;
+/// `None` if the folder does not exist.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn assemble_at(file: &SceneFile, options: &RunOptions) -> Result<Option<SweepSummary>, RunError> {
+    let out = folder(file, options);
+    if out.exists() { assemble(&points(file)?, &out).map(Some) } else { Ok(None) }
+}
+
+fn row(sweep: &Sweep, out: &Path, index: usize) -> Result<Row, RunError> {
+    let found = Record::read(&sweep.scene(index)?, &point_folder(out, index));
+    let scalars = match &found {
+        Some(Record::Computed(studies)) => studies.iter().flat_map(scalars::of_study).collect(),
+        _ => BTreeMap::new(),
+    };
+    let status = found.as_ref().map_or(PointStatus::Missing, Record::status);
+    Ok(Row { status, reason: found.map(|found| found.reason()).unwrap_or_default(), scalars })
+}
+
+/// Returns the text of the table. The columns of results are those that a point has, studies in the order of the scene.
+fn table(sweep: &Sweep, rows: &[Row]) -> String {
+    let columns = columns(sweep, rows);
+    let header = ["point"].into_iter().chain(sweep.keys()).chain(["status", "reason"]);
+    let mut text = csv_line(header.chain(columns.iter().map(String::as_str)));
+    for (index, row) in rows.iter().enumerate() {
+        let (point, number) = (sweep.point(index), index.to_string());
+        let start = [number.as_str()].into_iter().chain(point.values.iter().map(String::as_str));
+        let results = columns.iter().map(|column| row.scalars.get(column).map_or("", String::as_str));
+        text += &csv_line(start.chain([row.status.word(), &row.reason]).chain(results));
+    }
+    text
+}
+
+fn columns(sweep: &Sweep, rows: &[Row]) -> Vec<String> {
+    let studies = sweep.file().scene.studies.iter();
+    let order: BTreeMap<&str, usize> = studies.enumerate().map(|(k, study)| (study.name.0.as_str(), k)).collect();
+    let found: BTreeSet<String> = rows.iter().flat_map(|row| row.scalars.keys().cloned()).collect();
+    // a result that is a table at some points and null at others has the columns of the table
+    let is_table = |column: &str| {
+        let inside = format!("{column}.");
+        found.iter().any(|other| other.starts_with(&inside))
+    };
+    let mut columns: Vec<String> = found.iter().filter(|column| !is_table(column)).cloned().collect();
+    columns.sort_by_key(|column| {
+        column.split('.').next().and_then(|name| order.get(name).copied()).unwrap_or(order.len())
+    });
+    columns
+}
+
+fn summary(sweep: &Sweep, rows: &[Row]) -> Result<SweepSummary, RunError> {
+    let with = |status: PointStatus| (0..).zip(rows).filter(move |(_, row)| row.status == status);
+    let unanswered = |(index, row): (usize, &Row)| UnansweredPoint {
+        point: index,
+        settings: sweep.point(index).settings.iter().map(ToString::to_string).collect(),
+        status: row.status,
+        reason: row.reason.clone(),
+    };
+    let open = |row: &Row| matches!(row.status, PointStatus::NotConverged | PointStatus::Failed);
+    let file = sweep.file();
+    Ok(SweepSummary {
+        version: env!("CARGO_PKG_VERSION"),
+        scene: file.path().display().to_string(),
+        settings: file.settings().to_vec(),
+        title: file.title(),
+        digest: digest(file)?,
+        keys: sweep.keys().map(str::to_owned).collect(),
+        points: rows.len(),
+        converged: with(PointStatus::Converged).count(),
+        not_converged: with(PointStatus::NotConverged).count(),
+        failed: with(PointStatus::Failed).count(),
+        missing: with(PointStatus::Missing).map(|(index, _)| index).collect(),
+        unanswered: (0..).zip(rows).filter(|(_, row)| open(row)).map(unanswered).collect(),
+    })
+}

@@ -1,0 +1,152 @@
+//! What the folder of a point says about it: `summary.json` of its run, or `failed.json` with the reason for which its scene
+//! could not be computed.
+//!
+//! Either counts only if it has the digest of the point's scene, and a summary only if it has every study: a point that a
+//! run was computing when it ended has no result.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::point_folder;
+use crate::output::summary::{Files, PointStatus, to_json};
+use crate::output::{OutputError, files};
+use crate::run::RunError;
+use crate::run::belongings::Belongings;
+use crate::run::ledger::INTERRUPTED;
+use crate::scene::{Fingerprint, SceneFile, Sweep, digest};
+
+/// Name of the summary of a run.
+pub(super) const SUMMARY: &str = "summary.json";
+/// Name of the file with the reason for which a point could not be computed.
+const FAILURE: &str = "failed.json";
+
+/// The result of a point.
+pub(super) enum Record {
+    /// The studies of its summary.
+    Computed(Vec<Map<String, Value>>),
+    /// Why it could not be computed.
+    Failed(String),
+}
+
+/// The parts of `summary.json` that say whether a point is finished.
+#[derive(Deserialize)]
+struct Computed {
+    digest: String,
+    studies: Vec<Map<String, Value>>,
+}
+
+/// The content of `failed.json`.
+#[derive(Serialize, Deserialize)]
+struct Failure {
+    /// Digest of the point's scene.
+    digest: String,
+    /// What the point sets, as `key=value`.
+    settings: Vec<String>,
+    /// Why it could not be computed.
+    reason: String,
+}
+
+impl Record {
+    /// Reads the result of a point with this scene; `None` if there is none.
+    pub(super) fn read(scene: &SceneFile, folder: &Path) -> Option<Self> {
+        let digest = digest_of(scene);
+        if let Some(found) = read::<Failure>(&folder.join(FAILURE)).filter(|found| found.digest == digest) {
+            return Some(Self::Failed(found.reason));
+        }
+        let found = read::<Computed>(&folder.join(SUMMARY)).filter(|found| found.digest == digest)?;
+        let names = scene.scene.studies.iter().map(|study| Some(study.name.0.as_str()));
+        let complete = names.eq(found.studies.iter().map(|study| word(study, "name")));
+        let interrupted = found.studies.iter().any(|study| word(study, "reason") == Some(INTERRUPTED));
+        (complete && !interrupted).then_some(Self::Computed(found.studies))
+    }
+
+    /// Reads the result of a point that need not be computed again: its files are those on record. A point that could not
+    /// be computed is tried again.
+    pub(super) fn finished(scene: &SceneFile, folder: &Path) -> Option<Self> {
+        let found = Self::read(scene, folder)?;
+        let Self::Computed(studies) = &found else { return None };
+        let belongings = Belongings::new(scene, folder);
+        let unchanged = |study: &Map<String, Value>| {
+            let recorded = study.get("files").and_then(|files| serde_json::from_value::<Files>(files.clone()).ok());
+            recorded.is_some() && recorded == word(study, "name").and_then(|name| belongings.record(name).ok())
+        };
+        studies.iter().all(unchanged).then_some(found)
+    }
+
+    /// Returns what became of the point.
+    pub(super) fn status(&self) -> PointStatus {
+        match self {
+            Self::Computed(studies) if studies.iter().all(converged) => PointStatus::Converged,
+            Self::Computed(_) => PointStatus::NotConverged,
+            Self::Failed(_) => PointStatus::Failed,
+        }
+    }
+
+    /// Returns why the point has no answer to every study; empty if it has.
+    pub(super) fn reason(&self) -> String {
+        match self {
+            Self::Failed(reason) => reason.clone(),
+            Self::Computed(studies) => {
+                let part = |study: &Map<String, Value>| {
+                    let [name, reason] = ["name", "reason"].map(|key| word(study, key).unwrap_or_default());
+                    format!("{name}: {reason}")
+                };
+                let without = studies.iter().filter(|study| !converged(study));
+                without.map(part).collect::<Vec<_>>().join("; ")
+            }
+        }
+    }
+}
+
+/// Returns those of some points that need not be computed again.
+pub(super) fn finished(sweep: &Sweep, out: &Path, points: &[usize]) -> Vec<usize> {
+    let done = |index: usize| Record::finished(&sweep.scene(index).ok()?, &point_folder(out, index));
+    points.iter().copied().filter(|&index| done(index).is_some()).collect()
+}
+
+/// Writes the reason for which a point could not be computed into its folder.
+pub(super) fn write_failure(scene: &SceneFile, folder: &Path, error: &RunError) -> Result<(), OutputError> {
+    let (digest, settings) = (digest_of(scene), scene.settings().to_vec());
+    files::write(&folder.join(FAILURE), to_json(&Failure { digest, settings, reason: error.to_string() }))
+}
+
+/// Removes the record that an earlier run could not compute a point.
+pub(super) fn forget_failure(folder: &Path) -> Result<(), OutputError> {
+    remove(&folder.join(FAILURE))
+}
+
+/// Removes a file, if it is there.
+pub(super) fn remove(path: &Path) -> Result<(), OutputError> {
+    match fs::remove_file(path) {
+        Err(source) if !matches!(source.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            Err(OutputError::Write { path: path.into(), source })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Returns the digest of a scene; of its settings and name alone if a file that it names cannot be read.
+fn digest_of(scene: &SceneFile) -> String {
+    digest(scene).unwrap_or_else(|_| {
+        let mut hash = Fingerprint::default();
+        scene.settings().iter().for_each(|setting| hash.add(setting.as_bytes()));
+        hash.add(scene.title().as_bytes());
+        hash.to_string()
+    })
+}
+
+fn read<T: for<'de> Deserialize<'de>>(path: &Path) -> Option<T> {
+    serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
+}
+
+fn word<'a>(study: &'a Map<String, Value>, key: &str) -> Option<&'a str> {
+    study.get(key)?.as_str()
+}
+
+fn converged(study: &Map<String, Value>) -> bool {
+    study.get("converged") == Some(&Value::Bool(true))
+}

@@ -1,0 +1,432 @@
+//! Sweeps: every point has the bytes that its scene has alone, on any number of threads; sweeps that are killed, stopped or
+//! shared out end with the same table.
+#![cfg(unix)]
+
+use assert_cmd::cargo::cargo_bin;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Contents of all files below a folder; of summaries the JSON without times.
+type Files = BTreeMap<PathBuf, Vec<u8>>;
+
+fn command(folder: &Path, words: &str) -> Command {
+    let mut command = Command::new(cargo_bin("foldwell"));
+    command.current_dir(folder).args(words.split_whitespace()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+fn foldwell(folder: &Path, words: &str) -> Output {
+    command(folder, words).output().unwrap()
+}
+
+fn said(output: &Output) -> String {
+    [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned()).concat()
+}
+
+/// Runs the program and returns its standard output; the exit status is the expected one.
+fn run(folder: &Path, words: &str, status: i32) -> String {
+    let output = foldwell(folder, words);
+    assert_eq!(output.status.code(), Some(status), "{words}: {}", said(&output));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn summary(path: &Path) -> Value {
+    let mut summary: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let studies = summary["studies"].as_array_mut().unwrap();
+    studies.iter_mut().for_each(|study| study["seconds"] = json!(0.0));
+    summary
+}
+
+fn read(root: &Path) -> Files {
+    let (mut found, mut folders) = (Files::new(), vec![root.to_path_buf()]);
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let timed = path.ends_with("summary.json");
+                let bytes = if timed { summary(&path).to_string().into_bytes() } else { fs::read(&path).unwrap() };
+                found.insert(path.strip_prefix(root).unwrap().to_path_buf(), bytes);
+            }
+        }
+    }
+    found
+}
+
+fn table(out: &Path) -> String {
+    fs::read_to_string(out.join("sweep.csv")).unwrap()
+}
+
+/// The columns of a table without quotes, by their names.
+fn columns(table: &str) -> BTreeMap<String, Vec<String>> {
+    let mut lines = table.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    let rows: Vec<_> = lines.collect();
+    header.into_iter().enumerate().map(|(k, name)| (name, rows.iter().map(|row| row[k].clone()).collect())).collect()
+}
+
+/// A folder with a scene of this text and the mesh of the star cell.
+fn with_scene(text: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
+    fs::copy(mesh, folder.path().join("open-star.fold")).unwrap();
+    fs::write(folder.path().join("scene.toml"), text).unwrap();
+    folder
+}
+
+const STAR: &str = "[sheet]\nmesh = \"open-star.fold\"\ncells = [2, 2]\n\n[energy]\nbars = { stiffness = 1e3 }\n\
+    creases = { stiffness = 1.0, rest = { mode = [0, 0.1, 0], amplitude = 1.0 } }\n\n\
+    [[study]]\nname = \"relaxed\"\nkind = \"relax\"\n";
+const RANDOM: &str = "[sheet]\ngenerate = { pattern = \"random\", seed = 7 }\ncells = [2, 2]\n\n[energy]\n\
+    bars = { stiffness = inf }\ncreases = { stiffness = 1.0 }\n\n\
+    [[study]]\nname = \"cost\"\nkind = \"landscape\"\ndraw = [\"svg\"]\nmodes = [[1, 0, 0], [0, 0, 1]]\n\
+    amplitudes = [0.001, 0.002, 0.004]\n";
+const SCREW: &str = "[sheet]\nmesh = \"open-star.fold\"\ndomain = \"screw\"\ncells = [3, 2]\n\n[energy]\n\
+    bars = { stiffness = 1e8 }\ncreases = { stiffness = 1.0 }\n\n[[lock]]\ncrease = [0, 1, 0, 0]\n\n[[study]]\nname = \"loops\"\nkind = \"trace\"\n\
+    stop = { arc_length = 0.5 }\n\n[[study]]\nname = \"last\"\nkind = \"relax\"\nstart = { random = 0.01, seed = 3 }\n\
+    draw = []\n";
+/// Twelve points that take a moment each.
+const TWELVE: &str = "\n[sweep]\n\"energy.bars.stiffness\" = { log = [1e2, 1e5, 4] }\n\
+    \"energy.creases.rest.amplitude\" = [0.5, 1, 1.5]\n";
+
+/// Claim: every point has the files, byte for byte, that `foldwell run` writes for the scene without its sweep with the
+/// settings of the point, on one thread and on three; only times differ. Scenes: relaxations with pictures and VTU files, a
+/// generated sheet over its seed, trajectories over the start of a relaxation, numbered elements of lists.
+#[test]
+fn points_are_what_they_are_alone() {
+    let cases: [(&str, &str, &[&[&str]]); 3] = [
+        (
+            STAR,
+            "\"energy.bars.stiffness\" = { log = [1e2, 1e4, 2] }\n\"energy.creases.rest\" = [\"flat\", { mode = [0.1, 0, 0], amplitude = 1 }]\n",
+            &[
+                &["energy.bars.stiffness=100.0", "energy.creases.rest=\"flat\""],
+                &["energy.bars.stiffness=100.0", "energy.creases.rest={ mode = [0.1, 0, 0], amplitude = 1 }"],
+                &["energy.bars.stiffness=10000.0", "energy.creases.rest=\"flat\""],
+                &["energy.bars.stiffness=10000.0", "energy.creases.rest={ mode = [0.1, 0, 0], amplitude = 1 }"],
+            ],
+        ),
+        (
+            RANDOM,
+            "zip = true\n\"sheet.generate.seed\" = { seeds = [7, 2] }\n\"study.cost.modes.1\" = [[0, 0, 1], [1, 1, 0]]\n",
+            &[
+                &["sheet.generate.seed=7", "study.cost.modes.1=[0, 0, 1]"],
+                &["sheet.generate.seed=8", "study.cost.modes.1=[1, 1, 0]"],
+            ],
+        ),
+        (
+            SCREW,
+            "\"study.last.start.random\" = { linear = [0.01, 0.03, 3] }\n",
+            &[&["study.last.start.random=0.01"], &["study.last.start.random=0.02"], &["study.last.start.random=0.03"]],
+        ),
+    ];
+    for (scene, axes, points) in cases {
+        let swept = with_scene(&format!("{scene}\n[sweep]\n{axes}"));
+        let alone = with_scene(scene);
+        run(swept.path(), "run scene.toml --quiet --threads 1 --out one", 0);
+        run(swept.path(), "run scene.toml --quiet --threads 3 --out three", 0);
+        let one = read(&swept.path().join("one"));
+        assert!(one == read(&swept.path().join("three")), "{axes}");
+        assert_eq!(fs::read_dir(swept.path().join("one/points")).unwrap().count(), points.len());
+        for (k, settings) in points.iter().enumerate() {
+            let mut command = command(alone.path(), &format!("run scene.toml --quiet --out {k:04}"));
+            command.args(settings.iter().flat_map(|setting| ["--set", setting]));
+            let output = command.output().unwrap();
+            assert!(output.status.success(), "{}", said(&output));
+            let expected = read(&alone.path().join(format!("{k:04}")));
+            let found = read(&swept.path().join(format!("one/points/{k:04}")));
+            assert!(expected.keys().eq(found.keys()) && expected.len() >= 2, "{settings:?}: {:?}", found.keys());
+            for (path, bytes) in &expected {
+                assert!(*bytes == found[path], "{settings:?}: {} differs", path.display());
+            }
+        }
+    }
+}
+
+/// Claim: the table has a row for each point, the first axis the slowest, with the values of the keys and the scalars of
+/// every study, those of `summary.json`; the summary of the sweep agrees with its schema's keys.
+#[test]
+fn the_table_has_what_the_summaries_have() {
+    let folder = with_scene(&format!(
+        "{SCREW}\n[sweep]\n\"title\" = [\"a, b\"]\n\"study.last.start.seed\" = {{ seeds = [4, 2] }}\n"
+    ));
+    let printed = run(folder.path(), "run scene.toml --json", 0);
+    let out = folder.path().join("scene");
+    assert_eq!(printed, fs::read_to_string(out.join("sweep.json")).unwrap());
+    let whole: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!((&whole["points"], &whole["converged"], &whole["missing"]), (&json!(2), &json!(2), &json!([])));
+    assert_eq!(whole["keys"], json!(["title", "study.last.start.seed"]));
+    let table = table(&out);
+    assert!(table.starts_with("point,title,study.last.start.seed,status,reason,loops."), "{table}");
+    let table = table.replace("\"a, b\"", "a b");
+    assert!(table.lines().nth(2).unwrap().starts_with("1,a b,5,converged,,"), "{table}");
+    let columns = columns(&table);
+    for k in 0..2 {
+        let found = summary(&out.join(format!("points/000{k}/summary.json")));
+        assert_eq!(found["settings"], json!(["title=\"a, b\"", format!("study.last.start.seed={}", 4 + k)]));
+        let [loops, last] = [0, 1].map(|study| &found["studies"][study]);
+        let number = |column: &str| columns[column][k].parse::<f64>().unwrap();
+        assert_eq!(json!(number("last.energy.total")), last["energy"]["total"]);
+        assert_eq!(json!(number("last.residual_force")), last["residual_force"]);
+        assert_eq!(json!(number("loops.branches.1.arc_length")), loops["branches"][1]["arc_length"]);
+        assert_eq!(columns["loops.branches.0.end"][k], loops["branches"][0]["end"].as_str().unwrap());
+        assert_eq!(columns["last.converged"][k], "true");
+    }
+    assert!(columns.keys().all(|name| !name.ends_with("seconds") && !name.ends_with("reason") || name == "reason"));
+}
+
+/// Claim: points that do not converge, and points whose scene only its sheet shows to be wrong, are rows with their status and
+/// reason; they are told at the end, the others are computed, and the status is that of a failed study.
+#[test]
+fn failed_points_are_listed_and_not_lost() {
+    let axes = "[sweep]\nzip = true\n\"study.relaxed.tolerance\" = [1e-10, 1e-300, 1e-10]\n\"lock.0.crease\" = [[0, 1, 0, 0], [0, 1, 0, 0], [0, 9, 0, 0]]\n";
+    let folder = with_scene(&format!("{STAR}\n[[lock]]\ncrease = [0, 1, 0, 0]\n\n{axes}"));
+    for words in ["run scene.toml", "run scene.toml --resume"] {
+        let told = run(folder.path(), words, 1);
+        for part in [
+            "3 points along study.relaxed.tolerance, lock.0.crease: 1 converged",
+            "1 not converged, 1 failed",
+            "point 1 (study.relaxed.tolerance=1e-300, lock.0.crease=[0, 1, 0, 0]) not converged: relaxed: ",
+            "point 2 (study.relaxed.tolerance=1e-10, lock.0.crease=[0, 9, 0, 0]) failed: ",
+            "the sheet has no crease [0, 9, 0, 0]",
+        ] {
+            assert!(told.contains(part), "{part}: {told}");
+        }
+        // the points that were computed are kept, also the one that did not converge; the failed one is tried again
+        assert_eq!(told.contains("(2 kept)"), words.ends_with("--resume"), "{told}");
+    }
+    let rows: Vec<String> = table(&folder.path().join("scene")).lines().map(str::to_owned).collect();
+    assert!(rows[1].contains(",converged,,"), "{rows:?}");
+    assert!(rows[2].contains(",not-converged,relaxed: ") || rows[2].contains(",not-converged,\"relaxed: "), "{rows:?}");
+    assert!(rows[3].contains(",failed,"), "{rows:?}");
+    let failed = folder.path().join("scene/points/0002");
+    assert!(failed.join("failed.json").exists() && !failed.join("summary.json").exists());
+    // a point that failed and now is right loses its record of failure
+    let scene = fs::read_to_string(folder.path().join("scene.toml"))
+        .unwrap()
+        .replace("1e-300", "1e-10")
+        .replace("[0, 9,", "[0, 2,");
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    run(folder.path(), "run scene.toml --resume", 0);
+    assert!(!failed.join("failed.json").exists() && failed.join("summary.json").exists());
+    assert_eq!(columns(&table(&folder.path().join("scene")))["relaxed.converged"].len(), 3);
+}
+
+/// Claim: a table of points is an axis: its rows are points, its header their keys; its values are those of TOML.
+#[test]
+fn points_come_from_a_table() {
+    let points = "energy.bars.stiffness, sheet.cells, energy.creases.rest\n1e3,\"[1, 2]\",flat\ninf,\"[2, 1]\",drawn\n";
+    for form in ["\"points.csv\"", "{ file = \"points.csv\" }"] {
+        let folder = with_scene(&format!("{STAR}\n[sweep]\npoints = {form}\n"));
+        fs::write(folder.path().join("points.csv"), points).unwrap();
+        run(folder.path(), "run scene.toml --quiet", 0);
+        let table = table(&folder.path().join("scene"));
+        let rows: Vec<&str> = table.lines().collect();
+        assert!(rows[0].starts_with("point,energy.bars.stiffness,sheet.cells,energy.creases.rest,status,"), "{table}");
+        assert!(rows[1].starts_with("0,1000.0,\"[1, 2]\",flat,converged,"), "{table}");
+        assert!(rows[2].starts_with("1,inf,\"[2, 1]\",drawn,converged,"), "{table}");
+        // another table is another sweep
+        fs::write(folder.path().join("points.csv"), points.replace("1e3", "2e3")).unwrap();
+        assert!(run(folder.path(), "run scene.toml --resume", 0).contains("2 converged (1 kept)"));
+    }
+}
+
+/// Claim: what is wrong in a sweep is said with file, line and point, with status 2, and nothing is written.
+#[test]
+fn wrong_sweeps_are_refused() {
+    let lines = STAR.lines().count() + 2;
+    for (axes, parts) in [
+        ("\"energy.bar.stiffness\" = [1e2]", [":1: point 0 (energy.bar.stiffness=1e2): unknown key `bar`", "bars"]),
+        (
+            "\"energy.bars.stiffness\" = [1e2, -1]",
+            [":1: point 1 (energy.bars.stiffness=-1): the stiffness is -1", "positive"],
+        ),
+        (
+            "\"title\" = [\"a\"]\n\"study.pull.kind\" = [\"relax\"]",
+            [": point 0 (title=\"a\", study.pull.kind=\"relax\")", "no element `pull`"],
+        ),
+        ("\"sweep.zip\" = [true]", [":1: `sweep.zip` is a key of the sweep itself", "energy.bars.stiffness"]),
+        ("\"a b\" = [1]", [":1: `a b` is no path of a key", "in quotes"]),
+        ("\"energy.bars.stiffness\" = []", ["`energy.bars.stiffness` has no values", "[1e2]"]),
+        ("energy.bars.stiffness = [1e2, 1e4]", ["`bars` is no form of values", "a key in quotes"]),
+        ("\"energy.bars.stiffness\" = { log = [0, 1, 3] }", ["a logarithmic range has an end at 0", "above 0"]),
+        ("\"energy.bars.stiffness\" = { linear = [1, 2, 1] }", ["the range has 1 values", "from 2"]),
+        ("\"sheet.frame\" = { seeds = [-1, 3] }", ["there are 3 seeds from -1", "0 or more"]),
+        ("\"sheet.frame\" = { seeds = [0, 2000000] }", ["there are 2000000 seeds", "1000000"]),
+        (
+            "\"sheet.frame\" = { seeds = [0, 2000] }\n\"title\" = { seeds = [0, 2000] }",
+            ["the sweep has 2000 x 2000 points", "1000000"],
+        ),
+        ("\"title\" = [\"a\"]\n\" title\" = [\"b\"]", ["two axes set the key `title`", "leave out"]),
+        (
+            "zip = true\n\"title\" = [\"a\"]\n\"sheet.cells\" = [[1, 1], [2, 2]]",
+            ["this one has 2 values, the first 1", "zip"],
+        ),
+        ("", ["the sweep has no axes", "energy.bars.stiffness"]),
+        ("zip = 3", ["integer `3`", "true or false"]),
+        ("points = [1, 2]", ["`points` has no values", "points.csv"]),
+        ("points = \"none.csv\"", ["none.csv: cannot be read", ""]),
+        ("points = \"points.csv\"", ["points.csv:3: point 1 (energy.bars.stiffness=x): ", "invalid"]),
+    ] {
+        let folder = with_scene(&format!("{STAR}\n[sweep]\n{axes}\n"));
+        fs::write(folder.path().join("points.csv"), "energy.bars.stiffness\n1e3\nx\n").unwrap();
+        let output = foldwell(folder.path(), "run scene.toml");
+        let message = said(&output);
+        assert_eq!(output.status.code(), Some(2), "{axes}: {message}");
+        assert!(parts.iter().all(|part| message.contains(part)), "{axes}: {message}");
+        if !axes.contains("points.csv") && !axes.contains("none.csv") {
+            let line = (lines..lines + 4).find(|line| message.contains(&format!("scene.toml:{line}:")));
+            assert!(line.is_some(), "{axes}: {message}");
+        }
+        assert!(!folder.path().join("scene").exists(), "{axes}");
+    }
+    let folder = with_scene(STAR);
+    assert!(said(&foldwell(folder.path(), "run scene.toml --shard 1/2")).contains("the scene has no [sweep]"));
+    assert!(said(&foldwell(folder.path(), "run scene.toml --shard 3/2")).contains("`3/2` names no shard"));
+    // several scenes are checked before the first is computed, with all points of their sweeps
+    let axes = "\n[[lock]]\ncrease = [0, 1, 0, 0]\n\n[sweep]\n\"lock.0.crease\" = [[0, 1, 0, 0], [0, 9, 0, 0]]\n";
+    fs::write(folder.path().join("swept.toml"), format!("{STAR}{axes}")).unwrap();
+    let output = foldwell(folder.path(), "run scene.toml swept.toml");
+    assert!(output.status.code() == Some(2) && said(&output).contains("no crease [0, 9, 0, 0]"), "{}", said(&output));
+    assert!(!folder.path().join("scene").exists());
+}
+
+/// Starts a sweep and waits until this number of points is finished.
+fn started(folder: &Path, words: &str, finished: usize) -> Child {
+    let child = command(folder, words).spawn().unwrap();
+    let clock = Instant::now();
+    while finished_points(&folder.join("scene")) < finished {
+        assert!(clock.elapsed() < Duration::from_secs(120), "no point is finished");
+        sleep(Duration::from_millis(5));
+    }
+    child
+}
+
+/// Number of points whose only study is in their summary with its files.
+fn finished_points(out: &Path) -> usize {
+    let folders = fs::read_dir(out.join("points")).into_iter().flatten().flatten();
+    let finished = |folder: PathBuf| {
+        let text = fs::read_to_string(folder.join("summary.json")).unwrap_or_default();
+        serde_json::from_str::<Value>(&text).is_ok_and(|found| found["studies"][0]["files"].is_object())
+    };
+    folders.filter(|folder| finished(folder.path())).count()
+}
+
+/// The inodes of the tables of points: a file that is written again is another one.
+fn inodes(out: &Path) -> BTreeMap<PathBuf, u64> {
+    use std::os::unix::fs::MetadataExt;
+    let folders = fs::read_dir(out.join("points")).into_iter().flatten().flatten();
+    let tables = folders.map(|folder| folder.path().join("relaxed.csv")).filter(|table| table.exists());
+    tables.map(|table| (table.clone(), fs::metadata(&table).unwrap().ino())).collect()
+}
+
+/// Claim: a sweep that is killed (SIGKILL) loses at most the points in flight: resumed, it computes those that have no result,
+/// writes no file of the others again, and ends with the bytes of an undisturbed sweep. A scene that was changed is computed
+/// anew.
+#[test]
+fn a_killed_sweep_goes_on_with_the_missing_points() {
+    let scene = format!("{STAR}draw = []\n{TWELVE}");
+    let undisturbed = with_scene(&scene);
+    run(undisturbed.path(), "run scene.toml --quiet", 0);
+    let expected = read(&undisturbed.path().join("scene"));
+    let folder = with_scene(&scene);
+    let out = folder.path().join("scene");
+    for (words, finished) in [("run scene.toml --threads 2", 2), ("run scene.toml --threads 2 --resume", 5)] {
+        let mut child = started(folder.path(), words, finished);
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    let (done, before) = (finished_points(&out), inodes(&out));
+    assert!((5..12).contains(&done), "{done} points were finished");
+    let told = run(folder.path(), "run scene.toml --resume", 0);
+    assert!(told.contains(&format!("12 converged ({done} kept)")), "{told}");
+    let after = inodes(&out);
+    let same = before.iter().filter(|(table, inode)| after[*table] == **inode).count();
+    assert!(same >= done && after.len() == 12, "{same} of {done} were not written again");
+    let found = read(&out);
+    assert!(found.keys().eq(expected.keys()), "{:?}", found.keys());
+    assert!(found == expected);
+    fs::write(folder.path().join("scene.toml"), scene.replace("[0, 0.1, 0]", "[0, 0.2, 0]")).unwrap();
+    let told = run(folder.path(), "run scene.toml --resume", 0);
+    assert!(told.contains("12 converged\n"), "{told}");
+    assert!(table(&out) != table(&undisturbed.path().join("scene")));
+    // points of an earlier, longer sweep are not taken for those of this one
+    fs::write(folder.path().join("scene.toml"), scene.replace("[0.5, 1, 1.5]", "[0.5]")).unwrap();
+    run(folder.path(), "run scene.toml", 0);
+    assert_eq!(table(&out).lines().count(), 5);
+    assert_eq!(finished_points(&out), 4);
+}
+
+/// Claim: Ctrl-C ends a sweep with status 130, the finished points in the table, and the number of those that are missing. The
+/// program does not wait for a long step, so that the point in flight may be finished after the table was written.
+#[test]
+fn a_stopped_sweep_says_what_is_left() {
+    let folder = with_scene(&format!("{STAR}draw = []\n{TWELVE}"));
+    let child = started(folder.path(), "run scene.toml --threads 1", 2);
+    let stopped = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(stopped.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+    let out = folder.path().join("scene");
+    let columns = columns(&table(&out));
+    let count = |status: &str| columns["status"].iter().filter(|found| *found == status).count();
+    let (told, done) = (count("converged"), finished_points(&out));
+    assert!((2..12).contains(&told) && (told..=told + 1).contains(&done), "{told} {done}");
+    assert_eq!(count("missing"), 12 - told);
+    assert!(said(&output).contains(&format!("{} points are missing: ", 12 - told)), "{}", said(&output));
+    assert!(run(folder.path(), "run scene.toml --resume", 0).contains(&format!("12 converged ({done} kept)")));
+}
+
+/// Claim: shards that run at the same time into one folder compute every point once; the last one to end leaves the table of a
+/// sweep in one piece, byte for byte, and while a shard is missing its points are said to be.
+#[test]
+fn shards_share_a_folder() {
+    let scene = format!("{STAR}draw = []\n{TWELVE}");
+    let whole = with_scene(&scene);
+    run(whole.path(), "run scene.toml --quiet", 0);
+    let folder = with_scene(&scene);
+    let told = run(folder.path(), "run scene.toml --shard 2/3 --threads 1", 0);
+    assert!(told.contains("12 points") && told.contains("4 converged"), "{told}");
+    assert!(told.contains("8 points are missing: 0, 2-3, 5-6, 8-9, 11"), "{told}");
+    let shards = [1, 2, 3]
+        .map(|k| command(folder.path(), &format!("run scene.toml --shard {k}/3 --threads 1")).spawn().unwrap());
+    for shard in shards {
+        let output = shard.wait_with_output().unwrap();
+        assert!(output.status.success(), "{}", said(&output));
+    }
+    assert!(read(&folder.path().join("scene")) == read(&whole.path().join("scene")));
+}
+
+/// Claim: the library computes points one by one, in any order, and assembles the same table; a point that was finished is
+/// left as it is.
+#[test]
+fn the_library_runs_single_points() {
+    use foldwell::output::summary::PointStatus;
+    use foldwell::run::{RunOptions, assemble, points, read_scene, run_point};
+    use std::ops::ControlFlow;
+
+    let folder = with_scene(&format!("{STAR}draw = []\n\n[sweep]\n\"energy.bars.stiffness\" = [1e2, 1e3]\n"));
+    let path = folder.path().join("scene.toml");
+    let sweep = points(&read_scene(&path, &[]).unwrap()).unwrap();
+    let out = folder.path().join("library");
+    let options = RunOptions { out: Some(out.clone()), threads: Some(1), resume: true };
+    let observer = |_: &foldwell::run::Progress| ControlFlow::Continue(());
+    assert_eq!(run_point(&sweep, 1, &options, &observer).unwrap(), Some(PointStatus::Converged));
+    assert_eq!(assemble(&sweep, &out).unwrap().missing, [0]);
+    let before = inodes(&out);
+    for index in [0, 1] {
+        assert_eq!(run_point(&sweep, index, &options, &observer).unwrap(), Some(PointStatus::Converged));
+    }
+    assert!(before.iter().all(|(table, inode)| inodes(&out)[table] == *inode));
+    assert!(assemble(&sweep, &out).unwrap().missing.is_empty());
+    let scene = path.to_str().unwrap();
+    run(folder.path(), &format!("run {scene} --quiet --out program"), 0);
+    assert!(read(&out) == read(&folder.path().join("program")));
+    assert_eq!(run_point(&sweep, 0, &options, &|_| ControlFlow::Break(())).unwrap(), Some(PointStatus::Converged));
+    let anew = RunOptions { resume: false, ..options };
+    assert_eq!(run_point(&sweep, 0, &anew, &|_| ControlFlow::Break(())).unwrap(), None);
+}
