@@ -24,6 +24,7 @@ from .results import Result, Run
 from .runs import convert, run, schema
 from .sheet import Sheet, generate, pattern_help, patterns
 from .state import State
+from .sweeps import open_sweep, sweep
 from .studies import bloch, branches, compute, landscape, modes, path, relax, surface, trace, wells
 
 __all__ = [
@@ -47,6 +48,7 @@ __all__ = [
     "generate",
     "landscape",
     "modes",
+    "open_sweep",
     "path",
     "pattern_help",
     "patterns",
@@ -54,6 +56,7 @@ __all__ = [
     "run",
     "schema",
     "surface",
+    "sweep",
     "trace",
     "wells",
 ]

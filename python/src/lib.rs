@@ -9,6 +9,7 @@ mod forms;
 mod run;
 mod sheet;
 mod state;
+mod sweep;
 mod values;
 mod watch;
 
@@ -27,6 +28,8 @@ mod _foldwell {
     use crate::sheet::Sheet;
     #[pymodule_export]
     use crate::state::State;
+    #[pymodule_export]
+    use crate::sweep::Sweep;
     #[pymodule_export]
     use crate::watch::stop_all;
 

@@ -51,6 +51,10 @@ pub(crate) fn run_scene(
 ) -> PyResult<(String, Vec<Answer>, bool)> {
     let ((base, settings), (out, threads, resume)) = (place, options);
     let file = scene.read(py, &base, &settings)?;
+    if file.scene.sweep.is_some() {
+        let help = "foldwell.sweep computes its points";
+        return Err(raise(py, &file.error_at(0..0, "the scene has a [sweep]", help).into()));
+    }
     if let Some(out) = out {
         let options = RunOptions { out: Some(out), threads, resume };
         let ledger = Ledger::default();

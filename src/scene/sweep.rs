@@ -25,6 +25,7 @@ const TABLE: &str = "sweep";
 /// let sweep = Sweep::of(&parse(scene, "scene.toml")?)?.expect("the scene has a sweep");
 /// assert_eq!(sweep.len(), 6);
 /// assert_eq!(sweep.keys().collect::<Vec<_>>(), ["energy.creases.stiffness", "sheet.cells.0"]);
+/// assert_eq!(sweep.shape(), Some(vec![3, 2]));
 /// assert_eq!(sweep.point(3).values, ["10.0", "8"]);
 /// assert_eq!(sweep.point(3).settings[1].to_string(), "sheet.cells.0=8");
 /// assert!(sweep.scene(3)?.scene.sweep.is_none());
@@ -87,6 +88,13 @@ impl Sweep {
     /// Returns the paths of the keys that the points set, in the order of [`Point::values`].
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.axes.iter().flat_map(|axis| axis.keys.iter().map(String::as_str))
+    }
+
+    /// Returns the number of values of each key if the points are their product, the first key the slowest; `None` if keys
+    /// run together.
+    pub fn shape(&self) -> Option<Vec<usize>> {
+        let product = !self.zip && self.axes.iter().all(|axis| axis.keys.len() == 1);
+        product.then(|| self.axes.iter().map(Axis::len).collect())
     }
 
     /// Returns a point by its number, from 0 to [`len`](Self::len); numbers beyond begin anew.

@@ -1,0 +1,161 @@
+"""Sweeps: a scene computed for many values of its keys, on the threads of this process or on the workers of an executor."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Executor, Future, as_completed
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _foldwell
+from .assembly import settings
+from .progress import Callback, Progress, listener
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+__all__ = ["open_sweep", "sweep"]
+
+#: Pieces of work for an executor: enough that its workers end at about the same time, and that little is lost with one of them.
+PIECES = 128
+
+
+def sweep(
+    scene: str | os.PathLike[str] | Mapping[str, Any],
+    axes: Mapping[str, Sequence[Any] | NDArray[Any] | Mapping[str, Any]] | None = None,
+    *,
+    zip: bool = False,
+    set: Mapping[str, Any] | None = None,
+    base: str | os.PathLike[str] = "",
+    out: str | os.PathLike[str] | None = None,
+    resume: bool = True,
+    executor: Executor | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Dataset:
+    """Computes a scene for all values of some of its keys. Needs xarray.
+
+    Args:
+        scene: Path of a scene file, or its content as a dict. Its table `[sweep]`, if it has one, has axes too.
+        axes: Values of keys by their paths: `{"energy.bars.stiffness": np.logspace(2, 10, 17), "sheet.generate.seed": range(200)}`, or
+            forms of `[sweep]` such as `{"log": [1e2, 1e10, 17]}`. The points are the product, the first axis the slowest.
+        zip: Whether the axes, which then have equal lengths, run together.
+        set: Other keys that are set first, by their path.
+        base: Folder to which paths in a dict are relative; left out: the current one.
+        out: Folder for the files of `foldwell run`, a folder for each point beside the table; left out: they are not kept.
+        resume: With `out`, whether points that are there already are kept.
+        executor: Where the points are computed: any executor of `concurrent.futures`, or of Dask: `Client(...).get_executor()`. Its
+            workers must see the folder `out`, or the temporary folder if that is left out. If a worker is lost, call the function
+            again with the same `out`: only missing points are computed. Left out: the threads of this process.
+        threads: Number of threads of this process; with an executor, of each point there, 1 if left out.
+        progress: As for every study; the steps are points.
+
+    Returns:
+        A data set. Its dimensions are the keys of the axes, or `point` if they run together. Its variables are `status` ("converged",
+        "not-converged", "failed"), `reason` and every number of the summaries of the studies, as `NAME.KEY`; NaN where there is none.
+
+    Raises:
+        SceneError: the scene, an axis or the scene of a point is wrong; nothing was computed.
+        OutputError: a file cannot be written.
+    """
+    given: dict[str, Any] | Path = dict(scene) if isinstance(scene, Mapping) else Path(scene)
+    wanted = {f"sweep.{json.dumps(key)}": _values(values) for key, values in (axes or {}).items()}
+    if zip:
+        wanted["sweep.zip"] = True
+    points = _foldwell.Sweep(given, Path(base).absolute(), settings(set) + settings(wanted))
+    with TemporaryDirectory() as temporary, listener(progress) as callback:
+        folder = Path(temporary if out is None else out).absolute()
+        if executor is None:
+            summary = points.run(folder, threads, resume and out is not None, callback)
+        else:
+            points.check(folder)
+            if not resume:
+                (folder / "sweep.csv").unlink(missing_ok=True)
+            _submit(points, executor, folder, threads or 1, callback)
+            summary = points.assemble(folder)
+        return _dataset(folder, points.shape, json.loads(summary))
+
+
+def open_sweep(folder: str | os.PathLike[str]) -> Dataset:
+    """Reads the table of a sweep that `foldwell run` or `sweep` wrote, with dimension `point`. Needs xarray.
+
+    Raises:
+        FileNotFoundError: the folder has no `sweep.csv`.
+    """
+    return _dataset(Path(folder), [], json.loads((Path(folder) / "sweep.json").read_text()))
+
+
+def _values(values: Any) -> Any:
+    """Returns the values of an axis as a list, if they are no form of `[sweep]`."""
+    if isinstance(values, (Mapping, str)):
+        return values
+    return values.tolist() if isinstance(values, np.ndarray) else list(values)
+
+
+def _submit(
+    points: _foldwell.Sweep, executor: Executor, folder: Path, threads: int, callback: Callback | None
+) -> None:
+    """Computes the points on the workers of an executor, in pieces."""
+    count = len(points)
+    pieces = [range(first, count, PIECES) for first in range(min(PIECES, count))]
+    work: list[Future[int]] = [
+        executor.submit(_compute, points.text, points.path, piece, folder, threads) for piece in pieces
+    ]
+    done = 0
+    for future in as_completed(work):
+        done += future.result()
+        if callback is not None and callback("points", done, count, None) is False:
+            for other in work:
+                other.cancel()
+            return
+
+
+def _compute(text: str, path: Path, piece: Iterable[int], folder: Path, threads: int) -> int:
+    """Computes some points in this process, which may be a worker; returns how many. Points that are there already are kept."""
+    points = _foldwell.Sweep.parse(text, path)
+    done = 0
+    for index in piece:
+        points.run_point(index, folder, threads)
+        done += 1
+    return done
+
+
+def _dataset(folder: Path, shape: list[int], summary: dict[str, Any]) -> Dataset:
+    """Returns the table of a sweep as a data set."""
+    import xarray
+
+    with open(folder / "sweep.csv", newline="") as file:
+        header, *rows = csv.reader(file)
+    columns = {name: _column(name, [row[k] for row in rows]) for k, name in enumerate(header) if name != "point"}
+    keys: list[str] = summary["keys"]
+    about = {key: summary[key] for key in ("title", "scene", "version", "digest")}
+    grid = tuple(shape) if shape and int(np.prod(shape)) == len(rows) else ()
+    if grid:
+        along = {
+            key: columns.pop(key).reshape(grid)[tuple(slice(None) if a == k else 0 for a in range(len(grid)))]
+            for k, key in enumerate(keys)
+        }
+        data = {name: (tuple(keys), values.reshape(grid)) for name, values in columns.items()}
+        return xarray.Dataset(data, coords=along, attrs=about)
+    coordinates = {key: ("point", columns.pop(key)) for key in keys}
+    return xarray.Dataset({name: ("point", values) for name, values in columns.items()}, coordinates, about)
+
+
+def _column(name: str, texts: list[str]) -> NDArray[Any]:
+    """Returns the fields of a column as numbers, truth values or texts, whatever all of them are."""
+    if name in ("status", "reason"):
+        return np.array(texts, dtype=object)
+    filled = {text for text in texts if text}
+    if filled and filled <= {"true", "false"} and all(texts):
+        return np.array([text == "true" for text in texts])
+    try:
+        return np.array([float(text or "nan") for text in texts])
+    except ValueError:
+        return np.array(texts, dtype=object)

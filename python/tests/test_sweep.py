@@ -1,0 +1,135 @@
+"""Sweeps: on threads, on processes, on Dask, interrupted and resumed."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+import foldwell as fw
+import numpy as np
+import pytest
+from conftest import ROOT
+
+SCENE = {
+    "sheet": {"generate": {"pattern": "random", "seed": 0}, "cells": [2, 2]},
+    "energy": {"bars": {"stiffness": 1e3}, "creases": {"stiffness": 1.0, "rest": 0.1}},
+    "study": [{"name": "bent", "kind": "relax", "draw": []}],
+}
+AXES = {"sheet.generate.seed": range(6), "energy.bars.stiffness": np.logspace(2, 4, 3)}
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory):
+    """The data set of the sweep, and the bytes of its table."""
+    folder = tmp_path_factory.mktemp("expected")
+    data = fw.sweep(SCENE, AXES, out=folder)
+    return data, (folder / "sweep.csv").read_bytes()
+
+
+def test_a_point_is_the_study_that_it_would_be_alone(expected):
+    data, _ = expected
+    assert dict(data.sizes) == {"sheet.generate.seed": 6, "energy.bars.stiffness": 3}
+    assert (data.status == "converged").all() and (data.reason == "").all() and data["bent.converged"].all()
+    for seed, stiffness in [(0, 1e2), (5, 1e4)]:
+        run = fw.run(SCENE, set={"sheet.generate.seed": seed, "energy.bars.stiffness": stiffness})
+        point = data.sel({"sheet.generate.seed": seed, "energy.bars.stiffness": stiffness})
+        assert float(point["bent.energy.total"]) == run["bent"].summary["energy"]["total"]
+
+
+@pytest.mark.parametrize("executor", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_executors_make_the_same_table(executor, expected, tmp_path):
+    data, table = expected
+    spawned = {"mp_context": get_context("spawn")} if executor is ProcessPoolExecutor else {}
+    heard = []
+    with executor(2, **spawned) as pool:
+        found = fw.sweep(SCENE, AXES, out=tmp_path, executor=pool, progress=lambda *step: heard.append(step))
+    assert found.identical(data) and (tmp_path / "sweep.csv").read_bytes() == table
+    assert heard[-1][:3] == ("points", 18, 18)
+    assert fw.open_sweep(tmp_path).sizes["point"] == 18
+
+
+def test_dask_makes_the_same_table(expected, tmp_path):
+    distributed = pytest.importorskip("distributed")
+    data, table = expected
+    with distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster:
+        with distributed.Client(cluster) as client:
+            assert fw.sweep(SCENE, AXES, out=tmp_path, executor=client.get_executor()).identical(data)
+    assert (tmp_path / "sweep.csv").read_bytes() == table
+
+
+def test_forms_of_axes(expected):
+    data, _ = expected
+    forms = {"sheet.generate.seed": {"seeds": [0, 6]}, "energy.bars.stiffness": {"log": [1e2, 1e4, 3]}}
+    other = fw.sweep(SCENE, forms)
+    assert np.array_equal(other["bent.energy.total"], data["bent.energy.total"])
+    together = fw.sweep(SCENE, {"sheet.generate.seed": [0, 1], "energy.bars.stiffness": [1e2, 1e3]}, zip=True)
+    assert dict(together.sizes) == {"point": 2}
+    assert float(together["bent.energy.total"][1]) == float(data["bent.energy.total"][1, 1])
+
+
+def test_points_that_fail_are_listed(tmp_path):
+    """Seven locked angles that no sheet has: points that do not converge keep their reason."""
+    scene = {
+        "sheet": {"mesh": "degree-four.fold"},
+        "energy": {"bars": {"stiffness": fw.RIGID}, "creases": {"stiffness": 1.0}},
+        "lock": [{"crease": [0, 1, 0, 0], "angle": 2.0}, {"crease": [0, 2, 0, 0], "angle": -2.0}],
+        "study": [{"name": "held", "kind": "relax", "draw": []}],
+    }
+    data = fw.sweep(scene, {"lock.0.angle": [0.1, 2.0], "lock.1.angle": [-2.0]}, base=ROOT / "meshes")
+    status = set(data.status.values.ravel().tolist())
+    assert "not-converged" in status
+    assert all(bool(why) == (word != "converged") for word, why in zip(data.status.values.ravel(), data.reason.values.ravel(), strict=True))
+
+
+def test_mistakes_are_said_before_anything_is_computed(tmp_path):
+    for axes, words in [
+        ({"energy.bars.stiffnes": [1.0, 2.0]}, "unknown key `stiffnes`"),
+        ({"energy.bars.stiffness": [1.0, -2.0]}, "point 1"),
+        ({"energy.bars.stiffness": []}, "sweep|values"),
+        (None, "no \\[sweep\\]"),
+    ]:
+        with pytest.raises(fw.SceneError, match=words):
+            fw.sweep(SCENE, axes, out=tmp_path / "none")
+    assert not (tmp_path / "none").exists()
+
+
+#: A sweep of 40 points in a process of its own, which says when it begins.
+PROCESS = """
+import sys, foldwell as fw
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+SCENE, AXES = {scene!r}, {{"sheet.generate.seed": range(40)}}
+if __name__ == "__main__":
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        fw.sweep(SCENE, AXES, out={out!r}, executor=pool)
+"""
+
+
+def finished(folder: Path) -> dict[str, float]:
+    """Returns the times at which points were finished."""
+    return {path.parent.name: path.stat().st_mtime for path in folder.glob("points/*/summary.json")}
+
+
+def test_a_sweep_that_was_killed_goes_on(tmp_path):
+    """All processes are killed by -9 in the middle; the next call computes only what is missing and has the same table."""
+    killed, whole = tmp_path / "killed", tmp_path / "whole"
+    script = tmp_path / "sweep.py"
+    script.write_text(PROCESS.format(scene=SCENE, out=str(killed)))
+    process = subprocess.Popen([sys.executable, script], start_new_session=True)
+    while len(finished(killed)) < 8 and process.poll() is None:
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    before = finished(killed)
+    assert 8 <= len(before) < 40
+    axes = {"sheet.generate.seed": range(40)}
+    resumed, at_once = fw.sweep(SCENE, axes, out=killed), fw.sweep(SCENE, axes, out=whole)
+    after = finished(killed)
+    # a point that was being written when it was killed is computed again: one for each of the two workers
+    assert sum(after[point] != time for point, time in before.items()) <= 2
+    assert resumed.identical(at_once)
+    assert (killed / "sweep.csv").read_bytes() == (whole / "sweep.csv").read_bytes()
