@@ -34,7 +34,7 @@ def draw_state(state: State, ax: Axes | None, paper: str) -> Axes:
     low, high = points.min(axis=0), points.max(axis=0)
     size = np.maximum(high - low, 1e-3 * max(float((high - low).max()), 1e-300))
     axes.set(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), zlim=(low[2], low[2] + size[2]))
-    axes.set_box_aspect(size, zoom=1.25)
+    axes.set_box_aspect(size, zoom=1.1)
     axes.set_axis_off()
     drawn: Axes = axes
     return drawn
