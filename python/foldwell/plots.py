@@ -19,7 +19,7 @@ MOUNTAIN, VALLEY, OTHER = "#c0392b", "#2166ac", "#8a8578"
 FOLDED = 1e-6
 
 
-def draw_state(state: State, ax: Axes | None, paper: str) -> Axes:
+def draw_state(state: State, ax: Axes | None, paper: str, numbers: bool) -> Axes:
     """Draws a sheet in 3D; see `State.plot`."""
     import matplotlib.pyplot as plt
     from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
@@ -36,6 +36,9 @@ def draw_state(state: State, ax: Axes | None, paper: str) -> Axes:
     axes.set(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), zlim=(low[2], low[2] + size[2]))
     axes.set_box_aspect(size, zoom=1.1)
     axes.set_axis_off()
+    if numbers:
+        for point, (vertex, n1, n2) in zip(points, state.places.tolist(), strict=True):
+            axes.text(*point, f"{vertex}" if n1 == n2 == 0 else f"{vertex} ({n1}, {n2})", fontsize=8)
     drawn: Axes = axes
     return drawn
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["Result", "Run"]
 
 Column = NDArray[Any]
+#: Name of a column with the fold angle of an edge.
+FOLD = re.compile(r"fold(_-?\d+){4}")
 
 
 class Result:
@@ -101,6 +104,22 @@ class Result:
         import pandas
 
         return pandas.DataFrame(self.table)
+
+    def to_xarray(self) -> Any:
+        """Returns `table` as an `xarray.Dataset` with dimension `row`. Needs xarray.
+
+        Fold angles of edges are one variable, `fold_angle` (`row`, `edge`) in radians; the coordinate `edge` is the name of an edge of
+        the cell as a text, "i,j,n1,n2".
+        """
+        import xarray
+
+        folds = {name: ",".join(name.split("_")[1:]) for name in self.table if FOLD.fullmatch(name)}
+        data = {name: ("row", values) for name, values in self.table.items() if name not in folds}
+        found = xarray.Dataset(data, attrs={"name": self.name, "kind": self.kind})
+        if folds:
+            angles = np.stack([self.table[name] for name in folds], axis=1)
+            found = found.assign(fold_angle=(("row", "edge"), angles)).assign_coords(edge=list(folds.values()))
+        return found
 
     def to_pyvista(self) -> Any:
         """Returns the final state, or else the last one that was kept, as a `pyvista.UnstructuredGrid`. Needs PyVista."""

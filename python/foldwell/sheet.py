@@ -153,11 +153,12 @@ class Sheet:
         found: dict[str, Any] = json.loads(self._inner.to_fold())
         return found
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draws one cell as it is drawn, as `State.plot` does. Needs Matplotlib."""
+    def plot(self, ax: Any = None, **options: Any) -> Any:
+        """Draws all faces of one cell as they are drawn, with the options of `State.plot`. Needs Matplotlib."""
         from .assembly import Assembly
 
-        return Assembly.patch(self).drawn.plot(ax)
+        make = Assembly.patch if self.lattice is None else Assembly.torus
+        return make(self).drawn.plot(ax, **options)
 
     def __repr__(self) -> str:
         kind = "finite sheet" if self.lattice is None else "periodic cell"

@@ -121,18 +121,21 @@ class State:
             self.save(path)
             return pyvista.read(path)
 
-    def plot(self, ax: Axes | None = None, *, paper: str = "#e8e2d4") -> Axes:
+    def plot(self, ax: Axes | None = None, *, paper: str = "#e8e2d4", numbers: bool = False) -> Axes:
         """Draws the sheet in 3D: faces in the colour `paper`, valleys blue, mountains red, other edges grey. Needs Matplotlib.
 
         Args:
             ax: Axes with `projection="3d"`; new ones if left out.
+            paper: Colour of the faces.
+            numbers: Whether each point has its vertex number beside it, and the two numbers of its cell if that is not (0, 0), as
+                pins and loads name them.
 
         Returns:
             The axes.
         """
         from .plots import draw_state
 
-        return draw_state(self, ax, paper)
+        return draw_state(self, ax, paper, numbers)
 
     def __repr__(self) -> str:
         return f"<foldwell.State: {len(self.positions)} points, {len(self._inner.kinds)} edges, {len(self.faces)} faces>"

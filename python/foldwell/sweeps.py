@@ -139,12 +139,12 @@ def _dataset(folder: Path, shape: list[int], summary: dict[str, Any]) -> Dataset
     grid = tuple(shape) if shape and int(np.prod(shape)) == len(rows) else ()
     if grid:
         along = {
-            key: columns.pop(key).reshape(grid)[tuple(slice(None) if a == k else 0 for a in range(len(grid)))]
+            key: _whole(columns.pop(key)).reshape(grid)[tuple(slice(None) if a == k else 0 for a in range(len(grid)))]
             for k, key in enumerate(keys)
         }
         data = {name: (tuple(keys), values.reshape(grid)) for name, values in columns.items()}
         return xarray.Dataset(data, coords=along, attrs=about)
-    coordinates = {key: ("point", columns.pop(key)) for key in keys}
+    coordinates = {key: ("point", _whole(columns.pop(key))) for key in keys}
     return xarray.Dataset({name: ("point", values) for name, values in columns.items()}, coordinates, about)
 
 
@@ -159,3 +159,9 @@ def _column(name: str, texts: list[str]) -> NDArray[Any]:
         return np.array([float(text or "nan") for text in texts])
     except ValueError:
         return np.array(texts, dtype=object)
+
+
+def _whole(values: NDArray[Any]) -> NDArray[Any]:
+    """Returns the values of an axis as integers if all of them are whole, as seeds and numbers of cells are."""
+    whole = values.dtype.kind == "f" and bool((np.abs(values) < 2**53).all() and (values == np.rint(values)).all())
+    return values.astype(np.int64) if whole else values

@@ -190,6 +190,28 @@ def test_results_go_to_other_libraries(soft, tmp_path):
     assert len(land.plot().lines) == 2
 
 
+def test_tables_go_to_xarray():
+    """Fold angles are one variable, by the names of the edges; the rest angle of a lock is kept along a trace."""
+    star = fw.Sheet.read(ROOT / "meshes/open-star.fold")
+    traced = fw.trace(fw.Assembly.screw(star, bars=fw.RIGID, creases=1.0, locks=[(0, 1, -1, 0)]), stop={"arc_length": 0.5})
+    data = traced.to_xarray()
+    assert data.sizes == {"row": len(traced.table["step"]), "edge": 12}
+    assert [tuple(map(int, name.split(","))) for name in data.edge.values.tolist()] == list(map(tuple, star.edges.tolist()))
+    locked = data.fold_angle.sel(edge="0,1,-1,0")
+    assert np.allclose(locked, star.fold_angles[star.edges.tolist().index([0, 1, -1, 0])], rtol=0.0, atol=1e-12)
+    assert np.array_equal(data.curvature, traced.table["curvature"])
+    assert "fold_angle" not in fw.modes(fw.Assembly.patch(star, bars=1.0, creases=1.0), eigenvalues=3).to_xarray()
+
+
+def test_numbers_of_plots_are_those_of_pins(miura):
+    texts = {text.get_text() for text in miura.plot(numbers=True).texts}
+    assert {"0", "1", "2", "3", "0 (1, 0)", "0 (0, 1)"} <= texts
+    assert not miura.plot().texts
+    axes = miura.plot()
+    axes.figure.canvas.draw()
+    assert len(axes.collections[0].get_paths()) == 8  # four parallelograms, each of two triangles
+
+
 def test_modes_by_rates_are_those_by_curvature():
     """The rates of a folding mode of unit curvature name the same mode as its curvature tensor does."""
     sheet = fw.generate("random", seed=1)

@@ -33,6 +33,7 @@ def expected(tmp_path_factory):
 def test_a_point_is_the_study_that_it_would_be_alone(expected):
     data, _ = expected
     assert dict(data.sizes) == {"sheet.generate.seed": 6, "energy.bars.stiffness": 3}
+    assert data["sheet.generate.seed"].values.tolist() == list(range(6)) and data["sheet.generate.seed"].dtype == int
     assert (data.status == "converged").all() and (data.reason == "").all() and data["bent.converged"].all()
     for seed, stiffness in [(0, 1e2), (5, 1e4)]:
         run = fw.run(SCENE, set={"sheet.generate.seed": seed, "energy.bars.stiffness": stiffness})
