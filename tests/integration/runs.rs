@@ -77,7 +77,11 @@ fn every_scene_in_meshes_gives_its_answer() {
         assert!(output.stdout.is_empty() && output.stderr.is_empty(), "{}: --quiet says nothing", scene.display());
         if folder.join("sweep.csv").exists() {
             let sweep = json(&folder.join("sweep.json"));
-            assert!(sweep["points"].as_u64().unwrap() > 1 && sweep["converged"] == sweep["points"], "{}", scene.display());
+            assert!(
+                sweep["points"].as_u64().unwrap() > 1 && sweep["converged"] == sweep["points"],
+                "{}",
+                scene.display()
+            );
             continue;
         }
         for study in json(&folder.join("summary.json"))["studies"].as_array().unwrap() {
