@@ -311,7 +311,8 @@ fn finished_points(out: &Path) -> usize {
     let folders = fs::read_dir(out.join("points")).into_iter().flatten().flatten();
     let finished = |folder: PathBuf| {
         let text = fs::read_to_string(folder.join("summary.json")).unwrap_or_default();
-        serde_json::from_str::<Value>(&text).is_ok_and(|found| found["studies"][0]["files"].is_object())
+        let summary: Value = serde_json::from_str(&text).unwrap_or_default();
+        summary["studies"][0]["files"].is_object() && summary["studies"][0]["reason"] != "interrupted"
     };
     folders.filter(|folder| finished(folder.path())).count()
 }
