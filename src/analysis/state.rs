@@ -50,10 +50,23 @@ impl State {
 
     /// The state of a model with these unknowns and tensions of the stiff measures. Stiff measures have the energy of their tensions, without cancellation.
     pub fn new(model: &Model, x: &[f64], tension: &[f64]) -> Self {
-        let mut state = Self::empty(model.coordinates(x), model.edges());
+        let coordinates = model.coordinates(x);
+        let value = |term: &dyn Elements, k: usize| term.value(k, model.domain(), &coordinates);
+        let measured = Self::of_measures(model, value, |row, _, _| tension[row]);
+        Self { coordinates, ..measured }
+    }
+
+    /// The state of a model whose elements have these values, and whose stiff measures, counted through, have these tensions
+    /// at these values. It has no coordinates.
+    pub(super) fn of_measures(
+        model: &Model,
+        value: impl Fn(&dyn Elements, usize) -> f64,
+        tension: impl Fn(usize, &dyn Elements, usize) -> f64,
+    ) -> Self {
+        let mut state = Self::empty(vec![], model.edges());
         for term in model.soft() {
             for k in 0..term.len() {
-                let (spring, value) = (term.spring(k), term.value(k, model.domain(), &state.coordinates));
+                let (spring, value) = (term.spring(k), value(term.as_ref(), k));
                 let off = value - spring.rest;
                 state.add(term.as_ref(), k, value, [spring.stiffness * off, 0.5 * spring.stiffness * off * off]);
             }
@@ -61,9 +74,9 @@ impl State {
         let mut row = 0;
         for term in model.stiff() {
             for k in 0..term.len() {
-                let value = term.value(k, model.domain(), &state.coordinates);
-                let energy = 0.5 * model.compliance()[row] * tension[row] * tension[row];
-                state.add(term.as_ref(), k, value, [tension[row], energy]);
+                let (value, tension) = (value(term.as_ref(), k), tension(row, term.as_ref(), k));
+                let energy = 0.5 * model.compliance()[row] * tension * tension;
+                state.add(term.as_ref(), k, value, [tension, energy]);
                 row += 1;
             }
         }
