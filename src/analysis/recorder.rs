@@ -5,7 +5,25 @@ use crate::model::Model;
 use crate::solver::{Equilibrium, NewtonError, Options, Start, Step, minimize_iterates};
 use std::num::NonZeroUsize;
 
-/// A state on the way of a relaxation.
+/// A state on the way of a relaxation, which [`RelaxOptions::keep_every`](super::method::RelaxOptions::keep_every) asks for.
+///
+/// ```
+/// use foldwell::analysis::method::RelaxOptions;
+/// use foldwell::analysis::relax::relax_from;
+/// use foldwell::model::Gauge;
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate};
+/// use std::num::NonZeroUsize;
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// let mut model = assembly.model(Gauge::Held);
+/// let (start, every) = (model.start(), NonZeroUsize::new(1));
+/// let options = RelaxOptions { keep_every: every, ..RelaxOptions::default() };
+/// let relaxed = relax_from(&mut model, start, options, &mut |_| true)?;
+/// assert!(relaxed.kept.len() == relaxed.history.len());
+/// assert!(relaxed.kept[0].state.total() > relaxed.state.total());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptState {
     /// Its place in the history of the relaxation.

@@ -38,6 +38,7 @@ mod hanging_chain;
 mod intersections;
 mod intrinsic;
 mod invariance;
+mod kept_states;
 mod kinematics;
 mod landscape;
 mod landscape_map;
