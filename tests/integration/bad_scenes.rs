@@ -252,6 +252,10 @@ const MISFITS: &[Misfit] = &[
     // the sheet
     misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"torus\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh"),
     misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"screw\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh"),
+    misfit("[sheet]\nmesh = \"finite.OBJ\"\ndomain = \"torus\"", "3:10", "the mesh has no lattice", "in OBJ as two comments `# foldwell:lattice x y z`"),
+    misfit("[sheet]\nmesh = \"finite.OBJ\"\nframe = 1", "3:9", "an OBJ file has no frames", "leave out `frame`"),
+    misfit("[sheet]\nmesh = \"sheet.stl\"", "2:8", "a mesh of a scene is no .stl file", "give a .fold or .obj file"),
+    misfit("[sheet]\nmesh = \"sheet.vtu\"", "2:8", "a mesh of a scene is no .vtu file", "`foldwell convert` makes a .fold file of it"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", fold = 2.0 }", "2:12", "`fold` is 2", "see `foldwell new --help` for the patterns"),
     misfit("[sheet]\ngenerate = { pattern = \"kresling\", sides = 2 }", "2:12", "`sides` is 2; it should be from 3 to 1000", "see `foldwell new --help` for the patterns"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", hight = 1 }", "2:12", "unknown field `hight`", "see `foldwell new --help` for the patterns"),
@@ -282,6 +286,9 @@ fn folder_of_misfits() -> tempfile::TempDir {
     std::fs::copy(star, folder.path().join("star.fold")).expect("the star cell");
     let files = [
         ("finite.fold", FINITE),
+        ("finite.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("sheet.stl", ""),
+        ("sheet.vtu", ""),
         ("one.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n"),
         ("rates.csv", "i,j,n1,n2,rate\n0,1,0,0,0.1\n"),
         ("strange.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n0,1,5,0,0.1\n"),
