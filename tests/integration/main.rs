@@ -29,6 +29,7 @@ mod engines;
 mod files;
 mod films;
 mod flat_patterns;
+mod flattening;
 mod floors;
 mod folding_theory;
 mod frames;
