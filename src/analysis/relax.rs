@@ -116,6 +116,26 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 /// Where the direct way fails, all rest angles, rest lengths and locked angles are moved from their values at the start to
 /// their targets in steps that adapt.
 ///
+/// ```
+/// use foldwell::analysis::method::RelaxOptions;
+/// use foldwell::analysis::relax::relax_from;
+/// use foldwell::model::Gauge;
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate};
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// // the held gauge is the one for minimisation; the unknowns of the drawn state are one start among others
+/// let mut model = assembly.model(Gauge::Held);
+/// let start = model.start();
+/// let mut steps = 0;
+/// let relaxed = relax_from(&mut model, start, RelaxOptions::default(), &mut |_step| {
+///     steps += 1;
+///     steps <= 100
+/// })?;
+/// assert!(relaxed.negative_eigenvalues == 0 && steps == relaxed.history.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
 pub fn relax_from(

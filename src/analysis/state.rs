@@ -6,6 +6,27 @@ use crate::solver::Problem;
 use std::f64::consts::TAU;
 
 /// What an equilibrium, or any other state, looks like.
+///
+/// Lists of numbers of edges are in the order of the edges of the [tiling](crate::model::Assembly::tiling), each of which
+/// names its cell and its edge of the [sheet](crate::model::Assembly::sheet); coordinates are x, y, z of the points of the
+/// tiling one after the other.
+///
+/// ```
+/// use foldwell::sheet::EdgeKind;
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// let state = relax(&assembly)?.state;
+/// for (edge, angle) in assembly.tiling().edges.iter().zip(&state.fold_angle) {
+///     let of_cell = &assembly.sheet().edges[edge.edge];
+///     if of_cell.kind == EdgeKind::Crease {
+///         println!("cell {:?}, crease {:?}: {angle:.4} rad", edge.cell, of_cell.key);
+///     }
+/// }
+/// assert_eq!(state.fold_angle.len(), assembly.tiling().edges.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     /// All coordinates in the domain's frame, shared ones last.
