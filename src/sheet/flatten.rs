@@ -75,7 +75,7 @@ pub enum NotDevelopable {
 /// let folded = generate(&Pattern::MiuraPatch(MiuraPatch { cells: [2, 2], ..MiuraPatch::default() }))?;
 /// let pattern = flatten(&folded)?;
 /// assert!(pattern.vertices.iter().all(|point| point.z == 0.0));
-/// assert_eq!(pattern.assignment(&pattern.edges[1]), Assignment::Mountain);
+/// assert_eq!(pattern.assignment(&pattern.edges[1]), Assignment::Valley);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
