@@ -11,6 +11,7 @@ pub mod landscape;
 pub mod method;
 pub mod modes;
 pub mod path;
+pub mod recorder;
 pub mod relax;
 pub mod restored;
 pub mod shown_cells;

@@ -89,6 +89,9 @@ pub struct RelaxSpec {
     /// The unknowns of the relaxation; left out: `auto`.
     #[serde(default)]
     pub method: MethodSpec,
+    /// Which states on the way are written: one in so many iterations, the first and the last one included. Left out: the
+    /// start and the end.
+    pub keep_every: Option<Located<Count>>,
 }
 
 /// The unknowns of a relaxation.
