@@ -29,6 +29,7 @@ def relax(
     start: Start = None,
     tolerance: float | None = None,
     method: str | None = None,
+    keep_every: int | None = None,
     **common: Any,
 ) -> Result:
     """Finds an equilibrium of the energy by Newton's method.
@@ -39,9 +40,11 @@ def relax(
             "seed": n}`. Left out: as drawn.
         tolerance: Bound on both scaled residuals.
         method: The unknowns: "vertices", "intrinsic" (fold angles), or "auto", the default.
+        keep_every: Steps between the states on the way that are kept; left out: none are.
         **common: As for every study, see `compute`.
     """
-    return compute(assembly, "relax", {"tolerance": tolerance, "method": method}, start=start, **common)
+    keys = {"tolerance": tolerance, "method": method, "keep_every": keep_every}
+    return compute(assembly, "relax", keys, start=start, **common)
 
 
 def modes(assembly: Assembly, *, start: Start = None, eigenvalues: int | None = None, **common: Any) -> Result:
