@@ -177,40 +177,34 @@ pub fn relax_from(
         let found = if may_bend { apex::bent(model, found, off, options, &mut recorder, &mut history)? } else { found };
         if moved { refined(model, found, options, &mut recorder, &mut history) } else { Ok(found) }
     });
-    match found {
+    let open = match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
             Some(angle) if !(angle <= CERTAIN) => {
-                let state = State::new(model, &found.x, &found.tension);
                 let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
                 let failure = Failure::Uncertain { angle, force, tolerance: options.tolerance };
-                history.extend(found.history);
-                let kept = recorder.into_kept(Some(&state));
-                Err(Box::new(RelaxError { failure, state, x: found.x, history, intrinsic_failure, soft_steps, kept }))
+                NewtonError { failure, x: found.x, tension: found.tension, history: found.history }
             }
             _ => {
                 let branch_choice = BranchChoice::of(model, &found.x, &origin, soft_steps > 0);
                 let relaxed = finish(model, found, history);
                 let kept = recorder.into_kept(Some(&relaxed.state));
-                Ok(Relaxed { intrinsic_failure, branch_choice, soft_steps, kept, ..relaxed })
+                return Ok(Relaxed { intrinsic_failure, branch_choice, soft_steps, kept, ..relaxed });
             }
         },
-        Err(error) => {
-            history.extend(error.history);
-            let state = State::new(model, &error.x, &error.tension);
-            // stopped in fold angles, it ends where it started
-            let is_last = history.last().is_some_and(|step| !step.intrinsic);
-            let kept = recorder.into_kept(is_last.then_some(&state));
-            Err(Box::new(RelaxError {
-                failure: error.failure,
-                state,
-                x: error.x,
-                history,
-                intrinsic_failure,
-                soft_steps,
-                kept,
-            }))
-        }
-    }
+        Err(error) => error,
+    };
+    Err(Box::new(RelaxError { intrinsic_failure, soft_steps, ..failed(model, open, history, recorder) }))
+}
+
+/// The failure of a relaxation with its last state.
+fn failed(model: &Model, error: NewtonError, mut history: Vec<Step>, recorder: Recorder<'_>) -> RelaxError {
+    history.extend(error.history);
+    let state = State::new(model, &error.x, &error.tension);
+    // stopped in fold angles, it ends where it started
+    let is_last = history.last().is_some_and(|step| !step.intrinsic);
+    let kept = recorder.into_kept(is_last.then_some(&state));
+    let (failure, x) = (error.failure, error.x);
+    RelaxError { failure, state, x, history, intrinsic_failure: None, soft_steps: 0, kept }
 }
 
 /// The equilibrium, once what holds the sheet against rigid motions does nothing else. It was chosen in the drawn state, and may hold
