@@ -12,6 +12,7 @@ pub mod method;
 pub mod modes;
 pub mod path;
 pub mod relax;
+pub mod response;
 pub mod restored;
 pub mod shown_cells;
 pub mod singular_start;

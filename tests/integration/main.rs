@@ -53,6 +53,7 @@ mod pinned_wells;
 mod reasons;
 mod redundant;
 mod refused_scenes;
+mod response;
 mod rest_lengths;
 mod restarts;
 mod resumed_paths;
