@@ -81,7 +81,8 @@ impl Table {
         Self::edge_column("fold", edge)
     }
 
-    fn edge_column(word: &str, edge: &EdgeKey) -> String {
+    /// Returns the name of a column with a quantity of an edge.
+    pub(crate) fn edge_column(word: &str, edge: &EdgeKey) -> String {
         format!("{word}_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }
 

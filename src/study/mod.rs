@@ -11,6 +11,7 @@
 //! | `bloch` | [`bloch`] | spatially varying modes |
 //! | `wells` | [`wells`] | minima, and the barriers between them |
 //! | `path` | [`path`] | equilibria along a driven quantity |
+//! | `response` | [`response`] | linear modes, Poisson's ratios and moduli |
 //!
 //! [`check`] refuses a study that does not fit its sheet before anything is computed; [`compute`] returns its answer.
 
@@ -28,6 +29,7 @@ mod path;
 mod path_plot;
 mod reason;
 mod relax;
+mod response;
 mod start;
 mod states;
 mod supported;
@@ -59,6 +61,7 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
         StudyKind::Bloch(spec) => bloch::check(context, spec),
         StudyKind::Wells(spec) => wells::check(context, spec),
         StudyKind::Path(spec) => path::check(context, spec),
+        StudyKind::Response(spec) => response::check(context, spec),
     }
 }
 
@@ -83,5 +86,6 @@ fn compute_kind(context: &Context<'_>) -> Result<Answer, StudyError> {
         StudyKind::Bloch(spec) => Ok(bloch::compute(context, spec)),
         StudyKind::Wells(spec) => wells::compute(context, spec),
         StudyKind::Path(spec) => path::compute(context, spec),
+        StudyKind::Response(spec) => response::compute(context, spec),
     }
 }

@@ -11,6 +11,7 @@ mod landscape;
 mod modes;
 mod path;
 mod relax;
+mod response;
 mod surface;
 mod trace;
 mod wells;
@@ -21,6 +22,7 @@ pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::ModesSummary;
 pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
 pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
+pub use response::{LatticeSummary, LinearModeSummary, PoissonSummary, ResponseSummary, StressSummary, TableSummary};
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 pub use wells::{
@@ -138,6 +140,8 @@ pub enum StudyResult {
     Wells(WellsSummary),
     /// `kind = "path"`.
     Path(PathSummary),
+    /// `kind = "response"`.
+    Response(ResponseSummary),
     /// `kind = "trace"`.
     Trace(TraceSummary),
 }
