@@ -42,7 +42,8 @@ KINDS = {
               "positive_fraction", "zero_lines"},
     "wells": {"starts", "failed", "saddles", "wells", "barriers", "rigid"},
     "path": {"drive", "driven", "to", "branches"},
-    "response": {"linear_modes", "table_rank", "table", "self_stresses", "stresses", "lattice", "poisson"},
+    "response": {"linear_modes", "table_rank", "table", "self_stresses", "stresses", "lattice", "poisson",
+                 "moduli", "no_moduli"},
     "modes": {"zero_modes", "self_stresses", "rigid_motions", "folding_modes", "maxwell_count", "gap", "eigenvalues"},
 }
 STATE_COLUMNS = ("branch,sign,step,arc_length,curvature,theta1,theta2,strain11,strain22,strain12,energy_bars,"

@@ -4,13 +4,14 @@ use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::{start, states};
-use crate::analysis::response::{Field, LinearMode, Response, SelfStress, response_at};
+use crate::analysis::response::{Field, LinearMode, Moduli, Principal, Response, SelfStress, moduli_at, response_at};
 use crate::math::Vec3;
 use crate::model::{Domain, Gauge};
 use crate::output::figure::{ratios, rounded};
 use crate::output::picture::Picture;
 use crate::output::summary::{
-    LatticeSummary, LinearModeSummary, PoissonSummary, ResponseSummary, StressSummary, StudyResult, TableSummary,
+    LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
+    RigidLimitSummary, StressSummary, StudyResult, TableSummary,
 };
 use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
@@ -61,7 +62,15 @@ pub(crate) fn compute(context: &Context<'_>, spec: &ResponseSpec) -> Result<Answ
     let directions = spec.directions.as_ref().map_or(DIRECTIONS, |count| count.0);
     answer.add(format!("{name}-ratios.csv"), ratios_table(&response, directions));
     add_pictures(&mut answer, context, &response, &state.coordinates);
-    answer.conclude(StudyResult::Response(summary(&response)), Some(response.error), None);
+    let mut summary = summary(&response);
+    match moduli_at(context.assembly, &state) {
+        Ok(found) => {
+            summary.moduli = found.moduli().map(moduli_summary);
+            summary.no_moduli = found.reason();
+        }
+        Err(error) => summary.no_moduli = Some(error.to_string()),
+    }
+    answer.conclude(StudyResult::Response(Box::new(summary)), Some(response.error), None);
     Ok(answer)
 }
 
@@ -204,5 +213,33 @@ fn summary(response: &Response) -> ResponseSummary {
             curvature: lattice.curvature,
         },
         poisson,
+        moduli: None,
+        no_moduli: None,
+    }
+}
+
+fn moduli_summary(moduli: &Moduli) -> ModuliSummary {
+    let principal = |(number, principal): (usize, &Principal)| PrincipalSummary {
+        strain: principal.strain,
+        curvature: principal.curvature,
+        stiffness: principal.stiffness,
+        ratio: moduli
+            .rigid_modes
+            .get(number)
+            .map(|rigid| principal.stiffness / rigid.stiffness)
+            .filter(|r| r.is_finite()),
+    };
+    let all = |principals: &[Principal]| principals.iter().enumerate().map(principal).collect();
+    ModuliSummary {
+        stretching: moduli.matrices.map(|found| found.stretching),
+        coupling: moduli.matrices.map(|found| found.coupling),
+        bending: moduli.matrices.map(|found| found.bending),
+        rigid_limit: moduli.rigid_limit.map(|limit| RigidLimitSummary {
+            stretching: limit.stretching,
+            coupling: limit.coupling,
+            bending: limit.bending,
+        }),
+        rigid_modes: all(&moduli.rigid_modes),
+        softest: all(&moduli.softest),
     }
 }

@@ -54,6 +54,7 @@ mod reasons;
 mod redundant;
 mod refused_scenes;
 mod response;
+mod response_moduli;
 mod response_runs;
 mod rest_lengths;
 mod restarts;

@@ -51,6 +51,13 @@ fn scenes_of_the_book() {
         assert!((in_plane - expected).abs() <= 1e-10 && (in_plane + bending).abs() <= 1e-10, "{in_plane} {bending}");
         assert_eq!((found.poisson.opposite, found.table_rank), (Some(true), 3));
         assert!(studies[0].error.unwrap() <= 1e-12);
+        let moduli = found.moduli.as_ref().unwrap();
+        assert_eq!((moduli.rigid_modes.len(), moduli.softest.len(), &found.no_moduli), (3, 3, &None));
+        assert_eq!(moduli.stretching.is_some(), scene == "miura", "rigid bars make them infinite");
+        for (soft, rigid) in moduli.softest.iter().zip(&moduli.rigid_modes) {
+            assert!((soft.ratio.unwrap() - soft.stiffness / rigid.stiffness).abs() <= 1e-14);
+            assert!(soft.ratio.unwrap() <= 1.0 + 1e-12 && soft.ratio.unwrap() > 0.5);
+        }
         let (header, rows) = table(&folder.path().join("elastic-ratios.csv"));
         assert_eq!((header.join(","), rows.len()), ("direction,in_plane,bending".to_owned(), 72));
         for row in &rows {
@@ -85,6 +92,8 @@ fn a_rolled_up_state() {
     let [periodic, cylinder] = [response(&studies[0]), response(&studies[2])];
     assert_eq!((periodic.linear_modes.len(), periodic.table_rank, periodic.lattice.axis), (3, 3, None));
     assert_eq!((cylinder.linear_modes.len(), cylinder.table_rank), (2, 2));
+    assert_eq!(cylinder.no_moduli.as_deref(), Some("the sheet is rolled up"));
+    assert!(periodic.moduli.is_none(), "its creases rest elsewhere");
     assert!(cylinder.poisson.in_plane.is_none() && cylinder.poisson.because.contains("rolled up"));
     let (header, rows) = table(&folder.path().join("rolled.csv"));
     let last = |name: &str| rows[rows.len() - 1][header.iter().position(|column| column == name).unwrap()];
@@ -105,6 +114,7 @@ fn a_stretched_state() {
     let (studies, _folder) = run_text(text);
     let found = response(&studies[1]);
     assert_eq!((found.linear_modes.len(), found.poisson.opposite), (3, Some(true)));
+    assert!(found.moduli.is_none() && found.no_moduli.as_ref().unwrap().contains("under stress"));
     assert!((found.poisson.in_plane.unwrap() - 0.43297691).abs() > 1e-2, "another state than the drawn one");
     assert!(studies[1].error.unwrap() <= 1e-12);
 }

@@ -12,6 +12,8 @@
 //! | `tensors` | spaces of symmetric tensors and their Poisson's ratios |
 //! | `poisson` | both Poisson's ratios of a sheet, and whether they are opposite |
 //! | `compatibility` | rates of lengths and angles under strains and bendings of the lattice |
+//! | `moduli` | effective moduli of a sheet at rest |
+//! | `condensed` | the condensation of the springs of a cell |
 //! | `stresses` | self stresses, and the forces and moments that they put on the lattice |
 //!
 //! **Conventions.** x is along the first lattice vector of the state, y in the plane of the lattice towards the second,
@@ -21,9 +23,11 @@
 //! [`mod@crate::kinematics::folding_modes`]. Components are 11, 22, 12.
 
 mod compatibility;
+mod condensed;
 mod cylinder;
 mod error;
 mod mode;
+mod moduli;
 mod periodic;
 mod poisson;
 mod stresses;
@@ -31,6 +35,7 @@ mod tensors;
 
 pub use error::ResponseError;
 pub use mode::{Field, LinearMode, ModeTable};
+pub use moduli::{Moduli, ModuliMatrices, ModuliOf, Principal};
 pub use poisson::{Poisson, Relation};
 pub use stresses::SelfStress;
 pub use tensors::TensorSpace;
@@ -97,10 +102,7 @@ pub struct LatticeMotions {
 /// As [`response_at`].
 pub fn response(assembly: &Assembly) -> Result<Response, ResponseError> {
     let assembly = assembly.with_axis(0.0);
-    let model = assembly.model(Gauge::Free);
-    let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
-    let coordinates = assembly.drawn().coordinates.clone();
-    response_at(&assembly, &StartState { coordinates, angles: model.angles(), tension })
+    response_at(&assembly, &drawn_state(&assembly))
 }
 
 /// Computes the linear response of a state of a periodic assembly.
@@ -129,4 +131,27 @@ fn rigid_terms(assembly: &Assembly) -> Terms {
     locked.dedup();
     let locks = locked.into_iter().map(|edge| (edge, assembly.drawn_angles()[edge])).collect();
     Terms { bars: Some(RIGID.into()), locks, ..Terms::default() }
+}
+
+/// Finds the effective moduli of a state of a periodic assembly: of the stretching, bending and their coupling.
+///
+/// # Errors
+/// [`ResponseError`] as [`response_at`], except that a sheet with openings may have moduli.
+pub fn moduli_at(assembly: &Assembly, state: &StartState) -> Result<ModuliOf, ResponseError> {
+    moduli::moduli_of(assembly, state)
+}
+
+/// Finds the effective moduli of the drawn state; see [`moduli_at`].
+///
+/// # Errors
+/// As [`moduli_at`].
+pub fn moduli(assembly: &Assembly) -> Result<ModuliOf, ResponseError> {
+    moduli_at(assembly, &drawn_state(assembly))
+}
+
+/// Returns the drawn state.
+fn drawn_state(assembly: &Assembly) -> StartState {
+    let model = assembly.model(Gauge::Free);
+    let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
+    StartState { coordinates: assembly.drawn().coordinates.clone(), angles: model.angles(), tension }
 }

@@ -22,7 +22,10 @@ pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::ModesSummary;
 pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
 pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
-pub use response::{LatticeSummary, LinearModeSummary, PoissonSummary, ResponseSummary, StressSummary, TableSummary};
+pub use response::{
+    LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
+    RigidLimitSummary, StressSummary, TableSummary,
+};
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 pub use wells::{
@@ -141,7 +144,7 @@ pub enum StudyResult {
     /// `kind = "path"`.
     Path(PathSummary),
     /// `kind = "response"`.
-    Response(ResponseSummary),
+    Response(Box<ResponseSummary>),
     /// `kind = "trace"`.
     Trace(TraceSummary),
 }

@@ -21,6 +21,57 @@ pub struct ResponseSummary {
     pub lattice: LatticeSummary,
     /// Poisson's ratios of the rigid modes.
     pub poisson: PoissonSummary,
+    /// Effective moduli of the energy; null where there are none.
+    pub moduli: Option<ModuliSummary>,
+    /// Why there are no moduli; null where there are.
+    pub no_moduli: Option<String>,
+}
+
+/// A matrix of second derivatives by the components 11, 22, 12.
+type Matrix = [[f64; 3]; 3];
+
+/// Second derivatives of the energy per area of the cell by the components 11, 22, 12 of strain and curvature, each counted
+/// once: energy per area `E S E / 2 + E C K + K B K / 2`, with strains as in `linear_modes`, twice the small ones.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ModuliSummary {
+    /// By two components of the strain; null where rigid elements make it infinite.
+    pub stretching: Option<Matrix>,
+    /// By a component of the strain (row) and one of the curvature (column); null likewise.
+    pub coupling: Option<Matrix>,
+    /// By two components of the curvature; null likewise.
+    pub bending: Option<Matrix>,
+    /// The limit of the moduli over `EA` for stiff bars: those of the bars alone, the stiffest with `EA = 1`. Null where
+    /// rigid polygons or locks make some infinite.
+    pub rigid_limit: Option<RigidLimitSummary>,
+    /// Principal strains and bendings of the rigid modes in the limit of rigid bars, by rising stiffness.
+    pub rigid_modes: Vec<PrincipalSummary>,
+    /// As many of the softest principal strains and bendings, by rising stiffness.
+    pub softest: Vec<PrincipalSummary>,
+}
+
+/// Moduli of bars alone.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RigidLimitSummary {
+    /// By two components of the strain.
+    pub stretching: Matrix,
+    /// By a component of the strain (row) and one of the curvature (column).
+    pub coupling: Matrix,
+    /// By two components of the curvature.
+    pub bending: Matrix,
+}
+
+/// A principal strain and bending, of norm 1 in `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 + 2 k12^2)`, `A` the area of
+/// the cell.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PrincipalSummary {
+    /// Strain `[e11, e22, e12]`.
+    pub strain: [f64; 3],
+    /// Curvature tensor `[k11, k22, k12]`.
+    pub curvature: [f64; 3],
+    /// Its stiffness, twice its energy per area.
+    pub stiffness: f64,
+    /// Its stiffness over that of the rigid mode of the same number; null where that is 0.
+    pub ratio: Option<f64>,
 }
 
 /// A linear folding mode.
