@@ -27,6 +27,7 @@ mod modes;
 mod page;
 mod path;
 mod path_plot;
+mod ratios;
 mod reason;
 mod relax;
 mod response;

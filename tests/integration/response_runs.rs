@@ -140,3 +140,52 @@ fn what_has_no_response_is_refused() {
     assert_refused(scene(&torus, "directions = 0\n"), "the number is 0");
     assert_refused(scene(&torus, "grid = [2, 2]\n"), "grid");
 }
+
+/// Returns the fold angle of a zigzag crease of Miura-ori (which runs in the plane of the sheet, along x and y), and both
+/// ratios, of every row of a table.
+fn ratios_along(path: &Path) -> Vec<[f64; 3]> {
+    let (header, rows) = table(path);
+    let at = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let (zigzag, in_plane, bending) = (at("fold_0_1_0_0"), at("poisson_in_plane"), at("poisson_bending"));
+    rows.iter().map(|row| [row[zigzag], row[in_plane], row[bending]]).collect()
+}
+
+/// Claim: a trace has both ratios of every state as columns: those of the closed form `-(cos g tan t)^2` with
+/// half the fold angle of the zigzags as `g`, which the first vertex's crease has; with rigid polygons there is none of
+/// bending. The flat state, which the trace passes, has no ratio. Tolerance 1e-9: states close to 1e-13, over the least
+/// singular value.
+#[test]
+fn ratios_along_trajectories() {
+    let folder = tempfile::tempdir().unwrap();
+    run(&meshes().join("miura-poisson.toml"), folder.path());
+    let closed = |fold: f64| -((0.5 * fold).cos() * std::f64::consts::FRAC_PI_3.tan()).powi(2);
+    let check = |rows: &[[f64; 3]], bends: bool| {
+        let mut known = 0;
+        for [fold, in_plane, bending] in rows {
+            if in_plane.is_nan() {
+                assert!(fold.abs() < 1e-3, "only next to the flat state: {fold}");
+                continue;
+            }
+            let expected = closed(*fold);
+            assert!((in_plane - expected).abs() <= 1e-9, "{fold}: {in_plane} for {expected}");
+            assert!(if bends { (bending + expected).abs() <= 1e-9 } else { bending.is_nan() }, "{fold}: {bending}");
+            known += 1;
+        }
+        known
+    };
+    let trace = ratios_along(&folder.path().join("folding.csv"));
+    assert!(check(&trace, true) > 50, "{} rows", trace.len());
+    let folds = trace.iter().map(|row| row[0].abs());
+    assert!(folds.clone().fold(0.0, f64::max) > 2.0 && folds.fold(9.0, f64::min) < 0.3);
+    let text = std::fs::read_to_string(meshes().join("miura-poisson.toml")).unwrap();
+    let (_, folder) = run_text(&text.replace("\"bending\"", "\"rigid\""));
+    assert!(check(&ratios_along(&folder.path().join("out/folding.csv")), false) > 50);
+    let scene = |folder: &Path| {
+        let path = folder.join("s.toml");
+        let text = "[sheet]\ngenerate = { pattern = \"miura-patch\" }\n[[study]]\nname = \"a\"\nkind = \"trace\"\n\
+                    response = \"rigid\"\n";
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    assert_refused(scene, "one cell of a periodic sheet");
+}

@@ -133,6 +133,23 @@ fn rigid_terms(assembly: &Assembly) -> Terms {
     Terms { bars: Some(RIGID.into()), locks, ..Terms::default() }
 }
 
+/// Returns Poisson's ratios in the plane and of bending, along the first lattice vector, of a state; `None` for one that
+/// does not exist, as for a state that is rolled up.
+///
+/// With `bending` all polygons bend and locks are released; otherwise rigid polygons and locks keep their angles.
+///
+/// # Errors
+/// As [`response_at`].
+pub fn ratios_at(assembly: &Assembly, coordinates: &[f64], bending: bool) -> Result<[Option<f64>; 2], ResponseError> {
+    let locks = if bending { vec![] } else { rigid_terms(assembly).locks };
+    let free = assembly.with_terms(Terms { locks, bars: Some(RIGID.into()), ..Terms::default() });
+    let Some(cell) = PeriodicCell::of_state(&free, coordinates, free.model(Gauge::Free))? else {
+        return Ok([None, None]);
+    };
+    let found = periodic::modes_of(&cell)?;
+    Ok([found.poisson.in_plane.ratio(0.0), found.poisson.bending.ratio(0.0)])
+}
+
 /// Finds the effective moduli of a state of a periodic assembly: of the stretching, bending and their coupling.
 ///
 /// # Errors

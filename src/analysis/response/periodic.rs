@@ -1,6 +1,6 @@
 //! The cell of a sheet in a spatially periodic state, and the response of its modes.
 
-use super::mode::{Field, LinearMode, RawTable};
+use super::mode::{Field, LinearMode, ModeTable, RawTable};
 use super::poisson::Poisson;
 use super::stresses;
 use super::tensors::mixed_determinant;
@@ -156,6 +156,26 @@ impl PeriodicCell {
 /// # Errors
 /// [`ResponseError`] as [`super::response_at`].
 pub(super) fn response(assembly: &Assembly, cell: &PeriodicCell) -> Result<Response, ResponseError> {
+    let CellModes { modes, table, poisson, error } = modes_of(cell)?;
+    let lattice = LatticeMotions { chords: cell.lattice, theta: [0.0; 2], axis: None, curvature: 0.0 };
+    let stresses = stresses::of_cell(assembly, cell)?;
+    Ok(Response { modes, table, lattice, self_stresses: 0, stresses, poisson: Some(poisson), error })
+}
+
+/// The modes of a cell.
+pub(super) struct CellModes {
+    modes: Vec<LinearMode>,
+    table: ModeTable,
+    /// Poisson's ratios of the modes.
+    pub poisson: Poisson,
+    error: f64,
+}
+
+/// Computes the modes of a cell and their Poisson's ratios.
+///
+/// # Errors
+/// [`ResponseError`] as [`super::response_at`].
+pub(super) fn modes_of(cell: &PeriodicCell) -> Result<CellModes, ResponseError> {
     let found = folding_modes_with_locked(&cell.sheet, &cell.locked)?;
     let embedding = Embedding::new(&cell.sheet)?;
     let mixed = |mix: DVector<f64>| mode(cell, &embedding, &found, mix);
@@ -175,9 +195,7 @@ pub(super) fn response(assembly: &Assembly, cell: &PeriodicCell) -> Result<Respo
     let error = larger(disagreement.fold(0.0, larger), defect_of_reciprocity(&raw));
     let table = raw.ranks()?;
     let poisson = Poisson::new(&cell.sheet, &modes, &table, !cell.locked.is_empty(), raw.length)?;
-    let lattice = LatticeMotions { chords: cell.lattice, theta: [0.0; 2], axis: None, curvature: 0.0 };
-    let stresses = stresses::of_cell(assembly, cell)?;
-    Ok(Response { modes, table, lattice, self_stresses: 0, stresses, poisson: Some(poisson), error })
+    Ok(CellModes { modes, table, poisson, error })
 }
 
 fn unit(count: usize, k: usize) -> DVector<f64> {

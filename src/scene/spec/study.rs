@@ -121,6 +121,18 @@ pub struct TraceSpec {
     pub tolerance: Option<Located<Positive>>,
     /// The first of these that is met ends a trajectory.
     pub stop: Option<Located<StopSpec>>,
+    /// Whether the table has columns with Poisson's ratios of every state, and of which modes; left out: none.
+    pub response: Option<Located<RatioColumns>>,
+}
+
+/// The linear modes whose Poisson's ratios a table has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum RatioColumns {
+    /// Of the scene: rigid polygons and locks keep their angles.
+    Rigid,
+    /// Of the sheet whose polygons all bend and whose locks are released.
+    Bending,
 }
 
 /// What a trace solves.
