@@ -203,6 +203,8 @@ fn summary(response: &Response) -> ResponseSummary {
             strains: response.table.strains,
             curvatures: response.table.curvatures,
             singular_values: response.table.singular_values.clone(),
+            strain_values: response.table.strain_values.clone(),
+            curvature_values: response.table.curvature_values.clone(),
         },
         self_stresses: response.self_stresses,
         stresses: response.stresses.iter().map(stress).collect(),

@@ -57,6 +57,10 @@ pub struct ModeTable {
     /// Singular values of the whole table, descending, for modes of norm 1; lengths in units of the square root of the
     /// cell's area.
     pub singular_values: Vec<f64>,
+    /// Singular values of the strains alone.
+    pub strain_values: Vec<f64>,
+    /// Singular values of the curvatures alone.
+    pub curvature_values: Vec<f64>,
 }
 
 /// Strains and curvatures of an orthonormal basis of the modes.
@@ -84,11 +88,14 @@ impl RawTable {
             if row < 3 { strains[(row, k)] } else { curvatures[(row - 3, k)] }
         });
         let table = Span::new(&whole, "strains and curvatures")?;
+        let (strains, curvatures) = (Span::new(&strains, "strains")?, Span::new(&curvatures, "curvatures")?);
         Ok(ModeTable {
             rank: table.rank,
-            strains: Span::new(&strains, "strains")?.rank,
-            curvatures: Span::new(&curvatures, "curvatures")?.rank,
+            strains: strains.rank,
+            curvatures: curvatures.rank,
             singular_values: table.values,
+            strain_values: strains.values,
+            curvature_values: curvatures.values,
         })
     }
 

@@ -23,6 +23,8 @@ const DIRECTIONS: usize = 180;
 /// Largest difference of opposite sides of a parallelogram, relative to the sides.
 const PARALLEL: f64 = 1e-9;
 
+/// Least curvature of a mode, relative to the largest, below which a sheet is called close to one with a ratio.
+const NEARLY_PLANAR: f64 = 1e-3;
 /// Strain of modes at the neutral height that counts as zero, relative to the other strains.
 const NO_STRAIN: f64 = 1e-9;
 
@@ -53,8 +55,14 @@ pub enum Relation {
         /// Whether the cell consists of four parallelograms, so that the theorem holds in each of its states.
         four_parallelograms: bool,
     },
+    /// There are no modes: rigid polygons and locks hold the sheet.
+    NoModes,
     /// Every combination of modes bends the sheet: there is no ratio in the plane.
-    NoPlanarMode,
+    NoPlanarMode {
+        /// Least curvature of a mode, relative to the largest, for modes of norm 1: small where the sheet is close to one
+        /// that has a ratio.
+        least: f64,
+    },
     /// Several modes strain the sheet without bending it: there is no single ratio in the plane.
     SeveralPlanarModes {
         /// Dimension of their strains.
@@ -94,7 +102,14 @@ impl Relation {
                      direction"
                 );
             }
-            Self::NoPlanarMode => {
+            Self::NoModes => "the sheet has no linear mode: rigid polygons and locks hold it",
+            Self::NoPlanarMode { least } if least < NEARLY_PLANAR => {
+                return format!(
+                    "every mode bends the sheet, but one of them only by {least:.1e} of the others: the sheet is close to one \
+                     with opposite ratios"
+                );
+            }
+            Self::NoPlanarMode { .. } => {
                 "every mode bends the sheet: none is in the plane, and curvature tensors are those of one mode each"
             }
             Self::SeveralPlanarModes { strains } => {
@@ -134,7 +149,11 @@ impl Poisson {
         let in_plane = TensorSpace::new(&strains, "strains without curvature")?;
         let bending_space = TensorSpace::new(&tensors, "curvatures")?;
         let relation = match (planar.len(), in_plane.dimension(), bending_space.dimension()) {
-            (0, ..) => Relation::NoPlanarMode,
+            (0, _, 0) => Relation::NoModes,
+            (0, ..) => {
+                let least = table.curvature_values.last().zip(table.curvature_values.first());
+                Relation::NoPlanarMode { least: least.map_or(0.0, |(least, most)| least / most) }
+            }
             (_, 0, _) => Relation::NoStrain,
             (_, _, 0) => Relation::NoBendingMode { locked },
             (_, strains, bendings) if strains + bendings == 3 => {

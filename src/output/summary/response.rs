@@ -94,6 +94,10 @@ pub struct TableSummary {
     pub curvatures: usize,
     /// Singular values for modes of norm 1, lengths in units of the square root of the cell's area; descending.
     pub singular_values: Vec<f64>,
+    /// Singular values of the strains alone.
+    pub strain_values: Vec<f64>,
+    /// Singular values of the curvatures alone: a small one means that a mode hardly bends the sheet.
+    pub curvature_values: Vec<f64>,
 }
 
 /// What a self stress of norm 1 does to the lattice.
