@@ -135,7 +135,7 @@ fn ratios_at(response: &Response, angle: f64) -> [Option<f64>; 2] {
 
 /// Adds every mode as a state with its velocities, the picture of the last mode, and the plot of the ratios.
 fn add_pictures(answer: &mut Answer, context: &Context<'_>, response: &Response, coordinates: &[f64]) {
-    if context.study.draw.is_empty() {
+    if context.study.draw.is_empty() || response.modes.is_empty() {
         return;
     }
     let at_rest = states::picture_at(context, coordinates.to_vec());
