@@ -13,6 +13,7 @@ pub mod modes;
 pub mod path;
 pub mod recorder;
 pub mod relax;
+pub mod response;
 pub mod restored;
 pub mod shown_cells;
 pub mod singular_start;
