@@ -17,7 +17,7 @@ from .errors import DidNotConverge
 from .progress import Progress, listener
 from .results import Result
 
-__all__ = ["bloch", "branches", "landscape", "modes", "path", "relax", "surface", "trace", "wells"]
+__all__ = ["bloch", "branches", "compute", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
 
 Start = str | Result | Mapping[str, Any] | None
 Mode = Sequence[float] | NDArray[Any] | Mapping[str, Any]
@@ -77,6 +77,7 @@ def trace(
     max_step: float | None = None,
     tolerance: float | None = None,
     stop: Mapping[str, Any] | None = None,
+    response: str | None = None,
     **common: Any,
 ) -> Result:
     """Follows the trajectories along which the sheet folds.
@@ -89,10 +90,26 @@ def trace(
         tolerance: Bound on the residual.
         stop: Conditions of which the first ends a trajectory: `arc_length`, `curvature`, `crease_angle`
             (`{"crease": (i, j, n1, n2), "angle": a}`), `self_intersection` (bool).
+        response: Whether the table has Poisson's ratios of every state: "rigid" of the assembly's modes, "bending" of those with
+            polygons that bend and without locks.
         **common: As for every study, see `compute`.
     """
     keys = {"engine": engine, "branch": branch, "max_step": max_step, "tolerance": tolerance, "stop": stop}
-    return compute(assembly, "trace", keys, **common)
+    return compute(assembly, "trace", {**keys, "response": response}, **common)
+
+
+def response(
+    assembly: Assembly, *, start: Start = None, directions: int | None = None, **common: Any
+) -> Result:
+    """Describes a periodic sheet as a material: linear folding modes, Poisson's ratios, self stresses and effective moduli.
+
+    Args:
+        assembly: The sheet as a screw or a torus of one cell.
+        start: The state whose response is wanted, as in `relax`.
+        directions: Number of directions over half a turn at which Poisson's ratios are given; left out: 72.
+        **common: As for every study, see `compute`.
+    """
+    return compute(assembly, "response", {"directions": directions}, start=start, **common)
 
 
 def surface(
