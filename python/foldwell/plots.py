@@ -26,14 +26,15 @@ def draw_state(state: State, ax: Axes | None, paper: str) -> Axes:
 
     axes: Any = plt.figure().add_subplot(projection="3d") if ax is None else ax
     points, angles = state.positions, np.nan_to_num(state.fold_angles)
-    axes.add_collection3d(Poly3DCollection(points[state.faces], facecolors=paper, edgecolors=paper, linewidths=0, shade=True))
+    paint = {"facecolors": paper, "edgecolors": paper, "linewidths": 0, "shade": True}
+    axes.add_collection3d(Poly3DCollection(points[state.faces], **paint, clip_on=False))  # from some sides it is wider than the axes
     colours = np.where(angles > FOLDED, VALLEY, np.where(angles < -FOLDED, MOUNTAIN, OTHER))
     shown = state.kinds != "facet"
-    axes.add_collection3d(Line3DCollection(points[state.edges[shown]], colors=colours[shown], linewidths=1.2))
+    axes.add_collection3d(Line3DCollection(points[state.edges[shown]], colors=colours[shown], linewidths=1.2, clip_on=False))
     low, high = points.min(axis=0), points.max(axis=0)
     size = np.maximum(high - low, 1e-3 * max(float((high - low).max()), 1e-300))
     axes.set(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), zlim=(low[2], low[2] + size[2]))
-    axes.set_box_aspect(size, zoom=1.4)
+    axes.set_box_aspect(size, zoom=1.1)
     axes.set_axis_off()
     drawn: Axes = axes
     return drawn
