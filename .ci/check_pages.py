@@ -40,6 +40,7 @@ FIGURES = {
     "miura-lock": "miura-lock/folded",
     "miura-pull": "miura-pull/pulled",
     "miura-pull-reaction": "miura-pull/pulled-reaction",
+    "miura-response": "miura-response/elastic-ratios",
     "miura-spectrum": "miura-spectrum/spectrum",
     "near-cross-wells": "near-cross-wells/wells",
     "quad-cell-folded": "quad-cell/roll",

@@ -124,6 +124,9 @@ enum Command {
         /// Split edges of a flat crease pattern where they cross or touch
         #[arg(long)]
         split: bool,
+        /// Unfold a developable sheet into the plane: the crease pattern of a folded state
+        #[arg(long, conflicts_with_all = ["merge", "split"])]
+        flatten: bool,
     },
     /// Write a page of the studies in the folder of a run, to be looked at in a browser, and print its path
     View {
@@ -255,9 +258,11 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             run::new_mesh(&table, &out)?;
             Ok(0)
         }
-        Command::Convert { from, to, frame, merge, split } => {
+        Command::Convert { from, to, frame, merge, split, flatten } => {
             let cleanup = Cleanup { merge, split };
-            let notes = if cleanup == Cleanup::default() {
+            let notes = if flatten {
+                run::convert_flattened(&from, &to, frame)?
+            } else if cleanup == Cleanup::default() {
                 run::convert(&from, &to, frame)?
             } else {
                 run::convert_cleaned(&from, &to, frame, &cleanup)?

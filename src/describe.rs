@@ -3,8 +3,8 @@
 mod sweep;
 
 use foldwell::output::summary::{
-    BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, StudyResult, StudySummary,
-    SurfaceSummary, TraceSummary, WellsSummary,
+    BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, ResponseSummary, StudyResult,
+    StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
 };
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
@@ -139,6 +139,25 @@ fn describe_surface(surface: &SurfaceSummary) -> String {
     format!("{points} states, {triangles} triangles, {coverage}") + &established.chain(gaps).collect::<String>()
 }
 
+/// Describes the modes and Poisson's ratios along the first lattice vector.
+fn describe_response(response: &ResponseSummary) -> String {
+    let poisson = &response.poisson;
+    let ratio = |ratio: Option<f64>| ratio.map_or("none".to_owned(), |ratio| format!("{ratio:.6}"));
+    let opposite = match poisson.opposite {
+        Some(true) => ", opposite in every direction",
+        Some(false) => ", not opposite in every direction",
+        None => "",
+    };
+    format!(
+        "{}, table of rank {}; Poisson's ratio {} in the plane, {} of bending{opposite} ({})",
+        counted(response.linear_modes.len(), "linear mode"),
+        response.table_rank,
+        ratio(poisson.in_plane),
+        ratio(poisson.bending),
+        poisson.because
+    )
+}
+
 fn describe_study(study: &StudySummary) -> String {
     let what = match &study.result {
         Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
@@ -184,6 +203,7 @@ fn describe_study(study: &StudySummary) -> String {
             format!("{count} ({energies}){}{}", barriers.collect::<String>(), describe_failures(found))
         }
         Some(StudyResult::Path(path)) => describe_path(path),
+        Some(StudyResult::Response(response)) => describe_response(response),
         None => String::from("no result"),
     };
     let failed = study.reason.as_ref().map(|reason| format!("\n  not converged: {reason}")).unwrap_or_default();

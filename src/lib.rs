@@ -25,6 +25,22 @@
 //! `EA L strain^2 / 2`. The folder `examples` has longer programs: a relaxation, a trajectory of rigid folding until it
 //! closes, an energy landscape, a map of Bloch modes, and a custom energy.
 //!
+//! # Where to begin
+//!
+//! | to | see |
+//! |---|---|
+//! | read a mesh or a crease pattern | [`sheet::fold::read`], [`sheet::obj::read`], [`sheet::pattern::read`]; [`generate()`] makes one |
+//! | give it stiffnesses, rest angles, locks, pins and loads | [`Assembly::patch`], [`Assembly::torus`], [`Assembly::screw`] and the builder they return |
+//! | relax it | [`relax()`]; from another start, or step by step, [`analysis::relax::relax_from`] |
+//! | read fold angles, strains, tensions and energies edge by edge | [`analysis::state::State`] |
+//! | find zero modes, self stresses and eigenvalues | [`analysis::modes::modes`] |
+//! | find the branches of rigid folding and follow them | [`analysis::branches`], [`analysis::trace`] |
+//! | drive a displacement, a load or an angle | [`analysis::path`] |
+//! | find stable states and barriers | [`analysis::wells`] |
+//! | measure what modes cost, or find spatially varying ones | [`analysis::landscape`], [`analysis::bloch`] |
+//! | run a scene file as the program does | [`run::run_scene`] |
+//! | write a state for ParaView | [`Picture`], [`write_vtu`] |
+//!
 //! # Terms
 //!
 //! Each concept has one name in code, messages and documents:

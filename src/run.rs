@@ -8,7 +8,7 @@ use crate::numerics::parallel::Threads;
 use crate::output::{OutputError, files};
 use crate::scene::{SceneFile, Setting};
 use crate::sheet::pattern::Cleanup;
-use crate::sheet::{Info, Pattern, Sheet, fold, generate};
+use crate::sheet::{Info, Pattern, Sheet, flatten, fold, generate};
 
 mod belongings;
 mod convert;
@@ -238,6 +238,17 @@ pub fn convert_cleaned(
     cleanup: &Cleanup,
 ) -> Result<Vec<String>, RunError> {
     meshes::write(&meshes::read_cleaned(from, frame, cleanup)?, to)
+}
+
+/// Does the same as [`convert`] with the crease pattern of a folded sheet: the sheet unfolded into the plane, with its fold
+/// angles as target angles.
+///
+/// # Errors
+/// As [`convert`]; also if the sheet cannot be unfolded.
+pub fn convert_flattened(from: &Path, to: &Path, frame: Option<usize>) -> Result<Vec<String>, RunError> {
+    let folded = read_mesh(from, frame, meshes::READ)?;
+    let pattern = flatten(&folded).map_err(|reason| RunError::NotDevelopable { path: from.into(), reason })?;
+    meshes::write(&pattern, to)
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@ from .errors import DidNotConverge
 from .progress import Progress, listener
 from .results import Result
 
-__all__ = ["bloch", "branches", "landscape", "modes", "path", "relax", "surface", "trace", "wells"]
+__all__ = ["bloch", "branches", "compute", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
 
 Start = str | Result | Mapping[str, Any] | None
 Mode = Sequence[float] | NDArray[Any] | Mapping[str, Any]
@@ -29,6 +29,7 @@ def relax(
     start: Start = None,
     tolerance: float | None = None,
     method: str | None = None,
+    keep_every: int | None = None,
     **common: Any,
 ) -> Result:
     """Finds an equilibrium of the energy by Newton's method.
@@ -39,9 +40,11 @@ def relax(
             "seed": n}`. Left out: as drawn.
         tolerance: Bound on both scaled residuals.
         method: The unknowns: "vertices", "intrinsic" (fold angles), or "auto", the default.
+        keep_every: Steps between the states on the way that are kept; left out: none are.
         **common: As for every study, see `compute`.
     """
-    return compute(assembly, "relax", {"tolerance": tolerance, "method": method}, start=start, **common)
+    keys = {"tolerance": tolerance, "method": method, "keep_every": keep_every}
+    return compute(assembly, "relax", keys, start=start, **common)
 
 
 def modes(assembly: Assembly, *, start: Start = None, eigenvalues: int | None = None, **common: Any) -> Result:
@@ -74,6 +77,7 @@ def trace(
     max_step: float | None = None,
     tolerance: float | None = None,
     stop: Mapping[str, Any] | None = None,
+    response: str | None = None,
     **common: Any,
 ) -> Result:
     """Follows the trajectories along which the sheet folds.
@@ -86,10 +90,26 @@ def trace(
         tolerance: Bound on the residual.
         stop: Conditions of which the first ends a trajectory: `arc_length`, `curvature`, `crease_angle`
             (`{"crease": (i, j, n1, n2), "angle": a}`), `self_intersection` (bool).
+        response: Whether the table has Poisson's ratios of every state: "rigid" of the assembly's modes, "bending" of those with
+            polygons that bend and without locks.
         **common: As for every study, see `compute`.
     """
     keys = {"engine": engine, "branch": branch, "max_step": max_step, "tolerance": tolerance, "stop": stop}
-    return compute(assembly, "trace", keys, **common)
+    return compute(assembly, "trace", {**keys, "response": response}, **common)
+
+
+def response(
+    assembly: Assembly, *, start: Start = None, directions: int | None = None, **common: Any
+) -> Result:
+    """Describes a periodic sheet as a material: linear folding modes, Poisson's ratios, self stresses and effective moduli.
+
+    Args:
+        assembly: The sheet as a screw or a torus of one cell.
+        start: The state whose response is wanted, as in `relax`.
+        directions: Number of directions over half a turn at which Poisson's ratios are given; left out: 72.
+        **common: As for every study, see `compute`.
+    """
+    return compute(assembly, "response", {"directions": directions}, start=start, **common)
 
 
 def surface(

@@ -16,7 +16,7 @@ from conftest import ROOT
 BLOCK = re.compile(r"(?:^<!-- needs (\w+) -->\n)?^```python\n(.*?)^```$", re.M | re.S)
 PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs/src").glob("*.md"))] if "```python" in page.read_text()]
 #: The commands that a page shows before its Python: scenes that are run into folders.
-SCENES = {"README.md": ["star"], "tutorial.md": ["star"], "outputs.md": ["star", "star-trace"]}
+SCENES = {"tutorial.md": ["star"], "outputs.md": ["star", "star-trace"]}
 #: The scheduler as far as dask-jobqueue knows it: a job is a process.
 SLURM = {
     "sbatch": 'bash "$1" > "$1.log" 2>&1 & echo "Submitted batch job $!"; echo $! >> {log}',
@@ -36,8 +36,9 @@ def source_of(page: Path) -> str:
 
 def run(name: str, source: str, folder: Path, monkeypatch) -> dict:
     """Executes a program in a folder, as the main program of an interpreter, and returns its names."""
+    (folder / "meshes").symlink_to(ROOT / "meshes")
     monkeypatch.chdir(folder)
-    names = {"__name__": "__main__", "meshes": ROOT / "meshes"}
+    names = {"__name__": "__main__"}
     exec(compile(source, name, "exec"), names)
     plt.close("all")
     return names
@@ -83,7 +84,7 @@ def test_the_page_about_python_says_the_names_of_the_package():
     text = (ROOT / "docs/src/python.md").read_text()
     for name in fw.__all__:
         assert getattr(fw, name).__doc__ or name.startswith("__"), name
-    studies = {"bloch", "branches", "landscape", "modes", "path", "relax", "surface", "trace", "wells"}
+    studies = {"bloch", "branches", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"}
     for name in studies | {"run", "sweep", "open_sweep", "generate", "patterns", "pattern_help", "Sheet", "Assembly"}:
         assert name in text, name
 

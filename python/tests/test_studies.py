@@ -16,7 +16,7 @@ SCENES = [
     *("star", "star-torus", "star-trace", "star-landscape", "star-surface"),
     *("flat-branches", "miura-spectrum", "kirigami-bloch", "near-cross-wells", "two-bars-push", "drum-path", "degree-four"),
 ]
-KINDS = ["bloch", "branches", "landscape", "modes", "path", "relax", "surface", "trace", "wells"]
+KINDS = ["bloch", "branches", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
 
 
 def without_times(summary):

@@ -134,3 +134,23 @@ def test_a_sweep_that_was_killed_goes_on(tmp_path):
     assert sum(after[point] != time for point, time in before.items()) <= 2
     assert resumed.identical(at_once)
     assert (killed / "sweep.csv").read_bytes() == (whole / "sweep.csv").read_bytes()
+
+
+def test_a_lost_worker_of_dask_loses_nothing(tmp_path):
+    """One of two workers is killed by -9 in the middle: its points are computed by the other, and the table is the same."""
+    distributed = pytest.importorskip("distributed")
+    killed, whole = tmp_path / "killed", tmp_path / "whole"
+    axes = {"sheet.generate.seed": range(40)}
+    with (
+        distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.Client(cluster) as client,
+        ThreadPoolExecutor(1) as aside,
+    ):
+        sweeping = aside.submit(fw.sweep, SCENE, axes, out=killed, executor=client.get_executor())
+        while len(finished(killed)) < 8:
+            time.sleep(0.01)
+        os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+        assert len(finished(killed)) < 40
+        found = sweeping.result(timeout=300)
+    assert found.identical(fw.sweep(SCENE, axes, out=whole))
+    assert (killed / "sweep.csv").read_bytes() == (whole / "sweep.csv").read_bytes()

@@ -6,8 +6,9 @@
 //! the apex is therefore repeated from states that are bent a little about several axes, both ways; the lowest equilibrium is the
 //! answer.
 
+use super::recorder::Recorder;
 use crate::model::Model;
-use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Step, minimize};
+use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Step};
 use std::f64::consts::PI;
 
 /// Curvature times the unit of length, over the largest angle by which a hinge is off its rest: below this a state has none,
@@ -30,13 +31,13 @@ pub(super) fn at_apex(model: &Model, x: &[f64], off: f64) -> bool {
 /// between a hinge and its rest, in radians.
 ///
 /// # Errors
-/// [`Failure::Interrupted`] where `observe` asks to stop. A relaxation that fails otherwise is passed over.
+/// [`Failure::Interrupted`] where the observer asks to stop. A relaxation that fails otherwise is passed over.
 pub(super) fn bent(
     model: &mut Model,
     mut found: Equilibrium,
     off: f64,
     options: Options,
-    observe: &mut dyn FnMut(&Step) -> bool,
+    recorder: &mut Recorder<'_>,
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
     let (start, mut place) = (model.place(), model.place());
@@ -48,13 +49,17 @@ pub(super) fn bent(
             model.domain().bend(&mut coordinates, FIRST_AXIS + PI * axis as f64 / AXES as f64, kappa);
             model.go_to(&start);
             let x = model.start_from(coordinates);
-            match minimize(model, x, options, observe) {
+            let steps = recorder.steps();
+            match recorder.minimize(model, x, options) {
                 Ok(other) if found.energy - other.energy > LOWER * found.energy.abs() => {
                     history.append(&mut found.history);
                     (found, place) = (other, model.place());
                 }
-                Err(error) if error.failure == Failure::Interrupted => return Err(error),
-                _ => {}
+                Err(error) if error.failure == Failure::Interrupted => {
+                    history.append(&mut found.history);
+                    return Err(error);
+                }
+                _ => recorder.forget_after(steps),
             }
         }
     }

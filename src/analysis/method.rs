@@ -6,12 +6,17 @@
 //! afterwards, and Newton's method in positions goes on from there: it needs one or two iterations and certifies the
 //! result.
 
-use crate::model::Model;
-use crate::model::intrinsic::{IntrinsicModel, Unsupported};
+use super::recorder::Recorder;
+use super::state::State;
+use crate::model::intrinsic::{FoldedUp, IntrinsicModel, Unsupported};
+use crate::model::{Elements, Model};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
-use crate::solver::constrained::{ConstrainedFailure, ConstrainedStep, Settings, minimize_constrained};
-use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Start, Step, minimize};
+use crate::solver::constrained::{
+    ConstrainedFailure, ConstrainedIterate, ConstrainedStep, Settings, minimize_constrained_iterates,
+};
+use crate::solver::{Equilibrium, Failure, Iterate, NewtonError, Options, Problem, Start, Step, minimize_iterates};
+use std::num::NonZeroUsize;
 use thiserror::Error;
 
 /// Fewest interior vertices of a patch that [`Method::Auto`] relaxes in fold angles: smaller ones take next to no time
@@ -37,18 +42,20 @@ pub enum Method {
     Intrinsic,
 }
 
-/// Tolerance, number of steps, and method of a relaxation.
+/// Tolerance, number of steps, and method of a relaxation, and the states that are kept.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RelaxOptions {
     /// Tolerance and number of steps of Newton's method.
     pub newton: Options,
     /// The unknowns.
     pub method: Method,
+    /// Which states on the way are kept: one in so many, the first and the last one included; none without it.
+    pub keep_every: Option<NonZeroUsize>,
 }
 
 impl From<Options> for RelaxOptions {
     fn from(newton: Options) -> Self {
-        Self { newton, method: Method::Auto }
+        Self { newton, method: Method::Auto, keep_every: None }
     }
 }
 
@@ -88,7 +95,7 @@ pub(super) fn minimize_in_angles(
     model: &mut Model,
     start: &Start,
     (options, method): (Options, Method),
-    observe: &mut dyn FnMut(&Step) -> bool,
+    recorder: &mut Recorder<'_>,
     history: &mut Vec<Step>,
 ) -> (Option<Result<Equilibrium, NewtonError>>, Option<IntrinsicFailure>) {
     let intrinsic = match form(model, start, method) {
@@ -102,14 +109,14 @@ pub(super) fn minimize_in_angles(
         model.start_from(coordinates.clone());
     };
     if method == Method::Auto {
-        match minimize_unless_damped(model, start, options, observe) {
+        match minimize_unless_damped(model, start, options, recorder) {
             Ok(found) => return (Some(found), None),
             Err(steps) => history.extend(steps),
         }
         reset(model);
     }
-    let found = solve(&intrinsic, model, start, observe, history).and_then(|near| {
-        match minimize(model, near, options, observe) {
+    let found = solve(&intrinsic, model, start, recorder, history).and_then(|near| {
+        match recorder.minimize(model, near, options) {
             Ok(found) if found.negative_eigenvalues == 0 => Ok(Ok(found)),
             Ok(found) => Err(IntrinsicFailure::Saddle { negative: found.negative_eigenvalues }),
             Err(error) if error.failure == Failure::Interrupted => Ok(Err(error)),
@@ -124,6 +131,8 @@ pub(super) fn minimize_in_angles(
             (Some(Err(error)), None)
         }
         Err(reason) => {
+            // what did not confirm the state does not belong to the history
+            recorder.forget_after(history.len());
             reset(model);
             (None, Some(reason))
         }
@@ -135,13 +144,14 @@ fn minimize_unless_damped(
     model: &mut Model,
     start: &Start,
     options: Options,
-    observe: &mut dyn FnMut(&Step) -> bool,
+    recorder: &mut Recorder<'_>,
 ) -> Result<Result<Equilibrium, NewtonError>, Vec<Step>> {
     let (mut steps, mut damped) = (0, false);
-    let found = minimize(model, start.clone(), options, &mut |step| {
-        damped = steps == 1 && step.fraction <= DAMPED;
+    let found = minimize_iterates(model, start.clone(), options, &mut |at: &Iterate<'_, Model>| {
+        let go_on = recorder.see(at.step, || State::new(at.problem, at.x, at.tension));
+        damped = go_on && steps == 1 && at.step.fraction <= DAMPED;
         steps += 1;
-        !damped && observe(step)
+        go_on && !damped
     });
     match found {
         Err(error) if damped => Err(error.history),
@@ -168,24 +178,41 @@ fn solve(
     intrinsic: &IntrinsicModel,
     model: &mut Model,
     start: &Start,
-    observe: &mut dyn FnMut(&Step) -> bool,
+    recorder: &mut Recorder<'_>,
     history: &mut Vec<Step>,
 ) -> Result<Start, IntrinsicFailure> {
-    let mut seen = |step: &ConstrainedStep| {
-        history.push(step_of(step));
-        observe(&step_of(step))
+    let shown = &*model;
+    let mut seen = |at: &ConstrainedIterate<'_>| {
+        let step = step_of(at.step);
+        history.push(step);
+        recorder.see(&step, || state_of(intrinsic, shown, at))
     };
     let z = intrinsic.variables(model, &start.x);
     // what confirms the result in positions needs the analysis of their couplings
     let analyse = || _ = model.layout().tearing();
     let large = model.compliance().len() >= parallel::FEWEST_SHARED_ELEMENTS;
-    let minimize = || minimize_constrained(intrinsic, z, Settings::default(), &mut seen);
+    let minimize = || minimize_constrained_iterates(intrinsic, z, Settings::default(), &mut seen);
     let found = parallel::meanwhile(large, analyse, minimize).map_err(|error| error.failure)?;
     let angle = max_abs(&intrinsic.fold_angles(&found.z));
     if !(angle <= LARGEST_ANGLE) {
         return Err(IntrinsicFailure::FoldedThrough { angle });
     }
     Ok(intrinsic.hand_over(model, &found.z, &found.multipliers))
+}
+
+/// Returns the state of these fold angles and lengths. Tensions of rigid measures are those of the multipliers.
+fn state_of(intrinsic: &IntrinsicModel, model: &Model, at: &ConstrainedIterate<'_>) -> State {
+    let FoldedUp { coordinates, angles, lengths, torques, forces } = intrinsic.folded_up(model, at.z, at.multipliers);
+    let value = |term: &dyn Elements, k: usize| {
+        let of_edges = if term.is_angle() { &angles } else { &lengths };
+        of_edges[term.edge(k)]
+    };
+    let tension = |row: usize, term: &dyn Elements, k: usize| match model.compliance()[row] {
+        0.0 if term.is_angle() => torques[term.edge(k)],
+        0.0 => forces[term.edge(k)],
+        compliance => (value(term, k) - term.spring(k).rest) / compliance,
+    };
+    State { coordinates, ..State::of_measures(model, value, tension) }
 }
 
 fn step_of(step: &ConstrainedStep) -> Step {

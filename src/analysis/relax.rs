@@ -2,12 +2,12 @@
 
 use super::apex;
 use super::method::{self, IntrinsicFailure, RelaxOptions};
+use super::recorder::{KeptState, Recorder};
 use super::singular_start::{self, BranchChoice};
 use super::state::State;
 use crate::model::{Assembly, Domain, Gauge, Model};
 use crate::solver::{
-    Equilibrium, Failure, HessianKind, Linearization, NewtonError, Options, Problem, Start, Step, Tangent, minimize,
-    tension,
+    Equilibrium, Failure, HessianKind, Linearization, NewtonError, Options, Problem, Start, Step, Tangent, tension,
 };
 use std::fmt;
 use thiserror::Error;
@@ -58,6 +58,8 @@ pub struct Relaxed {
     pub branch_choice: Option<BranchChoice>,
     /// Number of the first steps that were made with bars that stretch, to leave a singular start.
     pub soft_steps: usize,
+    /// The states on the way that [`RelaxOptions::keep_every`] asks for.
+    pub kept: Vec<KeptState>,
 }
 
 /// Relaxation failed; the last accepted state is here.
@@ -76,6 +78,8 @@ pub struct RelaxError {
     pub intrinsic_failure: Option<IntrinsicFailure>,
     /// Number of the first steps that were made with bars that stretch, to leave a singular start.
     pub soft_steps: usize,
+    /// The states on the way that [`RelaxOptions::keep_every`] asks for.
+    pub kept: Vec<KeptState>,
 }
 
 /// Says why it failed and how far it came, not the numbers of the state.
@@ -112,6 +116,26 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 /// Where the direct way fails, all rest angles, rest lengths and locked angles are moved from their values at the start to
 /// their targets in steps that adapt.
 ///
+/// ```
+/// use foldwell::analysis::method::RelaxOptions;
+/// use foldwell::analysis::relax::relax_from;
+/// use foldwell::model::Gauge;
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate};
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// // the held gauge is the one for minimisation; the unknowns of the drawn state are one start among others
+/// let mut model = assembly.model(Gauge::Held);
+/// let start = model.start();
+/// let mut steps = 0;
+/// let relaxed = relax_from(&mut model, start, RelaxOptions::default(), &mut |_step| {
+///     steps += 1;
+///     steps <= 100
+/// })?;
+/// assert!(relaxed.negative_eigenvalues == 0 && steps == relaxed.history.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
 pub fn relax_from(
@@ -120,18 +144,19 @@ pub fn relax_from(
     options: impl Into<RelaxOptions>,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Relaxed, Box<RelaxError>> {
-    let (start, RelaxOptions { newton: options, method }) = (start.into(), options.into());
+    let (start, RelaxOptions { newton: options, method, keep_every }) = (start.into(), options.into());
+    let mut recorder = Recorder::new(observe, keep_every);
     let restarted = start.tension.is_some();
     let (origin, place) = (model.angles(), model.coordinates(&start.x));
     let mut history = Vec::new();
     let (first, intrinsic_failure) =
-        method::minimize_in_angles(model, &start, (options, method), observe, &mut history);
+        method::minimize_in_angles(model, &start, (options, method), &mut recorder, &mut history);
     let mut soft_steps = 0;
-    let found = match first.unwrap_or_else(|| minimize(model, start.clone(), options, observe)) {
+    let found = match first.unwrap_or_else(|| recorder.minimize(model, start.clone(), options)) {
         Err(error) if error.failure == Failure::SingularStart && model.has_rigid_bars() => {
             model.set_angles(&origin);
             history.extend(error.history);
-            let left = singular_start::leave(model, place, options, observe, &mut history);
+            let left = singular_start::leave(model, place, options, &mut recorder, &mut history);
             soft_steps = history.len();
             left
         }
@@ -139,46 +164,47 @@ pub fn relax_from(
         Err(error) => {
             model.set_angles(&origin);
             history.extend(error.history);
-            follow(model, place, options, observe, &mut history)
+            follow(model, place, options, &mut recorder, &mut history)
         }
         found => found,
     };
-    let found = found.and_then(|found| relaxed_with_a_valid_gauge(model, found, options, observe, &mut history));
+    let found = found.and_then(|found| relaxed_with_a_valid_gauge(model, found, options, &mut recorder, &mut history));
     let found = found.and_then(|found| {
         // a restarted equilibrium stays where it is
         let moved = !restarted || !history.is_empty() || found.history.iter().any(|step| step.fraction > 0.0);
         let off = if moved { off_rest(model, &found.x) } else { 0.0 };
         let may_bend = off > 0.0 && apex::at_apex(model, &found.x, off);
-        let found = if may_bend { apex::bent(model, found, off, options, observe, &mut history)? } else { found };
-        if moved { refined(model, found, options, observe, &mut history) } else { Ok(found) }
+        let found = if may_bend { apex::bent(model, found, off, options, &mut recorder, &mut history)? } else { found };
+        if moved { refined(model, found, options, &mut recorder, &mut history) } else { Ok(found) }
     });
-    match found {
+    let open = match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
             Some(angle) if !(angle <= CERTAIN) => {
-                let state = State::new(model, &found.x, &found.tension);
                 let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
                 let failure = Failure::Uncertain { angle, force, tolerance: options.tolerance };
-                history.extend(found.history);
-                Err(Box::new(RelaxError { failure, state, x: found.x, history, intrinsic_failure, soft_steps }))
+                NewtonError { failure, x: found.x, tension: found.tension, history: found.history }
             }
             _ => {
                 let branch_choice = BranchChoice::of(model, &found.x, &origin, soft_steps > 0);
-                Ok(Relaxed { intrinsic_failure, branch_choice, soft_steps, ..finish(model, found, history) })
+                let relaxed = finish(model, found, history);
+                let kept = recorder.into_kept(Some(&relaxed.state));
+                return Ok(Relaxed { intrinsic_failure, branch_choice, soft_steps, kept, ..relaxed });
             }
         },
-        Err(error) => {
-            history.extend(error.history);
-            let state = State::new(model, &error.x, &error.tension);
-            Err(Box::new(RelaxError {
-                failure: error.failure,
-                state,
-                x: error.x,
-                history,
-                intrinsic_failure,
-                soft_steps,
-            }))
-        }
-    }
+        Err(error) => error,
+    };
+    Err(Box::new(RelaxError { intrinsic_failure, soft_steps, ..failed(model, open, history, recorder) }))
+}
+
+/// The failure of a relaxation with its last state.
+fn failed(model: &Model, error: NewtonError, mut history: Vec<Step>, recorder: Recorder<'_>) -> RelaxError {
+    history.extend(error.history);
+    let state = State::new(model, &error.x, &error.tension);
+    // stopped in fold angles, it ends where it started
+    let is_last = history.last().is_some_and(|step| !step.intrinsic);
+    let kept = recorder.into_kept(is_last.then_some(&state));
+    let (failure, x) = (error.failure, error.x);
+    RelaxError { failure, state, x, history, intrinsic_failure: None, soft_steps: 0, kept }
 }
 
 /// The equilibrium, once what holds the sheet against rigid motions does nothing else. It was chosen in the drawn state, and may hold
@@ -188,7 +214,7 @@ fn relaxed_with_a_valid_gauge(
     model: &mut Model,
     mut found: Equilibrium,
     options: Options,
-    observe: &mut dyn FnMut(&Step) -> bool,
+    recorder: &mut Recorder<'_>,
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
     for _ in 0..HOLDS {
@@ -197,7 +223,7 @@ fn relaxed_with_a_valid_gauge(
         }
         history.append(&mut found.history);
         let x = model.rebase_gauge(model.coordinates(&found.x));
-        found = minimize(model, Start { x, tension: Some(found.tension) }, options, observe)?;
+        found = recorder.minimize(model, Start { x, tension: Some(found.tension) }, options)?;
     }
     Ok(found)
 }
@@ -212,7 +238,7 @@ fn follow(
     model: &mut Model,
     mut place: Vec<f64>,
     options: Options,
-    observe: &mut dyn FnMut(&Step) -> bool,
+    recorder: &mut Recorder<'_>,
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
     let start = model.start_from(place.clone());
@@ -225,7 +251,7 @@ fn follow(
         let angles = model.angles();
         model.set_rests(&origin, &targets, next);
         let x = model.start_from(place.clone());
-        match minimize(model, x, if next < 1.0 { loose } else { options }, observe) {
+        match recorder.minimize(model, x, if next < 1.0 { loose } else { options }) {
             Ok(found) if next == 1.0 => return Ok(found),
             Ok(found) => {
                 history.extend(found.history);
@@ -253,7 +279,7 @@ fn refined(
     model: &mut Model,
     mut found: Equilibrium,
     options: Options,
-    observe: &mut dyn FnMut(&Step) -> bool,
+    recorder: &mut Recorder<'_>,
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
     if !matches!(model.domain(), Domain::Screw) || rigid_over_others(model, &found) <= HIDDEN {
@@ -262,13 +288,18 @@ fn refined(
     let place = model.place();
     let start = Start { x: found.x.clone(), tension: Some(found.tension.clone()) };
     let tolerance = options.tolerance / HIDDEN;
-    match minimize(model, start, Options { tolerance, ..options }, observe) {
+    let steps = recorder.steps();
+    match recorder.minimize(model, start, Options { tolerance, ..options }) {
         Ok(other) => {
             history.append(&mut found.history);
             Ok(other)
         }
-        Err(error) if error.failure == Failure::Interrupted => Err(error),
+        Err(error) if error.failure == Failure::Interrupted => {
+            history.append(&mut found.history);
+            Err(error)
+        }
         Err(_) => {
+            recorder.forget_after(steps);
             model.go_to(&place);
             Ok(found)
         }
@@ -343,5 +374,6 @@ fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed 
         intrinsic_failure: None,
         branch_choice: None,
         soft_steps: 0,
+        kept: vec![],
     }
 }

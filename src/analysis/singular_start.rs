@@ -5,8 +5,9 @@
 //! stretch a little can: the torques push the sheet out of its plane, and it comes to rest on the branch that its rest
 //! angles favour. From there it is followed while the bars are made stiffer, until they are rigid.
 
+use super::recorder::Recorder;
 use crate::model::Model;
-use crate::solver::{Equilibrium, Failure, NewtonError, Options, Step, minimize};
+use crate::solver::{Equilibrium, Failure, NewtonError, Options, Step};
 
 /// Stiffnesses of the bars, one after the other, over that of the softest hinge. From 1e2 on or with three of them, some
 /// flat-foldable patterns of 20 to 120 edges end in states of higher energy; from 1e4 on, some end in none.
@@ -46,14 +47,14 @@ pub(super) fn leave(
     model: &mut Model,
     mut place: Vec<f64>,
     options: Options,
-    observe: &mut dyn FnMut(&Step) -> bool,
+    recorder: &mut Recorder<'_>,
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
     let (hinge, loose) = (model.softest_hinge(), Options { tolerance: INTERMEDIATE_TOLERANCE, ..options });
     for ratio in RATIOS {
         model.soften_rigid_bars(ratio * hinge);
         let x = model.start_from(place.clone());
-        let reached = minimize(model, x, loose, observe);
+        let reached = recorder.minimize(model, x, loose);
         model.soften_rigid_bars(f64::INFINITY);
         match reached {
             Ok(found) => {
@@ -69,5 +70,5 @@ pub(super) fn leave(
         }
     }
     let x = model.start_from(place);
-    minimize(model, x, options, observe)
+    recorder.minimize(model, x, options)
 }

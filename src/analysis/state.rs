@@ -6,6 +6,27 @@ use crate::solver::Problem;
 use std::f64::consts::TAU;
 
 /// What an equilibrium, or any other state, looks like.
+///
+/// Lists of numbers of edges are in the order of the edges of the [tiling](crate::model::Assembly::tiling), each of which
+/// names its cell and its edge of the [sheet](crate::model::Assembly::sheet); coordinates are x, y, z of the points of the
+/// tiling one after the other.
+///
+/// ```
+/// use foldwell::sheet::EdgeKind;
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// let state = relax(&assembly)?.state;
+/// for (edge, angle) in assembly.tiling().edges.iter().zip(&state.fold_angle) {
+///     let of_cell = &assembly.sheet().edges[edge.edge];
+///     if of_cell.kind == EdgeKind::Crease {
+///         println!("cell {:?}, crease {:?}: {angle:.4} rad", edge.cell, of_cell.key);
+///     }
+/// }
+/// assert_eq!(state.fold_angle.len(), assembly.tiling().edges.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     /// All coordinates in the domain's frame, shared ones last.
@@ -50,10 +71,23 @@ impl State {
 
     /// The state of a model with these unknowns and tensions of the stiff measures. Stiff measures have the energy of their tensions, without cancellation.
     pub fn new(model: &Model, x: &[f64], tension: &[f64]) -> Self {
-        let mut state = Self::empty(model.coordinates(x), model.edges());
+        let coordinates = model.coordinates(x);
+        let value = |term: &dyn Elements, k: usize| term.value(k, model.domain(), &coordinates);
+        let measured = Self::of_measures(model, value, |row, _, _| tension[row]);
+        Self { coordinates, ..measured }
+    }
+
+    /// The state of a model whose elements have these values, and whose stiff measures, counted through, have these tensions
+    /// at these values. It has no coordinates.
+    pub(super) fn of_measures(
+        model: &Model,
+        value: impl Fn(&dyn Elements, usize) -> f64,
+        tension: impl Fn(usize, &dyn Elements, usize) -> f64,
+    ) -> Self {
+        let mut state = Self::empty(vec![], model.edges());
         for term in model.soft() {
             for k in 0..term.len() {
-                let (spring, value) = (term.spring(k), term.value(k, model.domain(), &state.coordinates));
+                let (spring, value) = (term.spring(k), value(term.as_ref(), k));
                 let off = value - spring.rest;
                 state.add(term.as_ref(), k, value, [spring.stiffness * off, 0.5 * spring.stiffness * off * off]);
             }
@@ -61,9 +95,9 @@ impl State {
         let mut row = 0;
         for term in model.stiff() {
             for k in 0..term.len() {
-                let value = term.value(k, model.domain(), &state.coordinates);
-                let energy = 0.5 * model.compliance()[row] * tension[row] * tension[row];
-                state.add(term.as_ref(), k, value, [tension[row], energy]);
+                let (value, tension) = (value(term.as_ref(), k), tension(row, term.as_ref(), k));
+                let energy = 0.5 * model.compliance()[row] * tension * tension;
+                state.add(term.as_ref(), k, value, [tension, energy]);
                 row += 1;
             }
         }

@@ -45,6 +45,7 @@ pub use builder::{Builder, Rest};
 pub(crate) use domain::Turns;
 pub use domain::{Domain, Site};
 pub use drive::{Drive, DriveError, Driven};
+pub(crate) use element::Local;
 pub use element::{Elements, Spring, TermKind};
 pub use part::Part;
 pub use problem::driving::DrivenModel;

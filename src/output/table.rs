@@ -97,11 +97,12 @@ impl Table {
 
     /// Makes the table of the states of a study, with the columns of [`StateRow`] followed by `state`, the number of the row
     /// from 0, and the fold angles of the edges of the cell. The column `error_to_kinematic` is present if at least one
-    /// state has this value.
+    /// state has this value, the columns [`RATIOS`] if the states have ratios.
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
         let columns = StateRow::PLACE.into_iter().chain(Solution::COLUMNS).chain(["self_intersecting"]);
-        let columns = columns.chain(compared.then_some("error_to_kinematic")).chain(["state"]);
+        let ratios = states.iter().any(|state| state.ratios.is_some()).then_some(RATIOS).into_iter().flatten();
+        let columns = columns.chain(compared.then_some("error_to_kinematic")).chain(ratios).chain(["state"]);
         let table = Self::with_edges(columns, "fold", edges.iter());
         Self { rows: states.iter().enumerate().map(|(row, state)| state.values(row, compared)).collect(), ..table }
     }
@@ -121,7 +122,8 @@ impl Table {
         Self::edge_column("fold", edge)
     }
 
-    fn edge_column(word: &str, edge: &EdgeKey) -> String {
+    /// Returns the name of a column with a quantity of an edge.
+    pub(crate) fn edge_column(word: &str, edge: &EdgeKey) -> String {
         format!("{word}_{}_{}_{}_{}", edge.i, edge.j, edge.shift[0], edge.shift[1])
     }
 
@@ -252,9 +254,15 @@ pub(crate) struct StateRow {
     pub self_intersecting: Option<bool>,
     /// Largest difference between a fold angle and that of the exact kinematics, in radians.
     pub error_to_kinematic: Option<f64>,
+    /// Poisson's ratios in the plane and of bending along the first lattice vector, where they exist; `None` if the study
+    /// does not ask for them, and then for all rows.
+    pub ratios: Option<[Option<f64>; 2]>,
     /// Fold angles of the edges of the cell in radians; NaN for edges without a hinge.
     pub fold: Vec<f64>,
 }
+
+/// Names of the columns of Poisson's ratios.
+pub(crate) const RATIOS: [&str; 2] = ["poisson_in_plane", "poisson_bending"];
 
 impl StateRow {
     /// Names of the columns before energies and residuals.
@@ -267,9 +275,10 @@ impl StateRow {
         let numbers = shape.into_iter().map(Value::from).chain(self.solution.values());
         let crossing = Value::from(self.self_intersecting.map(i64::from));
         let error = compared.then(|| Value::from(self.error_to_kinematic));
+        let ratios = self.ratios.into_iter().flatten().map(Value::from);
         let fold = self.fold.iter().map(|&angle| Value::Number(angle));
         let row = [Value::Whole(row as i64)];
-        counts.into_iter().chain(numbers).chain([crossing]).chain(error).chain(row).chain(fold).collect()
+        counts.into_iter().chain(numbers).chain([crossing]).chain(error).chain(ratios).chain(row).chain(fold).collect()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::output::OutputError;
 use crate::scene::SceneError;
+use crate::sheet::NotDevelopable;
 use crate::sheet::SheetError;
 use crate::sheet::error::Defect;
 use crate::sheet::pattern::NotFlat;
@@ -77,12 +78,21 @@ pub enum RunError {
     },
     /// A sheet is to be written as a crease pattern and is not flat.
     #[error("{}: {reason}", path.display())]
-    #[diagnostic(help("write another format, .fold, .obj or .vtu, or start from the flat crease pattern"))]
+    #[diagnostic(help("write another format, .fold, .obj or .vtu, or unfold the sheet with --flatten"))]
     NotFlat {
         /// The file.
         path: PathBuf,
         /// The reason for which it is not flat.
         reason: NotFlat,
+    },
+    /// A sheet is to be unfolded and cannot be.
+    #[error("{}: {reason}", path.display())]
+    #[diagnostic(help("`foldwell info` says whether a sheet is developable"))]
+    NotDevelopable {
+        /// The file.
+        path: PathBuf,
+        /// The reason for which it cannot be unfolded.
+        reason: NotDevelopable,
     },
     /// A study has no states of which a film could be made.
     #[error("{}: no study with two states or more to film", path.display())]

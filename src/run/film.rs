@@ -16,7 +16,7 @@ use crate::output::sequence::{Place, Sequence, sequences};
 use crate::output::table::read_columns;
 
 /// Kinds of study whose states are modes: their displacements are velocities.
-const MODES: [&str; 2] = ["modes", "bloch"];
+const MODES: [&str; 3] = ["modes", "bloch", "response"];
 /// Number of frames in which a mode swings to and fro, and its amplitude relative to the size of the sheet.
 const SWING_FRAMES: usize = 16;
 const SWING: f64 = 0.1;

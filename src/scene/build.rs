@@ -11,7 +11,7 @@ use super::{Located, SceneError, SceneFile, drives};
 use crate::kinematics::folding_modes_with_locked;
 use crate::model::{Assembly, AssemblyError, Bars, Boundary, Drive, Hinges, RIGID, Stiffness, Terms};
 use crate::sheet::pattern::{self, Format};
-use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate};
+use crate::sheet::{EdgeKind, Sheet, Tiling, fold, generate, obj};
 use std::ops::Range;
 use std::path::Path;
 
@@ -83,16 +83,25 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
 /// Reads the mesh at `path` in the format of its ending; FOLD if that is unknown.
 fn mesh_of(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
     let frame = file.scene.sheet.frame.as_ref();
-    let format = Format::of(path);
-    match frame {
-        Some(frame) if format.is_some() => {
-            let help = "frames are those of FOLD files; leave out `frame`";
-            Err(file.error_at(frame.span(), "a crease pattern of lines has no frames", help))
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let lines = Format::of(path);
+    if let Some(frame) = frame.filter(|_| lines.is_some() || ending == "obj") {
+        let kind = if lines.is_some() { "a crease pattern of lines" } else { "an OBJ file" };
+        let help = "frames are those of FOLD files; leave out `frame`";
+        return Err(file.error_at(frame.span(), format!("{kind} has no frames"), help));
+    }
+    match (lines, ending.as_str()) {
+        (Some(format), _) => Ok(pattern::read(path, format)?),
+        (None, "obj") => Ok(obj::read(path)?),
+        (None, "vtu" | "stl") => {
+            let span = file.scene.sheet.mesh.as_ref().map_or(0..0, Located::span);
+            let help = match ending.as_str() {
+                "vtu" => "`foldwell convert` makes a .fold file of it; a state to start from is `start` of a study",
+                _ => "an STL file has triangles without edges that fold; give a .fold or .obj file",
+            };
+            Err(file.error_at(span, format!("a mesh of a scene is no .{ending} file"), help))
         }
-        _ => Ok(match format {
-            Some(format) => pattern::read(path, format)?,
-            None => fold::read_frame(path, frame.map(|frame| **frame))?,
-        }),
+        (None, _) => Ok(fold::read_frame(path, frame.map(|frame| **frame))?),
     }
 }
 
@@ -108,7 +117,8 @@ fn boundary(file: &SceneFile, sheet: &Sheet) -> Result<Boundary, SceneError> {
         return Ok(periodic);
     }
     let span = spec.domain.as_ref().map_or(0..0, Located::span);
-    let help = "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh";
+    let help = "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh, \
+                in OBJ as two comments `# foldwell:lattice x y z`";
     Err(file.error_at(span, "the mesh has no lattice", help))
 }
 

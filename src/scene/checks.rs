@@ -200,7 +200,7 @@ fn kind(file: &SceneFile, study: &StudySpec, earlier: &[StudySpec]) -> Checked {
         StudyKind::Path(path) => driven(file, study, path),
         StudyKind::Trace(trace) => trace.stop.as_ref().map_or(Ok(()), |stop| some_condition(file, stop)),
         StudyKind::Landscape(landscape) => not_empty(file, landscape),
-        StudyKind::Relax(_) | StudyKind::Bloch(_) => Ok(()),
+        StudyKind::Relax(_) | StudyKind::Bloch(_) | StudyKind::Response(_) => Ok(()),
         StudyKind::Surface(_) | StudyKind::Modes(_) | StudyKind::Branches(_) => Ok(()),
         StudyKind::Wells(wells) => of_rigid(file, wells),
     }

@@ -13,6 +13,7 @@ const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp"];
 const BLOCH: &[&str] = &["@/@_determinant.vti", "@/@_zero_lines.vtp", "@/@_mode_#.vtu"];
 const BANDS: &[&str] = &["@_bands.csv"];
 const WELLS: &[&str] = &["@-barriers.csv"];
+const RESPONSE: &[&str] = &["@-ratios.csv", "@-ratios.svg", "@-stresses.csv"];
 const PATH: &[&str] = &["@-reaction.svg", "@.path.jsonl"];
 
 /// Returns the files that a study with these settings can write.
@@ -25,6 +26,7 @@ pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
         StudyKind::Bloch(_) => [BLOCH, &[]],
         StudyKind::Wells(_) => [WELLS, &[]],
         StudyKind::Path(_) => [PATH, &[]],
+        StudyKind::Response(_) => [RESPONSE, &[]],
         StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Branches(_) | StudyKind::Landscape(_) => [&[], &[]],
     };
     named(&study.name.0, ANY.iter().chain(own[0]).chain(own[1]))
@@ -40,7 +42,7 @@ pub(crate) fn growing_table(study: &StudySpec) -> Option<String> {
 
 /// Returns the files that a study of this name can have written, whatever its kind was.
 pub(crate) fn owned(name: &str) -> Vec<String> {
-    let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS, PATH].into_iter().flatten();
+    let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS, RESPONSE, PATH].into_iter().flatten();
     named(name, ANY.iter().chain(others))
 }
 

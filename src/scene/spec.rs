@@ -61,7 +61,8 @@ pub struct Scene {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SheetSpec {
-    /// A FOLD file with one cell of the sheet, or a crease pattern: .svg with the colours of Origami Simulator, .cp or .opx.
+    /// A FOLD file with one cell of the sheet, an .obj file, or a crease pattern: .svg with the colours
+    /// of Origami Simulator, .cp or .opx.
     pub mesh: Option<Located<PathBuf>>,
     /// The frame of the FOLD file: 0 is its top, those of `file_frames` are 1, 2, ...; left out: the first with a mesh.
     pub frame: Option<Located<usize>>,

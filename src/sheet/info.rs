@@ -176,6 +176,11 @@ fn quality([a, b, c]: [Vec3; 3]) -> f64 {
 }
 
 fn largest_angle_defect(sheet: &Sheet) -> f64 {
+    angle_defects(sheet).fold(0.0, |largest, (_, defect)| largest.max(defect.abs()))
+}
+
+/// Returns the inner vertices, each with its angle defect, a full turn less the sum of the angles of its faces, in radians.
+pub(super) fn angle_defects(sheet: &Sheet) -> impl Iterator<Item = (usize, f64)> {
     let mut sums = vec![0.0; sheet.vertices.len()];
     for (triangle, x) in sheet.triangles.iter().zip(points(sheet)) {
         for k in 0..3 {
@@ -188,9 +193,8 @@ fn largest_angle_defect(sheet: &Sheet) -> f64 {
         inside[edge.key.i] = false;
         inside[edge.key.j] = false;
     }
-    let defects =
-        sums.iter().zip(inside).filter(|(_, inside)| *inside).map(|(sum, _)| (std::f64::consts::TAU - sum).abs());
-    defects.fold(0.0, f64::max)
+    let inner = sums.into_iter().zip(inside).enumerate().filter(|(_, (_, inside))| *inside);
+    inner.map(|(vertex, (sum, _))| (vertex, std::f64::consts::TAU - sum))
 }
 
 impl fmt::Display for Info {

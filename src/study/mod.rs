@@ -11,6 +11,7 @@
 //! | `bloch` | [`bloch`] | spatially varying modes |
 //! | `wells` | [`wells`] | minima, and the barriers between them |
 //! | `path` | [`path`] | equilibria along a driven quantity |
+//! | `response` | [`response`] | linear modes, Poisson's ratios and moduli |
 //!
 //! [`check`] refuses a study that does not fit its sheet before anything is computed; [`compute`] returns its answer.
 
@@ -26,8 +27,10 @@ mod modes;
 mod page;
 mod path;
 mod path_plot;
+mod ratios;
 mod reason;
 mod relax;
+mod response;
 mod start;
 mod states;
 mod supported;
@@ -59,6 +62,7 @@ pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
         StudyKind::Bloch(spec) => bloch::check(context, spec),
         StudyKind::Wells(spec) => wells::check(context, spec),
         StudyKind::Path(spec) => path::check(context, spec),
+        StudyKind::Response(spec) => response::check(context, spec),
     }
 }
 
@@ -83,5 +87,6 @@ fn compute_kind(context: &Context<'_>) -> Result<Answer, StudyError> {
         StudyKind::Bloch(spec) => Ok(bloch::compute(context, spec)),
         StudyKind::Wells(spec) => wells::compute(context, spec),
         StudyKind::Path(spec) => path::compute(context, spec),
+        StudyKind::Response(spec) => response::compute(context, spec),
     }
 }

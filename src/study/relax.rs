@@ -9,6 +9,7 @@ use super::{branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::method::{Method, RelaxOptions};
+use crate::analysis::recorder::KeptState;
 use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
 use crate::analysis::state::State;
 use crate::model::{Gauge, Model};
@@ -18,6 +19,7 @@ use crate::output::summary::{BranchChoiceSummary, IterationSummary, MethodName, 
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{MethodSpec, RelaxSpec};
 use crate::solver::Step;
+use std::num::NonZeroUsize;
 
 /// Reason for the failure of a relaxation that has left a singular start with extensible bars.
 const NO_BRANCH: &str = "the start is singular, and the state that bars that stretch reach from it has no rigid one nearby: \
@@ -43,6 +45,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &RelaxSpec) -> Result<Answer,
     };
     let first = State::new(&model, &start.x, &start.tension);
     let mut options = RelaxOptions { method: method(spec.method), ..RelaxOptions::default() };
+    options.keep_every = spec.keep_every.as_ref().and_then(|count| NonZeroUsize::new(count.0 as usize));
     if let Some(tolerance) = &spec.tolerance {
         options.newton.tolerance = tolerance.0;
     }
@@ -57,7 +60,8 @@ fn found(context: &Context<'_>, spec: &RelaxSpec, model: &Model, first: &State, 
     let (assembly, mut answer) = (context.assembly, Answer::empty(context.study));
     let residuals = Some([relaxed.residual_force, relaxed.residual_length]);
     let shown = format!("equilibrium, energy {}", rounded(relaxed.state.total(), 5));
-    let self_intersecting = add_states(&mut answer, context, [first, &relaxed.state], residuals, &shown);
+    let states = reached([first, &relaxed.state], residuals, &relaxed.kept, &relaxed.history);
+    let self_intersecting = add_states(&mut answer, context, &states, &shown);
     let angles = states::with_all_angles(context, &relaxed.state).fold_angle;
     let drawn = spec.start.as_ref().is_none_or(|start| matches!(**start, StartSpec::Drawn));
     let (branch_point_start, directions) = if drawn { branches::branch_point(assembly) } else { (None, None) };
@@ -80,7 +84,8 @@ fn not_found(context: &Context<'_>, first: &State, error: &RelaxError) -> Answer
     let mut answer = Answer::empty(context.study);
     let residuals = error.history.last().map(|step| [step.residual_force, step.residual_length]);
     let shown = "last state of a relaxation without end";
-    let self_intersecting = add_states(&mut answer, context, [first, &error.state], residuals, shown);
+    let states = reached([first, &error.state], residuals, &error.kept, &error.history);
+    let self_intersecting = add_states(&mut answer, context, &states, shown);
     let result = RelaxSummary { self_intersecting, ..last_of(context, error) };
     let why = reason(context.assembly, error.failure, &error.state);
     let why = if error.soft_steps > 0 { format!("{why}; {NO_BRANCH}") } else { why };
@@ -97,25 +102,42 @@ pub(crate) fn watcher<'a>(context: &'a Context<'_>) -> impl FnMut(&Step) -> bool
     }
 }
 
-/// Adds the table and pictures of the first and last state of a relaxation, with the residuals of the last one. Returns
-/// whether the last state intersects itself; `None` if the study does not ask for that check.
-fn add_states(
-    answer: &mut Answer,
-    context: &Context<'_>,
-    ends: [&State; 2],
+/// A state of a relaxation: its number, its residuals if they are to be shown, and the state itself.
+type Reached<'a> = (usize, Option<[f64; 2]>, &'a State);
+
+/// Returns the states of a relaxation that are shown: those that were kept, by their iterations; without them the first
+/// and the last one. `residuals` are those of the last one.
+fn reached<'a>(
+    [first, last]: [&'a State; 2],
     residuals: Option<[f64; 2]>,
-    shown: &str,
-) -> Option<bool> {
+    kept: &'a [KeptState],
+    history: &[Step],
+) -> Vec<Reached<'a>> {
+    if kept.is_empty() {
+        return vec![(0, None, first), (1, residuals, last)];
+    }
+    let of = |iteration: usize| {
+        let at = history.get(iteration).map(|step| [step.residual_force, step.residual_length]);
+        if iteration + 1 == history.len() { residuals } else { at }
+    };
+    kept.iter().map(|kept| (kept.iteration, of(kept.iteration), &kept.state)).collect()
+}
+
+/// Adds the table and pictures of states, with a drawing of the last one. Returns whether the last state intersects
+/// itself; `None` if the study does not ask for that check.
+fn add_states(answer: &mut Answer, context: &Context<'_>, states: &[Reached<'_>], shown: &str) -> Option<bool> {
     let mut check = context.self_intersection();
-    let [first, last] = ends.map(|state| {
+    let mut all = |&(iteration, residuals, state): &Reached<'_>| {
         let state = states::with_all_angles(context, state);
         let marks = check.as_mut().map(|check| check.marks(context.assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
-        Shown { state, residuals: None, marks }
-    });
-    let both = [first, Shown { residuals, ..last }];
-    answer.add(format!("{}.csv", context.name()), states::table(context, &both));
-    states::add(answer, context, &both, Some((1, shown)));
-    both[1].marks.as_ref().map(|marks| marks.any)
+        (iteration, Shown { state, residuals, marks })
+    };
+    let all: Vec<(usize, Shown)> = states.iter().map(&mut all).collect();
+    let table = states::table_of_steps(context, all.iter().map(|(iteration, state)| (*iteration, state)));
+    answer.add(format!("{}.csv", context.name()), table);
+    let timed = all.iter().enumerate().map(|(row, (iteration, state))| (row, *iteration, state));
+    states::add_timed(answer, context, timed, Some((all.len() - 1, shown)));
+    all.last()?.1.marks.as_ref().map(|marks| marks.any)
 }
 
 /// Returns the summary of a relaxation, without the checks that the study asks for.

@@ -27,9 +27,14 @@ pub(crate) fn with_all_angles(context: &Context<'_>, state: &State) -> State {
     state.clone().with_angles(context.assembly.fold_angles_at(&state.coordinates))
 }
 
-/// Returns the table of states, with one row for each.
+/// Returns the table of states, with one row for each; its step is the number of the row.
 pub(crate) fn table(context: &Context<'_>, states: &[Shown]) -> Table {
-    let rows: Vec<StateRow> = states.iter().enumerate().map(|(step, shown)| row(context, step, shown)).collect();
+    table_of_steps(context, states.iter().enumerate())
+}
+
+/// Returns the table of states that are reached in these steps, with one row for each.
+pub(crate) fn table_of_steps<'s>(context: &Context<'_>, states: impl IntoIterator<Item = (usize, &'s Shown)>) -> Table {
+    let rows: Vec<StateRow> = states.into_iter().map(|(step, shown)| row(context, step, shown)).collect();
     table_of_rows(context, &rows)
 }
 
@@ -102,10 +107,20 @@ pub(crate) fn add_rows<'s>(
     states: impl IntoIterator<Item = (usize, &'s Shown)>,
     shown: Option<(usize, &str)>,
 ) {
-    let pictures: Vec<(usize, Picture)> =
-        states.into_iter().map(|(row, shown)| (row, picture(context, shown))).collect();
-    let drawn = shown.and_then(|(number, state)| Some((pictures.get(number)?.1.clone(), state)));
-    add_series_at(answer, context, pictures);
+    add_timed(answer, context, states.into_iter().map(|(row, state)| (row, row, state)), shown);
+}
+
+/// Adds the same of states with the numbers of their rows and their times in the series.
+pub(crate) fn add_timed<'s>(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    states: impl IntoIterator<Item = (usize, usize, &'s Shown)>,
+    shown: Option<(usize, &str)>,
+) {
+    let pictures: Vec<(usize, usize, Picture)> =
+        states.into_iter().map(|(row, time, shown)| (row, time, picture(context, shown))).collect();
+    let drawn = shown.and_then(|(number, state)| Some((pictures.get(number)?.2.clone(), state)));
+    add_timed_series(answer, context, pictures);
     if let Some((picture, state)) = drawn {
         add_figure(answer, context, &picture, state);
     }
@@ -122,15 +137,24 @@ pub(crate) fn add_series_at(
     context: &Context<'_>,
     pictures: impl IntoIterator<Item = (usize, Picture)>,
 ) {
+    add_timed_series(answer, context, pictures.into_iter().map(|(row, picture)| (row, row, picture)));
+}
+
+/// Adds pictures as a VTK series if the study asks for it, each with the number that names its file and its time.
+fn add_timed_series(
+    answer: &mut Answer,
+    context: &Context<'_>,
+    pictures: impl IntoIterator<Item = (usize, usize, Picture)>,
+) {
     if !context.draws(Draw::Vtk) {
         return;
     }
     let name = context.name();
     let mut entries = Vec::new();
-    for (k, picture) in pictures {
-        let file = format!("{name}/{name}_{k:04}.vtu");
+    for (row, time, picture) in pictures {
+        let file = format!("{name}/{name}_{row:04}.vtu");
         answer.add(&file, picture);
-        entries.push((k as f64, file));
+        entries.push((time as f64, file));
     }
     answer.add(format!("{name}.pvd"), Artifact::Series(entries));
     answer.add(format!("{name}-paraview.py"), Artifact::Script(paraview::script(name)));

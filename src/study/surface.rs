@@ -181,6 +181,7 @@ fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRo
         solution: Solution { energy: energies::columns_if_any(terms, state), ..Solution::default() },
         self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
         error_to_kinematic: None,
+        ratios: None,
         fold: point.angles.clone(),
     }
 }

@@ -4,7 +4,7 @@ use super::answer::{Answer, SavedState};
 use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
-use super::{branches, energies, relax};
+use super::{branches, energies, ratios, relax};
 use crate::analysis::along::{AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors, relax_along};
 use crate::analysis::chart::{coordinates, hinge_angles};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
@@ -48,6 +48,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), Study
         let help = "give `bars` in [energy] a stiffness (inf: rigid), or leave `engine` out";
         return Err(context.refuse(message, help).into());
     }
+    ratios::check(context, spec.response.as_ref())?;
     stop(context, spec).map(|_| ())
 }
 
@@ -94,7 +95,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &TraceSpec) -> Result<Answer,
     let paths: Vec<Path<'_>> =
         traced.iter().enumerate().map(|(k, traced)| Path { traced, relaxed: relaxations.get(k), pictures }).collect();
     let mut answer = Answer::empty(context.study);
-    add_files(&mut answer, context, spec.engine, &paths);
+    add_files(&mut answer, context, spec, &paths);
     // after an interruption during the search for self-intersections, the table lacks their entries
     let stopped = context.interrupted().then(|| "interrupted".to_owned());
     let reason = paths.iter().find_map(Path::failure).or(stopped);
@@ -223,7 +224,7 @@ impl Path<'_> {
 
 /// Adds the table of all states, pictures of some, and the trajectories in the space of lattice strains. Keeps the last
 /// state of the first trajectory for studies that start from it.
-fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: &[Path<'_>]) {
+fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths: &[Path<'_>]) {
     let assembly = context.assembly;
     let mut model = assembly.model(Gauge::Held);
     let mut finder = context.self_intersection();
@@ -241,8 +242,9 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, engine: Engine, paths: 
             let state = along.map_or_else(|| state_at(&model, coordinates(folded), &folded.angles), relaxed_state);
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
-            let compared = along.filter(|_| engine == Engine::Both);
-            rows.push(StateRow { error_to_kinematic: compared.map(|along| along.error), ..row });
+            let compared = along.filter(|_| spec.engine == Engine::Both);
+            let ratios = ratios::of_state(assembly, spec.response.as_ref(), &state.coordinates);
+            rows.push(StateRow { error_to_kinematic: compared.map(|along| along.error), ratios, ..row });
             if step % path.every() == 0 || step + 1 == path.len() {
                 pictures.push((rows.len() - 1, Shown { state, residuals: None, marks }));
             }
@@ -327,6 +329,7 @@ fn row(
         },
         self_intersecting,
         error_to_kinematic: None,
+        ratios: None,
         fold: state.fold_angle.clone(),
     }
 }

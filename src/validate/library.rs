@@ -49,11 +49,14 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "extremes-mostly-right"
     "cells-closed-form"
     "cells-residuals"
+    "response-miura"
+    "response-opposite"
 );
 
 /// Files of `meshes` that claims need.
 const MESHES: &[(&str, &str)] = files!("meshes", "":
     "flat-branches.toml"
+    "miura-response.toml"
     "miura-spectrum.toml"
     "open-flat.fold"
     "open-star.fold"

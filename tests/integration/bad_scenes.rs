@@ -100,7 +100,7 @@ const FAULTS: &[Fault] = &[
     fault(5, "cells = [4, 6", "6:1", "missing comma between array elements", "expected `,`"),
     fault(1, "title = \"a\"\ntitle = \"b\"", "2:1", "duplicate key", ""),
     fault(1, "title = 3", "1:9", "invalid type: integer `3`", "expected a string"),
-    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "the keys here are `title`, `sheet`, `energy`, `lock`, `load`, `pin`, `part`, `drive`, `study`"),
+    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "the keys here are `title`, `sheet`, `energy`, `lock`, `load`, `pin`, `part`, `drive`, `study`, `sweep`"),
     // the sheet
     fault(3, "", "2:1", "the sheet has neither a mesh nor a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
     fault(3, "mesh = \"a.fold\"\ngenerate = { pattern = \"miura\" }", "4:12", "the sheet has both a mesh and a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
@@ -173,7 +173,7 @@ const FAULTS: &[Fault] = &[
     fault(23, "start = 3", "23:9", "invalid type: integer `3`", "expected \"drawn\", the name of an earlier study, { random = amplitude, seed = n } or a .vtu file"),
     fault(24, "tolerance = 0", "24:13", "the number is 0", "expected a finite number above 0"),
     fault(62, "resolution = 0", "62:14", "the number is 0", "expected a whole number from 1 to 4294967295"),
-    fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace, path; the keys here are `start`, `tolerance`, `method`"),
+    fault(24, "max_step = 1", "24:1", "unknown key `max_step`", "`max_step` is a key of studies of kind trace, path; the keys here are `start`, `tolerance`, `method`, `keep_every`"),
     fault(28, "start = \"third\"", "28:9", "no earlier study is called `third`", "\"drawn\", the name of an earlier study with states (here \"first\"), { random, seed } or a .vtu file"),
     fault(29, "check = [\"overlap\"]", "29:10", "unknown word `overlap`", "expected `self-intersection`"),
     fault(30, "draw = [\"png\"]", "30:9", "unknown word `png`", "expected one of `vtk`, `svg`, `numbers`, `html`"),
@@ -252,6 +252,10 @@ const MISFITS: &[Misfit] = &[
     // the sheet
     misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"torus\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh"),
     misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"screw\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh"),
+    misfit("[sheet]\nmesh = \"finite.OBJ\"\ndomain = \"torus\"", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh, in OBJ as two comments `# foldwell:lattice x y z`"),
+    misfit("[sheet]\nmesh = \"finite.OBJ\"\nframe = 1", "3:9", "an OBJ file has no frames", "frames are those of FOLD files; leave out `frame`"),
+    misfit("[sheet]\nmesh = \"sheet.stl\"", "2:8", "a mesh of a scene is no .stl file", "an STL file has triangles without edges that fold; give a .fold or .obj file"),
+    misfit("[sheet]\nmesh = \"sheet.vtu\"", "2:8", "a mesh of a scene is no .vtu file", "`foldwell convert` makes a .fold file of it"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", fold = 2.0 }", "2:12", "`fold` is 2", "see `foldwell new --help` for the patterns"),
     misfit("[sheet]\ngenerate = { pattern = \"kresling\", sides = 2 }", "2:12", "`sides` is 2; it should be from 3 to 1000", "see `foldwell new --help` for the patterns"),
     misfit("[sheet]\ngenerate = { pattern = \"miura\", hight = 1 }", "2:12", "unknown field `hight`", "see `foldwell new --help` for the patterns"),
@@ -282,6 +286,9 @@ fn folder_of_misfits() -> tempfile::TempDir {
     std::fs::copy(star, folder.path().join("star.fold")).expect("the star cell");
     let files = [
         ("finite.fold", FINITE),
+        ("finite.OBJ", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("sheet.stl", ""),
+        ("sheet.vtu", ""),
         ("one.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n"),
         ("rates.csv", "i,j,n1,n2,rate\n0,1,0,0,0.1\n"),
         ("strange.csv", "i,j,n1,n2,angle\n0,1,0,0,0.1\n0,1,5,0,0.1\n"),

@@ -165,8 +165,8 @@ fn the_table_has_what_the_summaries_have() {
     let table = table.replace("\"a, b\"", "a b");
     assert!(table.lines().nth(2).unwrap().starts_with("1,a b,5,converged,,"), "{table}");
     let columns = columns(&table);
-    for k in 0..2 {
-        let found = summary(&out.join(format!("points/000{k}/summary.json")));
+    for (k, folder) in ["points/0000", "points/0001"].into_iter().enumerate() {
+        let found = summary(&out.join(folder).join("summary.json"));
         assert_eq!(found["settings"], json!(["title=\"a, b\"", format!("study.last.start.seed={}", 4 + k)]));
         let [loops, last] = [0, 1].map(|study| &found["studies"][study]);
         let number = |column: &str| columns[column][k].parse::<f64>().unwrap();
@@ -311,7 +311,8 @@ fn finished_points(out: &Path) -> usize {
     let folders = fs::read_dir(out.join("points")).into_iter().flatten().flatten();
     let finished = |folder: PathBuf| {
         let text = fs::read_to_string(folder.join("summary.json")).unwrap_or_default();
-        serde_json::from_str::<Value>(&text).is_ok_and(|found| found["studies"][0]["files"].is_object())
+        let summary: Value = serde_json::from_str(&text).unwrap_or_default();
+        summary["studies"][0]["files"].is_object() && summary["studies"][0]["reason"] != "interrupted"
     };
     folders.filter(|folder| finished(folder.path())).count()
 }

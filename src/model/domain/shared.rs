@@ -24,7 +24,7 @@ pub(crate) struct Turns {
 
 impl Turns {
     /// Computes the screw motions from the shared coordinates of a screw.
-    pub(super) fn new(shared: &[f64]) -> Self {
+    pub(crate) fn new(shared: &[f64]) -> Self {
         let (direction, kappa) = (shared[0], shared[1]);
         Self { direction, kappa, theta: seen_along(shared).map(|l| kappa * l.im) }
     }

@@ -139,13 +139,20 @@ impl IntrinsicModel {
         [forces, lengths]
     }
 
+    /// Returns the whole sheet in the state of these variables, put together face by face from the middle outward and moved as close
+    /// to the model's reference state as a rigid motion can. Where the closure is not met yet, the faces that were placed last
+    /// do not fit: the vertices are those of the faces placed first, and angles and lengths remain those of the variables.
+    pub fn folded_up(&self, model: &Model, z: &[f64], multipliers: &[f64]) -> FoldedUp {
+        let [angles, lengths] = self.measures(z);
+        let [torques, forces] = self.forces(z, multipliers);
+        let coordinates = place::placed(&self.topology, &angles, &lengths, &model.coordinates(&model.start()));
+        FoldedUp { coordinates, angles, lengths, torques, forces }
+    }
+
     /// Moves the model to a state: its vertices where these variables put them, its angles continued to these, and
     /// tensions that balance. Returns the start of a minimisation from there.
     pub fn hand_over(&self, model: &mut Model, z: &[f64], multipliers: &[f64]) -> Start {
-        let [angles, lengths] = self.measures(z);
-        let [torques, forces] = self.forces(z, multipliers);
-        let drawn = model.coordinates(&model.start());
-        let coordinates = place::placed(&self.topology, &angles, &lengths, &drawn);
+        let FoldedUp { coordinates, angles, torques, forces, .. } = self.folded_up(model, z, multipliers);
         let continued: Vec<f64> = terms(model)
             .filter(|term| !term.angles().is_empty())
             .flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<f64>>())
@@ -158,6 +165,21 @@ impl IntrinsicModel {
         model.set_angles(&continued);
         Start { x: model.start_from(coordinates), tension: Some(tension) }
     }
+}
+
+/// A sheet put together from fold angles and lengths.
+#[derive(Clone, Debug)]
+pub struct FoldedUp {
+    /// Coordinates of all vertices.
+    pub coordinates: Vec<f64>,
+    /// Fold angle of every edge, in radians; 0 on rims.
+    pub angles: Vec<f64>,
+    /// Length of every edge.
+    pub lengths: Vec<f64>,
+    /// Torque of the hinge of every edge by the multipliers of the closure.
+    pub torques: Vec<f64>,
+    /// Force along the bar of every edge by these multipliers, positive where it is stretched.
+    pub forces: Vec<f64>,
 }
 
 impl ConstrainedProblem for IntrinsicModel {

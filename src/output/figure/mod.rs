@@ -17,6 +17,7 @@ pub(crate) mod film;
 mod hidden;
 pub(crate) mod palette;
 pub(crate) mod projection;
+pub mod ratios;
 pub mod reaction;
 pub mod sheet;
 pub mod sphere;

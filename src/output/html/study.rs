@@ -63,7 +63,7 @@ impl StudyData {
         }
         let (facts, lists) = results(arrays, summary);
         tables.extend(lists);
-        let moving = matches!(kind.as_str(), "modes" | "bloch");
+        let moving = matches!(kind.as_str(), "modes" | "bloch" | "response");
         let sheet = SheetData::new(arrays, &states(&name, files), own_table(&name, files), moving);
         let converged = summary.get("converged").and_then(Value::as_bool).unwrap_or_default();
         Self { converged, reason: word("reason"), name, kind, facts, tables, figures, others, sheet }

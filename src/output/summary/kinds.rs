@@ -1,15 +1,15 @@
 //! The kinds of study in the JSON schema, and the keys that belong to each kind.
 
 use super::{
-    BlochSummary, BranchesSummary, LandscapeSummary, ModesSummary, PathSummary, RelaxSummary, SurfaceSummary,
-    TraceSummary, WellsSummary,
+    BlochSummary, BranchesSummary, LandscapeSummary, ModesSummary, PathSummary, RelaxSummary, ResponseSummary,
+    SurfaceSummary, TraceSummary, WellsSummary,
 };
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::json;
 
 /// A function that returns the schema of the results of a kind of study.
 type Answer = fn(&mut SchemaGenerator) -> Schema;
-const ANSWERS: [(&str, Answer); 9] = [
+const ANSWERS: [(&str, Answer); 10] = [
     ("relax", RelaxSummary::json_schema),
     ("trace", TraceSummary::json_schema),
     ("surface", SurfaceSummary::json_schema),
@@ -19,6 +19,7 @@ const ANSWERS: [(&str, Answer); 9] = [
     ("bloch", BlochSummary::json_schema),
     ("wells", WellsSummary::json_schema),
     ("path", PathSummary::json_schema),
+    ("response", ResponseSummary::json_schema),
 ];
 
 /// Returns the schema of the name of a kind of study.

@@ -11,6 +11,7 @@ mod landscape;
 mod modes;
 mod path;
 mod relax;
+mod response;
 mod surface;
 mod sweep;
 mod trace;
@@ -22,6 +23,10 @@ pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::ModesSummary;
 pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
 pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
+pub use response::{
+    LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
+    RigidLimitSummary, StressSummary, TableSummary,
+};
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use sweep::{PointStatus, SweepSummary, UnansweredPoint};
 pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
@@ -140,6 +145,8 @@ pub enum StudyResult {
     Wells(WellsSummary),
     /// `kind = "path"`.
     Path(PathSummary),
+    /// `kind = "response"`.
+    Response(Box<ResponseSummary>),
     /// `kind = "trace"`.
     Trace(TraceSummary),
 }

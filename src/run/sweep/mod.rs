@@ -67,7 +67,10 @@ pub fn sweep(
     let out = folder(file, options);
     check_base(&sweep, &out)?;
     own.iter().try_for_each(|&index| sweep.scene(index).map(|_| ()))?;
-    files::remove_drafts(&out);
+    if shard.is_none() {
+        // on a disk that several machines share, the locks of other shards' drafts may not be seen
+        files::remove_drafts(&out);
+    }
     let kept = if options.resume { record::finished(&sweep, &out, &own) } else { Vec::new() };
     let rest: Vec<usize> = own.iter().copied().filter(|index| kept.binary_search(index).is_err()).collect();
     remove_leftovers(&sweep, &out)?;

@@ -65,8 +65,9 @@ impl Record {
     }
 
     /// Reads the result of a point that need not be computed again: its files are those on record. A point that could not
-    /// be computed is tried again.
+    /// be computed is tried again. Drafts that a killed run has left in its folder are removed.
     pub(super) fn finished(scene: &SceneFile, folder: &Path) -> Option<Self> {
+        files::remove_drafts(folder);
         let found = Self::read(scene, folder)?;
         let Self::Computed(studies) = &found else { return None };
         let belongings = Belongings::new(scene, folder);

@@ -76,6 +76,8 @@ pub enum StudyKind {
     Wells(WellsSpec),
     /// Equilibria along a driven quantity.
     Path(PathSpec),
+    /// The sheet as a material: its linear modes, Poisson's ratios and moduli.
+    Response(ResponseSpec),
 }
 
 /// `kind = "relax"`.
@@ -89,6 +91,9 @@ pub struct RelaxSpec {
     /// The unknowns of the relaxation; left out: `auto`.
     #[serde(default)]
     pub method: MethodSpec,
+    /// Which states on the way are written: one in so many iterations, the first and the last one included. Left out: the
+    /// start and the end.
+    pub keep_every: Option<Located<Count>>,
 }
 
 /// The unknowns of a relaxation.
@@ -119,6 +124,18 @@ pub struct TraceSpec {
     pub tolerance: Option<Located<Positive>>,
     /// The first of these that is met ends a trajectory.
     pub stop: Option<Located<StopSpec>>,
+    /// Whether the table has columns with Poisson's ratios of every state, and of which modes; left out: none.
+    pub response: Option<Located<RatioColumns>>,
+}
+
+/// The linear modes whose Poisson's ratios a table has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum RatioColumns {
+    /// Of the scene: rigid polygons and locks keep their angles.
+    Rigid,
+    /// Of the sheet whose polygons all bend and whose locks are released.
+    Bending,
 }
 
 /// What a trace solves.
@@ -269,6 +286,16 @@ pub struct PathSpec {
     pub stop: Option<Located<StopSpec>>,
 }
 
+/// `kind = "response"`, of a periodic sheet.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ResponseSpec {
+    /// The state whose response is wanted; left out: the drawn one.
+    pub start: Option<Located<StartSpec>>,
+    /// Number of directions over half a turn at which Poisson's ratios are written; left out: 72.
+    pub directions: Option<Located<Count>>,
+}
+
 impl StudyKind {
     /// Returns the state from which the study starts; `None` if the scene names none, or the kind has no such key.
     pub(crate) fn start(&self) -> Option<&Located<StartSpec>> {
@@ -279,6 +306,7 @@ impl StudyKind {
             Self::Modes(spec) => spec.start.as_ref(),
             Self::Wells(spec) => spec.start.as_ref(),
             Self::Path(spec) => spec.start.as_ref(),
+            Self::Response(spec) => spec.start.as_ref(),
         }
     }
 
@@ -294,6 +322,7 @@ impl StudyKind {
             Self::Bloch(_) => "bloch",
             Self::Wells(_) => "wells",
             Self::Path(_) => "path",
+            Self::Response(_) => "response",
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The iteration: steps of Gauss and Newton, damped so that the simplified correction shrinks.
 
-use super::outcome::{ConstrainedError, ConstrainedFailure, ConstrainedStep, Minimum, Settings};
+use super::outcome::{ConstrainedError, ConstrainedFailure, ConstrainedIterate, ConstrainedStep, Minimum, Settings};
 use super::problem::{ConstrainedProblem, Derivatives};
 use super::reduced::{Correction, Reduced, energy_norm};
 use crate::numerics::vector::{dot_blocked, larger, max_abs, moved};
@@ -64,7 +64,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     pub(super) fn run(
         mut self,
         settings: Settings,
-        observe: &mut dyn FnMut(&ConstrainedStep) -> bool,
+        observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool,
     ) -> Result<Minimum, ConstrainedError> {
         match self.converge(settings, observe) {
             Ok(()) => Ok(Minimum { z: self.z, multipliers: self.multipliers, history: self.history }),
@@ -75,7 +75,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
     fn converge(
         &mut self,
         settings: Settings,
-        observe: &mut dyn FnMut(&ConstrainedStep) -> bool,
+        observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool,
     ) -> Result<(), ConstrainedFailure> {
         let (mut taken, largest) = (0.0, max_abs(&self.z).max(1.0));
         loop {
@@ -244,7 +244,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
         pull: &[f64],
         correction: f64,
         fraction: f64,
-        observe: &mut dyn FnMut(&ConstrainedStep) -> bool,
+        observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool,
     ) -> Result<(), ConstrainedFailure> {
         let before = |count: fn(&ConstrainedStep) -> usize| self.history.iter().map(count).sum::<usize>();
         // forces of the terms, those of the constraints, and what is left of them together
@@ -264,6 +264,7 @@ impl<'a, P: ConstrainedProblem> Iteration<'a, P> {
             solves: self.system.solves - before(|step| step.solves),
         };
         self.history.push(step);
-        if observe(&step) { Ok(()) } else { Err(ConstrainedFailure::Interrupted) }
+        let iterate = ConstrainedIterate { z: &self.z, multipliers: &self.multipliers, step: &step };
+        if observe(&iterate) { Ok(()) } else { Err(ConstrainedFailure::Interrupted) }
     }
 }

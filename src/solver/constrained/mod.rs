@@ -53,7 +53,7 @@ mod reduced;
 mod tests;
 
 use iteration::Iteration;
-pub use outcome::{ConstrainedError, ConstrainedFailure, ConstrainedStep, Minimum, Settings};
+pub use outcome::{ConstrainedError, ConstrainedFailure, ConstrainedIterate, ConstrainedStep, Minimum, Settings};
 pub use problem::{Block, Blocks, ConstrainedProblem};
 
 /// Minimises from a start. `observe` sees every state, the start first, and returns false to stop.
@@ -68,6 +68,19 @@ pub fn minimize_constrained<P: ConstrainedProblem>(
     start: Vec<f64>,
     settings: Settings,
     observe: &mut dyn FnMut(&ConstrainedStep) -> bool,
+) -> Result<Minimum, ConstrainedError> {
+    minimize_constrained_iterates(problem, start, settings, &mut |iterate| observe(iterate.step))
+}
+
+/// Minimises as [`minimize_constrained`] does, with an observer that sees the states too.
+///
+/// # Errors
+/// [`ConstrainedError`] with the reason and the last state.
+pub fn minimize_constrained_iterates<P: ConstrainedProblem>(
+    problem: &P,
+    start: Vec<f64>,
+    settings: Settings,
+    observe: &mut dyn FnMut(&ConstrainedIterate<'_>) -> bool,
 ) -> Result<Minimum, ConstrainedError> {
     Iteration::new(problem, start)?.run(settings, observe)
 }

@@ -40,6 +40,17 @@ pub struct ConstrainedStep {
     pub solves: usize,
 }
 
+/// A state of the iteration with its record, as an observer sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstrainedIterate<'a> {
+    /// Variables.
+    pub z: &'a [f64],
+    /// Multipliers of the constraints.
+    pub multipliers: &'a [f64],
+    /// The record.
+    pub step: &'a ConstrainedStep,
+}
+
 /// A converged state.
 #[derive(Clone, Debug)]
 pub struct Minimum {

@@ -21,7 +21,7 @@ use super::problem::Problem;
 use iteration::Newton;
 pub use options::{Options, Start};
 pub use outcome::NewtonError;
-pub use outcome::{Equilibrium, Failure, Step};
+pub use outcome::{Equilibrium, Failure, Iterate, Step};
 
 /// Minimises a problem from a start. `observe` sees every accepted step, the retracted start first, and returns false
 /// to stop.
@@ -34,6 +34,19 @@ pub fn minimize<P: Problem>(
     options: Options,
     observe: &mut dyn FnMut(&Step) -> bool,
 ) -> Result<Equilibrium, NewtonError> {
+    minimize_iterates(problem, start, options, &mut |iterate| observe(iterate.step))
+}
+
+/// Minimises as [`minimize`] does, with an observer that sees the states too.
+///
+/// # Errors
+/// [`NewtonError`] with the reason and the last accepted state.
+pub fn minimize_iterates<P: Problem>(
+    problem: &mut P,
+    start: impl Into<Start>,
+    options: Options,
+    observe: &mut dyn FnMut(&Iterate<'_, P>) -> bool,
+) -> Result<Equilibrium, NewtonError> {
     let Start { x, tension } = start.into();
     let mut newton = Newton::new(problem, x, tension)?;
     let negative_eigenvalues = run(&mut newton, options, observe);
@@ -44,7 +57,7 @@ pub fn minimize<P: Problem>(
 fn run<P: Problem>(
     newton: &mut Newton<'_, P>,
     options: Options,
-    observe: &mut dyn FnMut(&Step) -> bool,
+    observe: &mut dyn FnMut(&Iterate<'_, P>) -> bool,
 ) -> Result<usize, Failure> {
     newton.problem.relieve(&mut newton.x);
     newton.linearize();
@@ -54,7 +67,8 @@ fn run<P: Problem>(
     loop {
         let step = newton.record(fraction);
         newton.history.push(step);
-        if !observe(&step) {
+        let Newton { problem, x, tension, .. } = &*newton;
+        if !observe(&Iterate { problem, x, tension, step: &step }) {
             return Err(Failure::Interrupted);
         }
         let (force, length) = (step.residual_force, step.residual_length);

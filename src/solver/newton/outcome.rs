@@ -26,6 +26,19 @@ pub struct Step {
     pub intrinsic: bool,
 }
 
+/// The state that an accepted step leads to, as an observer sees it.
+#[derive(Debug)]
+pub struct Iterate<'a, P> {
+    /// The problem, which has accepted this state.
+    pub problem: &'a P,
+    /// Unknowns.
+    pub x: &'a [f64],
+    /// Tensions of the stiff measures.
+    pub tension: &'a [f64],
+    /// The record of the step.
+    pub step: &'a Step,
+}
+
 /// A converged state.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {

@@ -1,0 +1,328 @@
+//! The condensation of the springs of a cell: its energy under strains and bendings of the lattice, minimised over the
+//! motions of its vertices, for any stiffness of the bars.
+//!
+//! With all lengths in units of `length`, the square root of the cell's area, a motion is `y`: the velocities of the
+//! vertices, and the strain and curvature `m` in the norm of [`Principal`]. Rigid elements restrict it to `R y = 0`. What
+//! is left is split into the motions that change no bar's length, among them the rigid modes with strains and curvatures
+//! `T`, and the others, `c`. Of these
+//!
+//! - a part is given by the strains and curvatures across `T`: `c = G^+ x + Y d` with `G Y = 0`, and
+//! - `d` minimises the energy, `Y^T Q (G^+ x + Y d) + Y^T A^T B t = 0`, for the amplitude `t` of the rigid modes,
+//!
+//! where `Q` is the stiffness of bars and hinges along `c`, and `A` and `B` the rates of the hinges along `c` and along the
+//! rigid modes, weighted by the roots of their stiffnesses and without what motions that neither strain nor bend make of
+//! them. Along the rigid modes the stiffness is `B^T B` less what `d` relaxes, which falls as the inverse of the stiffness
+//! of the bars: no large number is subtracted from another, and rigid bars are the limit.
+
+use super::ResponseError;
+use super::compatibility::{MACROSCOPIC, rates};
+use super::moduli::{ModuliMatrices, Principal};
+use super::periodic::{CellElement, PeriodicCell};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::{CholeskyFactor, cholesky};
+use crate::numerics::dense::{DenseError, full_svd, null_space, symmetric_eigen};
+use std::f64::consts::SQRT_2;
+
+/// Singular value that counts as zero, of rates in units of the cell.
+const ZERO: f64 = 1e-10;
+/// Eigenvalue that is rounding, relative to the largest one.
+const ROUNDING: f64 = 1e-14;
+
+/// Rates of some elements by the motions of a cell, with their spring constants.
+#[derive(Clone)]
+struct Weighted {
+    rates: DenseMatrix,
+    stiffness: Vec<f64>,
+}
+
+/// The springs of a cell at rest.
+#[derive(Clone)]
+pub(super) struct Springs {
+    rigid: Weighted,
+    bars: Weighted,
+    hinges: Weighted,
+    /// All bars, with the stiffest of `EA = 1`.
+    limit: Weighted,
+    /// Rigid elements other than bars.
+    rigid_hinges: Weighted,
+    area: f64,
+}
+
+impl Weighted {
+    fn of(rows: &DenseMatrix, chosen: &[(usize, f64)]) -> Self {
+        Self {
+            rates: DenseMatrix::from_fn(chosen.len(), rows.ncols(), |row, column| rows[(chosen[row].0, column)]),
+            stiffness: chosen.iter().map(|(_, stiffness)| *stiffness).collect(),
+        }
+    }
+
+    /// Returns the rates along these motions, each times the root of its spring constant.
+    fn rooted(&self, motions: &DenseMatrix) -> DenseMatrix {
+        let mut rows = &self.rates * motions;
+        rows.row_iter_mut().zip(&self.stiffness).for_each(|(mut row, stiffness)| row *= stiffness.sqrt());
+        rows
+    }
+}
+
+/// Returns the components of `m` per component of `[e11, e22, e12, k11, k22, k12]`.
+fn units(length: f64) -> [f64; MACROSCOPIC] {
+    [1.0, 1.0, SQRT_2, length, length, SQRT_2 * length]
+}
+
+impl Springs {
+    /// Collects the springs of these elements.
+    pub(super) fn new(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Self {
+        let (area, found) = (cell.area(), rates(cell, elements));
+        let (length, units) = (area.sqrt(), units(area.sqrt()));
+        let vertices = found.by_vertices.ncols() - 3;
+        let angle = |row: usize| elements[row].term.is_angle();
+        // lengths in units of `length`; vertex 0 does not move
+        let rows = DenseMatrix::from_fn(elements.len(), vertices + MACROSCOPIC, |row, column| {
+            let rate = match column.checked_sub(vertices) {
+                Some(component) => found.by_lattice[(row, component)] / units[component],
+                None => length * found.by_vertices[(row, column + 3)],
+            };
+            if angle(row) { rate } else { rate / length }
+        });
+        let spring = |row: usize| {
+            let spring = elements[row].term.spring(elements[row].number);
+            let unit = if angle(row) { 1.0 } else { area };
+            (row, unit * spring.stiffness, unit * spring.rest.recip())
+        };
+        let springs: Vec<(usize, f64, f64)> = (0..elements.len()).map(spring).collect();
+        let chosen = |wanted: &dyn Fn(usize, f64) -> bool| -> Vec<(usize, f64)> {
+            springs.iter().filter(|(row, k, _)| wanted(*row, *k)).map(|(row, k, _)| (*row, *k)).collect()
+        };
+        let axial = |(_, k, per_axial): &(usize, f64, f64)| k / per_axial;
+        let stiffest = springs.iter().filter(|spring| !angle(spring.0)).map(axial).fold(0.0, f64::max);
+        let limit = springs.iter().filter(|spring| !angle(spring.0)).map(|spring| {
+            let part = if stiffest.is_infinite() {
+                f64::from(u8::from(spring.1.is_infinite()))
+            } else {
+                axial(spring) / stiffest
+            };
+            (spring.0, part * spring.2)
+        });
+        Self {
+            rigid: Weighted::of(&rows, &chosen(&|_, k| k.is_infinite())),
+            bars: Weighted::of(&rows, &chosen(&|row, k| k.is_finite() && !angle(row))),
+            hinges: Weighted::of(&rows, &chosen(&|row, k| k.is_finite() && angle(row))),
+            limit: Weighted::of(&rows, &limit.collect::<Vec<_>>()),
+            rigid_hinges: Weighted::of(&rows, &chosen(&|row, k| k.is_infinite() && angle(row))),
+            area,
+        }
+    }
+
+    /// Returns the bars alone, the stiffest of them with `EA = 1`.
+    pub(super) fn of_bars(&self) -> Self {
+        let hinges = Weighted { rates: self.hinges.rates.rows(0, 0).into_owned(), stiffness: vec![] };
+        Self { rigid: self.rigid_hinges.clone(), bars: self.limit.clone(), hinges, ..self.clone() }
+    }
+}
+
+/// The energy of a cell as a function of its strain and curvature.
+pub(super) struct Condensed {
+    area: f64,
+    /// Strains and curvatures of the rigid modes, orthonormal columns.
+    rigid: DenseMatrix,
+    /// The others that no rigid element forbids, orthonormal columns.
+    others: DenseMatrix,
+    /// Second derivatives of the energy: rigid and rigid, others and rigid, others and others.
+    blocks: [DenseMatrix; 3],
+    /// Those of the rigid modes with rigid bars.
+    limit: DenseMatrix,
+}
+
+impl Condensed {
+    /// Minimises the energy of springs over the motions of the vertices.
+    ///
+    /// # Errors
+    /// [`ResponseError::Decomposition`] where a rank is not clear.
+    pub(super) fn new(springs: &Springs) -> Result<Self, ResponseError> {
+        let allowed = null_space(&springs.rigid.rates)?.basis;
+        let lattice = allowed.rows(allowed.nrows() - MACROSCOPIC, MACROSCOPIC).into_owned();
+        // motions that change a bar's length, and the others
+        let (stretching, still) = split(&springs.bars.rates, &allowed)?;
+        // the others: those of the rigid modes, scaled so that their strains and curvatures are orthonormal, and those
+        // that neither strain nor bend
+        let of_still = full_svd(&(&lattice * &still))?;
+        let count = of_still.singular_values.iter().filter(|value| **value > ZERO).count();
+        let rigid = of_still.u.columns(0, count).into_owned();
+        let mut modes = &still * of_still.v.columns(0, count);
+        modes.column_iter_mut().zip(&of_still.singular_values).for_each(|(mut mode, value)| mode /= *value);
+        let local = &still * of_still.v.columns(count, still.ncols() - count);
+        // of the motions that stretch, what they strain and bend across the rigid modes
+        let across = of_still.u.columns(count, MACROSCOPIC - count);
+        let reach = full_svd(&(across.transpose() * &lattice * &stretching))?;
+        let reached = reach.singular_values.iter().filter(|value| **value > ZERO).count();
+        let others = across * reach.u.columns(0, reached);
+        let mut given = reach.v.columns(0, reached).into_owned();
+        given.column_iter_mut().zip(&reach.singular_values).for_each(|(mut column, value)| column /= *value);
+        let free = reach.v.columns(reached, stretching.ncols() - reached).into_owned();
+        // along those motions the rigid modes are taken back
+        let along = &stretching - &modes * (rigid.transpose() * &lattice * &stretching);
+        let relaxed = without(&springs.hinges.rooted(&(&allowed * &local)))?;
+        let a = &relaxed * springs.hinges.rooted(&(&allowed * &along));
+        let b = &relaxed * springs.hinges.rooted(&(&allowed * &modes));
+        let bars = springs.bars.rooted(&(&allowed * &along));
+        let stiffness = bars.tr_mul(&bars) + a.tr_mul(&a);
+        let pull = a.tr_mul(&b);
+        let limit = b.tr_mul(&b);
+        let [given_free, pull_free] = [given.tr_mul(&stiffness) * &free, free.tr_mul(&pull)];
+        let solve = Solve::new(free.tr_mul(&stiffness) * &free)?;
+        let blocks = [
+            &limit - pull_free.tr_mul(&solve.of(&pull_free)),
+            given.tr_mul(&pull) - &given_free * solve.of(&pull_free),
+            given.tr_mul(&stiffness) * &given - &given_free * solve.of(&given_free.transpose()),
+        ];
+        Ok(Self { area: springs.area, rigid, others, blocks, limit })
+    }
+
+    /// Returns the moduli; `None` where rigid elements make some of them infinite.
+    pub(super) fn matrices(&self) -> Option<ModuliMatrices> {
+        let frame = joined(&[&self.rigid, &self.others]);
+        if frame.ncols() != MACROSCOPIC {
+            return None;
+        }
+        let (matrix, units) = (&frame * self.matrix() * frame.transpose(), units(self.area.sqrt()));
+        let entry = |row: usize, column: usize| {
+            0.5 * (matrix[(row, column)] + matrix[(column, row)]) * units[row] * units[column] / self.area
+        };
+        let block = |row: usize, column: usize| [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(row + i, column + j)));
+        Some(ModuliMatrices { stretching: block(0, 0), coupling: block(0, 3), bending: block(3, 3) })
+    }
+
+    /// Returns the second derivatives by the rigid modes and the others.
+    fn matrix(&self) -> DenseMatrix {
+        let [rigid, mixed, others] = &self.blocks;
+        let count = rigid.nrows();
+        DenseMatrix::from_fn(count + others.nrows(), count + others.nrows(), |row, column| {
+            match (row.checked_sub(count), column.checked_sub(count)) {
+                (None, None) => rigid[(row, column)],
+                (Some(row), None) => mixed[(row, column)],
+                (None, Some(column)) => mixed[(column, row)],
+                (Some(row), Some(column)) => others[(row, column)],
+            }
+        })
+    }
+
+    /// Returns the principal strains and bendings of the rigid modes with rigid bars, by rising stiffness.
+    ///
+    /// # Errors
+    /// [`ResponseError::Decomposition`].
+    pub(super) fn rigid_modes(&self) -> Result<Vec<Principal>, ResponseError> {
+        self.principal(&self.limit, &self.rigid, |value| value)
+    }
+
+    /// Returns as many of the softest principal strains and bendings, by rising stiffness. They are the largest
+    /// eigenvalues of the compliance, which keeps their digits beside stiff bars.
+    ///
+    /// # Errors
+    /// [`ResponseError::Decomposition`].
+    pub(super) fn softest(&self) -> Result<Vec<Principal>, ResponseError> {
+        let frame = joined(&[&self.rigid, &self.others]);
+        let count = self.rigid.ncols();
+        let found = match self.compliance() {
+            Some(compliance) => {
+                let mut found = self.principal(&compliance, &frame, f64::recip)?;
+                found.reverse();
+                found
+            }
+            None => self.principal(&self.matrix(), &frame, |value| value)?,
+        };
+        Ok(found.into_iter().take(count).collect())
+    }
+
+    /// Returns the inverse of [`Self::matrix`]; `None` where a strain or bending costs nothing.
+    fn compliance(&self) -> Option<DenseMatrix> {
+        let [rigid, mixed, others] = &self.blocks;
+        let of_others = cholesky(others.clone())?;
+        let carried = of_others.solve(mixed);
+        let along = rigid - mixed.tr_mul(&carried);
+        if !(along.diagonal().min() > ROUNDING * self.limit.amax()) {
+            return None;
+        }
+        let along = cholesky(along)?.inverse();
+        let corner = -(&carried * &along);
+        let rest = of_others.inverse() - &corner * carried.transpose();
+        let blocks = [along, corner, rest];
+        Some(
+            Self {
+                area: self.area,
+                rigid: self.rigid.clone(),
+                others: self.others.clone(),
+                blocks,
+                limit: self.limit.clone(),
+            }
+            .matrix(),
+        )
+    }
+
+    /// Returns the eigenvectors of a matrix in a frame of strains and curvatures, by rising eigenvalues, with the stiffness
+    /// that belongs to each eigenvalue.
+    fn principal(
+        &self,
+        matrix: &DenseMatrix,
+        frame: &DenseMatrix,
+        stiffness: impl Fn(f64) -> f64,
+    ) -> Result<Vec<Principal>, ResponseError> {
+        if matrix.nrows() == 0 {
+            return Ok(vec![]);
+        }
+        let found = symmetric_eigen(matrix)?;
+        let largest = found.values.iter().fold(0.0, |most, value| f64::max(most, value.abs()));
+        let (units, vectors) = (units(self.area.sqrt()), frame * &found.vectors);
+        let one = |(k, value): (usize, &f64)| {
+            let vector = vectors.column(k);
+            let sign = if vector[vector.iamax()] < 0.0 { -1.0 } else { 1.0 };
+            let part = |component: usize| sign * vector[component] / units[component];
+            let value = if value.abs() <= ROUNDING * largest { 0.0 } else { *value };
+            Principal {
+                strain: [0, 1, 2].map(part),
+                curvature: [3, 4, 5].map(part),
+                stiffness: stiffness(value) / self.area,
+            }
+        };
+        Ok(found.values.iter().enumerate().map(one).collect())
+    }
+}
+
+/// Solutions of a system that may have no unknowns.
+struct Solve(Option<CholeskyFactor>);
+
+impl Solve {
+    fn new(matrix: DenseMatrix) -> Result<Self, ResponseError> {
+        let size = matrix.nrows();
+        match cholesky(matrix) {
+            None if size > 0 => Err(DenseError::NoConvergence { rows: size, columns: size }.into()),
+            factor => Ok(Self(factor.filter(|_| size > 0))),
+        }
+    }
+
+    fn of(&self, right: &DenseMatrix) -> DenseMatrix {
+        self.0.as_ref().map_or_else(|| right.clone(), |factor| factor.solve(right))
+    }
+}
+
+/// Returns motions of an orthonormal basis, as combinations of it, that rows change, and those that they do not.
+fn split(rows: &DenseMatrix, basis: &DenseMatrix) -> Result<(DenseMatrix, DenseMatrix), ResponseError> {
+    let found = full_svd(&(rows * basis))?;
+    let rank = found.singular_values.iter().filter(|value| **value > ZERO).count();
+    let columns = |first: usize, count: usize| found.v.columns(first, count).into_owned();
+    Ok((columns(0, rank), columns(rank, basis.ncols() - rank)))
+}
+
+/// Returns the projection onto what is orthogonal to all columns.
+fn without(columns: &DenseMatrix) -> Result<DenseMatrix, ResponseError> {
+    let found = full_svd(columns)?;
+    let largest = found.singular_values.first().copied().unwrap_or(0.0);
+    let rank = found.singular_values.iter().filter(|value| **value > ZERO * largest && **value > 0.0).count();
+    let span = found.u.columns(0, rank);
+    Ok(DenseMatrix::identity(columns.nrows(), columns.nrows()) - span * span.transpose())
+}
+
+/// Returns the columns of matrices beside each other.
+fn joined(parts: &[&DenseMatrix]) -> DenseMatrix {
+    let columns: Vec<_> = parts.iter().flat_map(|part| part.column_iter()).collect();
+    DenseMatrix::from_fn(MACROSCOPIC, columns.len(), |row, column| columns[column][row])
+}

@@ -1,0 +1,174 @@
+//! The linear response of a periodic sheet: what its folding modes do to the sheet as a whole.
+//!
+//! Every linear folding mode of a state makes an in-plane strain and a curvature tensor, three numbers each: the table
+//! of the modes. A generic cell has three modes, and the table has rank 3: of the six strains and bendings of a thin
+//! sheet three cost no stretching. On a cylinder there are two modes.
+//!
+//! | file | content |
+//! |---|---|
+//! | `periodic` | the cell in a spatially periodic state, and its modes |
+//! | `cylinder` | the modes of a state that is rolled up |
+//! | `mode` | a mode, and the table of the modes |
+//! | `tensors` | spaces of symmetric tensors and their Poisson's ratios |
+//! | `poisson` | both Poisson's ratios of a sheet, and whether they are opposite |
+//! | `compatibility` | rates of lengths and angles under strains and bendings of the lattice |
+//! | `moduli` | effective moduli of a sheet at rest |
+//! | `condensed` | the condensation of the springs of a cell |
+//! | `stresses` | self stresses, and the forces and moments that they put on the lattice |
+//!
+//! **Conventions.** x is along the first lattice vector of the state, y in the plane of the lattice towards the second,
+//! the normal is on the side of the face normals. A strain is the rate of `a^-T g a^-1` with the metric `g` of the
+//! chords from vertex 0 and `a` that of the state itself: no factor of a half, so that it is the rate of the strain in
+//! the tables of other studies where the state is the drawn one. A curvature tensor is that of
+//! [`mod@crate::kinematics::folding_modes`]. Components are 11, 22, 12.
+
+mod compatibility;
+mod condensed;
+mod cylinder;
+mod error;
+mod mode;
+mod moduli;
+mod periodic;
+mod poisson;
+mod stresses;
+mod tensors;
+
+pub use error::ResponseError;
+pub use mode::{Field, LinearMode, ModeTable};
+pub use moduli::{Moduli, ModuliMatrices, ModuliOf, Principal};
+pub use poisson::{Poisson, Relation};
+pub use stresses::SelfStress;
+pub use tensors::TensorSpace;
+
+use super::modes::modes_at;
+use super::restored::{self, Forces};
+use super::start_state::StartState;
+use crate::math::Vec3;
+use crate::model::{Assembly, Gauge, RIGID, Terms};
+use periodic::PeriodicCell;
+
+/// The linear response of a state.
+#[derive(Clone, Debug)]
+pub struct Response {
+    /// The linear folding modes: those without curvature first, then the others.
+    pub modes: Vec<LinearMode>,
+    /// Rank of the table of the modes, and of its two halves.
+    pub table: ModeTable,
+    /// The lattice of the state.
+    pub lattice: LatticeMotions,
+    /// Self stresses of the rigidity matrix of the bars in the boundary conditions of the assembly.
+    pub self_stresses: usize,
+    /// A basis of the self stresses of one cell whose lattice is held; empty on a cylinder.
+    pub stresses: Vec<SelfStress>,
+    /// Poisson's ratios of the modes; `None` on a cylinder, which has a curvature in one direction already.
+    pub poisson: Option<Poisson>,
+    /// Error of the modes: the larger of the difference between two ways over the faces and the defect of reciprocity,
+    /// for modes of norm 1.
+    pub error: f64,
+}
+
+/// The two motions from a cell to the next, relative to vertex 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LatticeMotions {
+    /// Chords from vertex 0 to its two copies, in the frame of the mesh file.
+    pub chords: [Vec3; 2],
+    /// Rotation angles about the common axis, in radians, the axis directed so that the larger one in absolute value is
+    /// positive.
+    pub theta: [f64; 2],
+    /// Unit vector along the common axis, in the frame of the mesh file; `None` where nothing rotates.
+    pub axis: Option<Vec3>,
+    /// Signed curvature of the cylinder of vertex 0; zero where nothing rotates.
+    pub curvature: f64,
+}
+
+/// Computes the linear response of the drawn state; see [`response_at`].
+///
+/// ```
+/// use foldwell::analysis::response::response;
+/// use foldwell::{Assembly, Pattern, RIGID, generate};
+///
+/// // triangulated Miura-ori: its polygons bend
+/// let miura = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::torus(miura, [1, 1]).bars(RIGID).facets(1.0).build()?;
+/// let response = response(&assembly)?;
+/// assert_eq!((response.modes.len(), response.table.rank), (3, 3));
+/// let poisson = response.poisson.ok_or("a sheet that is not rolled up has ratios")?;
+/// let [in_plane, bending] = [poisson.in_plane.ratio(0.0), poisson.bending.ratio(0.0)];
+/// assert!((in_plane.ok_or("a planar mode")? + bending.ok_or("two bending modes")?).abs() < 1e-10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`response_at`].
+pub fn response(assembly: &Assembly) -> Result<Response, ResponseError> {
+    let assembly = assembly.with_axis(0.0);
+    response_at(&assembly, &drawn_state(&assembly))
+}
+
+/// Computes the linear response of a state of a periodic assembly.
+///
+/// The modes keep the lengths of all bars, the angles of locks and the shape of rigid polygons, whatever the stiffness
+/// of the bars.
+///
+/// # Errors
+/// [`ResponseError`] for a patch, for a state of several cells that is not the drawn one, for a sheet with openings,
+/// and where the number of modes or the rank of the table is not clear.
+pub fn response_at(assembly: &Assembly, state: &StartState) -> Result<Response, ResponseError> {
+    let rigid = assembly.with_terms(rigid_terms(assembly));
+    let cell = PeriodicCell::of_state(&rigid, &state.coordinates, rigid.model(Gauge::Free))?;
+    let mut response = match cell {
+        Some(cell) => periodic::response(&rigid, &cell)?,
+        None => cylinder::response(&rigid, &state.coordinates)?,
+    };
+    response.self_stresses = modes_at(assembly, state, 0, &mut || true)?.self_stresses;
+    Ok(response)
+}
+
+/// Returns rigid bars, and locks of all hinges that keep their angles.
+fn rigid_terms(assembly: &Assembly) -> Terms {
+    let mut locked = assembly.locked_edges();
+    locked.sort_unstable();
+    locked.dedup();
+    let locks = locked.into_iter().map(|edge| (edge, assembly.drawn_angles()[edge])).collect();
+    Terms { bars: Some(RIGID.into()), locks, ..Terms::default() }
+}
+
+/// Returns Poisson's ratios in the plane and of bending, along the first lattice vector, of a state; `None` for one that
+/// does not exist, as for a state that is rolled up.
+///
+/// With `bending` all polygons bend and locks are released; otherwise rigid polygons and locks keep their angles.
+///
+/// # Errors
+/// As [`response_at`].
+pub fn ratios_at(assembly: &Assembly, coordinates: &[f64], bending: bool) -> Result<[Option<f64>; 2], ResponseError> {
+    let locks = if bending { vec![] } else { rigid_terms(assembly).locks };
+    let free = assembly.with_terms(Terms { locks, bars: Some(RIGID.into()), ..Terms::default() });
+    let Some(cell) = PeriodicCell::of_state(&free, coordinates, free.model(Gauge::Free))? else {
+        return Ok([None, None]);
+    };
+    let found = periodic::modes_of(&cell)?;
+    Ok([found.poisson.in_plane.ratio(0.0), found.poisson.bending.ratio(0.0)])
+}
+
+/// Finds the effective moduli of a state of a periodic assembly: of the stretching, bending and their coupling.
+///
+/// # Errors
+/// [`ResponseError`] as [`response_at`], except that a sheet with openings may have moduli.
+pub fn moduli_at(assembly: &Assembly, state: &StartState) -> Result<ModuliOf, ResponseError> {
+    moduli::moduli_of(assembly, state)
+}
+
+/// Finds the effective moduli of the drawn state; see [`moduli_at`].
+///
+/// # Errors
+/// As [`moduli_at`].
+pub fn moduli(assembly: &Assembly) -> Result<ModuliOf, ResponseError> {
+    moduli_at(assembly, &drawn_state(assembly))
+}
+
+/// Returns the drawn state.
+fn drawn_state(assembly: &Assembly) -> StartState {
+    let model = assembly.model(Gauge::Free);
+    let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
+    StartState { coordinates: assembly.drawn().coordinates.clone(), angles: model.angles(), tension }
+}

@@ -1,0 +1,130 @@
+//! Effective moduli of a sheet at rest: its energy per area under small strains and bendings of the lattice, minimised
+//! over the vertices of the cell.
+//!
+//! `energy / area = E S E / 2 + E C K + K B K / 2` with the strain `E` of the chords from vertex 0 and the curvature
+//! tensor `K`, both as lists of the components 11, 22, 12. The energy of a state at rest is quadratic in the rates of
+//! lengths and angles ([`super::compatibility`]); under stress it would depend on second derivatives of motions that
+//! bend the sheet in two directions, which have none.
+
+use super::ResponseError;
+use super::condensed::{Condensed, Springs};
+use super::periodic::{CellElement, PeriodicCell};
+use crate::analysis::start_state::StartState;
+use crate::model::{Assembly, Gauge};
+
+/// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to that length,
+/// in a state at rest.
+const AT_REST: f64 = 1e-9;
+
+/// Second derivatives of the energy per area, by the components 11, 22, 12.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModuliMatrices {
+    /// By two components of the strain: force per length.
+    pub stretching: [[f64; 3]; 3],
+    /// By a component of the strain (row) and one of the curvature (column): force.
+    pub coupling: [[f64; 3]; 3],
+    /// By two components of the curvature: force times length.
+    pub bending: [[f64; 3]; 3],
+}
+
+/// A principal strain and bending: an eigenvector of the moduli in the norm `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 +
+/// 2 k12^2)` with the area `A` of the cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Principal {
+    /// Strain, of norm 1 together with the curvature.
+    pub strain: [f64; 3],
+    /// Curvature tensor.
+    pub curvature: [f64; 3],
+    /// Its stiffness: energy per area is half of it. Force per length.
+    pub stiffness: f64,
+}
+
+/// The effective moduli of a sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moduli {
+    /// The moduli; `None` where rigid elements make some of them infinite.
+    pub matrices: Option<ModuliMatrices>,
+    /// Moduli of the bars alone, with hinges of no stiffness and the stiffest bar of `EA = 1`: the limit of the moduli
+    /// over `EA` for stiff bars. Their null space are the rigid modes. `None` where rigid polygons or locks make some of
+    /// them infinite.
+    pub rigid_limit: Option<ModuliMatrices>,
+    /// Principal strains and bendings of the rigid modes alone, in the limit of rigid bars, by rising stiffness.
+    pub rigid_modes: Vec<Principal>,
+    /// As many of the softest principal strains and bendings, by rising stiffness.
+    pub softest: Vec<Principal>,
+}
+
+/// The moduli of a state, or why it has none.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ModuliOf {
+    /// The moduli.
+    Sheet(Box<Moduli>),
+    /// The energy has no bars: nothing holds the faces together.
+    NoBars,
+    /// The state is rolled up.
+    RolledUp,
+    /// The state is under stress: an element is off its rest value.
+    UnderStress {
+        /// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to it.
+        off: f64,
+    },
+}
+
+impl ModuliOf {
+    /// Returns the moduli, if there are any.
+    pub fn moduli(&self) -> Option<&Moduli> {
+        if let Self::Sheet(moduli) = self { Some(moduli) } else { None }
+    }
+
+    /// Returns why there are no moduli.
+    pub fn reason(&self) -> Option<String> {
+        match self {
+            Self::Sheet(_) => None,
+            Self::NoBars => Some("the energy has no bars".to_owned()),
+            Self::RolledUp => Some("the sheet is rolled up".to_owned()),
+            Self::UnderStress { off } => Some(format!(
+                "the state is under stress, off its rest lengths and angles by up to {off:.1e}; moduli are those of a sheet \
+                 at rest"
+            )),
+        }
+    }
+}
+
+/// Finds the moduli of a state.
+///
+/// # Errors
+/// [`ResponseError`] where the cells differ, or a rank is not clear.
+pub(super) fn moduli_of(assembly: &Assembly, state: &StartState) -> Result<ModuliOf, ResponseError> {
+    if assembly.terms().bars.is_none() {
+        return Ok(ModuliOf::NoBars);
+    }
+    let mut model = assembly.model(Gauge::Free);
+    model.set_angles(&state.angles);
+    let Some(cell) = PeriodicCell::of_state(assembly, &state.coordinates, model)? else {
+        return Ok(ModuliOf::RolledUp);
+    };
+    let elements = cell.elements(assembly);
+    let off = elements.iter().map(|element| off_rest(&cell, element)).fold(0.0, f64::max);
+    if !(off <= AT_REST) {
+        return Ok(ModuliOf::UnderStress { off });
+    }
+    let springs = Springs::new(&cell, &elements);
+    let own = Condensed::new(&springs)?;
+    let limit = Condensed::new(&springs.of_bars())?;
+    Ok(ModuliOf::Sheet(Box::new(Moduli {
+        matrices: own.matrices(),
+        rigid_limit: limit.matrices(),
+        rigid_modes: own.rigid_modes()?,
+        softest: own.softest()?,
+    })))
+}
+
+/// Returns how far an element of finite stiffness is off its rest value: an angle in radians, or a length relative to it.
+fn off_rest(cell: &PeriodicCell, element: &CellElement<'_>) -> f64 {
+    let spring = element.term.spring(element.number);
+    if spring.stiffness.is_infinite() {
+        return 0.0;
+    }
+    let off = element.term.value(element.number, &cell.domain, &cell.coordinates) - spring.rest;
+    if element.term.is_angle() { off.abs() } else { off.abs() / spring.rest }
+}

@@ -1,0 +1,142 @@
+//! The results of a study of kind `response` in the summary.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The linear response of a periodic sheet. Strains are rates of `a^-T g a^-1` of the state, without a factor of a half;
+/// x is along the first lattice vector of the state, y in the plane of the lattice towards the second.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ResponseSummary {
+    /// The linear folding modes, those without curvature first.
+    pub linear_modes: Vec<LinearModeSummary>,
+    /// Rank of the table of strains and curvatures: how many of six are isometries.
+    pub table_rank: usize,
+    /// Ranks of its halves, and its singular values.
+    pub table: TableSummary,
+    /// Self stresses of the bars in the boundary conditions of the scene.
+    pub self_stresses: usize,
+    /// A basis of the self stresses of one cell with held lattice; empty on a cylinder.
+    pub stresses: Vec<StressSummary>,
+    /// The lattice of the state.
+    pub lattice: LatticeSummary,
+    /// Poisson's ratios of the rigid modes.
+    pub poisson: PoissonSummary,
+    /// Effective moduli of the energy; null where there are none.
+    pub moduli: Option<ModuliSummary>,
+    /// Why there are no moduli; null where there are.
+    pub no_moduli: Option<String>,
+}
+
+/// A matrix of second derivatives by the components 11, 22, 12.
+type Matrix = [[f64; 3]; 3];
+
+/// Second derivatives of the energy per area of the cell by the components 11, 22, 12 of strain and curvature, each counted
+/// once: energy per area `E S E / 2 + E C K + K B K / 2`, with strains as in `linear_modes`, twice the small ones.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ModuliSummary {
+    /// By two components of the strain; null where rigid elements make it infinite.
+    pub stretching: Option<Matrix>,
+    /// By a component of the strain (row) and one of the curvature (column); null likewise.
+    pub coupling: Option<Matrix>,
+    /// By two components of the curvature; null likewise.
+    pub bending: Option<Matrix>,
+    /// The limit of the moduli over `EA` for stiff bars: those of the bars alone, the stiffest with `EA = 1`. Null where
+    /// rigid polygons or locks make some infinite.
+    pub rigid_limit: Option<RigidLimitSummary>,
+    /// Principal strains and bendings of the rigid modes in the limit of rigid bars, by rising stiffness.
+    pub rigid_modes: Vec<PrincipalSummary>,
+    /// As many of the softest principal strains and bendings, by rising stiffness.
+    pub softest: Vec<PrincipalSummary>,
+}
+
+/// Moduli of bars alone.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RigidLimitSummary {
+    /// By two components of the strain.
+    pub stretching: Matrix,
+    /// By a component of the strain (row) and one of the curvature (column).
+    pub coupling: Matrix,
+    /// By two components of the curvature.
+    pub bending: Matrix,
+}
+
+/// A principal strain and bending, of norm 1 in `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 + 2 k12^2)`, `A` the area of
+/// the cell.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PrincipalSummary {
+    /// Strain `[e11, e22, e12]`.
+    pub strain: [f64; 3],
+    /// Curvature tensor `[k11, k22, k12]`.
+    pub curvature: [f64; 3],
+    /// Its stiffness, twice its energy per area.
+    pub stiffness: f64,
+    /// Its stiffness over that of the rigid mode of the same number; null where that is 0.
+    pub ratio: Option<f64>,
+}
+
+/// A linear folding mode.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LinearModeSummary {
+    /// Strain `[e11, e22, e12]` of the chords from vertex 0.
+    pub strain: [f64; 3],
+    /// Curvature tensor `[k11, k22, k12]`, radians per length.
+    pub curvature: [f64; 3],
+    /// Angular velocities from a cell to the next along the two lattice vectors, in the frame of the mesh file.
+    pub lattice_rotations: [[f64; 3]; 2],
+}
+
+/// The table of strains and curvatures of the modes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TableSummary {
+    /// Rank of the strains alone.
+    pub strains: usize,
+    /// Rank of the curvatures alone.
+    pub curvatures: usize,
+    /// Singular values for modes of norm 1, lengths in units of the square root of the cell's area; descending.
+    pub singular_values: Vec<f64>,
+    /// Singular values of the strains alone.
+    pub strain_values: Vec<f64>,
+    /// Singular values of the curvatures alone: a small one means that a mode hardly bends the sheet.
+    pub curvature_values: Vec<f64>,
+}
+
+/// What a self stress of norm 1 does to the lattice.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StressSummary {
+    /// Work on strains `[e11, e22, e12]`, per area of the cell.
+    pub force: [f64; 3],
+    /// Work on curvatures `[k11, k22, k12]`, per area of the cell.
+    pub moment: [f64; 3],
+}
+
+/// The motions from a cell to the next.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LatticeSummary {
+    /// Chords from vertex 0 to its copies, in the frame of the mesh file.
+    pub chords: [[f64; 3]; 2],
+    /// Rotation angles about the common axis, in radians; 0 where nothing rotates.
+    pub theta: [f64; 2],
+    /// Unit vector along the axis, in the frame of the mesh file; null where nothing rotates.
+    pub axis: Option<[f64; 3]>,
+    /// Curvature of the cylinder of vertex 0; 0 where nothing rotates.
+    pub curvature: f64,
+}
+
+/// Poisson's ratios, along the first lattice vector.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PoissonSummary {
+    /// Of a stretch without curvature; null where no mode has it, or several.
+    pub in_plane: Option<f64>,
+    /// Of a bending without twist; null where no mode has it, or several.
+    pub bending: Option<f64>,
+    /// Whether the two are opposite in every direction; null where one of them does not exist.
+    pub opposite: Option<bool>,
+    /// Why they are opposite or not, or do not exist.
+    pub because: String,
+    /// Largest sum of the two over 180 directions, relative to the larger of 1 and their size; null where no direction
+    /// has both.
+    pub sum: Option<f64>,
+    /// Height above vertex 0, along the normal, at which the modes with curvature have no strain of their own; null
+    /// where there is none.
+    pub neutral_height: Option<f64>,
+}

@@ -1,0 +1,247 @@
+//! `kind = "response"`: the linear modes of a periodic sheet, what they do to it as a whole, and Poisson's ratios.
+
+use super::answer::Answer;
+use super::context::Context;
+use super::error::StudyError;
+use super::{start, states};
+use crate::analysis::response::{Field, LinearMode, Moduli, Principal, Response, SelfStress, moduli_at, response_at};
+use crate::math::Vec3;
+use crate::model::{Domain, Gauge};
+use crate::output::figure::{ratios, rounded};
+use crate::output::picture::Picture;
+use crate::output::summary::{
+    LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
+    RigidLimitSummary, StressSummary, StudyResult, TableSummary,
+};
+use crate::output::table::{Table, Value};
+use crate::scene::forms::StartSpec;
+use crate::scene::spec::{Draw, ResponseSpec};
+use std::f64::consts::PI;
+
+/// Directions over half a turn, if the scene does not say.
+const DIRECTIONS: u32 = 72;
+/// Amplitude of the mode in the picture, relative to the size of the sheet.
+const SHOWN: f64 = 0.1;
+
+/// Checks that the sheet is periodic without openings, and that the start is a state of one cell.
+pub(crate) fn check(context: &Context<'_>, spec: &ResponseSpec) -> Result<(), StudyError> {
+    start::check(context, spec.start.as_ref())?;
+    let assembly = context.assembly;
+    let refuse = |message: &str, help: &str| Err(context.refuse(message, help).into());
+    if matches!(assembly.drawn().domain, Domain::Patch) {
+        let help = "give domain = \"torus\" or \"screw\", of a mesh with the key `foldwell:lattice`";
+        return refuse("the linear response is that of a periodic sheet", help);
+    }
+    if !assembly.sheet().holes.is_empty() {
+        let help = "closing the vertices does not close the rims of openings; take a sheet without them";
+        return refuse("studies of kind response do not know openings", help);
+    }
+    let Some(start) = spec.start.as_ref().filter(|start| !matches!(***start, StartSpec::Drawn)) else { return Ok(()) };
+    if assembly.tiling().cells != [1, 1] {
+        let help = "give cells = [1, 1], or domain = \"screw\"";
+        let message = "the linear response is that of a state of one cell, and cells of a larger torus may differ";
+        return Err(context.file.error_at(start.span(), message, help).into());
+    }
+    Ok(())
+}
+
+/// Computes the response of the state that the scene names.
+pub(crate) fn compute(context: &Context<'_>, spec: &ResponseSpec) -> Result<Answer, StudyError> {
+    let mut model = context.assembly.model(Gauge::Held);
+    let Some(state) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
+        return Ok(start::unavailable(context));
+    };
+    let state = state.state(&model);
+    let response = match response_at(context.assembly, &state) {
+        Ok(response) => response,
+        Err(error) => return Ok(Answer::failed(context.study, error)),
+    };
+    let (name, mut answer) = (context.name(), Answer::empty(context.study));
+    answer.add(format!("{name}.csv"), modes_table(context, &response.modes));
+    answer.add(format!("{name}-stresses.csv"), stresses_table(context, &response.stresses));
+    let directions = spec.directions.as_ref().map_or(DIRECTIONS, |count| count.0);
+    answer.add(format!("{name}-ratios.csv"), ratios_table(&response, directions));
+    add_pictures(&mut answer, context, &response, &state.coordinates);
+    let mut summary = summary(&response);
+    match moduli_at(context.assembly, &state) {
+        Ok(found) => {
+            summary.moduli = found.moduli().map(moduli_summary);
+            summary.no_moduli = found.reason();
+        }
+        Err(error) => summary.no_moduli = Some(error.to_string()),
+    }
+    answer.conclude(StudyResult::Response(Box::new(summary)), Some(response.error), None);
+    Ok(answer)
+}
+
+/// Returns a row for each mode: strain, curvature tensor, lattice rotations and the rates of all fold angles.
+fn modes_table(context: &Context<'_>, modes: &[LinearMode]) -> Table {
+    let columns = [
+        "mode",
+        "strain11",
+        "strain22",
+        "strain12",
+        "curvature11",
+        "curvature22",
+        "curvature12",
+        "rotation1_x",
+        "rotation1_y",
+        "rotation1_z",
+        "rotation2_x",
+        "rotation2_y",
+        "rotation2_z",
+    ];
+    let edges = &context.assembly.sheet().edges;
+    let mut table = Table::with_edges(columns, "rate", edges.iter().map(|edge| &edge.key));
+    for (number, mode) in modes.iter().enumerate() {
+        let rotations = mode.lattice_rotations.iter().flat_map(|omega| omega.iter());
+        let numbers = mode.strain.iter().chain(&mode.curvature).chain(rotations).chain(&mode.rates);
+        table.push(std::iter::once(Value::Whole(number as i64)).chain(numbers.map(|x| Value::Number(*x))).collect());
+    }
+    table
+}
+
+/// Returns a row for each self stress: its work on strains and curvatures, the tensions of the bars, and the torques of
+/// the hinges that keep their angles.
+fn stresses_table(context: &Context<'_>, stresses: &[SelfStress]) -> Table {
+    let columns = ["stress", "force11", "force22", "force12", "moment11", "moment22", "moment12"].map(str::to_owned);
+    let edges = &context.assembly.sheet().edges;
+    let of_edges = |word: &'static str| edges.iter().map(move |edge| Table::edge_column(word, &edge.key));
+    let mut table = Table::new(columns.into_iter().chain(of_edges("tension")).chain(of_edges("torque")).collect());
+    for (number, stress) in stresses.iter().enumerate() {
+        let numbers = stress.force.iter().chain(&stress.moment).chain(&stress.tension).chain(&stress.torque);
+        table.push(std::iter::once(Value::Whole(number as i64)).chain(numbers.map(|x| Value::Number(*x))).collect());
+    }
+    table
+}
+
+/// Returns a row for each direction; fields are empty where there is no ratio.
+fn ratios_table(response: &Response, directions: u32) -> Table {
+    let mut table = Table::new(["direction", "in_plane", "bending"].map(str::to_owned).to_vec());
+    for k in 0..directions {
+        let angle = PI * f64::from(k) / f64::from(directions);
+        let ratio = |ratio: Option<f64>| ratio.map_or(Value::Empty, Value::Number);
+        let [in_plane, bending] = ratios_at(response, angle).map(ratio);
+        table.push(vec![Value::Number(angle), in_plane, bending]);
+    }
+    table
+}
+
+/// Returns the ratios in the plane and of bending along a direction.
+fn ratios_at(response: &Response, angle: f64) -> [Option<f64>; 2] {
+    let poisson = response.poisson.as_ref();
+    [poisson.and_then(|p| p.in_plane.ratio(angle)), poisson.and_then(|p| p.bending.ratio(angle))]
+}
+
+/// Adds every mode as a state with its velocities, the picture of the last mode, and the plot of the ratios.
+fn add_pictures(answer: &mut Answer, context: &Context<'_>, response: &Response, coordinates: &[f64]) {
+    if context.study.draw.is_empty() || response.modes.is_empty() {
+        return;
+    }
+    let at_rest = states::picture_at(context, coordinates.to_vec());
+    let moving = |mode: &LinearMode| {
+        let displacement = velocities(context, mode, coordinates);
+        Picture { displacement, ..at_rest.clone() }
+    };
+    let pictures: Vec<Picture> = response.modes.iter().map(moving).collect();
+    if let Some((last, mode)) = pictures.last().zip(response.modes.last()) {
+        let [k11, k22, k12] = mode.curvature.map(|k| rounded(k, 4));
+        let state = format!(
+            "mode {} with curvature [{k11}, {k22}, {k12}], drawn with an amplitude of a tenth of the sheet",
+            response.modes.len() - 1
+        );
+        states::add_figure(answer, context, &last.displaced(SHOWN), &state);
+    }
+    states::add_series(answer, context, pictures);
+    if context.draws(Draw::Svg) && response.poisson.is_some() {
+        let [in_plane, bending] = [0, 1].map(|which| move |angle: f64| ratios_at(response, angle)[which]);
+        let plots: [(&str, ratios::RatioOf<'_>); 2] =
+            [("Poisson's ratio in the plane", &in_plane), ("Poisson's ratio of bending", &bending)];
+        let state = "ratios by direction, x along the first lattice vector";
+        answer.add(format!("{}-ratios.svg", context.name()), ratios::svg(&plots, &context.caption(state)));
+    }
+}
+
+/// Returns the velocities of a mode at the points of the picture.
+fn velocities(context: &Context<'_>, mode: &LinearMode, coordinates: &[f64]) -> Vec<Vec3> {
+    match &mode.field {
+        Field::OfCells(_) => {
+            let at = |&(vertex, cell): &(usize, [i32; 2])| mode.field.at(vertex, cell).unwrap_or_else(Vec3::zeros);
+            context.view.places.iter().map(at).collect()
+        }
+        Field::OfCoordinates(rates) => context.view.velocities(context.assembly.drawn(), coordinates, rates),
+    }
+}
+
+fn summary(response: &Response) -> ResponseSummary {
+    let mode = |mode: &LinearMode| LinearModeSummary {
+        strain: mode.strain,
+        curvature: mode.curvature,
+        lattice_rotations: mode.lattice_rotations.map(Into::into),
+    };
+    let stress = |stress: &SelfStress| StressSummary { force: stress.force, moment: stress.moment };
+    let [in_plane, bending] = ratios_at(response, 0.0);
+    let poisson = match &response.poisson {
+        Some(found) => PoissonSummary {
+            in_plane,
+            bending,
+            opposite: found.relation.opposite(),
+            because: found.relation.because(),
+            sum: found.sum,
+            neutral_height: found.neutral_height,
+        },
+        None => PoissonSummary {
+            because: "the sheet is rolled up: its modes change a curvature that it has".to_owned(),
+            ..PoissonSummary::default()
+        },
+    };
+    let lattice = response.lattice;
+    ResponseSummary {
+        linear_modes: response.modes.iter().map(mode).collect(),
+        table_rank: response.table.rank,
+        table: TableSummary {
+            strains: response.table.strains,
+            curvatures: response.table.curvatures,
+            singular_values: response.table.singular_values.clone(),
+            strain_values: response.table.strain_values.clone(),
+            curvature_values: response.table.curvature_values.clone(),
+        },
+        self_stresses: response.self_stresses,
+        stresses: response.stresses.iter().map(stress).collect(),
+        lattice: LatticeSummary {
+            chords: lattice.chords.map(Into::into),
+            theta: lattice.theta,
+            axis: lattice.axis.map(Into::into),
+            curvature: lattice.curvature,
+        },
+        poisson,
+        moduli: None,
+        no_moduli: None,
+    }
+}
+
+fn moduli_summary(moduli: &Moduli) -> ModuliSummary {
+    let principal = |(number, principal): (usize, &Principal)| PrincipalSummary {
+        strain: principal.strain,
+        curvature: principal.curvature,
+        stiffness: principal.stiffness,
+        ratio: moduli
+            .rigid_modes
+            .get(number)
+            .map(|rigid| principal.stiffness / rigid.stiffness)
+            .filter(|r| r.is_finite()),
+    };
+    let all = |principals: &[Principal]| principals.iter().enumerate().map(principal).collect();
+    ModuliSummary {
+        stretching: moduli.matrices.map(|found| found.stretching),
+        coupling: moduli.matrices.map(|found| found.coupling),
+        bending: moduli.matrices.map(|found| found.bending),
+        rigid_limit: moduli.rigid_limit.map(|limit| RigidLimitSummary {
+            stretching: limit.stretching,
+            coupling: limit.coupling,
+            bending: limit.bending,
+        }),
+        rigid_modes: all(&moduli.rigid_modes),
+        softest: all(&moduli.softest),
+    }
+}

@@ -1,0 +1,183 @@
+//! States on the way of a relaxation: `keep_every` of scenes and of the library.
+
+use crate::common::mesh;
+use foldwell::analysis::method::{Method, RelaxOptions};
+use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::analysis::state::State;
+use foldwell::kinematics::folding_modes;
+use foldwell::model::{Gauge, Model, TermKind};
+use foldwell::sheet::fold;
+use foldwell::{Assembly, RIGID, Rest};
+use serde_json::Value;
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::process::Command;
+
+use super::targets::FLAT as WATERBOMB;
+
+fn relaxed(model: &mut Model, method: Method, keep_every: Option<usize>) -> Relaxed {
+    let keep_every = keep_every.and_then(NonZeroUsize::new);
+    let start = model.start();
+    relax_from(model, start, RelaxOptions { method, keep_every, ..RelaxOptions::default() }, &mut |_| true).unwrap()
+}
+
+/// The work of the tensions on the gaps of bars that are still open, `sum t (L - L0 - t/k)`, which the merit of a history
+/// counts and the energy of a state does not. `t/k` times `t` is twice the energy of the bars.
+fn work_on_gaps(model: &Model, state: &State) -> f64 {
+    let bars = model.stiff().iter().filter(|term| term.kind() == TermKind::Bars);
+    let each = bars.flat_map(|term| (0..term.len()).map(move |k| (term.edge(k), term.spring(k).rest)));
+    each.map(|(edge, rest)| state.tension[edge] * state.strain[edge] * rest).sum::<f64>() - 2.0 * state.energy_bars
+}
+
+/// The drawn angles of all edges plus those of the folding mode that rolls the star cell about its first lattice vector.
+fn bent(assembly: &Assembly) -> Rest {
+    let rates = folding_modes(assembly.sheet()).unwrap().named([0.0, 0.1, 0.0]).unwrap();
+    let angles = assembly.tiling().edges.iter().zip(assembly.drawn_angles());
+    Rest::PerEdge(angles.map(|(edge, angle)| angle + rates[edge.edge]).collect())
+}
+
+/// One assembly for every way of relaxing: moved vertices, fold angles, a screw, bars that stretch for a while.
+fn ways() -> Vec<(&'static str, Assembly, Method)> {
+    let star = |cells: usize, bars: f64| {
+        let builder = || Assembly::patch(mesh("open-star"), [cells, cells]).bars(bars).creases(1.0);
+        builder().rest(bent(&builder().build().unwrap())).build().unwrap()
+    };
+    let screw = || Assembly::screw(mesh("open-star"), [1, 1]).bars(RIGID).creases(1.0);
+    let flat = Assembly::patch(fold::parse(WATERBOMB, "waterbomb.fold").unwrap(), [1, 1]).bars(RIGID).creases(1.0);
+    vec![
+        ("rigid", star(6, RIGID), Method::Vertices),
+        ("soft", star(6, 1e3), Method::Vertices),
+        ("angles", star(6, RIGID), Method::Intrinsic),
+        ("angles and lengths", star(6, 1e3), Method::Intrinsic),
+        ("auto", star(12, RIGID), Method::Auto),
+        ("screw", screw().rest(bent(&screw().build().unwrap())).build().unwrap(), Method::Auto),
+        ("flat", flat.rest(Rest::Assigned(0.2)).build().unwrap(), Method::Auto),
+    ]
+}
+
+/// Claim: in every way of relaxing there is one state for each step of the history, it has the energy of that step, and
+/// the last one is the result, bit by bit; keeping states changes no bit of the history or the result.
+/// Tolerance: the merit of a step in positions is the energy and the work on gaps that are still open; both are sums of
+/// some thousand terms in different orders. 1e-13 of the largest energy is a hundred times what was measured.
+#[test]
+fn a_state_for_each_step() {
+    for (name, assembly, method) in ways() {
+        let mut model = assembly.model(Gauge::Held);
+        let found = relaxed(&mut model, method, Some(1));
+        let iterations: Vec<usize> = found.kept.iter().map(|kept| kept.iteration).collect();
+        assert_eq!(iterations, Vec::from_iter(0..found.history.len()), "{name}");
+        let scale = found.history.iter().fold(0.0f64, |most, step| most.max(step.energy));
+        for (kept, step) in found.kept.iter().zip(&found.history) {
+            let open = if step.intrinsic { 0.0 } else { work_on_gaps(&model, &kept.state) };
+            let off = (kept.state.total() + open - step.energy).abs();
+            assert!(off <= 1e-13 * scale, "{name} {}: {} and {}", kept.iteration, kept.state.total(), step.energy);
+        }
+        let bits = |state: &State| format!("{state:?}");
+        assert_eq!(bits(&found.kept.last().unwrap().state), bits(&found.state), "{name}");
+        let plain = relaxed(&mut assembly.model(Gauge::Held), method, None);
+        assert!(plain.kept.is_empty(), "{name}");
+        assert_eq!((bits(&plain.state), &plain.history), (bits(&found.state), &found.history), "{name}");
+    }
+    let used: Vec<_> = ways()
+        .into_iter()
+        .map(|(_, assembly, method)| {
+            let found = relaxed(&mut assembly.model(Gauge::Held), method, None);
+            (found.history.iter().any(|step| step.intrinsic), found.soft_steps > 0)
+        })
+        .collect();
+    let expected =
+        [(false, false), (false, false), (true, false), (true, false), (true, false), (false, false), (false, true)];
+    assert_eq!(used, expected, "the ways that the claim names were taken");
+}
+
+fn foldwell(folder: &Path, words: &[&str]) -> std::process::Output {
+    Command::new(env!("CARGO_BIN_EXE_foldwell")).current_dir(folder).args(words).output().unwrap()
+}
+
+/// Runs a relaxation of four by four star cells with these keys; returns the folder, with the run in `out`.
+fn run(keys: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold");
+    let rest = "{ mode = [0.0, 0.1, 0.0], amplitude = 1.0 }";
+    let scene = format!(
+        "[sheet]\nmesh = {mesh:?}\ncells = [4, 4]\n[energy]\nbars = {{ stiffness = inf }}\n\
+         creases = {{ stiffness = 1.0, rest = {rest} }}\n[[study]]\nname = \"r\"\nkind = \"relax\"\n{keys}\n"
+    );
+    fs::write(folder.path().join("s.toml"), scene).unwrap();
+    let said = foldwell(folder.path(), &["run", "s.toml", "--out", "out", "--quiet"]);
+    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
+    folder
+}
+
+fn column(table: &str, name: &str) -> Vec<f64> {
+    let mut lines = table.lines();
+    let at = lines.next().unwrap().split(',').position(|column| column == name).unwrap();
+    lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
+}
+
+/// Claim: `keep_every = 2` writes the iterates 0, 2, 4, ... and the last one: as rows of the table with their iterations
+/// and energies, as files of the series with the iteration as their time, on the page, and in the film; the last file is
+/// the one that a run without the key writes last, bit by bit. Energies: of rigid bars on which the last state is closed to
+/// 1e-12 of a length, at tensions of some hundred torques, 1e-10.
+#[test]
+fn tables_series_pages_and_films_show_the_way() {
+    let folder = run("keep_every = 2\ndraw = [\"vtk\", \"html\"]");
+    let out = folder.path().join("out");
+    let summary: Value = serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+    let history: Vec<f64> = summary["studies"][0]["history"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row["energy"].as_f64().unwrap())
+        .collect();
+    let last = history.len() - 1;
+    let expected: Vec<usize> = (0..last).step_by(2).chain([last]).collect();
+    assert!(last >= 4, "{last} iterations are enough for this test");
+
+    let table = fs::read_to_string(out.join("r.csv")).unwrap();
+    let steps: Vec<usize> = column(&table, "step").iter().map(|&step| step as usize).collect();
+    assert_eq!(steps, expected);
+    let energies = column(&table, "energy_total");
+    assert!((energies[0] - history[0]).abs() < 1e-12 * history[0]);
+    assert!((energies[steps.len() - 1] - history[last]).abs() < 1e-10 * history[last]);
+
+    let series = fs::read_to_string(out.join("r.pvd")).unwrap();
+    let times: Vec<f64> =
+        series.split("timestep=\"").skip(1).map(|rest| rest.split('"').next().unwrap().parse().unwrap()).collect();
+    assert_eq!(times, expected.iter().map(|&step| step as f64).collect::<Vec<_>>());
+    let files: Vec<_> = (0..=expected.len()).map(|row| out.join(format!("r/r_{row:04}.vtu")).is_file()).collect();
+    assert!(!files[expected.len()] && files[..expected.len()].iter().all(|there| *there));
+    let plain = run("draw = [\"vtk\"]");
+    let end = fs::read(plain.path().join("out/r/r_0001.vtu")).unwrap();
+    assert!(fs::read(out.join(format!("r/r_{:04}.vtu", expected.len() - 1))).unwrap() == end);
+
+    let page = fs::read_to_string(out.join("r.html")).unwrap();
+    let (_, data) = page.split_once("id=\"data\">").unwrap();
+    let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
+    assert_eq!(data["studies"][0]["sheet"]["states"].as_array().unwrap().len(), expected.len());
+    assert!(foldwell(folder.path(), &["film", "out/r.pvd", "--size", "100"]).status.success());
+    let mut film = gif::DecodeOptions::new().read_info(fs::File::open(out.join("r.gif")).unwrap()).unwrap();
+    let mut frames = 0;
+    while film.read_next_frame().unwrap().is_some() {
+        frames += 1;
+    }
+    assert!(frames >= expected.len(), "{frames} frames");
+}
+
+/// Claim: a relaxation that finds no equilibrium shows its way too, up to its last state.
+#[test]
+fn a_way_without_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "[sheet]\ngenerate = { pattern = \"miura\" }\ncells = [2, 2]\n[energy]\nbars = { stiffness = inf }\n\
+                 creases = { stiffness = 1.0, rest = \"flat\" }\n[[study]]\nname = \"r\"\nkind = \"relax\"\n\
+                 keep_every = 1\ntolerance = 1e-300\n";
+    fs::write(folder.path().join("s.toml"), scene).unwrap();
+    assert_eq!(foldwell(folder.path(), &["run", "s.toml", "--out", "out", "--quiet"]).status.code(), Some(1));
+    let out = folder.path().join("out");
+    let summary: Value = serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+    let iterations = summary["studies"][0]["history"].as_array().unwrap().len();
+    let table = fs::read_to_string(out.join("r.csv")).unwrap();
+    assert!(iterations > 2);
+    assert_eq!(column(&table, "step"), (0..iterations).map(|step| step as f64).collect::<Vec<_>>());
+}
