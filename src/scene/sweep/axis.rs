@@ -92,7 +92,7 @@ fn linear(range: &SweepRange) -> Vec<String> {
 /// Returns numbers each of which is the same multiple of the one before. The ends are exact, and powers of ten are where they
 /// should be: the logarithms are divided evenly, to base 10.
 fn logarithmic(range: &SweepRange) -> Vec<String> {
-    between(range, libm::log10, |x| libm::pow(10.0, x))
+    between(range, libm::log10, libm::exp10)
 }
 
 fn between(range: &SweepRange, into: impl Fn(f64) -> f64, back: impl Fn(f64) -> f64) -> Vec<String> {
