@@ -163,7 +163,7 @@ const FAULTS: &[Fault] = &[
     fault(21, "name = \"drawn\"", "21:8", "`drawn` cannot name a study because `start = \"drawn\"` means the drawn state", "expected another name"),
     fault(21, "name = \"second\"", "26:8", "two studies have the name `second`", "choose another: line 21 has it, and it names files"),
     fault(21, "", "20:1", "missing key `name`", "`name` has to be given here"),
-    fault(22, "kind = \"relaxx\"", "22:8", "unknown word `relaxx`", "expected one of `relax`, `trace`, `surface`, `modes`, `branches`, `landscape`, `bloch`, `wells`, `path`"),
+    fault(22, "kind = \"relaxx\"", "22:8", "unknown word `relaxx`", "expected one of `relax`, `trace`, `surface`, `modes`, `branches`, `landscape`, `bloch`, `wells`, `path`, `response`"),
     fault(22, "kind = { relax = {} }", "22:8", "the kind of a study is a word", "expected one of \"relax\", \"trace\", \"surface\", \"modes\", \"branches\", \"landscape\", \"bloch\", \"wells\", \"path\""),
     fault(22, "kind = 3", "22:8", "the kind of a study is a word", "expected one of \"relax\", \"trace\", \"surface\", \"modes\", \"branches\", \"landscape\", \"bloch\", \"wells\", \"path\""),
     fault(22, "", "20:1", "missing key `kind`", "`kind` has to be given here"),
