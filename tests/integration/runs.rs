@@ -88,8 +88,9 @@ fn every_scene_in_meshes_gives_its_answer() {
             let name = study["name"].as_str().unwrap();
             assert_eq!(study["converged"], true, "{} {name}", scene.display());
             let written = |ending: &str| folder.join(format!("{name}.{ending}")).exists();
-            let states =
-                ["relax", "path", "trace", "surface", "bloch", "wells"].iter().any(|kind| study["kind"] == *kind);
+            let states = ["relax", "path", "trace", "surface", "bloch", "wells", "response"]
+                .iter()
+                .any(|kind| study["kind"] == *kind);
             let shown = states || study["eigenvalues"].as_array().is_some_and(|list| !list.is_empty());
             let landscape = study["kind"] == "landscape";
             let pictures = !tables_only(scene, name);

@@ -8,7 +8,7 @@
 //! with `Omega_a` in the plane of the lattice. The tilt of the lattice vectors, which turns the sheet as a whole, is
 //! zero. To first order such motions commute for every `K`.
 
-use super::periodic::{CellElement, PeriodicCell};
+use super::cell::{CellElement, PeriodicCell};
 use crate::kinematics::motion::{Motion, Moving, Rigid, Twist};
 use crate::math::Vec3;
 use crate::model::Local;

@@ -14,10 +14,10 @@
 //! them. Along the rigid modes the stiffness is `B^T B` less what `d` relaxes, which falls as the inverse of the stiffness
 //! of the bars: no large number is subtracted from another, and rigid bars are the limit.
 
-use super::ResponseError;
+use super::cell::{CellElement, PeriodicCell};
 use super::compatibility::{MACROSCOPIC, rates};
-use super::moduli::{ModuliMatrices, Principal};
-use super::periodic::{CellElement, PeriodicCell};
+use super::error::ResponseError;
+use super::moduli_matrices::{ModuliMatrices, Principal};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::{CholeskyFactor, cholesky};
 use crate::numerics::dense::{DenseError, full_svd, null_space, symmetric_eigen};

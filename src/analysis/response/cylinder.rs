@@ -5,8 +5,9 @@
 //! tensor is `theta_a theta_b / kappa` in the components of the lattice, of rank one, with the curvature `kappa` of the
 //! cylinder of vertex 0; a mode changes it.
 
+use super::error::ResponseError;
 use super::mode::{Field, LinearMode, RawTable};
-use super::{LatticeMotions, Response, ResponseError};
+use super::result::{LatticeMotions, Response};
 use crate::analysis::state::cylinder;
 use crate::kinematics::metric::LatticeFrame;
 use crate::math::Vec3;

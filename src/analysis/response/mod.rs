@@ -6,13 +6,16 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | `periodic` | the cell in a spatially periodic state, and its modes |
+//! | `result` | what a response is |
+//! | `cell` | the cell in a spatially periodic state |
+//! | `periodic` | the modes of a spatially periodic state |
 //! | `cylinder` | the modes of a state that is rolled up |
 //! | `mode` | a mode, and the table of the modes |
 //! | `tensors` | spaces of symmetric tensors and their Poisson's ratios |
 //! | `poisson` | both Poisson's ratios of a sheet, and whether they are opposite |
 //! | `compatibility` | rates of lengths and angles under strains and bendings of the lattice |
 //! | `moduli` | effective moduli of a sheet at rest |
+//! | `moduli_matrices` | the matrices of the moduli, and principal strains and bendings |
 //! | `condensed` | the condensation of the springs of a cell |
 //! | `stresses` | self stresses, and the forces and moments that they put on the lattice |
 //!
@@ -22,64 +25,34 @@
 //! the tables of other studies where the state is the drawn one. A curvature tensor is that of
 //! [`mod@crate::kinematics::folding_modes`]. Components are 11, 22, 12.
 
+mod cell;
 mod compatibility;
 mod condensed;
 mod cylinder;
 mod error;
 mod mode;
 mod moduli;
+mod moduli_matrices;
 mod periodic;
 mod poisson;
+mod result;
 mod stresses;
 mod tensors;
 
 pub use error::ResponseError;
 pub use mode::{Field, LinearMode, ModeTable};
-pub use moduli::{Moduli, ModuliMatrices, ModuliOf, Principal};
+pub use moduli::{Moduli, ModuliOf};
+pub use moduli_matrices::{ModuliMatrices, Principal};
 pub use poisson::{Poisson, Relation};
+pub use result::{LatticeMotions, Response};
 pub use stresses::SelfStress;
 pub use tensors::TensorSpace;
 
 use super::modes::modes_at;
 use super::restored::{self, Forces};
 use super::start_state::StartState;
-use crate::math::Vec3;
 use crate::model::{Assembly, Gauge, RIGID, Terms};
-use periodic::PeriodicCell;
-
-/// The linear response of a state.
-#[derive(Clone, Debug)]
-pub struct Response {
-    /// The linear folding modes: those without curvature first, then the others.
-    pub modes: Vec<LinearMode>,
-    /// Rank of the table of the modes, and of its two halves.
-    pub table: ModeTable,
-    /// The lattice of the state.
-    pub lattice: LatticeMotions,
-    /// Self stresses of the rigidity matrix of the bars in the boundary conditions of the assembly.
-    pub self_stresses: usize,
-    /// A basis of the self stresses of one cell whose lattice is held; empty on a cylinder.
-    pub stresses: Vec<SelfStress>,
-    /// Poisson's ratios of the modes; `None` on a cylinder, which has a curvature in one direction already.
-    pub poisson: Option<Poisson>,
-    /// Error of the modes: the larger of the difference between two ways over the faces and the defect of reciprocity,
-    /// for modes of norm 1.
-    pub error: f64,
-}
-
-/// The two motions from a cell to the next, relative to vertex 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LatticeMotions {
-    /// Chords from vertex 0 to its two copies, in the frame of the mesh file.
-    pub chords: [Vec3; 2],
-    /// Rotation angles about the common axis, in radians, the axis directed so that the larger one in absolute value is
-    /// positive.
-    pub theta: [f64; 2],
-    /// Unit vector along the common axis, in the frame of the mesh file; `None` where nothing rotates.
-    pub axis: Option<Vec3>,
-    /// Signed curvature of the cylinder of vertex 0; zero where nothing rotates.
-    pub curvature: f64,
-}
+use cell::PeriodicCell;
 
 /// Computes the linear response of the drawn state; see [`response_at`].
 ///

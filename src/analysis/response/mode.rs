@@ -1,6 +1,6 @@
 //! A linear folding mode with what it does to the sheet as a whole, and the table of all modes.
 
-use super::ResponseError;
+use super::error::ResponseError;
 use super::tensors::{Span, flat};
 use crate::kinematics::Displacement;
 use crate::math::Vec3;

@@ -6,38 +6,16 @@
 //! lengths and angles ([`super::compatibility`]); under stress it would depend on second derivatives of motions that
 //! bend the sheet in two directions, which have none.
 
-use super::ResponseError;
+use super::cell::{CellElement, PeriodicCell};
 use super::condensed::{Condensed, Springs};
-use super::periodic::{CellElement, PeriodicCell};
+use super::error::ResponseError;
+use super::moduli_matrices::{ModuliMatrices, Principal};
 use crate::analysis::start_state::StartState;
 use crate::model::{Assembly, Gauge};
 
 /// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to that length,
 /// in a state at rest.
 const AT_REST: f64 = 1e-9;
-
-/// Second derivatives of the energy per area, by the components 11, 22, 12.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ModuliMatrices {
-    /// By two components of the strain: force per length.
-    pub stretching: [[f64; 3]; 3],
-    /// By a component of the strain (row) and one of the curvature (column): force.
-    pub coupling: [[f64; 3]; 3],
-    /// By two components of the curvature: force times length.
-    pub bending: [[f64; 3]; 3],
-}
-
-/// A principal strain and bending: an eigenvector of the moduli in the norm `e11^2 + e22^2 + 2 e12^2 + A (k11^2 + k22^2 +
-/// 2 k12^2)` with the area `A` of the cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Principal {
-    /// Strain, of norm 1 together with the curvature.
-    pub strain: [f64; 3],
-    /// Curvature tensor.
-    pub curvature: [f64; 3],
-    /// Its stiffness: energy per area is half of it. Force per length.
-    pub stiffness: f64,
-}
 
 /// The effective moduli of a sheet.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@
 //! e2202777119 (2022)); for Miura-ori see M. Schenk, S. D. Guest, PNAS 110, 3276 (2013) and Z. Y. Wei, Z. V. Guo,
 //! L. Dudte, H. Y. Liang, L. Mahadevan, Phys. Rev. Lett. 110, 215501 (2013).
 
-use super::ResponseError;
+use super::error::ResponseError;
 use super::mode::{LinearMode, ModeTable};
 use super::tensors::{TensorSpace, flat};
 use crate::numerics::dense::least_squares;

@@ -4,9 +4,9 @@
 //! every vertex. Its work on a strain `E` and a curvature `K` of the lattice, per area of the cell, is `force . E +
 //! moment . K`: these are the strains and bendings that a sheet with this stress resists.
 
-use super::ResponseError;
+use super::cell::PeriodicCell;
 use super::compatibility::rates;
-use super::periodic::PeriodicCell;
+use super::error::ResponseError;
 use crate::model::Assembly;
 use crate::numerics::dense::null_space;
 

@@ -1,6 +1,6 @@
 //! Spaces of symmetric 2 x 2 tensors `[t11, t22, t12]`, and Poisson's ratios in them.
 
-use super::ResponseError;
+use super::error::ResponseError;
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
 use std::f64::consts::SQRT_2;
