@@ -8,6 +8,7 @@
 //! | 3 | reading or writing an existing file or folder failed |
 //! | 130 | stopped by Ctrl-C; finished studies are written |
 
+mod ending;
 mod runs;
 
 use std::io::{self, Write};
@@ -16,25 +17,20 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use crate::validate::report::Case;
-use crate::validate::{self, ValidateOptions, ValidationError};
+use crate::validate::{self, ValidateOptions};
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use foldwell::output;
 use foldwell::output::summary::to_json;
-use foldwell::run::{self, FilmOptions, Listed, RunError, RunOptions, Shard, Wanted};
+use foldwell::run::{self, FilmOptions, Listed, RunOptions, Shard, Wanted};
 use foldwell::scene::Setting;
 use foldwell::sheet::pattern::Cleanup;
-use miette::{Diagnostic, GraphicalReportHandler};
 
-use crate::parameters::{self, ParameterError};
+use crate::parameters;
 use crate::progress::Watch;
-use crate::scenes::{self, ScenesError};
+use crate::scenes;
+use ending::{Failure, INTERRUPTED, report, say};
 use runs::{Told, run_scenes, status_of};
-
-const FAILED: u8 = 1;
-const WRONG_INPUT: u8 = 2;
-const BROKEN_PLACE: u8 = 3;
-const INTERRUPTED: u8 = 130;
 
 /// Energy wells of folding sheets.
 #[derive(Parser)]
@@ -189,42 +185,6 @@ enum Described {
     Sweep,
 }
 
-/// The reasons for which a command failed.
-enum Failure {
-    Run(RunError),
-    Validation(ValidationError),
-    Parameters(ParameterError),
-    Scenes(ScenesError),
-    StandardOutput(io::Error),
-    Thread(io::Error),
-}
-
-impl From<ScenesError> for Failure {
-    fn from(error: ScenesError) -> Self {
-        match error {
-            ScenesError::Run(error) => Self::Run(error),
-            error => Self::Scenes(error),
-        }
-    }
-}
-
-impl From<RunError> for Failure {
-    fn from(error: RunError) -> Self {
-        Self::Run(error)
-    }
-}
-
-impl Failure {
-    fn exit_status(&self) -> u8 {
-        match self {
-            Self::Run(error) => error.exit_status(),
-            Self::Validation(error) => error.exit_status(),
-            Self::Parameters(_) | Self::Scenes(_) => WRONG_INPUT,
-            Self::StandardOutput(_) | Self::Thread(_) => BROKEN_PLACE,
-        }
-    }
-}
-
 /// Runs the command line.
 pub(crate) fn main() -> ExitCode {
     let status = dispatch(Cli::parse().command).unwrap_or_else(|failure| {
@@ -305,46 +265,10 @@ fn announce(case: &Case) {
     case.failure.iter().for_each(|failure| eprintln!("       {failure}"));
 }
 
-/// Prints on standard output; it is not an error if the reader has closed it.
-fn say(text: &str) -> Result<u8, Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput(error)),
-        _ => Ok(0),
-    }
-}
-
 fn completions(shell: Shell) -> String {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "foldwell", &mut script);
     String::from_utf8_lossy(&script).into_owned()
-}
-
-/// Prints a failure on standard error: description, place in the scene and proposed correction.
-fn report(failure: &Failure) {
-    let text = match failure {
-        Failure::Run(error) => fancy(error),
-        Failure::Validation(error) => fancy(error),
-        Failure::Parameters(error) => format!("Error: {error}\n"),
-        Failure::Scenes(error) => format!("Error: {error}\n"),
-        Failure::StandardOutput(error) => format!("Error: standard output: {error}\n"),
-        Failure::Thread(error) => format!("Error: no thread can be had for the work: {error}\n"),
-    };
-    // an error is ignored: there is no other place for the message if standard error is closed
-    let _ = io::stderr().write_all(text.as_bytes());
-}
-
-/// Returns the description of an error with an excerpt of the scene at its place. Lines are not wrapped, so that
-/// `file:line:column` stays in one piece.
-fn fancy(error: &dyn Diagnostic) -> String {
-    let terminal = io::IsTerminal::is_terminal(&io::stderr()) && std::env::var_os("NO_COLOR").is_none();
-    let theme = if terminal { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() };
-    let handler = GraphicalReportHandler::new_themed(theme).with_wrap_lines(false).without_cause_chain();
-    let mut text = String::from("Error:");
-    match handler.render_report(&mut text, error) {
-        Ok(()) => text + "\n",
-        Err(_) => format!("Error: {error}\n"),
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The standard output of `foldwell run`: a line or a few for every study.
 
+mod counted;
 mod sweep;
 
 use foldwell::output::summary::{
@@ -9,6 +10,7 @@ use foldwell::output::summary::{
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
 
+use counted::counted;
 pub(crate) use sweep::describe_sweep;
 
 /// Returns the descriptions of the studies of a run, one after the other.
@@ -68,11 +70,6 @@ fn describe_modes(modes: &ModesSummary) -> String {
         },
         modes.folding_modes.map_or("folding modes unknown".into(), |count| counted(count, "folding mode")),
     )
-}
-
-/// Returns a number with its noun: `1 well`, `2 wells`.
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Describes the number of rays, and whether these are all directions in which the sheet folds.

@@ -1,10 +1,7 @@
 //! The pipeline: reads a scene, builds its sheet and model, computes its studies and writes their files.
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::model::Assembly;
-use crate::numerics::parallel::Threads;
 use crate::output::{OutputError, files};
 use crate::scene::{SceneFile, Setting};
 use crate::sheet::pattern::Cleanup;
@@ -26,6 +23,7 @@ mod meshes;
 mod report;
 mod resume;
 mod runner;
+mod single;
 mod sweep;
 mod view;
 
@@ -40,12 +38,9 @@ pub use info::{Counts, ElementCounts, EnergyCounts};
 pub use ledger::Ledger;
 use meshes::{MeshKind, read_mesh};
 pub use report::{RunOptions, RunReport};
-use runner::Runner;
+pub use single::run;
 pub use sweep::{Shard, ShardError, SweepReport, assemble, assemble_at, points, run_point, sweep};
 pub use view::view;
-
-/// Exit status where the input is wrong.
-const WRONG_INPUT: u8 = 2;
 
 /// Reads a scene, computes its studies and writes their files.
 ///
@@ -66,30 +61,6 @@ pub fn read_scene(path: &Path, settings: &[Setting]) -> Result<SceneFile, RunErr
     Ok(crate::scene::read_set(path, settings)?)
 }
 
-/// Computes the studies of a scene and writes their files. The run is recorded in `ledger`, so that another thread can
-/// end it without waiting for it.
-///
-/// # Errors
-/// [`RunError`], as [`run_scene`].
-pub fn run(file: &SceneFile, options: &RunOptions, observer: Observer, ledger: &Ledger) -> Result<RunReport, RunError> {
-    if let Some(sweep) = &file.scene.sweep {
-        let help = "its points are computed by `foldwell run`, in the library by `run::sweep`; or leave out [sweep]";
-        return Err(file.error_at(sweep.span(), "this scene is a sweep", help).into());
-    }
-    Threads::new(options.threads).install(|| {
-        let assembly = assembly(file)?;
-        let mut runner = Runner::new(file, &assembly, options, observer, ledger)?;
-        runner.begin(options.resume)?;
-        for study in &file.scene.studies {
-            runner.study(study)?;
-            if runner.interrupted() {
-                break;
-            }
-        }
-        runner.finish()
-    })
-}
-
 /// Does the checks that [`run`] does before it computes anything, of a sweep those of every point; writes nothing.
 ///
 /// # Errors
@@ -98,24 +69,7 @@ pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
     if file.scene.sweep.is_some() {
         return sweep::check(file, options);
     }
-    let unobserved = |_: &Progress| ControlFlow::Continue(());
-    Runner::new(file, &assembly(file)?, options, &unobserved, &Ledger::default()).map(|_| ())
-}
-
-/// Builds the model of a scene that has something to compute.
-fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
-    has_studies(file)?;
-    Ok(crate::scene::build::assembly(file)?)
-}
-
-/// Checks that a scene has something to compute.
-fn has_studies(file: &SceneFile) -> Result<(), RunError> {
-    if file.scene.studies.is_empty() {
-        let help =
-            "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
-        return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
-    }
-    Ok(())
+    single::check(file, options)
 }
 
 /// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it as a FOLD file.

@@ -8,7 +8,7 @@ use foldwell::run::{self, Ledger, RunOptions, RunReport, Shard, SweepReport};
 use foldwell::scene::SceneFile;
 use serde::Serialize;
 
-use super::{FAILED, Failure, INTERRUPTED, say};
+use super::ending::{FAILED, Failure, INTERRUPTED, say};
 use crate::describe::{describe_run, describe_sweep};
 use crate::progress::Watch;
 

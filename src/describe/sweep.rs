@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::counted;
+use super::counted::counted;
 use foldwell::output::summary::{PointStatus, SweepSummary, UnansweredPoint};
 use foldwell::run::SweepReport;
 

@@ -56,7 +56,7 @@ pub fn compute(
     threads: Option<usize>,
     observer: Observer,
 ) -> Result<Computed, RunError> {
-    super::has_studies(file)?;
+    super::single::has_studies(file)?;
     let work = || {
         let mut run = InMemory {
             file,

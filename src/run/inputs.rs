@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::sweep;
+use super::sweep::place;
 use crate::scene::outputs::{is_one_of, outputs};
 use crate::scene::spec::StudySpec;
 use crate::scene::{SceneError, SceneFile, named_files};
@@ -60,7 +60,7 @@ pub(crate) fn check(file: &SceneFile, out: &Path) -> Result<(), SceneError> {
         return Ok(());
     }
     let sweeps = file.scene.sweep.is_some();
-    let summary: &[&str] = if sweeps { &[sweep::TABLE, sweep::SUMMARY] } else { &["summary.json"] };
+    let summary: &[&str] = if sweeps { &[place::TABLE, place::SUMMARY] } else { &["summary.json"] };
     let summary: Vec<String> = summary.iter().map(|&name| name.to_owned()).collect();
     let refused = |input: &Input, study: Option<&StudySpec>| {
         let span = study.map_or(0..0, |study| study.name.span());

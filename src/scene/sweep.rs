@@ -1,19 +1,16 @@
 //! The points of a sweep: the settings of every point, and the scene that they make.
 
 mod axis;
+mod place;
 mod rows;
 
 use std::ops::Range;
-use std::path::PathBuf;
 
 use super::checks::check;
 use super::setting::{Setting, without};
 use super::{SceneError, SceneFile};
 use axis::Axis;
-
-/// Largest number of points.
-const MOST_POINTS: usize = 1_000_000;
-const TABLE: &str = "sweep";
+use place::{MOST_POINTS, Place, TABLE};
 
 /// The points of a scene with a table `[sweep]`, in order: the first axis is the slowest.
 ///
@@ -165,14 +162,6 @@ impl Sweep {
             }
         }
     }
-}
-
-/// Where a value of an axis is written.
-enum Place {
-    /// In the scene.
-    Span(Range<usize>),
-    /// In a line of a table.
-    Line(PathBuf, usize),
 }
 
 fn different_keys(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {

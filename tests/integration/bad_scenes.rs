@@ -186,7 +186,7 @@ const FAULTS: &[Fault] = &[
     fault(49, "modes = []", "49:9", "no modes", "give at least one, as in [[1, 0, 0]]"),
     fault(50, "amplitudes = []", "50:14", "no amplitudes", "give at least one, as in [0.01]"),
     fault(54, "grid = [0, 4]", "54:8", "there are 0 x 4 cells", "expected at least 1 in either direction"),
-    fault(58, "kind = \"branches\"\nstart = \"drawn\"", "59:1", "unknown key `start`", "`start` is a key of studies of kind relax, modes, bloch, wells, path; no keys are expected here"),
+    fault(58, "kind = \"branches\"\nstart = \"drawn\"", "59:1", "unknown key `start`", "`start` is a key of studies of kind relax, modes, bloch, wells, path, response; no keys are expected here"),
 ];
 
 fn with_line(line: usize, new: &str) -> String {

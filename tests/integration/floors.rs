@@ -83,6 +83,8 @@ const ROOT: &[&str] = &[
     "docs",
     "examples",
     "meshes",
+    "pyproject.toml",
+    "python",
     "src",
     "tests",
     "validation",

@@ -5,6 +5,7 @@
 
 mod bloch;
 mod branches;
+mod json;
 mod keys;
 mod kinds;
 mod landscape;
@@ -19,6 +20,7 @@ mod wells;
 
 pub use bloch::{BlochSummary, DecaySummary, RegionSummary, ZeroLineSummary};
 pub use branches::{BranchesSummary, RaySummary};
+pub use json::to_json;
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::ModesSummary;
 pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
@@ -185,12 +187,6 @@ impl Summary {
     pub(crate) fn write(&self, path: &Path) -> Result<(), OutputError> {
         files::write(path, self.to_json())
     }
-}
-
-/// Returns a value as pretty-printed JSON with a newline at the end.
-pub fn to_json(value: &impl Serialize) -> String {
-    // serialization cannot fail: the types above have string keys and derived serializers
-    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
 }
 
 #[cfg(test)]

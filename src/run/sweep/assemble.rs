@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use super::place::{SUMMARY, TABLE, folder, point_folder, points};
 use super::record::Record;
-use super::{SUMMARY, TABLE, folder, point_folder, points, scalars};
+use super::scalars;
 use crate::output::files;
 use crate::output::summary::{PointStatus, SweepSummary, UnansweredPoint};
 use crate::output::table::csv_line;

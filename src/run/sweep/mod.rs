@@ -5,6 +5,7 @@
 //! The table is made from these folders alone ([`assemble`]).
 
 mod assemble;
+pub(super) mod place;
 mod pool;
 mod record;
 mod scalars;
@@ -17,21 +18,19 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::belongings::Belongings;
-use super::{Ledger, Observer, Progress, RunError, RunOptions, inputs};
+use super::{Ledger, Observer, Progress, RunError, RunOptions, inputs, single};
 use crate::output::files;
 use crate::output::summary::{PointStatus, SweepSummary};
 use crate::scene::{SceneFile, Sweep};
 pub use assemble::{assemble, assemble_at};
+pub use place::points;
+use place::{POINTS, folder, point_folder};
 use pool::Pool;
 use record::Record;
 pub use shard::{Shard, ShardError};
 
-/// Name of the table of a sweep.
-pub(super) const TABLE: &str = "sweep.csv";
-/// Name of the summary of a sweep.
-pub(super) const SUMMARY: &str = "sweep.json";
-/// Word for the bar over the points.
-const POINTS: &str = "points";
+/// Exit status where the input is wrong.
+const WRONG_INPUT: u8 = 2;
 
 /// The report of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,15 +91,6 @@ pub fn sweep(
     Ok(SweepReport { converged: !unanswered, out, kept: kept.len(), interrupted, summary })
 }
 
-/// Returns the points of a scene with a table `[sweep]`: their keys, and the settings and the scene of each.
-///
-/// # Errors
-/// [`RunError`] if the scene has no sweep, or if the sweep is wrong.
-pub fn points(file: &SceneFile) -> Result<Sweep, RunError> {
-    let help = "add a table, as in [sweep], \"energy.bars.stiffness\" = [1e2, 1e4]";
-    Ok(Sweep::of(file)?.ok_or_else(|| file.error_at(0..0, "the scene has no [sweep]", help))?)
-}
-
 /// Computes a point of a sweep in its folder below that of the sweep, `options.out`, as [`super::run`] does with its scene.
 /// With `options.resume` the point is left as it is if an earlier run finished it, and else its finished studies are kept.
 /// Returns what became of the point; `None` if the observer stopped it.
@@ -136,11 +126,11 @@ pub fn run_point(
     }
     record::forget_failure(&folder)?;
     let options = RunOptions { out: Some(folder.clone()), ..*options };
-    match super::run(&scene, &options, observer, &Ledger::default()) {
+    match single::run(&scene, &options, observer, &Ledger::default()) {
         Ok(report) if report.interrupted => Ok(None),
         Ok(report) if report.summary.converged() => Ok(Some(PointStatus::Converged)),
         Ok(_) => Ok(Some(PointStatus::NotConverged)),
-        Err(error) if error.exit_status() == super::WRONG_INPUT => {
+        Err(error) if error.exit_status() == WRONG_INPUT => {
             clear(&scene, &folder)?;
             record::write_failure(&scene, &folder, &error)?;
             Ok(Some(PointStatus::Failed))
@@ -155,7 +145,7 @@ pub(super) fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunErr
     check_base(&sweep, &out)?;
     (0..sweep.len()).try_for_each(|index| {
         let options = RunOptions { out: Some(point_folder(&out, index)), ..*options };
-        super::check(&sweep.scene(index)?, &options)
+        single::check(&sweep.scene(index)?, &options)
     })
 }
 
@@ -163,17 +153,7 @@ pub(super) fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunErr
 fn check_base(sweep: &Sweep, out: &Path) -> Result<(), RunError> {
     inputs::check(sweep.file(), out)?;
     let options = RunOptions { out: Some(point_folder(out, 0)), ..RunOptions::default() };
-    super::check(&sweep.base()?, &options)
-}
-
-/// Returns the folder of a sweep.
-fn folder(file: &SceneFile, options: &RunOptions) -> PathBuf {
-    options.out.clone().unwrap_or_else(|| PathBuf::from(file.path().file_stem().unwrap_or_default()))
-}
-
-/// Returns the folder of a point in that of the sweep.
-fn point_folder(out: &Path, index: usize) -> PathBuf {
-    out.join(POINTS).join(format!("{index:04}"))
+    single::check(&sweep.base()?, &options)
 }
 
 /// Removes the files of points that an earlier, longer sweep wrote and this one does not have.

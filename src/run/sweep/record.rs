@@ -11,7 +11,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::point_folder;
+use super::place::point_folder;
 use crate::output::summary::{Files, PointStatus, to_json};
 use crate::output::{OutputError, files};
 use crate::run::RunError;

@@ -3,7 +3,8 @@
 use super::super::setting::{Setting, float};
 use super::super::spec::{SweepAxis, SweepRange, SweepValues};
 use super::super::{SceneError, SceneFile};
-use super::{MOST_POINTS, Place, TABLE, rows};
+use super::place::{MOST_POINTS, Place, TABLE};
+use super::rows;
 use std::path::PathBuf;
 
 /// An axis with the settings of its values.

@@ -1,0 +1,57 @@
+//! The run of one scene without a sweep: its studies are computed one after the other, and their files are written.
+
+use super::error::RunError;
+use super::ledger::Ledger;
+use super::report::{RunOptions, RunReport};
+use super::runner::Runner;
+use crate::model::Assembly;
+use crate::numerics::parallel::Threads;
+use crate::scene::SceneFile;
+use crate::study::{Observer, Progress};
+use std::ops::ControlFlow;
+
+/// Computes the studies of a scene and writes their files. The run is recorded in `ledger`, so that another thread can
+/// end it without waiting for it.
+///
+/// # Errors
+/// [`RunError`], as [`run_scene`](super::run_scene).
+pub fn run(file: &SceneFile, options: &RunOptions, observer: Observer, ledger: &Ledger) -> Result<RunReport, RunError> {
+    if let Some(sweep) = &file.scene.sweep {
+        let help = "its points are computed by `foldwell run`, in the library by `run::sweep`; or leave out [sweep]";
+        return Err(file.error_at(sweep.span(), "this scene is a sweep", help).into());
+    }
+    Threads::new(options.threads).install(|| {
+        let assembly = assembly(file)?;
+        let mut runner = Runner::new(file, &assembly, options, observer, ledger)?;
+        runner.begin(options.resume)?;
+        for study in &file.scene.studies {
+            runner.study(study)?;
+            if runner.interrupted() {
+                break;
+            }
+        }
+        runner.finish()
+    })
+}
+
+/// Does the checks that [`run`] does before it computes anything; writes nothing.
+pub(super) fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
+    let unobserved = |_: &Progress| ControlFlow::Continue(());
+    Runner::new(file, &assembly(file)?, options, &unobserved, &Ledger::default()).map(|_| ())
+}
+
+/// Builds the model of a scene that has something to compute.
+fn assembly(file: &SceneFile) -> Result<Assembly, RunError> {
+    has_studies(file)?;
+    Ok(crate::scene::build::assembly(file)?)
+}
+
+/// Checks that a scene has something to compute.
+pub(super) fn has_studies(file: &SceneFile) -> Result<(), RunError> {
+    if file.scene.studies.is_empty() {
+        let help =
+            "add one: [[study]], name = \"relaxed\", kind = \"relax\"; `foldwell info` counts what the sheet has";
+        return Err(file.error_at(0..0, "there is nothing to compute: the scene has no [[study]]", help).into());
+    }
+    Ok(())
+}
