@@ -296,11 +296,11 @@ fn the_softest_are_the_rigid_modes() {
         let mut last = [0.0; 3];
         for bars in [1.0, 1e2, 1e4, 1e6, 1e8, 1e12, RIGID] {
             let found = found(sheet, Stiff { bars, ..SOFT });
-            for k in 0..3 {
+            for (k, last) in last.iter_mut().enumerate() {
                 let ratio = found.softest[k].stiffness / rigid.rigid_modes[k].stiffness;
-                assert!(ratio >= last[k] - 1e-12 && ratio <= 1.0 + 1e-12, "{bars}, {k}: {ratio}");
+                assert!(ratio >= *last - 1e-12 && ratio <= 1.0 + 1e-12, "{bars}, {k}: {ratio}");
                 assert!(1.0 - ratio <= 1e3 / bars + 1e-12, "{bars}, {k}: {ratio}");
-                last[k] = ratio;
+                *last = ratio;
             }
         }
     }
