@@ -189,7 +189,7 @@ class Assembly:
         """Returns the derivative of the energy by the unknowns, shape of `x`."""
         return self._forms.gradient(self._x(x))
 
-    def hessian(self, x: ArrayLike) -> csc_array[Any, Any]:
+    def hessian(self, x: ArrayLike) -> csc_array[Any]:
         """Returns the second derivative of the energy, a symmetric `scipy.sparse.csc_array`. Needs SciPy."""
         from scipy.sparse import csc_array, tril
 
