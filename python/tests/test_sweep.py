@@ -56,7 +56,7 @@ def test_executors_make_the_same_table(executor, expected, tmp_path):
 def test_dask_makes_the_same_table(expected, tmp_path):
     distributed = pytest.importorskip("distributed")
     data, table = expected
-    with distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster:
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
         with distributed.Client(cluster) as client:
             assert fw.sweep(SCENE, AXES, out=tmp_path, executor=client.get_executor()).identical(data)
     assert (tmp_path / "sweep.csv").read_bytes() == table
@@ -142,7 +142,7 @@ def test_a_lost_worker_of_dask_loses_nothing(tmp_path):
     killed, whole = tmp_path / "killed", tmp_path / "whole"
     axes = {"sheet.generate.seed": range(40)}
     with (
-        distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
         ThreadPoolExecutor(1) as aside,
     ):

@@ -1,6 +1,6 @@
 """How much faster a sweep of 1,000 points runs on two worker processes of Dask than on one, side by side.
 
-    pip install '.[all]' distributed && python python/benches/dask.py [CELLS] [ROUNDS]
+    pip install '.[all]' distributed && python python/benches/workers.py [CELLS] [ROUNDS]
 
 The points are 200 random cells at 5 stiffnesses of the bars, each a relaxation of a patch. Both clusters alternate; tables are compared
 byte for byte.
@@ -27,7 +27,7 @@ def seconds(workers: int, seeds: int) -> tuple[float, bytes]:
     axes = {"sheet.generate.seed": range(seeds), "energy.bars.stiffness": np.logspace(2, 6, 5)}
     with (
         tempfile.TemporaryDirectory() as out,
-        distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
     ):
         client.run(lambda: __import__("foldwell"))
