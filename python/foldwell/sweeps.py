@@ -6,7 +6,7 @@ import csv
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import Executor, Future, as_completed
+from concurrent.futures import Executor, as_completed
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -76,9 +76,7 @@ def sweep(
             summary = points.run(folder, threads, resume and out is not None, callback)
         else:
             points.check(folder)
-            if not resume:
-                (folder / "sweep.csv").unlink(missing_ok=True)
-            _submit(points, executor, folder, threads or 1, callback)
+            _submit(points, executor, (folder, threads or 1, resume), callback)
             summary = points.assemble(folder)
         return _dataset(folder, points.shape, json.loads(summary))
 
@@ -100,31 +98,33 @@ def _values(values: Any) -> Any:
 
 
 def _submit(
-    points: _foldwell.Sweep, executor: Executor, folder: Path, threads: int, callback: Callback | None
+    points: _foldwell.Sweep, executor: Executor, how: tuple[Path, int, bool], callback: Callback | None
 ) -> None:
-    """Computes the points on the workers of an executor, in pieces."""
+    """Computes the points on the workers of an executor, in pieces. Pieces that have not begun when it ends early are cancelled."""
     count = len(points)
     pieces = [range(first, count, PIECES) for first in range(min(PIECES, count))]
-    work: list[Future[int]] = [
-        executor.submit(_compute, points.text, points.path, piece, folder, threads) for piece in pieces
-    ]
+    work = [executor.submit(_compute, (points.text, points.path), piece, how) for piece in pieces]
     done = 0
-    for future in as_completed(work):
-        done += future.result()
-        if callback is not None and callback("points", done, count, None) is False:
-            for other in work:
-                other.cancel()
-            return
+    try:
+        for future in as_completed(work):
+            done += future.result()
+            if callback is not None and callback("points", done, count, None) is False:
+                return
+    finally:
+        for future in work:
+            future.cancel()
 
 
-def _compute(text: str, path: Path, piece: Iterable[int], folder: Path, threads: int) -> int:
-    """Computes some points in this process, which may be a worker; returns how many. Points that are there already are kept."""
-    points = _foldwell.Sweep.parse(text, path)
-    done = 0
-    for index in piece:
-        points.run_point(index, folder, threads)
-        done += 1
-    return done
+def _compute(scene: tuple[str, Path], piece: Iterable[int], how: tuple[Path, int, bool]) -> int:
+    """Computes some points in this process, which may be a worker; returns how many.
+
+    Args:
+        scene: Text and path of the scene.
+        piece: Numbers of the points.
+        how: Folder of the sweep, number of threads, and whether points that are there already are kept.
+    """
+    points = _foldwell.Sweep.parse(*scene)
+    return sum(points.run_point(index, *how) is not None for index in piece)
 
 
 def _dataset(folder: Path, shape: list[int], summary: dict[str, Any]) -> Dataset:

@@ -20,17 +20,12 @@ pub(crate) fn raise(py: Python<'_>, error: &RunError) -> PyErr {
         _ if error.exit_status() == 3 => "OutputError",
         _ => "SceneError",
     };
-    let help = help(error);
+    let help = error.help().map(|help| help.to_string());
     let (file, line) = match error {
         RunError::Scene(SceneError::At { file, line, .. }) => (Some(file.clone()), Some(*line)),
         _ => (None, None),
     };
     exception(py, class, (error.to_string(), help, file, line))
-}
-
-/// Returns the correction that an error proposes.
-fn help(error: &RunError) -> Option<String> {
-    error.help().map(|help| help.to_string())
 }
 
 /// Returns the exception for a wrong mesh.

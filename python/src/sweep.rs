@@ -66,15 +66,16 @@ impl Sweep {
         py.detach(|| run::check(sweep.file(), &options)).map_err(|error| raise(py, &error))
     }
 
-    /// Computes a point in its folder; returns the word for what became of it.
+    /// Computes a point in its folder, unless it is kept; returns the word for what became of it.
     fn run_point(
         &self,
         py: Python<'_>,
         index: usize,
         out: PathBuf,
         threads: Option<usize>,
+        resume: bool,
     ) -> PyResult<Option<&'static str>> {
-        let (sweep, options) = (self.sweep.clone(), RunOptions { out: Some(out), threads, resume: true });
+        let (sweep, options) = (self.sweep.clone(), RunOptions { out: Some(out), threads, resume });
         let work = move |observer: Observer<'_>| run::run_point(&sweep, index, &options, observer);
         let status = watched(py, None, work)?.map_err(|error| raise(py, &error))?;
         Ok(status.map(|status| status.word()))

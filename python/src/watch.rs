@@ -23,7 +23,7 @@ static ENDING: AtomicBool = AtomicBool::new(false);
 /// Number of threads of Python that wait for work.
 static AT_WORK: AtomicUsize = AtomicUsize::new(0);
 
-/// What a thread that works says.
+/// A message of the working thread to the waiting one.
 enum News<R> {
     Progress(Progress),
     /// It has ended, with its result or the words of a panic.

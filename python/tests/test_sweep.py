@@ -62,6 +62,27 @@ def test_dask_makes_the_same_table(expected, tmp_path):
     assert (tmp_path / "sweep.csv").read_bytes() == table
 
 
+def test_points_are_kept_or_computed_anew_as_asked(tmp_path):
+    """With an executor and without one, `resume` alone decides whether points that are there are computed again."""
+    axes = {"sheet.generate.seed": range(3)}
+    with ThreadPoolExecutor(2) as pool:
+        for executor in (None, pool):
+            fw.sweep(SCENE, axes, out=tmp_path, resume=False, executor=executor)
+            first = finished(tmp_path)
+            fw.sweep(SCENE, axes, out=tmp_path, executor=executor)
+            assert finished(tmp_path) == first
+            fw.sweep(SCENE, axes, out=tmp_path, resume=False, executor=executor)
+            assert all(finished(tmp_path)[point] > time for point, time in first.items())
+
+
+def test_a_callback_stops_a_sweep(tmp_path):
+    """What was not computed is missing, not lost: the next call computes it."""
+    axes = {"sheet.generate.seed": range(200)}
+    with ThreadPoolExecutor(1) as pool:
+        stopped = fw.sweep(SCENE, axes, out=tmp_path, executor=pool, progress=lambda *step: False)
+    assert "missing" in stopped.status.values and "converged" in stopped.status.values
+
+
 def test_forms_of_axes(expected):
     data, _ = expected
     forms = {"sheet.generate.seed": {"seeds": [0, 6]}, "energy.bars.stiffness": {"log": [1e2, 1e4, 3]}}

@@ -1,7 +1,7 @@
 //! The condensation of the springs of a cell: its energy under strains and bendings of the lattice, minimised over the
 //! motions of its vertices, for any stiffness of the bars.
 //!
-//! With all lengths in units of `length`, the square root of the cell's area, a motion is `y`: the velocities of the
+//! The unit of length is `length`, the square root of the cell's area. The vector `y` is a motion: the velocities of the
 //! vertices, and the strain and curvature `m` in the norm of [`Principal`]. Rigid elements restrict it to `R y = 0`. What
 //! is left is split into the motions that change no bar's length, among them the rigid modes with strains and curvatures
 //! `T`, and the others, `c`. Of these

@@ -109,7 +109,8 @@ fn rigid_terms(assembly: &Assembly) -> Terms {
 /// Returns Poisson's ratios in the plane and of bending, along the first lattice vector, of a state; `None` for one that
 /// does not exist, as for a state that is rolled up.
 ///
-/// With `bending` all polygons bend and locks are released; otherwise rigid polygons and locks keep their angles.
+/// The argument `bending` says which modes are meant: if it is true, all polygons bend and locks are released; otherwise
+/// rigid polygons and locks keep their angles.
 ///
 /// # Errors
 /// As [`response_at`].

@@ -29,9 +29,9 @@ pub struct LinearMode {
 /// The velocities of a mode.
 #[derive(Clone, Debug)]
 pub enum Field {
-    /// Of a spatially periodic state: those of the vertices of all cells.
+    /// Velocities of the vertices of all cells, of a spatially periodic state.
     OfCells(Box<Displacement>),
-    /// Of a cylinder: rates of all coordinates of the assembly.
+    /// Rates of all coordinates of the assembly, of a cylinder.
     OfCoordinates(Vec<f64>),
 }
 

@@ -28,7 +28,7 @@ pub struct Moduli {
     pub rigid_limit: Option<ModuliMatrices>,
     /// Principal strains and bendings of the rigid modes alone, in the limit of rigid bars, by rising stiffness.
     pub rigid_modes: Vec<Principal>,
-    /// As many of the softest principal strains and bendings, by rising stiffness.
+    /// The softest principal strains and bendings of all, as many as there are rigid modes, by rising stiffness.
     pub softest: Vec<Principal>,
 }
 

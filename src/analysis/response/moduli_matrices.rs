@@ -3,11 +3,11 @@
 /// Second derivatives of the energy per area, by the components 11, 22, 12.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModuliMatrices {
-    /// By two components of the strain: force per length.
+    /// Second derivatives of the energy per area by two components of the strain: force per length.
     pub stretching: [[f64; 3]; 3],
-    /// By a component of the strain (row) and one of the curvature (column): force.
+    /// Second derivatives by a component of the strain (row) and one of the curvature (column): force.
     pub coupling: [[f64; 3]; 3],
-    /// By two components of the curvature: force times length.
+    /// Second derivatives by two components of the curvature: force times length.
     pub bending: [[f64; 3]; 3],
 }
 

@@ -34,29 +34,30 @@ type Matrix = [[f64; 3]; 3];
 /// once: energy per area `E S E / 2 + E C K + K B K / 2`, with strains as in `linear_modes`, twice the small ones.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ModuliSummary {
-    /// By two components of the strain; null where rigid elements make it infinite.
+    /// Second derivatives of the energy per area by two components of the strain; null where rigid elements make them infinite.
     pub stretching: Option<Matrix>,
-    /// By a component of the strain (row) and one of the curvature (column); null likewise.
+    /// Second derivatives by a component of the strain (row) and one of the curvature (column); null where rigid elements make
+    /// them infinite.
     pub coupling: Option<Matrix>,
-    /// By two components of the curvature; null likewise.
+    /// Second derivatives by two components of the curvature; null where rigid elements make them infinite.
     pub bending: Option<Matrix>,
     /// The limit of the moduli over `EA` for stiff bars: those of the bars alone, the stiffest with `EA = 1`. Null where
     /// rigid polygons or locks make some infinite.
     pub rigid_limit: Option<RigidLimitSummary>,
     /// Principal strains and bendings of the rigid modes in the limit of rigid bars, by rising stiffness.
     pub rigid_modes: Vec<PrincipalSummary>,
-    /// As many of the softest principal strains and bendings, by rising stiffness.
+    /// The softest principal strains and bendings of all, as many as there are rigid modes, by rising stiffness.
     pub softest: Vec<PrincipalSummary>,
 }
 
 /// Moduli of bars alone.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RigidLimitSummary {
-    /// By two components of the strain.
+    /// Second derivatives of the energy per area by two components of the strain.
     pub stretching: Matrix,
-    /// By a component of the strain (row) and one of the curvature (column).
+    /// Second derivatives by a component of the strain (row) and one of the curvature (column).
     pub coupling: Matrix,
-    /// By two components of the curvature.
+    /// Second derivatives by two components of the curvature.
     pub bending: Matrix,
 }
 
@@ -125,9 +126,9 @@ pub struct LatticeSummary {
 /// Poisson's ratios, along the first lattice vector.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoissonSummary {
-    /// Of a stretch without curvature; null where no mode has it, or several.
+    /// Ratio of a stretch without curvature; null where no mode has it, or several.
     pub in_plane: Option<f64>,
-    /// Of a bending without twist; null where no mode has it, or several.
+    /// Ratio of a bending without twist; null where no mode has it, or several.
     pub bending: Option<f64>,
     /// Whether the two are opposite in every direction; null where one of them does not exist.
     pub opposite: Option<bool>,
