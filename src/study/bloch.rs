@@ -8,7 +8,9 @@ use super::{start, states, strip, supported};
 use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
-use crate::analysis::bloch::{self, BlochError, Counts, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone};
+use crate::analysis::bloch::{
+    self, BlochError, Counts, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone,
+};
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
 use crate::model::{Assembly, Domain, Drawn, Stiffness};

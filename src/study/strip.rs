@@ -87,6 +87,7 @@ struct Halves {
     strip: Strip,
     cells: usize,
     interface: bool,
+    clamped: bool,
     rigidity: [Rigidity; 2],
     determinant: [Determinant; 2],
 }
@@ -105,15 +106,23 @@ pub(super) fn compute(
             let determinant = Determinant::new(rigidity)?;
             let strip = Strip::new(rigidity, cells)?;
             let pair = [rigidity.clone(), rigidity.clone()];
-            Halves { strip, cells, interface: false, rigidity: pair, determinant: [determinant.clone(), determinant] }
+            Halves {
+                strip,
+                cells,
+                interface: false,
+                clamped: false,
+                rigidity: pair,
+                determinant: [determinant.clone(), determinant],
+            }
         }
         Some(above) => {
             let upper = Rigidity::of_sheet(above, rigid)?;
             let determinant = [Determinant::new(rigidity)?, Determinant::new(&upper)?];
             let strip = Strip::with_interface([context.assembly.sheet(), above], rigid, cells)?;
-            Halves { strip, cells, interface: true, rigidity: [rigidity.clone(), upper], determinant }
+            Halves { strip, cells, interface: true, clamped: false, rigidity: [rigidity.clone(), upper], determinant }
         }
     };
+    let halves = if spec.clamped { Halves { strip: halves.strip.clamped(), clamped: true, ..halves } } else { halves };
     let mut found = FoundStrip { rows: Vec::new(), summary: StripSummary { cells, ..StripSummary::default() } };
     for (k, q1) in wavenumbers.iter().enumerate() {
         if !context.step(k, Some(wavenumbers.len())) {
@@ -137,12 +146,14 @@ impl Halves {
         let modes = self.strip.at(q1)?;
         let [below, above] = [self.decay(0, q1)?, self.decay(1, q1)?];
         let (last, middle) = (self.cells - 1, self.cells / 2);
-        let lower = modes.factors(0, true, 1)?;
-        let upper = modes.factors(last, false, 1)?;
-        let both = [(Place::Lower, &below, lower), (Place::Upper, &above, upper)];
-        for (place, decay, factors) in both {
-            let roots = bound_roots(decay, place == Place::Lower);
-            found.rows.extend(matched(&modes, place, &roots, factors));
+        if !self.clamped {
+            let lower = modes.factors(0, true, 1)?;
+            let upper = modes.factors(last, false, 1)?;
+            let both = [(Place::Lower, &below, lower), (Place::Upper, &above, upper)];
+            for (place, decay, factors) in both {
+                let roots = bound_roots(decay, place == Place::Lower);
+                found.rows.extend(matched(&modes, place, &roots, factors));
+            }
         }
         found.summary.q1.push(q1);
         found.summary.zero_modes.push(modes.zero_modes);
@@ -219,14 +230,23 @@ fn matched(
 /// Returns a row for every root at every wavenumber and edge.
 fn table(found: &FoundStrip) -> Table {
     let names = [
-        "q1", "zero_modes", "self_stresses", "gap", "edge", "kappa2_measured", "kappa2_predicted", "difference", "condition",
+        "q1",
+        "zero_modes",
+        "self_stresses",
+        "gap",
+        "edge",
+        "kappa2_measured",
+        "kappa2_predicted",
+        "difference",
+        "condition",
     ];
     let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
     for row in &found.rows {
         let [modes, stresses] = row.found.map(|count| Value::Whole(count as i64));
         let number = |value: Option<f64>| value.map_or(Value::Empty, Value::Number);
         let difference = row.measured.map(|measured| measured - row.predicted);
-        let rates = [number(row.measured), Value::Number(row.predicted), number(difference), Value::Number(row.condition)];
+        let rates =
+            [number(row.measured), Value::Number(row.predicted), number(difference), Value::Number(row.condition)];
         let first = [Value::Number(row.q1), modes, stresses, Value::Number(row.gap), Value::Word(row.place.word())];
         table.push(first.into_iter().chain(rates).collect());
     }

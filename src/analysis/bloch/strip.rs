@@ -39,6 +39,8 @@ pub struct Strip {
     cells: usize,
     /// Cells below the interface; all without one.
     half: usize,
+    /// Whether the cells beyond the edges are held, so that the rows that stick out stay.
+    clamped: bool,
     below: Rigidity,
     above: Rigidity,
     /// The rows of the lower cell where corners of this shift and larger ones are of the upper cell, by the shift.
@@ -56,12 +58,12 @@ pub struct StripModes {
     pub self_stresses: usize,
     /// Smallest singular value that is not zero over the largest that is, the latter no less than rounding.
     pub gap: f64,
-    /// Zero modes as columns, orthonormal, cell after cell.
+    /// Zero modes as columns, cell after cell: orthonormal, but for columns of zeros.
     modes: ComplexMatrix,
     /// Self stresses as columns, row after row.
     stresses: ComplexMatrix,
     /// The cell to which each row belongs.
-    owners: Vec<usize>,
+    owners: Vec<i32>,
     width: usize,
 }
 
@@ -81,7 +83,14 @@ impl Strip {
     /// [`BlochError`] where the matrix of a cell is not square.
     pub fn new(rigidity: &Rigidity, cells: usize) -> Result<Self, BlochError> {
         rigidity.require_square()?;
-        Ok(Self { cells, half: cells, below: rigidity.clone(), above: rigidity.clone(), across: Vec::new() })
+        Ok(Self {
+            cells,
+            half: cells,
+            clamped: false,
+            below: rigidity.clone(),
+            above: rigidity.clone(),
+            across: Vec::new(),
+        })
     }
 
     /// A strip whose lower half (rounded down) is of one sheet and whose upper half of another, as drawn; `rigid` says
@@ -95,7 +104,8 @@ impl Strip {
         let (first, second) = (first?, second?);
         first.require_square()?;
         second.require_square()?;
-        let [lowest, highest] = first.rows.iter().map(span).fold([0, 0], |[a, b], [low, high]| [a.min(low), b.max(high)]);
+        let [lowest, highest] =
+            first.rows.iter().map(span).fold([0, 0], |[a, b], [low, high]| [a.min(low), b.max(high)]);
         let step = below.lattice.ok_or(BlochError::NoLattice)?[1];
         let across = (lowest + 1..=highest).map(|first_above| {
             let place = |corner: Corner| {
@@ -108,42 +118,58 @@ impl Strip {
             (first_above, Rigidity::of_places(below, rigid, place))
         });
         let across = across.collect();
-        Ok(Self { cells, half: cells / 2, below: first, above: second, across })
+        Ok(Self { cells, half: cells / 2, clamped: false, below: first, above: second, across })
+    }
+
+    /// The same strip with clamped edges: the cells beyond them are held, so that no row is left out. Where free edges have
+    /// zero modes clamped ones have self stresses, which the self stresses bound to an interface cannot cancel.
+    pub fn clamped(self) -> Self {
+        Self { clamped: true, ..self }
     }
 
     /// The row of a cell, in the numbers of its own cell's rows.
-    fn row(&self, cell: usize, number: usize) -> &Row {
-        if cell >= self.half {
+    fn row(&self, cell: i32, number: usize) -> &Row {
+        let half = self.half as i32;
+        if cell >= half {
             return &self.above.rows[number];
         }
         let own = &self.below.rows[number];
         let [low, high] = span(own);
-        let first_above = (self.half - cell) as i32 + low;
+        let first_above = half - cell + low;
         let mixed = self.across.iter().find(|(shift, _)| *shift == first_above && first_above <= high);
         mixed.map_or(own, |(_, rigidity)| &rigidity.rows[number])
     }
 
-    /// The rows that lie within the strip at a wavenumber, and the cell of each.
-    fn matrix(&self, q1: f64) -> (ComplexMatrix, Vec<usize>) {
+    /// The rows of the strip: the cell to which each belongs, and its number there.
+    fn rows(&self) -> Vec<(i32, usize)> {
+        let reach = self.below.rows.iter().map(|row| span(row)[1] - span(row)[0]).max().unwrap_or(0);
+        let cells = self.cells as i32;
+        let all = (-reach..cells).flat_map(|cell| (0..self.below.columns()).map(move |number| (cell, number)));
+        let wanted = |&(cell, number): &(i32, usize)| {
+            let [low, high] = span(self.row(cell, number));
+            let last = cell + high - low;
+            if self.clamped { last >= 0 } else { cell >= 0 && last < cells }
+        };
+        all.filter(wanted).collect()
+    }
+
+    /// The matrix of these rows at a wavenumber, made square by zeros.
+    fn matrix(&self, q1: f64, rows: &[(i32, usize)]) -> ComplexMatrix {
         let (width, z1) = (self.below.columns(), Complex::from_polar(1.0, q1));
-        let size = width * self.cells;
-        let (mut matrix, mut owners) = (ComplexMatrix::zeros(size, size), Vec::new());
-        for cell in 0..self.cells {
-            for number in 0..width {
-                let row = self.row(cell, number);
-                let [low, high] = span(row);
-                if cell + (high - low) as usize >= self.cells {
-                    continue;
+        let size = rows.len().max(width * self.cells);
+        let mut matrix = ComplexMatrix::zeros(size, size);
+        for (at, &(cell, number)) in rows.iter().enumerate() {
+            let row = self.row(cell, number);
+            let low = span(row)[0];
+            for (corner, direction) in &row.terms {
+                let place = cell + corner.shift[1] - low;
+                if (0..self.cells as i32).contains(&place) {
+                    let (column, phase) = (place as usize * width + 3 * corner.vertex, z1.powi(corner.shift[0]));
+                    (0..3).for_each(|axis| matrix[(at, column + axis)] += phase * direction[axis]);
                 }
-                for (corner, direction) in &row.terms {
-                    let column = (cell + (corner.shift[1] - low) as usize) * width + 3 * corner.vertex;
-                    let phase = z1.powi(corner.shift[0]);
-                    (0..3).for_each(|axis| matrix[(owners.len(), column + axis)] += phase * direction[axis]);
-                }
-                owners.push(cell);
             }
         }
-        (matrix, owners)
+        matrix
     }
 
     /// Zero modes and self stresses at a wavenumber along the strip.
@@ -151,8 +177,10 @@ impl Strip {
     /// # Errors
     /// [`BlochError`] where a decomposition fails, and where zero and nonzero singular values are not apart.
     pub fn at(&self, q1: f64) -> Result<StripModes, BlochError> {
-        let (matrix, owners) = self.matrix(q1);
+        let rows = self.rows();
+        let matrix = self.matrix(q1, &rows);
         let (size, width) = (matrix.ncols(), self.below.columns());
+        let columns = width * self.cells;
         let ComplexSvd { u, singular_values, v } = complex_svd(&matrix)?;
         let largest = singular_values[0];
         let rank = singular_values.iter().filter(|value| **value > ZERO * largest).count();
@@ -161,11 +189,11 @@ impl Strip {
         if !(gap >= SMALLEST_GAP) {
             return Err(BlochError::StripRank { q1, gap });
         }
-        // rows that are missing are rows of zeros, and no self stresses
-        let zero_modes = size - rank;
-        let self_stresses = owners.len() - rank;
-        let modes = v.columns(rank, zero_modes).into_owned();
-        let stresses = u.view((0, rank), (owners.len(), zero_modes)).into_owned();
+        // rows and columns of zeros are no self stresses and no zero modes
+        let (zero_modes, self_stresses) = (columns - rank, rows.len() - rank);
+        let modes = v.view((0, rank), (columns, size - rank)).into_owned();
+        let stresses = u.view((0, rank), (rows.len(), size - rank)).into_owned();
+        let owners = rows.iter().map(|&(cell, _)| cell).collect();
         Ok(StripModes { q1, zero_modes, self_stresses, gap, modes, stresses, owners, width })
     }
 }
@@ -178,7 +206,8 @@ impl StripModes {
     pub fn bound(&self, cells: Range<usize>) -> Result<Bound, BlochError> {
         let columns = self.modes.rows(cells.start * self.width, cells.len() * self.width).into_owned();
         let mut rows = self.stresses.clone();
-        let elsewhere = self.owners.iter().enumerate().filter(|(_, owner)| !cells.contains(owner));
+        let inside = |owner: &i32| usize::try_from(*owner).is_ok_and(|owner| cells.contains(&owner));
+        let elsewhere = self.owners.iter().enumerate().filter(|(_, owner)| !inside(owner));
         elsewhere.for_each(|(row, _)| rows.row_mut(row).fill(Complex::ZERO));
         Ok(Bound { zero_modes: majority(&columns)?, self_stresses: majority(&rows)? })
     }

@@ -245,7 +245,7 @@ pub struct BlochSpec {
     pub zero_modes_at: Option<Located<Vec<Pair>>>,
 }
 
-/// `strip = { cells, other }`.
+/// `strip = { cells, other, clamped }`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StripSpec {
@@ -254,6 +254,9 @@ pub struct StripSpec {
     /// The mesh of the cell of the upper half, relative to the scene; left out: all cells are equal. It needs as many vertices, the
     /// same first lattice vector and the same edges between neighbouring rows of cells.
     pub other: Option<PathBuf>,
+    /// Whether both edges are clamped instead of free: cells beyond them are held. Then self stresses are where free edges have zero modes.
+    #[serde(default)]
+    pub clamped: bool,
 }
 
 /// `kind = "wells"`.
