@@ -184,7 +184,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
         answer.add(format!("{name}_bands.csv"), band_table(&found.bands));
     }
     if !found.counts.is_empty() {
-        answer.add(format!("{name}-modes.csv"), count_table(&found.counts));
+        answer.add(format!("{name}-modes.csv"), strip::count_table(&found.counts));
     }
     if let Some(found) = &found.strip {
         strip::add(&mut answer, name, found);
@@ -249,19 +249,6 @@ fn table(decays: &[Decay]) -> Table {
             let last = [root.on_circle().into(), root.multiplicity as i64].map(Value::Whole);
             table.push(first.into_iter().chain(numbers).chain(last).collect());
         }
-    }
-    table
-}
-
-/// Returns a row for every wavenumber at which zero modes and self stresses were counted.
-fn count_table(counts: &[Counts]) -> Table {
-    let names = ["q1", "q2", "zero_modes", "self_stresses", "self_stresses_opposite", "gap"];
-    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
-    for found in counts {
-        let numbers = [found.zero_modes, found.self_stresses, found.self_stresses_opposite];
-        let q = found.q.map(Value::Number);
-        let last = numbers.map(|number| Value::Whole(number as i64));
-        table.push(q.into_iter().chain(last).chain([Value::Number(found.gap)]).collect());
     }
     table
 }

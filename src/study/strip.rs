@@ -1,11 +1,11 @@
 //! The strip of a study `bloch`: zero modes of a strip with free edges, their measured decay beside the roots of the
-//! determinant, and what is bound to an interface between two cells.
+//! determinant, and what is bound to an interface between two cells; numbers of zero modes and self stresses.
 
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use crate::analysis::bloch::strip::{StripModes, fit};
-use crate::analysis::bloch::{BlochError, Decay, Determinant, Rigidity, Strip};
+use crate::analysis::bloch::{BlochError, Counts, Decay, Determinant, Rigidity, Strip};
 use crate::numerics::worst;
 use crate::output::summary::StripSummary;
 use crate::output::table::{Table, Value};
@@ -16,6 +16,8 @@ use nalgebra::Complex;
 
 /// Fewest cells across a strip; with an interface, of each half.
 const FEWEST: u32 = 8;
+/// Most displacements of a strip: its matrix is decomposed as a dense one.
+const MOST_UNKNOWNS: usize = 6000;
 /// Windows from which the rate at an interface is measured.
 const SHIFTS: usize = 6;
 
@@ -26,6 +28,11 @@ pub(super) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
     let fewest = if strip.other.is_some() { 2 * FEWEST } else { FEWEST };
     if strip.cells.0 < fewest {
         return wrong(format!("a strip of {} cells has no inside", strip.cells.0), "give at least 8, 16 with `other`");
+    }
+    let unknowns = (3 * context.assembly.sheet().vertices.len()).saturating_mul(strip.cells.0 as usize);
+    if unknowns > MOST_UNKNOWNS {
+        let message = format!("the strip has {unknowns} coordinates, more than {MOST_UNKNOWNS}");
+        return wrong(message, "give fewer cells");
     }
     let Some(above) = other(context, strip)? else { return Ok(()) };
     if spec.start.is_some() {
@@ -256,4 +263,17 @@ fn table(found: &FoundStrip) -> Table {
 /// Adds the table of a strip to an answer.
 pub(super) fn add(answer: &mut Answer, name: &str, found: &FoundStrip) {
     answer.add(format!("{name}-strip.csv"), table(found));
+}
+
+/// Returns a row for every wavenumber at which zero modes and self stresses were counted.
+pub(super) fn count_table(counts: &[Counts]) -> Table {
+    let names = ["q1", "q2", "zero_modes", "self_stresses", "self_stresses_opposite", "gap"];
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    for found in counts {
+        let numbers = [found.zero_modes, found.self_stresses, found.self_stresses_opposite];
+        let q = found.q.map(Value::Number);
+        let last = numbers.map(|number| Value::Whole(number as i64));
+        table.push(q.into_iter().chain(last).chain([Value::Number(found.gap)]).collect());
+    }
+    table
 }
