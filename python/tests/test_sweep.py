@@ -76,11 +76,24 @@ def test_points_are_kept_or_computed_anew_as_asked(tmp_path):
 
 
 def test_a_callback_stops_a_sweep(tmp_path):
-    """What was not computed is missing, not lost: the next call computes it."""
+    """No piece of the sweep begins after a callback has said so, or has failed; the next call computes what is missing, and that alone."""
     axes = {"sheet.generate.seed": range(200)}
+
+    def failing(*step):
+        raise ValueError(step)
+
     with ThreadPoolExecutor(1) as pool:
         stopped = fw.sweep(SCENE, axes, out=tmp_path, executor=pool, progress=lambda *step: False)
     assert "missing" in stopped.status.values and "converged" in stopped.status.values
+    first = finished(tmp_path)
+    assert 0 < len(first) < 200
+    with pytest.raises(ValueError), ThreadPoolExecutor(1) as pool:
+        fw.sweep(SCENE, axes, out=tmp_path, executor=pool, progress=failing)
+    assert len(finished(tmp_path)) < 200
+    with ThreadPoolExecutor(2) as pool:
+        whole = fw.sweep(SCENE, axes, out=tmp_path, executor=pool)
+    assert (whole.status == "converged").all()
+    assert {point: finished(tmp_path)[point] for point in first} == first
 
 
 def test_forms_of_axes(expected):

@@ -22,6 +22,8 @@ use std::f64::consts::PI;
 const DIRECTIONS: u32 = 72;
 /// Amplitude of the mode in the picture, relative to the size of the sheet.
 const SHOWN: f64 = 0.1;
+/// Components of a curvature below this part of the largest are shown as 0: they are rounding.
+const NOISE: f64 = 1e-12;
 
 /// Checks that the sheet is periodic without openings, and that the start is a state of one cell.
 pub(crate) fn check(context: &Context<'_>, spec: &ResponseSpec) -> Result<(), StudyError> {
@@ -145,7 +147,8 @@ fn add_pictures(answer: &mut Answer, context: &Context<'_>, response: &Response,
     };
     let pictures: Vec<Picture> = response.modes.iter().map(moving).collect();
     if let Some((last, mode)) = pictures.last().zip(response.modes.last()) {
-        let [k11, k22, k12] = mode.curvature.map(|k| rounded(k, 4));
+        let largest = mode.curvature.iter().fold(0.0, |most, k| f64::max(most, k.abs()));
+        let [k11, k22, k12] = mode.curvature.map(|k| rounded(if k.abs() > NOISE * largest { k } else { 0.0 }, 4));
         let state = format!(
             "mode {} with curvature [{k11}, {k22}, {k12}], drawn with an amplitude of a tenth of the sheet",
             response.modes.len() - 1

@@ -9,7 +9,7 @@ use foldwell::kinematics::{Closure, Embedding, Shape};
 use foldwell::math::{Vec3, rotation};
 use foldwell::model::{Assembly, RIGID};
 use foldwell::sheet::generate::{Eggbox, Miura, Random};
-use foldwell::sheet::{Corner, Edge, EdgeKey, Pattern, Sheet, generate};
+use foldwell::sheet::{Corner, Edge, EdgeKey, EdgeKind, Pattern, Sheet, generate};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
@@ -192,7 +192,8 @@ fn generic_cells_have_no_ratio() {
 
 /// Claim: rigid polygons leave Miura-ori its folding alone, with the same ratio in the plane, and the reason says that
 /// polygons have to bend; a flat sheet has one mode more for each vertex, of which none strains it; a lock on a crease
-/// of soft Miura-ori leaves two modes that bend. Source: counts of theory.
+/// of soft Miura-ori leaves two modes that bend; a rigid diagonal leaves planar folding, which bends no polygon, and one
+/// mode that bends, whose ratio is not the opposite. Source: counts of theory.
 #[test]
 fn the_relation_says_why() {
     let miura = |fold: f64| generate(&Pattern::Miura(Miura { fold, ..Miura::default() })).unwrap();
@@ -213,6 +214,17 @@ fn the_relation_says_why() {
     let locked = response(&locked).unwrap();
     assert_eq!((locked.modes.len(), locked.table.curvatures), (2, 2));
     assert!(matches!(poisson(&locked).relation, Relation::NoPlanarMode { .. }));
+    let sheet = miura(0.6);
+    let diagonal = sheet.edges.iter().position(|edge| edge.kind == EdgeKind::Facet).unwrap();
+    let stiffness: Vec<f64> = (0..sheet.edges.len()).map(|edge| if edge == diagonal { RIGID } else { 1.0 }).collect();
+    let stiff = Assembly::torus(sheet, [1, 1]).bars(RIGID).facets(stiffness).build().unwrap();
+    let stiff = response(&stiff).unwrap();
+    assert_eq!((stiff.modes.len(), stiff.table.curvatures), (2, 1));
+    assert_eq!(
+        (poisson(&stiff).relation, poisson(&stiff).relation.opposite()),
+        (Relation::OneBendingMode, Some(false))
+    );
+    assert!(poisson(&stiff).sum.unwrap() > 0.1, "{:?}", poisson(&stiff).sum);
 }
 
 /// Claim: a symmetric cell whose vertices are off by 1e-6 has no mode without curvature, and so no ratio, and the reason
@@ -295,8 +307,9 @@ fn modes_are_self_stresses() {
 }
 
 /// Claim: ratios do not depend on the orientation of the sheet, its unit of length, the order of its vertices, or the
-/// choice of lattice vectors, apart from the direction from which angles count; a mirror image has the same.
-/// Tolerance: rounding.
+/// choice of lattice vectors, apart from the direction from which angles count; a mirror image has the same. The neutral
+/// height is a place of the sheet: it grows with the unit, is reversed in the mirror, and counted from another vertex it
+/// is less by how much that vertex is higher. Tolerance: rounding.
 #[test]
 fn ratios_belong_to_the_sheet() {
     let sides = random_sides(8);
@@ -309,15 +322,20 @@ fn ratios_belong_to_the_sheet() {
             a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-10 * a.abs().max(1.0))
         })
     };
-    assert!(same(&bending(four_parallelograms(sides.map(|side| 40.0 * (turn * side)))), 0.0, 1.0));
-    let mirrored = sides.map(|side| Vec3::new(side.x, side.y, -side.z));
-    assert!(same(&bending(four_parallelograms(mirrored)), 0.0, 1.0));
+    let height = |response: &Response| poisson(response).neutral_height.unwrap();
+    let is_at = |response: &Response, expected: f64| (height(response) / expected - 1.0).abs() <= 1e-10;
+    let large = bending(four_parallelograms(sides.map(|side| 40.0 * (turn * side))));
+    assert!(same(&large, 0.0, 1.0) && is_at(&large, 40.0 * height(&found)));
+    let mirrored = bending(four_parallelograms(sides.map(|side| Vec3::new(side.x, side.y, -side.z))));
+    assert!(same(&mirrored, 0.0, 1.0) && is_at(&mirrored, -height(&found)));
     // the second zigzag first: angles count from the other lattice vector, the other way round
     let [a, b, c, d] = sides;
     let between = (a + b).angle(&(c + d));
     assert!(same(&bending(four_parallelograms([c, d, a, b])), between, -1.0));
     let begun_elsewhere = bending(four_parallelograms([b, a, d, c]));
-    assert!(same(&begun_elsewhere, 0.0, 1.0));
+    let higher = (a + c).dot(&(a + b).cross(&(c + d)).normalize());
+    assert!(same(&begun_elsewhere, 0.0, 1.0) && is_at(&begun_elsewhere, height(&found) - higher));
+    assert!(higher.abs() > 0.1, "{higher}");
 }
 
 /// Claim: a torus of several cells in the drawn state has the response of one cell, a patch has none, and cells that

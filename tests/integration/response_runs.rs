@@ -77,6 +77,8 @@ fn scenes_of_the_book() {
             let picture = read_vtu(&folder.path().join(format!("elastic/elastic_{mode:04}.vtu"))).unwrap();
             assert!(picture.points.len() >= 4 * cells, "{} points", picture.points.len());
         }
+        let picture = std::fs::read_to_string(folder.path().join("elastic.svg")).unwrap();
+        assert!(picture.contains("mode 2 with curvature [0, 0, 1], drawn"), "rounding is not shown as curvature");
         for file in ["elastic.svg", "elastic-ratios.svg", "elastic.pvd"] {
             assert!(folder.path().join(file).exists(), "{file}");
         }

@@ -214,8 +214,8 @@ impl Condensed {
         self.principal(&self.limit, &self.rigid, |value| value)
     }
 
-    /// Returns as many of the softest principal strains and bendings, by rising stiffness. They are the largest
-    /// eigenvalues of the compliance, which keeps their digits beside stiff bars.
+    /// Returns the softest principal strains and bendings of all, as many as there are rigid modes, by rising stiffness.
+    /// They are the largest eigenvalues of the compliance, which keeps their digits beside stiff bars.
     ///
     /// # Errors
     /// [`ResponseError::Decomposition`].

@@ -173,14 +173,15 @@ pub fn rounded(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return signed(&value.to_string());
     }
-    let mut step = 10f64.powf(value.abs().log10().floor() + f64::from(1 - digits));
-    for _ in 1..digits {
-        let coarser = (value / (10.0 * step)).round() * 10.0 * step;
-        if ((value / step).round() * step - coarser).abs() < 0.5 * step {
-            step *= 10.0;
+    let mut power = value.abs().log10().floor() as i32 + 1 - digits;
+    // one more than there are digits, as 0.99996 has fewer places than its own decade
+    for _ in 0..digits {
+        let [step, next] = [power, power + 1].map(|power| 10f64.powf(f64::from(power)));
+        if ((value / step).round() * step - (value / next).round() * next).abs() < 0.5 * step {
+            power += 1;
         }
     }
-    number(value, step)
+    number(value, 10f64.powf(f64::from(power)))
 }
 
 /// Formats an upper bound of a positive number as one digit and a power of ten.
@@ -288,6 +289,10 @@ mod tests {
         );
         let three = [18.91665, 0.25, 5.6789e-9, 0.0, -3.0, 1e6, 2e-7].map(|value| rounded(value, 3));
         assert_eq!([rounded(13.712287, 5), rounded(0.277977, 5)], ["13.712", "0.27798"]);
+        assert_eq!(
+            [rounded(1.0, 4), rounded(1.0 - 1e-15, 4), rounded(-0.1, 5), rounded(2e3, 4)],
+            ["1", "1", "\u{2212}0.1", "2000"]
+        );
         assert_eq!([unit(0.5), unit(3e-7)], [(1.0, String::new()), (1e-7, " (10\u{207b}\u{2077})".to_owned())]);
         assert_eq!(
             three,
