@@ -17,9 +17,10 @@ BLOCK = re.compile(r"(?:^<!-- needs (\w+) -->\n)?^```python\n(.*?)^```$", re.M |
 PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs/src").glob("*.md"))] if "```python" in page.read_text()]
 #: The commands that a page shows before its Python: scenes that are run into folders.
 SCENES = {"tutorial.md": ["star"], "outputs.md": ["star", "star-trace"]}
-#: The scheduler as far as dask-jobqueue knows it: a job is a process.
+#: The scheduler as far as dask-jobqueue knows it: a job is a process. Like Slurm it keeps a copy of the script, which dask-jobqueue
+#: deletes as soon as it is submitted; a job that has lost its script never starts, and the sweep would wait for it for ever.
 SLURM = {
-    "sbatch": 'bash "$1" > "$1.log" 2>&1 & echo "Submitted batch job $!"; echo $! >> {log}',
+    "sbatch": 'script=$(cat "$1"); bash -c "$script" > {log}.$$ 2>&1 & echo "Submitted batch job $!"; echo $! >> {log}',
     "scancel": 'kill "$@" 2> /dev/null',
 }
 
