@@ -80,6 +80,15 @@ pub fn sheet(file: &SceneFile) -> Result<Sheet, SceneError> {
     generate::generate(&pattern).map_err(|error| wrong(error.to_string()))
 }
 
+/// Returns another sheet that a study names, from its mesh.
+///
+/// # Errors
+/// [`SceneError`] if the mesh cannot be read.
+pub(crate) fn other_sheet(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
+    let path = file.resolve(path);
+    Ok(fold::read_frame(&path, None)?)
+}
+
 /// Reads the mesh at `path` in the format of its ending; FOLD if that is unknown.
 fn mesh_of(file: &SceneFile, path: &Path) -> Result<Sheet, SceneError> {
     let frame = file.scene.sheet.frame.as_ref();

@@ -76,6 +76,9 @@ pub(crate) fn named_files(file: &SceneFile) -> Vec<PathBuf> {
         if let Some(StartSpec::File(path)) = study.kind.start().map(|start| &**start) {
             found.push(path.clone());
         }
+        if let StudyKind::Bloch(spec) = &*study.kind {
+            found.extend(spec.strip.iter().filter_map(|strip| strip.other.clone()));
+        }
         if let StudyKind::Landscape(spec) = &*study.kind {
             found.extend(spec.modes.iter().filter_map(|mode| rates(mode)));
         }

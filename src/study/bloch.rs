@@ -3,11 +3,14 @@
 use super::answer::{Answer, SavedState};
 use super::context::Context;
 use super::error::StudyError;
-use super::{start, states, supported};
+use super::strip::FoundStrip;
+use super::{start, states, strip, supported};
 use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
-use crate::analysis::bloch::{self, BlochError, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone};
+use crate::analysis::bloch::{
+    self, BlochError, Counts, Decay, Determinant, ModeShape, Rigidity, Survey, SurveyOptions, Zone,
+};
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
 use crate::model::{Assembly, Domain, Drawn, Stiffness};
@@ -54,6 +57,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
         let help = "give bars a finite stiffness and facets too, or leave out `path`";
         return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
     }
+    strip::check(context, spec)?;
     let refused = rigidity(file, assembly).and_then(|rigidity| rigidity.require_square());
     let help = match &refused {
         Ok(()) => return Ok(()),
@@ -152,6 +156,8 @@ struct FoundModes {
     survey: Survey,
     grid: [usize; 2],
     bands: Vec<Bands>,
+    strip: Option<FoundStrip>,
+    counts: Vec<Counts>,
 }
 
 /// The bands at a wavenumber of the path.
@@ -177,6 +183,12 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     if !found.bands.is_empty() {
         answer.add(format!("{name}_bands.csv"), band_table(&found.bands));
     }
+    if !found.counts.is_empty() {
+        answer.add(format!("{name}-modes.csv"), strip::count_table(&found.counts));
+    }
+    if let Some(found) = &found.strip {
+        strip::add(&mut answer, name, found);
+    }
     add_maps(&mut answer, context, &found);
     add_figure(&mut answer, context, &found);
     let result = summary(context.assembly, &found);
@@ -194,7 +206,19 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Optio
     };
     let mut go_on = |step: usize| context.step(step, Some(bloch::STEPS));
     let Some(survey) = bloch::survey(&ground.rigidity, &options, &mut go_on)? else { return Ok(None) };
-    Ok(Some(FoundModes { ground, survey, grid: options.grid, bands: bands(context, spec)? }))
+    let wanted = spec.zero_modes_at.iter().flat_map(|list| list.iter());
+    let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0)).collect::<Result<_, _>>()?;
+    let strip = match &spec.strip {
+        None => None,
+        Some(strip) => {
+            let rigid = facets_are_rigid(context.file, context.assembly);
+            match strip::compute(context, strip, (&ground.rigidity, rigid), &options.wavenumbers)? {
+                None => return Ok(None),
+                found => found,
+            }
+        }
+    };
+    Ok(Some(FoundModes { ground, survey, grid: options.grid, bands: bands(context, spec)?, strip, counts }))
 }
 
 /// Returns the bands along the path of the scene.
@@ -370,6 +394,7 @@ fn summary(assembly: &Assembly, found: &FoundModes) -> BlochSummary {
         order_at_origin: real.as_ref().map(|(zone, _)| zone.order),
         directions: real.iter().flat_map(|(zone, _)| zone.directions().unwrap_or_default()).collect(),
         theta,
+        strip: found.strip.as_ref().map(|strip| strip.summary.clone()),
         theta_to_zero: real.as_ref().map(|(zone, _)| zone).zip(theta).map(to_zero),
     }
 }

@@ -33,6 +33,7 @@ mod relax;
 mod response;
 mod start;
 mod states;
+mod strip;
 mod supported;
 mod surface;
 mod trace;

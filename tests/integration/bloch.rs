@@ -6,9 +6,10 @@ use crate::theory::strain_form::StrainForm;
 use approx::{abs_diff_eq, assert_abs_diff_eq};
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
 use foldwell::analysis::bloch::decay::WELL_CONDITIONED;
+use foldwell::analysis::bloch::strip::fit;
 use foldwell::analysis::bloch::zero_lines::ZeroLine;
 use foldwell::analysis::bloch::{
-    BlochError, Decay, Determinant, Laurent, ModeShape, Polarization, Rigidity, ZeroLines, Zone,
+    BlochError, Counts, Decay, Determinant, Laurent, ModeShape, Polarization, Rigidity, Strip, ZeroLines, Zone,
 };
 use foldwell::kinematics::{Embedding, Shape};
 use foldwell::numerics::DenseMatrix;
@@ -729,4 +730,64 @@ fn bands_of_the_energy() {
     println!("bands at a zero line: {soft:e} and {stiff:e}");
     assert!(soft.abs() <= 1e-13 && stiff > 1e-4);
     assert_eq!(along_path(&[[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]], 4).len(), 9);
+}
+
+/// Claim: edge modes of a strip of 60 star cells, measured from the null space of its own matrix, decay with the roots of the
+/// determinant of one cell to 1e-6 (rounding leaves 1e-13), at both edges, and there are as many zero modes as rows stick out.
+#[test]
+fn edge_modes_decay_with_the_roots() {
+    let rigidity = Rigidity::of_sheet(&mesh("open-star"), false).unwrap();
+    let found = Determinant::new(&rigidity).unwrap();
+    let strip = Strip::new(&rigidity, 60).unwrap();
+    let mut compared = 0;
+    for q1 in [0.9, 2.4] {
+        let modes = strip.at(q1).unwrap();
+        assert_eq!((modes.zero_modes, modes.self_stresses), (4, 0));
+        for (first, upwards) in [(0, true), (59, false)] {
+            let factors = modes.factors(first, upwards, 1).unwrap();
+            let decay = Decay::new(&found, 0, q1).unwrap();
+            let bound = decay.roots.iter().filter(|root| !root.on_circle() && (root.kappa() < 0.0) == upwards);
+            for root in bound {
+                let apart = factors.iter().map(|z| (z / root.z).ln().norm()).fold(f64::INFINITY, f64::min);
+                assert!(apart <= 1e-6, "{q1} {root:?} {apart:e}");
+                compared += 1;
+            }
+        }
+    }
+    assert_eq!(compared, 4);
+}
+
+/// Claim: where a kirigami cell of polarization -3/2 meets one of 3/2, three zero modes are bound, and in the other order three
+/// self stresses, as the winding numbers of the determinants predict; edges free in one case and clamped in the other, so that
+/// modes and stresses have nothing to cancel with. Cells that do not fit are told apart.
+#[test]
+fn interfaces_bind_what_the_windings_predict() {
+    let [one, other] = ["kirigami-polarized", "kirigami-reversed"].map(mesh);
+    let inside = |sheet: &Sheet, q1| Rigidity::of_sheet(sheet, true).unwrap().roots_inside(q1).unwrap() as i64;
+    for q1 in [1.8, 3.0] {
+        let modes = Strip::with_interface([&other, &one], true, 40).unwrap().at(q1).unwrap();
+        let bound = modes.bound(10..30).unwrap();
+        assert_eq!((bound.zero_modes, bound.self_stresses), (3, 0));
+        assert_eq!(inside(&one, q1) - inside(&other, q1), 3);
+        let modes = Strip::with_interface([&one, &other], true, 40).unwrap().clamped().at(q1).unwrap();
+        let bound = modes.bound(10..30).unwrap();
+        assert_eq!((modes.zero_modes, bound.zero_modes, bound.self_stresses), (0, 0, 3));
+    }
+    assert_eq!(fit(&one, &other), None);
+    assert!(fit(&one, &mesh("kirigami")).unwrap().contains("vertices"));
+}
+
+/// Claim (equation 16): at given wavenumbers zero modes are as many as self stresses at the opposite wavenumber, also where there
+/// are some: at `q = 0` of the star cell and on a point of its zero lines, where both are one.
+#[test]
+fn counts_at_wavenumbers() {
+    let sheet = mesh("open-star");
+    let rigidity = Rigidity::of_sheet(&sheet, false).unwrap();
+    let zone = Zone::new(&Determinant::new(&rigidity).unwrap()).unwrap();
+    let lines = ZeroLines::new(&zone).unwrap().refined(&zone, &rigidity);
+    let line = &lines.lines[0].points;
+    for (q, expected) in [([0.0; 2], 3), ([0.9, 1.7], 0), (line[line.len() / 3], 1)] {
+        let found = Counts::at(&rigidity, q).unwrap();
+        assert_eq!([found.zero_modes, found.self_stresses_opposite], [expected; 2], "{found:?}");
+    }
 }

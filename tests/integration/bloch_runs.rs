@@ -124,6 +124,26 @@ fn double_roots() {
     assert!(found.pairing_error.unwrap() <= 1e-13 && found.pairing_condition.unwrap() <= 1e3, "{found:?}");
 }
 
+/// Claim: the scene of the strip writes its two tables, its edge modes decay as predicted to 1e-6, and the scene of the
+/// interface finds the three modes that the windings predict, with rates of the slowest that agree too.
+#[test]
+fn strips_and_interfaces() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = run(&meshes().join("star-strip.toml"), folder.path(), false).unwrap();
+    let strip = result(&report).strip.clone().unwrap();
+    assert_eq!((strip.zero_modes, strip.self_stresses), (vec![4; 6], vec![0; 6]));
+    assert_eq!((strip.compared, strip.unmatched, strip.interface_predicted.len()), (12, 0, 0));
+    assert!(strip.error.unwrap() <= 1e-6, "{:?}", strip.error);
+    assert_eq!(lines(&folder.path().join("modes-strip.csv")), 1 + 12);
+    let counts = std::fs::read_to_string(folder.path().join("modes-modes.csv")).unwrap();
+    assert!(counts.lines().nth(1).unwrap().starts_with("0.0,0.0,3,3,3,"), "{counts}");
+    let report = run(&meshes().join("kirigami-interface.toml"), folder.path(), false).unwrap();
+    let strip = result(&report).strip.clone().unwrap();
+    assert_eq!((strip.interface_zero_modes, strip.interface_predicted), (vec![3; 3], vec![3; 3]));
+    assert_eq!((strip.interface_self_stresses, strip.unmatched), (vec![0; 3], 0));
+    assert!(strip.error.unwrap() <= 1e-6, "{:?}", strip.error);
+}
+
 /// Claim: if no root is known accurately enough to be compared, the pairing error is null instead of zero. At `q1 = 0`
 /// the determinant has a root of multiplicity four at 1, and the matrix three null vectors there.
 #[test]
@@ -150,6 +170,7 @@ fn what_cannot_be_done() {
         path
     };
     let out = folder.path().join("out");
+    let misfit = format!("strip = {{ cells = 20, other = '{}' }}", meshes().join("kirigami.fold").display());
     let cases = [
         ("generate = { pattern = \"miura\" }", "", "conditions (bars and rigid facets)"),
         ("generate = { pattern = \"kresling\" }", "", "without lattice vectors"),
@@ -159,6 +180,12 @@ fn what_cannot_be_done() {
         ("generate = { pattern = \"random\" }", "grid = [0, 8]", "0"),
         ("generate = { pattern = \"random\" }", "modes = [[0.1]]", "the list has 1 values"),
         ("generate = { pattern = \"random\" }", "kappa = 1", "kappa"),
+        ("generate = { pattern = \"random\" }", "strip = { cells = 4 }", "has no inside"),
+        ("generate = { pattern = \"random\" }", "strip = { cells = 100000 }", "coordinates, more than"),
+        ("generate = { pattern = \"random\" }", "strip = { cells = 20, width = 1 }", "width"),
+        ("generate = { pattern = \"random\" }", "strip = { cells = 20, other = \"none.fold\" }", "none.fold"),
+        ("generate = { pattern = \"random\" }", &misfit, "do not fit"),
+        ("generate = { pattern = \"random\" }", "zero_modes_at = [[nan, 0]]", "the number is NaN"),
         ("generate = { pattern = \"random\" }", "start = \"rolled\"", "no earlier study is called"),
         (
             "generate = { pattern = \"random\" }",

@@ -44,6 +44,23 @@ pub enum BlochError {
         /// Edges of the grid that contradict; 0 where a line came to no end.
         edges: usize,
     },
+    /// Zero and nonzero singular values of a strip are not apart.
+    #[error(
+        "at q1 = {q1} the zero modes of the strip do not stand out: the singular values next to them are only {gap:.1e} \
+         times as large; modes of opposite sides meet, which more cells part"
+    )]
+    StripRank {
+        /// The wavenumber.
+        q1: f64,
+        /// Ratio of neighbouring singular values.
+        gap: f64,
+    },
+    /// A determinant has no winding number.
+    #[error("at q1 = {q1} the determinant is nearly zero on the unit circle: it has no winding number")]
+    NoWinding {
+        /// The wavenumber.
+        q1: f64,
+    },
     /// The linear folding modes are not known.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),

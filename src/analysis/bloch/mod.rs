@@ -7,6 +7,7 @@
 
 pub mod bands;
 pub(crate) mod cluster;
+pub(crate) mod counts;
 pub mod decay;
 pub(crate) mod determinant;
 pub(crate) mod double_double;
@@ -19,10 +20,12 @@ pub(crate) mod polarization;
 pub(crate) mod rigidity;
 mod root;
 pub(crate) mod singular;
+pub mod strip;
 mod survey;
 pub mod zero_lines;
 pub(crate) mod zone;
 
+pub use counts::Counts;
 pub use decay::Decay;
 pub use determinant::Determinant;
 pub use error::BlochError;
@@ -31,6 +34,7 @@ pub use mode_shape::ModeShape;
 pub use polarization::Polarization;
 pub use rigidity::Rigidity;
 pub use root::Root;
+pub use strip::Strip;
 pub(crate) use survey::{STEPS, Survey};
 pub use survey::{SurveyOptions, survey};
 pub use zero_lines::ZeroLines;

@@ -42,6 +42,36 @@ pub struct BlochSummary {
     pub theta: Option<[f64; 2]>,
     /// Distance of these wavenumbers from a zero of the determinant, its value there over its gradient; null of the drawn state.
     pub theta_to_zero: Option<f64>,
+    /// The strip; null without one.
+    #[serde(default)]
+    pub strip: Option<StripSummary>,
+}
+
+/// Zero modes of a strip with free edges.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StripSummary {
+    /// Cells across it.
+    pub cells: usize,
+    /// Wavenumbers along it.
+    pub q1: Vec<f64>,
+    /// Number of zero modes at each.
+    pub zero_modes: Vec<usize>,
+    /// Number of self stresses at each.
+    pub self_stresses: Vec<usize>,
+    /// Smallest singular value that is not zero over the largest that is, at each.
+    pub gap: Vec<f64>,
+    /// Largest difference of a measured rate from the predicted one; null where none was compared.
+    pub error: Option<f64>,
+    /// Number of rates that were compared.
+    pub compared: usize,
+    /// Number of predicted rates that were not found in the strip.
+    pub unmatched: usize,
+    /// Zero modes bound to the interface at each wavenumber; empty without an interface.
+    pub interface_zero_modes: Vec<usize>,
+    /// Self stresses bound to the interface.
+    pub interface_self_stresses: Vec<usize>,
+    /// Zero modes less self stresses that the winding numbers of both determinants predict.
+    pub interface_predicted: Vec<i64>,
 }
 
 /// Roots at one wavenumber.

@@ -18,7 +18,7 @@ mod sweep;
 mod trace;
 mod wells;
 
-pub use bloch::{BlochSummary, DecaySummary, RegionSummary, ZeroLineSummary};
+pub use bloch::{BlochSummary, DecaySummary, RegionSummary, StripSummary, ZeroLineSummary};
 pub use branches::{BranchesSummary, RaySummary};
 pub use json::to_json;
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};

@@ -6,6 +6,7 @@ use crate::scene::values::{Cells, Count, EdgeName, Finite, Name, Pair, Positive,
 use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::path::PathBuf;
 
 /// `[[study]]`: a question about the sheet. Every kind has these keys and its own.
 ///
@@ -238,6 +239,24 @@ pub struct BlochSpec {
     pub modes: Option<Located<Vec<Pair>>>,
     /// Corners `[q1, q2]` of a path through the zone along which the bands of the energy are wanted.
     pub path: Option<Located<Vec<Pair>>>,
+    /// A strip, periodic along the first lattice vector with free edges across the second: its zero modes at every `q1`.
+    pub strip: Option<Located<StripSpec>>,
+    /// Wavenumbers `[q1, q2]` at which zero modes and self stresses are counted.
+    pub zero_modes_at: Option<Located<Vec<Pair>>>,
+}
+
+/// `strip = { cells, other, clamped }`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StripSpec {
+    /// Cells across the strip, at least 8; with `other` at least 16.
+    pub cells: Count,
+    /// The mesh of the cell of the upper half, relative to the scene; left out: all cells are equal. It needs as many vertices, the
+    /// same first lattice vector and the same edges between neighbouring rows of cells.
+    pub other: Option<PathBuf>,
+    /// Whether both edges are clamped instead of free: cells beyond them are held. Then self stresses are where free edges have zero modes.
+    #[serde(default)]
+    pub clamped: bool,
 }
 
 /// `kind = "wells"`.

@@ -1,0 +1,63 @@
+//! Numbers of zero modes and self stresses at a real wavenumber.
+//!
+//! Zero modes at `q` are null vectors of `R(z)`, self stresses at `q` those of the equilibrium matrix `R(1/z)^T`. So at every
+//! `q` there are as many zero modes as self stresses at `-q` where bars and coordinates balance (C. L. Kane, T. C. Lubensky,
+//! Nature Physics 10, 39 (2014); McInerney and others, PNAS 117, 30252 (2020), equation 16).
+
+use super::{BlochError, Rigidity};
+use crate::numerics::complex::{ComplexMatrix, complex_svd};
+use nalgebra::Complex;
+
+/// Singular values below this part of the largest are zero.
+const ZERO: f64 = 1e-11;
+
+/// The numbers at one wavenumber.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Counts {
+    /// The wavenumbers, radians per cell.
+    pub q: [f64; 2],
+    /// Zero modes.
+    pub zero_modes: usize,
+    /// Self stresses.
+    pub self_stresses: usize,
+    /// Self stresses at the opposite wavenumber.
+    pub self_stresses_opposite: usize,
+    /// Smallest singular value that is not zero over the largest that is, of the two matrices at `q` the less clear; the
+    /// latter never taken below rounding.
+    pub gap: f64,
+}
+
+impl Counts {
+    /// The numbers at a wavenumber.
+    ///
+    /// ```
+    /// use foldwell::analysis::bloch::{Counts, Rigidity};
+    /// use foldwell::sheet::generate::{Pattern, Random, generate};
+    ///
+    /// let sheet = generate(&Pattern::Random(Random::default()))?;
+    /// let found = Counts::at(&Rigidity::of_sheet(&sheet, false)?, [0.0, 0.0])?;
+    /// assert_eq!((found.zero_modes, found.self_stresses), (3, 3));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`BlochError`] where the matrix is not square or a decomposition fails.
+    pub fn at(rigidity: &Rigidity, q: [f64; 2]) -> Result<Self, BlochError> {
+        rigidity.require_square()?;
+        let z = q.map(|q| Complex::from_polar(1.0, q));
+        let (zero_modes, one) = nullity(&rigidity.at(z))?;
+        let (self_stresses, two) = nullity(&rigidity.equilibrium(z))?;
+        let (self_stresses_opposite, _) = nullity(&rigidity.equilibrium(z.map(|z| z.inv())))?;
+        Ok(Self { q, zero_modes, self_stresses, self_stresses_opposite, gap: one.min(two) })
+    }
+}
+
+/// The number of null vectors of a square matrix, and how clearly they stand out.
+fn nullity(matrix: &ComplexMatrix) -> Result<(usize, f64), BlochError> {
+    let values = complex_svd(matrix)?.singular_values;
+    let largest = values.first().copied().unwrap_or(0.0);
+    let rank = values.iter().filter(|value| **value > ZERO * largest).count();
+    let kept = rank.checked_sub(1).map_or(0.0, |last| values[last]);
+    let dropped = values.get(rank).copied().unwrap_or(0.0).max(f64::EPSILON * largest);
+    Ok((values.len() - rank, kept / dropped))
+}

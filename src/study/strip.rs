@@ -1,0 +1,279 @@
+//! The strip of a study `bloch`: zero modes of a strip with free edges, their measured decay beside the roots of the
+//! determinant, and what is bound to an interface between two cells; numbers of zero modes and self stresses.
+
+use super::answer::Answer;
+use super::context::Context;
+use super::error::StudyError;
+use crate::analysis::bloch::strip::{StripModes, fit};
+use crate::analysis::bloch::{BlochError, Counts, Decay, Determinant, Rigidity, Strip};
+use crate::numerics::worst;
+use crate::output::summary::StripSummary;
+use crate::output::table::{Table, Value};
+use crate::scene::build;
+use crate::scene::spec::{BlochSpec, StripSpec};
+use crate::sheet::Sheet;
+use nalgebra::Complex;
+
+/// Fewest cells across a strip; with an interface, of each half.
+const FEWEST: u32 = 8;
+/// Most displacements of a strip: its matrix is decomposed as a dense one.
+const MOST_UNKNOWNS: usize = 6000;
+/// Windows from which the rate at an interface is measured.
+const SHIFTS: usize = 6;
+
+/// Checks the keys of a strip.
+pub(super) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> {
+    let Some(strip) = &spec.strip else { return Ok(()) };
+    let wrong = |message: String, help: &str| Err(context.file.error_at(strip.span(), message, help).into());
+    let fewest = if strip.other.is_some() { 2 * FEWEST } else { FEWEST };
+    if strip.cells.0 < fewest {
+        return wrong(format!("a strip of {} cells has no inside", strip.cells.0), "give at least 8, 16 with `other`");
+    }
+    let unknowns = (3 * context.assembly.sheet().vertices.len()).saturating_mul(strip.cells.0 as usize);
+    if unknowns > MOST_UNKNOWNS {
+        let message = format!("the strip has {unknowns} coordinates, more than {MOST_UNKNOWNS}");
+        return wrong(message, "give fewer cells");
+    }
+    let Some(above) = other(context, strip)? else { return Ok(()) };
+    if spec.start.is_some() {
+        return wrong("both cells of an interface are as drawn".into(), "leave out `start` or `other`");
+    }
+    if let Some(reason) = fit(context.assembly.sheet(), &above) {
+        let help = "both need equally many vertices, the same first lattice vector and the same edges between \
+                    neighbouring rows of cells, by the numbers of their vertices";
+        return wrong(format!("the cells of the interface do not fit: {reason}"), help);
+    }
+    Ok(())
+}
+
+/// Returns the cell of the upper half, if there is another.
+fn other(context: &Context<'_>, strip: &StripSpec) -> Result<Option<Sheet>, StudyError> {
+    let Some(path) = &strip.other else { return Ok(None) };
+    Ok(Some(build::other_sheet(context.file, path)?))
+}
+
+/// What was found of a strip.
+pub(super) struct FoundStrip {
+    pub rows: Vec<StripRow>,
+    pub summary: StripSummary,
+}
+
+/// A rate at a wavenumber.
+pub(super) struct StripRow {
+    found: [usize; 2],
+    q1: f64,
+    gap: f64,
+    place: Place,
+    measured: Option<f64>,
+    predicted: f64,
+    condition: f64,
+}
+
+/// Where a mode is bound.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    Lower,
+    Upper,
+    BelowInterface,
+    AboveInterface,
+}
+
+impl Place {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Lower => "lower",
+            Self::Upper => "upper",
+            Self::BelowInterface => "below-interface",
+            Self::AboveInterface => "above-interface",
+        }
+    }
+}
+
+/// The determinants of the cells below and above, and their strip.
+struct Halves {
+    strip: Strip,
+    cells: usize,
+    interface: bool,
+    clamped: bool,
+    rigidity: [Rigidity; 2],
+    determinant: [Determinant; 2],
+}
+
+/// Computes the strip at all wavenumbers; `None` if the observer asked to stop, or the other cell cannot be read any more.
+pub(super) fn compute(
+    context: &Context<'_>,
+    spec: &StripSpec,
+    (rigidity, rigid): (&Rigidity, bool),
+    wavenumbers: &[f64],
+) -> Result<Option<FoundStrip>, BlochError> {
+    let cells = spec.cells.0 as usize;
+    let Ok(above) = other(context, spec) else { return Ok(None) };
+    let halves = match &above {
+        None => {
+            let determinant = Determinant::new(rigidity)?;
+            let strip = Strip::new(rigidity, cells)?;
+            let pair = [rigidity.clone(), rigidity.clone()];
+            Halves {
+                strip,
+                cells,
+                interface: false,
+                clamped: false,
+                rigidity: pair,
+                determinant: [determinant.clone(), determinant],
+            }
+        }
+        Some(above) => {
+            let upper = Rigidity::of_sheet(above, rigid)?;
+            let determinant = [Determinant::new(rigidity)?, Determinant::new(&upper)?];
+            let strip = Strip::with_interface([context.assembly.sheet(), above], rigid, cells)?;
+            Halves { strip, cells, interface: true, clamped: false, rigidity: [rigidity.clone(), upper], determinant }
+        }
+    };
+    let halves = if spec.clamped { Halves { strip: halves.strip.clamped(), clamped: true, ..halves } } else { halves };
+    let mut found = FoundStrip { rows: Vec::new(), summary: StripSummary { cells, ..StripSummary::default() } };
+    for (k, q1) in wavenumbers.iter().enumerate() {
+        if !context.step(k, Some(wavenumbers.len())) {
+            return Ok(None);
+        }
+        halves.add(*q1, &mut found)?;
+    }
+    let summary = &mut found.summary;
+    summary.error = worst(found.rows.iter().filter_map(|row| Some((row.measured? - row.predicted).abs())));
+    summary.compared = found.rows.iter().filter(|row| row.measured.is_some()).count();
+    summary.unmatched = found.rows.len() - summary.compared;
+    Ok(Some(found))
+}
+
+impl Halves {
+    fn decay(&self, half: usize, q1: f64) -> Result<Decay, BlochError> {
+        Ok(Decay::new(&self.determinant[half], 0, q1)?.refined(&self.rigidity[half]))
+    }
+
+    fn add(&self, q1: f64, found: &mut FoundStrip) -> Result<(), BlochError> {
+        let modes = self.strip.at(q1)?;
+        let [below, above] = [self.decay(0, q1)?, self.decay(1, q1)?];
+        let (last, middle) = (self.cells - 1, self.cells / 2);
+        if !self.clamped {
+            let lower = modes.factors(0, true, 1)?;
+            let upper = modes.factors(last, false, 1)?;
+            let both = [(Place::Lower, &below, lower), (Place::Upper, &above, upper)];
+            for (place, decay, factors) in both {
+                let roots = bound_roots(decay, place == Place::Lower);
+                found.rows.extend(matched(&modes, place, &roots, factors));
+            }
+        }
+        found.summary.q1.push(q1);
+        found.summary.zero_modes.push(modes.zero_modes);
+        found.summary.self_stresses.push(modes.self_stresses);
+        found.summary.gap.push(modes.gap);
+        if self.interface {
+            let bound = modes.bound(middle / 2..middle + (self.cells - middle) / 2)?;
+            found.summary.interface_zero_modes.push(bound.zero_modes);
+            found.summary.interface_self_stresses.push(bound.self_stresses);
+            let inside = [self.inside(0, q1)?, self.inside(1, q1)?];
+            found.summary.interface_predicted.push(inside[1] as i64 - inside[0] as i64);
+            if bound.zero_modes > 0 {
+                found.rows.extend(self.slowest(&modes, &below, false)?);
+                found.rows.extend(self.slowest(&modes, &above, true)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of roots inside the circle, those at zero too, where every row belongs to the lowest cell it touches.
+    fn inside(&self, half: usize, q1: f64) -> Result<usize, BlochError> {
+        self.rigidity[half].roots_inside(q1)
+    }
+
+    /// The slowest rate of what is bound to the interface, measured where faster modes are gone.
+    fn slowest(&self, modes: &StripModes, decay: &Decay, upwards: bool) -> Result<Option<StripRow>, BlochError> {
+        let roots = bound_roots(decay, upwards);
+        let slow = roots.iter().min_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let Some(&(z, kappa, condition)) = slow else { return Ok(None) };
+        let middle = self.cells / 2;
+        let bound = modes.bound_to(middle / 2..middle + (self.cells - middle) / 2)?;
+        let first = if upwards { middle + 1 } else { middle - 2 };
+        let factors = bound.factors(first, upwards, SHIFTS)?;
+        let away = |w: &Complex<f64>| (w / z).ln().norm();
+        let nearest = factors.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let place = if upwards { Place::AboveInterface } else { Place::BelowInterface };
+        let measured = nearest.filter(|w| away(w) <= NEAR).map(|w| w.norm().ln());
+        Ok(Some(StripRow { measured, ..row(modes, place, kappa, condition) }))
+    }
+}
+
+/// Factors farther from a root than this in `log z` do not belong to it.
+const NEAR: f64 = 0.01;
+
+fn row(modes: &StripModes, place: Place, predicted: f64, condition: f64) -> StripRow {
+    let found = [modes.zero_modes, modes.self_stresses];
+    StripRow { found, q1: modes.q1, gap: modes.gap, place, measured: None, predicted, condition }
+}
+
+/// The roots of modes that decay away from a lower place, or from an upper one, with rate and condition.
+fn bound_roots(decay: &Decay, upwards: bool) -> Vec<(Complex<f64>, f64, f64)> {
+    let bound = decay.roots.iter().filter(|root| !root.on_circle() && (root.kappa() < 0.0) == upwards);
+    bound.map(|root| (root.z, root.kappa(), root.condition)).collect()
+}
+
+/// A row for every root, with the nearest factor that no other root has.
+fn matched(
+    modes: &StripModes,
+    place: Place,
+    roots: &[(Complex<f64>, f64, f64)],
+    mut factors: Vec<Complex<f64>>,
+) -> Vec<StripRow> {
+    let mut rows = Vec::new();
+    for &(z, kappa, condition) in roots {
+        let away = |w: &Complex<f64>| (w / z).ln().norm();
+        let nearest = (0..factors.len()).min_by(|&a, &b| away(&factors[a]).total_cmp(&away(&factors[b])));
+        let nearest = nearest.filter(|&k| away(&factors[k]) <= NEAR);
+        let measured = nearest.map(|k| factors.swap_remove(k).norm().ln());
+        rows.push(StripRow { measured, ..row(modes, place, kappa, condition) });
+    }
+    rows
+}
+
+/// Returns a row for every root at every wavenumber and edge.
+fn table(found: &FoundStrip) -> Table {
+    let names = [
+        "q1",
+        "zero_modes",
+        "self_stresses",
+        "gap",
+        "edge",
+        "kappa2_measured",
+        "kappa2_predicted",
+        "difference",
+        "condition",
+    ];
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    for row in &found.rows {
+        let [modes, stresses] = row.found.map(|count| Value::Whole(count as i64));
+        let number = |value: Option<f64>| value.map_or(Value::Empty, Value::Number);
+        let difference = row.measured.map(|measured| measured - row.predicted);
+        let rates =
+            [number(row.measured), Value::Number(row.predicted), number(difference), Value::Number(row.condition)];
+        let first = [Value::Number(row.q1), modes, stresses, Value::Number(row.gap), Value::Word(row.place.word())];
+        table.push(first.into_iter().chain(rates).collect());
+    }
+    table
+}
+
+/// Adds the table of a strip to an answer.
+pub(super) fn add(answer: &mut Answer, name: &str, found: &FoundStrip) {
+    answer.add(format!("{name}-strip.csv"), table(found));
+}
+
+/// Returns a row for every wavenumber at which zero modes and self stresses were counted.
+pub(super) fn count_table(counts: &[Counts]) -> Table {
+    let names = ["q1", "q2", "zero_modes", "self_stresses", "self_stresses_opposite", "gap"];
+    let mut table = Table::new(names.iter().map(|name| (*name).to_owned()).collect());
+    for found in counts {
+        let numbers = [found.zero_modes, found.self_stresses, found.self_stresses_opposite];
+        let q = found.q.map(Value::Number);
+        let last = numbers.map(|number| Value::Whole(number as i64));
+        table.push(q.into_iter().chain(last).chain([Value::Number(found.gap)]).collect());
+    }
+    table
+}
