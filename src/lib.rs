@@ -93,6 +93,7 @@ pub mod solver;
 pub mod study;
 
 pub use analysis::relax::{Relaxed, relax};
+pub use analysis::tube::rolled_up;
 pub use model::{Assembly, Boundary, RIGID, Rest, Terms};
 pub use output::{picture::Picture, vtk::write_vtu};
 pub use sheet::{Pattern, Sheet, generate};

@@ -95,7 +95,7 @@ pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, relaxed: &RelaxedTrajecto
     let mut most = CylinderErrors::default();
     for (rigid, state) in traced.states.iter().skip(1).zip(&relaxed.states) {
         let (shape, found) = (rigid.shape.as_ref()?, &state.relaxed.state.coordinates);
-        let found = cylinder(&drawn.domain, &drawn.coordinates, found)?;
+        let found = cylinder(drawn, found)?;
         let strain = found.strain.iter().zip(&shape.strain).map(|(a, b)| (a - b).abs());
         let theta = [1.0, -1.0].map(|way| {
             let off = found.theta.iter().zip(&shape.theta).map(|(a, b)| a - way * b);

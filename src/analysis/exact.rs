@@ -70,7 +70,7 @@ struct Along {
 /// tiling, in radians.
 ///
 /// `None` where there is none to compare with: loads pull, vertices are pinned, bars have other rest lengths than the drawn
-/// ones, the sheet is periodic without screws or has openings, it is too
+/// ones, the sheet is periodic without screws, a tube or has openings, it is too
 /// large, no exact state is found nearby, or what is found is not known well enough itself.
 pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
     let springs = Springs::new(sheet, tiling, model, angles)?;
@@ -96,8 +96,8 @@ impl Springs {
     /// [`error_to_kinematic`].
     pub(crate) fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
         let edges = angles.len();
-        let torus = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus);
-        if edges > MOST_EDGES || model.held_or_loaded() || torus || !sheet.holes.is_empty() {
+        let closes = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus | Domain::Tube { .. });
+        if edges > MOST_EDGES || model.held_or_loaded() || closes || !sheet.holes.is_empty() {
             return None;
         }
         if !rests_at_drawn_lengths(sheet, tiling, model) {

@@ -21,4 +21,5 @@ pub mod start_state;
 pub mod state;
 pub mod surface;
 pub mod trace;
+pub mod tube;
 pub mod wells;

@@ -6,6 +6,7 @@
 //! which share no equation with the bars.
 
 mod error;
+mod seam;
 mod spectrum;
 
 use super::restored::{self, Forces};
@@ -18,6 +19,8 @@ use crate::sheet::{Corner, Site, Tiling, pieces};
 use crate::solver::Problem;
 use error::LEAST_GAP;
 pub use error::{ModesError, SPARSE_EIGENVALUES};
+pub use seam::SeamMotions;
+use seam::seam_motions;
 pub use spectrum::{DENSE_LIMIT, Observer, decomposed_dense};
 use spectrum::{go_on, linearized, lowest};
 
@@ -41,6 +44,8 @@ pub struct Modes {
     pub eigenvalues: Vec<f64>,
     /// The eigenvectors, as velocities of all coordinates, one for each eigenvalue.
     pub vectors: Vec<Vec<f64>>,
+    /// Motions of the bars that each set of closing conditions leaves free, on a tube.
+    pub seam: Option<SeamMotions>,
 }
 
 /// Finds the modes of the drawn state; see [`modes_at`].
@@ -97,6 +102,7 @@ pub fn modes_at(
     } else {
         (vec![], vec![])
     };
+    let seam = seam_motions(assembly, &state.coordinates, observe)?;
     Ok(Modes {
         zero_modes,
         self_stresses,
@@ -106,6 +112,7 @@ pub fn modes_at(
         gap,
         eigenvalues,
         vectors,
+        seam,
     })
 }
 
@@ -232,7 +239,8 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     let at =
         |corner: Corner| state.domain.point(&state.coordinates, Site { vertex: corner.vertex, shift: corner.shift });
     let closure = Closure::of_edges(&hinged, at)?;
-    let unchecked = closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || dangling(tiling);
+    let tube = matches!(assembly.boundary(), Boundary::Tube { .. });
+    let unchecked = tube || closure.unchecked_loops() > 0 || pieces_with_openings(tiling) || dangling(tiling);
     if unchecked || closure.folding_edges().len() > DENSE_LIMIT {
         return Ok(None);
     }

@@ -1,12 +1,15 @@
 //! Which copies of the cell a picture shows, and where they are in a state.
 
+mod strip;
+
 use crate::math::Vec3;
-use crate::model::{Assembly, Domain, Drawn, Site};
+use crate::model::{Assembly, Boundary, Domain, Drawn, Site};
 use crate::sheet::tiling::{TiledEdge, TiledTriangle};
 use crate::sheet::{Assignment, EdgeKind, Sheet, Tiling, tile};
 use std::collections::HashMap;
+use strip::strip;
 
-/// The cells on which a state is shown: a patch, one period of a torus, some cells of a screw.
+/// The cells on which a state is shown: a patch, one period of a torus, some cells of a screw, some rows of a tube.
 ///
 /// Every edge and every triangle of the cells is there once. Those of a torus or a screw that reach beyond the last cell end at
 /// images, which are points like others and stand after the vertices of the cells; a patch has none.
@@ -61,12 +64,24 @@ fn beside_a_triangle(ends: [Site; 2], sides: &[(usize, [i32; 2])]) -> [Site; 2] 
 impl ShownCells {
     /// The view of the cells that pictures of an assembly show.
     pub fn new(assembly: &Assembly) -> Self {
-        Self::of_cells(assembly.sheet(), assembly.tiling(), assembly.shown(), [0, 0])
+        let (sheet, cells) = (assembly.sheet(), assembly.shown());
+        match assembly.boundary() {
+            Boundary::Tube { seam, kept } => {
+                let basis = seam.basis();
+                Self::of_patch(sheet, assembly.tiling(), strip(sheet, &seam, kept, cells), ([0, 0], basis))
+            }
+            _ => Self::of_cells(sheet, assembly.tiling(), cells, [0, 0]),
+        }
     }
 
     /// The view of `cells`, beginning at the cell `first` of a tiling; a periodic one goes on beyond its last cell.
     pub(crate) fn of_cells(sheet: &Sheet, tiling: &Tiling, cells: [usize; 2], first: [i32; 2]) -> Self {
-        let patch = tile(sheet, cells, tiling.periodic);
+        Self::of_patch(sheet, tiling, tile(sheet, cells, tiling.periodic), (first, [[1, 0], [0, 1]]))
+    }
+
+    /// The view of the cells of a patch, which begins at the cell `first` of a tiling and whose cells `(a, b)` are the cells
+    /// `first + a p + b m` of the sheet, with the basis `p`, `m`.
+    fn of_patch(sheet: &Sheet, tiling: &Tiling, patch: Tiling, (first, basis): ([i32; 2], [[i32; 2]; 2])) -> Self {
         let sides = sides(&patch);
         let beside = |ends: [Site; 2]| sides.get(&up_to_translation(ends).0).map_or(&[][..], Vec::as_slice);
         let placed: Vec<[Site; 2]> =
@@ -82,9 +97,11 @@ impl ShownCells {
         let places: Vec<(usize, [i32; 2])> = home.chain(images).map(place).collect();
         let number: HashMap<(usize, [usize; 2]), usize> =
             tiling.edges.iter().enumerate().map(|(k, edge)| ((edge.edge, edge.cell), k)).collect();
-        let edge = |e: &TiledEdge| number[&(e.edge, in_tiling(tiling, first, e.cell.map(|c| c as i32)).0)];
+        let [p, m] = basis;
+        let of_sheet = |[a, b]: [i32; 2]| [0, 1].map(|k| a * p[k] + b * m[k]);
+        let edge = |e: &TiledEdge| number[&(e.edge, in_tiling(tiling, first, of_sheet(e.cell.map(|c| c as i32))).0)];
         let site = |&(vertex, cell): &(usize, [i32; 2])| {
-            let ([c1, c2], shift) = in_tiling(tiling, first, cell);
+            let ([c1, c2], shift) = in_tiling(tiling, first, of_sheet(cell));
             Site { vertex: (c2 * tiling.cells[0] + c1) * vertices + vertex, shift }
         };
         Self {

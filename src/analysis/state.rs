@@ -1,7 +1,7 @@
 //! A state of a model, edge by edge and as a cylinder.
 
 use crate::math::Vec3;
-use crate::model::{Domain, Elements, Model, TermKind, Turns};
+use crate::model::{Domain, Drawn, Elements, Model, TermKind, Turns};
 use crate::solver::Problem;
 use std::f64::consts::TAU;
 
@@ -164,16 +164,30 @@ pub(crate) struct Cylinder {
     pub strain: [f64; 3],
 }
 
-/// The cylinder of a periodic state; `None` on a patch. `drawn` are the coordinates of the drawn state.
-pub(crate) fn cylinder(domain: &Domain, drawn: &[f64], x: &[f64]) -> Option<Cylinder> {
+/// The cylinder of a periodic state; `None` on a patch.
+pub(crate) fn cylinder(drawn: &Drawn, x: &[f64]) -> Option<Cylinder> {
+    let domain = &drawn.domain;
     let chords = chords(domain, x)?;
-    let (curvature, theta) = domain.turns(x).map_or((0.0, [0.0; 2]), |Turns { kappa, theta, .. }| {
-        let theta = theta.map(|theta| theta - TAU * (theta / TAU).round());
-        let larger = if theta[0].abs() >= theta[1].abs() { theta[0] } else { theta[1] };
-        let sign = if larger < 0.0 { -1.0 } else { 1.0 };
-        (kappa / (1.0 - kappa * x[2]), theta.map(|t| t * sign))
-    });
-    Some(Cylinder { curvature, theta, strain: strain(self::chords(domain, drawn)?, chords) })
+    let (curvature, theta) = curvature_and_turns(domain, x);
+    let theta = theta.map(|theta| theta - TAU * (theta / TAU).round());
+    let larger = if theta[0].abs() >= theta[1].abs() { theta[0] } else { theta[1] };
+    let sign = if larger < 0.0 { -1.0 } else { 1.0 };
+    let reference = drawn.chords.or_else(|| self::chords(domain, &drawn.coordinates))?;
+    Some(Cylinder { curvature, theta: theta.map(|t| t * sign), strain: strain(reference, chords) })
+}
+
+/// The signed curvature, and the turns of the two lattice vectors about one direction of the axis; zero where nothing turns.
+fn curvature_and_turns(domain: &Domain, x: &[f64]) -> (f64, [f64; 2]) {
+    if let Some(Turns { kappa, theta, .. }) = domain.turns(x) {
+        return (kappa / (1.0 - kappa * x[2]), theta);
+    }
+    let (Some([turns, shifts]), Domain::Tube { counterclockwise, .. }) = (domain.tube_motions(x), domain) else {
+        return (0.0, [0.0; 2]);
+    };
+    let wrapped = turns.map(|theta| theta - TAU * (theta / TAU).round());
+    let side = if *counterclockwise { 1.0 } else { -1.0 };
+    let area = (shifts[0] * wrapped[1] - shifts[1] * wrapped[0]) * side;
+    (1f64.copysign(area) / x[0].hypot(x[1]), turns)
 }
 
 /// Chords from vertex 0 to its copies in the next cells.

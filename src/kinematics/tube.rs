@@ -22,7 +22,7 @@ use super::{Closure, Displacement, Embedding, KinematicsError, folding_modes};
 use crate::math::{Vec3, rotation};
 use crate::numerics::dense::{least_squares, null_space};
 use crate::numerics::{DenseMatrix, larger};
-use crate::sheet::Sheet;
+use crate::sheet::{Seam, Sheet};
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, CurveOptions, End, Point, Trajectory, follow};
 use std::f64::consts::TAU;
@@ -52,7 +52,7 @@ pub struct Tube<'a> {
     sheet: &'a Sheet,
     closure: Closure,
     embedding: Embedding,
-    seam: [i32; 2],
+    seam: Seam,
     /// Length of the drawn seam.
     length: f64,
 }
@@ -71,12 +71,10 @@ impl<'a> Tube<'a> {
     /// [`KinematicsError`] for a finite sheet, for one whose faces are not connected, and for the seam `[0, 0]`.
     pub fn new(sheet: &'a Sheet, seam: [i32; 2]) -> Result<Self, KinematicsError> {
         let [l1, l2] = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
-        if seam == [0, 0] {
-            return Err(KinematicsError::NoSeam);
-        }
+        let number = Seam::new(seam).ok_or(KinematicsError::NoSeam)?;
         let length = (l1 * f64::from(seam[0]) + l2 * f64::from(seam[1])).norm();
         let (closure, embedding) = (Closure::of_cell(sheet)?, Embedding::new(sheet)?);
-        Ok(Self { sheet, closure, embedding, seam, length })
+        Ok(Self { sheet, closure, embedding, seam: number, length })
     }
 
     /// Returns the errors of the two conditions at fold angles, given with one number per edge in radians: `|W| - 2 pi`
@@ -137,7 +135,7 @@ impl<'a> Tube<'a> {
         let found = follow(&mut self.keeping(Condition::Rise), start, ray, &options, &mut |_| true);
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
         let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);
-        let missed = || KinematicsError::NoTube { seam: self.seam, turn: turns.fold(0.0, f64::max) };
+        let missed = || KinematicsError::NoTube { seam: self.seam.lattice_vector(), turn: turns.fold(0.0, f64::max) };
         self.closed(&rolled.ok_or_else(missed)?.x)
     }
 
@@ -168,7 +166,7 @@ impl<'a> Tube<'a> {
     fn bending(&self, sign: f64) -> Result<[f64; 3], KinematicsError> {
         let lattice = self.sheet.lattice.ok_or(KinematicsError::NoLattice)?;
         let frame = super::metric::LatticeFrame::new(&lattice);
-        let along = frame.vectors * nalgebra::Vector2::new(f64::from(self.seam[0]), f64::from(self.seam[1]));
+        let along = frame.vectors * nalgebra::Vector2::from(self.seam.lattice_vector().map(f64::from));
         let [x, y]: [f64; 2] = along.normalize().into();
         Ok([sign * x * x, sign * y * y, sign * x * y])
     }
@@ -198,7 +196,7 @@ impl<'a> Tube<'a> {
     /// Returns the seam and its rate, from the lattice motions.
     fn seam_of(&self, lattice: &Option<[Moving; 2]>) -> (SeamMotion, SeamMotion) {
         let zero = SeamMotion { turn: Vec3::zeros(), chord: Vec3::zeros() };
-        let moving = lattice.iter().flatten().zip(self.seam);
+        let moving = lattice.iter().flatten().zip(self.seam.lattice_vector());
         moving.fold((zero, zero), |(at, rate), (one, n)| {
             let (n, turn, chord) = (f64::from(n), rotation::log(&one.motion.rotation), one.motion.translation);
             let turning = rotation::inverse_left_jacobian(&turn) * one.twist.angular;

@@ -4,10 +4,11 @@ use super::assemble::assemble;
 use super::assembly_error::AssemblyError;
 use super::boundary::{Boundary, Drawn};
 use super::problem::{Gauge, Model};
+use super::roll::Roll;
 use super::stiffness::Stiffness;
 use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
 use crate::sheet::cell::is_folded_flat;
-use crate::sheet::{EdgeKind, Sheet, Tiling, tile};
+use crate::sheet::{EdgeKind, Sheet, TiledEdge, Tiling, tile};
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -40,7 +41,7 @@ pub struct Assembly {
 }
 
 /// The sheet, its tiling and its boundary conditions, which do not depend on the terms.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Geometry {
     sheet: Sheet,
     tiling: Tiling,
@@ -49,6 +50,8 @@ struct Geometry {
     shown: [usize; 2],
     /// Fold angles of the drawn state, one for each edge of the tiling, in radians; NaN where there is no hinge.
     angles: Vec<f64>,
+    /// Those of the start, which is another state on a tube.
+    start_angles: Vec<f64>,
 }
 
 impl Assembly {
@@ -66,11 +69,35 @@ impl Assembly {
         if cells.contains(&0) {
             return Err(AssemblyError::NoCells);
         }
+        if let Boundary::Tube { .. } = boundary {
+            return Err(AssemblyError::NotRolled);
+        }
         let repeated = if boundary == Boundary::Screw { [1, 1] } else { cells };
         let tiling = tile(&sheet, repeated, boundary.is_periodic());
         let drawn = Drawn::new(&sheet, &tiling, boundary, 0.0);
         let angles = on_sides_of_sheet(drawn.fold_angles(&tiling), &sheet, &tiling);
-        let geometry = Geometry { sheet, tiling, boundary, shown: cells, angles };
+        let start_angles = angles.clone();
+        let geometry = Geometry { sheet, tiling, boundary, shown: cells, angles, start_angles };
+        Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
+    }
+
+    /// Makes an assembly of a tube that was [rolled up](Roll), without terms. `cells` counts the strands and the rows of
+    /// cells that pictures show.
+    ///
+    /// # Errors
+    /// [`AssemblyError::NoLattice`] for a sheet without lattice, and [`AssemblyError::NoCells`] if a number of cells is zero.
+    pub fn tube_without_terms(sheet: Sheet, roll: &Roll, cells: [usize; 2]) -> Result<Self, AssemblyError> {
+        if sheet.lattice.is_none() {
+            return Err(AssemblyError::NoLattice);
+        }
+        if cells.contains(&0) {
+            return Err(AssemblyError::NoCells);
+        }
+        let (tiling, drawn) = (tile(&sheet, [1, 1], true), roll.drawn(&sheet));
+        let of_file = |tiled: &TiledEdge| sheet.drawn_angle(&sheet.edges[tiled.edge]).unwrap_or(f64::NAN);
+        let angles = tiling.edges.iter().map(of_file).collect();
+        let start_angles = tiling.edges.iter().map(|tiled| roll.angles[tiled.edge]).collect();
+        let geometry = Geometry { sheet, tiling, boundary: roll.boundary(), shown: cells, angles, start_angles };
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
@@ -129,6 +156,12 @@ impl Assembly {
         Self { drawn, ..self.clone() }
     }
 
+    /// Returns the same assembly in another drawn state, with its boundary conditions.
+    pub(super) fn with_drawn(&self, drawn: Drawn, boundary: Boundary) -> Self {
+        let geometry = Geometry { boundary, ..Geometry::clone(&self.geometry) };
+        Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), ..self.clone() }
+    }
+
     /// Returns the same assembly without the coordinates that screw boundary conditions hold against drift, so that
     /// its models have all rigid motions.
     pub fn with_free_coordinates(&self) -> Self {
@@ -151,9 +184,9 @@ impl Assembly {
     }
 
     /// Returns the numbers of cells that pictures show along the two lattice vectors: those of the tiling, or, for
-    /// screw boundary conditions, those given to the builder.
+    /// screw boundary conditions and tubes, those given to the builder; of a tube strands and rows of cells.
     pub fn shown(&self) -> [usize; 2] {
-        if self.boundary() == Boundary::Screw { self.geometry.shown } else { self.tiling().cells }
+        if self.boundary().is_one_cell() { self.geometry.shown } else { self.tiling().cells }
     }
 
     /// Returns the terms: stiffnesses and rest angles, locks, pins and loads.
@@ -238,6 +271,12 @@ impl Assembly {
         edges.map(|(tiled, drawn)| target(tiled.edge).map_or(*drawn, |angle| part * angle)).collect()
     }
 
+    /// Returns the fold angles of the state from which studies start, in the same way: the drawn ones, or those of the sheet
+    /// rolled up to a tube.
+    pub fn start_angles(&self) -> &[f64] {
+        &self.geometry.start_angles
+    }
+
     /// Returns [`Assembly::drawn_angles`] with zero where there is no hinge.
     pub fn drawn_angles_or_zero(&self) -> Vec<f64> {
         self.drawn_angles().iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect()
@@ -285,7 +324,7 @@ impl Assembly {
     /// Builds the model of the bars and hinges, in the drawn state.
     pub fn model(&self, gauge: Gauge) -> Model {
         let mut model = assemble(&self.drawn, self.tiling(), &self.terms, gauge);
-        model.continue_from(self.drawn_angles());
+        model.continue_from(self.start_angles());
         model
     }
 }

@@ -9,6 +9,9 @@ pub enum AssemblyError {
     /// Periodic boundary conditions were asked of a sheet without lattice.
     #[error("the sheet has no lattice: it can only be a patch")]
     NoLattice,
+    /// A tube was asked of a sheet that is not drawn as one and was not rolled up.
+    #[error("the sheet is not drawn as a tube: roll it up first")]
+    NotRolled,
     /// A number of cells is zero.
     #[error("there is at least one cell along each lattice vector")]
     NoCells,

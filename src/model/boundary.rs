@@ -3,7 +3,7 @@
 use super::domain::Domain;
 use crate::math::{Vec3, fold_angle::fold_angle};
 use crate::sheet::tiling::{Site, Tiling};
-use crate::sheet::{Corner, Sheet};
+use crate::sheet::{Seam, SeamKept, Sheet};
 use nalgebra::Matrix3;
 
 /// Largest distance of the first vertex from the file's origin, relative to the size of the sheet, at which the
@@ -21,12 +21,24 @@ pub enum Boundary {
     FreeTorus,
     /// One cell repeated by two screw motions about a common axis: a cylinder of any curvature.
     Screw,
+    /// One cell repeated about an axis, closed along a seam.
+    Tube {
+        /// The seam.
+        seam: Seam,
+        /// The closing conditions that are kept.
+        kept: SeamKept,
+    },
 }
 
 impl Boundary {
     /// Whether opposite sides of the tiling are joined.
     pub fn is_periodic(self) -> bool {
         self != Self::Patch
+    }
+
+    /// Whether the model is one cell, whose copies are moved by screw motions.
+    pub fn is_one_cell(self) -> bool {
+        matches!(self, Self::Screw | Self::Tube { .. })
     }
 }
 
@@ -45,6 +57,9 @@ pub struct Drawn {
     /// Point of the file that is the origin of the domain's frame: vertex 0 for a screw, otherwise the file's origin,
     /// or the sheet's first vertex if the sheet is far from the file's origin.
     pub origin: Vec3,
+    /// Chords from vertex 0 to its two copies in the file, if the drawn state here is another one: that of a tube. Strains
+    /// are relative to them.
+    pub chords: Option<[Vec3; 2]>,
 }
 
 impl Drawn {
@@ -61,7 +76,7 @@ impl Drawn {
             (Boundary::Screw, Some(lattice)) => return Self::screw(sheet, lattice, axis),
             _ => (Domain::Patch, flat(&positions)),
         };
-        Self { domain, coordinates, held: vec![], frame, origin }
+        Self { domain, coordinates, held: vec![], frame, origin, chords: None }
     }
 
     /// Makes the drawn state of a screw: vertex 0 at the origin, the first lattice vector along x, the face normals
@@ -69,7 +84,7 @@ impl Drawn {
     fn screw(sheet: &Sheet, [l1, l2]: [Vec3; 2], axis: f64) -> Self {
         let along = l1.normalize();
         let across = l1.cross(&l2);
-        let z = if across.dot(&area_vector(sheet)) < 0.0 { -across.normalize() } else { across.normalize() };
+        let z = if sheet.is_counterclockwise() { across.normalize() } else { -across.normalize() };
         let frame = Matrix3::from_rows(&[along.transpose(), z.cross(&along).transpose(), z.transpose()]);
         let origin = sheet.vertices[0];
         let mut coordinates: Vec<f64> =
@@ -77,7 +92,7 @@ impl Drawn {
         let (l1, l2) = (frame * l1, frame * l2);
         let held = vec![0, 1, 2, coordinates.len() + 2];
         coordinates.extend([axis, 0.0, l1.y, l2.y, l1.x, l2.x]);
-        Self { domain: Domain::Screw, coordinates, held, frame, origin }
+        Self { domain: Domain::Screw, coordinates, held, frame, origin, chords: None }
     }
 
     /// Returns the distance between two sites.
@@ -115,13 +130,4 @@ fn near_origin(sheet: &Sheet, tiling: &Tiling) -> (Vec<Vec3>, Vec3) {
         (sheet.vertices[vertex] - first) + c1 * l1 + c2 * l2
     };
     ((0..tiling.positions.len()).map(place).collect(), first)
-}
-
-/// Returns the sum of the area vectors of the triangles, which points to the side of the face normals.
-fn area_vector(sheet: &Sheet) -> Vec3 {
-    let area = |corners: [Corner; 3]| {
-        let [a, b, c] = corners.map(|corner| sheet.position(corner));
-        (b - a).cross(&(c - a))
-    };
-    sheet.triangles.iter().map(|t| area(t.corners)).sum()
 }

@@ -5,6 +5,7 @@ use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
 use super::boundary::Boundary;
 use super::part::Part;
+use super::roll::Roll;
 use super::stiffness::Stiffness;
 use super::terms::{Bars, Hinges, RIGID, RestLengths, Terms};
 use crate::math::Vec3;
@@ -49,6 +50,12 @@ impl Assembly {
     pub fn screw(sheet: Sheet, cells: [usize; 2]) -> Builder {
         Builder::new(sheet, cells, Boundary::Screw)
     }
+
+    /// Begins a tube from the state to which a sheet was [rolled up](crate::rolled_up); pictures show `cells[0]` of its strands
+    /// and `cells[1]` rows of cells.
+    pub fn tube(sheet: Sheet, roll: Roll, cells: [usize; 2]) -> Builder {
+        Builder { roll: Some(roll.clone()), ..Builder::new(sheet, cells, roll.boundary()) }
+    }
 }
 
 /// A vertex of a cell, and that cell.
@@ -61,6 +68,7 @@ pub struct Builder {
     sheet: Sheet,
     cells: [usize; 2],
     boundary: Boundary,
+    roll: Option<Roll>,
     given: Given,
 }
 
@@ -82,7 +90,7 @@ struct Given {
 
 impl Builder {
     pub(super) fn new(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Self {
-        Self { sheet, cells, boundary, given: Given::default() }
+        Self { sheet, cells, boundary, roll: None, given: Given::default() }
     }
 
     /// Gives every edge a bar of stiffness `EA`, in force per strain; [`RIGID`] keeps its length exactly. The stiffness
@@ -174,8 +182,11 @@ impl Builder {
     /// positive number, rest values are given without a stiffness, the length of a list does not match the tiling, a
     /// crease or a vertex does not exist, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
-        let Self { sheet, cells, boundary, given } = self;
-        let bare = Assembly::without_terms(sheet, cells, boundary)?;
+        let Self { sheet, cells, boundary, roll, given } = self;
+        let bare = match roll {
+            Some(roll) => Assembly::tube_without_terms(sheet, &roll, cells)?,
+            None => Assembly::without_terms(sheet, cells, boundary)?,
+        };
         let creases = match (given.creases, given.rest) {
             (None, Some(_)) => return Err(AssemblyError::RestWithoutCreases),
             (None, None) => None,

@@ -1,9 +1,10 @@
 //! Domains: the maps from the coordinates of a state to the points of an element, and the chain rule through them.
 //!
 //! The coordinates of a state are three for each vertex, followed by the *shared* coordinates of the domain: none for
-//! a patch or a torus with fixed lattice, the six components of the lattice vectors for a free torus, and `direction,
-//! kappa, y1, y2, x1, x2` for a screw, with the lattice vectors `l1 = (x1, y1)` and `l2 = (x2, y2)`. A point of an
-//! element is a vertex of some cell, a [`Site`].
+//! a patch or a torus with fixed lattice, the six components of the lattice vectors for a free torus, `direction,
+//! kappa, y1, y2, x1, x2` for a screw, with the lattice vectors `l1 = (x1, y1)` and `l2 = (x2, y2)`, and turn and
+//! translation from one row of cells to the next for a tube about the z axis. A point of an element is a vertex of some
+//! cell, a [`Site`].
 //!
 //! A screw repeats the cell by commuting screw motions about an axis parallel to the plane of x and y, in a form that
 //! stays regular when the axis goes to infinity. Let `e` be the direction of the axis, at the angle `direction` from
@@ -20,15 +21,18 @@
 mod recentre;
 mod screw;
 mod shared;
+mod tube;
 
 use crate::math::Vec3;
 use crate::math::taylor::{Path, Taylor};
 pub use crate::sheet::tiling::Site;
+use crate::sheet::{Seam, SeamKept};
 use nalgebra::{Matrix3, SMatrix, SVector};
 use recentre::{raise_axis, turn_back, unwind};
 use screw::ScrewMotion;
 pub(crate) use shared::{MOST_SHARED, Turns};
 use shared::{Pulled, SharedMatrix};
+use tube::TubeMotion;
 
 /// The map from the coordinates of a state to points; see the module's page for the coordinates of each kind.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +45,15 @@ pub enum Domain {
     FreeTorus,
     /// One cell repeated by commuting screw motions about an axis parallel to the plane of x and y.
     Screw,
+    /// One cell repeated about the z axis, closed along a seam.
+    Tube {
+        /// The seam.
+        seam: Seam,
+        /// The closing conditions that hold identically; a shared coordinate is free for each of the others.
+        kept: SeamKept,
+        /// Whether the drawn lattice vectors turn counter-clockwise seen from the side of the face normals.
+        counterclockwise: bool,
+    },
 }
 
 /// Least curvature, in units of the inverse of the unit length, that is used for the unit of the axis direction: near
@@ -59,6 +72,7 @@ impl Domain {
         match self {
             Self::Patch | Self::FixedTorus(_) => 0,
             Self::FreeTorus | Self::Screw => 6,
+            Self::Tube { kept, .. } => 2 + kept.free(),
         }
     }
 
@@ -81,6 +95,7 @@ impl Domain {
                 v + n1 * Vec3::from_column_slice(&shared[..3]) + n2 * Vec3::from_column_slice(&shared[3..])
             }
             Self::Screw => ScrewMotion::new(shared, site).at(&v).point(),
+            Self::Tube { seam, kept, .. } => TubeMotion::new(seam, *kept, shared, site.shift).point(&v),
         }
     }
 
@@ -100,6 +115,11 @@ impl Domain {
                 vertex_part = at.vertex_derivative();
                 shared_part = at.shared_derivative();
             }
+            Self::Tube { seam, kept, .. } => {
+                let motion = TubeMotion::new(seam, *kept, self.shared_of(x), site.shift);
+                vertex_part = motion.vertex_derivative();
+                shared_part = motion.shared_derivative(&vertex(x, site));
+            }
         }
         Placed { vertex: vertex_part, shared: shared_part }
     }
@@ -113,7 +133,7 @@ impl Domain {
     }
 
     /// Returns the Taylor series of a site along the path `x[0] + a x[1] + a^2 x[2]` of all coordinates. It is not
-    /// valid for screws, whose maps are not linear in the coordinates.
+    /// valid for screws and tubes, whose maps are not linear in the coordinates.
     pub(crate) fn path(&self, x: &[&[f64]; 3], site: Site) -> Path {
         let start = self.point(x[0], site);
         let [first, second] = [x[1], x[2]].map(|rates| self.velocity(x[0], site, rates));
@@ -167,16 +187,9 @@ impl Domain {
                 add(&mut pulled, (D, D), left.shared.transpose() * to_shared);
             }
         }
-        if matches!(self, Self::Screw) {
-            for (k, &site) in sites.iter().enumerate() {
-                let force = g.fixed_rows::<3>(3 * k).into_owned();
-                ScrewMotion::new(self.shared_of(x), site).at(&vertex(x, site)).add_curvature(
-                    &force,
-                    3 * k,
-                    D,
-                    &mut pulled,
-                );
-            }
+        for (k, &site) in sites.iter().enumerate() {
+            let (force, v) = (g.fixed_rows::<3>(3 * k).into_owned(), vertex(x, site));
+            self.add_curvature(self.shared_of(x), (site, &v), &force, (3 * k, D), &mut pulled);
         }
         lower.clear();
         for row in 0..D + self.shared() {
@@ -184,9 +197,36 @@ impl Domain {
         }
     }
 
-    /// Returns the screw motions of a state; `None` for domains without screw motions.
+    /// Adds the second derivative of `force . P` of a site's position `P`, with the blocks of its vertex and of the shared
+    /// coordinates at these places.
+    fn add_curvature(
+        &self,
+        shared: &[f64],
+        (site, v): (Site, &Vec3),
+        force: &Vec3,
+        (at, first): (usize, usize),
+        pulled: &mut Pulled,
+    ) {
+        match self {
+            Self::Screw => ScrewMotion::new(shared, site).at(v).add_curvature(force, at, first, pulled),
+            Self::Tube { seam, kept, .. } => {
+                let motion = TubeMotion::new(seam, *kept, shared, site.shift);
+                motion.add_curvature(v, force, at, (first, shared.len()), pulled);
+            }
+            Self::Patch | Self::FixedTorus(_) | Self::FreeTorus => {}
+        }
+    }
+
+    /// Returns the screw motions of a state about an axis in the plane of x and y; `None` for other domains.
     pub(crate) fn turns(&self, x: &[f64]) -> Option<Turns> {
         matches!(self, Self::Screw).then(|| Turns::new(self.shared_of(x)))
+    }
+
+    /// Returns the turns about the z axis and the translations along it of the two lattice vectors of a tube; `None` for
+    /// other domains.
+    pub(crate) fn tube_motions(&self, x: &[f64]) -> Option<[[f64; 2]; 2]> {
+        let Self::Tube { seam, kept, .. } = self else { return None };
+        Some(tube::lattice_motions(seam, *kept, self.shared_of(x)))
     }
 
     /// Sets the direction of the axis of a screw, in radians from x; all other coordinates stay. Does nothing for
@@ -215,6 +255,11 @@ impl Domain {
     /// direction by that times the curvature. The factor of the direction is therefore bounded at curvatures below
     /// [`STRAIGHT`]; above, both coordinates are found with the same error.
     pub(crate) fn units(&self, x: &[f64], length: f64) -> Vec<f64> {
+        if let Self::Tube { kept, .. } = self {
+            let (turn, shift) = (1.0 / length, 1.0);
+            let free = [(!kept.rise).then_some(shift), (!kept.turn).then_some(turn)];
+            return [turn, shift].into_iter().chain(free.into_iter().flatten()).collect();
+        }
         let Some(Turns { kappa, .. }) = self.turns(x) else { return vec![] };
         let curvature = 1.0 / (length * length);
         vec![curvature / f64::max(kappa.abs(), STRAIGHT / length), curvature, 1.0, 1.0, 1.0, 1.0]

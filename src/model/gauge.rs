@@ -27,6 +27,9 @@ pub(crate) type Motion = SVector<f64, 6>;
 pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<Motion> {
     let vertices = (x.len() - domain.shared()) / 3;
     let point = |k: usize| Vec3::from_column_slice(&x[3 * k..3 * k + 3]);
+    if let Domain::Tube { .. } = domain {
+        return tube_motions(x, domain.shared(), rotations);
+    }
     let (centre, size) = centre_and_size(domain, x);
     let turns = rotations && matches!(domain, Domain::Patch | Domain::FreeTorus);
     let turn = if turns { 1.0 / size } else { 0.0 };
@@ -39,9 +42,22 @@ pub(crate) fn rigid_motions(domain: &Domain, x: &[f64], rotations: bool) -> Vec<
             }
         }
         Domain::Screw => rows.extend([Motion::zeros(); 6]),
-        Domain::Patch | Domain::FixedTorus(_) => {}
+        Domain::Patch | Domain::FixedTorus(_) | Domain::Tube { .. } => {}
     }
     rows
+}
+
+/// Returns the same of a tube, which moves along its axis and turns about it; the shared coordinates stay.
+fn tube_motions(x: &[f64], shared: usize, rotations: bool) -> Vec<Motion> {
+    let points = || x[..x.len() - shared].chunks_exact(3).map(Vec3::from_column_slice);
+    let radius = points().map(|point| point.x.hypot(point.y)).fold(f64::MIN_POSITIVE, f64::max);
+    let turn = if rotations { 1.0 / radius } else { 0.0 };
+    let of_axis = |mut row: Motion| {
+        [0, 1, 3, 4].into_iter().for_each(|motion| row[motion] = 0.0);
+        row
+    };
+    let rows = points().flat_map(|point| rows_of(1.0, turn * point)).map(of_axis);
+    rows.chain(std::iter::repeat_n(Motion::zeros(), shared)).collect()
 }
 
 /// Returns the centroid of all vertices, and the largest distance of one from it.

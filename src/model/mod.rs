@@ -32,6 +32,7 @@ pub mod intrinsic;
 pub mod measure;
 mod part;
 mod problem;
+mod roll;
 mod stiffness;
 mod terms;
 
@@ -50,5 +51,6 @@ pub use element::{Elements, Spring, TermKind};
 pub use part::Part;
 pub use problem::driving::DrivenModel;
 pub use problem::{Gauge, Model};
+pub use roll::Roll;
 pub use stiffness::Stiffness;
 pub use terms::{Bars, Hinges, RIGID, RestLengths, Terms};

@@ -30,10 +30,15 @@ pub fn assembly(file: &SceneFile) -> Result<Assembly, SceneError> {
 pub fn assembly_of(file: &SceneFile, sheet: Sheet) -> Result<Assembly, SceneError> {
     let boundary = boundary(file, &sheet)?;
     super::memory::check(file, &sheet)?;
-    let bare = Assembly::without_terms(sheet, file.scene.sheet.cells(), boundary);
+    let cells = file.scene.sheet.cells();
+    let bare = match super::rolled::roll(file, &sheet)? {
+        Some(roll) => Assembly::tube_without_terms(sheet, &roll, cells),
+        None => Assembly::without_terms(sheet, cells, boundary),
+    };
     let bare = bare.map_err(|error| file.error_at(0..0, error.to_string(), "see [sheet]"))?;
     let reader = Reader::new(file, &bare);
     let assembly = bare.with_terms(reader.terms()?).with_best_axis();
+    super::rolled::polygons_bend(file, &assembly)?;
     drives::check_all(file, &assembly)?;
     reader.balance(&assembly)?;
     Ok(assembly)
@@ -120,7 +125,8 @@ fn boundary(file: &SceneFile, sheet: &Sheet) -> Result<Boundary, SceneError> {
         DomainSpec::Patch => return Ok(Boundary::Patch),
         DomainSpec::Torus if spec.lattice() == Lattice::Fixed => Boundary::FixedTorus,
         DomainSpec::Torus => Boundary::FreeTorus,
-        DomainSpec::Screw => Boundary::Screw,
+        // the roll of a tube says its boundary conditions
+        DomainSpec::Screw | DomainSpec::Tube => Boundary::Screw,
     };
     if sheet.lattice.is_some() {
         return Ok(periodic);

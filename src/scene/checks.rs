@@ -43,10 +43,41 @@ fn sheet(file: &SceneFile) -> Checked {
         let help = "it belongs to mesh = \"file.fold\"; leave it out otherwise";
         return Err(file.error_at(frame.span(), "`frame` is given for a pattern", help));
     }
+    of_tube(file)?;
     match &sheet.lattice {
         Some(lattice) if sheet.domain() != DomainSpec::Torus => {
             let help = "it belongs to domain = \"torus\"; leave it out otherwise";
             Err(file.error_at(lattice.span(), format!("`lattice` is given for a {}", domain_name(file)), help))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Checks that a tube has a seam and shows no more strands than it has, and that the keys of tubes are given for tubes only.
+fn of_tube(file: &SceneFile) -> Checked {
+    let sheet = &file.scene.sheet;
+    if sheet.domain() != DomainSpec::Tube {
+        let given = [
+            ("seam", sheet.seam.as_ref().map(Located::span)),
+            ("closing", sheet.closing.as_ref().map(Located::span)),
+            ("inwards", sheet.inwards.as_ref().map(Located::span)),
+        ];
+        let Some((key, span)) = given.into_iter().find_map(|(key, span)| Some((key, span?))) else { return Ok(()) };
+        let help = "it belongs to domain = \"tube\"; leave it out otherwise";
+        return Err(file.error_at(span, format!("`{key}` is given for a {}", domain_name(file)), help));
+    }
+    let Some(seam) = sheet.seam.as_ref() else {
+        let span = sheet.domain.as_ref().map_or(0..0, Located::span);
+        let help = "give seam = [n1, n2], the cell that lies on cell [0, 0] when the sheet is rolled up";
+        return Err(file.error_at(span, "a tube without a seam", help));
+    };
+    let strands = seam.usual_cells()[0];
+    match &sheet.cells {
+        Some(cells) if cells.0[0] > strands => {
+            let [n1, n2] = seam.0;
+            let message = format!("a tube with the seam [{n1}, {n2}] has no {} strands", cells.0[0]);
+            let help = format!("the first number is at most {strands}, the greatest common divisor of the seam");
+            Err(file.error_at(cells.span(), message, help))
         }
         _ => Ok(()),
     }
@@ -63,6 +94,7 @@ fn domain_name(file: &SceneFile) -> &'static str {
         DomainSpec::Screw => "screw domain",
         DomainSpec::Patch => "patch",
         DomainSpec::Torus => "torus",
+        DomainSpec::Tube => "tube",
     }
 }
 

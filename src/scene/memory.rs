@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::spec::{DomainSpec, MapSpec, StudyKind, StudySpec};
+use super::spec::{MapSpec, StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::sheet::Sheet;
 
@@ -43,12 +43,12 @@ pub(super) fn check(file: &SceneFile, sheet: &Sheet) -> Result<(), SceneError> {
     let span = || spec.cells.as_ref().map_or(0..0, Located::span);
     let cells = if sheet.lattice.is_none() { [1, 1] } else { spec.cells() };
     let vertices = cells.iter().fold(sheet.vertices.len() as u64, |product, &n| product.saturating_mul(n as u64));
-    let whose = if spec.domain() == DomainSpec::Screw { "the pictures have" } else { "the model has" };
+    let whose = if spec.is_one_cell() { "the pictures have" } else { "the model has" };
     if vertices > MOST_VERTICES {
         let message = format!("{whose} {vertices} vertices");
         return Err(file.error_at(span(), message, format!("at most {MOST_VERTICES} can be indexed")));
     }
-    let relaxed = spec.domain() != DomainSpec::Screw && file.scene.studies.iter().any(|study| relaxes(&study.kind));
+    let relaxed = !spec.is_one_cell() && file.scene.studies.iter().any(|study| relaxes(&study.kind));
     let each = TILED_VERTEX + if relaxed { RELAXED_VERTEX } else { 0 };
     let model =
         Need { what: format!("{whose} {vertices} vertices"), bytes: vertices * each, key: "cells", span: span() };

@@ -18,6 +18,7 @@ pub(crate) mod outputs;
 mod parse;
 mod places;
 pub(crate) mod rest;
+mod rolled;
 pub(crate) mod rows;
 mod schema;
 mod setting;

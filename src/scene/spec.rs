@@ -12,7 +12,8 @@ mod vertices;
 use super::Located;
 use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Fraction, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Fraction, SeamCell, Triple};
+use crate::sheet::SeamKept;
 use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -72,9 +73,16 @@ pub struct SheetSpec {
     /// Boundary conditions; left out: `patch`.
     pub domain: Option<Located<DomainSpec>>,
     /// Patch and torus: cells of the model, [1, 1] when left out. Screw: cells of the pictures, [6, 6] when left out.
+    /// Tube: strands and rows of the pictures; left out: all strands, and as many rows as make it about as long as wide.
     pub cells: Option<Located<Cells>>,
     /// Torus only: whether the lattice vectors are unknowns (`free`, when left out) or stay as drawn (`fixed`).
     pub lattice: Option<Located<Lattice>>,
+    /// Tube only: the cell [n1, n2] that coincides with cell [0, 0].
+    pub seam: Option<Located<SeamCell>>,
+    /// Tube only: the closing conditions that hold; left out: `both`.
+    pub closing: Option<Located<ClosingSpec>>,
+    /// Tube only: whether the sheet is rolled up towards its face normals (when left out) or away from them (`false`).
+    pub inwards: Option<Located<bool>>,
 }
 
 /// Where the cell's neighbours are.
@@ -89,6 +97,22 @@ pub enum DomainSpec {
     Patch,
     /// n1 x n2 cells, spatially periodic.
     Torus,
+    /// One cell repeated about an axis: the sheet rolled up and closed along a seam.
+    Tube,
+}
+
+/// The closing conditions of a tube.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[schemars(rename = "Closing")]
+#[serde(rename_all = "lowercase")]
+pub enum ClosingSpec {
+    /// Both: n1 theta1 + n2 theta2 = 2 pi and n1 h1 + n2 h2 = 0.
+    #[default]
+    Both,
+    /// That of the angle alone: the seam slips along itself.
+    Turn,
+    /// That of the height alone: the tube opens or overlaps.
+    Rise,
 }
 
 /// Lattice vectors of a torus.
@@ -113,8 +137,23 @@ impl SheetSpec {
         match (self.cells.as_deref(), self.domain()) {
             (Some(cells), _) => cells.0,
             (None, DomainSpec::Screw) => [6, 6],
+            (None, DomainSpec::Tube) => self.seam.as_ref().map_or([1, 1], |seam| seam.usual_cells()),
             (None, DomainSpec::Patch | DomainSpec::Torus) => [1, 1],
         }
+    }
+
+    /// The closing conditions that a tube keeps.
+    pub(crate) fn seam_kept(&self) -> SeamKept {
+        match self.closing.as_deref().copied().unwrap_or_default() {
+            ClosingSpec::Both => SeamKept::BOTH,
+            ClosingSpec::Turn => SeamKept { turn: true, rise: false },
+            ClosingSpec::Rise => SeamKept { turn: false, rise: true },
+        }
+    }
+
+    /// Whether the model is one cell, and `cells` those of pictures.
+    pub(crate) fn is_one_cell(&self) -> bool {
+        matches!(self.domain(), DomainSpec::Screw | DomainSpec::Tube)
     }
 
     /// Whether the lattice vectors of a torus are unknowns.

@@ -10,7 +10,7 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use thiserror::Error;
 
-use crate::sheet::{Corner, EdgeKey};
+use crate::sheet::{Corner, EdgeKey, Seam};
 
 /// The reasons for which a value of a scene is refused.
 #[derive(Debug, Error)]
@@ -36,6 +36,9 @@ pub enum ValueError {
     /// A number of cells is less than one.
     #[error("there are {0} x {1} cells, expected at least 1 in either direction")]
     NoCells(i64, i64),
+    /// A seam goes nowhere, or too far.
+    #[error("there is no tube with the seam [{0}, {1}], expected whole numbers of at most 1000, not both 0")]
+    NoSeam(i64, i64),
     /// There are more cells than can be numbered.
     #[error("{0} x {1} cells are more than can be numbered, expected at most {max} in all", max = Cells::MOST)]
     TooManyCells(i64, i64),
@@ -245,6 +248,35 @@ impl TryFrom<Exactly<i64, 2>> for Cells {
             Some(count) if count <= Self::MOST => Ok(Self([n1 as usize, n2 as usize])),
             _ => Err(ValueError::TooManyCells(n1, n2)),
         }
+    }
+}
+
+/// The seam of a tube: the cell that coincides with cell (0, 0).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(try_from = "Exactly<i64, 2>")]
+#[schemars(extend("items" = { "type": "integer", "minimum": -1000, "maximum": 1000 }))]
+pub struct SeamCell(pub [i32; 2]);
+
+impl SeamCell {
+    /// Largest number of cells along a seam, in each lattice direction.
+    const MOST: i64 = 1000;
+
+    /// All strands, and as many rows as make a tube about as long as it is wide.
+    pub(crate) fn usual_cells(self) -> [usize; 2] {
+        let strands = Seam::new(self.0).map_or(1, |seam| seam.strands() as usize);
+        let around: usize = self.0.iter().map(|n| n.unsigned_abs() as usize).sum();
+        [strands, (6 * around).div_ceil(strands)]
+    }
+}
+
+impl TryFrom<Exactly<i64, 2>> for SeamCell {
+    type Error = ValueError;
+
+    fn try_from(Exactly([n1, n2]): Exactly<i64, 2>) -> Result<Self, ValueError> {
+        if (n1, n2) == (0, 0) || n1.abs() > Self::MOST || n2.abs() > Self::MOST {
+            return Err(ValueError::NoSeam(n1, n2));
+        }
+        Ok(Self([n1 as i32, n2 as i32]))
     }
 }
 

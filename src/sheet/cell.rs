@@ -222,6 +222,17 @@ impl Sheet {
         self.targets.get(key).copied().or_else(of_letter).filter(|angle| *angle != 0.0)
     }
 
+    /// Whether the drawn lattice vectors turn counter-clockwise seen from the side of the face normals; true for a finite
+    /// sheet.
+    pub(crate) fn is_counterclockwise(&self) -> bool {
+        let area = |corners: [Corner; 3]| {
+            let [a, b, c] = corners.map(|corner| self.position(corner));
+            (b - a).cross(&(c - a))
+        };
+        let normal: Vec3 = self.triangles.iter().map(|triangle| area(triangle.corners)).sum();
+        self.lattice.is_none_or(|[l1, l2]| !(l1.cross(&l2).dot(&normal) < 0.0))
+    }
+
     /// Returns the position of a corner in the drawn state.
     pub fn position(&self, corner: Corner) -> Vec3 {
         let home = self.vertices[corner.vertex];

@@ -336,7 +336,7 @@ fn moving_picture(context: &Context<'_>, folded: Option<&Vec<f64>>, mode: &ModeS
 /// for the drawn state.
 fn theta(assembly: &Assembly, ground: &Ground) -> Option<[f64; 2]> {
     let x = ground.folded.as_ref()?;
-    cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, x).map(|cylinder| cylinder.theta)
+    cylinder(assembly.drawn(), x).map(|cylinder| cylinder.theta)
 }
 
 /// Returns `(q1, kappa2, whether on the circle)` of all roots at many wavenumbers, without those at which the

@@ -25,7 +25,9 @@ pub(crate) fn check(context: &Context<'_>, spec: &LandscapeSpec) -> Result<(), S
     let torus = match assembly.boundary() {
         Boundary::Patch => false,
         Boundary::FixedTorus | Boundary::FreeTorus => true,
-        Boundary::Screw => return refuse("a landscape needs cells around its own", "use domain = \"patch\""),
+        Boundary::Screw | Boundary::Tube { .. } => {
+            return refuse("a landscape needs cells around its own", "use domain = \"patch\"");
+        }
     };
     if assembly.sheet().lattice.is_none() {
         return refuse("a finite sheet has no uniform modes", "give the mesh a lattice");

@@ -37,6 +37,7 @@ mod strip;
 mod supported;
 mod surface;
 mod trace;
+mod tube;
 mod wells;
 
 use crate::scene::spec::StudyKind;
@@ -50,6 +51,7 @@ pub use surface::left_out;
 /// # Errors
 /// [`StudyError`] with the place in the scene and a proposed correction.
 pub fn check(context: &Context<'_>) -> Result<(), StudyError> {
+    tube::check(context)?;
     if !matches!(*context.study.kind, StudyKind::Relax(_) | StudyKind::Path(_) | StudyKind::Wells(_)) {
         supported::no_parts(context)?;
     }

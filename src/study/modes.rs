@@ -8,7 +8,7 @@ use crate::analysis::modes::{Modes, SPARSE_EIGENVALUES, decomposed_dense, modes_
 use crate::model::Gauge;
 use crate::output::figure::rounded;
 use crate::output::picture::Picture;
-use crate::output::summary::{ModesSummary, StudyResult};
+use crate::output::summary::{ModesSummary, SeamMotionsSummary, StudyResult};
 use crate::output::table::{Table, Value};
 use crate::scene::spec::ModesSpec;
 
@@ -62,6 +62,14 @@ fn summary(modes: &Modes) -> ModesSummary {
         maxwell_count: modes.maxwell_count,
         gap: modes.gap,
         eigenvalues: modes.eigenvalues.clone(),
+        seam: modes.seam.map(|found| SeamMotionsSummary {
+            seam: found.seam,
+            free: found.free,
+            turn: found.turn,
+            rise: found.rise,
+            both: found.both,
+            gap: Some(found.gap).filter(|gap| gap.is_finite()),
+        }),
     }
 }
 

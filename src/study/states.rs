@@ -46,7 +46,7 @@ pub(crate) fn table_of_rows(context: &Context<'_>, rows: &[StateRow]) -> Table {
 
 fn row(context: &Context<'_>, step: usize, shown: &Shown) -> StateRow {
     let (assembly, state) = (context.assembly, &shown.state);
-    let shape = cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, &state.coordinates);
+    let shape = cylinder(assembly.drawn(), &state.coordinates);
     let of = |get: fn(&Cylinder) -> f64| shape.as_ref().map(get);
     StateRow {
         step: Some(step as i64),

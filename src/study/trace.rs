@@ -310,7 +310,7 @@ fn row(
 ) -> StateRow {
     let shape = match along {
         None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
-        Some(_) => cylinder(&assembly.drawn().domain, &assembly.drawn().coordinates, &state.coordinates)
+        Some(_) => cylinder(assembly.drawn(), &state.coordinates)
             .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
     };
     let branch = path.traced.branch;

@@ -8,7 +8,8 @@
 //!   are among them. Without end, every curved
 //!   screw-periodic sheet winds round and meets itself: whether a tube closes on itself is a question about a number of cells. To
 //!   see it, draw a whole turn: `n` cells of rotation angle `theta` with `n |theta|` above 2 pi. Six cells, which are drawn when the
-//!   scene says nothing, show a cell among its neighbours.
+//!   scene says nothing, show a cell among its neighbours;
+//! - a **tube**: the rows of cells that are drawn, joined at the seam, where faces are neighbours as anywhere else.
 //!
 //! Fold angles are continued through pi, so an angle beyond it says that the two faces of a hinge have gone through each
 //! other on the way. Their positions alone do not show that (they are those of the opposite fold), hence it is asked of the
@@ -54,8 +55,11 @@ impl SelfIntersection {
         let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
         let drawn = ShownCells::new(assembly);
         let around = if is_torus(assembly.boundary()) { NEIGHBOURS } else { 0 };
-        let view =
-            ShownCells::of_cells(sheet, tiling, drawn.patch.cells.map(|n| n + 2 * around), [-(around as i32); 2]);
+        let view = if around == 0 {
+            ShownCells::new(assembly)
+        } else {
+            ShownCells::of_cells(sheet, tiling, drawn.patch.cells.map(|n| n + 2 * around), [-(around as i32); 2])
+        };
         let numbers: HashMap<(usize, [i32; 2]), usize> =
             view.patch.triangles.iter().enumerate().map(|(k, t)| ((t.triangle, t.cell), k)).collect();
         let number = |triangle: usize, cell: [i32; 2]| numbers[&(triangle, cell.map(|c| c + around as i32))];

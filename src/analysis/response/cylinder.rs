@@ -153,7 +153,7 @@ impl<'a> Rolled<'a> {
     fn lattice(&self) -> LatticeMotions {
         let drawn = self.assembly.drawn();
         let back = drawn.frame.transpose();
-        let [curvature, theta1, theta2] = cylinder(&drawn.domain, &drawn.coordinates, &self.coordinates)
+        let [curvature, theta1, theta2] = cylinder(drawn, &self.coordinates)
             .map_or([0.0; 3], |found| [found.curvature, found.theta[0], found.theta[1]]);
         let larger = usize::from(theta2.abs() > theta1.abs());
         let turned = (self.turns.theta[larger] / TAU).round() * TAU;

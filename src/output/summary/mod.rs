@@ -22,7 +22,7 @@ pub use bloch::{BlochSummary, DecaySummary, RegionSummary, StripSummary, ZeroLin
 pub use branches::{BranchesSummary, RaySummary};
 pub use json::to_json;
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
-pub use modes::ModesSummary;
+pub use modes::{ModesSummary, SeamMotionsSummary};
 pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
 pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
 pub use response::{

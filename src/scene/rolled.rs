@@ -1,0 +1,45 @@
+//! The tube of a scene: its sheet rolled up until it closes along the seam.
+
+use super::spec::DomainSpec;
+use super::{SceneError, SceneFile};
+use crate::analysis::tube::rolled_up;
+use crate::kinematics::KinematicsError;
+use crate::model::{Assembly, Boundary, Roll};
+use crate::sheet::Sheet;
+
+/// Returns the start of the tube of a scene; `None` for other domains.
+///
+/// # Errors
+/// [`SceneError`] if the sheet cannot be rolled up until it closes along its seam.
+pub(super) fn roll(file: &SceneFile, sheet: &Sheet) -> Result<Option<Roll>, SceneError> {
+    let spec = &file.scene.sheet;
+    let (DomainSpec::Tube, Some(seam)) = (spec.domain(), &spec.seam) else { return Ok(None) };
+    let inwards = spec.inwards.as_deref().copied().unwrap_or(true);
+    match rolled_up(sheet, seam.0, spec.seam_kept(), inwards) {
+        Ok(roll) => Ok(Some(roll)),
+        Err(error) => Err(file.error_at(seam.span(), error.to_string(), help(&error, inwards))),
+    }
+}
+
+/// Checks that no polygon of a tube is rigid: rolling the sheet up bends them all.
+pub(super) fn polygons_bend(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
+    let tube = matches!(assembly.boundary(), Boundary::Tube { .. });
+    if !tube || assembly.rigid_facets_of_cell().is_empty() {
+        return Ok(());
+    }
+    let span = file.scene.sheet.seam.as_ref().map_or(0..0, |seam| seam.span());
+    let help = "give `facets` in [energy] a finite stiffness, so that polygons bend, or split them into triangles";
+    Err(file.error_at(span, "a sheet with rigid polygons is not rolled up", help))
+}
+
+/// Returns what may be done about a sheet that cannot be rolled up.
+fn help(error: &KinematicsError, inwards: bool) -> String {
+    match error {
+        KinematicsError::NoTube { .. } => {
+            format!("give a longer seam, or roll it up the other way: inwards = {}", !inwards)
+        }
+        _ => {
+            "a tube is made of a periodic sheet that is drawn folded and has one way to bend along its seam".to_owned()
+        }
+    }
+}
