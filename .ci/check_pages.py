@@ -49,6 +49,7 @@ FIGURES = {
     "resch-folded": "resch-folded/folded",
     "square-twist": "square-twist/folded",
     "star": "star/relaxed",
+    "star-tube": "star-tube/relaxed",
     "star-bloch": "star-bloch/modes",
     "star-cylinder-bloch": "star-cylinder-bloch/modes",
     "star-landscape": "star-landscape/modes",

@@ -95,6 +95,33 @@ class Assembly:
         return cls._build(sheet, {"domain": "screw", "cells": cells}, terms)
 
     @classmethod
+    def tube(
+        cls,
+        sheet: Sheet,
+        seam: tuple[int, int],
+        cells: tuple[int, int] | None = None,
+        *,
+        closing: str = "both",
+        inwards: bool = True,
+        **terms: Any,
+    ) -> Assembly:
+        """Makes a tube: the sheet rolled up and closed so that the cell `seam` lies on cell (0, 0).
+
+        Args:
+            sheet: The sheet, drawn spatially periodic and folded.
+            seam: The cell (n1, n2).
+            cells: Strands and rows of cells of pictures. Left out: all strands, and rows for about the width of the tube.
+            closing: The closing conditions that hold: "both", "turn" (the seam slips) or "rise" (the tube opens or overlaps).
+            inwards: Whether the sheet is rolled up towards its face normals.
+            terms: As in `patch`, without pins, loads and parts.
+
+        Raises:
+            SceneError: the sheet cannot be rolled up until it closes.
+        """
+        place = {"domain": "tube", "seam": seam, "closing": closing, "inwards": inwards}
+        return cls._build(sheet, place if cells is None else {**place, "cells": cells}, terms)
+
+    @classmethod
     def from_scene(
         cls, scene: str | os.PathLike[str] | Table, *, set: Table | None = None, base: str | os.PathLike[str] = ""
     ) -> Assembly:

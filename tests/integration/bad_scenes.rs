@@ -105,12 +105,21 @@ const FAULTS: &[Fault] = &[
     fault(3, "", "2:1", "the sheet has neither a mesh nor a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
     fault(3, "mesh = \"a.fold\"\ngenerate = { pattern = \"miura\" }", "4:12", "the sheet has both a mesh and a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
     fault(3, "mesh = 3", "3:8", "invalid type: integer `3`", "expected a path in quotes"),
-    fault(4, "domain = \"tube\"", "4:10", "unknown word `tube`", "expected one of `screw`, `patch`, `torus`"),
+    fault(4, "domain = \"pipe\"", "4:10", "unknown word `pipe`", "expected one of `screw`, `patch`, `torus`, `tube`"),
     fault(5, "cells = [0, 6]", "5:9", "there are 0 x 6 cells", "expected at least 1 in either direction"),
     fault(5, "cells = [4, 6, 2]", "5:9", "the list has 3 values", "expected 2"),
     fault(5, "cells = [4000000000, 4000000000]", "5:9", "4000000000 x 4000000000 cells are more than can be numbered", "expected at most 2147483647 in all"),
     fault(5, "cells = [99999999999999999999, 1]", "5:10", "invalid type: integer `99999999999999999999` as i128", "expected a whole number"),
-    fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "the keys here are `mesh`, `frame`, `generate`, `domain`, `cells`, `lattice`"),
+    fault(5, "cell = [4, 6]", "5:1", "unknown key `cell`", "the keys here are `mesh`, `frame`, `generate`, `domain`, `cells`, `lattice`, `seam`, `closing`, `inwards`"),
+    fault(4, "domain = \"tube\"", "4:10", "a tube without a seam", "give seam = [n1, n2], the cell that lies on cell [0, 0] when the sheet is rolled up"),
+    fault(4, "domain = \"tube\"\nseam = [0, 0]", "5:8", "there is no tube with the seam [0, 0]", "expected whole numbers of at most 1000, not both 0"),
+    fault(4, "domain = \"tube\"\nseam = [0, 1001]", "5:8", "there is no tube with the seam [0, 1001]", "expected whole numbers of at most 1000, not both 0"),
+    fault(4, "domain = \"tube\"\nseam = [1, 8]", "6:9", "a tube with the seam [1, 8] has no 4 strands", "the first number is at most 1, the greatest common divisor of the seam"),
+    fault(4, "domain = \"tube\"\nseam = [0, 8]\nlattice = \"free\"", "6:11", "`lattice` is given for a tube", "it belongs to domain = \"torus\"; leave it out otherwise"),
+    fault(4, "domain = \"torus\"\nseam = [0, 8]", "5:8", "`seam` is given for a torus", "it belongs to domain = \"tube\"; leave it out otherwise"),
+    fault(4, "domain = \"screw\"\nclosing = \"turn\"", "5:11", "`closing` is given for a screw domain", "it belongs to domain = \"tube\"; leave it out otherwise"),
+    fault(4, "domain = \"patch\"\ninwards = true", "5:11", "`inwards` is given for a patch", "it belongs to domain = \"tube\"; leave it out otherwise"),
+    fault(4, "domain = \"tube\"\nseam = [0, 8]\nclosing = \"none\"", "6:11", "unknown word `none`", "expected one of `both`, `turn`, `rise`"),
     fault(5, "cells = [4, 6]\nlattice = \"free\"", "6:11", "`lattice` is given for a patch", "it belongs to domain = \"torus\"; leave it out otherwise"),
     fault(4, "domain = \"screw\"", "14:10", "a load on a screw domain", "loads and pins need domain = \"patch\""),
     // the energy
@@ -262,6 +271,10 @@ const MISFITS: &[Misfit] = &[
     misfit("[sheet]\ngenerate = { pattern = \"crane\" }", "2:12", "unknown variant `crane`", "see `foldwell new --help` for the patterns"),
     misfit("[sheet]\ngenerate = { fold = 0.1 }", "2:12", "missing field `pattern`", "see `foldwell new --help` for the patterns"),
     misfit("[sheet]\nmesh = \"star.fold\"\ncells = [40000, 40000]", "3:9", "the model has 6400000000 vertices", "at most 30000000 can be indexed"),
+    misfit("[sheet]\nmesh = \"finite.fold\"\ndomain = \"tube\"\nseam = [0, 8]", "3:10", "the mesh has no lattice", "a finite sheet has domain \"patch\""),
+    misfit("[sheet]\nmesh = \"star.fold\"\ndomain = \"tube\"\nseam = [0, 1]", "4:8", "no tube along [0, 1]: rolled up as far as it goes", "give a longer seam, or roll it up the other way: inwards = false"),
+    misfit("[sheet]\ngenerate = { pattern = \"eggbox\" }\ndomain = \"tube\"\nseam = [0, 8]", "4:8", "curvatures do not name a mode of this sheet", "a tube is made of a periodic sheet that is drawn folded"),
+    misfit("[sheet]\ngenerate = { pattern = \"random\", size = [2, 2] }\ndomain = \"tube\"\nseam = [0, 1]\ninwards = false", "4:8", "no tube along [0, 1]", "give a longer seam, or roll it up the other way: inwards = true"),
     // creases, vertices, cells
     misfit("[sheet]\nmesh = \"star.fold\"\n[[lock]]\ncrease = [0, 1, 3, 0]", "4:10", "the sheet has no crease [0, 1, 3, 0]", "the creases are [0, 1, 0, 0], "),
     misfit("[sheet]\nmesh = \"star.fold\"\n[[lock]]\ncrease = [0, 9, 0, 0]", "4:10", "the sheet has no crease [0, 9, 0, 0]", "the creases are [0, 1, 0, 0], "),
@@ -381,6 +394,10 @@ fn studies_that_cannot_be_done() {
     };
     std::fs::write(folder.path().join("a.vtu"), "no picture").expect("a file");
     let creases = "creases = { stiffness = 1 }";
+    let of_tube = |study: &str| {
+        let tube = "domain = \"tube\"\nseam = [0, 8]\n[energy]\nbars = { stiffness = 1e3 }";
+        scene(creases, study).replace("[energy]", tube)
+    };
     let cases = [
         (scene("", "kind = \"relax\""), "scene.toml:7:8: there is no energy to relax"),
         (
@@ -403,6 +420,19 @@ fn studies_that_cannot_be_done() {
         (
             scene(creases, "kind = \"bloch\"").replace("mesh = \"star.fold\"", "generate = { pattern = \"miura\" }"),
             "16 conditions (bars and rigid facets) for 12 coordinates of a cell",
+        ),
+        (of_tube("kind = \"surface\""), "scene.toml:10:8: the folded states of a tube are no surface"),
+        (of_tube("kind = \"trace\""), "scene.toml:10:8: trajectories leave the drawn state, and a tube is another one"),
+        (of_tube("kind = \"branches\""), "scene.toml:10:8: branches leave the drawn state, and a tube is another one"),
+        (of_tube("kind = \"bloch\""), "scene.toml:10:8: wavenumbers around a closed tube are whole numbers"),
+        (
+            of_tube("kind = \"response\""),
+            "scene.toml:10:8: strains and curvatures of a closed tube are fixed by its seam",
+        ),
+        (of_tube("kind = \"landscape\"\nmodes = [[1, 0, 0]]\namplitudes = [0.1]"), "scene.toml:10:8: a landscape is"),
+        (
+            of_tube("kind = \"wells\"\nrigid = true"),
+            "scene.toml:10:8: the rigid states of a closed tube are single points",
         ),
         (scene(creases, "kind = \"relax\"\nstart = \"none.vtu\""), "none.vtu: "),
         (scene(creases, "kind = \"relax\"\nstart = \"a.vtu\""), "a.vtu: "),

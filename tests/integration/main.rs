@@ -79,6 +79,7 @@ mod targets;
 mod thin;
 mod touching;
 mod trace;
+mod tube_scenes;
 mod tubes;
 mod unstressed;
 mod validate;

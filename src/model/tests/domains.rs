@@ -6,6 +6,7 @@ use crate::model::measure::{FoldAngle, Length, Measure};
 use crate::model::problem::{LEFT_WING, RIGHT_WING};
 use crate::model::{Domain, Site};
 use crate::numerics::derivatives::{TOLERANCE, check_gradient, check_jacobian};
+use crate::sheet::{Seam, SeamKept};
 use std::f64::consts::TAU;
 
 /// The coordinates of four vertices of a cell, followed by the shared coordinates.
@@ -16,6 +17,11 @@ fn state(numbers: &mut Numbers, domain: &Domain, kappa: f64) -> Vec<f64> {
         Domain::Patch | Domain::FixedTorus(_) => {}
         Domain::FreeTorus => x.extend([2.0, 0.1, 0.05, 0.3, 1.9, -0.1]),
         Domain::Screw => x.extend([numbers.within(3.0), kappa, 0.2, 1.9, 2.0, 0.3]),
+        Domain::Tube { kept, .. } => {
+            x.chunks_exact_mut(3).for_each(|point| point[0] += 2.0);
+            x.extend([0.7, 0.4]);
+            x.extend([0.2, 0.9].iter().take(kept.free()));
+        }
     }
     x
 }
@@ -90,6 +96,52 @@ fn patch_and_tori() {
         for seed in 0..6 {
             let x = state(&mut Numbers::new(seed), &domain, 0.0);
             check_all(&domain, &x, &format!("{domain:?}, seed {seed}"));
+        }
+    }
+}
+
+/// Every set of closing conditions.
+const KEPT: [SeamKept; 4] = [
+    SeamKept::BOTH,
+    SeamKept { turn: true, rise: false },
+    SeamKept { turn: false, rise: true },
+    SeamKept { turn: false, rise: false },
+];
+
+fn tube(seam: [i32; 2], kept: SeamKept) -> Domain {
+    Domain::Tube { seam: Seam::new(seam).unwrap(), kept, counterclockwise: true }
+}
+
+/// Claim: they are right for tubes with every set of closing conditions, with one strand and with several. Source:
+/// extrapolated differences.
+#[test]
+fn tubes_with_every_condition() {
+    for seam in [[0, 5], [1, 4], [4, -2]] {
+        for kept in KEPT {
+            let domain = tube(seam, kept);
+            for seed in 0..3 {
+                let x = state(&mut Numbers::new(seed), &domain, 0.0);
+                check_all(&domain, &x, &format!("seam {seam:?}, {kept:?}, seed {seed}"));
+            }
+        }
+    }
+}
+
+/// Claim: on a closed tube the copy of a point in the cell of the seam is the point itself, to the last bit; motions to cells
+/// commute and add. Tolerance of the second part: rounding of numbers of size 5.
+#[test]
+fn a_closed_tube_comes_back_to_itself() {
+    for seam in [[0, 5], [1, 4], [4, -2], [-6, 3]] {
+        let domain = tube(seam, SeamKept::BOTH);
+        let x = state(&mut Numbers::new(3), &domain, 0.0);
+        for n in [[0, 0], [1, 0], [2, -1], [-3, 4]] {
+            let around = [n[0] + seam[0], n[1] + seam[1]];
+            assert_eq!(domain.point(&x, site(1, n)), domain.point(&x, site(1, around)), "{seam:?} {n:?}");
+            let mut there = x.clone();
+            let first: [f64; 3] = domain.point(&x, site(1, [1, 0])).into();
+            there[3..6].copy_from_slice(&first);
+            let sum = domain.point(&x, site(1, [n[0] + 1, n[1]]));
+            assert!((domain.point(&there, site(1, n)) - sum).norm() < 1e-13, "{seam:?} {n:?}");
         }
     }
 }
