@@ -158,6 +158,31 @@ fn nothing_to_pair() {
     assert_eq!((found.pairing_error, found.pairing_condition), (None, None));
 }
 
+/// Claim: strips that cannot be, and wavenumbers that are no numbers, are refused before anything is written.
+#[test]
+fn strips_that_cannot_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let misfit = format!("strip = {{ cells = 20, other = '{}' }}", meshes().join("kirigami.fold").display());
+    let cases = [
+        ("strip = { cells = 4 }", "has no inside"),
+        ("strip = { cells = 100000 }", "coordinates, more than"),
+        ("strip = { cells = 20, width = 1 }", "width"),
+        ("strip = { cells = 20, other = \"none.fold\" }", "none.fold"),
+        (&misfit, "do not fit"),
+        ("zero_modes_at = [[nan, 0]]", "the number is NaN"),
+    ];
+    for (keys, expected) in cases {
+        let scene = folder.path().join("scene.toml");
+        let study = format!("[[study]]\nname = \"a\"\nkind = \"bloch\"\ndraw = []\n{keys}\n");
+        std::fs::write(&scene, format!("[sheet]\ngenerate = {{ pattern = \"random\" }}\n{study}")).unwrap();
+        let out = folder.path().join("out");
+        let error = run(&scene, &out, false).unwrap_err();
+        assert_eq!(error.exit_status(), 2);
+        assert!(error.to_string().contains(expected), "{error}");
+        assert!(!out.exists());
+    }
+}
+
 /// Claim: an impossible study is refused before anything is written, and a sheet without a determinant is a study that
 /// failed.
 #[test]
@@ -170,7 +195,6 @@ fn what_cannot_be_done() {
         path
     };
     let out = folder.path().join("out");
-    let misfit = format!("strip = {{ cells = 20, other = '{}' }}", meshes().join("kirigami.fold").display());
     let cases = [
         ("generate = { pattern = \"miura\" }", "", "conditions (bars and rigid facets)"),
         ("generate = { pattern = \"kresling\" }", "", "without lattice vectors"),
@@ -180,12 +204,6 @@ fn what_cannot_be_done() {
         ("generate = { pattern = \"random\" }", "grid = [0, 8]", "0"),
         ("generate = { pattern = \"random\" }", "modes = [[0.1]]", "the list has 1 values"),
         ("generate = { pattern = \"random\" }", "kappa = 1", "kappa"),
-        ("generate = { pattern = \"random\" }", "strip = { cells = 4 }", "has no inside"),
-        ("generate = { pattern = \"random\" }", "strip = { cells = 100000 }", "coordinates, more than"),
-        ("generate = { pattern = \"random\" }", "strip = { cells = 20, width = 1 }", "width"),
-        ("generate = { pattern = \"random\" }", "strip = { cells = 20, other = \"none.fold\" }", "none.fold"),
-        ("generate = { pattern = \"random\" }", &misfit, "do not fit"),
-        ("generate = { pattern = \"random\" }", "zero_modes_at = [[nan, 0]]", "the number is NaN"),
         ("generate = { pattern = \"random\" }", "start = \"rolled\"", "no earlier study is called"),
         (
             "generate = { pattern = \"random\" }",
