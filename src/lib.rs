@@ -94,6 +94,6 @@ pub mod study;
 
 pub use analysis::relax::{Relaxed, relax};
 pub use analysis::tube::rolled_up;
-pub use model::{Assembly, Boundary, RIGID, Rest, Terms};
+pub use model::{Assembly, Boundary, RIGID, Rest, Roll, Terms};
 pub use output::{picture::Picture, vtk::write_vtu};
 pub use sheet::{Pattern, Sheet, generate};

@@ -102,24 +102,26 @@ class Assembly:
         cells: tuple[int, int] | None = None,
         *,
         closing: str = "both",
-        inwards: bool = True,
+        inwards: bool | None = None,
         **terms: Any,
     ) -> Assembly:
-        """Makes a tube: the sheet rolled up and closed so that the cell `seam` lies on cell (0, 0).
+        """Makes a tube: the sheet rolled up, or drawn as a tube, and closed so that the cell `seam` lies on cell (0, 0).
 
         Args:
-            sheet: The sheet, drawn spatially periodic and folded.
+            sheet: The sheet, drawn spatially periodic and folded, or as one cell that screw motions repeat.
             seam: The cell (n1, n2).
             cells: Strands and rows of cells of pictures. Left out: all strands, and rows for about the width of the tube.
             closing: The closing conditions that hold: "both", "turn" (the seam slips) or "rise" (the tube opens or overlaps).
-            inwards: Whether the sheet is rolled up towards its face normals.
+            inwards: Whether the sheet is rolled up towards its face normals, which it is if this is left out. Not for a sheet that is
+                drawn as a tube.
             terms: As in `patch`, without pins, loads and parts.
 
         Raises:
-            SceneError: the sheet cannot be rolled up until it closes.
+            SceneError: the sheet cannot be rolled up until it closes, or is drawn as a tube that does not close there.
         """
-        place = {"domain": "tube", "seam": seam, "closing": closing, "inwards": inwards}
-        return cls._build(sheet, place if cells is None else {**place, "cells": cells}, terms)
+        optional = {"cells": cells, "inwards": inwards}
+        place = {"domain": "tube", "seam": seam, "closing": closing, **{k: v for k, v in optional.items() if v is not None}}
+        return cls._build(sheet, place, terms)
 
     @classmethod
     def from_scene(

@@ -6,23 +6,23 @@
 //! which share no equation with the bars.
 
 mod error;
+mod rank;
 mod seam;
 mod spectrum;
 
 use super::restored::{self, Forces};
 use super::start_state::StartState;
 use crate::kinematics::closure::{Closure, HingedEdge};
-use crate::model::{Assembly, Bars, Boundary, Domain, Drawn, Gauge, Hinges, Model, RIGID, Stiffness, Terms, gauge};
-use crate::numerics::sparse::Rows;
-use crate::numerics::{dense, rank};
+use crate::model::{Assembly, Bars, Boundary, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
+use crate::numerics::dense;
 use crate::sheet::{Corner, Site, Tiling, pieces};
 use crate::solver::Problem;
-use error::LEAST_GAP;
 pub use error::{ModesError, SPARSE_EIGENVALUES};
+use rank::{rank_of, rigid_part};
 pub use seam::SeamMotions;
 use seam::seam_motions;
 pub use spectrum::{DENSE_LIMIT, Observer, decomposed_dense};
-use spectrum::{go_on, linearized, lowest};
+use spectrum::{go_on, lowest};
 
 /// Modes of a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,13 +130,6 @@ fn agree(assembly: &Assembly, closure: usize, [motions, stresses]: [usize; 2]) -
     }
 }
 
-/// Bars and rigid polygons only, all rigid; pins as they are.
-fn rigid_part(terms: &Terms) -> Terms {
-    let rigid = |hinges: &Hinges| Some(Hinges { stiffness: hinges.stiffness.rigid_part()?, rest: hinges.rest.clone() });
-    let facets = terms.facets.as_ref().and_then(rigid);
-    Terms { bars: Some(RIGID.into()), facets, pins: terms.pins.clone(), ..Terms::default() }
-}
-
 /// The bars that are rigid; `None` if there are none.
 fn rigid_bars(terms: &Terms) -> Option<Bars> {
     terms.bar_stiffness()?.rigid_part().map(Bars::from)
@@ -170,61 +163,6 @@ fn pieces_with_openings(tiling: &Tiling) -> bool {
     let pieces = pieces_of(tiling);
     let vertices: usize = pieces.iter().map(Vec::len).sum();
     !tiling.periodic && pieces.len() > 1 && pieces.len() + tiling.edges.len() > vertices + tiling.triangles.len()
-}
-
-/// Rank of the Jacobian of a model's stiff measures at its reference state, and the gap.
-fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usize, Option<f64>), ModesError> {
-    let layout = model.layout();
-    let at = linearized(model, &vec![0.0; layout.stiff.len()]);
-    let rows = at.rows();
-    if layout.unknowns.max(layout.stiff.len()) > DENSE_LIMIT {
-        return rank_by_counting(&rows, layout.unknowns, &layout.node, observe);
-    }
-    go_on(observe)?;
-    let values = dense::singular_values(&dense::from_rows(&rows, layout.unknowns))?;
-    let found = dense::rank_at_largest_gap(&values)?;
-    if found.rank == 0 {
-        return Ok((0, None));
-    }
-    let largest = rows.values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let threshold = threshold(&values, found.rank) / largest;
-    go_on(observe)?;
-    let by_inertia = rank::count_above(&rows, layout.unknowns, &layout.node, threshold)?;
-    if by_inertia == found.rank {
-        Ok((found.rank, Some(found.gap)))
-    } else {
-        Err(ModesError::RankDisagrees { by_values: found.rank, by_inertia })
-    }
-}
-
-/// A threshold between the last kept and the first dropped singular value, far from both where it can be.
-fn threshold(values: &[f64], rank: usize) -> f64 {
-    let kept = values[rank - 1];
-    let dropped = values.get(rank).copied().unwrap_or(0.0);
-    (kept * dropped.max(1e-8 * kept)).sqrt()
-}
-
-/// Counts singular values above thresholds a decade apart; the longest run of equal counts is the gap.
-fn rank_by_counting(
-    rows: &Rows<'_>,
-    columns: usize,
-    node: &[u32],
-    observe: &mut Observer<'_>,
-) -> Result<(usize, Option<f64>), ModesError> {
-    let mut counts = Vec::new();
-    for decade in 1..=8 {
-        go_on(observe)?;
-        counts.push(rank::count_above(rows, columns, node, 10f64.powi(-decade))?);
-    }
-    let mut best = (0, 0);
-    for start in 0..counts.len() {
-        let run = counts[start..].iter().take_while(|count| **count == counts[start]).count();
-        if run > best.1 {
-            best = (counts[start], run);
-        }
-    }
-    let gap = 10f64.powi(best.1 as i32 - 1);
-    if gap >= LEAST_GAP { Ok((best.0, (best.0 > 0).then_some(gap))) } else { Err(ModesError::NoGap { gap }) }
 }
 
 /// Null space of the closure conditions of the tiling in this state, rigid facets locked.

@@ -99,6 +99,9 @@ impl Closure {
     /// # Errors
     /// [`KinematicsError`] if the faces at an interior vertex do not form one closed cycle.
     pub fn of_cell(sheet: &Sheet) -> Result<Self, KinematicsError> {
+        if sheet.screws.is_some() {
+            return Err(KinematicsError::Rolled);
+        }
         let edges: Vec<HingedEdge> = sheet.edges.iter().map(HingedEdge::from).collect();
         Self::of_edges(&edges, |corner| sheet.position(corner))
     }
@@ -108,6 +111,9 @@ impl Closure {
     /// # Errors
     /// [`KinematicsError`] as [`of_cell`](Self::of_cell).
     pub(crate) fn of_tiling(sheet: &Sheet, tiling: &Tiling) -> Result<Self, KinematicsError> {
+        if sheet.screws.is_some() {
+            return Err(KinematicsError::Rolled);
+        }
         let edges: Vec<HingedEdge> = tiling.edges.iter().map(HingedEdge::from).collect();
         let lattice = sheet.lattice.unwrap_or([Vec3::zeros(); 2]);
         Self::of_edges(&edges, |Corner { vertex, shift }| {

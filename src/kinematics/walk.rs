@@ -74,6 +74,9 @@ impl FaceWalk {
     ///
     /// Fails if the faces are not connected, or, on a periodic sheet, not along both directions of the lattice.
     pub(crate) fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
+        if sheet.screws.is_some() {
+            return Err(KinematicsError::Rolled);
+        }
         let faces = sheet.triangles.len();
         let disconnected = || KinematicsError::Disconnected { faces };
         let (root, start) = first_with_vertex_0(sheet).ok_or_else(disconnected)?;

@@ -60,11 +60,13 @@ impl Assembly {
     /// without lattice has one cell, whatever `cells` says.
     ///
     /// # Errors
-    /// [`AssemblyError::NoLattice`] for periodic boundary conditions on a sheet without lattice, and
+    /// [`AssemblyError::NoLattice`] for periodic boundary conditions on a sheet without lattice,
+    /// [`AssemblyError::DrawnAsTube`] for them on a cell that screw motions repeat, and
     /// [`AssemblyError::NoCells`] if a number of cells is zero.
     pub fn without_terms(sheet: Sheet, cells: [usize; 2], boundary: Boundary) -> Result<Self, AssemblyError> {
         if boundary.is_periodic() && sheet.lattice.is_none() {
-            return Err(AssemblyError::NoLattice);
+            let drawn_as_tube = sheet.screws.is_some();
+            return Err(if drawn_as_tube { AssemblyError::DrawnAsTube } else { AssemblyError::NoLattice });
         }
         if cells.contains(&0) {
             return Err(AssemblyError::NoCells);
@@ -81,13 +83,13 @@ impl Assembly {
         Ok(Self { geometry: Arc::new(geometry), drawn: Arc::new(drawn), terms: Arc::default() })
     }
 
-    /// Makes an assembly of a tube that was [rolled up](Roll), without terms. `cells` counts the strands and the rows of
+    /// Makes an assembly of a tube that was [rolled up](Roll) or is drawn as one, without terms. `cells` counts the strands and the rows of
     /// cells that pictures show.
     ///
     /// # Errors
     /// [`AssemblyError::NoLattice`] for a sheet without lattice, and [`AssemblyError::NoCells`] if a number of cells is zero.
     pub fn tube_without_terms(sheet: Sheet, roll: &Roll, cells: [usize; 2]) -> Result<Self, AssemblyError> {
-        if sheet.lattice.is_none() {
+        if !sheet.is_repeated() {
             return Err(AssemblyError::NoLattice);
         }
         if cells.contains(&0) {

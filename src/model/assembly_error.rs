@@ -12,6 +12,9 @@ pub enum AssemblyError {
     /// A tube was asked of a sheet that is not drawn as one and was not rolled up.
     #[error("the sheet is not drawn as a tube: roll it up first")]
     NotRolled,
+    /// Lattice vectors were asked of a cell that screw motions repeat.
+    #[error("the sheet is drawn as a tube: it is a tube or a patch")]
+    DrawnAsTube,
     /// A number of cells is zero.
     #[error("there is at least one cell along each lattice vector")]
     NoCells,

@@ -35,6 +35,7 @@ mod problem;
 mod roll;
 mod stiffness;
 mod terms;
+mod tube;
 
 #[cfg(test)]
 mod tests;
@@ -51,6 +52,6 @@ pub use element::{Elements, Spring, TermKind};
 pub use part::Part;
 pub use problem::driving::DrivenModel;
 pub use problem::{Gauge, Model};
-pub use roll::Roll;
+pub use roll::{Roll, RollError};
 pub use stiffness::Stiffness;
 pub use terms::{Bars, Hinges, RIGID, RestLengths, Terms};

@@ -1,11 +1,39 @@
 //! The start of a tube: where its vertices are about the axis, and how it goes on from cell to cell.
 
-use super::assembly::Assembly;
 use super::boundary::{Boundary, Drawn};
 use super::domain::Domain;
 use crate::math::Vec3;
 use crate::sheet::{Seam, SeamKept, Sheet};
 use nalgebra::Matrix3;
+use std::f64::consts::TAU;
+use thiserror::Error;
+
+/// Largest angle in radians, and rise relative to the shorter chord, by which the seam of a drawn tube may miss.
+const CLOSED: f64 = 1e-6;
+
+/// The reason why a sheet is not drawn as a tube with a given seam.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum RollError {
+    /// No screw motions repeat the cell.
+    #[error("the sheet is not drawn as a tube: no screw motions repeat its cell")]
+    NoScrews,
+    /// The seam is `[0, 0]`, or has numbers of more than 15 bits.
+    #[error("a seam is a cell other than [0, 0], with numbers of at most 15 bits")]
+    NoSeam,
+    /// A closing condition that is kept does not hold in the drawing.
+    #[error("the drawn tube does not close: the seam turns by {} degrees and rises by {}, not by 360 and 0", rounded(turn.to_degrees()), rounded(*rise))]
+    Open {
+        /// Angle of the seam, in radians.
+        turn: f64,
+        /// Translation of the seam along the axis.
+        rise: f64,
+    },
+}
+
+/// Returns a number to six decimals, which is as closely as a seam has to close.
+fn rounded(number: f64) -> f64 {
+    (number * 1e6).round() / 1e6
+}
 
 /// A tube about the z axis, as coordinates of the [domain](Domain) that belongs to it, with the fold angles of its edges.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +54,45 @@ pub struct Roll {
 }
 
 impl Roll {
+    /// Returns a tube as its file draws it: the cell repeated by the sheet's [screw motions](crate::sheet::ScrewLattice).
+    ///
+    /// ```
+    /// use foldwell::sheet::SeamKept;
+    /// use foldwell::{Assembly, RIGID, Roll, relax};
+    ///
+    /// let path = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes/kresling-cell.fold");
+    /// let sheet = foldwell::sheet::fold::read(path.as_ref())?;
+    /// let roll = Roll::as_drawn(&sheet, [6, 0], SeamKept::BOTH)?;
+    /// let tube = Assembly::tube(sheet, roll, [6, 4]).bars(RIGID).creases(1.0).build()?;
+    /// // creases at rest as drawn: nothing moves
+    /// assert_eq!(relax(&tube)?.iterations, 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RollError`] if no screw motions repeat the cell, for a seam that is none, and if a condition that is kept misses by more
+    /// than 1e-6 (radians; relative to the shorter chord).
+    pub fn as_drawn(sheet: &Sheet, seam: [i32; 2], kept: SeamKept) -> Result<Self, RollError> {
+        let (Some(screws), Some(chords)) = (&sheet.screws, sheet.chords()) else { return Err(RollError::NoScrews) };
+        let seam = Seam::new(seam).ok_or(RollError::NoSeam)?;
+        let [turn, rise] = [screws.turn_of(seam.lattice_vector()), screws.rise_of(seam.lattice_vector())];
+        let shorter = chords[0].norm().min(chords[1].norm());
+        if (kept.turn && (turn - TAU).abs() > CLOSED) || (kept.rise && rise.abs() > CLOSED * shorter) {
+            return Err(RollError::Open { turn, rise });
+        }
+        let [strand, row] = seam.basis();
+        let mut coordinates: Vec<f64> = sheet.vertices.iter().flat_map(|p| <[f64; 3]>::from(*p)).collect();
+        coordinates.extend([screws.turn_of(row), screws.rise_of(row)]);
+        if !kept.rise {
+            coordinates.push(screws.rise_of(strand));
+        }
+        if !kept.turn {
+            coordinates.push(screws.turn_of(strand));
+        }
+        let angles = sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).unwrap_or(f64::NAN)).collect();
+        Ok(Self { seam, kept, coordinates, angles, frame: Matrix3::identity(), origin: Vec3::zeros() })
+    }
+
     /// Returns the boundary conditions of the tube.
     pub fn boundary(&self) -> Boundary {
         Boundary::Tube { seam: self.seam, kept: self.kept }
@@ -33,32 +100,9 @@ impl Roll {
 
     /// Returns the start in the coordinates of the tube's domain.
     pub(super) fn drawn(&self, sheet: &Sheet) -> Drawn {
-        let (counterclockwise, chords) = (sheet.is_counterclockwise(), sheet.lattice);
+        let (counterclockwise, chords) = (sheet.is_counterclockwise(), sheet.chords());
         let domain = Domain::Tube { seam: self.seam, kept: self.kept, counterclockwise };
         let coordinates = self.coordinates.clone();
         Drawn { domain, coordinates, held: vec![], frame: self.frame, origin: self.origin, chords }
-    }
-}
-
-impl Assembly {
-    /// Returns the same tube in the state with these coordinates, with other closing conditions, and its coordinates there;
-    /// `None` for other boundary conditions.
-    pub(crate) fn tube_keeping(&self, kept: SeamKept, coordinates: &[f64]) -> Option<(Self, Vec<f64>)> {
-        let drawn = self.drawn();
-        let (Domain::Tube { seam, kept: before, counterclockwise }, true) =
-            (&drawn.domain, coordinates.len() == drawn.coordinates.len())
-        else {
-            return None;
-        };
-        let (common, free) = coordinates.split_at(coordinates.len() - before.free());
-        let mut moved = common.to_vec();
-        let of_strand = [
-            if before.rise { 0.0 } else { free[0] },
-            if before.turn { std::f64::consts::TAU / f64::from(seam.strands()) } else { free[free.len() - 1] },
-        ];
-        moved.extend([kept.rise, kept.turn].into_iter().zip(of_strand).filter(|(kept, _)| !kept).map(|(_, x)| x));
-        let domain = Domain::Tube { seam: *seam, kept, counterclockwise: *counterclockwise };
-        let place = Drawn { domain, coordinates: moved.clone(), ..drawn.clone() };
-        Some((self.with_drawn(place, Boundary::Tube { seam: *seam, kept }), moved))
     }
 }

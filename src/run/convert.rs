@@ -71,6 +71,9 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     if ending == "stl" && (sheet.lattice.is_some() || !sheet.assignments.is_empty()) {
         notes.push("STL has triangles only: lattice vectors and letters of edges are not kept".to_owned());
     }
+    if !is_fold && sheet.screws.is_some() {
+        notes.push("the screw motions that repeat the cell are not kept: FOLD alone has a place for them".to_owned());
+    }
     let stiffnesses = sheet.stiffness.hinges.len() + sheet.stiffness.bars.len();
     if !is_fold && stiffnesses > 0 {
         notes.push(format!("{stiffnesses} stiffnesses of edges are not kept: FOLD alone has a place for them"));

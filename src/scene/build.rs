@@ -128,8 +128,13 @@ fn boundary(file: &SceneFile, sheet: &Sheet) -> Result<Boundary, SceneError> {
         // the roll of a tube says its boundary conditions
         DomainSpec::Screw | DomainSpec::Tube => Boundary::Screw,
     };
-    if sheet.lattice.is_some() {
+    if sheet.lattice.is_some() || (sheet.screws.is_some() && spec.domain() == DomainSpec::Tube) {
         return Ok(periodic);
+    }
+    if sheet.screws.is_some() {
+        let span = spec.domain.as_ref().map_or(0..0, Located::span);
+        let help = "give domain = \"tube\" with a seam, or \"patch\" for a piece of it that is not joined";
+        return Err(file.error_at(span, "the mesh is drawn as a tube, without lattice vectors", help));
     }
     let span = spec.domain.as_ref().map_or(0..0, Located::span);
     let help = "a finite sheet has domain \"patch\"; a periodic one has the key `foldwell:lattice` in its mesh, \

@@ -41,7 +41,7 @@ struct Need {
 pub(super) fn check(file: &SceneFile, sheet: &Sheet) -> Result<(), SceneError> {
     let spec = &file.scene.sheet;
     let span = || spec.cells.as_ref().map_or(0..0, Located::span);
-    let cells = if sheet.lattice.is_none() { [1, 1] } else { spec.cells() };
+    let cells = if !sheet.is_repeated() { [1, 1] } else { spec.cells() };
     let vertices = cells.iter().fold(sheet.vertices.len() as u64, |product, &n| product.saturating_mul(n as u64));
     let whose = if spec.is_one_cell() { "the pictures have" } else { "the model has" };
     if vertices > MOST_VERTICES {

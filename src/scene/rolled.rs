@@ -1,7 +1,8 @@
 //! The tube of a scene: its sheet rolled up until it closes along the seam.
 
 use super::spec::DomainSpec;
-use super::{SceneError, SceneFile};
+use super::values::SeamCell;
+use super::{Located, SceneError, SceneFile};
 use crate::analysis::tube::rolled_up;
 use crate::kinematics::KinematicsError;
 use crate::model::{Assembly, Boundary, Roll};
@@ -14,6 +15,9 @@ use crate::sheet::Sheet;
 pub(super) fn roll(file: &SceneFile, sheet: &Sheet) -> Result<Option<Roll>, SceneError> {
     let spec = &file.scene.sheet;
     let (DomainSpec::Tube, Some(seam)) = (spec.domain(), &spec.seam) else { return Ok(None) };
+    if sheet.screws.is_some() {
+        return drawn(file, sheet, seam).map(Some);
+    }
     let inwards = spec.inwards.as_deref().copied().unwrap_or(true);
     match rolled_up(sheet, seam.0, spec.seam_kept(), inwards) {
         Ok(roll) => Ok(Some(roll)),
@@ -21,10 +25,22 @@ pub(super) fn roll(file: &SceneFile, sheet: &Sheet) -> Result<Option<Roll>, Scen
     }
 }
 
-/// Checks that no polygon of a tube is rigid: rolling the sheet up bends them all.
+/// Returns a tube that its mesh draws as one.
+fn drawn(file: &SceneFile, sheet: &Sheet, seam: &Located<SeamCell>) -> Result<Roll, SceneError> {
+    if let Some(inwards) = &file.scene.sheet.inwards {
+        let message = "`inwards` is given for a mesh that is drawn rolled up";
+        return Err(file.error_at(inwards.span(), message, "leave it out"));
+    }
+    Roll::as_drawn(sheet, seam.0, file.scene.sheet.seam_kept()).map_err(|error| {
+        let help = "give the cell [n1, n2] to which the screw motions of `foldwell:lattice` lead after one turn by 360 degrees";
+        file.error_at(seam.span(), error.to_string(), help)
+    })
+}
+
+/// Checks that no polygon of a sheet that is rolled up is rigid: rolling it up bends them all.
 pub(super) fn polygons_bend(file: &SceneFile, assembly: &Assembly) -> Result<(), SceneError> {
-    let tube = matches!(assembly.boundary(), Boundary::Tube { .. });
-    if !tube || assembly.rigid_facets_of_cell().is_empty() {
+    let rolled_up = matches!(assembly.boundary(), Boundary::Tube { .. }) && assembly.sheet().screws.is_none();
+    if !rolled_up || assembly.rigid_facets_of_cell().is_empty() {
         return Ok(());
     }
     let span = file.scene.sheet.seam.as_ref().map_or(0..0, |seam| seam.span());

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::assignment::Assignment;
 use super::record::FileRecord;
+use super::screws::ScrewLattice;
 use crate::math::{Vec3, fold_angle::fold_angle};
 
 /// A vertex of the cell together with the lattice translation of the copy that is meant.
@@ -103,8 +104,10 @@ pub struct Sheet {
     pub description: String,
     /// Drawn positions of the cell's vertices, each where it first appears in the file.
     pub vertices: Vec<Vec3>,
-    /// The two lattice vectors; `None` for a finite sheet.
+    /// The two lattice vectors; `None` for a finite sheet, and for a cell repeated by screw motions.
     pub lattice: Option<[Vec3; 2]>,
+    /// The two screw motions that repeat the cell of a tube; `None` for other sheets.
+    pub screws: Option<ScrewLattice>,
     /// The faces of the file, counter-clockwise.
     pub polygons: Vec<Vec<Corner>>,
     /// The triangles into which the polygons are split by their shorter diagonals.
@@ -183,6 +186,16 @@ impl Triangle {
 }
 
 impl Sheet {
+    /// Whether the sheet is one cell of many, repeated by lattice vectors or by screw motions.
+    pub fn is_repeated(&self) -> bool {
+        self.lattice.is_some() || self.screws.is_some()
+    }
+
+    /// Returns the chords from vertex 0 to its copies in cells (1, 0) and (0, 1): the lattice vectors, if there are any.
+    pub fn chords(&self) -> Option<[Vec3; 2]> {
+        self.lattice.or_else(|| Some(self.screws?.chords(self.vertices.first()?)))
+    }
+
     /// Returns the corner that this corner was before the sheet was cut.
     pub(crate) fn uncut(&self, corner: Corner) -> Corner {
         let drawn = self.vertices.len() - self.cut_from.len();
@@ -222,7 +235,7 @@ impl Sheet {
         self.targets.get(key).copied().or_else(of_letter).filter(|angle| *angle != 0.0)
     }
 
-    /// Whether the drawn lattice vectors turn counter-clockwise seen from the side of the face normals; true for a finite
+    /// Whether the drawn lattice vectors, or chords of screw motions, turn counter-clockwise seen from the side of the face normals; true for a finite
     /// sheet.
     pub(crate) fn is_counterclockwise(&self) -> bool {
         let area = |corners: [Corner; 3]| {
@@ -230,15 +243,16 @@ impl Sheet {
             (b - a).cross(&(c - a))
         };
         let normal: Vec3 = self.triangles.iter().map(|triangle| area(triangle.corners)).sum();
-        self.lattice.is_none_or(|[l1, l2]| !(l1.cross(&l2).dot(&normal) < 0.0))
+        self.chords().is_none_or(|[l1, l2]| !(l1.cross(&l2).dot(&normal) < 0.0))
     }
 
     /// Returns the position of a corner in the drawn state.
     pub fn position(&self, corner: Corner) -> Vec3 {
         let home = self.vertices[corner.vertex];
-        match self.lattice {
-            Some([l1, l2]) => home + l1 * f64::from(corner.shift[0]) + l2 * f64::from(corner.shift[1]),
-            None => home,
+        match (self.lattice, &self.screws) {
+            (Some([l1, l2]), _) => home + l1 * f64::from(corner.shift[0]) + l2 * f64::from(corner.shift[1]),
+            (None, Some(screws)) => screws.copy(&home, corner.shift),
+            (None, None) => home,
         }
     }
 }

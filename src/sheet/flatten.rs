@@ -99,7 +99,7 @@ pub fn flatten(sheet: &Sheet) -> Result<Sheet, NotDevelopable> {
 }
 
 fn check(sheet: &Sheet) -> Result<(), NotDevelopable> {
-    if sheet.lattice.is_some() {
+    if sheet.is_repeated() {
         return Err(NotDevelopable::Periodic);
     }
     if !sheet.cut_from.is_empty() {

@@ -105,7 +105,7 @@ impl Info {
         let (defect, mut thin) = (largest_angle_defect(sheet), thin_triangles(sheet));
         Self {
             title: sheet.title.clone(),
-            periodic: sheet.lattice.is_some(),
+            periodic: sheet.is_repeated(),
             vertices: sheet.vertices.len(),
             edges: sheet.edges.len(),
             creases: count(EdgeKind::Crease),
@@ -117,7 +117,7 @@ impl Info {
             pieces: pieces(sheet).len(),
             euler_characteristic: (sheet.vertices.len() + sheet.triangles.len()) as i64 - sheet.edges.len() as i64,
             maxwell_count: free,
-            maxwell_count_screw: sheet.lattice.map(|_| free + 2),
+            maxwell_count_screw: sheet.chords().map(|_| free + 2),
             maxwell_count_free_torus: sheet.lattice.map(|_| free + 6),
             developable: defect < DEVELOPABLE,
             largest_angle_defect: defect,

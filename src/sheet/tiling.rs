@@ -71,7 +71,7 @@ pub struct Tiling {
 /// Makes `cells[0] x cells[1]` cells of `sheet`, joined to a torus if `periodic`. A sheet without lattice gives one
 /// cell that is not periodic, whatever the arguments say.
 pub fn tile(sheet: &Sheet, cells: [usize; 2], periodic: bool) -> Tiling {
-    let finite = sheet.lattice.is_none();
+    let finite = !sheet.is_repeated();
     let grid = CellGrid {
         cells: if finite { [1, 1] } else { cells },
         periodic: periodic && !finite,

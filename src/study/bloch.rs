@@ -58,16 +58,13 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
         return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
     }
     strip::check(context, spec)?;
-    let refused = rigidity(file, assembly).and_then(|rigidity| rigidity.require_square());
-    let help = match &refused {
-        Ok(()) => return Ok(()),
-        Err(BlochError::NoLattice) => "a periodic sheet has the key `foldwell:lattice` in its mesh",
-        Err(_) => "give facets a stiffness, so that polygons bend: bars alone make as many conditions as coordinates",
+    let square = rigidity(file, assembly).and_then(|rigidity| rigidity.require_square());
+    let Err(error) = square else { return Ok(()) };
+    let help = match error {
+        BlochError::NoLattice => "a periodic sheet has the key `foldwell:lattice` in its mesh",
+        _ => "give facets a stiffness, so that polygons bend: bars alone make as many conditions as coordinates",
     };
-    match refused {
-        Err(error) => Err(context.refuse(error.to_string(), help).into()),
-        Ok(()) => Ok(()),
-    }
+    Err(context.refuse(error.to_string(), help).into())
 }
 
 /// Checks that the start is the drawn state, or a state of one cell that an earlier study found.
@@ -314,7 +311,8 @@ fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
         format!("modes of a cylinder with rotations of {} and {} rad per cell", rounded(theta1, 4), rounded(theta2, 4))
     });
     let (rates, polynomial) = (rates(&survey.determinant), &survey.determinant.polynomial);
-    let plot = BlochPlot { rates, polynomial, lines, marks };
+    let measured = found.strip.iter().flat_map(FoundStrip::measured).collect();
+    let plot = BlochPlot { rates, polynomial, lines, marks, measured };
     answer.add(format!("{}.svg", context.name()), figure::svg(&plot, &context.caption(state)));
 }
 

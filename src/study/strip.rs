@@ -58,6 +58,13 @@ pub(super) struct FoundStrip {
     pub summary: StripSummary,
 }
 
+impl FoundStrip {
+    /// Returns `(q1, kappa2)` of each rate that was measured.
+    pub(super) fn measured(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.rows.iter().filter_map(|row| Some((row.q1, row.measured?)))
+    }
+}
+
 /// A rate at a wavenumber.
 pub(super) struct StripRow {
     found: [usize; 2],

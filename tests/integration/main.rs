@@ -64,6 +64,7 @@ mod resumed_paths;
 mod rigid_motions;
 mod runs;
 mod schema;
+mod screw_cells;
 mod self_intersection;
 mod several_scenes;
 mod solver_limits;

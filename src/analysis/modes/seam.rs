@@ -3,8 +3,10 @@
 //! Two motions are left without conditions, one if the seam keeps its angle (it slips along itself) or its rise (it opens), and
 //! none with both: generic tubes are rigid within screw-symmetric motions.
 
-use super::{Boundary, ModesError, Observer, rank_of, rigid_part};
-use crate::model::{Assembly, Gauge};
+use super::error::ModesError;
+use super::rank::{rank_of, rigid_part};
+use super::spectrum::Observer;
+use crate::model::{Assembly, Boundary, Gauge};
 use crate::sheet::SeamKept;
 use crate::solver::Problem;
 

@@ -4,7 +4,7 @@
 //! Decay rates are drawn as dots, dark if the mode neither grows nor decays. The map is blue where the determinant is
 //! positive and red where it is negative. Its intensity increases with the fourth root of the magnitude, since the
 //! determinant vanishes to fourth order at `q = 0`; a determinant that is not real is drawn by its magnitude. Rings
-//! mark the wavenumbers of the rotations of a cylinder.
+//! mark the wavenumbers of the rotations of a cylinder, and among the decay rates those that were measured in a strip.
 
 use std::f64::consts::{PI, TAU};
 
@@ -27,6 +27,8 @@ const SQUARES: usize = 96;
 const SHADES: usize = 16;
 /// Largest magnitude of a decay rate that is drawn.
 const MOST: f64 = 6.0;
+/// Radius of the ring of a measured rate.
+const MEASURED: f64 = 6.0;
 const GROWING: Colour = SERIES[3];
 const DECAYING: Colour = SERIES[4];
 
@@ -40,6 +42,8 @@ pub struct BlochPlot<'a> {
     pub lines: Vec<Vec<[f64; 2]>>,
     /// Wavenumbers `(q1, q2)` that are marked on the map.
     pub marks: Vec<[f64; 2]>,
+    /// `(q1, kappa2)` of each rate that was measured in a strip.
+    pub measured: Vec<(f64, f64)>,
 }
 
 /// Returns the figure of spatially varying modes.
@@ -85,9 +89,15 @@ fn rates(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
         let place = [LEFT[0] + along(q), TOP + SIDE * (1.0 - axis.part(kappa))];
         canvas.circle(place, 2.0, Style::area(colour));
     }
+    for &(q, kappa) in plot.measured.iter().filter(|(_, kappa)| kappa.abs() <= MOST) {
+        canvas.circle([LEFT[0] + along(q), TOP + SIDE * (1.0 - axis.part(kappa))], MEASURED, Style::line(INK, 1.6));
+    }
     frame(canvas, 0, "inverse decay rate \u{3ba}\u{2082} per cell, at real q\u{2081}");
     let dot = |colour| Mark::Circle(5.0, Style::area(colour));
-    let entries = [(dot(GROWING), "grows"), (dot(DECAYING), "decays"), (dot(INK), "neither")];
+    let mut entries = vec![(dot(GROWING), "grows"), (dot(DECAYING), "decays"), (dot(INK), "neither")];
+    if !plot.measured.is_empty() {
+        entries.push((Mark::Circle(MEASURED, Style::line(INK, 1.6)), "in the strip"));
+    }
     canvas.legend([LEFT[0], LEGEND], &entries);
 }
 
@@ -204,7 +214,7 @@ mod tests {
         Caption { title: "a < b".into(), state: "drawn state".into() }
     }
 
-    /// Claim: the figure has a dot for every rate within the range and a path for every line, cut where it leaves the
+    /// Claim: the figure has a dot for every rate within the range, a ring for every one of a strip, and a path for every line, cut where it leaves the
     /// zone; a determinant without lines is labelled as its magnitude; texts do not overlap.
     #[test]
     fn everything_is_drawn() {
@@ -212,10 +222,17 @@ mod tests {
             Laurent { coefficients: DenseMatrix::from_row_slice(1, 3, &[0.5, 0.2, 0.5]), lowest: [0.0, -1.0] };
         let rates = vec![(0.5, 0.3, false), (0.5, -0.3, false), (0.7, 0.0, true), (1.0, 40.0, false)];
         let across = vec![[PI - 0.1, 0.0], [PI - 0.01, 0.1], [PI + 0.1, 0.2]];
-        let plot = BlochPlot { rates, polynomial: &polynomial, lines: vec![across], marks: vec![[0.3, -0.2 + TAU]] };
+        let plot = BlochPlot {
+            rates,
+            polynomial: &polynomial,
+            lines: vec![across],
+            marks: vec![[0.3, -0.2 + TAU]],
+            measured: vec![(0.5, 0.3), (0.5, 9.0)],
+        };
         let text = svg(&plot, &caption());
         assert!(text.contains("<title>a &lt; b</title>") && !text.contains("NaN"));
-        assert_eq!([text.matches(" r=\"2\"").count(), text.matches(" r=\"9\"").count()], [3, 1]);
+        assert_eq!([2, 9].map(|r| text.matches(&format!(" r=\"{r}\"")).count()), [3, 1]);
+        assert_eq!(text.matches(" r=\"6\"").count(), 1 + 1, "the one within the range, and the legend");
         let ring = format!("cx=\"{:.1}\" cy=\"{:.1}\"", LEFT[1] + along(0.3), TOP + SIDE - along(-0.2));
         assert!(text.contains(&ring), "{ring}");
         assert_eq!(text.matches("stroke-width=\"2.2\"").count(), 2 + 1, "two parts, and the legend");

@@ -31,7 +31,7 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
             }
             let edge = &sheet.edges[number];
             // the outline of the drawn cell is not a boundary of a periodic sheet
-            if assignment == Assignment::Boundary && rim.get(&sorted(ends)) == Some(&1) && drawn.lattice.is_some() {
+            if assignment == Assignment::Boundary && rim.get(&sorted(ends)) == Some(&1) && drawn.is_repeated() {
                 continue;
             }
             // a simulator folds some creases to the other side, or the whole pattern backwards

@@ -62,7 +62,7 @@ fn inner_cuts(drawn: &Drawing, identified: &Identified, polygons: &[Vec<Corner>]
     }
     cuts.retain(|key, _| uses.get(key) == Some(&2));
     match cuts.values().min() {
-        Some(&edge) if drawn.lattice.is_some() => {
+        Some(&edge) if drawn.is_repeated() => {
             let ends = drawn.edge_name(drawn.assignments[edge].0);
             Err(fault(AssignmentFault::PeriodicCut { edge, ends }, edge))
         }

@@ -37,6 +37,7 @@ pub fn draw(sheet: &Sheet) -> Drawing {
         coords,
         faces,
         lattice: sheet.lattice,
+        screws: sheet.screws,
         holes,
         assignments,
         fold_angles,

@@ -1,6 +1,7 @@
 //! A mesh as a file draws it, before it becomes a sheet.
 
 use crate::math::Vec3;
+use crate::sheet::ScrewLattice;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::error::DrawnEdge;
 use std::collections::BTreeMap;
@@ -22,6 +23,8 @@ pub struct Drawing {
     pub faces: Vec<Vec<usize>>,
     /// The two lattice vectors.
     pub lattice: Option<[Vec3; 2]>,
+    /// The two screw motions that repeat the cell of a tube, instead of lattice vectors.
+    pub screws: Option<ScrewLattice>,
     /// Openings, as indices into `coords`.
     pub holes: Vec<Vec<usize>>,
     /// Assignments of drawn edges; the ends are indices into `coords`.
@@ -35,6 +38,20 @@ pub struct Drawing {
 }
 
 impl Drawing {
+    /// Returns the copy of a drawn point in a cell.
+    pub(super) fn copy(&self, point: &Vec3, cell: [i32; 2]) -> Vec3 {
+        match (self.lattice, &self.screws) {
+            (Some([l1, l2]), _) => point + l1 * f64::from(cell[0]) + l2 * f64::from(cell[1]),
+            (None, Some(screws)) => screws.copy(point, cell),
+            (None, None) => *point,
+        }
+    }
+
+    /// Whether the mesh is one cell of many.
+    pub(super) fn is_repeated(&self) -> bool {
+        self.lattice.is_some() || self.screws.is_some()
+    }
+
     pub(crate) fn name(&self, number: usize) -> usize {
         number + self.first
     }

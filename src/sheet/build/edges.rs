@@ -51,7 +51,7 @@ fn check_uses(drawn: &Drawing, side: &Side) -> Result<(), Defect> {
 
 /// Checks that in a periodic sheet the edges of one face are exactly the sides of the listed openings.
 pub(super) fn check_rims(drawn: &Drawing, sides: &[Side], holes: &[Vec<Corner>]) -> Result<(), Defect> {
-    if drawn.lattice.is_none() {
+    if !drawn.is_repeated() {
         return Ok(());
     }
     let mut rim: BTreeMap<EdgeKey, &Side> = sides.iter().map(|s| (s.key, s)).collect();

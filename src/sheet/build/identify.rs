@@ -1,7 +1,8 @@
 //! Identifies drawn vertices that are the same vertex of the cell.
 //!
 //! Two drawn vertices that differ by a lattice vector, within 1e-6 of the shorter lattice vector, are one vertex; the
-//! one that comes first in the file is in cell (0, 0) and gives the position. In a finite sheet every drawn vertex is a
+//! one that comes first in the file is in cell (0, 0) and gives the position. So are two that a screw motion of a tube's cell
+//! carries into each other; of the cells that differ by a whole turn the nearest one is meant. In a finite sheet every drawn vertex is a
 //! vertex of its own: layers of a folded sheet touch, and vertices of different faces may stand at one place, closer
 //! than 1e-9 of the sheet's extent. Faces cannot be rebuilt there, and no face may have two such corners.
 
@@ -9,10 +10,13 @@ use std::collections::HashMap;
 
 use super::{Defect, Drawing, MeshPart, Problem};
 use crate::math::Vec3;
+use crate::sheet::ScrewLattice;
 use crate::sheet::cell::Corner;
 
 /// Largest number of cells, along either lattice vector, between a drawn vertex and its first appearance.
 const FARTHEST: f64 = 1e6;
+/// The same along either screw motion of a tube's cell.
+const REACH: i32 = 4;
 
 /// The corner of every drawn vertex, and the first appearance of every vertex of the cell.
 #[derive(Clone, Debug)]
@@ -32,9 +36,10 @@ impl Identified {
 
 /// Identifies the vertices of `drawn`.
 pub(super) fn identify(drawn: &Drawing) -> Result<Identified, Defect> {
-    match drawn.lattice {
-        Some(lattice) => identify_periodic(drawn, &Metric::periodic(lattice)),
-        None => {
+    match (drawn.lattice, &drawn.screws) {
+        (Some(lattice), _) => identify_periodic(drawn, &Metric::periodic(lattice)),
+        (None, Some(screws)) => identify_turned(drawn, screws),
+        (None, None) => {
             check_corners(drawn)?;
             let count = drawn.coords.len();
             Ok(Identified { corner: (0..count).map(Corner::home).collect(), homes: (0..count).collect() })
@@ -102,6 +107,32 @@ fn identify_periodic(drawn: &Drawing, metric: &Metric) -> Result<Identified, Def
                 Corner::home(found.homes.len() - 1)
             }
         };
+        if let Some(other) = taken.insert(corner, v) {
+            return Err(duplicate(drawn, v, other));
+        }
+        found.corner.push(corner);
+    }
+    Ok(found)
+}
+
+/// Identifies the vertices of a cell that screw motions repeat.
+fn identify_turned(drawn: &Drawing, screws: &ScrewLattice) -> Result<Identified, Defect> {
+    let mut cells: Vec<[i32; 2]> = (-REACH..=REACH).flat_map(|n1| (-REACH..=REACH).map(move |n2| [n1, n2])).collect();
+    cells.sort_by_key(|[n1, n2]| n1 * n1 + n2 * n2);
+    let [first, second] = screws.chords(&drawn.coords[0]);
+    let tolerance = 1e-6 * first.norm().min(second.norm());
+    let mut taken: HashMap<Corner, usize> = HashMap::new();
+    let mut found = Identified { corner: Vec::with_capacity(drawn.coords.len()), homes: Vec::new() };
+    for (v, x) in drawn.coords.iter().enumerate() {
+        let is_copy = |home: usize, cell| (screws.copy(&drawn.coords[home], cell) - x).norm() <= tolerance;
+        let known = cells.iter().find_map(|&shift| {
+            let vertex = found.homes.iter().position(|&home| is_copy(home, shift))?;
+            Some(Corner { vertex, shift })
+        });
+        let corner = known.unwrap_or_else(|| {
+            found.homes.push(v);
+            Corner::home(found.homes.len() - 1)
+        });
         if let Some(other) = taken.insert(corner, v) {
             return Err(duplicate(drawn, v, other));
         }

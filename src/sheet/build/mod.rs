@@ -57,6 +57,7 @@ pub(crate) fn build_identified(drawn: &Drawing) -> Result<(Sheet, Identified), D
         description: drawn.description.clone(),
         vertices: identified.homes.iter().map(|&v| drawn.coords[v]).collect(),
         lattice: drawn.lattice,
+        screws: drawn.screws,
         polygons,
         triangles,
         edges,
@@ -92,10 +93,11 @@ fn check_numbers(drawn: &Drawing) -> Result<(), Defect> {
     if drawn.faces.is_empty() {
         return Err(Defect::new(MeshPart::Mesh, Problem::Empty { what: "faces" }));
     }
-    match drawn.lattice {
-        Some(lattice) => check_lattice(lattice),
-        None if drawn.holes.is_empty() => Ok(()),
-        None => Err(Defect::new(MeshPart::Hole(0), Problem::HolesWithoutLattice)),
+    match (drawn.lattice, &drawn.screws) {
+        (Some(lattice), _) => check_lattice(lattice),
+        (None, Some(screws)) => check_lattice(screws.chords(&drawn.coords[0])),
+        (None, None) if drawn.holes.is_empty() => Ok(()),
+        (None, None) => Err(Defect::new(MeshPart::Hole(0), Problem::HolesWithoutLattice)),
     }
 }
 

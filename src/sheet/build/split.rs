@@ -45,8 +45,7 @@ pub(super) fn triangles(drawn: &Drawing, cell: &Identified, polygons: &[Vec<Corn
 }
 
 fn position(drawn: &Drawing, cell: &Identified, corner: Corner) -> Vec3 {
-    let [l1, l2] = drawn.lattice.unwrap_or_default();
-    drawn.coords[cell.homes[corner.vertex]] + l1 * f64::from(corner.shift[0]) + l2 * f64::from(corner.shift[1])
+    drawn.copy(&drawn.coords[cell.homes[corner.vertex]], corner.shift)
 }
 
 fn check_area(drawn: &Drawing, f: usize, points: &[Vec3], corners: [usize; 3]) -> Result<(), Defect> {

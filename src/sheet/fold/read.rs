@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::edges::{self, Edges};
@@ -10,6 +11,7 @@ use super::keys::Keys;
 use super::locate::Source;
 use super::{frames, record, stiffness};
 use crate::math::Vec3;
+use crate::sheet::ScrewLattice;
 use crate::sheet::assigned::is_same_angle;
 use crate::sheet::assignment::Assignment;
 use crate::sheet::build::{Drawing, build, build_identified, edges_by_drawn_name, listed_order, rebuild_faces};
@@ -105,9 +107,37 @@ fn head(source: &Source, keys: &Keys) -> Result<Drawing, SheetError> {
         title: string(keys.file_title, "file_title")?.unwrap_or_else(stem),
         description: string(keys.file_description, "file_description")?.unwrap_or_default(),
         folded: keys.frame_classes.is_some_and(|classes| classes.get().contains("\"foldedForm\"")),
-        lattice: keys.lattice.map(|value| lattice(source, value)).transpose()?,
+        lattice: keys
+            .lattice
+            .filter(|value| !repeats_by_screws(value))
+            .map(|value| lattice(source, value))
+            .transpose()?,
+        screws: keys.lattice.filter(|value| repeats_by_screws(value)).map(|value| screws(source, value)).transpose()?,
         ..Drawing::default()
     })
+}
+
+/// Whether a lattice is one of screw motions, which are objects.
+fn repeats_by_screws(value: &RawValue) -> bool {
+    value.get().contains('{')
+}
+
+/// A screw motion in a file: its angle in degrees, and its translation.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ScrewText {
+    turn: f64,
+    rise: f64,
+}
+
+fn screws(source: &Source, value: &RawValue) -> Result<ScrewLattice, SheetError> {
+    let right = "two screw motions about z, [{ \"turn\": degrees, \"rise\": length }, { .. }], turns of -360 to 360";
+    let both: [ScrewText; 2] = source.typed(value, || "`foldwell:lattice`".into(), right)?;
+    if both.iter().any(|screw| screw.turn.abs() > 360.0) {
+        return Err(source.mistyped(value, "`foldwell:lattice`".into(), right));
+    }
+    let [first, second] = both.map(|ScrewText { turn, rise }| (turn.to_radians(), rise));
+    Ok(ScrewLattice { turn: [first.0, second.0], rise: [first.1, second.1] })
 }
 
 fn lattice(source: &Source, value: &RawValue) -> Result<[Vec3; 2], SheetError> {
@@ -198,7 +228,7 @@ fn read_names(source: &Source, keys: &Keys, count: usize) -> Result<BTreeMap<Str
 fn turned_over(drawn: &Drawing) -> Option<Drawing> {
     let folds = |letter| matches!(letter, Assignment::Mountain | Assignment::Valley);
     let letters: Vec<_> = drawn.assignments.iter().filter(|(_, letter)| folds(*letter)).collect();
-    if drawn.lattice.is_some() || !drawn.fold_angles.is_empty() || letters.len() < 2 {
+    if drawn.lattice.is_some() || drawn.screws.is_some() || !drawn.fold_angles.is_empty() || letters.len() < 2 {
         return None;
     }
     let bare = Drawing { assignments: vec![], ..drawn.clone() };

@@ -34,6 +34,11 @@ pub fn write(sheet: &Sheet) -> String {
     if let Some(lattice) = drawn.lattice {
         field(&mut text, "foldwell:lattice", &rows(lattice.iter().map(|l| numbers(l.iter()))));
     }
+    if let Some(screws) = &drawn.screws {
+        let screw =
+            |a: usize| format!("{{ \"turn\": {:?}, \"rise\": {:?} }}", in_degrees(screws.turn[a]), screws.rise[a]);
+        field(&mut text, "foldwell:lattice", &rows([0, 1].map(screw).into_iter()));
+    }
     if !drawn.holes.is_empty() {
         field(&mut text, "foldwell:holes", &rows(drawn.holes.iter().map(numbers)));
     }

@@ -53,7 +53,7 @@ pub(super) fn edges(sheet: &Sheet) -> Result<Vec<FlatEdge>, NotFlat> {
 }
 
 fn check(sheet: &Sheet) -> Result<(), NotFlat> {
-    if sheet.lattice.is_some() {
+    if sheet.is_repeated() {
         return Err(NotFlat::Periodic);
     }
     let first = sheet.vertices.first().copied().unwrap_or_default();
