@@ -310,9 +310,11 @@ fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
     let state = theta.map_or("modes of the drawn state".to_owned(), |[theta1, theta2]| {
         format!("modes of a cylinder with rotations of {} and {} rad per cell", rounded(theta1, 4), rounded(theta2, 4))
     });
-    let (rates, polynomial) = (rates(&survey.determinant), &survey.determinant.polynomial);
     let measured = found.strip.iter().flat_map(FoundStrip::measured).collect();
-    let plot = BlochPlot { rates, polynomial, lines, marks, measured };
+    let upper = found.strip.iter().filter_map(|strip| strip.upper.as_ref());
+    let other = upper.flat_map(rates).map(|(q, kappa, _)| (q, kappa)).collect();
+    let rates = rates(&survey.determinant);
+    let plot = BlochPlot { rates, polynomial: &survey.determinant.polynomial, lines, marks, other, measured };
     answer.add(format!("{}.svg", context.name()), figure::svg(&plot, &context.caption(state)));
 }
 

@@ -55,6 +55,8 @@ fn other(context: &Context<'_>, strip: &StripSpec) -> Result<Option<Sheet>, Stud
 /// What was found of a strip.
 pub(super) struct FoundStrip {
     pub rows: Vec<StripRow>,
+    /// The determinant of the cell above an interface.
+    pub upper: Option<Determinant>,
     pub summary: StripSummary,
 }
 
@@ -137,7 +139,8 @@ pub(super) fn compute(
         }
     };
     let halves = if spec.clamped { Halves { strip: halves.strip.clamped(), clamped: true, ..halves } } else { halves };
-    let mut found = FoundStrip { rows: Vec::new(), summary: StripSummary { cells, ..StripSummary::default() } };
+    let upper = halves.interface.then(|| halves.determinant[1].clone());
+    let mut found = FoundStrip { rows: Vec::new(), upper, summary: StripSummary { cells, ..StripSummary::default() } };
     for (k, q1) in wavenumbers.iter().enumerate() {
         if !context.step(k, Some(wavenumbers.len())) {
             return Ok(None);

@@ -29,6 +29,7 @@ const SHADES: usize = 16;
 const MOST: f64 = 6.0;
 /// Radius of the ring of a measured rate.
 const MEASURED: f64 = 6.0;
+const OTHER: Colour = SERIES[5];
 const GROWING: Colour = SERIES[3];
 const DECAYING: Colour = SERIES[4];
 
@@ -42,6 +43,8 @@ pub struct BlochPlot<'a> {
     pub lines: Vec<Vec<[f64; 2]>>,
     /// Wavenumbers `(q1, q2)` that are marked on the map.
     pub marks: Vec<[f64; 2]>,
+    /// `(q1, kappa2)` of the roots of the other cell of an interface.
+    pub other: Vec<(f64, f64)>,
     /// `(q1, kappa2)` of each rate that was measured in a strip.
     pub measured: Vec<(f64, f64)>,
 }
@@ -89,12 +92,18 @@ fn rates(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
         let place = [LEFT[0] + along(q), TOP + SIDE * (1.0 - axis.part(kappa))];
         canvas.circle(place, 2.0, Style::area(colour));
     }
-    for &(q, kappa) in plot.measured.iter().filter(|(_, kappa)| kappa.abs() <= MOST) {
+    for &(q, kappa) in plot.other.iter().filter(|(_, kappa)| kappa.abs() <= most) {
+        canvas.circle([LEFT[0] + along(q), TOP + SIDE * (1.0 - axis.part(kappa))], 1.2, Style::area(OTHER));
+    }
+    for &(q, kappa) in plot.measured.iter().filter(|(_, kappa)| kappa.abs() <= most) {
         canvas.circle([LEFT[0] + along(q), TOP + SIDE * (1.0 - axis.part(kappa))], MEASURED, Style::line(INK, 1.6));
     }
     frame(canvas, 0, "inverse decay rate \u{3ba}\u{2082} per cell, at real q\u{2081}");
     let dot = |colour| Mark::Circle(5.0, Style::area(colour));
     let mut entries = vec![(dot(GROWING), "grows"), (dot(DECAYING), "decays"), (dot(INK), "neither")];
+    if !plot.other.is_empty() {
+        entries.push((dot(OTHER), "other cell"));
+    }
     if !plot.measured.is_empty() {
         entries.push((Mark::Circle(MEASURED, Style::line(INK, 1.6)), "in the strip"));
     }
@@ -214,8 +223,8 @@ mod tests {
         Caption { title: "a < b".into(), state: "drawn state".into() }
     }
 
-    /// Claim: the figure has a dot for every rate within the range, a ring for every one of a strip, and a path for every line, cut where it leaves the
-    /// zone; a determinant without lines is labelled as its magnitude; texts do not overlap.
+    /// Claim: the figure has a dot for every rate within the range, a ring for every one of a strip, and a path for
+    /// every line, cut where it leaves the zone; a determinant without lines is labelled as its magnitude; texts do not overlap.
     #[test]
     fn everything_is_drawn() {
         let polynomial =
@@ -227,11 +236,13 @@ mod tests {
             polynomial: &polynomial,
             lines: vec![across],
             marks: vec![[0.3, -0.2 + TAU]],
+            other: vec![(0.6, 0.2)],
             measured: vec![(0.5, 0.3), (0.5, 9.0)],
         };
         let text = svg(&plot, &caption());
         assert!(text.contains("<title>a &lt; b</title>") && !text.contains("NaN"));
         assert_eq!([2, 9].map(|r| text.matches(&format!(" r=\"{r}\"")).count()), [3, 1]);
+        assert_eq!(text.matches(" r=\"1.2\"").count(), 1);
         assert_eq!(text.matches(" r=\"6\"").count(), 1 + 1, "the one within the range, and the legend");
         let ring = format!("cx=\"{:.1}\" cy=\"{:.1}\"", LEFT[1] + along(0.3), TOP + SIDE - along(-0.2));
         assert!(text.contains(&ring), "{ring}");
@@ -247,7 +258,17 @@ mod tests {
         let polynomial =
             Laurent { coefficients: DenseMatrix::from_row_slice(3, 1, &[0.5, 0.0, 0.5]), lowest: [-1.0, 0.0] };
         let lines = vec![vec![[0.5 * PI, -PI], [0.5 * PI, PI]]];
-        let text = svg(&BlochPlot { rates: vec![], polynomial: &polynomial, lines, marks: vec![] }, &caption());
+        let text = svg(
+            &BlochPlot {
+                rates: vec![],
+                polynomial: &polynomial,
+                lines,
+                marks: vec![],
+                other: vec![],
+                measured: vec![],
+            },
+            &caption(),
+        );
         let middles = |colour: Colour| {
             let deep = text.lines().find(|line| line.contains(&format!("fill=\"{colour}\"/>"))).unwrap();
             let parts = deep.split('M').skip(1).filter(|part| part.contains('Z'));
