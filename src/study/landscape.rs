@@ -58,7 +58,8 @@ const FITTED: usize = 2;
 const NO_MAP: &str = "maps are of patches with three modes that curvatures name; leave out `map`";
 
 /// Advice for a mode that does not exist.
-const MODES: &str = "patches have modes named by curvatures, tori those of wavenumbers on zero lines";
+const MODES: &str = "modes of patches are named by curvatures or, where these do not tell them apart, by { rates = \"file.csv\" }, \
+                     which `response` lists for all modes; those of tori by wavenumbers on zero lines";
 
 /// Returns the rates of the rest angles of a mode.
 fn rates(context: &Context<'_>, held: &HeldSheet, mode: &Located<Mode>) -> Result<Vec<f64>, StudyError> {
