@@ -34,6 +34,7 @@ pub(crate) mod record;
 mod screws;
 mod seam;
 pub mod stl;
+pub mod symmetry;
 pub(crate) mod text;
 pub(crate) mod tiling;
 

@@ -4,14 +4,16 @@ use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::{start, states};
-use crate::analysis::response::{Field, LinearMode, Moduli, Principal, Response, SelfStress, moduli_at, response_at};
+use crate::analysis::response::{
+    Field, LinearMode, Moduli, Principal, Response, SelfStress, SymmetryTypes, moduli_at, response_at,
+};
 use crate::math::Vec3;
 use crate::model::{Domain, Gauge};
 use crate::output::figure::{ratios, rounded};
 use crate::output::picture::Picture;
 use crate::output::summary::{
     LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
-    RigidLimitSummary, StressSummary, StudyResult, TableSummary,
+    RigidLimitSummary, StressSummary, StudyResult, SymmetrySummary, TableSummary,
 };
 use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
@@ -211,6 +213,7 @@ fn summary(response: &Response) -> ResponseSummary {
         },
         self_stresses: response.self_stresses,
         stresses: response.stresses.iter().map(stress).collect(),
+        symmetries: response.symmetries.iter().map(symmetry).collect(),
         lattice: LatticeSummary {
             chords: lattice.chords.map(Into::into),
             theta: lattice.theta,
@@ -220,6 +223,17 @@ fn summary(response: &Response) -> ResponseSummary {
         poisson,
         moduli: None,
         no_moduli: None,
+    }
+}
+
+fn symmetry(types: &SymmetryTypes) -> SymmetrySummary {
+    SymmetrySummary {
+        operation: types.symmetry.kind.words().to_owned(),
+        direction: types.symmetry.direction.map(Into::into),
+        even: types.modes[0],
+        odd: types.modes[1],
+        even_stresses: types.stresses[0],
+        odd_stresses: types.stresses[1],
     }
 }
 

@@ -76,6 +76,7 @@ mod stiffness;
 mod stopping;
 mod surface;
 mod sweep;
+mod symmetry_types;
 mod targets;
 mod thin;
 mod touching;

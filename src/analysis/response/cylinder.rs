@@ -37,7 +37,16 @@ pub(super) fn response(assembly: &Assembly, coordinates: &[f64]) -> Result<Respo
     let mixed = |mix: DVector<f64>| state.mode(model.velocity((&null.basis * mix).as_slice()));
     let modes = amplitudes.column_iter().map(|mix| mixed(mix.into_owned())).collect();
     let (table, error) = (raw.ranks()?, null.gap.recip());
-    Ok(Response { modes, table, lattice: state.lattice(), self_stresses: 0, stresses: vec![], poisson: None, error })
+    Ok(Response {
+        modes,
+        table,
+        lattice: state.lattice(),
+        self_stresses: 0,
+        stresses: vec![],
+        symmetries: vec![],
+        poisson: None,
+        error,
+    })
 }
 
 /// Returns the Jacobian of the stiff measures of a model.

@@ -17,6 +17,7 @@
 //! | `moduli` | effective moduli of a sheet at rest |
 //! | `moduli_matrices` | the matrices of the moduli, and principal strains and bendings |
 //! | `condensed` | the condensation of the springs of a cell |
+//! | `symmetry_types` | modes and self stresses that are even and odd under the symmetries of the sheet |
 //! | `stresses` | self stresses, and the forces and moments that they put on the lattice |
 //!
 //! **Conventions.** x is along the first lattice vector of the state, y in the plane of the lattice towards the second,
@@ -37,6 +38,7 @@ mod periodic;
 mod poisson;
 mod result;
 mod stresses;
+mod symmetry_types;
 mod tensors;
 
 pub use error::ResponseError;
@@ -46,6 +48,7 @@ pub use moduli_matrices::{ModuliMatrices, Principal};
 pub use poisson::{Poisson, Relation};
 pub use result::{LatticeMotions, Response};
 pub use stresses::SelfStress;
+pub use symmetry_types::SymmetryTypes;
 pub use tensors::TensorSpace;
 
 use super::modes::modes_at;

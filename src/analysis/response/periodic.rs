@@ -6,6 +6,7 @@ use super::mode::{Field, LinearMode, ModeTable, RawTable};
 use super::poisson::Poisson;
 use super::result::{LatticeMotions, Response};
 use super::stresses;
+use super::symmetry_types;
 use super::tensors::mixed_determinant;
 use crate::kinematics::metric::LatticeFrame;
 use crate::kinematics::{Displacement, Embedding, FoldingModes, folding_modes_with_locked};
@@ -21,7 +22,8 @@ pub(super) fn response(assembly: &Assembly, cell: &PeriodicCell) -> Result<Respo
     let CellModes { modes, table, poisson, error } = modes_of(cell)?;
     let lattice = LatticeMotions { chords: cell.lattice, theta: [0.0; 2], axis: None, curvature: 0.0 };
     let stresses = stresses::of_cell(assembly, cell)?;
-    Ok(Response { modes, table, lattice, self_stresses: 0, stresses, poisson: Some(poisson), error })
+    let symmetries = symmetry_types::of_cell(cell, &modes, &stresses);
+    Ok(Response { modes, table, lattice, self_stresses: 0, stresses, symmetries, poisson: Some(poisson), error })
 }
 
 /// The modes of a cell.

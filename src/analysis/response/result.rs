@@ -3,6 +3,7 @@
 use super::mode::{LinearMode, ModeTable};
 use super::poisson::Poisson;
 use super::stresses::SelfStress;
+use super::symmetry_types::SymmetryTypes;
 use crate::math::Vec3;
 
 /// The linear response of a state.
@@ -18,6 +19,8 @@ pub struct Response {
     pub self_stresses: usize,
     /// A basis of the self stresses of one cell whose lattice is held; empty on a cylinder.
     pub stresses: Vec<SelfStress>,
+    /// Modes and self stresses by their type under the symmetries of the cell; empty on a cylinder.
+    pub symmetries: Vec<SymmetryTypes>,
     /// Poisson's ratios of the modes; `None` on a cylinder, which has a curvature in one direction already.
     pub poisson: Option<Poisson>,
     /// Error of the modes: the larger of the difference between two ways over the faces and the defect of reciprocity,

@@ -27,7 +27,7 @@ pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
 pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
 pub use response::{
     LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
-    RigidLimitSummary, StressSummary, TableSummary,
+    RigidLimitSummary, StressSummary, SymmetrySummary, TableSummary,
 };
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use sweep::{PointStatus, SweepSummary, UnansweredPoint};

@@ -17,6 +17,9 @@ pub struct ResponseSummary {
     pub self_stresses: usize,
     /// A basis of the self stresses of one cell with held lattice; empty on a cylinder.
     pub stresses: Vec<StressSummary>,
+    /// Modes and self stresses by their type under the symmetries of the cell.
+    #[serde(default)]
+    pub symmetries: Vec<SymmetrySummary>,
     /// The lattice of the state.
     pub lattice: LatticeSummary,
     /// Poisson's ratios of the rigid modes.
@@ -108,6 +111,24 @@ pub struct StressSummary {
     pub force: [f64; 3],
     /// Work on curvatures `[k11, k22, k12]`, per area of the cell.
     pub moment: [f64; 3],
+}
+
+/// Modes and self stresses that a symmetry of order two carries into themselves (even) or into their negative (odd).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SymmetrySummary {
+    /// What it is: an axis, a plane, a centre.
+    pub operation: String,
+    /// Unit vector of an axis along the sheet, of the line in which a plane across it meets the sheet, or of the translation of a
+    /// glide plane along it, in the frame of the mesh file; null for the others.
+    pub direction: Option<[f64; 3]>,
+    /// Even linear folding modes.
+    pub even: usize,
+    /// Odd linear folding modes.
+    pub odd: usize,
+    /// Even self stresses of one cell with held lattice.
+    pub even_stresses: usize,
+    /// Odd self stresses of one cell with held lattice.
+    pub odd_stresses: usize,
 }
 
 /// The motions from a cell to the next.

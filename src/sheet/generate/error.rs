@@ -57,6 +57,14 @@ pub enum GenerateError {
         /// Smallest count.
         high: usize,
     },
+    /// A count is odd, where half of it is needed.
+    #[error("`{name}` is {value}; it should be even for this symmetry")]
+    Odd {
+        /// The parameter.
+        name: &'static str,
+        /// Its value.
+        value: usize,
+    },
     /// The parameters are in their ranges, but together they give a degenerate mesh.
     #[error("these parameters together give no sheet: {0}")]
     Mesh(#[from] Defect),

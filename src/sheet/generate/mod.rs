@@ -21,6 +21,7 @@ mod parts;
 mod random;
 mod resch;
 mod square_twist;
+mod symmetric;
 mod truss;
 mod waterbomb;
 mod yoshimura;
@@ -40,12 +41,13 @@ pub use miura::{Miura, MiuraPatch};
 pub use random::{Random, RandomDevelopable};
 pub use resch::Resch;
 pub use square_twist::SquareTwist;
+pub use symmetric::{CellSymmetry, Symmetric};
 pub use truss::Truss;
 pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
 /// The names of the patterns, and a page about each.
-const HELP: [(&str, &str); 12] = [
+const HELP: [(&str, &str); 13] = [
     ("miura", include_str!("help/miura.txt")),
     ("miura-patch", include_str!("help/miura-patch.txt")),
     ("eggbox", include_str!("help/eggbox.txt")),
@@ -57,6 +59,7 @@ const HELP: [(&str, &str); 12] = [
     ("hypar", include_str!("help/hypar.txt")),
     ("truss", include_str!("help/truss.txt")),
     ("random", include_str!("help/random.txt")),
+    ("symmetric", include_str!("help/symmetric.txt")),
     ("random-developable", include_str!("help/random-developable.txt")),
 ];
 
@@ -86,6 +89,8 @@ pub enum Pattern {
     Truss(Truss),
     /// A random cell that cannot be flattened.
     Random(Random),
+    /// A random cell with one symmetry.
+    Symmetric(Symmetric),
     /// A random flat cell.
     RandomDevelopable(RandomDevelopable),
 }
@@ -141,6 +146,7 @@ pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
         Pattern::Hypar(p) => p.sheet(),
         Pattern::Truss(p) => p.sheet(),
         Pattern::Random(p) => p.sheet(),
+        Pattern::Symmetric(p) => p.sheet(),
         Pattern::RandomDevelopable(p) => p.sheet(),
     }
 }

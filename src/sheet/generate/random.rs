@@ -96,6 +96,6 @@ impl Random {
     }
 }
 
-fn split([a, b, c, d]: [Corner; 4], rising: bool) -> [Vec<Corner>; 2] {
+pub(super) fn split([a, b, c, d]: [Corner; 4], rising: bool) -> [Vec<Corner>; 2] {
     if rising { [vec![a, b, c], vec![a, c, d]] } else { [vec![a, b, d], vec![b, c, d]] }
 }

@@ -244,6 +244,8 @@ fn bad_parameters() {
         (r#"{"pattern": "hypar", "pleats": 1}"#, "`pleats` is 1; it should be from 2 to 200"),
         (r#"{"pattern": "hypar", "sides": 2}"#, "`sides` is 2; it should be from 3 to 100"),
         (r#"{"pattern": "random", "jitter": 0.25}"#, "`jitter` is 0.25; it should be at least 0 and below 0.25"),
+        (r#"{"pattern": "symmetric", "symmetry": "glide", "size": [3, 2]}"#, "`size[0]` is 3; it should be even"),
+        (r#"{"pattern": "symmetric", "symmetry": "mirror", "size": [3, 3]}"#, "`size[1]` is 3; it should be even"),
         (r#"{"pattern": "random-developable", "size": [0, 2]}"#, "`size[0]` is 0; it should be from 1 to 1000"),
     ];
     for (json, message) in cases {
