@@ -48,12 +48,12 @@ def relax(
 
 
 def modes(assembly: Assembly, *, start: Start = None, eigenvalues: int | None = None, **common: Any) -> Result:
-    """Counts zero modes and self stresses, and finds the lowest eigenvalues of the energy's Hessian.
+    """Counts zero modes and self stresses, and finds the lowest eigenvalues of the energy's Hessian, with a mass also frequencies.
 
     Args:
         assembly: The sheet and its energy.
         start: The state whose modes are wanted, as in `relax`.
-        eigenvalues: How many; left out: none.
+        eigenvalues: How many, and how many frequencies where the assembly has a mass; left out: none.
         **common: As for every study, see `compute`.
     """
     return compute(assembly, "modes", {"eigenvalues": eigenvalues}, start=start, **common)

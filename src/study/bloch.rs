@@ -192,7 +192,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     add_maps(&mut answer, context, &found);
     add_figure(&mut answer, context, &found);
     let result = summary(context.assembly, &found);
-    answer.conclude(StudyResult::Bloch(result), Some(found.survey.determinant.error), None);
+    answer.conclude(StudyResult::Bloch(Box::new(result)), Some(found.survey.determinant.error), None);
     answer
 }
 

@@ -38,6 +38,7 @@ mod supported;
 mod surface;
 mod trace;
 mod tube;
+mod vibrations;
 mod wells;
 
 use crate::scene::spec::StudyKind;

@@ -142,7 +142,7 @@ pub enum StudyResult {
     /// `kind = "landscape"`.
     Landscape(LandscapeSummary),
     /// `kind = "bloch"`.
-    Bloch(BlochSummary),
+    Bloch(Box<BlochSummary>),
     /// `kind = "wells"`.
     Wells(WellsSummary),
     /// `kind = "path"`.

@@ -194,7 +194,8 @@ pub struct SurfaceSpec {
 pub struct ModesSpec {
     /// The state whose modes are wanted; left out: the drawn one.
     pub start: Option<Located<StartSpec>>,
-    /// How many of the lowest eigenvalues of the energy's Hessian; left out: none.
+    /// How many of the lowest eigenvalues of the energy's Hessian, and, where the scene has a mass, of the lowest frequencies;
+    /// left out: none.
     pub eigenvalues: Option<Located<usize>>,
 }
 
@@ -326,6 +327,15 @@ impl StudyKind {
             Self::Wells(spec) => spec.start.as_ref(),
             Self::Path(spec) => spec.start.as_ref(),
             Self::Response(spec) => spec.start.as_ref(),
+        }
+    }
+
+    /// Whether the study finds frequencies, which depend on the mass of the sheet.
+    pub(crate) fn reads_mass(&self) -> bool {
+        match self {
+            Self::Modes(spec) => spec.eigenvalues.as_ref().is_some_and(|count| **count > 0),
+            Self::Bloch(spec) => spec.path.is_some(),
+            _ => false,
         }
     }
 
