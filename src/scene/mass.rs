@@ -32,7 +32,8 @@ pub(crate) fn is_read(file: &SceneFile) -> Result<(), SceneError> {
     match span.filter(|_| !file.scene.studies.iter().any(|study| study.kind.reads_mass())) {
         None => Ok(()),
         Some(span) => {
-            let help = "frequencies are those of kind = \"modes\" with `eigenvalues`; leave `mass` out otherwise";
+            let help = "frequencies are those of kind = \"modes\" with `eigenvalues` and kind = \"bloch\" with `path` or \
+                        `density`; leave `mass` out otherwise";
             Err(file.error_at(span, "no study of this scene reads the mass", help))
         }
     }

@@ -158,23 +158,27 @@ fn nothing_to_pair() {
     assert_eq!((found.pairing_error, found.pairing_condition), (None, None));
 }
 
-/// Claim: an impossible study is refused before anything is written, and a sheet without a determinant is a study that
-/// failed.
+/// Writes a scene with a study of a sheet into a folder.
+fn written(folder: &Path, sheet: &str, keys: &str) -> PathBuf {
+    let path = folder.join("scene.toml");
+    let text = format!("[sheet]\n{sheet}\n[[study]]\nname = \"a\"\nkind = \"bloch\"\ndraw = []\n{keys}\n");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+/// Claim: an impossible study is refused before anything is written.
 #[test]
 fn what_cannot_be_done() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = |sheet: &str, keys: &str| {
-        let path = folder.path().join("scene.toml");
-        let text = format!("[sheet]\n{sheet}\n[[study]]\nname = \"a\"\nkind = \"bloch\"\ndraw = []\n{keys}\n");
-        std::fs::write(&path, text).unwrap();
-        path
-    };
+    let scene = |sheet: &str, keys: &str| written(folder.path(), sheet, keys);
     let out = folder.path().join("out");
     let misfit = format!("strip = {{ cells = 20, other = '{}' }}", meshes().join("kirigami.fold").display());
     let cases = [
         ("generate = { pattern = \"miura\" }", "", "conditions (bars and rigid facets)"),
         ("generate = { pattern = \"kresling\" }", "", "without lattice vectors"),
         ("generate = { pattern = \"random\" }", "path = [[0, 0], [1, 0]]", "bands need an energy of springs"),
+        ("generate = { pattern = \"random\" }", "density = {}", "bands need an energy of springs"),
+        ("generate = { pattern = \"random\" }", "density = { bins = 0 }", "the number is 0"),
         ("generate = { pattern = \"random\" }", "modes = [[0.1, inf]]", "the number is inf"),
         ("generate = { pattern = \"random\" }", "q1 = [nan]", "the number is NaN"),
         ("generate = { pattern = \"random\" }", "grid = [0, 8]", "0"),
@@ -200,6 +204,15 @@ fn what_cannot_be_done() {
         assert!(error.to_string().contains(expected), "{error}");
         assert!(!out.exists());
     }
+}
+
+/// Claim: a state that is not of one cell, and bands of a state, are refused; a sheet without a determinant is a study that
+/// failed, and polygons that bend have one.
+#[test]
+fn states_that_cannot_be_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = |sheet: &str, keys: &str| written(folder.path(), sheet, keys);
+    let out = folder.path().join("out");
     let relaxed = |domain: &str, keys: &str| {
         let energy = "[energy]\nbars = { stiffness = 100.0 }\ncreases = { stiffness = 1.0 }\n[[study]]\nname = \"r\"\nkind = \
                       \"relax\"\ntolerance = 1e-9";

@@ -25,7 +25,7 @@ fn first_tube(sheet: &Sheet, number: usize) -> (Option<([i32; 2], Roll)>, usize)
     let mut failed = 0;
     for k in 0..SEAMS.len() {
         let seam = SEAMS[(number + k) % SEAMS.len()];
-        for inwards in [number % 2 == 0, number % 2 == 1] {
+        for inwards in [number.is_multiple_of(2), !number.is_multiple_of(2)] {
             match rolled_up(sheet, seam, SeamKept::BOTH, inwards) {
                 Ok(roll) => return (Some((seam, roll)), failed),
                 Err(KinematicsError::NoTube { .. } | KinematicsError::NotClosed { .. }) => failed += 1,

@@ -3,6 +3,8 @@
 
 use crate::common::{Testing, assert_refused, eigenvalues, energy_hessian, mesh};
 use approx::assert_abs_diff_eq;
+use foldwell::analysis::bloch::Density;
+use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses};
 use foldwell::analysis::modes::{DENSE_LIMIT, Vibrations, modes, modes_at};
 use foldwell::analysis::restored;
 use foldwell::analysis::start_state::StartState;
@@ -236,6 +238,57 @@ fn what_has_no_mass_is_refused() {
     assert!(modes(&energy(Assembly::torus(star(), [1, 1]), Mass::Vertex(1.0)), 0, &mut || true).is_ok());
 }
 
+/// Returns the dynamical matrix of a cell whose bars have 1e3 and whose creases 1, with a mass per area.
+fn heavy(sheet: &Sheet) -> DynamicalMatrix {
+    let stiffnesses = Stiffnesses { bars: 1e3, creases: 1.0, facets: 0.0 };
+    DynamicalMatrix::new(sheet, stiffnesses).unwrap().with_masses(&Mass::Area(0.2).of_cell(sheet))
+}
+
+/// Claim: the frequencies of waves at `q = 0` are those of the fixed torus of one cell, three zeros exactly; those at the
+/// wavenumbers `2 pi (k1 / 2, k2 / 3)` together are all frequencies of the torus of 2 x 3 cells. Source: waves that repeat after
+/// these cells are its vibrations. Tolerance: squares to 1e-13 of the largest.
+#[test]
+fn bands_are_the_frequencies_of_tori() {
+    for sheet in [mesh("open-star"), random(6)] {
+        let matrix = heavy(&sheet);
+        for cells in [[1, 1], [2, 3]] {
+            let builder = Assembly::fixed_torus(sheet.clone(), cells).bars(1e3).creases(1.0).mass(Mass::Area(0.2));
+            let torus = vibrations(builder, 3 * sheet.vertices.len() * cells[0] * cells[1]).squares;
+            let mut bands = matrix.on_grid(cells, |_| true).unwrap().unwrap().concat();
+            bands.sort_by(f64::total_cmp);
+            assert_eq!((bands.len(), &bands[..3], &torus[..3]), (torus.len(), &[0.0; 3][..], &[0.0; 3][..]));
+            assert!(bands[3] > 0.1, "{}", bands[3]);
+            let largest = torus[torus.len() - 1];
+            for (band, square) in bands.iter().zip(&torus) {
+                assert_abs_diff_eq!(band * band, square, epsilon = 1e-13 * largest);
+            }
+        }
+    }
+}
+
+/// Claim: the number of states below a frequency is that of a histogram at 100 x 100 other wavenumbers, and the integral of the
+/// density is the number of bands to rounding. Tolerance: 0.02 of 12 states, some spacings of the grids.
+#[test]
+fn density_of_states_against_a_histogram() {
+    let sheet = mesh("open-star");
+    let (matrix, bands) = (heavy(&sheet), 3 * sheet.vertices.len());
+    let grid = [24, 24];
+    let density = Density::new(&matrix.on_grid(grid, |_| true).unwrap().unwrap(), grid, 40);
+    assert_abs_diff_eq!(density.integral(), bands as f64, epsilon = 1e-12);
+    // wavenumbers off the grid, without its symmetry
+    let shifted = |k: usize| std::f64::consts::TAU * (k as f64 + 0.37) / 100.0;
+    let wavenumbers = (0..10_000).map(|k| [shifted(k % 100), shifted(k / 100)]);
+    let all: Vec<f64> = wavenumbers.flat_map(|q| matrix.frequencies(q).unwrap()).collect();
+    let width = density.edges[1];
+    let mut states = 0.0;
+    for (edge, value) in density.edges[1..].iter().zip(&density.values) {
+        states += value * width;
+        let counted = all.iter().filter(|frequency| *frequency <= edge).count() as f64 / 10_000.0;
+        assert_abs_diff_eq!(states, counted, epsilon = 0.02);
+    }
+    assert_eq!(matrix.on_grid(grid, |step| step < 5).unwrap(), None);
+}
+
 /// Runs a scene of `meshes`, with changes, into a folder; returns its only study.
 fn run(folder: &Path, name: &str, change: impl Fn(String) -> String, resume: bool) -> ModesSummary {
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/miura-frequencies.toml")).unwrap();
@@ -283,7 +336,40 @@ fn a_scene_with_mass() {
     assert!(!folder.path().join("without/spectrum-frequencies.csv").exists());
 }
 
-/// Claim: a mass that no study reads, or that not every coordinate has, is refused with its place and what would be right.
+/// Claim: a study of bands of a sheet with mass adds columns of frequencies to its table, whose columns without mass stay what they
+/// are, a density of states with as many states as bands, and a picture of both.
+#[test]
+fn a_scene_of_waves_with_mass() {
+    let folder = tempfile::tempdir().unwrap();
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let text = fs::read_to_string(meshes.join("star-waves.toml")).unwrap();
+    let text = text.replace("open-star.fold", &meshes.join("open-star.fold").display().to_string());
+    let run = |name: &str, text: &str| {
+        let scene = folder.path().join(format!("{name}.toml"));
+        fs::write(&scene, text).unwrap();
+        let options = RunOptions { out: Some(folder.path().join(name)), ..RunOptions::default() };
+        assert!(run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap().summary.converged());
+    };
+    run("with", &text);
+    let without = text.replace("mass = ", "# ").replace("density = ", "# ");
+    run("without", &without);
+    let table = |path: &str| -> Vec<Vec<String>> {
+        let text = fs::read_to_string(folder.path().join(path)).unwrap();
+        text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let (with, bare) = (table("with/waves_bands.csv"), table("without/waves_bands.csv"));
+    assert_eq!((with.len(), with[0].len(), bare[0].len()), (bare.len(), 3 + 12 + 12, 3 + 12));
+    assert!(with.iter().zip(&bare).all(|(with, bare)| with[..15] == bare[..]));
+    assert_eq!((with[0][15].as_str(), with[1][15].as_str(), with[1][17].as_str()), ("frequency_0", "0.0", "0.0"));
+    let density = table("with/waves-density.csv");
+    let states: f64 = density[density.len() - 1][3].parse().unwrap();
+    assert_abs_diff_eq!(states, 12.0, epsilon = 1e-12);
+    assert!(
+        folder.path().join("with/waves-bands.svg").exists() && !folder.path().join("without/waves-bands.svg").exists()
+    );
+}
+
+/// Claim: a density of states without a mass, a mass that no study reads, or that not every coordinate has, is refused with its place and what would be right.
 #[test]
 fn scenes_whose_mass_means_nothing() {
     let scene = |sheet: &str, study: &str| {
@@ -302,6 +388,12 @@ fn scenes_whose_mass_means_nothing() {
     for (sheet, study, said) in [
         (star("patch"), "kind = \"relax\"", "s.toml:1:8: no study of this scene reads the mass"),
         (star("patch"), "kind = \"modes\"", "no study of this scene reads the mass"),
+        (star("patch"), "kind = \"bloch\"", "no study of this scene reads the mass"),
+        (
+            format!("mesh = {:?}", kirigami.display().to_string()),
+            "kind = \"bloch\"\ndensity = {}",
+            "bands need an energy of springs",
+        ),
         (star("torus"), modes, "s.toml:1:8: frequencies are those of vertices: the vectors of a free lattice"),
         (star("screw"), modes, "the turns of a cylinder have no mass"),
         (

@@ -13,9 +13,6 @@ use crate::solver::{HessianKind, Linearization, Problem, Tangent};
 
 /// Rigidity matrices of more rows or columns than this are not decomposed dense.
 pub const DENSE_LIMIT: usize = 1200;
-/// Bound on the error of an eigenvalue, in units of the machine epsilon times the square root of the number of unknowns
-/// times the largest diagonal entry of the matrix. Zeros are found with at most a tenth of it (`tests/integration/vibrations.rs`).
-const ROUNDING_ERRORS: f64 = 4.0;
 /// Most shifts of the Hessian that are tried, each four times the last.
 const SHIFTS: i32 = 30;
 
@@ -74,11 +71,11 @@ pub(super) fn lowest(
     observe: &mut Observer<'_>,
 ) -> Result<Spectrum, ModesError> {
     let unknowns = model.layout().unknowns;
-    let dense = decomposed_dense(unknowns, wanted.min(free), free)?;
-    let way = if dense { lowest_dense } else { lowest_sparse };
+    let by_dense = decomposed_dense(unknowns, wanted.min(free), free)?;
+    let way = if by_dense { lowest_dense } else { lowest_sparse };
     let (values, vectors, diagonal) = way((model, tension), factors, wanted.min(free), observe)?;
     let velocity = |v: &Vec<f64>| model.velocity(&v.iter().zip(factors).map(|(y, f)| y * f).collect::<Vec<f64>>());
-    let rounding = ROUNDING_ERRORS * (unknowns as f64).sqrt() * f64::EPSILON * diagonal;
+    let rounding = dense::eigenvalue_rounding(unknowns, diagonal);
     Ok(Spectrum { values, vectors: vectors.iter().map(velocity).collect(), rounding })
 }
 

@@ -13,6 +13,7 @@ use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{ColMut, MatMut, MatRef, Par, Spec};
 pub(super) use unit::binary_unit;
+pub(crate) use unit::eigenvalue_rounding;
 
 /// The smallest gap between kept and dropped singular values at which a rank is believed.
 pub(crate) const SMALLEST_GAP: f64 = 1e3;
