@@ -59,6 +59,7 @@ FIGURES = {
     "star-landscape": "star-landscape/modes",
     "star-map": "star-map/bending-map",
     "star-surface": "star-surface/surface",
+    "star-waves": "star-waves/waves-bands",
     "star-wells": "star-wells/wells",
     "tube": "tube/rolled",
     "two-bars-load": "two-bars-load/loaded-reaction",

@@ -69,7 +69,19 @@ fn describe_modes(modes: &ModesSummary) -> String {
             format!("{} self stresses", modes.self_stresses)
         },
         modes.folding_modes.map_or("folding modes unknown".into(), |count| counted(count, "folding mode")),
-    )
+    ) + &describe_frequencies(modes)
+}
+
+/// Describes the lowest frequency above zero and the number of motions that grow; empty without mass.
+fn describe_frequencies(modes: &ModesSummary) -> String {
+    let Some(frequencies) = &modes.frequencies else { return String::new() };
+    let lowest = frequencies.iter().flatten().find(|frequency| **frequency > 0.0);
+    let lowest =
+        lowest.map_or("; no frequency above 0".to_owned(), |lowest| format!("; lowest frequency {lowest:.6e}"));
+    match modes.growth_rates.len() {
+        0 => lowest,
+        count => format!("{lowest}, {} without frequency that grow", counted(count, "motion")),
+    }
 }
 
 /// Describes the number of rays, and whether these are all directions in which the sheet folds.

@@ -66,6 +66,7 @@ class Assembly:
             loads: Forces on vertices, each a dict as `[[load]]`: `{"vertex": 3, "cell": (0, 0), "force": (0, 0, -1.0)}`.
             parts: Vertices that move as rigid bodies, each a dict as `[[part]]`.
             drives: Quantities that `path` drives, each a dict as `[[drive]]`.
+            mass: Mass, from which frequencies follow: `{"vertex": m}` of every vertex, or `{"area": rho}` per area. Left out: none.
 
         Raises:
             SceneError: a value is wrong, or does not fit the sheet.
@@ -317,7 +318,7 @@ def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
     """Returns the tables of a scene for the keyword arguments of `Assembly.patch`."""
     known = {
         *("bars", "rest_lengths", "creases", "rest", "fraction", "facets", "facet_rest"),
-        *("locks", "pins", "loads", "parts", "drives"),
+        *("locks", "pins", "loads", "parts", "drives", "mass"),
     }
     if unknown := terms.keys() - known:
         raise TypeError(f"unknown argument {sorted(unknown)[0]!r}; the terms are {', '.join(sorted(known))}")
@@ -335,7 +336,7 @@ def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
             energy[term]["rest"] = tables.value(given[name], term, name, column)
     if "fraction" in given:
         energy.setdefault("creases", {})["fraction"] = given["fraction"]
-    scene: dict[str, Any] = {"energy": energy, "lock": _locks(given.get("locks", ()))}
+    scene: dict[str, Any] = {"energy": energy, "mass": given.get("mass"), "lock": _locks(given.get("locks", ()))}
     scene |= {name: [dict(table) for table in given.get(f"{name}s", ())] for name in ("pin", "load", "part", "drive")}
     return {name: value for name, value in scene.items() if value}
 

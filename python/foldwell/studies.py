@@ -48,12 +48,12 @@ def relax(
 
 
 def modes(assembly: Assembly, *, start: Start = None, eigenvalues: int | None = None, **common: Any) -> Result:
-    """Counts zero modes and self stresses, and finds the lowest eigenvalues of the energy's Hessian.
+    """Counts zero modes and self stresses, and finds the lowest eigenvalues of the energy's Hessian, with a mass also frequencies.
 
     Args:
         assembly: The sheet and its energy.
         start: The state whose modes are wanted, as in `relax`.
-        eigenvalues: How many; left out: none.
+        eigenvalues: How many, and how many frequencies where the assembly has a mass; left out: none.
         **common: As for every study, see `compute`.
     """
     return compute(assembly, "modes", {"eigenvalues": eigenvalues}, start=start, **common)
@@ -170,6 +170,7 @@ def bloch(
     q1: Sequence[float] | NDArray[Any] | None = None,
     modes: Sequence[tuple[float, float]] | None = None,
     path: Sequence[tuple[float, float]] | None = None,
+    density: Mapping[str, Any] | None = None,
     strip: Mapping[str, Any] | None = None,
     zero_modes_at: Sequence[tuple[float, float]] | NDArray[Any] | None = None,
     **common: Any,
@@ -182,14 +183,16 @@ def bloch(
         grid: Wavenumbers sampled along each direction; left out: (256, 256).
         q1: First wavenumbers at which decay rates are wanted, radians per cell; left out: 32 that divide the zone evenly.
         modes: Modes of which the displacement is kept, each `(q1, kappa2)`.
-        path: Corners `(q1, q2)` of a path through the zone along which the bands of the energy are wanted.
+        path: Corners `(q1, q2)` of a path through the zone along which the bands of the energy are wanted, with a mass also
+            frequencies.
+        density: The density of states of a sheet with mass: `{"grid": (64, 64), "bins": 100}`.
         strip: A strip with free edges whose zero modes are wanted at every `q1`: `{"cells": 60}`, with `"other"` the mesh of
             the upper half, with `"clamped": True` clamped edges.
         zero_modes_at: Wavenumbers `(q1, q2)` at which zero modes and self stresses are counted.
         **common: As for every study, see `compute`.
     """
-    keys = {"grid": grid, "q1": q1, "modes": modes, "path": path, "strip": strip, "zero_modes_at": zero_modes_at}
-    return compute(assembly, "bloch", keys, start=start, **common)
+    keys = {"grid": grid, "q1": q1, "modes": modes, "path": path, "density": density, "strip": strip}
+    return compute(assembly, "bloch", {**keys, "zero_modes_at": zero_modes_at}, start=start, **common)
 
 
 def wells(

@@ -9,6 +9,7 @@ mod error;
 mod rank;
 mod seam;
 mod spectrum;
+mod vibrations;
 
 use super::restored::{self, Forces};
 use super::start_state::StartState;
@@ -22,7 +23,8 @@ use rank::{rank_of, rigid_part};
 pub use seam::SeamMotions;
 use seam::seam_motions;
 pub use spectrum::{DENSE_LIMIT, Observer, decomposed_dense};
-use spectrum::{go_on, lowest};
+use spectrum::{Spectrum, go_on, lowest};
+pub use vibrations::{Vibrations, check_masses};
 
 /// Modes of a state.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +46,8 @@ pub struct Modes {
     pub eigenvalues: Vec<f64>,
     /// The eigenvectors, as velocities of all coordinates, one for each eigenvalue.
     pub vectors: Vec<Vec<f64>>,
+    /// Small vibrations, as many as eigenvalues; `None` where the sheet has no mass or no eigenvalues are wanted.
+    pub vibrations: Option<Vibrations>,
     /// Motions of the bars that each set of closing conditions leaves free, on a tube.
     pub seam: Option<SeamMotions>,
 }
@@ -65,7 +69,8 @@ pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>
 /// nothing stops the work.
 ///
 /// # Errors
-/// [`ModesError`] where a factorization fails, ranks by two ways disagree, or `observe` returned false.
+/// [`ModesError`] where a factorization fails, ranks by two ways disagree, a coordinate has no mass although the sheet has, or
+/// `observe` returned false.
 pub fn modes_at(
     assembly: &Assembly,
     state: &StartState,
@@ -94,14 +99,17 @@ pub fn modes_at(
             columns - rank_of(&assembly.with_terms(some).model(Gauge::Free), observe)?.0
         }
     };
-    let (eigenvalues, vectors) = if eigenvalues.min(free) > 0 {
+    let (mut spectrum, mut vibrations) = (Spectrum::default(), None);
+    if eigenvalues > 0 {
         let mut model = assembly.model(Gauge::Free);
         model.set_angles(&state.angles);
         model.start_from(state.coordinates.clone());
-        lowest((&model, &state.tension), eigenvalues, free, observe)?
-    } else {
-        (vec![], vec![])
-    };
+        let (at, wanted) = ((&model, &state.tension[..]), (eigenvalues, free));
+        vibrations = Vibrations::lowest(assembly, at, wanted, observe)?;
+        if free > 0 {
+            spectrum = lowest(at, &vec![1.0; model.layout().unknowns], wanted, observe)?;
+        }
+    }
     let seam = seam_motions(assembly, &state.coordinates, observe)?;
     Ok(Modes {
         zero_modes,
@@ -110,8 +118,9 @@ pub fn modes_at(
         folding_modes,
         maxwell_count: columns as i64 - rows as i64,
         gap,
-        eigenvalues,
-        vectors,
+        eigenvalues: spectrum.values,
+        vectors: spectrum.vectors,
+        vibrations,
         seam,
     })
 }

@@ -191,7 +191,7 @@ impl Assembly {
         if self.boundary().is_one_cell() { self.geometry.shown } else { self.tiling().cells }
     }
 
-    /// Returns the terms: stiffnesses and rest angles, locks, pins and loads.
+    /// Returns the terms: stiffnesses and rest angles, locks, pins, loads and mass.
     pub fn terms(&self) -> &Terms {
         &self.terms
     }
@@ -321,6 +321,11 @@ impl Assembly {
         let soft: HashSet<usize> =
             tiled.filter(|(k, _)| facets.stiffness.of(*k).is_finite()).map(|(_, edge)| edge.edge).collect();
         self.sheet().facets().filter(|edge| !soft.contains(edge)).collect()
+    }
+
+    /// Returns the mass at every vertex of the tiling; `None` if the sheet has no mass.
+    pub fn masses(&self) -> Option<Vec<f64>> {
+        Some(self.terms.mass?.of_tiling(&self.drawn, self.tiling()))
     }
 
     /// Builds the model of the bars and hinges, in the drawn state.

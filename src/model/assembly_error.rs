@@ -26,6 +26,12 @@ pub enum AssemblyError {
         /// The stiffness that was given.
         stiffness: f64,
     },
+    /// The mass is not a positive finite number.
+    #[error("the mass is {mass}, not a positive number")]
+    Mass {
+        /// The mass that was given.
+        mass: f64,
+    },
     /// Rest angles were given, but no stiffness of the creases.
     #[error("rest angles are those of creases: give these a stiffness")]
     RestWithoutCreases,

@@ -1,9 +1,10 @@
-//! The builder of assemblies: sets stiffnesses, rest angles, locks, pins and loads, and names edges and vertices as
-//! the sheet does.
+//! The builder of assemblies: sets stiffnesses, rest angles, locks, pins, loads and mass, and names edges and vertices
+//! as the sheet does.
 
 use super::assembly::Assembly;
 use super::assembly_error::AssemblyError;
 use super::boundary::Boundary;
+use super::mass::Mass;
 use super::part::Part;
 use super::roll::Roll;
 use super::stiffness::Stiffness;
@@ -86,6 +87,7 @@ struct Given {
     loads: Vec<(NamedVertex, Vec3)>,
     guides: Vec<(NamedVertex, Vec3)>,
     parts: Vec<(Vec<NamedVertex>, [bool; 6])>,
+    mass: Option<Mass>,
 }
 
 impl Builder {
@@ -175,11 +177,18 @@ impl Builder {
         self
     }
 
+    /// Gives the sheet a mass, from which frequencies follow; it has no weight.
+    #[must_use]
+    pub fn mass(mut self, mass: Mass) -> Self {
+        self.given.mass = Some(mass);
+        self
+    }
+
     /// Builds the assembly.
     ///
     /// # Errors
-    /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness or a rest length is not a
-    /// positive number, rest values are given without a stiffness, the length of a list does not match the tiling, a
+    /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness, a rest length or the mass is
+    /// not a positive number, rest values are given without a stiffness, the length of a list does not match the tiling, a
     /// crease or a vertex does not exist, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
         let Self { sheet, cells, boundary, roll, given } = self;
@@ -197,7 +206,11 @@ impl Builder {
         let facets = hinges(&bare, ("facets", EdgeKind::Facet), facets)?;
         let facets = bare.tiling().facets().next().map(|_| facets);
         let bars = with_lengths(&bare, given.bars, given.lengths)?;
-        let mut terms = Terms { bars, creases, facets, ..Terms::default() };
+        let mass = given.mass;
+        if let Some(mass) = mass.map(Mass::amount).filter(|mass| !(*mass > 0.0 && mass.is_finite())) {
+            return Err(AssemblyError::Mass { mass });
+        }
+        let mut terms = Terms { bars, creases, facets, mass, ..Terms::default() };
         for (crease, angle) in given.locks {
             let locked = copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.drawn_angles()[k])));
             terms.locks.extend(locked);

@@ -1,5 +1,6 @@
-//! The terms of a sheet: stiffnesses, rest angles, locks, pins and loads.
+//! The terms of a sheet: stiffnesses, rest angles, locks, pins, loads and mass.
 
+use super::mass::Mass;
 use super::part::Part;
 use super::stiffness::Stiffness;
 use crate::math::Vec3;
@@ -59,7 +60,7 @@ pub struct Hinges {
     pub rest: Vec<f64>,
 }
 
-/// The terms of the energy of a sheet, and the locks, pins and loads on it. `None` means that the term is not built.
+/// The terms of the energy of a sheet, the locks, pins and loads on it, and its mass. `None` means that the term is not built.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Terms {
     /// The bars, one along every edge.
@@ -79,6 +80,8 @@ pub struct Terms {
     pub guides: Vec<(usize, Vec3)>,
     /// Vertices that move as rigid bodies; a vertex belongs to one part at most.
     pub parts: Vec<Part>,
+    /// The mass of the sheet, which gives frequencies; it has no weight.
+    pub mass: Option<Mass>,
 }
 
 impl Terms {
@@ -119,9 +122,9 @@ impl Terms {
         terms.into_iter().find(|(_, uneven)| *uneven).map(|(term, _)| term)
     }
 
-    /// Whether there is any bar, crease, facet, lock or load. Pins alone give no energy.
+    /// Whether there is any bar, crease, facet, lock or load. Pins and mass give no energy.
     pub fn has_energy(&self) -> bool {
-        let Self { bars, creases, facets, locks, pins: _, loads, guides: _, parts: _ } = self;
+        let Self { bars, creases, facets, locks, loads, pins: _, guides: _, parts: _, mass: _ } = self;
         bars.is_some() || creases.is_some() || facets.is_some() || !locks.is_empty() || !loads.is_empty()
     }
 

@@ -1,6 +1,6 @@
 //! Dense complex matrices: determinants, eigenvalues, singular values and vectors.
 
-use super::dense::DenseError;
+use super::dense::{DenseError, binary_unit};
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, evd_cplx, evd_scratch, self_adjoint_evd, self_adjoint_evd_scratch};
@@ -102,15 +102,17 @@ pub fn eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<Complex<f64>>, DenseErr
 pub(crate) fn hermitian_eigenvalues(matrix: &ComplexMatrix) -> Result<Vec<f64>, DenseError> {
     let (rows, columns) = check(matrix)?;
     let mut values = vec![Complex::ZERO; rows];
+    let unit = binary_unit(matrix.iter().map(|entry| entry.re.abs().max(entry.im.abs())));
     if rows > 0 {
+        let matrix = matrix.map(|entry| entry / unit);
         let no = ComputeEigenvectors::No;
         let scratch = self_adjoint_evd_scratch::<Complex<f64>>(rows, no, Par::Seq, Spec::default());
         let mut buffer = MemBuffer::new(scratch);
         let stack = MemStack::new(&mut buffer);
-        self_adjoint_evd(view(matrix), diagonal(&mut values), None, Par::Seq, stack, Spec::default())
+        self_adjoint_evd(view(&matrix), diagonal(&mut values), None, Par::Seq, stack, Spec::default())
             .map_err(|_| DenseError::NoConvergence { rows, columns })?;
     }
-    Ok(values.into_iter().map(|value| value.re).collect())
+    Ok(values.into_iter().map(|value| value.re * unit).collect())
 }
 
 /// Singular values and vectors of a square matrix.

@@ -2,6 +2,7 @@
 
 use super::elements::{ElementKind, ElementValues, name};
 use super::forms::{Mode, RatesFile};
+use super::mass::mass;
 use super::places::Places;
 use super::rest::{ModeRest, RestSpec};
 use super::rows::{self, Column};
@@ -188,7 +189,7 @@ impl<'a> Reader<'a> {
         } else {
             None
         };
-        let terms = Terms { bars, creases, facets, locks: self.locks()?, ..Terms::default() };
+        let terms = Terms { bars, creases, facets, locks: self.locks()?, mass: mass(self.file), ..Terms::default() };
         self.placed(terms)
     }
 

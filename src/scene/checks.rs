@@ -18,6 +18,7 @@ type Checked = Result<(), SceneError>;
 /// Checks a scene; returns an error for the first invalid combination of values.
 pub(super) fn check(file: &SceneFile) -> Checked {
     sheet(file)?;
+    super::mass::check(file)?;
     locks(file)?;
     super::turns::check(file)?;
     fractions(file)?;

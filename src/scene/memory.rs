@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::spec::{MapSpec, StudyKind, StudySpec};
+use super::spec::{DensitySpec, MapSpec, StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::sheet::Sheet;
 
@@ -21,6 +21,10 @@ const TILED_VERTEX: u64 = 1_500;
 const RELAXED_VERTEX: u64 = 8_000;
 /// Bytes for each wavenumber of a grid.
 const WAVENUMBER: u64 = 16;
+/// Bytes for each frequency at a wavenumber.
+const FREQUENCY: u64 = 8;
+/// Bytes for each bin of a density of states: its row of the table.
+const BIN: u64 = 160;
 /// Bytes for each random start.
 const START: u64 = 32;
 /// Bytes for each sample of a map: its direction, its triangles and its row.
@@ -54,7 +58,9 @@ pub(super) fn check(file: &SceneFile, sheet: &Sheet) -> Result<(), SceneError> {
         Need { what: format!("{whose} {vertices} vertices"), bytes: vertices * each, key: "cells", span: span() };
     let free = free_memory();
     fits(file, model, free)?;
-    file.scene.studies.iter().filter_map(of_study).try_for_each(|need| fits(file, need, free.min(MOST_OF_STUDY)))
+    let densities = file.scene.studies.iter().flat_map(|study| of_density(study, sheet.vertices.len()));
+    let mut needs = file.scene.studies.iter().filter_map(of_study).chain(densities);
+    needs.try_for_each(|need| fits(file, need, free.min(MOST_OF_STUDY)))
 }
 
 fn fits(file: &SceneFile, need: Need, room: u64) -> Result<(), SceneError> {
@@ -88,6 +94,24 @@ fn of_study(study: &StudySpec) -> Option<Need> {
         StudyKind::Landscape(landscape) => landscape.map.as_ref().and_then(|map| of_map(name, map)),
         _ => None,
     }
+}
+
+/// Returns the memory that a density of states needs for its wavenumbers, with three frequencies for each vertex, and its bins.
+fn of_density(study: &StudySpec, vertices: usize) -> Vec<Need> {
+    let StudyKind::Bloch(bloch) = &*study.kind else { return vec![] };
+    let Some(DensitySpec { grid, bins }) = bloch.density.as_deref() else { return vec![] };
+    let name = &study.name.0;
+    let of_grid = grid.as_ref().map(|grid| {
+        let count = grid.0.iter().fold(1u64, |product, &n| product.saturating_mul(n as u64));
+        let what = format!("the density of states of `{name}` has {count} wavenumbers");
+        let each = WAVENUMBER + 3 * FREQUENCY * vertices as u64;
+        Need { what, bytes: count.saturating_mul(each), key: "grid", span: grid.span() }
+    });
+    let of_bins = bins.as_ref().map(|bins| {
+        let what = format!("the density of states of `{name}` has {} bins", bins.0);
+        Need { what, bytes: u64::from(bins.0).saturating_mul(BIN), key: "bins", span: bins.span() }
+    });
+    of_grid.into_iter().chain(of_bins).collect()
 }
 
 fn of_map(name: &str, map: &MapSpec) -> Option<Need> {

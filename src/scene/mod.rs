@@ -12,6 +12,7 @@ pub(crate) mod error;
 mod file;
 pub(crate) mod forms;
 mod located;
+pub(crate) mod mass;
 mod memory;
 mod notes;
 pub(crate) mod outputs;

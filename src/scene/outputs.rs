@@ -11,7 +11,8 @@ const TRACE: &[&str] = &["@-strain.svg"];
 const SURFACE: &[&str] = &["@/@_#.vtp"];
 const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp"];
 const BLOCH: &[&str] = &["@/@_determinant.vti", "@/@_zero_lines.vtp", "@/@_mode_#.vtu"];
-const BANDS: &[&str] = &["@_bands.csv", "@-strip.csv", "@-modes.csv"];
+const BANDS: &[&str] = &["@_bands.csv", "@-bands.svg", "@-density.csv", "@-strip.csv", "@-modes.csv"];
+const MODES: &[&str] = &["@-frequencies.csv", "@-vibrations.pvd", "@/@_vibration_#.vtu"];
 const WELLS: &[&str] = &["@-barriers.csv"];
 const RESPONSE: &[&str] = &["@-ratios.csv", "@-ratios.svg", "@-stresses.csv"];
 const PATH: &[&str] = &["@-reaction.svg", "@.path.jsonl"];
@@ -26,7 +27,8 @@ pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
         StudyKind::Wells(_) => [WELLS, &[]],
         StudyKind::Path(_) => [PATH, &[]],
         StudyKind::Response(_) => [RESPONSE, &[]],
-        StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Branches(_) | StudyKind::Landscape(_) => [&[], &[]],
+        StudyKind::Modes(_) => [MODES, &[]],
+        StudyKind::Relax(_) | StudyKind::Branches(_) | StudyKind::Landscape(_) => [&[], &[]],
     };
     named(&study.name.0, ANY.iter().chain(own[0]).chain(own[1]))
 }
@@ -41,7 +43,7 @@ pub(crate) fn growing_table(study: &StudySpec) -> Option<String> {
 
 /// Returns the files that a study of this name can have written, whatever its kind was.
 pub(crate) fn owned(name: &str) -> Vec<String> {
-    let others = [TRACE, SURFACE, MAP, BLOCH, BANDS, WELLS, RESPONSE, PATH].into_iter().flatten();
+    let others = [TRACE, SURFACE, MODES, MAP, BLOCH, BANDS, WELLS, RESPONSE, PATH].into_iter().flatten();
     named(name, ANY.iter().chain(others))
 }
 

@@ -12,7 +12,7 @@ mod vertices;
 use super::Located;
 use super::rest::RestSpec;
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
-use super::values::{Axes, CellIndex, Cells, EdgeName, Fraction, SeamCell, Triple};
+use super::values::{Axes, CellIndex, Cells, EdgeName, Fraction, Positive, SeamCell, Triple};
 use crate::sheet::SeamKept;
 use crate::sheet::angle::Angle;
 use schemars::JsonSchema;
@@ -36,6 +36,8 @@ pub struct Scene {
     /// The terms of the energy; a term that is absent is not built.
     #[serde(default)]
     pub energy: EnergySpec,
+    /// The mass of the sheet, from which frequencies follow; left out: none.
+    pub mass: Option<Located<MassSpec>>,
     /// Creases that keep their fold angle in every cell.
     #[serde(default, rename = "lock")]
     pub locks: Vec<LockSpec>,
@@ -206,6 +208,16 @@ pub struct FacetsSpec {
     pub rest: Option<Located<RestSpec>>,
     /// Factor on the rest angles, from flat (0) to folded (1): of `rest = "target"`, `"assigned"` or a table by letters.
     pub fraction: Option<Located<Fraction>>,
+}
+
+/// `mass = { vertex }` or `mass = { area }`: exactly one of both.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MassSpec {
+    /// Mass of every vertex.
+    pub vertex: Option<Located<Positive>>,
+    /// Mass per area: every triangle of the drawn state gives a third of its mass to each corner.
+    pub area: Option<Located<Positive>>,
 }
 
 /// `[[lock]]`: a crease that keeps its fold angle in every cell.

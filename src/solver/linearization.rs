@@ -2,7 +2,7 @@
 
 use super::layout::{Layout, SymbolicHessian};
 use crate::numerics::larger;
-use crate::numerics::sparse::{ElementBlock, FIXED, RankOne, Rows, SparsityPattern};
+use crate::numerics::sparse::{Cliques, ElementBlock, FIXED, RankOne, Rows, SparsityPattern};
 use std::sync::Arc;
 
 /// The part of the soft Hessian that a linearization contains.
@@ -127,6 +127,21 @@ impl Linearization {
             }
             _ => RankOne { weight: weights[number], gradient: self.stiff_gradient(number) },
         }
+    }
+
+    /// Substitutes unknowns: `x_k = factors[k] y_k`. All derivatives are by `y` afterwards.
+    pub fn substitute(&mut self, factors: &[f64]) {
+        let scale = |cliques: &Cliques, values: &mut [f64]| {
+            for (clique, k) in cliques.iter().zip(0..) {
+                for (&member, value) in clique.iter().zip(&mut values[cliques.range(k)]).filter(|(m, _)| **m != FIXED) {
+                    *value *= factors[member as usize];
+                }
+            }
+        };
+        scale(&self.layout.soft, &mut self.soft_gradients);
+        scale(&self.layout.stiff, &mut self.jacobian);
+        self.gradient.iter_mut().zip(factors).for_each(|(slope, factor)| *slope *= factor);
+        self.plan.pattern.scale(&mut self.hessian, factors);
     }
 
     /// Adds `amount` times the identity to the Hessian.

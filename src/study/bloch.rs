@@ -1,11 +1,11 @@
 //! `kind = "bloch"`: spatially varying modes of the drawn state, or of a state that an earlier study found.
 
 use super::answer::{Answer, SavedState};
+use super::bands::{FoundBands, facet_stiffness};
 use super::context::Context;
 use super::error::StudyError;
 use super::strip::FoundStrip;
-use super::{start, states, strip, supported};
-use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
+use super::{bands, start, states, strip};
 use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::rigidity::cell_rotation;
 use crate::analysis::bloch::{
@@ -23,9 +23,7 @@ use crate::output::summary::{BlochSummary, DecaySummary, RegionSummary, StudyRes
 use crate::output::table::{Table, Value};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{BlochSpec, Draw};
-use crate::scene::stiffness::StiffnessSpec;
 use crate::scene::{Located, SceneFile};
-use crate::sheet::EdgeKind;
 use std::f64::consts::TAU;
 
 /// Numbers of wavenumbers along the two directions, unless the scene gives others.
@@ -34,8 +32,6 @@ const GRID: [usize; 2] = [256, 256];
 const DECAYS: usize = 32;
 /// Number of wavenumbers over which the polarization is averaged.
 const AVERAGED: usize = 64;
-/// Number of wavenumbers from each corner of a path to the next.
-const STEPS: usize = 50;
 /// Number of wavenumbers at which the picture shows decay rates.
 const DRAWN: usize = 240;
 
@@ -49,14 +45,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
         let message = "spatially varying modes are those of polygons that are all rigid or all soft";
         return Err(context.refuse(message, "give all facets a finite stiffness, or leave them out").into());
     }
-    if spec.path.is_some() {
-        supported::one_stiffness_each(context, "bands")?;
-        supported::drawn_lengths(context, "bands")?;
-    }
-    if let (Some(path), None) = (&spec.path, stiffnesses(file, assembly)) {
-        let help = "give bars a finite stiffness and facets too, or leave out `path`";
-        return Err(file.error_at(path.span(), "bands need an energy of springs", help).into());
-    }
+    bands::check(context, spec)?;
     strip::check(context, spec)?;
     let square = rigidity(file, assembly).and_then(|rigidity| rigidity.require_square());
     let Err(error) = square else { return Ok(()) };
@@ -79,8 +68,8 @@ fn check_start(context: &Context<'_>, spec: &BlochSpec, start: &Located<StartSpe
             let help = "give domain = \"screw\", or \"torus\" with cells = [1, 1]";
             wrong("spatially varying modes are those of a state of one cell", help)
         }
-        StartSpec::Study(_) if spec.path.is_some() => {
-            wrong("bands are those of the drawn state, which is at rest", "leave out `path` or `start`")
+        StartSpec::Study(_) if spec.path.is_some() || spec.density.is_some() => {
+            wrong("bands are those of the drawn state, which is at rest", "leave out `path`, `density` or `start`")
         }
         StartSpec::Study(_) => Ok(()),
         StartSpec::Random(_) | StartSpec::File(_) => {
@@ -111,17 +100,6 @@ fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<Ground>, Blo
     Ok(Some(Ground { rigidity, folded: Some(saved.coordinates.clone()) }))
 }
 
-/// Returns the stiffness of the diagonals of polygons; infinite, that is rigid, unless the scene gives one, and `None` if
-/// they differ. One number is read from the scene since the model of a patch lacks the diagonals that are cut by its
-/// rim.
-fn facet_stiffness(file: &SceneFile, assembly: &Assembly) -> Option<f64> {
-    let Some(spec) = &file.scene.energy.facets else { return Some(f64::INFINITY) };
-    match &*spec.stiffness {
-        StiffnessSpec::Number(stiffness) => Some(*stiffness),
-        _ => assembly.terms().facets.as_ref()?.stiffness.uniform(),
-    }
-}
-
 /// Whether polygons are rigid. Polygons that are rigid in part only are refused by [`check`].
 fn facets_are_rigid(file: &SceneFile, assembly: &Assembly) -> bool {
     facet_stiffness(file, assembly).is_some_and(f64::is_infinite)
@@ -137,30 +115,14 @@ fn rigidity(file: &SceneFile, assembly: &Assembly) -> Result<Rigidity, BlochErro
     Rigidity::of_sheet(assembly.sheet(), facets_are_rigid(file, assembly))
 }
 
-/// Returns the stiffnesses of the energy; `None` if it has no bars or a term is rigid.
-fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
-    let terms = assembly.terms();
-    let creases = terms.creases.as_ref().map_or(Some(0.0), |creases| creases.stiffness.uniform())?;
-    let has_facets = assembly.sheet().edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
-    let facets = if has_facets { facet_stiffness(file, assembly)? } else { 0.0 };
-    let found = Stiffnesses { bars: terms.bar_stiffness()?.uniform()?, creases, facets };
-    [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
-}
-
 /// The results of the analysis.
 struct FoundModes {
     ground: Ground,
     survey: Survey,
     grid: [usize; 2],
-    bands: Vec<Bands>,
+    bands: FoundBands,
     strip: Option<FoundStrip>,
     counts: Vec<Counts>,
-}
-
-/// The bands at a wavenumber of the path.
-struct Bands {
-    q: [f64; 2],
-    values: Vec<f64>,
 }
 
 /// Computes the modes of the state that the scene names.
@@ -177,9 +139,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     };
     let (name, mut answer) = (context.name(), Answer::empty(context.study));
     answer.add(format!("{name}.csv"), table(&found.survey.decays));
-    if !found.bands.is_empty() {
-        answer.add(format!("{name}_bands.csv"), band_table(&found.bands));
-    }
+    bands::add(&mut answer, context, &found.bands);
     if !found.counts.is_empty() {
         answer.add(format!("{name}-modes.csv"), strip::count_table(&found.counts));
     }
@@ -215,17 +175,8 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Optio
             }
         }
     };
-    Ok(Some(FoundModes { ground, survey, grid: options.grid, bands: bands(context, spec)?, strip, counts }))
-}
-
-/// Returns the bands along the path of the scene.
-fn bands(context: &Context<'_>, spec: &BlochSpec) -> Result<Vec<Bands>, BlochError> {
-    let (Some(path), Some(stiffnesses)) = (&spec.path, stiffnesses(context.file, context.assembly)) else {
-        return Ok(Vec::new());
-    };
-    let matrix = DynamicalMatrix::new(context.assembly.sheet(), stiffnesses)?;
-    let corners: Vec<[f64; 2]> = path.iter().map(|corner| corner.0).collect();
-    along_path(&corners, STEPS).into_iter().map(|q| Ok(Bands { q, values: matrix.bands(q)? })).collect()
+    let Some(bands) = bands::compute(context, spec)? else { return Ok(None) };
+    Ok(Some(FoundModes { ground, survey, grid: options.grid, bands, strip, counts }))
 }
 
 fn wavenumbers(spec: &BlochSpec) -> Vec<f64> {
@@ -246,20 +197,6 @@ fn table(decays: &[Decay]) -> Table {
             let last = [root.on_circle().into(), root.multiplicity as i64].map(Value::Whole);
             table.push(first.into_iter().chain(numbers).chain(last).collect());
         }
-    }
-    table
-}
-
-/// Returns a row for every wavenumber of the path: the length of the path up to it, the wavenumber, and the bands.
-fn band_table(bands: &[Bands]) -> Table {
-    let count = bands.iter().map(|at| at.values.len()).max().unwrap_or(0);
-    let names = ["length", "q1", "q2"].map(str::to_owned);
-    let mut table = Table::new(names.into_iter().chain((0..count).map(|k| format!("band_{k}"))).collect());
-    let mut length = 0.0;
-    for (k, Bands { q, values }) in bands.iter().enumerate() {
-        let before = bands[k.saturating_sub(1)].q;
-        length += (q[0] - before[0]).hypot(q[1] - before[1]);
-        table.push([length, q[0], q[1]].iter().chain(values).map(|number| Value::Number(*number)).collect());
     }
     table
 }

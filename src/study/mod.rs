@@ -16,6 +16,7 @@
 //! [`check`] refuses a study that does not fit its sheet before anything is computed; [`compute`] returns its answer.
 
 pub mod answer;
+mod bands;
 mod bloch;
 mod branches;
 pub mod context;
@@ -38,6 +39,7 @@ mod supported;
 mod surface;
 mod trace;
 mod tube;
+mod vibrations;
 mod wells;
 
 use crate::scene::spec::StudyKind;

@@ -3,8 +3,10 @@
 use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
-use super::{start, states, supported};
-use crate::analysis::modes::{Modes, SPARSE_EIGENVALUES, decomposed_dense, modes_at};
+use super::{start, states, supported, vibrations};
+use crate::analysis::modes::{
+    Modes, ModesError, SPARSE_EIGENVALUES, Vibrations, check_masses, decomposed_dense, modes_at,
+};
 use crate::model::Gauge;
 use crate::output::figure::rounded;
 use crate::output::picture::Picture;
@@ -18,6 +20,9 @@ pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), Study
     start::check(context, spec.start.as_ref())?;
     let Some(count) = &spec.eigenvalues else { return Ok(()) };
     supported::drawn_lengths(context, "eigenvalues in the drawn state")?;
+    if **count > 0 {
+        masses(context)?;
+    }
     let (drawn, terms) = (context.assembly.drawn(), context.assembly.terms());
     let unknowns = drawn.coordinates.len().saturating_sub(drawn.held.len() + terms.pinned());
     let wanted = (**count).min(unknowns);
@@ -28,6 +33,20 @@ pub(crate) fn check(context: &Context<'_>, spec: &ModesSpec) -> Result<(), Study
             Err(context.file.error_at(count.span(), error.to_string(), help).into())
         }
     }
+}
+
+/// Checks that every coordinate has a mass, if the scene gives one.
+fn masses(context: &Context<'_>) -> Result<(), StudyError> {
+    let Some(mass) = &context.file.scene.mass else { return Ok(()) };
+    check_masses(context.assembly).map_err(|error| {
+        let help = match error {
+            ModesError::Massless { .. } => "give every vertex a mass, mass = { vertex = 1.0 }",
+            _ => {
+                "give domain = \"patch\", or \"torus\" with lattice = \"fixed\"; leave out `mass` for eigenvalues alone"
+            }
+        };
+        context.file.error_at(mass.span(), error.to_string(), help).into()
+    })
 }
 
 /// Computes the modes of the state that the scene names.
@@ -62,6 +81,8 @@ fn summary(modes: &Modes) -> ModesSummary {
         maxwell_count: modes.maxwell_count,
         gap: modes.gap,
         eigenvalues: modes.eigenvalues.clone(),
+        frequencies: modes.vibrations.as_ref().map(Vibrations::frequencies),
+        growth_rates: modes.vibrations.iter().flat_map(Vibrations::growth_rates).flatten().collect(),
         seam: modes.seam.map(|found| SeamMotionsSummary {
             seam: found.seam,
             free: found.free,
@@ -74,26 +95,32 @@ fn summary(modes: &Modes) -> ModesSummary {
 }
 
 /// Adds a table of the eigenvalues, the state with each mode as displacement, and a picture of the softest mode that is
-/// not a rigid motion, drawn with an amplitude of a tenth of the sheet's size.
+/// not a rigid motion, drawn with an amplitude of a tenth of the sheet's size; of a sheet with mass also the vibrations, of
+/// which the picture is then.
 fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordinates: &[f64]) {
     let mut table = Table::new(vec!["mode".into(), "eigenvalue".into()]);
     for (k, value) in modes.eigenvalues.iter().enumerate() {
         table.push(vec![Value::Whole(k as i64), Value::Number(*value)]);
     }
     answer.add(format!("{}.csv", context.name()), table);
-    if modes.vectors.is_empty() || context.study.draw.is_empty() {
-        return;
-    }
     let at_rest = states::picture_at(context, coordinates.to_vec());
     let moving = |rates: &Vec<f64>| {
         let displacement = context.view.velocities(context.assembly.drawn(), coordinates, rates);
         Picture { displacement, ..at_rest.clone() }
     };
+    if let Some(found) = &modes.vibrations {
+        vibrations::add(answer, context, (found, modes.rigid_motions), moving);
+    }
+    if modes.vectors.is_empty() || context.study.draw.is_empty() {
+        return;
+    }
     let pictures: Vec<Picture> = modes.vectors.iter().map(moving).collect();
     let softest = modes.rigid_motions.min(pictures.len() - 1);
     let shown = pictures[softest].displaced(0.1);
     states::add_series(answer, context, pictures);
-    let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
-    let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
-    states::add_figure(answer, context, &shown, &state);
+    if modes.vibrations.is_none() {
+        let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
+        let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
+        states::add_figure(answer, context, &shown, &state);
+    }
 }

@@ -19,6 +19,8 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "sixteen-solutions"
     "twenty-eight-rays"
     "miura-spectrum"
+    "frequencies-scale"
+    "frequencies-zeros"
     "torus-self-stresses"
     "screw-modes"
     "tube-motions"

@@ -100,7 +100,7 @@ const FAULTS: &[Fault] = &[
     fault(5, "cells = [4, 6", "6:1", "missing comma between array elements", "expected `,`"),
     fault(1, "title = \"a\"\ntitle = \"b\"", "2:1", "duplicate key", ""),
     fault(1, "title = 3", "1:9", "invalid type: integer `3`", "expected a string"),
-    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "the keys here are `title`, `sheet`, `energy`, `lock`, `load`, `pin`, `part`, `drive`, `study`, `sweep`"),
+    fault(1, "tittle = \"a\"", "1:1", "unknown key `tittle`", "the keys here are `title`, `sheet`, `energy`, `mass`, `lock`, `load`, `pin`, `part`, `drive`, `study`, `sweep`"),
     // the sheet
     fault(3, "", "2:1", "the sheet has neither a mesh nor a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
     fault(3, "mesh = \"a.fold\"\ngenerate = { pattern = \"miura\" }", "4:12", "the sheet has both a mesh and a pattern", "give one of mesh = \"file.fold\" and generate = { pattern = \"miura\", .. }"),
@@ -147,6 +147,14 @@ const FAULTS: &[Fault] = &[
     fault(7, "bars = { stiffness = { Q = 1 } }", "7:24", "unknown key `Q`", "the keys here are `M`, `V`, `F`, `U`, `B`, `C`, `J`, `file`"),
     fault(7, "bars = { stiffness = 1, rest = 0 }", "7:32", "the number is 0", "expected a finite number above 0"),
     fault(7, "bars = { stiffness = 1, rest = \"flat\" }", "7:32", "invalid value: string \"flat\"", "expected \"drawn\", a factor on the drawn lengths or { file = \"lengths.csv\" }"),
+    // the mass
+    fault(1, "mass = { vertex = 0 }", "1:19", "the number is 0", "expected a finite number above 0"),
+    fault(1, "mass = { area = -0.1 }", "1:17", "the number is -0.1", "expected a finite number above 0"),
+    fault(1, "mass = { area = inf }", "1:17", "the number is inf", "expected a finite number above 0"),
+    fault(1, "mass = { vertex = 1, area = 2 }", "1:29", "the sheet has both a mass per vertex and per area", "give one of { vertex = 1.0 }, the mass of each vertex, and { area = 1.0 }, a mass per area"),
+    fault(1, "mass = {}", "1:8", "the mass has neither `vertex` nor `area`", "give one of { vertex = 1.0 }, the mass of each vertex, and { area = 1.0 }, a mass per area"),
+    fault(1, "mass = 1.0", "1:8", "invalid type: floating point `1.0`", "expected a table"),
+    fault(1, "mass = { edge = 1 }", "1:10", "unknown key `edge`", "the keys here are `vertex` or `area`"),
     // locks, loads, pins
     fault(11, "crease = [0, 1, 0]", "11:10", "the list has 3 values", "expected 4"),
     fault(11, "crease = [0, 0.5, 0, 0]", "11:14", "invalid type: floating point `0.5`", "expected a whole number"),

@@ -158,6 +158,14 @@ fn nothing_to_pair() {
     assert_eq!((found.pairing_error, found.pairing_condition), (None, None));
 }
 
+/// Writes a scene with a study of a sheet into a folder.
+fn written(folder: &Path, sheet: &str, keys: &str) -> PathBuf {
+    let path = folder.join("scene.toml");
+    let text = format!("[sheet]\n{sheet}\n[[study]]\nname = \"a\"\nkind = \"bloch\"\ndraw = []\n{keys}\n");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
 /// Claim: strips that cannot be, and wavenumbers that are no numbers, are refused before anything is written.
 #[test]
 fn strips_that_cannot_be() {
@@ -172,9 +180,7 @@ fn strips_that_cannot_be() {
         ("zero_modes_at = [[nan, 0]]", "the number is NaN"),
     ];
     for (keys, expected) in cases {
-        let scene = folder.path().join("scene.toml");
-        let study = format!("[[study]]\nname = \"a\"\nkind = \"bloch\"\ndraw = []\n{keys}\n");
-        std::fs::write(&scene, format!("[sheet]\ngenerate = {{ pattern = \"random\" }}\n{study}")).unwrap();
+        let scene = written(folder.path(), "generate = { pattern = \"random\" }", keys);
         let out = folder.path().join("out");
         let error = run(&scene, &out, false).unwrap_err();
         assert_eq!(error.exit_status(), 2);
@@ -183,22 +189,18 @@ fn strips_that_cannot_be() {
     }
 }
 
-/// Claim: an impossible study is refused before anything is written, and a sheet without a determinant is a study that
-/// failed.
+/// Claim: an impossible study is refused before anything is written.
 #[test]
 fn what_cannot_be_done() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = |sheet: &str, keys: &str| {
-        let path = folder.path().join("scene.toml");
-        let text = format!("[sheet]\n{sheet}\n[[study]]\nname = \"a\"\nkind = \"bloch\"\ndraw = []\n{keys}\n");
-        std::fs::write(&path, text).unwrap();
-        path
-    };
+    let scene = |sheet: &str, keys: &str| written(folder.path(), sheet, keys);
     let out = folder.path().join("out");
     let cases = [
         ("generate = { pattern = \"miura\" }", "", "conditions (bars and rigid facets)"),
         ("generate = { pattern = \"kresling\" }", "", "without lattice vectors"),
         ("generate = { pattern = \"random\" }", "path = [[0, 0], [1, 0]]", "bands need an energy of springs"),
+        ("generate = { pattern = \"random\" }", "density = {}", "bands need an energy of springs"),
+        ("generate = { pattern = \"random\" }", "density = { bins = 0 }", "the number is 0"),
         ("generate = { pattern = \"random\" }", "modes = [[0.1, inf]]", "the number is inf"),
         ("generate = { pattern = \"random\" }", "q1 = [nan]", "the number is NaN"),
         ("generate = { pattern = \"random\" }", "grid = [0, 8]", "0"),
@@ -218,6 +220,15 @@ fn what_cannot_be_done() {
         assert!(error.to_string().contains(expected), "{error}");
         assert!(!out.exists());
     }
+}
+
+/// Claim: a state that is not of one cell, and bands of a state, are refused; a sheet without a determinant is a study that
+/// failed, and polygons that bend have one.
+#[test]
+fn states_that_cannot_be_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = |sheet: &str, keys: &str| written(folder.path(), sheet, keys);
+    let out = folder.path().join("out");
     let relaxed = |domain: &str, keys: &str| {
         let energy = "[energy]\nbars = { stiffness = 100.0 }\ncreases = { stiffness = 1.0 }\n[[study]]\nname = \"r\"\nkind = \
                       \"relax\"\ntolerance = 1e-9";

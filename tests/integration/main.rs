@@ -85,6 +85,7 @@ mod tube_scenes;
 mod tubes;
 mod unstressed;
 mod validate;
+mod vibrations;
 mod waterbomb_base;
 mod wells;
 mod wells_of_parts;

@@ -43,6 +43,8 @@ fn sizes_beyond_the_memory() {
     let relax = study("kind = \"relax\"");
     let cases = [
         ("", study("kind = \"bloch\"\ngrid = [46340, 46340]"), "2147395600 wavenumbers", "`grid`"),
+        ("", study("kind = \"bloch\"\ndensity = { grid = [46340, 46340] }"), "2147395600 wavenumbers", "`grid`"),
+        ("", study("kind = \"bloch\"\ndensity = { bins = 4294967295 }"), "4294967295 bins", "`bins`"),
         ("domain = \"screw\"", wells, "4294967295 starts", "`starts`"),
         ("cells = [2, 2]", map, "samples", "`rings`"),
         ("domain = \"torus\"\ncells = [2700, 2700]", relax.clone(), "29160000 vertices", "`cells`"),

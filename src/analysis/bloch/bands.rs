@@ -2,17 +2,19 @@
 //!
 //! In the drawn state, at rest, the energy of a wave `u exp(i q . n)` is half of `u^H D(q) u` per cell, with the
 //! dynamical matrix `D = sum over elements of k g g^H`, `g` the gradient of a length or of a fold angle at the Bloch
-//! factors, `k` its spring constant: `EA / L0` of a bar, stiffness times `L0` of a hinge. Its eigenvalues are squared
-//! frequencies for unit masses on the vertices. Three of them vanish at `q = 0`; zero modes of the bars cost only what
-//! their creases do.
+//! factors, `k` its spring constant: `EA / L0` of a bar, stiffness times `L0` of a hinge. Three eigenvalues vanish at
+//! `q = 0`; zero modes of the bars cost only what their creases do. With masses `m` of the vertices the squared
+//! frequencies are the eigenvalues of `M^(-1/2) D M^(-1/2)`: every gradient by a vertex is divided by `sqrt(m)`.
 
 use super::BlochError;
 use super::rigidity::power;
 use crate::math::Vec3;
 use crate::math::fold_angle::fold_angle_gradient;
 use crate::numerics::complex::{ComplexMatrix, hermitian_eigenvalues};
+use crate::numerics::dense::eigenvalue_rounding;
 use crate::sheet::{Corner, EdgeKind, Sheet};
 use nalgebra::Complex;
+use std::f64::consts::TAU;
 
 /// The dynamical matrix as a function of the wavenumbers.
 #[derive(Clone, Debug)]
@@ -70,6 +72,14 @@ impl DynamicalMatrix {
         Ok(Self { vertices: sheet.vertices.len(), elements })
     }
 
+    /// The same with the mass of each vertex of the cell, positive: its eigenvalues are squared angular frequencies.
+    #[must_use]
+    pub fn with_masses(mut self, masses: &[f64]) -> Self {
+        let terms = self.elements.iter_mut().flat_map(|element| &mut element.terms);
+        terms.for_each(|(corner, gradient)| *gradient /= masses[corner.vertex].sqrt());
+        self
+    }
+
     /// `D(q)`, Hermitian, over `(u_0x, u_0y, u_0z, u_1x, ..)`; force per length.
     pub fn at(&self, q: [f64; 2]) -> ComplexMatrix {
         let z = q.map(|q| Complex::from_polar(1.0, q));
@@ -95,6 +105,43 @@ impl DynamicalMatrix {
     /// [`BlochError`] where the eigenvalues cannot be computed.
     pub fn bands(&self, q: [f64; 2]) -> Result<Vec<f64>, BlochError> {
         Ok(hermitian_eigenvalues(&self.at(q))?)
+    }
+
+    /// Square roots of the eigenvalues of `D(q)`, ascending: angular frequencies if masses were given. Exactly 0 are those of
+    /// eigenvalues that are zero up to rounding, at most `4 sqrt(n) epsilon d` with the size `n` and the largest diagonal entry `d`.
+    ///
+    /// # Errors
+    /// [`BlochError`] where the eigenvalues cannot be computed.
+    pub fn frequencies(&self, q: [f64; 2]) -> Result<Vec<f64>, BlochError> {
+        let matrix = self.at(q);
+        let rounding = eigenvalue_rounding(matrix.nrows(), matrix.diagonal().iter().map(|d| d.re).fold(0.0, f64::max));
+        let squares = hermitian_eigenvalues(&matrix)?.into_iter();
+        // a sum of squares has no eigenvalue below zero
+        Ok(squares.map(|square| if square <= rounding { 0.0 } else { square.sqrt() }).collect())
+    }
+
+    /// Frequencies at all wavenumbers `2 pi (k1 / n1, k2 / n2)` of a grid, the first one running faster; `None` if `go_on` returned
+    /// false, which is asked before each of the `n1 n2` wavenumbers. Those at `-q` are those at `q`.
+    ///
+    /// # Errors
+    /// [`BlochError`] where the eigenvalues cannot be computed.
+    pub fn on_grid(
+        &self,
+        [n1, n2]: [usize; 2],
+        mut go_on: impl FnMut(usize) -> bool,
+    ) -> Result<Option<Vec<Vec<f64>>>, BlochError> {
+        let mut found: Vec<Vec<f64>> = Vec::with_capacity(n1 * n2);
+        for number in 0..n1 * n2 {
+            if !go_on(number) {
+                return Ok(None);
+            }
+            let [k1, k2] = [number % n1, number / n1];
+            let opposite = (n2 - k2) % n2 * n1 + (n1 - k1) % n1;
+            let known = found.get(opposite).cloned();
+            let q = [TAU * k1 as f64 / n1 as f64, TAU * k2 as f64 / n2 as f64];
+            found.push(known.map_or_else(|| self.frequencies(q), Ok)?);
+        }
+        Ok(Some(found))
     }
 }
 

@@ -9,6 +9,7 @@ pub mod bands;
 pub(crate) mod cluster;
 pub(crate) mod counts;
 pub mod decay;
+mod density;
 pub(crate) mod determinant;
 pub(crate) mod double_double;
 mod error;
@@ -27,6 +28,7 @@ pub(crate) mod zone;
 
 pub use counts::Counts;
 pub use decay::Decay;
+pub use density::Density;
 pub use determinant::Determinant;
 pub use error::BlochError;
 pub use laurent::Laurent;

@@ -94,7 +94,7 @@ impl Strip {
     }
 
     /// A strip whose lower half (rounded down) is of one sheet and whose upper half of another, as drawn; `rigid` says
-    /// whether polygons are. The sheets must [fit](fit).
+    /// whether polygons are. The sheets must [fit].
     ///
     /// # Errors
     /// [`BlochError`] for finite sheets, and where the matrix of a cell is not square.

@@ -25,6 +25,20 @@ pub enum ModesError {
     /// The closure conditions could not be set up.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+    /// The sheet has a mass, but not all its coordinates are those of vertices.
+    #[error("frequencies are those of vertices: {of} have no mass of their own")]
+    NoMassMatrix {
+        /// The other coordinates.
+        of: &'static str,
+    },
+    /// A mass per area gives none to a vertex.
+    #[error("vertex {vertex} of cell {cell:?} belongs to no face: a mass per area gives it none")]
+    Massless {
+        /// Number of the vertex in its cell.
+        vertex: usize,
+        /// The cell.
+        cell: [usize; 2],
+    },
     /// The observer asked to stop.
     #[error("stopped on request")]
     Interrupted,

@@ -1,6 +1,7 @@
 //! The lowest eigenvalues of the energy's Hessian at a state, dense or by iteration.
 //!
-//! The Hessian is that of the whole energy: tensions of bars add their geometric stiffness.
+//! The Hessian is that of the whole energy: tensions of bars add their geometric stiffness. Its unknowns may be given
+//! factors, `x_k = factor_k y_k`: with the inverse square roots of masses the eigenvalues by `y` are squared frequencies.
 
 use super::error::{DENSE_EIGENVALUES, ModesError, SPARSE_EIGENVALUES};
 use crate::model::Model;
@@ -22,6 +23,17 @@ pub(super) fn go_on(observe: &mut Observer<'_>) -> Result<(), ModesError> {
     if observe() { Ok(()) } else { Err(ModesError::Interrupted) }
 }
 
+/// The lower end of a spectrum.
+#[derive(Default)]
+pub(super) struct Spectrum {
+    /// Eigenvalues, ascending.
+    pub values: Vec<f64>,
+    /// Velocities of all coordinates, one list for each eigenvalue; those of the substituted unknowns have norm 1.
+    pub vectors: Vec<Vec<f64>>,
+    /// Eigenvalues that are smaller in magnitude are zero up to rounding.
+    pub rounding: f64,
+}
+
 /// Returns the linearization of a model at its reference state, with these tensions of its stiff measures.
 pub(super) fn linearized(model: &Model, tension: &[f64]) -> Linearization {
     let mut at = Linearization::new(model.layout());
@@ -29,8 +41,8 @@ pub(super) fn linearized(model: &Model, tension: &[f64]) -> Linearization {
     at
 }
 
-/// Eigenvalues and eigenvectors.
-pub(super) type Pairs = (Vec<f64>, Vec<Vec<f64>>);
+/// Eigenvalues and eigenvectors, and the largest diagonal entry of the matrix.
+type Pairs = (Vec<f64>, Vec<Vec<f64>>, f64);
 
 /// Whether the dense way finds this number of eigenpairs of a model, of which at most `free` are finite: else the iteration does.
 ///
@@ -50,32 +62,43 @@ pub fn decomposed_dense(unknowns: usize, wanted: usize, free: usize) -> Result<b
     }
 }
 
-/// Lowest eigenvalues and eigenvectors of the energy's Hessian at the model's reference state with these tensions, on what the
-/// rigid terms leave free, which is at most `free`.
+/// Lowest eigenvalues and eigenvectors of the energy's Hessian, by unknowns with these factors, at the model's reference
+/// state with these tensions, on what the rigid terms leave free, which is at most `free`.
 pub(super) fn lowest(
     (model, tension): (&Model, &[f64]),
-    wanted: usize,
-    free: usize,
+    factors: &[f64],
+    (wanted, free): (usize, usize),
     observe: &mut Observer<'_>,
-) -> Result<Pairs, ModesError> {
-    let dense = decomposed_dense(model.layout().unknowns, wanted.min(free), free)?;
-    let way = if dense { lowest_dense } else { lowest_sparse };
-    let (values, vectors) = way((model, tension), wanted.min(free), observe)?;
-    Ok((values, vectors.iter().map(|v| model.velocity(v)).collect()))
+) -> Result<Spectrum, ModesError> {
+    let unknowns = model.layout().unknowns;
+    let by_dense = decomposed_dense(unknowns, wanted.min(free), free)?;
+    let way = if by_dense { lowest_dense } else { lowest_sparse };
+    let (values, vectors, diagonal) = way((model, tension), factors, wanted.min(free), observe)?;
+    let velocity = |v: &Vec<f64>| model.velocity(&v.iter().zip(factors).map(|(y, f)| y * f).collect::<Vec<f64>>());
+    let rounding = dense::eigenvalue_rounding(unknowns, diagonal);
+    Ok(Spectrum { values, vectors: vectors.iter().map(velocity).collect(), rounding })
+}
+
+/// Entries of the Hessian of the whole energy, bars of finite stiffness included.
+fn whole_hessian(at: &Linearization, compliance: &[f64]) -> Vec<f64> {
+    let mut values = at.hessian.clone();
+    for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
+        at.add_outer(row, 1.0 / c, &mut values);
+    }
+    values
 }
 
 fn lowest_dense(
     (model, tension): (&Model, &[f64]),
+    factors: &[f64],
     count: usize,
     observe: &mut Observer<'_>,
 ) -> Result<Pairs, ModesError> {
     go_on(observe)?;
     let (layout, mut at) = (model.layout(), linearized(model, tension));
+    at.substitute(factors);
     let compliance = model.compliance();
-    let mut values = std::mem::take(&mut at.hessian);
-    for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
-        at.add_outer(row, 1.0 / c, &mut values);
-    }
+    let values = whole_hessian(&at, compliance);
     let hessian = at.pattern().to_dense(&values);
     let full = dense::from_rows(&at.rows(), layout.unknowns);
     let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
@@ -88,19 +111,22 @@ fn lowest_dense(
     let found = dense::symmetric_eigen(&(free.transpose() * hessian * &free))?;
     let count = count.min(found.values.len());
     let vectors = (0..count).map(|k| (&free * found.vectors.column(k)).as_slice().to_vec()).collect();
-    Ok((found.values[..count].to_vec(), vectors))
+    Ok((found.values[..count].to_vec(), vectors, at.pattern().largest_diagonal(&values)))
 }
 
 /// Returns the lowest eigenvalues of the Hessian `H` on the null space of the rigid measures, and their vectors. They are
 /// found by shift and invert, as the largest eigenvalues of `(H + shift)^-1`.
 fn lowest_sparse(
     (model, tension): (&Model, &[f64]),
+    factors: &[f64],
     count: usize,
     observe: &mut Observer<'_>,
 ) -> Result<Pairs, ModesError> {
     let layout = model.layout();
     let zero = vec![0.0; layout.stiff.len()];
     let mut tangent = Tangent::at_state(model, &model.start(), tension, HessianKind::Full)?;
+    tangent.at.substitute(factors);
+    let diagonal = tangent.at.pattern().largest_diagonal(&whole_hessian(&tangent.at, model.compliance()));
     let unit = tangent.at.pattern().largest_diagonal(&tangent.at.hessian);
     let (mut shift, mut powers) = (0.0, 0..SHIFTS);
     loop {
@@ -122,7 +148,8 @@ fn lowest_sparse(
     let quotient = |v: &[f64]| rayleigh_quotient(model, &tangent.at, v);
     let mut pairs: Vec<(f64, Vec<f64>)> = vectors.into_iter().map(|v| (quotient(&v), v)).collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(pairs.into_iter().unzip())
+    let (values, vectors) = pairs.into_iter().unzip();
+    Ok((values, vectors, diagonal))
 }
 
 fn normalized(mut v: Vec<f64>) -> Vec<f64> {

@@ -36,6 +36,7 @@ fn terms(assembly: &Assembly, numbers: &mut Numbers, creases: f64, facets: f64) 
         loads: if patch { vec![(0, Vec3::new(0.1, 0.2, -0.3)), (8, Vec3::new(-0.1, -0.2, 0.3))] } else { vec![] },
         guides: if patch { vec![(2, Vec3::new(0.6, 0.0, 0.8))] } else { vec![] },
         parts: vec![],
+        mass: None,
     }
 }
 

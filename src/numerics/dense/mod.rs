@@ -3,6 +3,7 @@
 //! Matrices come and go as [`DenseMatrix`]; everything runs on the calling thread.
 
 pub(crate) mod small;
+mod unit;
 
 use super::DenseMatrix;
 use super::sparse::{FIXED, Rows};
@@ -11,6 +12,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
 use faer::linalg::svd::{ComputeSvdVectors, svd, svd_scratch};
 use faer::{ColMut, MatMut, MatRef, Par, Spec};
+pub(super) use unit::binary_unit;
+pub(crate) use unit::eigenvalue_rounding;
 
 /// The smallest gap between kept and dropped singular values at which a rank is believed.
 pub(crate) const SMALLEST_GAP: f64 = 1e3;
@@ -261,12 +264,14 @@ fn diagonalize(matrix: &DenseMatrix, vectors: Option<&mut DenseMatrix>) -> Resul
     if rows != columns {
         return Err(DenseError::NotSquare { rows, columns });
     }
-    let mut values = vec![0.0; rows];
+    let unit = binary_unit(matrix.iter().map(|entry| entry.abs()));
+    let (matrix, mut values) = (matrix / unit, vec![0.0; rows]);
     let what = if vectors.is_some() { ComputeEigenvectors::Yes } else { ComputeEigenvectors::No };
     let mut buffer = MemBuffer::new(self_adjoint_evd_scratch::<f64>(rows, what, Par::Seq, Spec::default()));
     let (stack, u) = (MemStack::new(&mut buffer), vectors.map(view_mut));
-    self_adjoint_evd(view(matrix), diagonal(&mut values), u, Par::Seq, stack, Spec::default())
+    self_adjoint_evd(view(&matrix), diagonal(&mut values), u, Par::Seq, stack, Spec::default())
         .map_err(|_| DenseError::NoConvergence { rows, columns })?;
+    values.iter_mut().for_each(|value| *value *= unit);
     Ok(values)
 }
 
@@ -394,6 +399,21 @@ mod tests {
         }
         let alone = symmetric_eigenvalues(&chain).unwrap();
         assert!(alone.iter().zip(&values).all(|(a, b)| (a - b).abs() <= 1e-13));
+    }
+
+    /// Claim: eigenvalues do not depend on the unit of the matrix, in which zeros are rounding errors of the largest: a
+    /// matrix of rank 60, times powers of two from 2^-300 to 2^300, has bit by bit the same ones times these.
+    #[test]
+    fn eigenvalues_in_any_unit() {
+        let factor = scrambled(80, 60, 8);
+        let matrix = &factor * factor.transpose();
+        let expected = symmetric_eigenvalues(&matrix).unwrap();
+        assert!(expected[..20].iter().all(|value| value.abs() <= 1e-14 * expected[79]), "{expected:?}");
+        for power in [-300, -40, 1, 17, 36, 300] {
+            let unit = 2f64.powi(power);
+            let scaled: Vec<f64> = expected.iter().map(|value| value * unit).collect();
+            assert_eq!(symmetric_eigenvalues(&(&matrix * unit)).unwrap(), scaled, "2^{power}");
+        }
     }
 
     /// Claim: with a rank-deficient matrix the solution is the shortest one: perpendicular to the null space, with the

@@ -105,6 +105,17 @@ impl SparsityPattern {
         values[self.columns[k] as usize] += amount;
     }
 
+    /// Multiplies every entry by the factors of its row and of its column: `A` becomes `D A D`, `D` the diagonal matrix of
+    /// these factors.
+    pub fn scale(&self, values: &mut [f64], factors: &[f64]) {
+        let mut value = values.iter_mut();
+        for (column, by_column) in factors.iter().enumerate() {
+            for (&row, value) in self.column(column).iter().zip(&mut value) {
+                *value *= factors[row as usize] * by_column;
+            }
+        }
+    }
+
     /// Largest magnitude on the diagonal.
     pub fn largest_diagonal(&self, values: &[f64]) -> f64 {
         self.diagonal().map(|slot| values[slot].abs()).fold(0.0, f64::max)

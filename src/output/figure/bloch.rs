@@ -100,14 +100,16 @@ fn rates(canvas: &mut Canvas, plot: &BlochPlot<'_>) {
     }
     frame(canvas, 0, "inverse decay rate \u{3ba}\u{2082} per cell, at real q\u{2081}");
     let dot = |colour| Mark::Circle(5.0, Style::area(colour));
-    let mut entries = vec![(dot(GROWING), "grows"), (dot(DECAYING), "decays"), (dot(INK), "neither")];
-    if !plot.other.is_empty() {
-        entries.push((dot(OTHER), "other cell"));
-    }
-    if !plot.measured.is_empty() {
-        entries.push((Mark::Circle(MEASURED, Style::line(INK, 1.6)), "in the strip"));
-    }
+    let entries = [(dot(GROWING), "grows"), (dot(DECAYING), "decays"), (dot(INK), "neither")];
     canvas.legend([LEFT[0], LEGEND], &entries);
+    let mut of_strip = Vec::new();
+    if !plot.measured.is_empty() {
+        of_strip.push((Mark::Circle(MEASURED, Style::line(INK, 1.6)), "in the strip"));
+    }
+    if !plot.other.is_empty() {
+        of_strip.push((dot(OTHER), "of the other cell"));
+    }
+    canvas.legend([LEFT[0], LEGEND + 26.0], &of_strip);
 }
 
 /// Draws the frame, the ticks along `q1`, and the name of a panel.

@@ -9,6 +9,7 @@
 
 mod annotations;
 mod axes;
+pub mod bands;
 pub mod bloch;
 pub(crate) mod canvas;
 pub mod chart;

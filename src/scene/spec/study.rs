@@ -194,7 +194,8 @@ pub struct SurfaceSpec {
 pub struct ModesSpec {
     /// The state whose modes are wanted; left out: the drawn one.
     pub start: Option<Located<StartSpec>>,
-    /// How many of the lowest eigenvalues of the energy's Hessian; left out: none.
+    /// How many of the lowest eigenvalues of the energy's Hessian, and, where the scene has a mass, of the lowest frequencies;
+    /// left out: none.
     pub eigenvalues: Option<Located<usize>>,
 }
 
@@ -237,12 +238,25 @@ pub struct BlochSpec {
     pub q1: Option<Located<Vec<Finite>>>,
     /// Modes of which the displacement is written, each `[q1, kappa2]`: of the roots at `q1` the one of nearest decay rate.
     pub modes: Option<Located<Vec<Pair>>>,
-    /// Corners `[q1, q2]` of a path through the zone along which the bands of the energy are wanted.
+    /// Corners `[q1, q2]` of a path through the zone along which the bands of the energy are wanted, with a mass
+    /// also frequencies.
     pub path: Option<Located<Vec<Pair>>>,
+    /// The density of states over the whole zone, of a sheet with mass.
+    pub density: Option<Located<DensitySpec>>,
     /// A strip, periodic along the first lattice vector with free edges across the second: its zero modes at every `q1`.
     pub strip: Option<Located<StripSpec>>,
     /// Wavenumbers `[q1, q2]` at which zero modes and self stresses are counted.
     pub zero_modes_at: Option<Located<Vec<Pair>>>,
+}
+
+/// `density = { grid, bins }`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DensitySpec {
+    /// Wavenumbers along each direction; left out: [64, 64].
+    pub grid: Option<Located<Cells>>,
+    /// Number of bins from 0 to the largest frequency; left out: 100.
+    pub bins: Option<Located<Count>>,
 }
 
 /// `strip = { cells, other, clamped }`.
@@ -326,6 +340,15 @@ impl StudyKind {
             Self::Wells(spec) => spec.start.as_ref(),
             Self::Path(spec) => spec.start.as_ref(),
             Self::Response(spec) => spec.start.as_ref(),
+        }
+    }
+
+    /// Whether the study finds frequencies, which depend on the mass of the sheet.
+    pub(crate) fn reads_mass(&self) -> bool {
+        match self {
+            Self::Modes(spec) => spec.eigenvalues.as_ref().is_some_and(|count| **count > 0),
+            Self::Bloch(spec) => spec.path.is_some() || spec.density.is_some(),
+            _ => false,
         }
     }
 

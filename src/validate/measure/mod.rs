@@ -4,6 +4,7 @@ use super::findings::{Bench, ExperimentError, Findings};
 
 mod cells;
 mod extremes;
+mod frequencies;
 mod rigid_limit;
 mod sizes;
 mod steps;
@@ -18,6 +19,7 @@ pub(crate) type Measurement = fn(&Bench) -> Result<Findings, ExperimentError>;
 const MEASUREMENTS: &[(&str, Measurement)] = &[
     ("cells", cells::measure),
     ("extremes", extremes::measure),
+    ("frequencies", frequencies::measure),
     ("rigid limit", rigid_limit::measure),
     ("sizes", sizes::measure),
     ("steps", steps::measure),

@@ -1,0 +1,91 @@
+//! Small vibrations about a state: the eigenvalues of the energy's Hessian `H` against the masses `M` of the vertices.
+//!
+//! `H u = omega^2 M u`. `M` is diagonal, so that with `u = M^(-1/2) y` the eigenvalues are those of the symmetric matrix
+//! `M^(-1/2) H M^(-1/2)`. Masses enter relative to the largest one: multiplying all of them by a number divides every
+//! `omega^2` by it and changes nothing else.
+
+use super::error::ModesError;
+use super::spectrum::{Observer, Spectrum, lowest};
+use crate::model::{Assembly, Boundary, Model};
+
+/// The slowest vibrations of a sheet about a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vibrations {
+    /// Squares of the angular frequencies, ascending, in stiffness over mass; negative where the motion grows. Those of at most
+    /// `rounding` in magnitude are exactly 0.
+    pub squares: Vec<f64>,
+    /// Bound on the rounding error of a square: `4 sqrt(n) epsilon d`, with `n` unknowns, the machine epsilon, and the largest
+    /// diagonal entry `d` of `M^(-1/2) H M^(-1/2)`.
+    pub rounding: f64,
+    /// Velocities `u` of all coordinates, one list for each square, with `u^T M u = 1`.
+    pub vectors: Vec<Vec<f64>>,
+}
+
+impl Vibrations {
+    /// Returns the angular frequencies, in radians per time; `None` for motions that grow.
+    ///
+    /// ```
+    /// use foldwell::analysis::modes::modes;
+    /// use foldwell::model::Mass;
+    /// use foldwell::{Assembly, Pattern, generate};
+    ///
+    /// let sheet = generate(&Pattern::named("miura")?)?;
+    /// let assembly = Assembly::patch(sheet, [2, 2]).bars(1e3).creases(1.0).facets(10.0).mass(Mass::Area(0.1)).build()?;
+    /// let found = modes(&assembly, 7, &mut || true)?.vibrations.expect("the sheet has a mass");
+    /// assert_eq!(found.frequencies()[..6], [Some(0.0); 6]); // rigid motions
+    /// assert!(found.frequencies()[6] > Some(0.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn frequencies(&self) -> Vec<Option<f64>> {
+        self.squares.iter().map(|&square| (square >= 0.0).then(|| square.sqrt())).collect()
+    }
+
+    /// Returns the rates, per time, at which motions grow as `exp(rate t)`; `None` for motions that do not.
+    pub fn growth_rates(&self) -> Vec<Option<f64>> {
+        self.squares.iter().map(|&square| (square < 0.0).then(|| (-square).sqrt())).collect()
+    }
+
+    /// Finds the slowest vibrations of a model at its reference state with these tensions; `None` if the sheet has no mass.
+    pub(super) fn lowest(
+        assembly: &Assembly,
+        (model, tension): (&Model, &[f64]),
+        (wanted, free): (usize, usize),
+        observe: &mut Observer<'_>,
+    ) -> Result<Option<Self>, ModesError> {
+        let Some(masses) = assembly.masses() else { return Ok(None) };
+        check_masses(assembly)?;
+        if free == 0 {
+            return Ok(Some(Self { squares: vec![], rounding: 0.0, vectors: vec![] }));
+        }
+        let largest = masses.iter().copied().fold(0.0, f64::max);
+        let of_coordinates: Vec<f64> = masses.iter().flat_map(|mass| [(largest / mass).sqrt(); 3]).collect();
+        let factors = model.unknowns(&of_coordinates);
+        let Spectrum { values, mut vectors, rounding } = lowest((model, tension), &factors, (wanted, free), observe)?;
+        let squares = values.iter().map(|value| if value.abs() <= rounding { 0.0 } else { value / largest }).collect();
+        vectors.iter_mut().flatten().for_each(|rate| *rate /= largest.sqrt());
+        Ok(Some(Self { squares, rounding: rounding / largest, vectors }))
+    }
+}
+
+/// Checks that every coordinate of an assembly is one of a vertex that has a mass.
+///
+/// # Errors
+/// [`ModesError::NoMassMatrix`] where lattice vectors, the turns of a cylinder or rigid parts are coordinates, and
+/// [`ModesError::Massless`] where a vertex has no mass.
+pub fn check_masses(assembly: &Assembly) -> Result<(), ModesError> {
+    let of = match assembly.boundary() {
+        Boundary::Patch | Boundary::FixedTorus if assembly.terms().parts.is_empty() => None,
+        Boundary::Patch | Boundary::FixedTorus => Some("the turns of rigid parts"),
+        Boundary::FreeTorus => Some("the vectors of a free lattice"),
+        Boundary::Screw | Boundary::Tube { .. } => Some("the turns of a cylinder"),
+    };
+    if let Some(of) = of {
+        return Err(ModesError::NoMassMatrix { of });
+    }
+    let without = assembly.masses().and_then(|masses| masses.iter().position(|mass| *mass <= 0.0));
+    without.map_or(Ok(()), |number| {
+        let (count, [n1, _]) = (assembly.sheet().vertices.len(), assembly.tiling().cells);
+        let cell = number / count;
+        Err(ModesError::Massless { vertex: number % count, cell: [cell % n1, cell / n1] })
+    })
+}
