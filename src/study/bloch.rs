@@ -219,7 +219,7 @@ fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
         arrays: vec![("determinant", real), ("imaginary_part", imaginary)],
     };
     add(format!("{name}/{name}_determinant.vti"), map);
-    if let Some((_, lines)) = &survey.real {
+    if let Some(lines) = survey.lines() {
         let winding = |a: usize| lines.lines.iter().map(|line| line.winding[a]).collect();
         let passes = lines.lines.iter().map(|line| line.passes as i32).collect();
         let lines = Artifact::Curves {
@@ -241,7 +241,7 @@ fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
         return;
     }
     let survey = &found.survey;
-    let lines = survey.real.iter().flat_map(|(_, lines)| &lines.lines).map(|line| line.points.clone()).collect();
+    let lines = survey.lines().iter().flat_map(|lines| &lines.lines).map(|line| line.points.clone()).collect();
     let theta = theta(context.assembly, &found.ground);
     let marks = theta.map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
     let state = theta.map_or("modes of the drawn state".to_owned(), |[theta1, theta2]| {
@@ -295,7 +295,8 @@ fn summary(assembly: &Assembly, found: &FoundModes) -> BlochSummary {
         multiplicity: decay.roots.iter().map(|root| root.multiplicity).collect(),
     };
     let positive = map[0].iter().filter(|value| **value > 0.0).count() as f64 / map[0].len() as f64;
-    let lines = real.as_ref().map_or(&[][..], |(_, lines)| &lines.lines);
+    let traced = found.survey.lines();
+    let lines = traced.map_or(&[][..], |lines| &lines.lines);
     let theta = theta(assembly, &found.ground);
     let to_zero = |(zone, q): (&Zone, [f64; 2])| {
         let (value, gradient) = zone.at(q);
@@ -317,7 +318,8 @@ fn summary(assembly: &Assembly, found: &FoundModes) -> BlochSummary {
         polarization: polarization.polarization,
         on_circle: polarization.on_circle,
         positive_fraction: real.as_ref().map(|_| positive),
-        zero_lines: real.as_ref().map(|(_, lines)| lines.lines.len()),
+        zero_lines: traced.map(|lines| lines.lines.len()),
+        no_zero_lines: found.survey.no_lines().map(ToString::to_string),
         lines: lines
             .iter()
             .map(|line| ZeroLineSummary {
@@ -327,7 +329,7 @@ fn summary(assembly: &Assembly, found: &FoundModes) -> BlochSummary {
                 residual: line.residual,
             })
             .collect(),
-        regions: real.iter().flat_map(|(_, lines)| lines.regions.iter().map(region)).collect(),
+        regions: traced.iter().flat_map(|lines| lines.regions.iter().map(region)).collect(),
         order_at_origin: real.as_ref().map(|(zone, _)| zone.order),
         directions: real.iter().flat_map(|(zone, _)| zone.directions().unwrap_or_default()).collect(),
         theta,

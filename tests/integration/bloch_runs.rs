@@ -158,6 +158,21 @@ fn nothing_to_pair() {
     assert_eq!((found.pairing_error, found.pairing_condition), (None, None));
 }
 
+/// Claim: on a triangulated eggbox the determinant touches zero on lines without changing its sign, which is said instead of a number of
+/// lines; its roots are all double, and their rates pair. Tolerance: rounding times the largest condition of the roots, below 1e3.
+#[test]
+fn rates_without_zero_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    let energy = "generate = { pattern = \"eggbox\" }\n[energy]\nfacets = { stiffness = 1.0 }";
+    let report = run(&written(folder.path(), energy, ""), &folder.path().join("out"), false).unwrap();
+    let found = result(&report);
+    assert!(report.summary.converged() && found.zero_lines.is_none() && found.lines.is_empty(), "{found:?}");
+    assert!(found.no_zero_lines.as_ref().unwrap().contains("could not be followed"), "{found:?}");
+    assert!(found.pairing_error.unwrap() < 1e-12 && found.pairing_condition.unwrap() < 1e3, "{found:?}");
+    let away = found.decay.iter().filter(|decay| decay.q1.abs() > 0.1);
+    assert!(away.flat_map(|decay| &decay.multiplicity).all(|&count| count == 2), "{found:?}");
+}
+
 /// Writes a scene with a study of a sheet into a folder.
 fn written(folder: &Path, sheet: &str, keys: &str) -> PathBuf {
     let path = folder.join("scene.toml");

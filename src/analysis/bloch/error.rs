@@ -39,7 +39,7 @@ pub enum BlochError {
         asymmetry: f64,
     },
     /// The zero lines that were followed do not agree with the signs of the determinant.
-    #[error("lines of zero modes could not be followed: {edges} edges of the grid contradict them")]
+    #[error("lines of zero modes could not be followed: {}", contradiction(*edges))]
     ZeroLines {
         /// Edges of the grid that contradict; 0 where a line came to no end.
         edges: usize,
@@ -64,4 +64,11 @@ pub enum BlochError {
     /// The linear folding modes are not known.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+}
+
+fn contradiction(edges: usize) -> String {
+    match edges {
+        0 => "one of them came to no end".to_owned(),
+        _ => format!("{edges} edges of the grid contradict them"),
+    }
 }

@@ -36,12 +36,25 @@ pub struct Survey {
     pub decays: Vec<Decay>,
     /// Numbers of modes that decay to either side.
     pub polarization: Polarization,
-    /// The zone of real determinants and the lines on which it vanishes; `None` where the determinant is not real.
-    pub real: Option<(Zone, ZeroLines)>,
+    /// The zone of real determinants, and the lines on which it vanishes or why they could not be followed; `None` where the
+    /// determinant is not real.
+    pub real: Option<(Zone, Result<ZeroLines, BlochError>)>,
     /// Real and imaginary parts of the determinant on the grid, the first wavenumber running faster.
     pub map: [Vec<f64>; 2],
     /// Displacements of the modes that were named.
     pub modes: Vec<ModeShape>,
+}
+
+impl Survey {
+    /// Returns the lines of zero modes; `None` where the determinant is not real, or they could not be followed.
+    pub fn lines(&self) -> Option<&ZeroLines> {
+        self.real.as_ref().and_then(|(_, lines)| lines.as_ref().ok())
+    }
+
+    /// Returns why the lines of zero modes could not be followed; `None` where they were, or the determinant is not real.
+    pub fn no_lines(&self) -> Option<&BlochError> {
+        self.real.as_ref().and_then(|(_, lines)| lines.as_ref().err())
+    }
 }
 
 /// Surveys the spatially varying modes of bars; `None` where `go_on`, which is told the number of each finished step, asks to stop.
@@ -58,7 +71,7 @@ pub struct Survey {
 /// ```
 ///
 /// # Errors
-/// [`BlochError`] where there is no determinant, where its zeros cannot be followed, and where a decomposition fails.
+/// [`BlochError`] where there is no determinant, and where a decomposition fails.
 pub fn survey(
     rigidity: &Rigidity,
     options: &SurveyOptions,
@@ -78,7 +91,10 @@ pub fn survey(
         return Ok(None);
     }
     let real = match Zone::new(&determinant) {
-        Ok(zone) => Some((zone.clone(), ZeroLines::new(&zone)?.refined(&zone, rigidity))),
+        Ok(zone) => {
+            let lines = ZeroLines::new(&zone).map(|lines| lines.refined(&zone, rigidity));
+            Some((zone, lines))
+        }
         Err(BlochError::NotSymmetric { .. }) => None,
         Err(error) => return Err(error),
     };

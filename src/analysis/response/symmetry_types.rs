@@ -8,6 +8,7 @@ use super::cell::PeriodicCell;
 use super::mode::LinearMode;
 use super::stresses::SelfStress;
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::least_squares;
 use crate::sheet::symmetry::{Symmetry, symmetries};
 
 /// Largest distance of a trace from a whole number.
@@ -55,9 +56,9 @@ fn types(vectors: &[Vec<f64>], image: impl Fn(usize) -> (usize, f64)) -> Option<
         let (to, sign) = image(row);
         (0..vectors.len()).for_each(|column| moved[(to, column)] = sign * span[(row, column)]);
     }
-    let map = (span.transpose() * &span).try_inverse()? * (span.transpose() * &moved);
-    let off = (&span * &map - &moved).norm() / span.norm();
-    let trace = map.trace();
+    let map = least_squares(&span, &moved).ok()?;
+    let off = map.residual.norm() / span.norm();
+    let trace = map.solution.trace();
     let whole = trace.round();
     let odd = vectors.len() as i64 - whole as i64;
     let fits = off < WHOLE && (trace - whole).abs() < WHOLE && odd >= 0 && odd % 2 == 0;

@@ -27,8 +27,12 @@ pub struct BlochSummary {
     pub on_circle: [f64; 2],
     /// Part of the zone in which the determinant is positive; null where it is not real.
     pub positive_fraction: Option<f64>,
-    /// Number of lines of zeros in the zone; null where the determinant is not real, and none were looked for.
+    /// Number of lines of zeros in the zone; null where the determinant is not real, and none were looked for, or where they could
+    /// not be followed.
     pub zero_lines: Option<usize>,
+    /// Why they could not be followed; null where they were, or were not looked for.
+    #[serde(default)]
+    pub no_zero_lines: Option<String>,
     /// The lines.
     pub lines: Vec<ZeroLineSummary>,
     /// Parts of the zone of one sign, the largest first.
