@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for row in found.map[0].chunks(48).rev() {
         println!("  {}", row.iter().map(|value| if *value < 0.0 { '-' } else { '+' }).collect::<String>());
     }
-    if let Some((_, lines)) = &found.real {
+    if let Some(lines) = found.lines() {
         println!("{} lines of zero modes; decay rates per cell at q1 = 0.79:", lines.lines.len());
     }
     let decay = found.decays.iter().min_by(|a, b| (a.q - 0.79).abs().total_cmp(&(b.q - 0.79).abs()));

@@ -195,7 +195,7 @@ fn describe_study(study: &StudySummary) -> String {
             let [p1, p2] = bloch.polarization;
             let lines = bloch.zero_lines.map(|count| counted(count, "zero line"));
             let lines = lines
-                .or_else(|| bloch.no_zero_lines.as_ref().map(|why| why.clone()))
+                .or_else(|| bloch.no_zero_lines.clone())
                 .unwrap_or_else(|| "no real determinant, so that zero lines are not looked for".to_owned());
             let pairing = bloch.pairing_error.map_or("no root known well enough to be paired".to_owned(), |error| {
                 format!("pairing error {error:.1e}")
