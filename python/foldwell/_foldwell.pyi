@@ -56,6 +56,7 @@ class Sheet:
     title: str
     vertices: Floats
     lattice: Floats | None
+    screws: Floats | None
     edges: Ints
     kinds: list[str]
     letters: list[str]

@@ -103,8 +103,14 @@ class Sheet:
 
     @property
     def lattice(self) -> NDArray[np.float64] | None:
-        """The two lattice vectors, shape (2, 3); None for a finite sheet."""
+        """The two lattice vectors, shape (2, 3); None for a finite sheet and for the cell of a tube."""
         return self._inner.lattice
+
+    @property
+    def screws(self) -> NDArray[np.float64] | None:
+        """Turns about z in radians and translations along it of the two screw motions that repeat the cell of a tube, shape (2, 2), a row
+        for each; None for other sheets."""
+        return self._inner.screws
 
     @property
     def edges(self) -> NDArray[np.int64]:
@@ -154,14 +160,18 @@ class Sheet:
         return found
 
     def plot(self, ax: Any = None, **options: Any) -> Any:
-        """Draws all faces of one cell as they are drawn, with the options of `State.plot`. Needs Matplotlib."""
+        """Draws all faces of one cell as they are drawn, of the cell of a tube with its neighbours, with the options of `State.plot`. Needs
+        Matplotlib."""
         from .assembly import Assembly
 
+        if self.screws is not None:
+            return Assembly.patch(self, (8, 4)).drawn.plot(ax, **options)
         make = Assembly.patch if self.lattice is None else Assembly.torus
         return make(self).drawn.plot(ax, **options)
 
     def __repr__(self) -> str:
-        kind = "finite sheet" if self.lattice is None else "periodic cell"
+        tube = "finite sheet" if self.screws is None else "cell of a tube"
+        kind = tube if self.lattice is None else "periodic cell"
         return f"<foldwell.Sheet {self.title!r}: {kind}, {len(self.vertices)} vertices, {len(self.edges)} edges>"
 
 

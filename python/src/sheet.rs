@@ -71,6 +71,12 @@ impl Sheet {
     }
 
     #[getter]
+    fn screws<'py>(&self, py: Python<'py>) -> PyResult<Option<Array2<'py, f64>>> {
+        let both = |screws: &foldwell::sheet::ScrewLattice| [0, 1].map(|a| [screws.turn[a], screws.rise[a]]).concat();
+        self.sheet.screws.as_ref().map(|screws| rows(py, both(screws), 2)).transpose()
+    }
+
+    #[getter]
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Array2<'py, i64>> {
         rows(py, self.sheet.edges.iter().flat_map(|edge| name(edge.key)).collect(), 4)
     }

@@ -3,6 +3,7 @@
 import foldwell as fw
 import numpy as np
 import pytest
+from conftest import ROOT
 from scipy.optimize import minimize
 from scipy.sparse import issparse
 
@@ -29,6 +30,7 @@ def assemblies():
     yield "torus", fw.Assembly.torus(miura, (2, 1), **terms)
     yield "fixed torus", fw.Assembly.torus(miura, (1, 2), lattice="fixed", **terms)
     yield "screw", fw.Assembly.screw(star, bars=1e2, creases=1.0, rest=0.3)
+    yield "tube", fw.Assembly.tube(fw.Sheet.read(ROOT / "meshes/kresling-cell.fold"), (6, 0), bars=1e2, creases=1.0, rest="flat")
     pins = [{"vertex": 0, "axes": "xyz"}, {"vertex": 1, "axes": "yz"}]
     loads = [{"vertex": 3, "cell": (1, 1), "force": (0.0, 0.1, -0.2)}]
     held = [*pins, {"vertex": 2, "axes": "z"}]

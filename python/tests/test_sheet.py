@@ -1,6 +1,7 @@
 """Sheets from files, arrays and patterns."""
 
 import io
+import json
 import warnings
 
 import foldwell as fw
@@ -90,3 +91,30 @@ def test_mistakes_are_named(tmp_path):
 def test_wrong_arrays_are_refused(vertices, faces, error, words):
     with pytest.raises(error, match=words):
         fw.Sheet.from_arrays(vertices, faces)
+
+
+def test_the_cell_of_a_tube():
+    """Screw motions of a file are those of the sheet; a Kresling tube of one vertex relaxes, and does not close elsewhere."""
+    sheet = fw.Sheet.read(ROOT / "meshes/kresling-cell.fold")
+    assert sheet.lattice is None and "cell of a tube" in repr(sheet)
+    np.testing.assert_allclose(sheet.screws, [[np.pi / 3, 0.0], [np.pi / 6, 0.8]], rtol=1e-15)
+    assert fw.Sheet.read(io.StringIO(json.dumps(sheet.to_fold()))).screws.tolist() == sheet.screws.tolist()
+    relaxed = fw.relax(fw.Assembly.tube(sheet, (6, 0), bars=1e3, creases=1.0, rest="flat"))
+    assert relaxed.converged and relaxed.summary["negative_eigenvalues"] == 0
+    with pytest.raises(fw.SceneError, match="turns by 300"):
+        fw.Assembly.tube(sheet, (5, 0))
+    with pytest.raises(fw.SceneError, match="inwards"):
+        fw.Assembly.tube(sheet, (6, 0), inwards=True)
+    with pytest.raises(fw.SceneError, match="drawn as a tube"):
+        fw.Assembly.torus(sheet)
+
+
+def test_frequencies_of_a_mass(miura):
+    """Frequencies of a sheet with mass are as many as eigenvalues, six of them 0, and fall as the root of the mass."""
+    found = [
+        fw.modes(fw.Assembly.patch(miura, (2, 2), bars=1e2, creases=1.0, facets=3.0, mass={"vertex": mass}), eigenvalues=8)
+        for mass in (1.0, 4.0)
+    ]
+    first, second = [modes.summary["frequencies"] for modes in found]
+    assert first[:6] == second[:6] == [0.0] * 6
+    np.testing.assert_allclose(first[6:], 2.0 * np.array(second[6:]), rtol=1e-9)
