@@ -3,6 +3,7 @@
 use super::grid::PointIndex;
 use super::polygon::Polygon;
 use super::surface::{AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
+use super::walk::{self, Arrival};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
 use crate::numerics::vector::{add_scaled, dot, norm};
@@ -66,6 +67,8 @@ struct Neighbour {
 struct Seed {
     residual: f64,
     start: usize,
+    /// How much the tangent plane turns per distance, where that is known.
+    bend: Option<f64>,
 }
 
 impl<'a, S: Surface> Cover<'a, S> {
@@ -99,7 +102,8 @@ impl<'a, S: Surface> Cover<'a, S> {
         }
         let (mut x, mut frame) = (start.to_vec(), tangents.as_slice().to_vec());
         let chart = self.correct(&mut x, &mut frame, 1e-3 * self.options.radius).and_then(|found| {
-            let place = Seed { residual: found.residual, start: number };
+            let bend = self.surface.crosses().then_some(0.0);
+            let place = Seed { residual: found.residual, start: number, bend };
             self.chart(x, frame, self.options.radius, place)
         });
         let chart = chart.ok_or(AtlasError::Start { start: number })?;
@@ -171,6 +175,9 @@ impl<'a, S: Surface> Cover<'a, S> {
 
     /// A chart from a place on the rim of another.
     fn place(&mut self, number: usize, at: [f64; 2]) -> Option<Chart> {
+        if self.surface.crosses() {
+            return self.walk(number, at);
+        }
         let from = &self.charts[number];
         let (n, radius, start) = (from.x.len(), from.radius, from.start);
         let (mut x, mut frame) = (from.x.clone(), from.frame.clone());
@@ -180,30 +187,50 @@ impl<'a, S: Surface> Cover<'a, S> {
         if !(turn(&self.charts[number].frame, &frame) <= self.options.max_turn) {
             return None;
         }
-        self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Seed { residual: found.residual, start })
+        self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Seed { residual: found.residual, start, bend: None })
+    }
+
+    /// The same where the surface crosses another.
+    fn walk(&mut self, number: usize, at: [f64; 2]) -> Option<Chart> {
+        let (from, tolerance) = (&self.charts[number], self.options.tolerance);
+        let (radius, start) = (from.radius, from.start);
+        let Arrival { x, frame, residual } = walk::to_rim(self.surface, (from, at), &mut self.corrector, tolerance)?;
+        let turned = turn(&from.frame, &frame);
+        let bend = Some(turned / at[0].hypot(at[1]));
+        let gentle = turned <= self.options.max_turn;
+        gentle.then(|| self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Seed { residual, start, bend }))?
     }
 
     /// A chart at a point of the surface, its radius at most `largest` and such that the tangent plane turns gently
     /// over it.
     ///
     /// `None` where that is less than the smallest radius. The turning is measured at two points beside, in the tangent
-    /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does.
+    /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does. Of a surface that
+    /// crosses another it is that on the way to the point.
     fn chart(&mut self, x: Vec<f64>, frame: Vec<f64>, largest: f64, place: Seed) -> Option<Chart> {
-        let aside = PROBE_PER_RADIUS * largest;
-        let mut square = 0.0;
-        for tangent in frame.chunks_exact(x.len()) {
-            self.way.copy_from_slice(&x);
-            add_scaled(&mut self.way, aside, tangent);
-            let mut turned = frame.clone();
-            self.corrector.turn(self.surface, &self.way, &mut turned)?;
-            square += (turn(&frame, &turned) / aside).powi(2);
-        }
-        let gentle = WANTED_TURN_PART * self.options.max_turn / square.sqrt();
+        let bend = match place.bend {
+            Some(bend) => bend,
+            None => self.bend(&x, &frame, PROBE_PER_RADIUS * largest)?,
+        };
+        let gentle = WANTED_TURN_PART * self.options.max_turn / bend;
         if !(gentle >= LEAST_RADIUS_RATIO * self.options.radius) {
             return None;
         }
         let (limit, radius) = (self.surface.limit(&x), gentle.min(largest).min(self.options.radius));
         Some(Chart { x, frame, radius, limit, residual: place.residual, start: place.start })
+    }
+
+    /// How much the tangent plane turns per distance, measured at two points this far aside.
+    fn bend(&mut self, x: &[f64], frame: &[f64], aside: f64) -> Option<f64> {
+        let mut square = 0.0;
+        for tangent in frame.chunks_exact(x.len()) {
+            self.way.copy_from_slice(x);
+            add_scaled(&mut self.way, aside, tangent);
+            let mut turned = frame.to_vec();
+            self.corrector.turn(self.surface, &self.way, &mut turned)?;
+            square += (turn(frame, &turned) / aside).powi(2);
+        }
+        Some(square.sqrt())
     }
 
     fn insert(&mut self, chart: Chart, beyond: usize) -> usize {

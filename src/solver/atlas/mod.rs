@@ -19,6 +19,7 @@ mod polygon;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod walk;
 
 pub use surface::Surface;
 pub(crate) use surface::{Atlas, KEPT};
