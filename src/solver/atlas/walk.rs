@@ -9,6 +9,9 @@ use crate::numerics::DenseMatrix;
 use crate::solver::continuation::{Curve, CurveOptions, End, follow};
 use crate::solver::implicit::{Corrector, Implicit};
 
+/// Most steps to a rim: a few do mostly, and next to singular points they would get shorter without end.
+const MOST_STEPS: usize = 60;
+
 /// A point on the rim.
 pub(super) struct Arrival {
     pub x: Vec<f64>,
@@ -28,11 +31,10 @@ pub(super) fn to_rim<S: Surface>(
     let length = at[0].hypot(at[1]);
     let [cos, sin] = at.map(|along| along / length);
     let (first, second) = chart.frame.split_at(chart.x.len());
-    let turned = |c: f64, s: f64, [a, b]: [&[f64]; 2]| -> Vec<f64> {
-        a.iter().zip(b).map(|(a, b)| c * a + s * b).collect()
-    };
+    let turned =
+        |c: f64, s: f64, [a, b]: [&[f64]; 2]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| c * a + s * b).collect() };
     let (along, across) = (turned(cos, sin, [first, second]), turned(-sin, cos, [first, second]));
-    let options = CurveOptions { tolerance, length, max_step: length, ..CurveOptions::default() };
+    let options = CurveOptions { tolerance, length, max_step: length, steps: MOST_STEPS, ..CurveOptions::default() };
     let mut section = Section::new(surface, chart.x.clone(), across.clone());
     let found = follow(&mut section, chart.x.clone(), along, &options, &mut |_| true);
     let last = found.points.into_iter().next_back().filter(|_| found.end == End::Length)?;
