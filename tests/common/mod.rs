@@ -3,10 +3,12 @@
 
 use foldwell::analysis::modes::{Modes, ModesError, modes};
 use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
+use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Gauge, Hinges, Model, Terms};
 use foldwell::numerics::{DenseMatrix, dense};
 use foldwell::run::{RunOptions, run_scene};
-use foldwell::sheet::{EdgeKind, Sheet, fold};
+use foldwell::sheet::generate::FourParallelogram;
+use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use foldwell::solver::{HessianKind, Linearization, Options, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -41,6 +43,28 @@ pub fn scaled(mut sheet: Sheet, by: f64) -> Sheet {
     sheet.vertices.iter_mut().for_each(|p| *p *= by);
     sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| l * by));
     sheet
+}
+
+/// Generates the cell of four parallelograms with sides `a`, `b` along the first direction and `c`, `d` along the second,
+/// turned into the plane. `a` and `b` point to the same side of the plane of `c` and `d`.
+pub fn four_parallelograms([a, b, c, d]: [Vec3; 4]) -> Sheet {
+    let along = (c.normalize() + d.normalize()).normalize();
+    let across = c.cross(&d).normalize();
+    let across = if a.dot(&across) > 0.0 { across } else { -across };
+    assert!(b.dot(&across) > 0.0, "a and b point to different sides");
+    let fold = (-c.dot(&across.cross(&along))).atan2(c.dot(&along));
+    let cell = FourParallelogram {
+        a: a.norm(),
+        b: b.norm(),
+        c: c.norm(),
+        d: d.norm(),
+        ac: a.angle(&c),
+        ad: a.angle(&d),
+        bc: b.angle(&c),
+        bd: b.angle(&d),
+        fold,
+    };
+    generate(&Pattern::FourParallelogram(cell)).unwrap()
 }
 
 /// Assembles a sheet with boundary conditions, without energy terms.

@@ -115,6 +115,22 @@ fn wells_of_a_part_of_the_rigid_states() {
     assert!(found[0]["reason"].as_str().unwrap().contains("may have other wells and passes"), "{found}");
 }
 
+/// Claim: the eggbox and a general cell of four parallelograms, whose rigid states are two surfaces that cross, have a rigid
+/// well, and it is the one that relaxations of all vertices find, with creases that rest flat so that the energy does not
+/// vanish. Tolerance: 1e-10 relative, that of relaxations to 1e-8 of force.
+#[test]
+fn rigid_wells_of_four_parallelograms() {
+    for pattern in ["eggbox", "four-parallelogram"] {
+        let text = "[sheet]\nmesh = \"cell.fold\"\ndomain = \"screw\"\n[energy]\nbars = { stiffness = inf }\n\
+            creases = { stiffness = 1.0, rest = \"flat\" }\nfacets = { stiffness = 1.0 }\n[[study]]\nname = \"w\"\n\
+            kind = \"wells\"\nstarts = 4\nrigid = true\nmax_curvature = 0.5\ndraw = []\n";
+        let found = run(&mesh(&format!("{pattern}.fold")), text);
+        let energy = found[0]["wells"][0]["energy"].as_f64().unwrap();
+        let rigid = found[0]["rigid"]["wells"][0].as_f64().unwrap();
+        assert!(energy > 1.0 && (energy - rigid).abs() <= 1e-10 * energy, "{pattern}: {energy} {rigid}");
+    }
+}
+
 /// Claim: zero lines that were not searched for, because the determinant is not real, are not counted as zero. Source:
 /// an opening makes the coefficients of opposite powers differ.
 #[test]

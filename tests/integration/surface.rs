@@ -3,12 +3,13 @@
 
 use crate::common::{self, on};
 use foldwell::analysis::surface::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, surface};
+use foldwell::analysis::trace::{Stop, TraceOptions, trace};
 use foldwell::kinematics::{Closure, drawn_fold_angles};
 use foldwell::math::Vec3;
 use foldwell::model::{Boundary, Hinges, Terms};
 use foldwell::numerics::dense::null_space;
 use foldwell::sheet::generate::{Eggbox, Miura, RandomDevelopable};
-use foldwell::sheet::{EdgeKey, Pattern, Sheet, generate};
+use foldwell::sheet::{EdgeKey, EdgeKind, Pattern, Sheet, generate};
 use foldwell::solver::atlas::Coverage;
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
@@ -218,28 +219,31 @@ fn eggbox() -> Sheet {
     generate(&Pattern::Eggbox(Eggbox { a: 1.0, b: 1.0, sector: std::f64::consts::FRAC_PI_3, fold: 0.9 })).unwrap()
 }
 
-/// Returns a cell of four parallelograms with sides in general position: those of the eggbox with other vertices.
-fn four_parallelograms() -> Sheet {
-    let mut sheet = eggbox();
-    let [a, c] = [Vec3::new(0.62, 0.1, -0.7), Vec3::new(0.7, -0.1, 0.7)];
-    let [b, d] = [Vec3::new(0.2, 0.75, -0.6), Vec3::new(-0.05, 0.7, 0.6)];
-    sheet.vertices = vec![Vec3::zeros(), a, b, a + b];
-    sheet.lattice = Some([a + c, b + d]);
-    sheet
+/// Returns a cell of four parallelograms with sides in general position.
+fn general() -> Sheet {
+    let [a, b] = [Vec3::new(0.62, 0.1, -0.7), Vec3::new(0.7, -0.1, 0.7)];
+    let [c, d] = [Vec3::new(0.2, 0.75, -0.6), Vec3::new(-0.05, 0.7, 0.6)];
+    common::four_parallelograms([a, b, c, d])
 }
 
 /// Claim: sheets of four parallelograms with free diagonals, whose quadric is two planes (signature 1, 1, 1), fold
 /// along two surfaces of cylinders that cross in the curve of planar folding: of states that close to 1e-13 by a
 /// separate evaluation, each with two linear motions, none of them on the curve itself, up to the largest curvature in
-/// both directions. Both surfaces of the eggbox are covered; at small crossing angles charts of one are taken for
-/// charts of the other, and the coverage is reported as open. Source: theory of the second order.
+/// both directions. Both surfaces of the eggbox are covered. Those of the general cell have edges sharper than the
+/// smallest chart, next to states in which two of the parallelograms lie in one plane, and the coverage is reported as open.
+/// Source: theory of the second order.
 #[test]
 fn surfaces_of_four_parallelograms() {
-    for (sheet, whole) in [(eggbox(), true), (four_parallelograms(), false)] {
+    for (sheet, whole) in [(eggbox(), true), (general(), false)] {
         let found = cover(&sheet, &Terms::default(), Extent { radius: TAU / 32.0, max_curvature: 0.5 }, usize::MAX);
         let found = found.unwrap();
         assert!(found.crossing && found.lost == 0 && found.negative.is_none());
-        assert!(!whole || (found.coverage, found.branches.len()) == (Coverage::Complete, 4), "{:?}", found.coverage);
+        match found.coverage {
+            Coverage::Complete => assert!(whole && found.branches.len() == 4 && found.gaps == 0, "{} gaps", found.gaps),
+            coverage => {
+                assert!(!whole && matches!(coverage, Coverage::Open { charts } if charts < 1024), "{coverage:?}")
+            }
+        }
         assert!(found.points.len() > 500 && found.triangles.len() > found.points.len());
         let closure = Closure::of_cell(&sheet).unwrap();
         let mut most = 0.0f64;
@@ -258,20 +262,50 @@ fn surfaces_of_four_parallelograms() {
     }
 }
 
-/// Claim: states within the largest curvature with missing triangles are counted: none for the reference cell; some for
-/// the eggbox, where charts of both surfaces are identified at small crossing angles. Source: a count of directed
-/// edges.
+/// Claim: the trajectories that `trace` follows with one crease locked, up to a curvature of 1.8, lie on the surface, which is
+/// covered up to 1.9: nearer than half the square of the radius, as the height of triangles over it is, for the eggbox and a
+/// general cell of four parallelograms; both find states that close to 1e-13.
+#[test]
+fn trajectories_of_four_parallelograms_lie_on_the_surface() {
+    let (radius, curvature) = (TAU / 24.0, 1.8);
+    for sheet in [eggbox(), general()] {
+        let extent = Extent { radius, max_curvature: 1.9 };
+        let found = cover(&sheet, &Terms::default(), extent, usize::MAX).unwrap();
+        let locked = on(sheet.clone(), [1, 1], Boundary::Screw);
+        let crease = sheet.edges.iter().position(|edge| edge.kind == EdgeKind::Crease).unwrap();
+        let locks = vec![(crease, locked.drawn_angles()[crease])];
+        let stop = Stop { curvature: Some(curvature), arc_length: Some(6.0), ..Stop::default() };
+        let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch: None, stop };
+        let locked = locked.with_terms(Terms { locks, ..Terms::default() });
+        let traced = trace(&locked, &options, None, &mut |_, _| true).unwrap();
+        let (mut most, mut states) = (0.0f64, 0);
+        for state in traced.iter().flat_map(|one| &one.states[1..]) {
+            let corners = found.triangles.iter().map(|triangle| triangle.map(|k| &found.points[k]));
+            let nearest = corners.map(|corners| distance(&state.angles, corners)).fold(f64::INFINITY, f64::min);
+            assert!(nearest <= 0.5 * radius * radius, "{nearest} at arc length {}", state.arc_length);
+            assert!(state.residual <= 1e-13);
+            most = most.max(state.shape.as_ref().unwrap().curvature.abs());
+            states += 1;
+        }
+        assert!(traced.len() >= 4 && states > 20 && most > curvature - 1e-6, "{} {states} {most}", traced.len());
+    }
+}
+
+/// Claim: states within the largest curvature with missing triangles are counted: none for the reference cell and for the
+/// eggbox up to a curvature of 0.5; some for the eggbox up to 1.9, where pieces of its surfaces come close to each other.
+/// Source: a count of directed edges.
 #[test]
 fn missing_triangles_are_counted() {
-    let max_curvature = 0.5;
-    for (sheet, whole) in [(common::mesh("open-star"), true), (eggbox(), false)] {
+    for (sheet, max_curvature, whole) in
+        [(common::mesh("open-star"), 0.5, true), (eggbox(), 0.5, true), (eggbox(), 1.9, false)]
+    {
         let extent = Extent { radius: TAU / 32.0, max_curvature };
         let found = cover(&sheet, &Terms::default(), extent, usize::MAX).unwrap();
         let edges: HashSet<[usize; 2]> =
             found.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
         let border: HashSet<usize> =
             edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a])).flatten().copied().collect();
-        let within = |&&k: &&usize| found.points[k].shape.curvature.abs() < max_curvature * (1.0 - 1e-6);
+        let within = |&&k: &&usize| (found.points[k].shape.curvature.abs() - max_curvature).abs() > 1e-9;
         let gaps = border.iter().filter(within).count();
         assert_eq!((found.coverage, found.gaps, found.gaps == 0), (Coverage::Complete, gaps, whole));
     }

@@ -5,7 +5,7 @@
 //! Newton's method from between. An energy is lowest along the curve where its slope along the tangent vanishes, and is
 //! lowest on both surfaces there when it rises along each of the four ways that leave the curve.
 
-use super::covered::{Seam, Surface, SurfaceOptions, SurfacePoint};
+use super::covered::{Negative, Seam, Surface, SurfaceOptions, SurfacePoint};
 use super::folding::SurfaceClosure;
 use super::starts::starts;
 use super::tip::periodic_near;
@@ -105,7 +105,8 @@ fn descend(folding: &SurfaceClosure<'_>, start: Vec<f64>, energy: &dyn Fn(&[f64]
     None
 }
 
-/// Whether an energy is higher a little away along each of the four ways that leave the curve at a state of it.
+/// Whether an energy is higher a little away along each of the four ways that leave the curve at a state of it; so it is where none
+/// leaves it, as the quadratic condition is definite across the curve.
 fn rises(
     options: &SurfaceOptions,
     (closure, embedding): (&Closure, &Embedding),
@@ -115,7 +116,11 @@ fn rises(
     let second_order = SecondOrder::new(closure, angles).ok()?;
     let mut folding = SurfaceClosure::at(closure, embedding, (angles, f64::INFINITY));
     let near = SurfaceOptions { radius: ASIDE, max_curvature: f64::INFINITY, ..*options };
-    let found = starts(&mut folding, &second_order, &near).ok()?.ok()?;
+    let found = match starts(&mut folding, &second_order, &near).ok()? {
+        Ok(found) => found,
+        Err(Negative::OneDirection) => return Some(true),
+        Err(Negative::NoDirection) => return None,
+    };
     let here = energy(angles);
     (found.crossing && found.lost == 0).then(|| found.list.iter().all(|way| energy(&folding.all(&way.x)) > here))
 }

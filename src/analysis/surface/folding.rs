@@ -17,6 +17,8 @@ pub(super) struct SurfaceClosure<'a> {
     /// Angles of the folding edges at the state from which folding starts.
     origin: Vec<f64>,
     max_curvature: f64,
+    /// Whether two surfaces cross at the state from which folding starts.
+    pub crossing: bool,
 }
 
 impl<'a> SurfaceClosure<'a> {
@@ -28,7 +30,7 @@ impl<'a> SurfaceClosure<'a> {
     pub(crate) fn at(closure: &'a Closure, embedding: &'a Embedding, (angles, max_curvature): (&[f64], f64)) -> Self {
         let closing = Closing::new(closure, angles.to_vec());
         let origin = closing.folding(angles);
-        Self { closure, closing, embedding, origin, max_curvature }
+        Self { closure, closing, embedding, origin, max_curvature, crossing: false }
     }
 
     /// What places the cell.
@@ -105,6 +107,10 @@ impl Surface for SurfaceClosure<'_> {
     fn limit(&mut self, x: &[f64]) -> f64 {
         let curvature = self.shape(x).map_or(f64::NAN, |shape| shape.curvature.abs());
         if curvature.is_nan() { f64::INFINITY } else { curvature - self.max_curvature }
+    }
+
+    fn crosses(&self) -> bool {
+        self.crossing
     }
 }
 

@@ -64,20 +64,50 @@ pub fn surface(
         Ok(starts) => starts,
         Err(negative) => return Ok(Surface::nothing(negative, options.radius)),
     };
-    let states: Vec<Vec<f64>> = starts.list.iter().map(|start| start.x.clone()).collect();
     let charts = atlas::CoverOptions {
         tolerance: options.tolerance,
         radius: options.radius.min(REACH * starts.reach),
         max_turn: MAX_TURN,
         max_charts: options.max_points,
     };
-    let atlas = atlas::cover(&mut folding, &states, charts, observe)?;
+    folding.crossing = starts.crossing;
+    let atlas = cover(&mut folding, &starts, charts, observe)?;
     let radius = charts.radius;
     let found = Surface { radius, ..put_together(&folding, atlas, &starts, observe)? };
     if found.points.is_empty() && found.coverage != Coverage::Interrupted {
         return Err(SurfaceError::NothingWithin { max_curvature: options.max_curvature, reach: starts.reach });
     }
     Ok(found)
+}
+
+/// The atlas of all starts; of surfaces that cross, an atlas of each, so that at small crossing angles the charts of one are
+/// not taken for neighbours of those of the other.
+fn cover(
+    folding: &mut SurfaceClosure<'_>,
+    starts: &starts::Starts,
+    mut charts: atlas::CoverOptions,
+    observe: &mut dyn FnMut(usize) -> bool,
+) -> Result<Atlas, atlas::AtlasError> {
+    let lines = if starts.crossing { starts.list.iter().map(|start| start.line).max().unwrap_or(0) } else { 0 };
+    let mut whole: Option<Atlas> = None;
+    for line in 0..=lines {
+        let on_line = |k: &usize| !starts.crossing || starts.list[*k].line == line;
+        let numbers: Vec<usize> = (0..starts.list.len()).filter(on_line).collect();
+        let states: Vec<Vec<f64>> = numbers.iter().map(|&k| starts.list[k].x.clone()).collect();
+        let before = whole.as_ref().map_or(0, |atlas| atlas.charts.len());
+        let mut next = atlas::cover(folding, &states, charts, &mut |count| observe(before + count))?;
+        next.charts.iter_mut().for_each(|chart| chart.start = numbers[chart.start]);
+        charts.max_charts = charts.max_charts.saturating_sub(next.charts.len());
+        let stopped = !matches!(next.coverage, Coverage::Complete | Coverage::Open { .. });
+        whole = Some(match whole {
+            Some(atlas) => atlas.and(next),
+            None => next,
+        });
+        if stopped {
+            break;
+        }
+    }
+    whole.ok_or(atlas::AtlasError::Start { start: 0 })
 }
 
 /// The states of an atlas, the hole around the drawn state closed where it is a tip.

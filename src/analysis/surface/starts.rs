@@ -77,7 +77,9 @@ pub(super) fn starts(
         let [along, normal] = [along, normal].map(|v| folding.folding((&second_order.modes * v).as_slice()));
         for sign in [1.0, -1.0] {
             let tangent = along.iter().map(|entry| sign * entry).collect();
-            match follow_out(folding, settings, tangent, &normal) {
+            // surfaces that cross: half a chart away, so that the next chart on the other side is so too
+            let part = if crossing { 0.5 } else { 1.0 };
+            match follow_out(folding, settings, tangent, (&normal, part)) {
                 Some(Point { x, arc_length, .. }) => {
                     let sign = if folding.shape(&x)?.curvature < 0.0 { -1 } else { 1 };
                     // beyond the limit: half of it is met so near that it could not be located
@@ -96,16 +98,16 @@ pub(super) fn starts(
     }
 }
 
-/// The state a chart's radius away on the hyperplane, or where half of the largest curvature is met.
+/// The state this part of a chart's radius away on the hyperplane, or where half of the largest curvature is met.
 fn follow_out(
     folding: &mut SurfaceClosure<'_>,
     settings: &SurfaceOptions,
     tangent: Vec<f64>,
-    normal: &[f64],
+    (normal, part): (&[f64], f64),
 ) -> Option<Point> {
     let options = CurveOptions {
         tolerance: settings.tolerance,
-        length: settings.radius,
+        length: part * settings.radius,
         stops: vec![0],
         ..CurveOptions::default()
     };

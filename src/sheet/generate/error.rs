@@ -65,6 +65,17 @@ pub enum GenerateError {
         /// Its value.
         value: usize,
     },
+    /// No state has these angles of parallelograms.
+    #[error(
+        "no cell has these angles `ac`, `ad`, `bc` and `bd`: `fold` should be above {} rad and below {} rad",
+        short(*low), short(*high)
+    )]
+    NoFold {
+        /// Lower end of the range of `fold` in radians, not below the upper one.
+        low: f64,
+        /// Upper end of the range.
+        high: f64,
+    },
     /// The parameters are in their ranges, but together they give a degenerate mesh.
     #[error("these parameters together give no sheet: {0}")]
     Mesh(#[from] Defect),

@@ -13,6 +13,7 @@
 
 mod eggbox;
 mod error;
+mod four_parallelogram;
 mod grid;
 mod hypar;
 mod kresling;
@@ -35,6 +36,7 @@ use serde::{Deserialize, Serialize};
 use super::cell::Sheet;
 pub use eggbox::Eggbox;
 pub use error::GenerateError;
+pub use four_parallelogram::FourParallelogram;
 pub use hypar::Hypar;
 pub use kresling::Kresling;
 pub use miura::{Miura, MiuraPatch};
@@ -47,10 +49,11 @@ pub use waterbomb::Waterbomb;
 pub use yoshimura::Yoshimura;
 
 /// The names of the patterns, and a page about each.
-const HELP: [(&str, &str); 13] = [
+const HELP: [(&str, &str); 14] = [
     ("miura", include_str!("help/miura.txt")),
     ("miura-patch", include_str!("help/miura-patch.txt")),
     ("eggbox", include_str!("help/eggbox.txt")),
+    ("four-parallelogram", include_str!("help/four-parallelogram.txt")),
     ("waterbomb", include_str!("help/waterbomb.txt")),
     ("yoshimura", include_str!("help/yoshimura.txt")),
     ("kresling", include_str!("help/kresling.txt")),
@@ -73,6 +76,8 @@ pub enum Pattern {
     MiuraPatch(MiuraPatch),
     /// One cell of the eggbox.
     Eggbox(Eggbox),
+    /// One cell of four parallelograms of any lengths and angles.
+    FourParallelogram(FourParallelogram),
     /// One cell of the waterbomb tessellation.
     Waterbomb(Waterbomb),
     /// One cell of the Yoshimura pattern.
@@ -138,6 +143,7 @@ pub fn generate(pattern: &Pattern) -> Result<Sheet, GenerateError> {
         Pattern::Miura(p) => p.sheet(),
         Pattern::MiuraPatch(p) => p.sheet(),
         Pattern::Eggbox(p) => p.sheet(),
+        Pattern::FourParallelogram(p) => p.sheet(),
         Pattern::Waterbomb(p) => p.sheet(),
         Pattern::Yoshimura(p) => p.sheet(),
         Pattern::Kresling(p) => p.sheet(),

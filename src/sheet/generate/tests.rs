@@ -63,6 +63,38 @@ fn sector_angles_and_sides() {
     }
 }
 
+/// Claim: the sides of a cell of four parallelograms have their lengths and angles, also of the mirror image, which is the
+/// same sheet with z reversed; with the angles of the eggbox it is the eggbox. Tolerance: rounding.
+#[test]
+fn four_parallelograms_have_their_sides() {
+    let json = r#"{"pattern": "four-parallelogram", "a": 1.3, "b": 0.7, "c": 0.6, "d": 1.1, "ac": 1.2, "ad": 1.8, "bc": 1.5,
+                   "bd": 1.0, "fold": 0.9}"#;
+    let cell = sheet(json);
+    let [first, second] = cell.lattice.unwrap();
+    let (a, c) = (cell.vertices[1], cell.vertices[2]);
+    let (b, d) = (first - a, second - c);
+    for (side, length) in [(a, 1.3), (b, 0.7), (c, 0.6), (d, 1.1)] {
+        assert!((side.norm() - length).abs() < 1e-14, "{length}");
+    }
+    for (pair, angle) in [([a, c], 1.2), ([a, d], 1.8), ([b, c], 1.5), ([b, d], 1.0), ([c, d], 1.8)] {
+        assert!((pair[0].angle(&pair[1]) - angle).abs() < 1e-14, "{angle}");
+    }
+    assert!(first.x > 0.0 && second.y > 0.0 && first.yz().norm() + second.z.abs() < 1e-15);
+    let mirrored = sheet(&json.replace("0.9}", "-0.9}"));
+    for (one, other) in cell.vertices.iter().zip(&mirrored.vertices) {
+        assert!((one - Vec3::new(other.x, other.y, -other.z)).norm() < 1e-14);
+    }
+    let (t, f) = (FRAC_PI_3, 0.9f64);
+    let eggbox = sheet(&format!(r#"{{"pattern": "eggbox", "fold": {}}}"#, (t.cos() / f.sin()).asin()));
+    let same = sheet(&format!(
+        r#"{{"pattern": "four-parallelogram", "a": 1, "b": 1, "c": 1, "d": 1, "ac": {t}, "ad": {s}, "bc": {s}, "bd": {t},
+            "fold": {f}}}"#,
+        s = PI - t
+    ));
+    assert!(eggbox.vertices.iter().zip(&same.vertices).all(|(a, b)| (a - b).norm() < 1e-14));
+    assert_eq!(eggbox.edges, same.edges);
+}
+
 /// Claim: the creases around the square of a rigidly folded square twist are neither flat nor all equal, and `fold`
 /// is the angle of the right one.
 #[test]
@@ -234,6 +266,15 @@ fn bad_parameters() {
         (r#"{"pattern": "miura", "fold": 2}"#, "`fold` is 2 rad; it should be at least 0 and below 1.57"),
         (r#"{"pattern": "miura-patch", "cells": [5, 0]}"#, "`cells[1]` is 0; it should be from 1 to 500"),
         (r#"{"pattern": "eggbox", "fold": 0.1}"#, "`fold` is 0.1 rad; it should be above 0.5235"),
+        (
+            r#"{"pattern": "four-parallelogram", "fold": 0.3}"#,
+            "`fold` is 0.3 rad; it should be above 0.392699 and below 1.4",
+        ),
+        (r#"{"pattern": "four-parallelogram", "fold": -0.3}"#, "`fold` is -0.3 rad; it should be above -1.4"),
+        (
+            r#"{"pattern": "four-parallelogram", "ac": 0.1, "bc": 2.9, "bd": 2.9}"#,
+            "no cell has these angles `ac`, `ad`, `bc`",
+        ),
         (r#"{"pattern": "waterbomb", "b": 0}"#, "`b` is 0; it should be above 0"),
         (r#"{"pattern": "yoshimura", "fold": -0.1}"#, "`fold` is -0.1 rad; it should be at least 0"),
         (r#"{"pattern": "kresling", "sides": 2}"#, "`sides` is 2; it should be from 3 to 1000"),

@@ -2,10 +2,12 @@
 
 use super::grid::PointIndex;
 use super::polygon::Polygon;
+use super::seen::{MOST_DISTANCE_PER_RADII, Neighbour, see, separate, turn};
 use super::surface::{AtlasError, Chart, CoverOptions, Coverage, KEPT, Surface};
+use super::walk::{self, Arrival};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::null_space;
-use crate::numerics::vector::{add_scaled, dot, norm};
+use crate::numerics::vector::{add_scaled, norm};
 use crate::solver::implicit::{CorrectedPoint, Corrector};
 use std::collections::{HashSet, VecDeque};
 
@@ -18,19 +20,20 @@ const MOST_RADIUS_GROWTH: f64 = 1.2;
 const WANTED_TURN_PART: f64 = 0.7;
 /// Distance from a chart at which the turning of its tangent plane is measured, relative to its radius.
 const PROBE_PER_RADIUS: f64 = 0.1;
-/// Largest distance of neighbours relative to the sum of their radii.
-const MOST_DISTANCE_PER_RADII: f64 = 1.1;
-/// Largest part of the way between neighbours that is across the tangent plane.
-const MOST_PART_ACROSS: f64 = 0.5;
-/// Least determinant of the frames of neighbours.
-const LEAST_FRAME_DETERMINANT: f64 = 0.5;
 /// Number of charts in a row beyond the limit that are followed further: those next to the inner ones.
 const CHARTS_BEYOND_LIMIT: usize = 1;
 /// Number of charts from one question of the observer to the next.
 pub(super) const CHARTS_PER_QUESTION: usize = 256;
+/// Distance from an open chart below which no further one is placed, relative to the radius of the chart from which it would be.
+const SAME_PLACE_PER_RADIUS: f64 = 0.2;
+/// Number of times that a chart of a surface that crosses another is surrounded again, as when those around it are made smaller,
+/// before it counts as one that cannot be.
+const MOST_VISITS: usize = 20;
 /// Number of charts at which the surface cannot be followed beyond which it is given up: smallest charts would be
 /// placed for long along singular curves, and the covering stays open all the same.
 const MOST_OPEN_CHARTS: usize = 512;
+/// The same of a surface that crosses another, along sharp edges of which they lie.
+const MOST_OPEN_BESIDE_CROSSINGS: usize = 1024;
 
 /// Number of charts placed around one beyond which it counts as one that cannot be surrounded: around a regular one
 /// there are a dozen, and as many again for every time that it is made smaller. Where the surface is singular new ones
@@ -49,23 +52,22 @@ pub(super) struct Cover<'a, S: Surface> {
     /// Charts that may be open.
     waiting: VecDeque<usize>,
     queued: Vec<bool>,
+    /// Number of times that each chart was surrounded.
+    visits: Vec<usize>,
+    /// Charts at which the surface cannot be followed.
+    open: HashSet<usize>,
     polygon: Polygon,
     pub oriented: bool,
     near: Vec<usize>,
     way: Vec<f64>,
 }
 
-/// A chart seen from another.
-struct Neighbour {
-    /// Place in the other's tangent plane, at the distance of both.
-    at: [f64; 2],
-    radius: f64,
-}
-
 /// A point before its chart.
 struct Seed {
     residual: f64,
     start: usize,
+    /// How much the tangent plane turns per distance, where that is known.
+    bend: Option<f64>,
 }
 
 impl<'a, S: Surface> Cover<'a, S> {
@@ -80,6 +82,8 @@ impl<'a, S: Surface> Cover<'a, S> {
             beyond: vec![],
             waiting: VecDeque::new(),
             queued: vec![],
+            visits: vec![],
+            open: HashSet::new(),
             polygon: Polygon::new(),
             oriented: true,
             near: vec![],
@@ -99,7 +103,8 @@ impl<'a, S: Surface> Cover<'a, S> {
         }
         let (mut x, mut frame) = (start.to_vec(), tangents.as_slice().to_vec());
         let chart = self.correct(&mut x, &mut frame, 1e-3 * self.options.radius).and_then(|found| {
-            let place = Seed { residual: found.residual, start: number };
+            let bend = self.surface.crosses().then_some(0.0);
+            let place = Seed { residual: found.residual, start: number, bend };
             self.chart(x, frame, self.options.radius, place)
         });
         let chart = chart.ok_or(AtlasError::Start { start: number })?;
@@ -111,7 +116,7 @@ impl<'a, S: Surface> Cover<'a, S> {
 
     /// Places charts until none is open.
     pub(crate) fn run(&mut self, observe: &mut dyn FnMut(usize) -> bool) -> Coverage {
-        let (mut open, mut seen, mut taken) = (HashSet::new(), 0, 0);
+        let (mut seen, mut taken) = (0, 0);
         while let Some(number) = self.waiting.pop_front() {
             self.queued[number] = false;
             taken += 1;
@@ -124,24 +129,32 @@ impl<'a, S: Surface> Cover<'a, S> {
             if self.charts.len() >= self.options.max_charts {
                 return Coverage::TooManyCharts;
             }
-            if self.beyond[number] <= CHARTS_BEYOND_LIMIT && !open.contains(&number) && !self.surround(number) {
-                open.insert(number);
-                if open.len() >= MOST_OPEN_CHARTS {
-                    return Coverage::GivenUp { charts: open.len() };
+            if self.beyond[number] <= CHARTS_BEYOND_LIMIT && !self.open.contains(&number) && !self.surround(number) {
+                self.open.insert(number);
+                let most = if self.surface.crosses() { MOST_OPEN_BESIDE_CROSSINGS } else { MOST_OPEN_CHARTS };
+                if self.open.len() >= most {
+                    return Coverage::GivenUp { charts: self.open.len() };
                 }
             }
         }
-        if open.is_empty() { Coverage::Complete } else { Coverage::Open { charts: open.len() } }
+        if self.open.is_empty() { Coverage::Complete } else { Coverage::Open { charts: self.open.len() } }
     }
 
     /// Places neighbours of a chart until its disc is covered; false where that does not succeed with the smallest
     /// radius.
     fn surround(&mut self, number: usize) -> bool {
+        self.visits[number] += 1;
+        if self.surface.crosses() && self.visits[number] > MOST_VISITS {
+            return false;
+        }
         self.shape(number);
         let mut placed = 0;
         while let Some(at) = self.polygon.uncovered() {
             match self.place(number, at) {
                 Some(_) if placed == MOST_NEIGHBOURS => return false,
+                Some(chart) if self.surface.crosses() && self.tried(number, &chart) => {
+                    self.polygon.clip(at, self.charts[number].radius, number);
+                }
                 Some(chart) => {
                     placed += 1;
                     let beyond = if chart.limit > 0.0 { self.beyond[number] + 1 } else { 0 };
@@ -163,6 +176,17 @@ impl<'a, S: Surface> Cover<'a, S> {
         true
     }
 
+    /// Whether a chart would lie so near to an open one that it would end as that did.
+    fn tried(&mut self, from: usize, chart: &Chart) -> bool {
+        let apart = SAME_PLACE_PER_RADIUS * self.charts[from].radius;
+        let mut near = std::mem::take(&mut self.near);
+        self.grid.near(&chart.x, apart, &mut near);
+        let tried =
+            near.iter().any(|other| self.open.contains(other) && self.apart(&self.charts[*other].x, &chart.x) <= apart);
+        self.near = near;
+        tried
+    }
+
     /// Brings a point onto the surface, no further than `reach`, and its frame into the tangents there.
     fn correct(&mut self, x: &mut [f64], frame: &mut [f64], reach: f64) -> Option<CorrectedPoint> {
         let found = self.corrector.correct(self.surface, x, frame, self.options.tolerance)?;
@@ -171,6 +195,9 @@ impl<'a, S: Surface> Cover<'a, S> {
 
     /// A chart from a place on the rim of another.
     fn place(&mut self, number: usize, at: [f64; 2]) -> Option<Chart> {
+        if self.surface.crosses() {
+            return self.walk(number, at);
+        }
         let from = &self.charts[number];
         let (n, radius, start) = (from.x.len(), from.radius, from.start);
         let (mut x, mut frame) = (from.x.clone(), from.frame.clone());
@@ -180,30 +207,58 @@ impl<'a, S: Surface> Cover<'a, S> {
         if !(turn(&self.charts[number].frame, &frame) <= self.options.max_turn) {
             return None;
         }
-        self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Seed { residual: found.residual, start })
+        self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Seed { residual: found.residual, start, bend: None })
+    }
+
+    /// The same where the surface crosses another.
+    fn walk(&mut self, number: usize, at: [f64; 2]) -> Option<Chart> {
+        let (from, tolerance) = (&self.charts[number], self.options.tolerance);
+        let (radius, start) = (from.radius, from.start);
+        let Arrival { x, frame, residual } = walk::to_rim(self.surface, (from, at), &mut self.corrector, tolerance)?;
+        separate(&from.x, &x, &self.periods, &mut self.way);
+        let (first, second) = from.frame.split_at(x.len());
+        add_scaled(&mut self.way, -at[0], first);
+        add_scaled(&mut self.way, -at[1], second);
+        let missed = norm(&self.way);
+        if !(missed <= self.options.max_turn * radius) {
+            return None;
+        }
+        let turned = turn(&from.frame, &frame);
+        let bend = Some(turned / at[0].hypot(at[1]));
+        let gentle = turned <= self.options.max_turn;
+        gentle.then(|| self.chart(x, frame, MOST_RADIUS_GROWTH * radius, Seed { residual, start, bend }))?
     }
 
     /// A chart at a point of the surface, its radius at most `largest` and such that the tangent plane turns gently
     /// over it.
     ///
     /// `None` where that is less than the smallest radius. The turning is measured at two points beside, in the tangent
-    /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does.
+    /// plane, so that it is seen in all directions: towards the tip of a cone nothing turns, across it all does. Of a surface that
+    /// crosses another it is that on the way to the point.
     fn chart(&mut self, x: Vec<f64>, frame: Vec<f64>, largest: f64, place: Seed) -> Option<Chart> {
-        let aside = PROBE_PER_RADIUS * largest;
-        let mut square = 0.0;
-        for tangent in frame.chunks_exact(x.len()) {
-            self.way.copy_from_slice(&x);
-            add_scaled(&mut self.way, aside, tangent);
-            let mut turned = frame.clone();
-            self.corrector.turn(self.surface, &self.way, &mut turned)?;
-            square += (turn(&frame, &turned) / aside).powi(2);
-        }
-        let gentle = WANTED_TURN_PART * self.options.max_turn / square.sqrt();
+        let bend = match place.bend {
+            Some(bend) => bend,
+            None => self.bend(&x, &frame, PROBE_PER_RADIUS * largest)?,
+        };
+        let gentle = WANTED_TURN_PART * self.options.max_turn / bend;
         if !(gentle >= LEAST_RADIUS_RATIO * self.options.radius) {
             return None;
         }
         let (limit, radius) = (self.surface.limit(&x), gentle.min(largest).min(self.options.radius));
         Some(Chart { x, frame, radius, limit, residual: place.residual, start: place.start })
+    }
+
+    /// How much the tangent plane turns per distance, measured at two points this far aside.
+    fn bend(&mut self, x: &[f64], frame: &[f64], aside: f64) -> Option<f64> {
+        let mut square = 0.0;
+        for tangent in frame.chunks_exact(x.len()) {
+            self.way.copy_from_slice(x);
+            add_scaled(&mut self.way, aside, tangent);
+            let mut turned = frame.to_vec();
+            self.corrector.turn(self.surface, &self.way, &mut turned)?;
+            square += (turn(frame, &turned) / aside).powi(2);
+        }
+        Some(square.sqrt())
     }
 
     fn insert(&mut self, chart: Chart, beyond: usize) -> usize {
@@ -212,6 +267,7 @@ impl<'a, S: Surface> Cover<'a, S> {
         self.charts.push(chart);
         self.beyond.push(beyond);
         self.queued.push(false);
+        self.visits.push(0);
         self.enqueue(number);
         number
     }
@@ -327,55 +383,4 @@ impl<'a, S: Surface> Cover<'a, S> {
         chart.limit = self.surface.limit(&chart.x);
         Some(chart)
     }
-}
-
-/// The shortest way from `a` to `b`, modulo periods.
-fn separate(a: &[f64], b: &[f64], periods: &[Option<f64>], way: &mut [f64]) {
-    for (unknown, way) in way.iter_mut().enumerate() {
-        let away = b[unknown] - a[unknown];
-        *way = match periods[unknown] {
-            Some(period) if away.abs() > 0.5 * period => away - period * (away / period).round(),
-            _ => away,
-        };
-    }
-}
-
-/// The chart `b` seen from `a` if they are neighbours, and the determinant of their frames.
-fn see(a: &Chart, b: &Chart, periods: &[Option<f64>], way: &mut [f64]) -> Option<(Neighbour, f64)> {
-    let n = a.x.len();
-    separate(&a.x, &b.x, periods, way);
-    let square = dot(way, way);
-    let reach = MOST_DISTANCE_PER_RADII * (a.radius + b.radius);
-    if !(square > 0.0 && square < reach * reach) {
-        return None;
-    }
-    let at = [dot(&a.frame[..n], way), dot(&a.frame[n..], way)];
-    let flat = at[0] * at[0] + at[1] * at[1];
-    let determinant = determinant(&overlap(&a.frame, &b.frame));
-    if square - flat > MOST_PART_ACROSS * MOST_PART_ACROSS * square || determinant.abs() < LEAST_FRAME_DETERMINANT {
-        return None;
-    }
-    let stretch = (square / flat).sqrt();
-    Some((Neighbour { at: at.map(|x| x * stretch), radius: b.radius }, determinant))
-}
-
-/// Products of the tangents of two frames.
-fn overlap(a: &[f64], b: &[f64]) -> [[f64; 2]; 2] {
-    let n = a.len() / 2;
-    [&a[..n], &a[n..]].map(|s| [dot(s, &b[..n]), dot(s, &b[n..])])
-}
-
-fn determinant(m: &[[f64; 2]; 2]) -> f64 {
-    m[0][0] * m[1][1] - m[0][1] * m[1][0]
-}
-
-/// The larger of the two angles between planes: the arc cosine of the smaller singular value of the products.
-fn turn(a: &[f64], b: &[f64]) -> f64 {
-    let m = overlap(a, b);
-    let size: f64 = m.iter().flatten().map(|x| x * x).sum();
-    let product = determinant(&m).abs();
-    // Singular values p >= q: p q = product, (p - q)^2 = size - 2 product.
-    let difference = (size - 2.0 * product).max(0.0).sqrt();
-    let smaller = 0.5 * ((size + 2.0 * product).sqrt() - difference);
-    smaller.min(1.0).acos()
 }

@@ -17,6 +17,11 @@ pub trait Surface: Implicit {
     fn limit(&mut self, _x: &[f64]) -> f64 {
         f64::NEG_INFINITY
     }
+    /// Whether it crosses another surface that satisfies the same equations. Charts are then placed by following it, which costs
+    /// several times as much.
+    fn crosses(&self) -> bool {
+        false
+    }
 }
 
 /// Fineness and extent of a covering.
@@ -89,6 +94,22 @@ pub(crate) struct Atlas {
     pub coverage: Coverage,
     /// Whether the frames of all neighbours go the same way round.
     pub oriented: bool,
+}
+
+impl Atlas {
+    /// Two atlases side by side, the charts of the other behind; the coverage is that of the less complete one.
+    pub(crate) fn and(mut self, other: Self) -> Self {
+        let before = self.charts.len();
+        self.charts.extend(other.charts);
+        self.triangles.extend(other.triangles.into_iter().map(|triangle| triangle.map(|corner| corner + before)));
+        self.coverage = match (self.coverage, other.coverage) {
+            (Coverage::Open { charts: a }, Coverage::Open { charts: b }) => Coverage::Open { charts: a + b },
+            (one, Coverage::Complete) | (Coverage::Complete, one) => one,
+            (Coverage::Open { .. }, worse) | (worse, _) => worse,
+        };
+        self.oriented &= other.oriented;
+        self
+    }
 }
 
 /// The reason for which a surface was not covered.
