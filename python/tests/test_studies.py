@@ -14,7 +14,7 @@ from conftest import ROOT
 #: Scenes of every kind of study and of every kind of boundary condition.
 SCENES = [
     *("star", "star-torus", "star-trace", "star-landscape", "star-surface"),
-    *("flat-branches", "miura-spectrum", "kirigami-bloch", "near-cross-wells", "two-bars-push", "drum-path", "degree-four"),
+    *("flat-branches", "miura-spectrum", "miura-frequencies", "kirigami-bloch", "near-cross-wells", "two-bars-push", "drum-path", "degree-four"),
 ]
 KINDS = ["bloch", "branches", "landscape", "modes", "path", "relax", "response", "surface", "trace", "wells"]
 
@@ -225,6 +225,16 @@ def test_modes_by_rates_are_those_by_curvature():
     named = fw.landscape(patch, [(1.0, 0.0, 0.0)], [0.05])
     rated = fw.landscape(patch, [first], [0.05])
     assert rated.table["energy_total"] == pytest.approx(named.table["energy_total"], rel=1e-6)
+
+
+def test_frequencies_follow_from_a_mass(miura):
+    """With one mass for all vertices, squared frequencies are the eigenvalues over it, rigid motions exactly 0."""
+    terms = {"bars": 1e3, "creases": 1.0, "facets": 10.0}
+    found = fw.modes(fw.Assembly.patch(miura, (2, 2), mass={"vertex": 4.0}, **terms), eigenvalues=12).summary
+    assert found["frequencies"][:6] == [0.0] * 6
+    expected = np.sqrt(np.array(found["eigenvalues"][6:]) / 4.0)
+    assert found["frequencies"][6:] == pytest.approx(expected, rel=1e-12)
+    assert "frequencies" not in fw.modes(fw.Assembly.patch(miura, (2, 2), **terms), eigenvalues=12).summary
 
 
 def test_every_key_of_every_kind_is_an_argument():

@@ -108,19 +108,18 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, modes: &Modes, coordina
         let displacement = context.view.velocities(context.assembly.drawn(), coordinates, rates);
         Picture { displacement, ..at_rest.clone() }
     };
+    if !modes.vectors.is_empty() && !context.study.draw.is_empty() {
+        let pictures: Vec<Picture> = modes.vectors.iter().map(moving).collect();
+        let softest = modes.rigid_motions.min(pictures.len() - 1);
+        let shown = pictures[softest].displaced(0.1);
+        states::add_series(answer, context, pictures);
+        if modes.vibrations.is_none() {
+            let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
+            let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
+            states::add_figure(answer, context, &shown, &state);
+        }
+    }
     if let Some(found) = &modes.vibrations {
         vibrations::add(answer, context, (found, modes.rigid_motions), moving);
-    }
-    if modes.vectors.is_empty() || context.study.draw.is_empty() {
-        return;
-    }
-    let pictures: Vec<Picture> = modes.vectors.iter().map(moving).collect();
-    let softest = modes.rigid_motions.min(pictures.len() - 1);
-    let shown = pictures[softest].displaced(0.1);
-    states::add_series(answer, context, pictures);
-    if modes.vibrations.is_none() {
-        let value = rounded(modes.eigenvalues.get(softest).copied().unwrap_or(f64::NAN), 5);
-        let state = format!("mode {softest}, eigenvalue {value}, drawn with an amplitude of a tenth of the sheet");
-        states::add_figure(answer, context, &shown, &state);
     }
 }

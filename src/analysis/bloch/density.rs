@@ -42,7 +42,6 @@ impl Density {
         let mut edges: Vec<f64> = (0..=bins).map(|k| k as f64 * width).collect();
         edges[bins] = edges[bins].max(largest);
         let mut counts = vec![0.0; bins];
-        let part = 0.5 / bands.len() as f64;
         for [p, q, r] in triangles(grid) {
             for ((a, b), c) in bands[p].iter().zip(&bands[q]).zip(&bands[r]) {
                 let mut corners = [*a, *b, *c];
@@ -52,12 +51,14 @@ impl Density {
                 let mut before = 0.0;
                 for k in bin(corners[0]).saturating_sub(1)..=(bin(corners[2]) + 1).min(bins - 1) {
                     let below = below(edges[k + 1], corners);
-                    counts[k] += part * (below - before);
+                    counts[k] += below - before;
                     before = below;
                 }
             }
         }
-        Self { values: counts.iter().map(|count| count / width).collect(), edges }
+        // each triangle is half of a square
+        let states = |count: &f64| 0.5 * count / bands.len() as f64;
+        Self { values: counts.iter().map(|count| states(count) / width).collect(), edges }
     }
 
     /// Returns the integral over all frequencies.

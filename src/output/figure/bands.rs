@@ -11,11 +11,13 @@ const HEIGHT: f64 = 728.0;
 /// Upper and lower side of the panels.
 const TOP: f64 = 140.0;
 const BOTTOM: f64 = HEIGHT - 92.0;
-/// Left side of the first panel, right side of the last one, room between them, and part of the width that the path takes.
+/// Left side of the first panel, right side of the last one, room between them, and part of the width that the path takes;
+/// least distance of the names of corners.
 const LEFT: f64 = MARGIN + 92.0;
-const RIGHT: f64 = WIDTH - 40.0;
-const BETWEEN: f64 = 40.0;
+const RIGHT: f64 = WIDTH - 60.0;
+const BETWEEN: f64 = 64.0;
 const PATH: f64 = 0.68;
+const APART: f64 = 110.0;
 const CURVE: f64 = 2.0;
 
 /// The data of the figure.
@@ -78,11 +80,15 @@ fn along_path(canvas: &mut Canvas, plot: &BandPlot, axis: &Axis, right: f64) {
     frame(canvas, axis, [LEFT, right], "along the path");
     let longest = plot.bands.last().map_or(1.0, |(length, _)| *length).max(f64::MIN_POSITIVE);
     let across = |length: f64| LEFT + length / longest * (right - LEFT);
+    let mut named = f64::NEG_INFINITY;
     for (length, q) in &plot.corners {
         let x = across(*length);
         canvas.line(&[[x, TOP], [x, BOTTOM + 7.0]], Style::line(INK, 1.0));
-        let [q1, q2] = q.map(in_pi);
-        canvas.text([x, BOTTOM + 28.0], &format!("({q1}, {q2})"), Font::SMALL.middle());
+        if x - named >= APART {
+            named = x;
+            let [q1, q2] = q.map(in_pi);
+            canvas.text([x, BOTTOM + 28.0], &format!("({q1}, {q2})"), Font::SMALL.middle());
+        }
     }
     let count = plot.bands.iter().map(|(_, values)| values.len()).min().unwrap_or(0);
     for band in 0..count {
@@ -121,7 +127,7 @@ fn density(canvas: &mut Canvas, (edges, values): (&[f64], &[f64]), axis: &Axis, 
     let bins = edges.windows(2).zip(values);
     let steps = bins.flat_map(|(ends, value)| [0, 1].map(|k| [x(*value), height(axis.part(ends[k]))]));
     canvas.line(&steps.collect::<Vec<PaperPoint>>(), Style::line(SERIES[1], CURVE));
-    let words = across.named("states per cell and frequency");
+    let words = across.named("states per frequency");
     canvas.text([0.5 * (left + RIGHT), BOTTOM + 60.0], &words, Font::LABEL.middle());
 }
 
@@ -130,12 +136,12 @@ mod tests {
     use super::*;
 
     /// Claim: there is a curve for every band and a step line for the density, each panel alone or both; corners are named in units of
-    /// pi; nothing is not a number, and no text covers another.
+    /// pi where there is room; nothing is not a number, and no text covers another.
     #[test]
     fn every_band_is_drawn() {
         let caption = Caption { title: "t".into(), state: "s".into() };
         let bands = (0..5).map(|k| (f64::from(k), vec![0.0, 0.1 * f64::from(k), 2.0])).collect();
-        let corners = vec![(0.0, [0.0, 0.0]), (2.0, [PI, 0.5 * PI]), (4.0, [0.3, -PI])];
+        let corners = vec![(0.0, [0.0, 0.0]), (0.2, [0.1, 0.1]), (2.0, [PI, 0.5 * PI]), (4.0, [0.3, -PI])];
         let density = Some((vec![0.0, 1.0, 2.0], vec![1.0, 2.0]));
         let both = BandPlot { bands, corners, density };
         let lone =
