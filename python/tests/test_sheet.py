@@ -107,14 +107,3 @@ def test_the_cell_of_a_tube():
         fw.Assembly.tube(sheet, (6, 0), inwards=True)
     with pytest.raises(fw.SceneError, match="drawn as a tube"):
         fw.Assembly.torus(sheet)
-
-
-def test_frequencies_of_a_mass(miura):
-    """Frequencies of a sheet with mass are as many as eigenvalues, six of them 0, and fall as the root of the mass."""
-    found = [
-        fw.modes(fw.Assembly.patch(miura, (2, 2), bars=1e2, creases=1.0, facets=3.0, mass={"vertex": mass}), eigenvalues=8)
-        for mass in (1.0, 4.0)
-    ]
-    first, second = [modes.summary["frequencies"] for modes in found]
-    assert first[:6] == second[:6] == [0.0] * 6
-    np.testing.assert_allclose(first[6:], 2.0 * np.array(second[6:]), rtol=1e-9)
