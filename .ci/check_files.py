@@ -14,6 +14,7 @@ a screw, it must be that one.
 import argparse
 import csv
 import json
+import math
 import sys
 import tempfile
 import tomllib
@@ -268,7 +269,7 @@ def check_conversions(checks, path):
 
 
 def check_elements(checks, path, grid, summary):
-    """Every edge and every face of the model once: those of a torus or a screw are complete, a patch loses some at its rim."""
+    """Every edge and every face of the model once: those of a torus, a screw or a tube are complete, a patch loses some at its rim."""
     counts = np.bincount(grid["cell_arrays"]["edge"][grid["types"] == LINE], minlength=summary["sheet"]["edges"])
     faces = int(np.sum(grid["types"] == TRIANGLE))
     unique = {tuple(sorted(pair)) for pair in grid["connectivity"][3 * faces:].reshape(-1, 2).tolist()}
@@ -282,8 +283,8 @@ def check_elements(checks, path, grid, summary):
 
 
 def check_energy(checks, path, grid, energy, summary):
-    """The energies of the lines add up to that of the model; a screw is one cell, shown several times."""
-    copies = np.prod(summary["shown"]) if summary["domain"] == "screw" else 1
+    """The energies of the lines add up to that of the model; a screw or a tube is one cell, shown several times."""
+    copies = np.prod(summary["shown"]) if summary["domain"] in ("screw", "tube") else 1
     found = np.nansum(grid["cell_arrays"]["energy"])
     checks.that(abs(found - copies * energy) <= 1e-9 * abs(found) + 1e-25, f"{path}: energies add up to {found}, not {copies} x {energy}")
 
@@ -338,13 +339,21 @@ def check_angles(checks, where, grid, table):
             checks.that(same, f"{where}: edge {number} folds by {nearest} in the picture, {folded} in the table")
 
 
+def listed(path):
+    """The files of a collection."""
+    return [path.parent / entry.get("file") for entry in xml.parse(path).getroot().iter("DataSet")]
+
+
 def check_collection(checks, out, name):
-    """The collection lists the states there are; gives the last one, of a sheet only."""
-    path = out / f"{name}.pvd"
-    files = [out / entry.get("file") for entry in xml.parse(path).getroot().iter("DataSet")]
+    """The collection lists the states there are, and another one the vibrations; gives the last state, of a sheet only."""
+    path, vibrations = out / f"{name}.pvd", out / f"{name}-vibrations.pvd"
+    there = {file for ending in ["vtu", "vtp", "vti"] for file in (out / name).glob(f"*.{ending}")}
+    moving = {file for file in there if file.name.startswith(f"{name}_vibration_")}
+    if moving or vibrations.exists():
+        checks.that(set(listed(vibrations)) == moving, f"{vibrations}: lists every vibration of {name}/")
+    files = listed(path)
     checks.that(files and all(file.exists() for file in files), f"{path}: its files are there")
-    there = [file for ending in ["vtu", "vtp", "vti"] for file in (out / name).glob(f"*.{ending}")]
-    checks.that(sorted(files) == sorted(there), f"{path}: lists every state of {name}/")
+    checks.that(sorted(files) == sorted(there - moving), f"{path}: lists every state of {name}/")
     reader = pyvista.get_reader(str(path))
     times = list(reader.time_values)
     checks.that(len(times) == len(files) and times == sorted(times), f"{path}: PyVista finds {len(times)} times")
@@ -461,6 +470,16 @@ def render(path, picture):
     plotter.screenshot(picture)
 
 
+def shown_cells(scene, summary):
+    """The cells of pictures: those of the model, or, where it is one cell, as many as the scene says or its domain shows."""
+    if summary["domain"] not in ("screw", "tube"):
+        return summary["sheet"]["cells"]
+    if summary["domain"] == "screw":
+        return scene.get("cells", [6, 6])
+    strands, around = math.gcd(*scene["seam"]), sum(map(abs, scene["seam"]))
+    return scene.get("cells", [strands, -(-6 * around // strands)])
+
+
 def check_run(checks, out):
     """All files of one run; gives its last picture."""
     summary = json.loads((out / "summary.json").read_text())
@@ -469,7 +488,7 @@ def check_run(checks, out):
     checks.that(not list(out.rglob("*.part")), f"{out}: no half-written files")
     scene = tomllib.loads(Path(summary["scene"]).read_text())["sheet"]
     summary["domain"] = scene.get("domain", "patch")
-    summary["shown"] = summary["sheet"]["cells"] if summary["domain"] != "screw" else scene.get("cells", [6, 6])
+    summary["shown"] = shown_cells(scene, summary)
     lasts = [check_study(checks, out, study, summary) for study in summary["studies"]]
     vtu = next(iter(sorted(out.rglob("*.vtu"))), None)
     if vtu:

@@ -12,7 +12,10 @@ import sys
 import published
 
 # keys that are there only where there is something to say
-MAY_BE_ABSENT = {"settings", "reason", "files", "map", "wave", "error_of_curvature", "error_of_strain", "error_of_theta"}
+MAY_BE_ABSENT = {
+    *("settings", "reason", "files", "map", "wave", "error_of_curvature", "error_of_strain", "error_of_theta"),
+    *("frequencies", "growth_rates", "seam"),
+}
 
 
 def tables(value, path=()):

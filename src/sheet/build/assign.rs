@@ -1,6 +1,7 @@
 //! Checks the assignments of edges against the mesh and stores them in the sheet.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
 use crate::sheet::assignment::Assignment;
@@ -50,10 +51,11 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
     Ok(())
 }
 
-/// Returns the drawn edges with a target angle that is not zero, each with the letter of its side.
+/// Returns the drawn edges with a target angle that is not zero, each with the letter of its side. An angle beyond pi is no target: it
+/// is a drawn one and a full turn, on the other side.
 fn targets(drawn: &Drawing) -> BTreeSet<([usize; 2], Assignment)> {
     let side = |(ends, angle): &([usize; 2], Option<f64>)| {
-        let angle = angle.filter(|angle| *angle != 0.0)?;
+        let angle = angle.filter(|angle| *angle != 0.0 && angle.abs() <= PI)?;
         Some((sorted(*ends), if angle > 0.0 { Assignment::Valley } else { Assignment::Mountain }))
     };
     drawn.fold_angles.iter().filter_map(side).collect()
