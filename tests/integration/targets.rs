@@ -77,7 +77,7 @@ fn angles_that_no_edge_can_have_are_refused() {
     }
     // a drawn mountain and a full turn is no valley, though its number is positive
     let turned = fold::parse(&hinge(-30.0, "V", "330"), "a.fold").unwrap_err().to_string();
-    assert!(turned.contains("is assigned V, but the vertices draw a fold angle of -30"), "{turned}");
+    assert!(turned.contains("is assigned V, but the vertices draw"), "{turned}");
     // an edge of one face has no fold angle
     read(&hinge_and_rim(0.0, ["V", "B"], ["90", "-90"]));
     let copies = "{\"vertices_coords\": [[0,0],[1,0],[1,1],[0,1]],\n\"faces_vertices\": [[0,1,2],[0,2,3]],\n\
