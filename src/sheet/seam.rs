@@ -1,8 +1,10 @@
 //! Seams of tubes, and the numbering of cells modulo a seam.
 //!
-//! With the greatest common divisor `g` of the seam and `p = (n1, n2) / g`, every cell is `i p + j m`, where
-//! `p1 m2 - p2 m1 = 1`; on a tube closed along the seam `i` counts modulo `g`. Row `j` has the `g` cells `i = 0 .. g-1`:
-//! a ring of cells if `p` is one of the two lattice vectors, otherwise `g` strands that wind around the tube.
+//! A seam `(n1, n2)` is the cell that lies on cell (0, 0) when a sheet is rolled up. Let `g` be the greatest common divisor of its two
+//! numbers and `p = (n1, n2) / g`. A second cell `m` with `p1 m2 - p2 m1 = 1` makes a basis of the lattice with `p`: every
+//! cell is `i p + j m` with whole numbers `i`, its strand, and `j`, its row. On the tube strands count modulo `g`, so that a row has
+//! `g` cells: a ring of cells if `p` is one of the two lattice vectors, otherwise one cell of each of the `g` strands that wind
+//! around the tube.
 
 /// A seam: the cell `(n1, n2)` of a tube that coincides with cell (0, 0), and a basis of the lattice that goes with it.
 ///

@@ -22,7 +22,7 @@ const STEPS: usize = 50;
 const GRID: [usize; 2] = [64, 64];
 const BINS: usize = 100;
 
-/// What was found along the path, and over the zone.
+/// Bands along the path of a study, and the density of states over the Brillouin zone.
 pub(super) struct FoundBands {
     path: Vec<Bands>,
     density: Option<Density>,

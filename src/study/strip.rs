@@ -52,7 +52,7 @@ fn other(context: &Context<'_>, strip: &StripSpec) -> Result<Option<Sheet>, Stud
     Ok(Some(build::other_sheet(context.file, path)?))
 }
 
-/// What was found of a strip.
+/// Decay rates and counts of zero modes of a strip.
 pub(super) struct FoundStrip {
     pub rows: Vec<StripRow>,
     /// The determinant of the cell above an interface.

@@ -5,6 +5,9 @@ use super::error::StudyError;
 use crate::model::Boundary;
 use crate::scene::spec::StudyKind;
 
+/// Advice for a study of the ways in which a tube folds.
+const COUNTED: &str = "use domain = \"screw\"; `modes` counts the motions of a tube";
+
 /// Checks that the study is one of those that a tube has.
 pub(super) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     let Boundary::Tube { .. } = context.assembly.boundary() else { return Ok(()) };
@@ -14,18 +17,12 @@ pub(super) fn check(context: &Context<'_>) -> Result<(), StudyError> {
             Some(("the rigid states of a closed tube are single points", "leave out `rigid`"))
         }
         StudyKind::Wells(_) => None,
-        StudyKind::Trace(_) => {
-            let help = "use domain = \"screw\"; `modes` counts the motions of a tube";
-            Some(("trajectories leave the drawn state, and a tube is another one", help))
-        }
-        StudyKind::Surface(_) => {
-            let help = "use domain = \"screw\"; `modes` counts the motions of a tube";
-            Some(("the folded states of a tube are no surface: its closing conditions leave one motion or none", help))
-        }
-        StudyKind::Branches(_) => {
-            let help = "use domain = \"screw\"; `modes` counts the motions of a tube";
-            Some(("branches leave the drawn state, and a tube is another one", help))
-        }
+        StudyKind::Trace(_) => Some(("trajectories leave the drawn state, and a tube is another one", COUNTED)),
+        StudyKind::Surface(_) => Some((
+            "the folded states of a tube are no surface: its closing conditions leave one motion or none",
+            COUNTED,
+        )),
+        StudyKind::Branches(_) => Some(("branches leave the drawn state, and a tube is another one", COUNTED)),
         StudyKind::Landscape(_) => {
             let help = "use domain = \"patch\" or \"torus\"";
             Some(("a landscape is the energy along folding modes of a periodic sheet, and a tube has none", help))

@@ -18,13 +18,13 @@ const RIGID_MOTIONS: usize = 2;
 pub struct SeamMotions {
     /// The seam.
     pub seam: [i32; 2],
-    /// Without conditions.
+    /// Number of motions without closing conditions.
     pub free: usize,
-    /// If the seam keeps its angle of `2 pi`.
+    /// Number of motions that keep the seam's angle of `2 pi`.
     pub turn: usize,
-    /// If the seam keeps its rise of 0.
+    /// Number of motions that keep the seam's rise of 0.
     pub rise: usize,
-    /// With both conditions.
+    /// Number of motions that keep angle and rise of the seam.
     pub both: usize,
     /// Smallest of the four ratios of the smallest kept to the largest dropped singular value; infinite where none is dropped.
     pub gap: f64,

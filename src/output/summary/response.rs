@@ -116,7 +116,7 @@ pub struct StressSummary {
 /// Modes and self stresses that a symmetry of order two carries into themselves (even) or into their negative (odd).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SymmetrySummary {
-    /// What it is: an axis, a plane, a centre.
+    /// Kind of the symmetry in words, such as "mirror plane across the sheet".
     pub operation: String,
     /// Unit vector of an axis along the sheet, of the line in which a plane across it meets the sheet, or of the translation of a
     /// glide plane along it, in the frame of the mesh file; null for the others.

@@ -48,7 +48,7 @@ impl Drawing {
     }
 
     /// Whether the mesh is one cell of many.
-    pub(super) fn is_repeated(&self) -> bool {
+    pub(crate) fn is_repeated(&self) -> bool {
         self.lattice.is_some() || self.screws.is_some()
     }
 

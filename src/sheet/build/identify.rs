@@ -93,26 +93,50 @@ fn duplicate(drawn: &Drawing, vertex: usize, other: usize) -> Defect {
 
 fn identify_periodic(drawn: &Drawing, metric: &Metric) -> Result<Identified, Defect> {
     let mut buckets: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
-    let mut taken: HashMap<Corner, usize> = HashMap::new();
-    let mut found = Identified { corner: Vec::with_capacity(drawn.coords.len()), homes: Vec::new() };
+    let mut found = Found::new(drawn);
     for (v, &x) in drawn.coords.iter().enumerate() {
         let bucket = metric.bucket(x);
         let near = metric.around(bucket).into_iter().filter_map(|b| buckets.get(&b)).flatten();
-        let copy = near.copied().filter(|&c| metric.shift(drawn, x, found.homes[c]).is_some()).min();
-        let corner = match copy {
-            Some(c) => copy_corner(drawn, metric, v, c, found.homes[c])?,
-            None => {
-                buckets.entry(bucket).or_default().push(found.homes.len());
-                found.homes.push(v);
-                Corner::home(found.homes.len() - 1)
-            }
-        };
-        if let Some(other) = taken.insert(corner, v) {
-            return Err(duplicate(drawn, v, other));
+        let copy = near.copied().filter(|&c| metric.shift(drawn, x, found.homes()[c]).is_some()).min();
+        let known = copy.map(|c| copy_corner(drawn, metric, v, c, found.homes()[c])).transpose()?;
+        if known.is_none() {
+            buckets.entry(bucket).or_default().push(found.homes().len());
         }
-        found.corner.push(corner);
+        found.add(v, known)?;
     }
-    Ok(found)
+    Ok(found.identified)
+}
+
+/// The vertices that were identified so far.
+struct Found<'a> {
+    drawn: &'a Drawing,
+    /// Drawn vertex at each corner.
+    taken: HashMap<Corner, usize>,
+    identified: Identified,
+}
+
+impl<'a> Found<'a> {
+    fn new(drawn: &'a Drawing) -> Self {
+        let identified = Identified { corner: Vec::with_capacity(drawn.coords.len()), homes: Vec::new() };
+        Self { drawn, taken: HashMap::new(), identified }
+    }
+
+    fn homes(&self) -> &[usize] {
+        &self.identified.homes
+    }
+
+    /// Adds the next drawn vertex, a copy of a known one or the first appearance of another.
+    fn add(&mut self, v: usize, known: Option<Corner>) -> Result<(), Defect> {
+        let corner = known.unwrap_or_else(|| {
+            self.identified.homes.push(v);
+            Corner::home(self.identified.homes.len() - 1)
+        });
+        if let Some(other) = self.taken.insert(corner, v) {
+            return Err(duplicate(self.drawn, v, other));
+        }
+        self.identified.corner.push(corner);
+        Ok(())
+    }
 }
 
 /// Identifies the vertices of a cell that screw motions repeat.
@@ -121,24 +145,16 @@ fn identify_turned(drawn: &Drawing, screws: &ScrewLattice) -> Result<Identified,
     cells.sort_by_key(|[n1, n2]| n1 * n1 + n2 * n2);
     let [first, second] = screws.chords(&drawn.coords[0]);
     let tolerance = 1e-6 * first.norm().min(second.norm());
-    let mut taken: HashMap<Corner, usize> = HashMap::new();
-    let mut found = Identified { corner: Vec::with_capacity(drawn.coords.len()), homes: Vec::new() };
+    let mut found = Found::new(drawn);
     for (v, x) in drawn.coords.iter().enumerate() {
         let is_copy = |home: usize, cell| (screws.copy(&drawn.coords[home], cell) - x).norm() <= tolerance;
         let known = cells.iter().find_map(|&shift| {
-            let vertex = found.homes.iter().position(|&home| is_copy(home, shift))?;
+            let vertex = found.homes().iter().position(|&home| is_copy(home, shift))?;
             Some(Corner { vertex, shift })
         });
-        let corner = known.unwrap_or_else(|| {
-            found.homes.push(v);
-            Corner::home(found.homes.len() - 1)
-        });
-        if let Some(other) = taken.insert(corner, v) {
-            return Err(duplicate(drawn, v, other));
-        }
-        found.corner.push(corner);
+        found.add(v, known)?;
     }
-    Ok(found)
+    Ok(found.identified)
 }
 
 /// Returns the corner of drawn vertex `v`, a copy of vertex `c` of the cell, which first appears as drawn vertex

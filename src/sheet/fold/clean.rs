@@ -65,7 +65,7 @@ pub fn parse_cleaned(text: &str, name: &str, frame: Option<usize>, cleanup: &Cle
 fn no_flat_pattern(drawn: &Drawing) -> Option<&'static str> {
     let first = drawn.coords.first().copied().unwrap_or_default();
     let [low, high] = drawn.coords.iter().fold([first; 2], |[low, high], x| [low.inf(x), high.sup(x)]);
-    if drawn.lattice.is_some() || drawn.screws.is_some() {
+    if drawn.is_repeated() {
         Some("this sheet is periodic")
     } else if drawn.folded {
         Some("this frame is a folded form")

@@ -228,7 +228,7 @@ fn read_names(source: &Source, keys: &Keys, count: usize) -> Result<BTreeMap<Str
 fn turned_over(drawn: &Drawing) -> Option<Drawing> {
     let folds = |letter| matches!(letter, Assignment::Mountain | Assignment::Valley);
     let letters: Vec<_> = drawn.assignments.iter().filter(|(_, letter)| folds(*letter)).collect();
-    if drawn.lattice.is_some() || drawn.screws.is_some() || !drawn.fold_angles.is_empty() || letters.len() < 2 {
+    if drawn.is_repeated() || !drawn.fold_angles.is_empty() || letters.len() < 2 {
         return None;
     }
     let bare = Drawing { assignments: vec![], ..drawn.clone() };

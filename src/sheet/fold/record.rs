@@ -59,7 +59,7 @@ pub(super) const ATTRIBUTES: &str = "[\"3D\"]";
 /// edges and faces keep their numbers when it is written; otherwise only those about the file and its frame.
 pub(super) fn read(frame: &Frame, drawn: &Drawing, edges: &Edges) -> FileRecord {
     let all_listed = edges.ends.is_empty() || edges.ends.len() == drawn_sides(drawn).len();
-    record(frame, edges, drawn.lattice.is_none() && drawn.screws.is_none() && all_listed)
+    record(frame, edges, !drawn.is_repeated() && all_listed)
 }
 
 /// Reads the same of a sheet whose vertices, edges and faces get other numbers.
