@@ -142,10 +142,11 @@ fn describe_path(path: &PathSummary) -> String {
 }
 
 fn describe_surface(surface: &SurfaceSummary) -> String {
-    let SurfaceSummary { points, triangles, coverage, gaps, .. } = surface;
+    let SurfaceSummary { points, dimension, triangles, coverage, gaps, .. } = surface;
+    let shape = if *dimension == 1 { "a curve".to_owned() } else { format!("{triangles} triangles") };
     let established = surface.established.iter().map(|established| format!(": {established}"));
     let gaps = (*gaps > 0).then(|| format!(", but triangles are missing beside {gaps} states"));
-    format!("{points} states, {triangles} triangles, {coverage}") + &established.chain(gaps).collect::<String>()
+    format!("{points} states, {shape}, {coverage}") + &established.chain(gaps).collect::<String>()
 }
 
 /// Describes the modes and Poisson's ratios along the first lattice vector.

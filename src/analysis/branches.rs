@@ -44,6 +44,8 @@ pub struct Branches {
     pub signature: Option<[usize; 3]>,
     /// Solutions and rays.
     pub rays: Rays,
+    /// Whether the one real direction is that of planar folding, along which the states stay spatially periodic.
+    pub planar: bool,
     /// Of every ray the sign of the curvature that it gives the sheet, positive towards the face normals: -1, 0 or 1; `None`
     /// for a finite sheet.
     pub curvature_signs: Vec<Option<i8>>,
@@ -82,7 +84,8 @@ pub fn branches(assembly: &Assembly) -> Result<Branches, BranchesError> {
         vec![None; rays.rays.len()]
     };
     let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
-    Ok(Branches { modes, quadrics, signature, rays, curvature_signs })
+    let planar = boundary == Boundary::Screw && second_order.one_direction_is_real()?;
+    Ok(Branches { modes, quadrics, signature, rays, planar, curvature_signs })
 }
 
 /// The sign of the trace of the ray's curvature tensor, which has rank one or none.

@@ -16,6 +16,8 @@ use thiserror::Error;
 
 /// Cosine of the angle within which a trajectory arrives along a ray.
 const ALONG: f64 = 0.999;
+/// Rates of strains, per arc length, up to which they are rounding errors: such a strain has no turning points.
+const NO_RATE: f64 = 1e-12;
 /// States between two questions whether to go on.
 const OBSERVED: usize = 256;
 /// Quantities whose turning points are reported, in the order of their indicators.
@@ -195,7 +197,11 @@ impl TracedClosure<'_, '_> {
     fn rates(&self, state: &Folded) -> [f64; 4] {
         let moving = Displacement::new(self.embedding, &state.angles, &state.rates).lattice;
         let found = state.shape.as_ref().zip(moving).and_then(|(shape, moving)| shape.rate(self.embedding, &moving));
-        found.map_or([f64::NAN; 4], |rate| [rate.curvature, rate.strain[0], rate.strain[1], rate.strain[2]])
+        let turns = state.shape.as_ref().is_some_and(Shape::turns);
+        found.map_or([f64::NAN; 4], |rate| {
+            let strain = rate.strain.map(|rate| if rate.abs() <= NO_RATE { 0.0 } else { rate });
+            [if turns { rate.curvature } else { f64::NAN }, strain[0], strain[1], strain[2]]
+        })
     }
 }
 
@@ -253,6 +259,7 @@ pub fn trace(
     let embedding = Embedding::new(assembly.sheet())?;
     let periodic = assembly.boundary() == Boundary::Screw;
     let closing = Closing::new(&closure, assembly.drawn_angles_or_zero());
+    let closing = if found.planar { closing.spatially_periodic(&embedding) } else { closing };
     let (known, stop) = (Vec::new(), options.stop);
     let crosses = false;
     let mut folding = TracedClosure { closing, embedding: &embedding, periodic, known, stop, intersects, crosses };

@@ -65,6 +65,17 @@ impl SecondOrder {
         Ok(Self { modes, forms, quadrics, gaps: [right.gap, gap] })
     }
 
+    /// Whether the one quadric is definite across one null direction, which is then the only real one: that of a motion without
+    /// curvature, along which the states stay spatially periodic, as in the planar folding of a triangulated Miura-ori.
+    ///
+    /// # Errors
+    /// [`KinematicsError`] if an entry is not finite.
+    pub(crate) fn one_direction_is_real(&self) -> Result<bool, KinematicsError> {
+        let [quadric] = &self.quadrics[..] else { return Ok(false) };
+        let [positive, negative, zero] = signature(quadric)?;
+        Ok(zero == 1 && (positive == 0) != (negative == 0))
+    }
+
     /// Number of linear motions.
     pub fn count(&self) -> usize {
         self.modes.ncols()

@@ -1,15 +1,17 @@
-//! A surface of folded states in the space of lattice strains, to be drawn or written.
+//! A surface, or a curve, of folded states in the space of lattice strains, to be drawn or written.
 
 use super::fault::ShapeError;
 use crate::math::Vec3;
 
-/// Folded states, and triangles between them. Arrays have one entry for each state.
+/// Folded states, and triangles between them, or segments of a curve. Arrays have one entry for each state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StrainSurface {
     /// Lattice strains `(strain11, strain22, strain12)` of each state.
     pub points: Vec<Vec3>,
     /// Indices of the states at the corners of each triangle.
     pub triangles: Vec<[usize; 3]>,
+    /// Indices of the states at the ends of each segment of a curve; none on a surface.
+    pub segments: Vec<[usize; 2]>,
     /// Signed curvature, positive if the axis is on the side of the face normals.
     pub curvature: Vec<f64>,
     /// Rotation angles from a cell to the next along the two lattice vectors, in radians.
@@ -26,8 +28,8 @@ impl StrainSurface {
     /// Checks that the arrays are consistent.
     ///
     /// # Errors
-    /// [`ShapeError::Length`] for the first array of a wrong length, [`ShapeError::NoSuchPoint`] for a triangle with an
-    /// invalid index.
+    /// [`ShapeError::Length`] for the first array of a wrong length, [`ShapeError::NoSuchPoint`] for a triangle or segment
+    /// with an invalid index.
     pub(crate) fn check(&self) -> Result<(), ShapeError> {
         let expected = self.points.len();
         let folds = self.folds.iter().map(|(_, angles)| ("fold", angles.len()));
@@ -38,7 +40,8 @@ impl StrainSurface {
         if let Some((array, found)) = wrong {
             return Err(ShapeError::Length { array, found, expected });
         }
-        match self.triangles.iter().flatten().find(|&&point| point >= expected) {
+        let mut used = self.triangles.iter().flatten().chain(self.segments.iter().flatten());
+        match used.find(|&&point| point >= expected) {
             Some(&point) => Err(ShapeError::NoSuchPoint { point, count: expected }),
             None => Ok(()),
         }
@@ -57,6 +60,7 @@ pub(super) mod samples {
         StrainSurface {
             points: points.iter().map(|[x, y]| Vec3::new(*x, *y, x * x - y * y)).collect(),
             triangles: squares.flat_map(|k| [[k, k + 1, k + n + 1], [k, k + n + 1, k + n]]).collect(),
+            segments: Vec::new(),
             curvature: points.iter().map(|p| p[0]).collect(),
             theta: points.clone(),
             folds: vec![("fold_0_1_0_0".into(), vec![0.5; n * n])],

@@ -44,7 +44,17 @@ pub fn write_vtu(path: &Path, picture: &Picture) -> Result<(), OutputError> {
     write(path, DataSet::inline(piece))
 }
 
-/// Writes a surface of states as a VTP file of triangles in the space of lattice strains.
+/// Numbers of vertices of polygons or lines.
+fn numbers<'a>(lists: impl Iterator<Item = &'a [usize]>) -> VertexNumbers {
+    let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
+    for list in lists {
+        connectivity.extend(list.iter().map(|&point| point as u64));
+        offsets.push(connectivity.len() as u64);
+    }
+    VertexNumbers::XML { connectivity, offsets }
+}
+
+/// Writes a surface of states as a VTP file of triangles in the space of lattice strains, a curve as one of lines.
 ///
 /// Point arrays: `curvature`, `theta` (2 components), one for each edge of the cell named like its column in the table
 /// (`fold_i_j_n1_n2`), and, if they were computed, `energy` and `self_intersecting`.
@@ -53,10 +63,7 @@ pub fn write_vtu(path: &Path, picture: &Picture) -> Result<(), OutputError> {
 /// [`OutputError::Shape`] if the arrays are inconsistent, [`OutputError::Write`].
 pub(crate) fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), OutputError> {
     surface.check().map_err(|fault| OutputError::Shape { path: path.into(), fault })?;
-    let polys = VertexNumbers::XML {
-        connectivity: surface.triangles.iter().flatten().map(|&point| point as u64).collect(),
-        offsets: (1..=surface.triangles.len()).map(|end| 3 * end as u64).collect(),
-    };
+    let lines = numbers(surface.segments.iter().map(|segment| segment.as_slice()));
     let pair = ElementType::Scalars { num_comp: 2, lookup_table: None };
     let theta = IOBuffer::F64(surface.theta.iter().flatten().copied().collect());
     let mut point = vec![scalars("curvature", IOBuffer::F64(surface.curvature.clone())), array("theta", pair, theta)];
@@ -67,7 +74,8 @@ pub(crate) fn write_vtp(path: &Path, surface: &StrainSurface) -> Result<(), Outp
     );
     let piece = PolyDataPiece {
         points: coordinates(&surface.points),
-        polys: Some(polys),
+        lines: (!surface.segments.is_empty()).then_some(lines),
+        polys: Some(numbers(surface.triangles.iter().map(|triangle| triangle.as_slice()))),
         data: Attributes { point, cell: vec![] },
         ..PolyDataPiece::default()
     };
@@ -85,19 +93,11 @@ pub(crate) fn write_surface(
     arrays: &[(&'static str, Vec<f64>)],
 ) -> Result<(), OutputError> {
     check_lengths(path, arrays, points.len())?;
-    let numbers = |lists: &mut dyn Iterator<Item = &[usize]>| {
-        let (mut connectivity, mut offsets) = (Vec::new(), Vec::new());
-        for list in lists {
-            connectivity.extend(list.iter().map(|&point| point as u64));
-            offsets.push(connectivity.len() as u64);
-        }
-        VertexNumbers::XML { connectivity, offsets }
-    };
     let point = arrays.iter().map(|(name, values)| scalars(name, IOBuffer::F64(values.clone()))).collect();
     let piece = PolyDataPiece {
         points: coordinates(points),
-        lines: Some(numbers(&mut curves.iter().map(Vec::as_slice))),
-        polys: Some(numbers(&mut triangles.iter().map(|triangle| triangle.as_slice()))),
+        lines: Some(numbers(curves.iter().map(Vec::as_slice))),
+        polys: Some(numbers(triangles.iter().map(|triangle| triangle.as_slice()))),
         data: Attributes { point, cell: vec![] },
         ..PolyDataPiece::default()
     };

@@ -7,8 +7,26 @@
 
 use crate::numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
 
-/// Ratio of successive residuals above which another correction is not worth a solve.
-const SLOWEST_CONTRACTION: f64 = 0.95;
+/// When corrections that make little progress are given up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Patience {
+    /// Where another one is not worth a solve.
+    Short,
+    /// Where they make next to no progress. The first corrections of a large system may be slow, as they look for many soft
+    /// motions at once, and later ones fast.
+    Long,
+}
+
+impl Patience {
+    /// Ratio of successive residuals above which there is no further correction.
+    fn slowest_contraction(self) -> f64 {
+        match self {
+            Self::Short => 0.95,
+            Self::Long => 0.9999,
+        }
+    }
+}
+
 const MOST_CORRECTIONS: usize = 30;
 
 /// A vector of a system with two block rows: unknowns and tensions, or forces and stretches.
@@ -35,20 +53,23 @@ pub struct RefinedSolution {
 }
 
 /// Corrects `found` until the residual of each block row is at most `tolerance` of its unit, or until that no longer
-/// helps.
+/// helps, as far as `patience` goes.
 pub fn correct(
     system: &mut dyn NearlySolved,
     right: &Pair,
     mut found: Pair,
     units: [f64; 2],
-    tolerance: f64,
+    (tolerance, patience): (f64, Patience),
 ) -> RefinedSolution {
     let per_unit = units.map(reciprocal);
     let mut left = right.minus(&system.product(&found)).scaled(per_unit);
     let (mut before, mut last): (Vec<Correction>, f64) = (vec![], f64::INFINITY);
     loop {
         let residual = larger(norm_blocked(&left.0), norm_blocked(&left.1));
-        if residual <= tolerance || !(residual < SLOWEST_CONTRACTION * last) || before.len() == MOST_CORRECTIONS {
+        if residual <= tolerance
+            || !(residual < patience.slowest_contraction() * last)
+            || before.len() == MOST_CORRECTIONS
+        {
             return RefinedSolution { found, residual, corrections: before.len() };
         }
         last = residual;
@@ -134,7 +155,7 @@ mod tests {
     fn what_is_no_number_is_not_solved() {
         for stretches in [0, 2] {
             let right = Pair(vec![1.0; 3], vec![0.0; stretches]);
-            let found = correct(&mut Broken, &right, right.clone(), [1.0; 2], 0.1);
+            let found = correct(&mut Broken, &right, right.clone(), [1.0; 2], (0.1, Patience::Short));
             assert!(found.residual.is_nan(), "{}", found.residual);
         }
     }

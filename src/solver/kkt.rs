@@ -24,7 +24,7 @@
 //! (`foldwell validate cells-residuals`: 100,000 cells). The plain penalty `H + k R^T R` is as good up to `k` = 1e8; at
 //! 1e12 it loses the undeformed states of 24 and 48 cells a side.
 
-use super::corrections::{self, NearlySolved, Pair};
+use super::corrections::{self, NearlySolved, Pair, Patience};
 use super::layout::Layout;
 use super::linearization::{HessianKind, Linearization};
 use crate::numerics::factor::{FactorError, Inertia};
@@ -214,13 +214,23 @@ impl KktSystem {
     /// longer help. The linearization may be another one than that which was factored, near by: the corrections make up
     /// for the difference. Its own Hessian counts where the factorization has no shift.
     pub fn solve(&mut self, at: &Linearization, force: &[f64], stretch: &[f64], tolerance: f64) -> Increment {
+        self.solve_with(at, [force, stretch], (tolerance, Patience::Short))
+    }
+
+    /// Solves as [`KktSystem::solve`] does, with corrections that go on while they make any progress at all.
+    pub(crate) fn solve_with(
+        &mut self,
+        at: &Linearization,
+        [force, stretch]: [&[f64]; 2],
+        until: (f64, Patience),
+    ) -> Increment {
         let (dx, dt) = self.apply(force, stretch);
         let right = Pair(force.to_vec(), divided(stretch, &at.sizes));
         let force_unit = f64::max(norm_blocked(force), FORCE_UNIT_PER_PULL * pull(at, &dt));
         let stretch_unit = norm_blocked(&right.1) + STRETCH_UNIT_PER_LENGTH * norm_blocked(&dx);
         let start = Pair(dx, multiplied(&dt, &at.sizes));
         let mut equations = Equations { system: self, at };
-        let corrected = corrections::correct(&mut equations, &right, start, [force_unit, stretch_unit], tolerance);
+        let corrected = corrections::correct(&mut equations, &right, start, [force_unit, stretch_unit], until);
         let (Pair(dx, dt), residual) = (corrected.found, corrected.residual);
         Increment { dx, dt: divided(&dt, &at.sizes), residual }
     }
@@ -233,7 +243,7 @@ impl KktSystem {
         let units = [pull(at, &dt), norm_blocked(&right.1)];
         let start = Pair(dx, multiplied(&dt, &at.sizes));
         let mut equations = Equations { system: self, at };
-        corrections::correct(&mut equations, &right, start, units, enough).residual
+        corrections::correct(&mut equations, &right, start, units, (enough, Patience::Short)).residual
     }
 }
 

@@ -3,6 +3,7 @@
 //! With it one asks for a single Newton step ([`Tangent::newton_step`]), for the number of negative eigenvalues
 //! ([`Tangent::inertia`]) or for the response to forces and stretches ([`Tangent::solve`]) without an iteration.
 
+use super::corrections::Patience;
 use super::kkt::{Increment, KktSystem};
 use super::linearization::{HessianKind, Linearization};
 use super::problem::Problem;
@@ -79,5 +80,12 @@ impl Tangent {
         let missing = self.at.missing(tension, &self.compliance);
         let force = self.at.force(tension);
         self.solve(&force, &missing, tolerance)
+    }
+
+    /// The Newton step as [`Tangent::newton_step`], with corrections that go on while they make any progress at all.
+    pub(crate) fn patient_newton_step(&mut self, tension: &[f64], tolerance: f64) -> Increment {
+        let missing = self.at.missing(tension, &self.compliance);
+        let force = self.at.force(tension);
+        self.system.solve_with(&self.at, [&force, &missing], (tolerance, Patience::Long))
     }
 }

@@ -99,7 +99,7 @@ fn table(assembly: &Assembly, branches: &Branches) -> Table {
 }
 
 fn summary(branches: &Branches) -> BranchesSummary {
-    let Branches { modes, quadrics, signature, rays, curvature_signs } = branches;
+    let Branches { modes, quadrics, signature, rays, curvature_signs, .. } = branches;
     let listed = rays.rays.iter().zip(curvature_signs).map(|(ray, curvature_sign)| RaySummary {
         branch: ray.branch,
         sign: ray.sign,

@@ -1,4 +1,4 @@
-//! `kind = "surface"`: the two-dimensional surface of folded states of one cell.
+//! `kind = "surface"`: the surface of folded states of one cell, or their curve.
 
 use super::answer::{Answer, SavedState};
 use super::context::Context;
@@ -12,7 +12,7 @@ use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
 use crate::model::{Assembly, Boundary, Gauge, Terms};
-use crate::numerics::worst;
+use crate::numerics::{larger, worst};
 use crate::output::artifact::Artifact;
 use crate::output::figure::surface::{self as figure, PathPoint};
 use crate::output::strain_space::StrainSurface;
@@ -195,6 +195,7 @@ fn mesh(assembly: &Assembly, surface: &Surface, rows: &[StateRow]) -> StrainSurf
     StrainSurface {
         points: shapes().map(|shape| Vec3::from(shape.strain)).collect(),
         triangles: surface.triangles.clone(),
+        segments: surface.segments.clone(),
         curvature: shapes().map(|shape| shape.curvature).collect(),
         theta: shapes().map(|shape| shape.theta).collect(),
         folds: assembly.sheet().edges.iter().enumerate().map(fold).collect(),
@@ -210,7 +211,8 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
     if context.draws(Draw::Svg) {
         let studies = context.file.scene.studies.iter().map(|study| &study.name.0);
         let before = studies.take_while(|study| *study != name).filter_map(|study| context.earlier.paths.get(study));
-        let paths: Vec<_> = before.flatten().flat_map(|path| within(path, max_curvature)).collect();
+        let mut paths: Vec<_> = before.flatten().flat_map(|path| within(path, max_curvature)).collect();
+        paths.extend(mesh.segments.iter().map(|segment| segment.map(|k| on_curve(&mesh, k)).to_vec()));
         let caption = context.caption(format!("all folded states up to a curvature of {max_curvature}"));
         answer.add(format!("{name}.svg"), figure::svg(&mesh, &paths, &caption));
     }
@@ -219,6 +221,13 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
         answer.add(&file, Artifact::Surface(mesh));
         answer.add(format!("{name}.pvd"), Artifact::Series(vec![(0.0, file)]));
     }
+}
+
+/// Returns a state of a curve as one of a trajectory.
+fn on_curve(mesh: &StrainSurface, k: usize) -> PathPoint {
+    let [theta1, theta2] = mesh.theta[k];
+    let turn = larger(theta1.abs(), theta2.abs());
+    PathPoint { strain: mesh.points[k], curvature: mesh.curvature[k], turn }
 }
 
 /// Returns the pieces of a trajectory whose absolute curvature is at most `max_curvature`.
@@ -230,7 +239,7 @@ fn within(path: &[PathPoint], max_curvature: f64) -> Vec<Vec<PathPoint>> {
 
 fn summary(surface: &Surface, options: &SurfaceOptions) -> SurfaceSummary {
     let coverage = match surface.coverage {
-        _ if surface.negative.is_some() => "no-real-branch",
+        _ if surface.negative.is_some() && surface.points.is_empty() => "no-real-branch",
         Coverage::Complete => "complete",
         Coverage::Open { .. } => "open",
         Coverage::GivenUp { .. } => "given-up",
@@ -243,6 +252,7 @@ fn summary(surface: &Surface, options: &SurfaceOptions) -> SurfaceSummary {
     };
     SurfaceSummary {
         points: surface.points.len(),
+        dimension: surface.dimension,
         triangles: surface.triangles.len(),
         coverage: coverage.to_owned(),
         established: surface.negative.map(|negative| negative.to_string()),

@@ -191,10 +191,10 @@ impl FoundWells {
         let what = match (*lost, *open) {
             (0, 0) => return None,
             (lost, 0) => format!("{lost} wells or passes of the sampled rigid states could not be made exact"),
-            (0, open) => format!("the rigid states could not be followed at {open} places"),
+            (0, open) => format!("rigid states beyond {open} places were not followed"),
             (lost, open) => {
                 format!(
-                    "{lost} wells or passes of the rigid states could not be made exact, and these not followed at {open} places"
+                    "{lost} wells or passes of the rigid states could not be made exact, and those beyond {open} places were not followed"
                 )
             }
         };

@@ -52,6 +52,7 @@ mod path_laws;
 mod paths;
 mod periodic;
 mod pinned_wells;
+mod planar_curves;
 mod reasons;
 mod redundant;
 mod refused_scenes;

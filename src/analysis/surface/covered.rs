@@ -60,7 +60,11 @@ pub struct Surface {
     pub crossing: bool,
     /// Then the states of that curve on the edges of triangles that go over it.
     pub seam: Vec<Seam>,
-    /// What second order establishes where there is no surface; then there are no states.
+    /// Dimension of the states: 2, or 1 where they are a curve. Then there are no triangles.
+    pub dimension: usize,
+    /// Neighbours on a curve.
+    pub segments: Vec<[usize; 2]>,
+    /// What second order establishes where there is no surface; there are no states then, or those of a curve.
     pub negative: Option<Negative>,
 }
 
@@ -71,6 +75,8 @@ pub enum Negative {
     NoDirection,
     /// The quadric is definite but for one direction, which alone is real: at most a curve of folded states.
     OneDirection,
+    /// No direction satisfies all quadrics where a curve is expected: the drawn state cannot fold.
+    NoRay,
 }
 
 impl std::fmt::Display for Negative {
@@ -84,6 +90,9 @@ impl std::fmt::Display for Negative {
                 "no surface of folded states leaves the drawn state: the quadratic condition on its three linear motions is \
                  definite across its null direction, so that this one direction is the only real one and leaves at most a curve"
             }
+            Self::NoRay => {
+                "no folded states leave the drawn state: the quadratic conditions on its linear motions have no real solution"
+            }
         })
     }
 }
@@ -93,6 +102,7 @@ impl Surface {
     pub(crate) fn truncate(&mut self, kept: usize) {
         self.points.truncate(kept);
         self.triangles.retain(|triangle| triangle.iter().all(|&corner| corner < kept));
+        self.segments.retain(|segment| segment.iter().all(|&end| end < kept));
     }
 
     /// No states, for an established reason.
@@ -111,6 +121,8 @@ impl Surface {
             lost: 0,
             crossing: false,
             seam: Vec::new(),
+            dimension: 2,
+            segments: Vec::new(),
             negative,
         }
     }

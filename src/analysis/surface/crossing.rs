@@ -119,7 +119,7 @@ fn rises(
     let found = match starts(&mut folding, &second_order, &near).ok()? {
         Ok(found) => found,
         Err(Negative::OneDirection) => return Some(true),
-        Err(Negative::NoDirection) => return None,
+        Err(Negative::NoDirection | Negative::NoRay) => return None,
     };
     let here = energy(angles);
     (found.crossing && found.lost == 0).then(|| found.list.iter().all(|way| energy(&folding.all(&way.x)) > here))

@@ -11,10 +11,13 @@ pub enum SurfaceError {
     /// The drawn state is no state of a cell with two commuting screw motions.
     #[error("a surface of folded states needs domain \"screw\": its states are drawn in the space of lattice strains")]
     NotScrew,
-    /// The folded states are not a surface.
+    /// The folded states are a curve.
+    #[error("the folded states are a curve")]
+    Curve,
+    /// The folded states are neither a surface nor a curve.
     #[error(
-        "the folded states are no surface: {modes} linear folding motions and {quadrics} quadratic conditions on them leave \
-         {left} dimensions, not 2"
+        "the folded states are neither a surface nor a curve: {modes} linear folding motions and {quadrics} quadratic conditions on \
+         them leave {left} dimensions"
     )]
     NotTwoDimensional {
         /// Linear folding motions of the drawn state.

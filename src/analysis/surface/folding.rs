@@ -1,7 +1,6 @@
 //! The closure of a cell as a surface, and as a curve on it.
 
-use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Shape};
-use crate::math::rotation;
+use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, Shape};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::atlas::Surface;
@@ -66,20 +65,10 @@ impl<'a> SurfaceClosure<'a> {
     /// Closure and the rotation vectors of both lattice motions, which vanish at a spatially periodic state; and the
     /// Jacobian, right to first order in those vectors.
     pub(crate) fn periodic(&self, x: &[f64]) -> (DVector<f64>, DenseMatrix) {
-        let angles = self.all(x);
-        let rows = self.equations();
-        let mut residual = self.closure.residual(&angles).resize_vertically(rows + 6, 0.0);
-        let mut jacobian = self.closure.jacobian(&angles).resize_vertically(rows + 6, 0.0);
-        let mut rates = vec![0.0; angles.len()];
-        for (column, &edge) in self.closure.folding_edges().iter().enumerate() {
-            rates[edge] = 1.0;
-            let lattice = Displacement::new(self.embedding, &angles, &rates).lattice;
-            rates[edge] = 0.0;
-            for (k, moving) in lattice.iter().flatten().enumerate() {
-                residual.rows_mut(rows + 3 * k, 3).copy_from(&rotation::log(&moving.motion.rotation));
-                jacobian.view_mut((rows + 3 * k, column), (3, 1)).copy_from(&moving.twist.angular);
-            }
-        }
+        let mut closing = Closing::new(self.closure, self.all(x)).spatially_periodic(self.embedding);
+        let mut residual = DVector::zeros(closing.equations());
+        let mut jacobian = DenseMatrix::zeros(closing.equations(), closing.unknowns());
+        closing.linearize(x, residual.as_mut_slice(), &mut jacobian);
         (residual, jacobian)
     }
 }

@@ -6,11 +6,15 @@
 //! with charts, from a state on each (`starts`), until they close modulo 2 pi or the curvature is met. The hole that
 //! charts leave around the tip is closed with triangles to the drawn state (`tip`).
 //!
+//! Where that difference is one, or the drawn state has but one real direction, the folded states are a curve, which is followed
+//! (`curve`).
+//!
 //! Nappes of a flat cell come close to each other where its directions nearly meet, closer than the smallest charts;
 //! there the coverage stays open, and says so.
 
 mod covered;
 mod crossing;
+mod curve;
 mod error;
 mod folding;
 mod sign;
@@ -33,16 +37,24 @@ const OBSERVED: usize = 256;
 /// Charts are no larger than this part of the way at which half of the largest curvature is met.
 const REACH: f64 = 2.0;
 
-/// Covers the surface; no points where no direction is real. `observe` is told the number of charts and returns false
-/// to stop.
+/// Covers the surface, or follows the curve where the folded states are one; no points where no direction is real. `observe` is told
+/// the number of charts and returns false to stop.
 ///
 /// # Errors
-/// [`SurfaceError`] where the sheet has no surface of folded states, or its directions are not established.
+/// [`SurfaceError`] where the folded states are neither, or their directions are not established.
 pub fn surface(
     assembly: &Assembly,
     options: &SurfaceOptions,
     observe: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Surface, SurfaceError> {
+    match on_surface(assembly, options, observe) {
+        Err(SurfaceError::Curve) => curve::curve(assembly, options, observe),
+        found => found,
+    }
+}
+
+/// The cell of a sheet, and what second order says of its drawn state.
+fn cell(assembly: &Assembly) -> Result<(Closure, Embedding, SecondOrder), SurfaceError> {
     let sheet = assembly.sheet();
     if assembly.boundary() != Boundary::Screw {
         return Err(SurfaceError::NotScrew);
@@ -54,7 +66,23 @@ pub fn surface(
     }
     let embedding = Embedding::new(sheet)?;
     let second_order = SecondOrder::new(&closure, embedding.drawn_angles())?;
+    Ok((closure, embedding, second_order))
+}
+
+/// Covers the surface as [`surface`] does.
+///
+/// # Errors
+/// [`SurfaceError::Curve`] where the folded states are a curve, and as [`surface`].
+pub(super) fn on_surface(
+    assembly: &Assembly,
+    options: &SurfaceOptions,
+    observe: &mut dyn FnMut(usize) -> bool,
+) -> Result<Surface, SurfaceError> {
+    let (closure, embedding, second_order) = cell(assembly)?;
     let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
+    if modes == quadrics + 1 {
+        return Err(SurfaceError::Curve);
+    }
     if modes != quadrics + 2 {
         let left = modes as i64 - quadrics as i64;
         return Err(SurfaceError::NotTwoDimensional { modes, quadrics, left });
@@ -62,6 +90,7 @@ pub fn surface(
     let mut folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
     let starts = match starts::starts(&mut folding, &second_order, options)? {
         Ok(starts) => starts,
+        Err(Negative::OneDirection) => return Err(SurfaceError::Curve),
         Err(negative) => return Ok(Surface::nothing(negative, options.radius)),
     };
     let charts = atlas::CoverOptions {
@@ -144,6 +173,8 @@ fn put_together(
         lost,
         crossing,
         seam,
+        dimension: 2,
+        segments: Vec::new(),
         negative,
     };
     for (k, chart) in atlas.charts.iter().enumerate() {
@@ -164,7 +195,8 @@ fn put_together(
     }
     surface.truncate(surface.points.len());
     let from: Vec<usize> = atlas.charts.iter().take(surface.points.len()).map(|chart| chart.start).collect();
-    sign::carry(folding.embedding(), &mut surface.points, &surface.triangles, &from);
+    let sides = surface.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    sign::carry(folding.embedding(), &mut surface.points, sides, &from);
     if starts.crossing {
         surface.seam = crossing::seam(folding, &surface.points, &surface.triangles);
         // charts go over the curve along which surfaces cross, to the other sign

@@ -8,10 +8,15 @@ use super::SurfacePoint;
 use crate::kinematics::Embedding;
 use std::collections::VecDeque;
 
-/// Carries signs over the triangles from the first state of every start; pieces that hang together with no start keep
+/// Carries signs over pairs of neighbours from the first state of every start; pieces that hang together with no start keep
 /// the signs of single states. `starts` is the number of the start from which each state was found.
-pub(super) fn carry(embedding: &Embedding, points: &mut [SurfacePoint], triangles: &[[usize; 3]], starts: &[usize]) {
-    let near = neighbours(points.len(), triangles);
+pub(super) fn carry(
+    embedding: &Embedding,
+    points: &mut [SurfacePoint],
+    pairs: impl Iterator<Item = [usize; 2]>,
+    starts: &[usize],
+) {
+    let near = neighbours(points.len(), pairs);
     let mut reached = vec![false; points.len()];
     let mut waiting = VecDeque::new();
     for start in 0..starts.iter().max().map_or(0, |last| last + 1) {
@@ -33,13 +38,11 @@ pub(super) fn carry(embedding: &Embedding, points: &mut [SurfacePoint], triangle
     }
 }
 
-fn neighbours(points: usize, triangles: &[[usize; 3]]) -> Vec<Vec<usize>> {
+fn neighbours(points: usize, pairs: impl Iterator<Item = [usize; 2]>) -> Vec<Vec<usize>> {
     let mut near = vec![Vec::new(); points];
-    for &[a, b, c] in triangles {
-        for [a, b] in [[a, b], [b, c], [c, a]] {
-            near[a].push(b);
-            near[b].push(a);
-        }
+    for [a, b] in pairs {
+        near[a].push(b);
+        near[b].push(a);
     }
     near.iter_mut().for_each(|list| {
         list.sort_unstable();

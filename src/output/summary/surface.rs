@@ -4,11 +4,14 @@ use super::keys;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The surface of folded states.
+/// The surface of folded states, or their curve.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SurfaceSummary {
     /// States.
     pub points: usize,
+    /// Dimension of the folded states: 2, or 1 where they are a curve, which has no triangles.
+    #[serde(default = "surface_dimension")]
+    pub dimension: usize,
     /// Triangles of states.
     pub triangles: usize,
     /// How the covering ended.
@@ -35,6 +38,11 @@ pub struct SurfaceSummary {
     pub max_residual: Option<f64>,
     /// The nappes from which the surface was begun, with the states that were reached from each.
     pub branches: Vec<PieceSummary>,
+}
+
+/// Dimension in summaries that do not say it.
+fn surface_dimension() -> usize {
+    2
 }
 
 /// The states that were reached from one nappe.

@@ -168,7 +168,7 @@ impl<C: Curve> Follower<'_, C> {
         after: &[f64],
         events: &mut Vec<Event>,
     ) -> Option<usize> {
-        let changed = |k: &usize| before[*k] * after[*k] < 0.0 || (after[*k] == 0.0 && before[*k] != 0.0);
+        let changed = |k: &usize| before[*k] * after[*k] < 0.0 || (after[*k] == 0.0 && before[*k].abs() > 0.0);
         let mut found: Vec<Event> =
             (0..before.len()).filter(changed).filter_map(|k| self.locate(k, before[k], after[k])).collect();
         found.sort_by(|a, b| a.point.arc_length.total_cmp(&b.point.arc_length));

@@ -33,6 +33,8 @@ pub(super) struct Newton<'a, P: Problem> {
     pub(super) merit: f64,
     pub(super) shift: Shift,
     pub(super) kind: HessianKind,
+    /// Whether the linear system of the last step was solved less exactly than was wanted.
+    pub(super) inexact: bool,
     /// Scaled force where the last factorization was made, if it was of the full Hessian, without shift, and that of a
     /// minimum.
     pub(super) certified: Option<f64>,
@@ -52,7 +54,8 @@ impl<'a, P: Problem> Newton<'a, P> {
             Err(error) => return Err(NewtonError { failure: error.into(), x, tension, history: vec![] }),
         };
         let (merit, shift, certified, history) = (f64::NAN, Shift::default(), None, vec![]);
-        Ok(Self { problem, tangent, x, tension, merit, shift, kind, certified, restarted, history })
+        let inexact = false;
+        Ok(Self { problem, tangent, x, tension, merit, shift, kind, inexact, certified, restarted, history })
     }
 
     /// The outcome of the iteration: a converged state with this number of negative eigenvalues, or a failure.

@@ -6,7 +6,7 @@ use super::outcome::{Failure, Step};
 use super::retraction::Trial;
 use crate::numerics::vector::{max_abs, moved};
 use crate::solver::kkt::Increment;
-use crate::solver::linearization::HessianKind;
+use crate::solver::linearization::{HessianKind, missing};
 use crate::solver::problem::Problem;
 
 /// Bounds of the relative residual to which the linear system of a step is solved; between them it is a hundredth of
@@ -73,7 +73,10 @@ impl<P: Problem> Newton<'_, P> {
 
     /// The Newton step in unknowns and tensions.
     fn direction(&mut self, last: &Step) -> Increment {
-        self.tangent.newton_step(&self.tension, wanted_residual(last))
+        let wanted = wanted_residual(last);
+        let step = self.tangent.newton_step(&self.tension, wanted);
+        self.inexact = step.residual > wanted;
+        step
     }
 
     /// Takes the largest fraction of a step that can be accepted, if there is one.
@@ -113,8 +116,24 @@ impl<P: Problem> Newton<'_, P> {
         ROUNDING_OF_MERIT * last.energy.abs() + by_gaps + 4.0 * by_forces
     }
 
+    /// One more step from a converged state whose last step was solved less exactly than was wanted, as those of large sheets
+    /// are: their softest motions are then off by much more than the residuals say. `None` where it does not help.
+    pub(super) fn finishing_step(&mut self, last: &Step) -> Option<Trial> {
+        if !self.inexact || !self.near_certified_minimum() {
+            return None;
+        }
+        let step = self.tangent.patient_newton_step(&self.tension, FINEST_RESIDUAL);
+        let (x, tension) = (moved(&self.x, 1.0, &step.dx), moved(&self.tension, 1.0, &step.dt));
+        let gaps = self.problem.gaps(&x);
+        let open = self.largest_scaled_gap(&missing(&gaps, &tension, self.problem.compliance()));
+        let merit = self.merit_of(&x, &tension, &gaps);
+        let trial = Trial { x, tension, merit };
+        let lower = merit <= last.energy + self.merit_uncertainty(&trial, last);
+        (step.residual <= COARSEST_RESIDUAL && open <= last.residual_length && lower).then_some(trial)
+    }
+
     /// Accepts a trial; from the first whole step that contracts on, soft elements enter with their full Hessian.
-    fn take(&mut self, trial: Trial, fraction: f64, last: &Step) {
+    pub(super) fn take(&mut self, trial: Trial, fraction: f64, last: &Step) {
         if fraction == 1.0 && last.energy - trial.merit < 0.5 * last.energy.abs() {
             self.kind = HessianKind::Full;
         }

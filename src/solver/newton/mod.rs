@@ -63,7 +63,7 @@ fn run<P: Problem>(
     newton.linearize();
     newton.retract_start()?;
     newton.merit = newton.merit_of(&newton.x, &newton.tension, &newton.tangent.at.gaps);
-    let mut fraction = 0.0;
+    let (mut fraction, mut finished) = (0.0, false);
     loop {
         let step = newton.record(fraction);
         newton.history.push(step);
@@ -73,7 +73,12 @@ fn run<P: Problem>(
         }
         let (force, length) = (step.residual_force, step.residual_length);
         if length <= options.tolerance && (force <= options.tolerance || newton.exhausted(&step)) {
-            return newton.certify();
+            let last = if finished { None } else { newton.finishing_step(&step) };
+            let Some(trial) = last else { return newton.certify() };
+            newton.take(trial, 1.0, &step);
+            newton.linearize();
+            (fraction, finished) = (1.0, true);
+            continue;
         }
         if newton.history.len() > options.iterations {
             return Err(Failure::TooManySteps { iterations: options.iterations, force, length });

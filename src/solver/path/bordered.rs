@@ -14,7 +14,7 @@ use super::problem::{ParametrizedProblem, Rates};
 use crate::numerics::factor::{FactorError, Inertia};
 use crate::numerics::sparse::symmetric_product;
 use crate::numerics::vector::{add_scaled, dot, max_abs, norm_blocked};
-use crate::solver::corrections::{self, NearlySolved, Pair};
+use crate::solver::corrections::{self, NearlySolved, Pair, Patience};
 use crate::solver::kkt::{KktSystem, stiffness_size};
 use crate::solver::linearization::{HessianKind, Linearization};
 
@@ -119,7 +119,7 @@ impl Bordered {
             norm_blocked(&right.0).max(1e-9 * pull),
             norm_blocked(&right.1).max(1e-6 * norm_blocked(&found.0)).max(f64::MIN_POSITIVE),
         ];
-        let refined = corrections::correct(&mut equations, &right, found, units, WANTED_RESIDUAL);
+        let refined = corrections::correct(&mut equations, &right, found, units, (WANTED_RESIDUAL, Patience::Short));
         let Pair(mut x, tension) = refined.found;
         let parameter = x.pop().unwrap_or(0.0) * self.unit;
         let tension = tension.iter().zip(&self.at.sizes).map(|(t, size)| t / size).collect();

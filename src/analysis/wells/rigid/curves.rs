@@ -1,10 +1,12 @@
 //! Folded states that are curves: trajectories along every ray of the drawn state, until they come back or a crease is
-//! folded by `pi`.
+//! folded by `pi`. Where the drawn state of a periodic cell has but one real direction, that of planar folding, the curve is that of
+//! its spatially periodic states.
 
 use super::{Net, RigidError, Sampling};
-use crate::kinematics::{Closing, Closure, KinematicsError, Rays, RealDirections, SecondOrder};
-use crate::model::Assembly;
+use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, Rays, RealDirections, SecondOrder};
+use crate::model::{Assembly, Boundary};
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::full_svd;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, CurveOptions, End, Point, follow};
 use std::f64::consts::{PI, TAU};
@@ -50,11 +52,17 @@ pub(super) fn net(
     let drawn = assembly.drawn_angles_or_zero();
     let second_order = SecondOrder::new(&closure, &drawn)?;
     let dimension = second_order.count() as i64 - second_order.quadrics.len() as i64;
-    if dimension != 1 {
+    let planar = assembly.boundary() == Boundary::Screw && second_order.one_direction_is_real()?;
+    if dimension != 1 && !planar {
         return Err(RigidError::Dimension { dimension });
     }
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
-    let mut folding = BoundedClosure(Closing::new(&closure, drawn.clone()));
+    let embedding = if planar { Some(Embedding::new(assembly.sheet())?) } else { None };
+    let closing = Closing::new(&closure, drawn.clone());
+    let mut folding = BoundedClosure(match &embedding {
+        Some(embedding) => closing.spatially_periodic(embedding),
+        None => closing,
+    });
     let crossing = rays.len() > 2;
     let mut net = Net {
         angles: vec![drawn.clone()],
@@ -62,7 +70,7 @@ pub(super) fn net(
         singular: vec![crossing],
         border: vec![false],
         dimension: 1,
-        seam: usize::MAX,
+        seam: if planar { 0 } else { usize::MAX },
         open: usize::from(directions != RealDirections::Listed),
     };
     let options =
@@ -74,6 +82,7 @@ pub(super) fn net(
             return Err(RigidError::Interrupted);
         }
         net.open += usize::from(matches!(found.end, End::Failed | End::Steps));
+        net.open += meetings(&mut folding, &found.points)?;
         let back = matches!(found.end, End::Closed(_));
         let last = found.points.len() - 1;
         let mut before = 0;
@@ -90,4 +99,23 @@ pub(super) fn net(
         }
     }
     Ok(net)
+}
+
+/// Number of states, not the first or last, at which other folded states leave a curve: there singular values of the Jacobian pass
+/// zero. Between two points next to such a state the Jacobian turns round along their singular vectors.
+fn meetings(folding: &mut BoundedClosure<'_>, points: &[Point]) -> Result<usize, KinematicsError> {
+    let (rows, columns) = (folding.equations(), folding.unknowns());
+    let (mut residual, mut last) = (vec![0.0; rows], None::<DenseMatrix>);
+    let mut found = 0;
+    for point in points.get(1..points.len() - 1).unwrap_or_default() {
+        let mut next = DenseMatrix::zeros(rows, columns);
+        folding.linearize(&point.x, &mut residual, &mut next);
+        if let Some(last) = &last {
+            let across = full_svd(last)?.v;
+            let turned = |k: usize| (last * across.column(k)).dot(&(&next * across.column(k))) < 0.0;
+            found += usize::from((0..columns - 1).any(turned));
+        }
+        last = Some(next);
+    }
+    Ok(found)
 }

@@ -49,7 +49,8 @@ pub(super) struct Net {
     pub border: Vec<bool>,
     /// Dimension: 1 or 2.
     pub dimension: usize,
-    /// Number of the first state of the curve on which two surfaces cross; none has a larger one than the states.
+    /// Number of the first spatially periodic state among those of a curve of such states: that on which two surfaces cross, or
+    /// the whole net, then 0; where there is no such curve, as large as the number of states or larger.
     pub seam: usize,
     /// Places beyond which the states go on that were not found.
     pub open: usize,
@@ -109,9 +110,9 @@ pub enum RigidError {
     /// The surface is not known.
     #[error(transparent)]
     Surface(#[from] SurfaceError),
-    /// The rigid states are not a surface, and what they are is not sampled.
-    #[error("{0}; wells are counted on surfaces only where the sheet is one periodic cell on a screw")]
-    NoSurface(Negative),
+    /// Nothing folds.
+    #[error("{0}")]
+    NoFolding(Negative),
     /// Only a part of the surface was covered.
     #[error("only {states} states of the rigid surface were covered: wells and passes may lie on the rest of it")]
     Partial {
@@ -136,17 +137,21 @@ pub fn landscape(
     let model = assembly.model(Gauge::Held);
     let springs = Springs::new(sheet, tiling, &model, assembly.drawn_angles()).ok_or(RigidError::NotOfHinges)?;
     let net = match assembly.boundary() {
-        Boundary::Screw => surface::net(assembly, sampling, go_on)?,
+        Boundary::Screw => match surface::net(assembly, sampling, go_on) {
+            Err(RigidError::Surface(SurfaceError::Curve)) => curves::net(assembly, sampling, go_on)?,
+            net => net?,
+        },
         _ => curves::net(assembly, sampling, go_on)?,
     };
     let options = surface::options(sampling);
-    let energy = |angles: &[f64]| springs.energy(angles);
-    let lowest = |angles: &[f64]| Surface::lowest_on_crossing(assembly, &options, angles, &energy);
+    let lowest = |angles: &[f64], sign: f64| {
+        Surface::lowest_on_crossing(assembly, &options, angles, &|angles| sign * springs.energy(angles))
+    };
     Ok(polished(&springs, &net, (sampling.step, &lowest)))
 }
 
-/// The lowest state near one of the curve on which two surfaces cross.
-type OnCrossing<'a> = &'a dyn Fn(&[f64]) -> Option<Lowest>;
+/// The lowest state, for the sign 1, or the highest one, for the sign -1, near a state of the curve of spatially periodic states.
+type OnCrossing<'a> = &'a dyn Fn(&[f64], f64) -> Option<Lowest>;
 
 /// Wells and passes of a net, made exact.
 fn polished(springs: &Springs, net: &Net, (step, lowest): (f64, OnCrossing<'_>)) -> RigidLandscape {
@@ -160,6 +165,8 @@ fn polished(springs: &Springs, net: &Net, (step, lowest): (f64, OnCrossing<'_>))
     for &at in &minima {
         let found = if let Some(found) = net.well_on_seam(springs, at, (NEIGHBOUR_DISTANCES * step, lowest)) {
             Some(found)
+        } else if net.seam == 0 {
+            None
         } else if net.border[at] || net.singular[at] {
             net.beside(at).find_map(|other| between(springs, net, [at, other]))
         } else {
@@ -197,7 +204,7 @@ impl Net {
     /// The well on the curve on which surfaces cross, next to a state of it or beside it.
     fn well_on_seam(&self, springs: &Springs, at: usize, (reach, lowest): (f64, OnCrossing<'_>)) -> Option<Stationary> {
         let mut on = [at].into_iter().chain(self.beside(at)).filter(|&at| at >= self.seam);
-        let Lowest { angles, residual, error, well } = lowest(&self.angles[on.next()?])?;
+        let Lowest { angles, residual, error, well } = lowest(&self.angles[on.next()?], 1.0)?;
         let apart = distance(&angles, &self.angles[at]);
         let inside = angles.iter().all(|angle| angle.abs() <= PI);
         let energy = springs.energy(&angles);
@@ -257,9 +264,11 @@ impl RigidLandscape {
             return;
         }
         if at >= net.seam {
-            match lowest(&net.angles[at]) {
+            // where two surfaces cross it is the lowest state of the curve, and on the curve alone the highest
+            let (sign, singular) = if net.dimension == 2 { (1.0, true) } else { (-1.0, false) };
+            match lowest(&net.angles[at], sign) {
                 Some(Lowest { angles, .. }) => {
-                    self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular: true });
+                    self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular });
                 }
                 None => self.lost += 1,
             }

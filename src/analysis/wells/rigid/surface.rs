@@ -1,7 +1,7 @@
 //! Folded states that are a surface: one periodic cell, repeated by screw motions.
 
 use super::{Net, RigidError, Sampling};
-use crate::analysis::surface::{Seam, Surface, SurfaceOptions, SurfacePoint, surface};
+use crate::analysis::surface::{Seam, Surface, SurfaceOptions, SurfacePoint, on_surface};
 use crate::model::Assembly;
 use crate::solver::atlas::Coverage;
 use std::collections::BTreeSet;
@@ -57,10 +57,10 @@ pub(super) fn net(
     sampling: &Sampling,
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Net, RigidError> {
-    let found = surface(assembly, &options(sampling), &mut |_| go_on())?;
+    let found = on_surface(assembly, &options(sampling), &mut |_| go_on())?;
     let Surface { points, triangles, coverage, negative, seam, lost, .. } = found;
     if let Some(negative) = negative {
-        return Err(RigidError::NoSurface(negative));
+        return Err(RigidError::NoFolding(negative));
     }
     let mut open = lost;
     match coverage {

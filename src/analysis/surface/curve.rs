@@ -1,0 +1,154 @@
+//! Folded states that are a curve: trajectories along every ray of the drawn state.
+//!
+//! Where one real direction leaves a drawn state whose quadric is definite across it, the states on the curve are spatially periodic, and closure
+//! alone has three null vectors at each: the condition that the lattice does not turn leaves one.
+
+use super::folding::SurfaceClosure;
+use super::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, cell, sign};
+use crate::kinematics::{Closing, KinematicsError, Ray, Rays, RealDirections};
+use crate::model::Assembly;
+use crate::numerics::DenseMatrix;
+use crate::solver::Implicit;
+use crate::solver::atlas::{Coverage, Surface as _};
+use crate::solver::continuation::{Curve, CurveOptions, End, Point, follow};
+use std::f64::consts::TAU;
+
+/// Cosine of the angle within which a trajectory arrives along a ray.
+const ALONG: f64 = 0.999;
+
+/// The equations of the curve, and the states on it up to a curvature.
+struct FoldedCurve<'a> {
+    closing: Closing<'a>,
+    folding: SurfaceClosure<'a>,
+}
+
+impl Implicit for FoldedCurve<'_> {
+    fn unknowns(&self) -> usize {
+        self.closing.unknowns()
+    }
+
+    fn equations(&self) -> usize {
+        self.closing.equations()
+    }
+
+    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
+        self.closing.linearize(x, residual, jacobian);
+    }
+}
+
+impl Curve for FoldedCurve<'_> {
+    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
+        out.push(self.folding.limit(&point.x));
+    }
+}
+
+/// The curve of folded states; no states where no direction is real.
+pub(super) fn curve(
+    assembly: &Assembly,
+    options: &SurfaceOptions,
+    observe: &mut dyn FnMut(usize) -> bool,
+) -> Result<Surface, SurfaceError> {
+    let (closure, embedding, second_order) = cell(assembly)?;
+    let Rays { rays, directions, .. } = Rays::new(&second_order)?;
+    let planar = second_order.one_direction_is_real()?;
+    let closing = Closing::new(&closure, embedding.drawn_angles().to_vec());
+    let folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
+    let mut curve =
+        FoldedCurve { closing: if planar { closing.spatially_periodic(&embedding) } else { closing }, folding };
+    let negative = match directions {
+        _ if planar => Some(Negative::OneDirection),
+        RealDirections::Listed if rays.is_empty() => Some(Negative::NoRay),
+        _ => None,
+    };
+    let mut found =
+        Surface { dimension: 1, negative, closed: true, ..Surface::nothing(Negative::NoRay, options.radius) };
+    found.lost = usize::from(directions != RealDirections::Listed);
+    let mut from = Vec::new();
+    let mut arrived: Vec<usize> = Vec::new();
+    for (k, ray) in rays.iter().enumerate() {
+        if arrived.contains(&k) || found.coverage == Coverage::Interrupted {
+            continue;
+        }
+        let end = found.follow(&mut curve, (ray, options), observe)?;
+        from.resize(found.points.len(), k);
+        arrived.extend(match &end {
+            End::Closed(back) => {
+                rays.iter().position(|ray| arrives(&curve.closing.folding(&ray.direction), &back.arrival))
+            }
+            _ => None,
+        });
+        found.conclude(&end);
+    }
+    let segments = found.segments.clone();
+    sign::carry(&embedding, &mut found.points, segments.into_iter(), &from);
+    found.name_branches();
+    Ok(found)
+}
+
+/// Whether a trajectory arrives against a direction.
+fn arrives(direction: &[f64], tangent: &[f64]) -> bool {
+    -direction.iter().zip(tangent).map(|(a, b)| a * b).sum::<f64>() > ALONG
+}
+
+impl Surface {
+    /// Adds the states along a ray.
+    fn follow(
+        &mut self,
+        curve: &mut FoldedCurve<'_>,
+        (ray, options): (&Ray, &SurfaceOptions),
+        observe: &mut dyn FnMut(usize) -> bool,
+    ) -> Result<End, KinematicsError> {
+        let before = self.points.len();
+        let limits = CurveOptions {
+            tolerance: options.tolerance,
+            max_step: options.radius,
+            steps: options.max_points.saturating_sub(before),
+            period: Some(TAU),
+            stops: vec![0],
+            ..CurveOptions::default()
+        };
+        let (start, tangent) = (curve.folding.drawn(), curve.closing.folding(&ray.direction));
+        let mut count = before;
+        let found = follow(curve, start, tangent, &limits, &mut |_| {
+            count += 1;
+            observe(count)
+        });
+        let closed = matches!(found.end, End::Closed(_));
+        let inner = found.points.len() - usize::from(closed);
+        let mut last = 0;
+        // the drawn state is on all of them, once
+        for point in found.points[..inner].iter().skip(usize::from(before > 0)) {
+            let at = self.points.len();
+            self.segments.extend((at > 0).then_some([last, at]));
+            last = at;
+            self.points.push(SurfacePoint {
+                branch: (ray.branch, ray.sign),
+                angles: curve.folding.all(&point.x),
+                shape: curve.folding.shape(&point.x)?,
+                residual: point.residual,
+                radius: self.radius,
+            });
+        }
+        self.segments.extend((closed && last > 0).then_some([last, 0]));
+        Ok(found.end)
+    }
+
+    /// What the end of a trajectory says about the whole.
+    fn conclude(&mut self, end: &End) {
+        self.closed &= matches!(end, End::Closed(_));
+        self.coverage = match (end, self.coverage) {
+            (End::Interrupted, _) => Coverage::Interrupted,
+            (End::Steps, _) => Coverage::TooManyCharts,
+            (End::Failed, Coverage::Open { charts }) => Coverage::Open { charts: charts + 1 },
+            (End::Failed, Coverage::Complete) => Coverage::Open { charts: 1 },
+            (_, before) => before,
+        };
+    }
+
+    /// Lists the branches of the states.
+    fn name_branches(&mut self) {
+        self.branches = self.points.iter().map(|point| point.branch).collect();
+        self.branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
+        self.branches.dedup();
+    }
+}

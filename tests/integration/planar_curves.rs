@@ -1,0 +1,121 @@
+//! Folded states of a periodic cell that are a curve: the planar folding of a triangulated Miura-ori, as a surface study, a
+//! trajectory and a landscape of rigid wells see it, compared with rigid parallelograms and with the closed form of the generator.
+
+use crate::common::on;
+use foldwell::analysis::surface::{Surface, SurfaceOptions, surface};
+use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
+use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
+use foldwell::kinematics::Closure;
+use foldwell::model::{Assembly, Boundary, Hinges, Terms};
+use foldwell::sheet::generate::{Eggbox, Miura};
+use foldwell::sheet::{EdgeKind, Pattern, Sheet, generate};
+use foldwell::solver::atlas::Coverage;
+use foldwell::solver::continuation::End;
+use std::f64::consts::PI;
+
+fn miura(fold: f64) -> Sheet {
+    generate(&Pattern::Miura(Miura { a: 1.0, b: 1.3, sector: 1.1, fold })).unwrap()
+}
+
+/// Returns the cell with facets of this stiffness, and creases that rest at these angles.
+fn cell(sheet: Sheet, facets: f64, rest: &[f64]) -> Assembly {
+    let facets = Some(Hinges { stiffness: facets.into(), rest: vec![0.0; sheet.edges.len()] });
+    let terms = Terms { facets, ..Terms::bars_and_creases(f64::INFINITY, 1.0, rest.to_vec()) };
+    on(sheet, [1, 1], Boundary::Screw).with_terms(terms)
+}
+
+fn drawn(sheet: &Sheet) -> Vec<f64> {
+    sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).unwrap()).collect()
+}
+
+/// Returns the rest angles: those of a crease at another fold, NaN on facets.
+fn rest(sheet: &Sheet, fold: f64) -> Vec<f64> {
+    let angles = drawn(&miura(fold));
+    let of =
+        |(edge, angle): (&foldwell::sheet::Edge, f64)| if edge.kind == EdgeKind::Crease { angle } else { f64::NAN };
+    sheet.edges.iter().zip(angles).map(of).collect()
+}
+
+fn covered(assembly: &Assembly) -> Surface {
+    let options = SurfaceOptions { radius: 0.2, tolerance: 3e-14, max_curvature: 1.0, max_points: 10_000 };
+    surface(assembly, &options, &mut |_| true).unwrap()
+}
+
+fn traced(assembly: &Assembly) -> Vec<Traced> {
+    let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch: None, stop: Stop::default() };
+    trace(assembly, &options, None, &mut |_, _| true).unwrap()
+}
+
+fn wells(assembly: &Assembly) -> RigidLandscape {
+    landscape(assembly, &Sampling { step: 0.1, max_curvature: 1.0 }, &mut || true).unwrap()
+}
+
+/// Claim: all folded states of a Miura-ori whose facets fold are those of its planar folding, in which no facet folds: one closed
+/// curve without curvature, the same as that of rigid parallelograms. Tolerance: closure to 3e-14 over the smallest
+/// singular value along the curve, about 1e-2 next to the flat state.
+#[test]
+fn all_folded_states_of_miura_ori() {
+    let sheet = miura(0.4);
+    let rest = rest(&sheet, 0.4);
+    let found = covered(&cell(sheet.clone(), 1.0, &rest));
+    assert_eq!((found.dimension, found.coverage, found.closed, found.lost), (1, Coverage::Complete, true, 0));
+    let facets: Vec<usize> = (0..sheet.edges.len()).filter(|&k| sheet.edges[k].kind == EdgeKind::Facet).collect();
+    let closure = Closure::of_cell(&sheet).unwrap();
+    for point in &found.points {
+        assert!(
+            facets.iter().all(|&facet| point.angles[facet].abs() <= 1e-11) && !(point.shape.curvature.abs() > 1e-12)
+        );
+        assert!(closure.residual(&point.angles).amax() <= 1e-13);
+    }
+    let stiff = covered(&cell(sheet, f64::INFINITY, &rest));
+    assert_eq!((stiff.dimension, stiff.closed), (1, true));
+    let near = |angles: &[f64]| {
+        let far = |other: &[f64]| angles.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        stiff.points.iter().map(|point| far(&point.angles)).fold(f64::INFINITY, f64::min)
+    };
+    // windings: one of them goes round with rising angles, the other one may do so with falling ones
+    let close = found.points.iter().filter(|point| near(&point.angles) <= 0.1 + 1e-9).count();
+    assert!(2 * close >= found.points.len(), "{close} of {}", found.points.len());
+}
+
+/// Claim: the trajectory of a Miura-ori whose facets fold leaves the drawn state without a lock, and comes back after the arc length of
+/// rigid parallelograms; only the strains of its sides turn, where they do, and neither curvature nor shear, which stay zero.
+/// Tolerance 1e-8: closing is found on the interpolant between states.
+#[test]
+fn its_trajectory_needs_no_lock() {
+    let sheet = miura(0.4);
+    let rest = rest(&sheet, 0.4);
+    let [soft, stiff] = [1.0, f64::INFINITY].map(|facets| traced(&cell(sheet.clone(), facets, &rest)));
+    assert_eq!((soft.len(), stiff.len()), (2, 2));
+    for one in &soft {
+        assert!(matches!(one.end, End::Closed(_)), "{:?}", one.end);
+        let [length, other] = [one, &stiff[0]].map(|one| one.states.last().unwrap().arc_length);
+        assert!((length - other).abs() <= 1e-8, "{length} {other}");
+        let turned: Vec<usize> = one.turning_points.iter().map(|(quantity, _)| *quantity).collect();
+        assert!(!turned.is_empty() && turned.iter().all(|quantity| [1, 2].contains(quantity)), "{turned:?}");
+    }
+}
+
+/// Claim: creases that rest at the angles of another fold have one rigid well, there, with energy 0; the flat state, at which
+/// other folded states leave the curve, is counted as a place beyond which nothing was sampled. Source: the closed form of the generator.
+/// Tolerance: the error that the landscape states, about 1e-13.
+#[test]
+fn rigid_wells_on_the_curve() {
+    for (drawn_at, resting) in [(0.4, 0.9), (1.2, 0.3)] {
+        let sheet = miura(drawn_at);
+        let found = wells(&cell(sheet.clone(), 0.5, &rest(&sheet, resting)));
+        assert_eq!((found.dimension, found.wells.len(), found.lost, found.open), (1, 1, 0, 1), "{found:?}");
+        let well = &found.wells[0];
+        let off = well.angles.iter().zip(drawn(&miura(resting))).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off <= 1e-11 && well.energy <= 1e-22, "{off:e} {:e}", well.energy);
+    }
+}
+
+/// Claim: an eggbox has a surface, not a curve, and its landscape keeps dimension 2.
+#[test]
+fn an_eggbox_is_no_curve() {
+    let sheet = generate(&Pattern::Eggbox(Eggbox { a: 1.0, b: 1.0, sector: PI / 3.0, fold: 0.9 })).unwrap();
+    let rest = drawn(&sheet);
+    let found = covered(&cell(sheet, 1.0, &rest));
+    assert!(found.dimension == 2 && found.segments.is_empty() && !found.triangles.is_empty());
+}
