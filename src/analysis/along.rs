@@ -221,7 +221,8 @@ impl Track<'_> {
         terms.locks.push((crease, state.angles[crease]));
         let mut model = self.assembly.with_terms(terms).model(Gauge::Held);
         model.set_angles(&hinge_angles(&model, &self.angles));
-        let last = self.known.last().map_or_else(|| chart::coordinates(state), |(_, at)| at.clone());
+        let last = self.known.last().map(|(_, at)| at.clone());
+        let last = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.boundary(), state));
         let here = model.start_from(last);
         let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
         let relaxed = relax_from(&mut model, ahead, self.options, observe)

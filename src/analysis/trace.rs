@@ -3,14 +3,19 @@
 //! The curve is the closure of the fold angles of one cell (or of a finite sheet) with the locked creases left out, and
 //! [`crate::solver::continuation`] follows it. Arc length is that of the fold angles. Turning points of the curvature
 //! and of the three strains are the zeros of their rates.
+//!
+//! A tube starts closed, and its closing condition is one equation more: [`start`] has its rays.
 
-use super::branches::{BranchesError, branches};
-use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, Rays, RealDirections, Shape};
+mod start;
+
+use super::branches::BranchesError;
+use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, RealDirections, Shape};
 use crate::math::Vec3;
-use crate::model::{Assembly, Boundary};
+use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, CurveOptions, End, Event, Point, Trajectory, follow};
+use start::Start;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
@@ -82,7 +87,7 @@ pub struct Traced {
     pub directions: RealDirections,
     /// The ray along which it comes back.
     pub ends_at: Option<(usize, i8)>,
-    /// Its states, the drawn one first.
+    /// Its states, the drawn one or the closed tube first.
     pub states: Vec<Folded>,
     /// Turning points: which quantity of [`TURNING`], and where.
     pub turning_points: Vec<(usize, Folded)>,
@@ -115,11 +120,29 @@ pub enum TraceError {
     )]
     Continuum,
     /// Where faces pass through each other from the beginning, nothing can end where they first do.
-    #[error("faces of the drawn state pass through each other already: leave out the stop at self-intersection")]
+    #[error("faces of the first state pass through each other already: leave out the stop at self-intersection")]
     CrossesAlready,
+    /// A tube has several motions, or one although both closing conditions are kept.
+    #[error("{}", motions_of_tube(*.motions, *.closed))]
+    MotionsOfTube {
+        /// Number of its linear motions, without rigid ones.
+        motions: usize,
+        /// Whether both closing conditions are kept.
+        closed: bool,
+    },
     /// No ray was found, and none was excluded.
     #[error("no direction of folding was found, but none was excluded either: lock a crease")]
     NotEstablished,
+}
+
+/// Returns the message about a tube that has more motions than can be followed.
+fn motions_of_tube(motions: usize, closed: bool) -> String {
+    if closed {
+        let what = "a generic closed tube has none, and whether this one moves is not established";
+        return format!("the closed tube has {motions} linear motion(s) along its creases: {what}; lock creases");
+    }
+    let extra = motions.saturating_sub(1);
+    format!("the tube has {motions} motions that keep its closing condition, and one can be followed: lock {extra} crease(s)")
 }
 
 /// The closure of a sheet as a curve, with what is watched along it.
@@ -127,11 +150,13 @@ struct TracedClosure<'a, 'b> {
     closing: Closing<'a>,
     embedding: &'a Embedding,
     periodic: bool,
+    /// Whether the first state is spatially periodic, without curvature.
+    starts_straight: bool,
     /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign.
     known: Vec<Known>,
     stop: Stop,
     intersects: Option<Intersects<'b>>,
-    /// Whether faces of the drawn state pass through each other; false also where that is not asked.
+    /// Whether faces of the first state pass through each other; false also where that is not asked.
     crosses: bool,
 }
 
@@ -143,7 +168,7 @@ struct Known {
 }
 
 impl TracedClosure<'_, '_> {
-    /// Asks whether faces of the drawn state pass through each other.
+    /// Asks whether faces of the first state pass through each other.
     fn look_at_start(&mut self, x: Vec<f64>) {
         let start = Point { arc_length: 0.0, tangent: vec![0.0; x.len()], x, residual: 0.0, corrections: 0 };
         let state = self.folded(&start);
@@ -217,8 +242,9 @@ impl Curve for TracedClosure<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         let state = self.folded(point);
         let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());
-        // the drawn state is straight: what it has of curvature there is rounding
-        let curvature = if point.arc_length == 0.0 && curvature.is_finite() { 0.0 } else { curvature };
+        // what a straight state has of curvature is rounding
+        let straight = self.starts_straight && point.arc_length == 0.0 && curvature.is_finite();
+        let curvature = if straight { 0.0 } else { curvature };
         out.extend(if self.periodic { self.rates(&state) } else { [f64::NAN; 4] });
         out.push(self.stop.curvature.map_or(f64::NAN, |most| curvature - most));
         out.push(self.stop.crease_angle.map_or(f64::NAN, |(edge, angle)| state.angles[edge] - angle));
@@ -227,8 +253,11 @@ impl Curve for TracedClosure<'_, '_> {
     }
 }
 
-/// Follows every ray that the options ask for; none where it is established that no direction is real. `observe` sees branch, sign and every state's
-/// arc length, and returns false to stop.
+/// Follows every ray that the options ask for; none where it is established that no direction is real, or that a tube is
+/// rigid. `observe` sees branch, sign and every state's arc length, and returns false to stop.
+///
+/// The rays of a tube are those of branch 0: with sign 1 the quantity grows whose closing condition is not kept, the rise of
+/// the seam or its turn.
 ///
 /// # Errors
 /// [`TraceError`] where the rays cannot be found, or the branch that the options ask for is not there.
@@ -238,32 +267,37 @@ pub fn trace(
     intersects: Option<Intersects<'_>>,
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Result<Vec<Traced>, TraceError> {
-    let found = branches(assembly)?;
-    let rays = &found.rays.rays;
-    match found.rays.directions {
-        RealDirections::Continuum if rays.is_empty() => return Err(TraceError::Continuum),
-        RealDirections::NotEstablished if rays.is_empty() => return Err(TraceError::NotEstablished),
-        _ => {}
-    }
-    let count = rays.iter().map(|ray| ray.branch + 1).max().unwrap_or(0);
+    let found = start::start(assembly)?;
+    let count = found.rays.iter().map(|ray| ray.branch + 1).max().unwrap_or(0);
     if let Some(branch) = options.branch.filter(|&branch| branch >= count && count > 0) {
         return Err(TraceError::NoSuchBranch { branch, count });
     }
     let closure = Closure::of_cell(assembly.sheet())?.with_locked(&assembly.locked_edges());
     let embedding = Embedding::new(assembly.sheet())?;
-    let periodic = assembly.boundary() == Boundary::Screw;
-    let closing = Closing::new(&closure, assembly.drawn_angles_or_zero());
-    let (known, stop) = (Vec::new(), options.stop);
-    let crosses = false;
-    let mut folding = TracedClosure { closing, embedding: &embedding, periodic, known, stop, intersects, crosses };
-    folding.look_at_start(folding.closing.folding(assembly.drawn_angles()));
-    if folding.crosses && stop.self_intersection {
+    let condition = found.tube.as_ref().map(|(tube, kept)| tube.keeping(*kept));
+    let closing = Closing::new(&closure, found.angles.clone());
+    let closing = match &condition {
+        Some(condition) => closing.keeping(condition),
+        None => closing,
+    };
+    let mut folding = TracedClosure {
+        closing,
+        embedding: &embedding,
+        periodic: assembly.boundary().is_one_cell(),
+        starts_straight: condition.is_none(),
+        known: Vec::new(),
+        stop: options.stop,
+        intersects,
+        crosses: false,
+    };
+    folding.look_at_start(folding.closing.folding(&found.angles));
+    if folding.crosses && options.stop.self_intersection {
         return Err(TraceError::CrossesAlready);
     }
-    let wanted = rays.iter().filter(|ray| options.branch.is_none_or(|branch| branch == ray.branch));
+    let wanted = found.rays.iter().filter(|ray| options.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
-        let one = along(&mut folding, (assembly, options), (ray, &found.rays), observe);
+        let one = along(&mut folding, options, (ray, &found), observe);
         let interrupted = one.end == End::Interrupted;
         traced.push(one);
         if interrupted {
@@ -276,12 +310,12 @@ pub fn trace(
 /// The trajectory along one ray.
 fn along(
     folding: &mut TracedClosure<'_, '_>,
-    (assembly, options): (&Assembly, &TraceOptions),
-    (ray, all): (&Ray, &Rays),
+    options: &TraceOptions,
+    (ray, all): (&Ray, &Start<'_>),
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Traced {
     let (branch, rays) = ((ray.branch, ray.sign), &all.rays);
-    let start = folding.closing.folding(assembly.drawn_angles());
+    let start = folding.closing.folding(&all.angles);
     let directions: Vec<Vec<f64>> = rays.iter().map(|ray| folding.closing.folding(&ray.direction)).collect();
     let leaving = folding.closing.folding(&ray.direction);
     let mut stops = vec![CURVATURE, CREASE_ANGLE];

@@ -37,7 +37,7 @@ pub fn rolled_up(sheet: &Sheet, seam: [i32; 2], kept: SeamKept, inwards: bool) -
 
 /// Returns the coordinates of a shape about its axis, which is z and directed so that the seam turns by a positive angle; vertex
 /// 0 is at height 0 in the half-plane `y = 0`, `x > 0`.
-fn coordinates(shape: &Shape, seam: &Seam, kept: SeamKept) -> Vec<f64> {
+pub(super) fn coordinates(shape: &Shape, seam: &Seam, kept: SeamKept) -> Vec<f64> {
     let screw = &shape.screw;
     let along = |[n1, n2]: [i32; 2], each: [f64; 2]| f64::from(n1) * each[0] + f64::from(n2) * each[1];
     let sign = if along(seam.lattice_vector(), screw.theta) < 0.0 { -1.0 } else { 1.0 };

@@ -20,7 +20,7 @@ mod test_sheets;
 pub mod tube;
 mod walk;
 
-pub use closing::Closing;
+pub use closing::{AngleCondition, Closing};
 pub use closure::Closure;
 pub use closure::drawn_fold_angles;
 pub use displacement::Displacement;

@@ -18,7 +18,7 @@
 mod cut;
 
 use super::motion::Moving;
-use super::{Closure, Displacement, Embedding, KinematicsError, folding_modes};
+use super::{AngleCondition, Closing, Closure, Displacement, Embedding, KinematicsError, folding_modes};
 use crate::math::{Vec3, rotation};
 use crate::numerics::dense::{least_squares, null_space};
 use crate::numerics::{DenseMatrix, larger};
@@ -41,6 +41,16 @@ pub enum Condition {
     Turn,
     /// The seam has no translation along the axis.
     Rise,
+}
+
+impl Condition {
+    /// Returns the other condition.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Turn => Self::Rise,
+            Self::Rise => Self::Turn,
+        }
+    }
 }
 
 /// Both conditions, in the order of their numbers.
@@ -132,11 +142,38 @@ impl<'a> Tube<'a> {
         let ray = ray.iter().map(|rate| rate / size).collect();
         let options = CurveOptions { steps: MOST_POINTS, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
         let start = self.embedding.drawn_angles().to_vec();
-        let found = follow(&mut self.keeping(Condition::Rise), start, ray, &options, &mut |_| true);
+        let kept = self.keeping(Condition::Rise);
+        let found = follow(&mut TubeCurve::new(&kept, &start), start.clone(), ray, &options, &mut |_| true);
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
         let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);
         let missed = || KinematicsError::NoTube { seam: self.seam.lattice_vector(), turn: turns.fold(0.0, f64::max) };
         self.closed(&rolled.ok_or_else(missed)?.x)
+    }
+
+    /// Returns the motions of a tube with these fold angles that satisfy the conditions in `kept` and do not move the edges in
+    /// `locked`: an orthonormal column for each, with the rates of the fold angles of all edges.
+    ///
+    /// # Errors
+    /// [`KinematicsError::Decomposition`] if their number is not clear.
+    pub fn motions(
+        &self,
+        angles: &[f64],
+        kept: &[Condition],
+        locked: &[usize],
+    ) -> Result<DenseMatrix, KinematicsError> {
+        let moving: Vec<usize> = (0..angles.len()).filter(|edge| !locked.contains(edge)).collect();
+        let basis = null_space(&self.jacobian(angles, kept).select_columns(&moving))?.basis;
+        let mut motions = DenseMatrix::zeros(angles.len(), basis.ncols());
+        moving.iter().zip(basis.row_iter()).for_each(|(&edge, rates)| motions.row_mut(edge).copy_from(&rates));
+        Ok(motions)
+    }
+
+    /// Returns a motion that keeps a condition in the direction in which the quantity of the other one grows: the rise of the
+    /// seam, or its turn. Both are those along the axis about which the seam turns by a positive angle.
+    pub(crate) fn growing(&self, angles: &[f64], kept: Condition, motion: &[f64]) -> Vec<f64> {
+        let rates = self.rates(angles);
+        let growth: f64 = rates.row(kept.other() as usize).iter().zip(motion).map(|(a, b)| a * b).sum();
+        motion.iter().map(|rate| rate * 1f64.copysign(growth)).collect()
     }
 
     /// Follows the one motion of a tube whose seam turns by `2 pi` and may rise, from the tube's angles for a length in
@@ -145,21 +182,20 @@ impl<'a> Tube<'a> {
     /// # Errors
     /// [`KinematicsError::NotOneMotion`] if the tube has no such motion or more than one.
     pub fn slip(&self, tube: &[f64], rising: bool, length: f64) -> Result<Trajectory, KinematicsError> {
-        let null = null_space(&self.jacobian(tube, &[Condition::Turn]))?.basis;
-        let motions = null.ncols();
-        if motions != 1 {
-            return Err(KinematicsError::NotOneMotion { motions });
+        let motions = self.motions(tube, &[Condition::Turn], &[])?;
+        if motions.ncols() != 1 {
+            return Err(KinematicsError::NotOneMotion { motions: motions.ncols() });
         }
-        let rise = (self.rates(tube).row(1) * &null)[0];
-        let sign = if (rise > 0.0) == rising { 1.0 } else { -1.0 };
-        let tangent = null.iter().map(|rate| sign * rate).collect();
-        let options = CurveOptions { length, ..CurveOptions::default() };
-        Ok(follow(&mut self.keeping(Condition::Turn), tube.to_vec(), tangent, &options, &mut |_| true))
+        let sign = if rising { 1.0 } else { -1.0 };
+        let growing = self.growing(tube, Condition::Turn, motions.as_slice());
+        let tangent = growing.into_iter().map(|rate| sign * rate).collect();
+        let (options, kept) = (CurveOptions { length, ..CurveOptions::default() }, self.keeping(Condition::Turn));
+        Ok(follow(&mut TubeCurve::new(&kept, tube), tube.to_vec(), tangent, &options, &mut |_| true))
     }
 
-    fn keeping(&self, kept: Condition) -> TubeCurve<'_, 'a> {
-        let closure = DenseMatrix::zeros(3 * self.closure.vertices().len(), self.embedding.edges());
-        TubeCurve { tube: self, kept, closure }
+    /// Returns one of the conditions as an equation.
+    pub fn keeping(&self, kept: Condition) -> TubeCondition<'_, 'a> {
+        TubeCondition { tube: self, kept }
     }
 
     /// Returns the curvature tensor `[k11, k22, k12]` of size 1 that bends along the seam and not across it.
@@ -206,34 +242,51 @@ impl<'a> Tube<'a> {
     }
 }
 
-/// The curve of screw-periodic sheets that satisfy one condition; its indicator is the defect of the other one.
-struct TubeCurve<'t, 'a> {
+/// One of the conditions on a tube as an equation on its fold angles.
+#[derive(Clone, Copy, Debug)]
+pub struct TubeCondition<'t, 'a> {
     tube: &'t Tube<'a>,
     kept: Condition,
-    closure: DenseMatrix,
+}
+
+impl AngleCondition for TubeCondition<'_, '_> {
+    fn linearize(&self, angles: &[f64], rates: &mut [f64]) -> f64 {
+        let row = self.kept as usize;
+        let all = self.tube.rates(angles);
+        rates.iter_mut().zip(all.row(row).iter()).for_each(|(rate, found)| *rate = *found);
+        self.tube.defects(angles)[row]
+    }
+}
+
+/// The curve of screw-periodic sheets that satisfy one condition; its indicator is the defect of the other one.
+struct TubeCurve<'t, 'a> {
+    closing: Closing<'t>,
+    kept: &'t TubeCondition<'t, 'a>,
+}
+
+impl<'t, 'a> TubeCurve<'t, 'a> {
+    fn new(kept: &'t TubeCondition<'t, 'a>, angles: &[f64]) -> Self {
+        Self { closing: Closing::new(&kept.tube.closure, angles.to_vec()).keeping(kept), kept }
+    }
 }
 
 impl Implicit for TubeCurve<'_, '_> {
     fn unknowns(&self) -> usize {
-        self.tube.embedding.edges()
+        self.closing.unknowns()
     }
 
     fn equations(&self) -> usize {
-        self.closure.nrows() + 1
+        self.closing.equations()
     }
 
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        let (rows, row) = (self.closure.nrows(), self.kept as usize);
-        self.tube.closure.linearize_into(x, &mut residual[..rows], &mut self.closure);
-        jacobian.rows_mut(0, rows).copy_from(&self.closure);
-        residual[rows] = self.tube.defects(x)[row];
-        jacobian.row_mut(rows).copy_from(&self.tube.rates(x).row(row));
+        self.closing.linearize(x, residual, jacobian);
     }
 }
 
 impl Curve for TubeCurve<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        out.push(self.tube.defects(&point.x)[1 - self.kept as usize]);
+        out.push(self.kept.tube.defects(&point.x)[self.kept.kept.other() as usize]);
     }
 }
 

@@ -212,7 +212,7 @@ impl Builder {
         }
         let mut terms = Terms { bars, creases, facets, mass, ..Terms::default() };
         for (crease, angle) in given.locks {
-            let locked = copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.drawn_angles()[k])));
+            let locked = copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.start_angles()[k])));
             terms.locks.extend(locked);
         }
         terms.pins = on_vertices(&bare, given.pins)?;

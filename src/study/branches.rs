@@ -23,7 +23,7 @@ pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     }
     supported::drawn_lengths(context, "branches of rigid folding")?;
     supported::drawn_rigid_hinges(context, "branches of rigid folding")?;
-    let angles = assembly.drawn_angles();
+    let angles = assembly.start_angles();
     let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
     match assembly.terms().locks.iter().find(moved) {
         None => Ok(()),

@@ -6,7 +6,7 @@ use super::error::StudyError;
 use super::states::{self, Shown};
 use super::{branches, energies, ratios, relax};
 use crate::analysis::along::{AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors, relax_along};
-use crate::analysis::chart::{coordinates, hinge_angles};
+use crate::analysis::chart::{coordinates_in, hinge_angles};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::relax::Relaxed;
 use crate::analysis::state::{State, cylinder};
@@ -116,7 +116,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
     let mut finder = asked.then(|| SelfIntersection::new(assembly));
     let model = assembly.model(Gauge::Held);
     let mut crosses = |state: &Folded| {
-        let shown = state_at(&model, coordinates(state), &state.angles);
+        let shown = state_at(&model, coordinates_in(assembly.boundary(), state), &state.angles);
         finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any)
     };
     let mut step = 0;
@@ -238,8 +238,9 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
                 finder = None;
             }
             model.set_angles(&hinge_angles(&model, &folded.angles));
-            model.start_from(coordinates(folded));
-            let state = along.map_or_else(|| state_at(&model, coordinates(folded), &folded.angles), relaxed_state);
+            let coordinates = coordinates_in(assembly.boundary(), folded);
+            model.start_from(coordinates.clone());
+            let state = along.map_or_else(|| state_at(&model, coordinates, &folded.angles), relaxed_state);
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
             let compared = along.filter(|_| spec.engine == Engine::Both);
@@ -256,7 +257,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
     answer.add(format!("{}.csv", context.name()), states::table_of_rows(context, &rows));
     states::add_rows(answer, context, pictures.iter().map(|(row, shown)| (*row, shown)), Some((shown.0, &shown.1)));
     add_paths(answer, context, paths, &rows);
-    answer.state = saved_state(&model, paths);
+    answer.state = saved_state(assembly, &model, paths);
 }
 
 /// Adds the trajectories in the space of lattice strains, as a picture and for later surface studies, which draw them.
@@ -285,12 +286,12 @@ pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
 }
 
 /// Returns the last state of the first trajectory.
-fn saved_state(model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
+fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
     let path = paths.first()?;
     let along = path.relaxed.and_then(|relaxed| relaxed.states.last());
     let (coordinates, angles) = match (along, path.traced.states.last()) {
         (Some(along), _) => (along.relaxed.state.coordinates.clone(), &along.angles),
-        (None, Some(folded)) => (coordinates(folded), &folded.angles),
+        (None, Some(folded)) => (coordinates_in(assembly.boundary(), folded), &folded.angles),
         (None, None) => return None,
     };
     Some(SavedState { coordinates, angles: hinge_angles(model, angles), tension: None })
