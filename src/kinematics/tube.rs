@@ -105,15 +105,22 @@ impl<'a> Tube<'a> {
     /// As [`defects`](Self::defects).
     pub(crate) fn rates(&self, angles: &[f64]) -> DenseMatrix {
         let mut rates = DenseMatrix::zeros(2, angles.len());
+        self.each_edge(angles, |edge, lattice| {
+            let (at, rate) = self.seam_of(lattice);
+            rates[(0, edge)] = at.turn.dot(&rate.turn) / at.turn.norm();
+            rates[(1, edge)] = (rate.turn.dot(&at.chord) + at.turn.dot(&rate.chord)) / (TAU * self.length);
+        });
+        rates
+    }
+
+    /// Calls `visit` with every edge and the lattice motions, with their rates if this edge alone folds at rate 1.
+    fn each_edge(&self, angles: &[f64], mut visit: impl FnMut(usize, &Option<[Moving; 2]>)) {
         let mut moving = self.still();
         for edge in 0..angles.len() {
             moving[edge] = 1.0;
-            let (at, rate) = self.seam_of(&Displacement::new(&self.embedding, angles, &moving).lattice);
+            visit(edge, &Displacement::new(&self.embedding, angles, &moving).lattice);
             moving[edge] = 0.0;
-            rates[(0, edge)] = at.turn.dot(&rate.turn) / at.turn.norm();
-            rates[(1, edge)] = (rate.turn.dot(&at.chord) + at.turn.dot(&rate.chord)) / (TAU * self.length);
         }
-        rates
     }
 
     /// Returns the closure Jacobian followed by a row for each condition in `kept`: its null vectors are the motions
@@ -234,8 +241,7 @@ impl<'a> Tube<'a> {
         let zero = SeamMotion { turn: Vec3::zeros(), chord: Vec3::zeros() };
         let moving = lattice.iter().flatten().zip(self.seam.lattice_vector());
         moving.fold((zero, zero), |(at, rate), (one, n)| {
-            let (n, turn, chord) = (f64::from(n), rotation::log(&one.motion.rotation), one.motion.translation);
-            let turning = rotation::inverse_left_jacobian(&turn) * one.twist.angular;
+            let (n, (turn, turning), chord) = (f64::from(n), turning(one), one.motion.translation);
             let at = SeamMotion { turn: at.turn + n * turn, chord: at.chord + n * chord };
             (at, SeamMotion { turn: rate.turn + n * turning, chord: rate.chord + n * one.twist.at(&chord) })
         })
@@ -243,19 +249,45 @@ impl<'a> Tube<'a> {
 }
 
 /// One of the conditions on a tube as an equation on its fold angles.
+///
+/// The turn of the seam is taken modulo `2 pi`, so that it is continuous where a lattice rotation passes `pi` and its rotation
+/// vector reverses.
 #[derive(Clone, Copy, Debug)]
 pub struct TubeCondition<'t, 'a> {
     tube: &'t Tube<'a>,
     kept: Condition,
 }
 
+impl TubeCondition<'_, '_> {
+    /// Returns the value of the equation, and its rate with that of the lattice motions.
+    fn value(&self, lattice: &Option<[Moving; 2]>) -> [f64; 2] {
+        let (seam, seam_rate) = self.tube.seam_of(lattice);
+        let length = TAU * self.tube.length;
+        let Condition::Turn = self.kept else {
+            let rate = seam_rate.turn.dot(&seam.chord) + seam.turn.dot(&seam_rate.chord);
+            return [seam.turn.dot(&seam.chord) / length, rate / length];
+        };
+        let turns = lattice.iter().flatten().map(turning);
+        let (larger, rate) = turns.max_by(|a, b| a.0.norm().total_cmp(&b.0.norm())).unwrap_or_default();
+        let axis = larger.normalize();
+        let axis_rate = (rate - axis * axis.dot(&rate)) / larger.norm();
+        let turn = axis.dot(&seam.turn);
+        [turn - TAU * (turn / TAU).round(), axis_rate.dot(&seam.turn) + axis.dot(&seam_rate.turn)]
+    }
+}
+
 impl AngleCondition for TubeCondition<'_, '_> {
     fn linearize(&self, angles: &[f64], rates: &mut [f64]) -> f64 {
-        let row = self.kept as usize;
-        let all = self.tube.rates(angles);
-        rates.iter_mut().zip(all.row(row).iter()).for_each(|(rate, found)| *rate = *found);
-        self.tube.defects(angles)[row]
+        let mut found = f64::NAN;
+        self.tube.each_edge(angles, |edge, lattice| [found, rates[edge]] = self.value(lattice));
+        found
     }
+}
+
+/// Returns the rotation vector of a lattice motion, and its rate.
+fn turning(moving: &Moving) -> (Vec3, Vec3) {
+    let turn = rotation::log(&moving.motion.rotation);
+    (turn, rotation::inverse_left_jacobian(&turn) * moving.twist.angular)
 }
 
 /// The curve of screw-periodic sheets that satisfy one condition; its indicator is the defect of the other one.
