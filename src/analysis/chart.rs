@@ -24,7 +24,10 @@ pub fn coordinates(state: &Folded) -> Vec<f64> {
 /// Coordinates of a state in the domain with these boundary conditions: those of a tube are about its axis.
 pub(crate) fn coordinates_in(boundary: Boundary, state: &Folded) -> Vec<f64> {
     match (boundary, &state.shape) {
-        (Boundary::Tube { seam, kept }, Some(shape)) => tube::coordinates(shape, &seam, kept),
+        (Boundary::Tube { seam, kept }, Some(shape)) => {
+            let axis = state.seam.map_or_else(Vec3::zeros, |place| place.axis);
+            tube::coordinates(shape, &axis, &seam, kept)
+        }
         _ => coordinates(state),
     }
 }

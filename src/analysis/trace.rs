@@ -9,10 +9,12 @@
 mod start;
 
 use super::branches::BranchesError;
+use super::tube::SeamPlace;
 use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, RealDirections, Shape};
 use crate::math::Vec3;
 use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
+use crate::sheet::Seam;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, CurveOptions, End, Event, Point, Trajectory, follow};
 use start::Start;
@@ -70,6 +72,8 @@ pub struct Folded {
     pub rates: Vec<f64>,
     /// The cylinder; `None` for a finite sheet.
     pub shape: Option<Shape>,
+    /// The seam of a tube; `None` for other sheets.
+    pub seam: Option<SeamPlace>,
     /// Vertices of the cell, vertex 0 and the first face at it as drawn.
     pub positions: Vec<Vec3>,
     /// Largest component of the closure residual.
@@ -152,7 +156,10 @@ struct TracedClosure<'a, 'b> {
     periodic: bool,
     /// Whether the first state is spatially periodic, without curvature.
     starts_straight: bool,
-    /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign.
+    /// The seam of a tube.
+    seam: Option<Seam>,
+    /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign, and seams their
+    /// direction.
     known: Vec<Known>,
     stop: Stop,
     intersects: Option<Intersects<'b>>,
@@ -160,11 +167,12 @@ struct TracedClosure<'a, 'b> {
     crosses: bool,
 }
 
-/// A state from which the sign of the curvature is carried on.
+/// A state from which the sign of the curvature and the direction of the seam are carried on.
 struct Known {
     arc_length: f64,
     angles: Vec<f64>,
     shape: Shape,
+    seam: Option<SeamPlace>,
 }
 
 impl TracedClosure<'_, '_> {
@@ -180,10 +188,9 @@ impl TracedClosure<'_, '_> {
         let placement = self.embedding.place(&angles);
         let positions = placement.positions.clone();
         let mut shape = Shape::of(self.embedding, placement).ok();
-        if let Some(shape) = shape.as_mut().filter(|shape| shape.turns()) {
-            self.carry_sign(point.arc_length, &angles, shape);
-        }
-        Folded { arc_length: point.arc_length, angles, rates, shape, positions, residual: point.residual }
+        let turning = shape.as_mut().filter(|shape| shape.turns());
+        let seam = turning.and_then(|shape| self.carry_on(point.arc_length, &angles, shape));
+        Folded { arc_length: point.arc_length, angles, rates, shape, seam, positions, residual: point.residual }
     }
 
     /// The states at these points; fewer where `go_on` says to stop.
@@ -198,22 +205,26 @@ impl TracedClosure<'_, '_> {
         states
     }
 
-    /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known.
-    fn carry_sign(&mut self, arc_length: f64, angles: &[f64], shape: &mut Shape) {
+    /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known. Returns the seam of
+    /// a tube.
+    fn carry_on(&mut self, arc_length: f64, angles: &[f64], shape: &mut Shape) -> Option<SeamPlace> {
         let after = self.known.partition_point(|known| known.arc_length < arc_length);
         let beside = [after.checked_sub(1), (after < self.known.len()).then_some(after)];
         let away = |k: &usize| (self.known[*k].arc_length - arc_length).abs();
         let nearest = beside.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)));
-        if let Some(k) = nearest {
-            let last = &self.known[k];
+        let last = nearest.map(|k| &self.known[k]);
+        let place = |seam: Seam| SeamPlace::new(shape, &seam, last.and_then(|last| last.seam.as_ref()));
+        let seam = self.seam.and_then(place);
+        if let Some(last) = last {
             shape.continue_over(self.embedding, &last.shape, [&last.angles, angles]);
             if last.arc_length == arc_length {
-                return;
+                return seam;
             }
         }
         if shape.curvature.is_finite() {
-            self.known.insert(after, Known { arc_length, angles: angles.to_vec(), shape: shape.clone() });
+            self.known.insert(after, Known { arc_length, angles: angles.to_vec(), shape: shape.clone(), seam });
         }
+        seam
     }
 
     /// Rates of curvature and strains; NaN where nothing turns.
@@ -285,6 +296,7 @@ pub fn trace(
         embedding: &embedding,
         periodic: assembly.boundary().is_one_cell(),
         starts_straight: condition.is_none(),
+        seam: found.tube.as_ref().map(|(tube, _)| tube.seam()),
         known: Vec::new(),
         stop: options.stop,
         intersects,

@@ -87,6 +87,11 @@ impl<'a> Tube<'a> {
         Ok(Self { sheet, closure, embedding, seam: number, length })
     }
 
+    /// Returns the seam.
+    pub(crate) fn seam(&self) -> Seam {
+        self.seam
+    }
+
     /// Returns the errors of the two conditions at fold angles, given with one number per edge in radians: `|W| - 2 pi`
     /// in radians and `W . l / (2 pi L)`, which is the rise of the seam relative to its drawn length if it turns by
     /// `2 pi`.

@@ -5,11 +5,13 @@ use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
 use super::{branches, energies, ratios, relax};
-use crate::analysis::along::{AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors, relax_along};
+use crate::analysis::along::{
+    AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors, relax_along, relaxed_cylinder,
+};
 use crate::analysis::chart::{coordinates_in, hinge_angles};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::relax::Relaxed;
-use crate::analysis::state::{State, cylinder};
+use crate::analysis::state::State;
 use crate::analysis::trace::{Folded, Intersects, Stop, TURNING, TraceError, TraceOptions, Traced, trace};
 use crate::kinematics::RealDirections;
 use crate::math::Vec3;
@@ -311,7 +313,7 @@ fn row(
 ) -> StateRow {
     let shape = match along {
         None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
-        Some(_) => cylinder(assembly.drawn(), &state.coordinates)
+        Some(along) => relaxed_cylinder(assembly.drawn(), folded, along)
             .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
     };
     let branch = path.traced.branch;
@@ -331,6 +333,8 @@ fn row(
         self_intersecting,
         error_to_kinematic: None,
         ratios: None,
+        seam: matches!(assembly.boundary(), Boundary::Tube { .. })
+            .then(|| [folded.seam.map(|seam| seam.turn), folded.seam.map(|seam| seam.rise)]),
         fold: state.fold_angle.clone(),
     }
 }
