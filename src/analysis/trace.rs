@@ -146,7 +146,9 @@ fn motions_of_tube(motions: usize, closed: bool) -> String {
         return format!("the closed tube has {motions} linear motion(s) along its creases: {what}; lock creases");
     }
     let extra = motions.saturating_sub(1);
-    format!("the tube has {motions} motions that keep its closing condition, and one can be followed: lock {extra} crease(s)")
+    format!(
+        "the tube has {motions} motions that keep its closing condition, and one can be followed: lock {extra} crease(s)"
+    )
 }
 
 /// The closure of a sheet as a curve, with what is watched along it.

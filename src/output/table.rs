@@ -103,7 +103,8 @@ impl Table {
         let columns = StateRow::PLACE.into_iter().chain(Solution::COLUMNS).chain(["self_intersecting"]);
         let ratios = states.iter().any(|state| state.ratios.is_some()).then_some(RATIOS).into_iter().flatten();
         let seam = states.iter().any(|state| state.seam.is_some()).then_some(SEAM).into_iter().flatten();
-        let columns = columns.chain(compared.then_some("error_to_kinematic")).chain(ratios).chain(seam).chain(["state"]);
+        let columns =
+            columns.chain(compared.then_some("error_to_kinematic")).chain(ratios).chain(seam).chain(["state"]);
         let table = Self::with_edges(columns, "fold", edges.iter());
         Self { rows: states.iter().enumerate().map(|(row, state)| state.values(row, compared)).collect(), ..table }
     }
