@@ -140,7 +140,8 @@ impl Builder {
         self
     }
 
-    /// Locks a crease of the cell, in all its copies, at a fold angle in radians; `None` locks it at the drawn angle.
+    /// Locks a crease of the cell, in all its copies, at a fold angle in radians; `None` locks it at the drawn angle,
+    /// or that of the closed tube.
     #[must_use]
     pub fn lock(mut self, crease: EdgeKey, angle: Option<f64>) -> Self {
         self.given.locks.push((crease, angle));

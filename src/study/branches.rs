@@ -28,8 +28,9 @@ pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     match assembly.terms().locks.iter().find(moved) {
         None => Ok(()),
         Some((edge, angle)) => {
-            let message = format!("a lock holds a crease at {angle} that is drawn at {}", angles[*edge]);
-            let help = "branches leave the drawn state: leave out the angle of the lock";
+            let message = format!("a lock holds a crease at {angle} that starts at {}", angles[*edge]);
+            let help =
+                "rigid folding leaves the drawn state, of a tube the closed one: leave out the angle of the lock";
             Err(context.refuse(message, help).into())
         }
     }

@@ -37,13 +37,18 @@ const OBSERVED: usize = 64;
 const PICTURES: usize = 40;
 const STATES_ON_PAGE: usize = 200;
 
-/// Checks that trajectories can start from the drawn state: that of one cell, or of a finite sheet.
+/// Checks that trajectories can start from the drawn state: that of one cell, or of a finite sheet; or from a tube.
 pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
     branches::check(context)?;
     let assembly = context.assembly;
     if assembly.boundary() == Boundary::Patch && assembly.sheet().lattice.is_some() {
         let message = "trajectories of a patch of a periodic sheet are not known";
         return Err(context.refuse(message, "use domain = \"screw\", or a mesh without lattice").into());
+    }
+    if assembly.sheet().screws.is_some() {
+        let message = "trajectories of a cell that its mesh draws rolled up are not known";
+        let help = "take a mesh with lattice vectors, which `domain = \"tube\"` rolls up";
+        return Err(context.refuse(message, help).into());
     }
     if spec.engine != Engine::Kinematic && assembly.terms().bars.is_none() {
         let message = "the energy engine relaxes bars, and this scene has none";
