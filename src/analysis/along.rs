@@ -10,7 +10,7 @@
 
 use super::chart::{self, hinge_angles};
 use super::relax::{Relaxed, relax_from};
-use super::state::cylinder;
+use super::state::{Cylinder, cylinder};
 use super::trace::{Folded, Traced};
 use crate::model::{Assembly, Domain, Drawn, Gauge};
 use crate::numerics::{larger, worst};
@@ -94,8 +94,7 @@ pub struct CylinderErrors {
 pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, relaxed: &RelaxedTrajectory) -> Option<CylinderErrors> {
     let mut most = CylinderErrors::default();
     for (rigid, state) in traced.states.iter().skip(1).zip(&relaxed.states) {
-        let (shape, found) = (rigid.shape.as_ref()?, &state.relaxed.state.coordinates);
-        let found = cylinder(drawn, found)?;
+        let (shape, found) = (rigid.shape.as_ref()?, relaxed_cylinder(drawn, rigid, state)?);
         let strain = found.strain.iter().zip(&shape.strain).map(|(a, b)| (a - b).abs());
         let theta = [1.0, -1.0].map(|way| {
             let off = found.theta.iter().zip(&shape.theta).map(|(a, b)| a - way * b);
@@ -106,6 +105,18 @@ pub fn cylinder_errors(drawn: &Drawn, traced: &Traced, relaxed: &RelaxedTrajecto
         most.theta = larger(most.theta, theta[0].min(theta[1]));
     }
     (!relaxed.states.is_empty()).then_some(most)
+}
+
+/// Returns the cylinder of a relaxed state beside a rigid one; `None` for a finite sheet. The coordinates of a tube do not tell
+/// the sign of its curvature where lattice rotations have passed a half turn: there it is that of the rigid state.
+pub(crate) fn relaxed_cylinder(drawn: &Drawn, rigid: &Folded, relaxed: &StateAlong) -> Option<Cylinder> {
+    let found = cylinder(drawn, &relaxed.relaxed.state.coordinates)?;
+    match (&drawn.domain, &rigid.shape) {
+        (Domain::Tube { .. }, Some(shape)) => {
+            Some(Cylinder { curvature: found.curvature.abs().copysign(shape.curvature), ..found })
+        }
+        _ => Some(found),
+    }
 }
 
 /// Relaxes beside every state of a trajectory. `observe` sees every accepted step and returns false to stop.
@@ -171,6 +182,7 @@ fn between(from: &Folded, to: &Folded) -> Folded {
         angles: ends().map(|((a, b), (u, v))| 0.5 * (a + b) + 0.125 * length * (u - v)).collect(),
         rates: ends().map(|((a, b), (u, v))| 1.5 * (b - a) / length - 0.25 * (u + v)).collect(),
         shape: None,
+        seam: None,
         positions: Vec::new(),
         residual: f64::NAN,
     }
@@ -221,7 +233,8 @@ impl Track<'_> {
         terms.locks.push((crease, state.angles[crease]));
         let mut model = self.assembly.with_terms(terms).model(Gauge::Held);
         model.set_angles(&hinge_angles(&model, &self.angles));
-        let last = self.known.last().map_or_else(|| chart::coordinates(state), |(_, at)| at.clone());
+        let last = self.known.last().map(|(_, at)| at.clone());
+        let last = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.boundary(), state));
         let here = model.start_from(last);
         let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
         let relaxed = relax_from(&mut model, ahead, self.options, observe)

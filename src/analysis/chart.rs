@@ -5,9 +5,10 @@
 //! curvature, and the lattice across and along the axis.
 
 use super::trace::Folded;
+use super::tube;
 use crate::kinematics::Shape;
 use crate::math::Vec3;
-use crate::model::Model;
+use crate::model::{Boundary, Model};
 
 /// Below this rotation angle `b` comes from the chord, above it from the angle; both are exact there.
 const SMALL_TURN: f64 = 1.0;
@@ -17,6 +18,17 @@ pub fn coordinates(state: &Folded) -> Vec<f64> {
     match &state.shape {
         Some(shape) => screw_coordinates(shape),
         None => state.positions.iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
+    }
+}
+
+/// Coordinates of a state in the domain with these boundary conditions: those of a tube are about its axis.
+pub(crate) fn coordinates_in(boundary: Boundary, state: &Folded) -> Vec<f64> {
+    match (boundary, &state.shape) {
+        (Boundary::Tube { seam, kept }, Some(shape)) => {
+            let axis = state.seam.map_or_else(Vec3::zeros, |place| place.axis);
+            tube::coordinates(shape, &axis, &seam, kept)
+        }
+        _ => coordinates(state),
     }
 }
 

@@ -3,14 +3,23 @@
 //! The curve is the closure of the fold angles of one cell (or of a finite sheet) with the locked creases left out, and
 //! [`crate::solver::continuation`] follows it. Arc length is that of the fold angles. Turning points of the curvature
 //! and of the three strains are the zeros of their rates.
+//!
+//! A tube starts closed, and its closing condition is one equation more: [`start`] has its rays.
 
-use super::branches::{BranchesError, branches};
-use crate::kinematics::{Closing, Closure, Displacement, Embedding, KinematicsError, Ray, Rays, RealDirections, Shape};
+mod start;
+
+use super::branches::BranchesError;
+use super::tube::SeamPlace;
+use crate::kinematics::{
+    Closing, Closure, Displacement, Embedding, KinematicsError, Ray, RealDirections, Shape, SpatiallyPeriodic,
+};
 use crate::math::Vec3;
-use crate::model::{Assembly, Boundary};
+use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
+use crate::sheet::Seam;
 use crate::solver::Implicit;
 use crate::solver::continuation::{Curve, CurveOptions, End, Event, Point, Trajectory, follow};
+use start::Start;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
@@ -67,6 +76,8 @@ pub struct Folded {
     pub rates: Vec<f64>,
     /// The cylinder; `None` for a finite sheet.
     pub shape: Option<Shape>,
+    /// The seam of a tube; `None` for other sheets.
+    pub seam: Option<SeamPlace>,
     /// Vertices of the cell, vertex 0 and the first face at it as drawn.
     pub positions: Vec<Vec3>,
     /// Largest component of the closure residual.
@@ -84,7 +95,7 @@ pub struct Traced {
     pub directions: RealDirections,
     /// The ray along which it comes back.
     pub ends_at: Option<(usize, i8)>,
-    /// Its states, the drawn one first.
+    /// Its states, the drawn one or the closed tube first.
     pub states: Vec<Folded>,
     /// Turning points: which quantity of [`TURNING`], and where.
     pub turning_points: Vec<(usize, Folded)>,
@@ -117,11 +128,31 @@ pub enum TraceError {
     )]
     Continuum,
     /// Where faces pass through each other from the beginning, nothing can end where they first do.
-    #[error("faces of the drawn state pass through each other already: leave out the stop at self-intersection")]
+    #[error("faces of the first state pass through each other already: leave out the stop at self-intersection")]
     CrossesAlready,
+    /// A tube has several motions, or one although both closing conditions are kept.
+    #[error("{}", motions_of_tube(*.motions, *.closed))]
+    MotionsOfTube {
+        /// Number of its linear motions, without rigid ones.
+        motions: usize,
+        /// Whether both closing conditions are kept.
+        closed: bool,
+    },
     /// No ray was found, and none was excluded.
     #[error("no direction of folding was found, but none was excluded either: lock a crease")]
     NotEstablished,
+}
+
+/// Returns the message about a tube that has more motions than can be followed.
+fn motions_of_tube(motions: usize, closed: bool) -> String {
+    if closed {
+        let what = "a generic closed tube has none, and whether this one moves is not established";
+        return format!("the closed tube has {motions} linear motion(s) along its creases: {what}; lock creases");
+    }
+    let extra = motions.saturating_sub(1);
+    format!(
+        "the tube has {motions} motions that keep its closing condition, and one can be followed: lock {extra} crease(s)"
+    )
 }
 
 /// The closure of a sheet as a curve, with what is watched along it.
@@ -129,23 +160,29 @@ struct TracedClosure<'a, 'b> {
     closing: Closing<'a>,
     embedding: &'a Embedding,
     periodic: bool,
-    /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign.
+    /// Whether the first state is spatially periodic, without curvature.
+    starts_straight: bool,
+    /// The seam of a tube.
+    seam: Option<Seam>,
+    /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign, and seams their
+    /// direction.
     known: Vec<Known>,
     stop: Stop,
     intersects: Option<Intersects<'b>>,
-    /// Whether faces of the drawn state pass through each other; false also where that is not asked.
+    /// Whether faces of the first state pass through each other; false also where that is not asked.
     crosses: bool,
 }
 
-/// A state from which the sign of the curvature is carried on.
+/// A state from which the sign of the curvature and the direction of the seam are carried on.
 struct Known {
     arc_length: f64,
     angles: Vec<f64>,
     shape: Shape,
+    seam: Option<SeamPlace>,
 }
 
 impl TracedClosure<'_, '_> {
-    /// Asks whether faces of the drawn state pass through each other.
+    /// Asks whether faces of the first state pass through each other.
     fn look_at_start(&mut self, x: Vec<f64>) {
         let start = Point { arc_length: 0.0, tangent: vec![0.0; x.len()], x, residual: 0.0, corrections: 0 };
         let state = self.folded(&start);
@@ -157,10 +194,9 @@ impl TracedClosure<'_, '_> {
         let placement = self.embedding.place(&angles);
         let positions = placement.positions.clone();
         let mut shape = Shape::of(self.embedding, placement).ok();
-        if let Some(shape) = shape.as_mut().filter(|shape| shape.turns()) {
-            self.carry_sign(point.arc_length, &angles, shape);
-        }
-        Folded { arc_length: point.arc_length, angles, rates, shape, positions, residual: point.residual }
+        let turning = shape.as_mut().filter(|shape| shape.turns());
+        let seam = turning.and_then(|shape| self.carry_on(point.arc_length, &angles, shape));
+        Folded { arc_length: point.arc_length, angles, rates, shape, seam, positions, residual: point.residual }
     }
 
     /// The states at these points; fewer where `go_on` says to stop.
@@ -175,22 +211,26 @@ impl TracedClosure<'_, '_> {
         states
     }
 
-    /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known.
-    fn carry_sign(&mut self, arc_length: f64, angles: &[f64], shape: &mut Shape) {
+    /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known. Returns the seam of
+    /// a tube.
+    fn carry_on(&mut self, arc_length: f64, angles: &[f64], shape: &mut Shape) -> Option<SeamPlace> {
         let after = self.known.partition_point(|known| known.arc_length < arc_length);
         let beside = [after.checked_sub(1), (after < self.known.len()).then_some(after)];
         let away = |k: &usize| (self.known[*k].arc_length - arc_length).abs();
         let nearest = beside.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)));
-        if let Some(k) = nearest {
-            let last = &self.known[k];
+        let last = nearest.map(|k| &self.known[k]);
+        let place = |seam: Seam| SeamPlace::new(shape, &seam, last.and_then(|last| last.seam.as_ref()));
+        let seam = self.seam.and_then(place);
+        if let Some(last) = last {
             shape.continue_over(self.embedding, &last.shape, [&last.angles, angles]);
             if last.arc_length == arc_length {
-                return;
+                return seam;
             }
         }
         if shape.curvature.is_finite() {
-            self.known.insert(after, Known { arc_length, angles: angles.to_vec(), shape: shape.clone() });
+            self.known.insert(after, Known { arc_length, angles: angles.to_vec(), shape: shape.clone(), seam });
         }
+        seam
     }
 
     /// Rates of curvature and strains; NaN where nothing turns.
@@ -223,8 +263,9 @@ impl Curve for TracedClosure<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
         let state = self.folded(point);
         let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());
-        // the drawn state is straight: what it has of curvature there is rounding
-        let curvature = if point.arc_length == 0.0 && curvature.is_finite() { 0.0 } else { curvature };
+        // what a straight state has of curvature is rounding
+        let straight = self.starts_straight && point.arc_length == 0.0 && curvature.is_finite();
+        let curvature = if straight { 0.0 } else { curvature };
         out.extend(if self.periodic { self.rates(&state) } else { [f64::NAN; 4] });
         out.push(self.stop.curvature.map_or(f64::NAN, |most| curvature - most));
         out.push(self.stop.crease_angle.map_or(f64::NAN, |(edge, angle)| state.angles[edge] - angle));
@@ -233,8 +274,11 @@ impl Curve for TracedClosure<'_, '_> {
     }
 }
 
-/// Follows every ray that the options ask for; none where it is established that no direction is real. `observe` sees branch, sign and every state's
-/// arc length, and returns false to stop.
+/// Follows every ray that the options ask for; none where it is established that no direction is real, or that a tube is
+/// rigid. `observe` sees branch, sign and every state's arc length, and returns false to stop.
+///
+/// The rays of a tube are those of branch 0: with sign 1 the quantity grows whose closing condition is not kept, the rise of
+/// the seam or its turn.
 ///
 /// # Errors
 /// [`TraceError`] where the rays cannot be found, or the branch that the options ask for is not there.
@@ -244,33 +288,40 @@ pub fn trace(
     intersects: Option<Intersects<'_>>,
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Result<Vec<Traced>, TraceError> {
-    let found = branches(assembly)?;
-    let rays = &found.rays.rays;
-    match found.rays.directions {
-        RealDirections::Continuum if rays.is_empty() => return Err(TraceError::Continuum),
-        RealDirections::NotEstablished if rays.is_empty() => return Err(TraceError::NotEstablished),
-        _ => {}
-    }
-    let count = rays.iter().map(|ray| ray.branch + 1).max().unwrap_or(0);
+    let found = start::start(assembly)?;
+    let count = found.rays.iter().map(|ray| ray.branch + 1).max().unwrap_or(0);
     if let Some(branch) = options.branch.filter(|&branch| branch >= count && count > 0) {
         return Err(TraceError::NoSuchBranch { branch, count });
     }
     let closure = Closure::of_cell(assembly.sheet())?.with_locked(&assembly.locked_edges());
     let embedding = Embedding::new(assembly.sheet())?;
-    let periodic = assembly.boundary() == Boundary::Screw;
-    let closing = Closing::new(&closure, assembly.drawn_angles_or_zero());
-    let closing = if found.planar { closing.spatially_periodic(&embedding) } else { closing };
-    let (known, stop) = (Vec::new(), options.stop);
-    let crosses = false;
-    let mut folding = TracedClosure { closing, embedding: &embedding, periodic, known, stop, intersects, crosses };
-    folding.look_at_start(folding.closing.folding(assembly.drawn_angles()));
-    if folding.crosses && stop.self_intersection {
+    let condition = found.tube.as_ref().map(|(tube, kept)| tube.keeping(*kept));
+    let closing = Closing::new(&closure, found.angles.clone());
+    let planar = SpatiallyPeriodic(&embedding);
+    let closing = match &condition {
+        Some(condition) => closing.keeping(condition),
+        None if found.planar => closing.keeping(&planar),
+        None => closing,
+    };
+    let mut folding = TracedClosure {
+        closing,
+        embedding: &embedding,
+        periodic: assembly.boundary().is_one_cell(),
+        starts_straight: condition.is_none(),
+        seam: found.tube.as_ref().map(|(tube, _)| tube.seam()),
+        known: Vec::new(),
+        stop: options.stop,
+        intersects,
+        crosses: false,
+    };
+    folding.look_at_start(folding.closing.folding(&found.angles));
+    if folding.crosses && options.stop.self_intersection {
         return Err(TraceError::CrossesAlready);
     }
-    let wanted = rays.iter().filter(|ray| options.branch.is_none_or(|branch| branch == ray.branch));
+    let wanted = found.rays.iter().filter(|ray| options.branch.is_none_or(|branch| branch == ray.branch));
     let mut traced = Vec::new();
     for ray in wanted {
-        let one = along(&mut folding, (assembly, options), (ray, &found.rays), observe);
+        let one = along(&mut folding, options, (ray, &found), observe);
         let interrupted = one.end == End::Interrupted;
         traced.push(one);
         if interrupted {
@@ -283,12 +334,12 @@ pub fn trace(
 /// The trajectory along one ray.
 fn along(
     folding: &mut TracedClosure<'_, '_>,
-    (assembly, options): (&Assembly, &TraceOptions),
-    (ray, all): (&Ray, &Rays),
+    options: &TraceOptions,
+    (ray, all): (&Ray, &Start<'_>),
     observe: &mut dyn FnMut((usize, i8), &Point) -> bool,
 ) -> Traced {
     let (branch, rays) = ((ray.branch, ray.sign), &all.rays);
-    let start = folding.closing.folding(assembly.drawn_angles());
+    let start = folding.closing.folding(&all.angles);
     let directions: Vec<Vec<f64>> = rays.iter().map(|ray| folding.closing.folding(&ray.direction)).collect();
     let leaving = folding.closing.folding(&ray.direction);
     let mut stops = vec![CURVATURE, CREASE_ANGLE];

@@ -5,6 +5,7 @@ use crate::math::Vec3;
 use crate::model::Roll;
 use crate::sheet::{Seam, SeamKept, Sheet};
 use nalgebra::Matrix3;
+use std::f64::consts::TAU;
 
 /// Rolls a periodic sheet up to a tube in which cell `seam` coincides with cell (0, 0), towards its face normals (`inwards`) or
 /// away from them. Every edge folds, diagonals of polygons included.
@@ -29,18 +30,55 @@ pub fn rolled_up(sheet: &Sheet, seam: [i32; 2], kept: SeamKept, inwards: bool) -
     let number = Seam::new(seam).ok_or(KinematicsError::NoSeam)?;
     let angles = Tube::new(sheet, seam)?.rolled_up(inwards)?;
     let shape = Shape::at(&Embedding::new(sheet)?, &angles)?;
-    let coordinates = coordinates(&shape, &number, kept);
+    let axis = SeamPlace::new(&shape, &number, None).map_or_else(Vec3::zeros, |place| place.axis);
+    let coordinates = coordinates(&shape, &axis, &number, kept);
     let hinge = |edge: usize| sheet.drawn_angle(&sheet.edges[edge]).map_or(f64::NAN, |_| angles[edge]);
     let angles = (0..sheet.edges.len()).map(hinge).collect();
     Ok(Roll { seam: number, kept, coordinates, angles, frame: Matrix3::identity(), origin: Vec3::zeros() })
 }
 
-/// Returns the coordinates of a shape about its axis, which is z and directed so that the seam turns by a positive angle; vertex
-/// 0 is at height 0 in the half-plane `y = 0`, `x > 0`.
-fn coordinates(shape: &Shape, seam: &Seam, kept: SeamKept) -> Vec<f64> {
+/// The seam of a tube on a trajectory, along which all this is continuous.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeamPlace {
+    /// Turn of the seam in radians, `n1 theta1 + n2 theta2`.
+    pub turn: f64,
+    /// Translation along the axis from the beginning of the seam to its end, `n1 h1 + n2 h2`.
+    pub rise: f64,
+    /// Direction of the axis in the frame of the embedding; the seam of the first state turns by a positive angle about it.
+    pub axis: Vec3,
+    /// Rotation angles about it of the two lattice motions in radians, continued through pi.
+    theta: [f64; 2],
+}
+
+impl SeamPlace {
+    /// Returns the seam of a shape, continued from that of a shape near by; `None` for one without rotation as the first.
+    pub(super) fn new(shape: &Shape, seam: &Seam, last: Option<&Self>) -> Option<Self> {
+        let (screw, cell) = (&shape.screw, seam.lattice_vector());
+        let positive = sum(cell, screw.theta) >= 0.0;
+        let along = screw.axis.or(last.map(|last| last.axis))?;
+        let same = last.map_or(positive, |last| last.axis.dot(&along) >= 0.0);
+        let sign = if same { 1.0 } else { -1.0 };
+        let mut theta = screw.theta.map(|angle| sign * angle);
+        if let Some(last) = last {
+            let near = |(angle, last): (&mut f64, f64)| *angle += TAU * ((last - *angle) / TAU).round();
+            theta.iter_mut().zip(last.theta).for_each(near);
+        }
+        let axis = sign * along;
+        let rise = sum(cell, screw.chords.map(|chord| axis.dot(&chord)));
+        Some(Self { turn: sum(cell, theta), rise, axis, theta })
+    }
+}
+
+/// Returns `n1 a1 + n2 a2`.
+fn sum([n1, n2]: [i32; 2], each: [f64; 2]) -> f64 {
+    f64::from(n1) * each[0] + f64::from(n2) * each[1]
+}
+
+/// Returns the coordinates of a shape about its axis, which is z and has the direction of `axis`, about which the seam turns by
+/// a positive angle up to whole turns; vertex 0 is at height 0 in the half-plane `y = 0`, `x > 0`.
+pub(super) fn coordinates(shape: &Shape, axis: &Vec3, seam: &Seam, kept: SeamKept) -> Vec<f64> {
     let screw = &shape.screw;
-    let along = |[n1, n2]: [i32; 2], each: [f64; 2]| f64::from(n1) * each[0] + f64::from(n2) * each[1];
-    let sign = if along(seam.lattice_vector(), screw.theta) < 0.0 { -1.0 } else { 1.0 };
+    let sign = if screw.axis.is_some_and(|own| own.dot(axis) < 0.0) { -1.0 } else { 1.0 };
     let (turns, rises) = (screw.theta.map(|turn| sign * turn), screw.rise().map(|rise| sign * rise));
     let towards = screw.towards_axis();
     let (x, z) = (-towards.normalize(), screw.axis.unwrap_or_else(Vec3::zeros) * sign);
@@ -49,12 +87,12 @@ fn coordinates(shape: &Shape, seam: &Seam, kept: SeamKept) -> Vec<f64> {
     let mut found: Vec<f64> =
         shape.positions.iter().flat_map(|p| <[f64; 3]>::from(frame.apply(&(p - shape.positions[0])))).collect();
     let [strand, row] = seam.basis();
-    found.extend([along(row, turns), along(row, rises)]);
+    found.extend([sum(row, turns), sum(row, rises)]);
     if !kept.rise {
-        found.push(along(strand, rises));
+        found.push(sum(strand, rises));
     }
     if !kept.turn {
-        found.push(along(strand, turns));
+        found.push(sum(strand, turns));
     }
     found
 }

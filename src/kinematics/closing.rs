@@ -5,29 +5,65 @@ use crate::math::rotation;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::continuation::Curve;
-use nalgebra::DMatrixViewMut;
+
+/// Further equations on fold angles, such as one of the conditions on a [tube](super::tube).
+pub trait AngleConditions {
+    /// Number of the equations.
+    fn count(&self) -> usize;
+    /// Writes the values that vanish where the conditions hold, at the fold angles of all edges in radians, and their derivatives with
+    /// respect to all of them: a row for each condition.
+    fn linearize(&self, angles: &[f64], values: &mut [f64], rates: &mut DenseMatrix);
+}
+
+/// The conditions that the rotations of both lattice motions vanish: what closes is then spatially periodic. Where these states are a
+/// curve, closure alone has three null vectors on it, and these conditions leave the one along the curve.
+pub(crate) struct SpatiallyPeriodic<'a>(pub &'a Embedding);
+
+impl AngleConditions for SpatiallyPeriodic<'_> {
+    fn count(&self) -> usize {
+        6
+    }
+
+    /// The derivatives are right to first order in the rotation vectors.
+    fn linearize(&self, angles: &[f64], values: &mut [f64], rates: &mut DenseMatrix) {
+        let mut moving = vec![0.0; angles.len()];
+        for edge in 0..angles.len() {
+            moving[edge] = 1.0;
+            let lattice = Displacement::new(self.0, angles, &moving).lattice;
+            moving[edge] = 0.0;
+            for (k, one) in lattice.iter().flatten().enumerate() {
+                values[3 * k..3 * k + 3].copy_from_slice(rotation::log(&one.motion.rotation).as_slice());
+                rates.view_mut((3 * k, edge), (3, 1)).copy_from(&one.twist.angular);
+            }
+        }
+    }
+}
 
 /// The equations `residual(angles) = 0`. The unknowns are the angles of the folding edges; all other angles are fixed.
 pub struct Closing<'a> {
     closure: &'a Closure,
     angles: Vec<f64>,
-    /// Where lattice rotations have to vanish, what places the cell.
-    periodic: Option<&'a Embedding>,
+    kept: Option<Kept<'a>>,
 }
 
-/// Components of the rotation vectors of both lattice motions.
-const LATTICE_ROTATIONS: usize = 6;
+/// The conditions that are kept beside closure, and storage for the two Jacobians.
+struct Kept<'a> {
+    conditions: &'a dyn AngleConditions,
+    closure: DenseMatrix,
+    rates: DenseMatrix,
+}
 
 impl<'a> Closing<'a> {
     /// Makes the equations; `angles` holds the fold angle of every edge in radians, also those that stay fixed.
     pub fn new(closure: &'a Closure, angles: Vec<f64>) -> Self {
-        Self { closure, angles, periodic: None }
+        Self { closure, angles, kept: None }
     }
 
-    /// Adds the conditions that the rotations of both lattice motions vanish: what is left are spatially periodic states. Where these are
-    /// a curve, closure alone has three null vectors on it, and these conditions leave the one along the curve.
-    pub(crate) fn spatially_periodic(self, embedding: &'a Embedding) -> Self {
-        Self { periodic: Some(embedding), ..self }
+    /// Returns the equations followed by those of conditions.
+    pub fn keeping(self, conditions: &'a dyn AngleConditions) -> Self {
+        let closure = DenseMatrix::zeros(3 * self.closure.vertices().len(), self.closure.folding_edges().len());
+        let kept = Some(Kept { conditions, closure, rates: DenseMatrix::zeros(conditions.count(), self.angles.len()) });
+        Self { kept, ..self }
     }
 
     /// Extracts the entries of the folding edges from a list with one number for every edge.
@@ -58,35 +94,19 @@ impl Implicit for Closing<'_> {
     }
 
     fn equations(&self) -> usize {
-        3 * self.closure.vertices().len() + self.periodic.map_or(0, |_| LATTICE_ROTATIONS)
+        3 * self.closure.vertices().len() + self.kept.as_ref().map_or(0, |kept| kept.conditions.count())
     }
 
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.closure.folding_edges().iter().zip(x).for_each(|(&edge, &angle)| self.angles[edge] = angle);
-        let Some(embedding) = self.periodic else {
-            return self.closure.linearize_into(&self.angles, residual, jacobian);
-        };
-        let rows = residual.len() - LATTICE_ROTATIONS;
-        let mut of_closure = DenseMatrix::zeros(rows, x.len());
-        self.closure.linearize_into(&self.angles, &mut residual[..rows], &mut of_closure);
-        jacobian.rows_mut(0, rows).copy_from(&of_closure);
-        self.lattice_rotations(embedding, &mut residual[rows..], &mut jacobian.rows_mut(rows, LATTICE_ROTATIONS));
-    }
-}
-
-impl Closing<'_> {
-    /// The rotation vectors of both lattice motions and their rates, right to first order in those vectors.
-    fn lattice_rotations(&self, embedding: &Embedding, vectors: &mut [f64], rates: &mut DMatrixViewMut<'_, f64>) {
-        let mut moving = vec![0.0; self.angles.len()];
-        for (column, &edge) in self.closure.folding_edges().iter().enumerate() {
-            moving[edge] = 1.0;
-            let lattice = Displacement::new(embedding, &self.angles, &moving).lattice;
-            moving[edge] = 0.0;
-            for (k, one) in lattice.iter().flatten().enumerate() {
-                vectors[3 * k..3 * k + 3].copy_from_slice(rotation::log(&one.motion.rotation).as_slice());
-                rates.view_mut((3 * k, column), (3, 1)).copy_from(&one.twist.angular);
-            }
-        }
+        let folding = self.closure.folding_edges();
+        folding.iter().zip(x).for_each(|(&edge, &angle)| self.angles[edge] = angle);
+        let Some(kept) = &mut self.kept else { return self.closure.linearize_into(&self.angles, residual, jacobian) };
+        let row = kept.closure.nrows();
+        self.closure.linearize_into(&self.angles, &mut residual[..row], &mut kept.closure);
+        jacobian.rows_mut(0, row).copy_from(&kept.closure);
+        kept.conditions.linearize(&self.angles, &mut residual[row..], &mut kept.rates);
+        let mut rates = jacobian.rows_mut(row, kept.rates.nrows());
+        folding.iter().enumerate().for_each(|(column, &edge)| rates.set_column(column, &kept.rates.column(edge)));
     }
 }
 

@@ -20,7 +20,8 @@ mod test_sheets;
 pub mod tube;
 mod walk;
 
-pub use closing::Closing;
+pub(crate) use closing::SpatiallyPeriodic;
+pub use closing::{AngleConditions, Closing};
 pub use closure::Closure;
 pub use closure::drawn_fold_angles;
 pub use displacement::Displacement;

@@ -18,7 +18,7 @@
 mod cut;
 
 use super::motion::Moving;
-use super::{Closure, Displacement, Embedding, KinematicsError, folding_modes};
+use super::{AngleConditions, Closing, Closure, Displacement, Embedding, KinematicsError, folding_modes};
 use crate::math::{Vec3, rotation};
 use crate::numerics::dense::{least_squares, null_space};
 use crate::numerics::{DenseMatrix, larger};
@@ -41,6 +41,16 @@ pub enum Condition {
     Turn,
     /// The seam has no translation along the axis.
     Rise,
+}
+
+impl Condition {
+    /// Returns the other condition.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Turn => Self::Rise,
+            Self::Rise => Self::Turn,
+        }
+    }
 }
 
 /// Both conditions, in the order of their numbers.
@@ -77,6 +87,11 @@ impl<'a> Tube<'a> {
         Ok(Self { sheet, closure, embedding, seam: number, length })
     }
 
+    /// Returns the seam.
+    pub(crate) fn seam(&self) -> Seam {
+        self.seam
+    }
+
     /// Returns the errors of the two conditions at fold angles, given with one number per edge in radians: `|W| - 2 pi`
     /// in radians and `W . l / (2 pi L)`, which is the rise of the seam relative to its drawn length if it turns by
     /// `2 pi`.
@@ -95,15 +110,22 @@ impl<'a> Tube<'a> {
     /// As [`defects`](Self::defects).
     pub(crate) fn rates(&self, angles: &[f64]) -> DenseMatrix {
         let mut rates = DenseMatrix::zeros(2, angles.len());
+        self.each_edge(angles, |edge, lattice| {
+            let (at, rate) = self.seam_of(lattice);
+            rates[(0, edge)] = at.turn.dot(&rate.turn) / at.turn.norm();
+            rates[(1, edge)] = (rate.turn.dot(&at.chord) + at.turn.dot(&rate.chord)) / (TAU * self.length);
+        });
+        rates
+    }
+
+    /// Calls `visit` with every edge and the lattice motions, with their rates if this edge alone folds at rate 1.
+    fn each_edge(&self, angles: &[f64], mut visit: impl FnMut(usize, &Option<[Moving; 2]>)) {
         let mut moving = self.still();
         for edge in 0..angles.len() {
             moving[edge] = 1.0;
-            let (at, rate) = self.seam_of(&Displacement::new(&self.embedding, angles, &moving).lattice);
+            visit(edge, &Displacement::new(&self.embedding, angles, &moving).lattice);
             moving[edge] = 0.0;
-            rates[(0, edge)] = at.turn.dot(&rate.turn) / at.turn.norm();
-            rates[(1, edge)] = (rate.turn.dot(&at.chord) + at.turn.dot(&rate.chord)) / (TAU * self.length);
         }
-        rates
     }
 
     /// Returns the closure Jacobian followed by a row for each condition in `kept`: its null vectors are the motions
@@ -132,11 +154,38 @@ impl<'a> Tube<'a> {
         let ray = ray.iter().map(|rate| rate / size).collect();
         let options = CurveOptions { steps: MOST_POINTS, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
         let start = self.embedding.drawn_angles().to_vec();
-        let found = follow(&mut self.keeping(Condition::Rise), start, ray, &options, &mut |_| true);
+        let kept = self.keeping(Condition::Rise);
+        let found = follow(&mut TubeCurve::new(&kept, &start), start.clone(), ray, &options, &mut |_| true);
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
         let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);
         let missed = || KinematicsError::NoTube { seam: self.seam.lattice_vector(), turn: turns.fold(0.0, f64::max) };
         self.closed(&rolled.ok_or_else(missed)?.x)
+    }
+
+    /// Returns the motions of a tube with these fold angles that satisfy the conditions in `kept` and do not move the edges in
+    /// `locked`: an orthonormal column for each, with the rates of the fold angles of all edges.
+    ///
+    /// # Errors
+    /// [`KinematicsError::Decomposition`] if their number is not clear.
+    pub fn motions(
+        &self,
+        angles: &[f64],
+        kept: &[Condition],
+        locked: &[usize],
+    ) -> Result<DenseMatrix, KinematicsError> {
+        let moving: Vec<usize> = (0..angles.len()).filter(|edge| !locked.contains(edge)).collect();
+        let basis = null_space(&self.jacobian(angles, kept).select_columns(&moving))?.basis;
+        let mut motions = DenseMatrix::zeros(angles.len(), basis.ncols());
+        moving.iter().zip(basis.row_iter()).for_each(|(&edge, rates)| motions.row_mut(edge).copy_from(&rates));
+        Ok(motions)
+    }
+
+    /// Returns a motion that keeps a condition in the direction in which the quantity of the other one grows: the rise of the
+    /// seam, or its turn. Both are those along the axis about which the seam turns by a positive angle.
+    pub(crate) fn growing(&self, angles: &[f64], kept: Condition, motion: &[f64]) -> Vec<f64> {
+        let rates = self.rates(angles);
+        let growth: f64 = rates.row(kept.other() as usize).iter().zip(motion).map(|(a, b)| a * b).sum();
+        motion.iter().map(|rate| rate * 1f64.copysign(growth)).collect()
     }
 
     /// Follows the one motion of a tube whose seam turns by `2 pi` and may rise, from the tube's angles for a length in
@@ -145,21 +194,20 @@ impl<'a> Tube<'a> {
     /// # Errors
     /// [`KinematicsError::NotOneMotion`] if the tube has no such motion or more than one.
     pub fn slip(&self, tube: &[f64], rising: bool, length: f64) -> Result<Trajectory, KinematicsError> {
-        let null = null_space(&self.jacobian(tube, &[Condition::Turn]))?.basis;
-        let motions = null.ncols();
-        if motions != 1 {
-            return Err(KinematicsError::NotOneMotion { motions });
+        let motions = self.motions(tube, &[Condition::Turn], &[])?;
+        if motions.ncols() != 1 {
+            return Err(KinematicsError::NotOneMotion { motions: motions.ncols() });
         }
-        let rise = (self.rates(tube).row(1) * &null)[0];
-        let sign = if (rise > 0.0) == rising { 1.0 } else { -1.0 };
-        let tangent = null.iter().map(|rate| sign * rate).collect();
-        let options = CurveOptions { length, ..CurveOptions::default() };
-        Ok(follow(&mut self.keeping(Condition::Turn), tube.to_vec(), tangent, &options, &mut |_| true))
+        let sign = if rising { 1.0 } else { -1.0 };
+        let growing = self.growing(tube, Condition::Turn, motions.as_slice());
+        let tangent = growing.into_iter().map(|rate| sign * rate).collect();
+        let (options, kept) = (CurveOptions { length, ..CurveOptions::default() }, self.keeping(Condition::Turn));
+        Ok(follow(&mut TubeCurve::new(&kept, tube), tube.to_vec(), tangent, &options, &mut |_| true))
     }
 
-    fn keeping(&self, kept: Condition) -> TubeCurve<'_, 'a> {
-        let closure = DenseMatrix::zeros(3 * self.closure.vertices().len(), self.embedding.edges());
-        TubeCurve { tube: self, kept, closure }
+    /// Returns one of the conditions as an equation.
+    pub fn keeping(&self, kept: Condition) -> TubeCondition<'_, 'a> {
+        TubeCondition { tube: self, kept }
     }
 
     /// Returns the curvature tensor `[k11, k22, k12]` of size 1 that bends along the seam and not across it.
@@ -198,42 +246,86 @@ impl<'a> Tube<'a> {
         let zero = SeamMotion { turn: Vec3::zeros(), chord: Vec3::zeros() };
         let moving = lattice.iter().flatten().zip(self.seam.lattice_vector());
         moving.fold((zero, zero), |(at, rate), (one, n)| {
-            let (n, turn, chord) = (f64::from(n), rotation::log(&one.motion.rotation), one.motion.translation);
-            let turning = rotation::inverse_left_jacobian(&turn) * one.twist.angular;
+            let (n, (turn, turning), chord) = (f64::from(n), turning(one), one.motion.translation);
             let at = SeamMotion { turn: at.turn + n * turn, chord: at.chord + n * chord };
             (at, SeamMotion { turn: rate.turn + n * turning, chord: rate.chord + n * one.twist.at(&chord) })
         })
     }
 }
 
-/// The curve of screw-periodic sheets that satisfy one condition; its indicator is the defect of the other one.
-struct TubeCurve<'t, 'a> {
+/// One of the conditions on a tube as an equation on its fold angles.
+///
+/// The turn of the seam is taken modulo `2 pi`, so that it is continuous where a lattice rotation passes `pi` and its rotation
+/// vector reverses.
+#[derive(Clone, Copy, Debug)]
+pub struct TubeCondition<'t, 'a> {
     tube: &'t Tube<'a>,
     kept: Condition,
-    closure: DenseMatrix,
+}
+
+impl TubeCondition<'_, '_> {
+    /// Returns the value of the equation, and its rate with that of the lattice motions.
+    fn value(&self, lattice: &Option<[Moving; 2]>) -> [f64; 2] {
+        let (seam, seam_rate) = self.tube.seam_of(lattice);
+        let length = TAU * self.tube.length;
+        let Condition::Turn = self.kept else {
+            let rate = seam_rate.turn.dot(&seam.chord) + seam.turn.dot(&seam_rate.chord);
+            return [seam.turn.dot(&seam.chord) / length, rate / length];
+        };
+        let turns = lattice.iter().flatten().map(turning);
+        let (larger, rate) = turns.max_by(|a, b| a.0.norm().total_cmp(&b.0.norm())).unwrap_or_default();
+        let axis = larger.normalize();
+        let axis_rate = (rate - axis * axis.dot(&rate)) / larger.norm();
+        let turn = axis.dot(&seam.turn);
+        [turn - TAU * (turn / TAU).round(), axis_rate.dot(&seam.turn) + axis.dot(&seam_rate.turn)]
+    }
+}
+
+impl AngleConditions for TubeCondition<'_, '_> {
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn linearize(&self, angles: &[f64], values: &mut [f64], rates: &mut DenseMatrix) {
+        self.tube.each_edge(angles, |edge, lattice| [values[0], rates[(0, edge)]] = self.value(lattice));
+    }
+}
+
+/// Returns the rotation vector of a lattice motion, and its rate.
+fn turning(moving: &Moving) -> (Vec3, Vec3) {
+    let turn = rotation::log(&moving.motion.rotation);
+    (turn, rotation::inverse_left_jacobian(&turn) * moving.twist.angular)
+}
+
+/// The curve of screw-periodic sheets that satisfy one condition; its indicator is the defect of the other one.
+struct TubeCurve<'t, 'a> {
+    closing: Closing<'t>,
+    kept: &'t TubeCondition<'t, 'a>,
+}
+
+impl<'t, 'a> TubeCurve<'t, 'a> {
+    fn new(kept: &'t TubeCondition<'t, 'a>, angles: &[f64]) -> Self {
+        Self { closing: Closing::new(&kept.tube.closure, angles.to_vec()).keeping(kept), kept }
+    }
 }
 
 impl Implicit for TubeCurve<'_, '_> {
     fn unknowns(&self) -> usize {
-        self.tube.embedding.edges()
+        self.closing.unknowns()
     }
 
     fn equations(&self) -> usize {
-        self.closure.nrows() + 1
+        self.closing.equations()
     }
 
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        let (rows, row) = (self.closure.nrows(), self.kept as usize);
-        self.tube.closure.linearize_into(x, &mut residual[..rows], &mut self.closure);
-        jacobian.rows_mut(0, rows).copy_from(&self.closure);
-        residual[rows] = self.tube.defects(x)[row];
-        jacobian.row_mut(rows).copy_from(&self.tube.rates(x).row(row));
+        self.closing.linearize(x, residual, jacobian);
     }
 }
 
 impl Curve for TubeCurve<'_, '_> {
     fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        out.push(self.tube.defects(&point.x)[1 - self.kept as usize]);
+        out.push(self.kept.tube.defects(&point.x)[self.kept.kept.other() as usize]);
     }
 }
 

@@ -219,10 +219,10 @@ impl Assembly {
         drawn.filter(|&(edge, length)| !((bars.rest.of(edge, length) / length - 1.0).abs() <= SAME_LENGTH)).count()
     }
 
-    /// Returns the number of an edge with a rigid crease or facet whose rest angle is not the drawn one; `None` if there
-    /// is none. Locks are not looked at.
+    /// Returns the number of an edge with a rigid crease or facet whose rest angle is not that of the state from which
+    /// studies start; `None` if there is none. Locks are not looked at.
     pub fn rigid_hinge_off_rest(&self) -> Option<usize> {
-        let off = |&(edge, angle): &(usize, f64)| (angle - self.drawn_angles()[edge]).abs() > SAME_ANGLE_RAD;
+        let off = |&(edge, angle): &(usize, f64)| (angle - self.start_angles()[edge]).abs() > SAME_ANGLE_RAD;
         self.rigid_creases_beside_soft().chain(self.rigid_facets()).find(off).map(|(edge, _)| edge)
     }
 

@@ -140,7 +140,8 @@ impl Builder {
         self
     }
 
-    /// Locks a crease of the cell, in all its copies, at a fold angle in radians; `None` locks it at the drawn angle.
+    /// Locks a crease of the cell, in all its copies, at a fold angle in radians; `None` locks it at the drawn angle,
+    /// or that of the closed tube.
     #[must_use]
     pub fn lock(mut self, crease: EdgeKey, angle: Option<f64>) -> Self {
         self.given.locks.push((crease, angle));
@@ -212,7 +213,7 @@ impl Builder {
         }
         let mut terms = Terms { bars, creases, facets, mass, ..Terms::default() };
         for (crease, angle) in given.locks {
-            let locked = copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.drawn_angles()[k])));
+            let locked = copies(&bare, crease)?.into_iter().map(|k| (k, angle.unwrap_or(bare.start_angles()[k])));
             terms.locks.extend(locked);
         }
         terms.pins = on_vertices(&bare, given.pins)?;

@@ -97,12 +97,14 @@ impl Table {
 
     /// Makes the table of the states of a study, with the columns of [`StateRow`] followed by `state`, the number of the row
     /// from 0, and the fold angles of the edges of the cell. The column `error_to_kinematic` is present if at least one
-    /// state has this value, the columns [`RATIOS`] if the states have ratios.
+    /// state has this value, the columns [`RATIOS`] if the states have ratios, and [`SEAM`] if they have seams.
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
         let columns = StateRow::PLACE.into_iter().chain(Solution::COLUMNS).chain(["self_intersecting"]);
         let ratios = states.iter().any(|state| state.ratios.is_some()).then_some(RATIOS).into_iter().flatten();
-        let columns = columns.chain(compared.then_some("error_to_kinematic")).chain(ratios).chain(["state"]);
+        let seam = states.iter().any(|state| state.seam.is_some()).then_some(SEAM).into_iter().flatten();
+        let columns =
+            columns.chain(compared.then_some("error_to_kinematic")).chain(ratios).chain(seam).chain(["state"]);
         let table = Self::with_edges(columns, "fold", edges.iter());
         Self { rows: states.iter().enumerate().map(|(row, state)| state.values(row, compared)).collect(), ..table }
     }
@@ -257,12 +259,16 @@ pub(crate) struct StateRow {
     /// Poisson's ratios in the plane and of bending along the first lattice vector, where they exist; `None` if the study
     /// does not ask for them, and then for all rows.
     pub ratios: Option<[Option<f64>; 2]>,
+    /// Turn in radians and rise of the seam of a tube, which may not be known; `None` for all rows of other sheets.
+    pub seam: Option<[Option<f64>; 2]>,
     /// Fold angles of the edges of the cell in radians; NaN for edges without a hinge.
     pub fold: Vec<f64>,
 }
 
 /// Names of the columns of Poisson's ratios.
 pub(crate) const RATIOS: [&str; 2] = ["poisson_in_plane", "poisson_bending"];
+/// Names of the columns of the seam of a tube.
+pub(crate) const SEAM: [&str; 2] = ["seam_turn", "seam_rise"];
 
 impl StateRow {
     /// Names of the columns before energies and residuals.
@@ -275,7 +281,7 @@ impl StateRow {
         let numbers = shape.into_iter().map(Value::from).chain(self.solution.values());
         let crossing = Value::from(self.self_intersecting.map(i64::from));
         let error = compared.then(|| Value::from(self.error_to_kinematic));
-        let ratios = self.ratios.into_iter().flatten().map(Value::from);
+        let ratios = [self.ratios, self.seam].into_iter().flatten().flatten().map(Value::from);
         let fold = self.fold.iter().map(|&angle| Value::Number(angle));
         let row = [Value::Whole(row as i64)];
         counts.into_iter().chain(numbers).chain([crossing]).chain(error).chain(ratios).chain(row).chain(fold).collect()

@@ -285,7 +285,8 @@ impl<'a> Reader<'a> {
             let edge = self.crease(&lock.crease)?;
             for (k, tiled) in self.tiling.edges.iter().enumerate() {
                 if tiled.edge == edge && !self.angles[k].is_nan() {
-                    locks.push((k, lock.angle.as_ref().map_or(self.angles[k], |angle| angle.radians)));
+                    let start = self.assembly.start_angles()[k];
+                    locks.push((k, lock.angle.as_ref().map_or(start, |angle| angle.radians)));
                 }
             }
         }

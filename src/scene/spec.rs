@@ -226,7 +226,7 @@ pub struct MassSpec {
 pub struct LockSpec {
     /// The crease `[i, j, n1, n2]`.
     pub crease: Located<EdgeName>,
-    /// The fold angle; left out: the drawn one.
+    /// The fold angle; left out: the drawn one, of a sheet that is rolled up to a tube that of the closed tube.
     pub angle: Option<Located<Angle>>,
 }
 

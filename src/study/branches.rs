@@ -23,13 +23,14 @@ pub(crate) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     }
     supported::drawn_lengths(context, "branches of rigid folding")?;
     supported::drawn_rigid_hinges(context, "branches of rigid folding")?;
-    let angles = assembly.drawn_angles();
+    let angles = assembly.start_angles();
     let moved = |(edge, angle): &&(usize, f64)| (angle - angles[*edge]).abs() > AS_DRAWN;
     match assembly.terms().locks.iter().find(moved) {
         None => Ok(()),
         Some((edge, angle)) => {
-            let message = format!("a lock holds a crease at {angle} that is drawn at {}", angles[*edge]);
-            let help = "branches leave the drawn state: leave out the angle of the lock";
+            let message = format!("a lock holds a crease at {angle} that starts at {}", angles[*edge]);
+            let help =
+                "rigid folding leaves the drawn state, of a tube the closed one: leave out the angle of the lock";
             Err(context.refuse(message, help).into())
         }
     }

@@ -182,6 +182,7 @@ fn row(terms: &Terms, k: usize, point: &SurfacePoint, found: &States) -> StateRo
         self_intersecting: found.crossing.as_ref().map(|crossing| crossing[k]),
         error_to_kinematic: None,
         ratios: None,
+        seam: None,
         fold: point.angles.clone(),
     }
 }

@@ -5,11 +5,13 @@ use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
 use super::{branches, energies, ratios, relax};
-use crate::analysis::along::{AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors, relax_along};
-use crate::analysis::chart::{coordinates, hinge_angles};
+use crate::analysis::along::{
+    AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors, relax_along, relaxed_cylinder,
+};
+use crate::analysis::chart::{coordinates_in, hinge_angles};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::relax::Relaxed;
-use crate::analysis::state::{State, cylinder};
+use crate::analysis::state::State;
 use crate::analysis::trace::{Folded, Intersects, Stop, TURNING, TraceError, TraceOptions, Traced, trace};
 use crate::kinematics::RealDirections;
 use crate::math::Vec3;
@@ -35,13 +37,18 @@ const OBSERVED: usize = 64;
 const PICTURES: usize = 40;
 const STATES_ON_PAGE: usize = 200;
 
-/// Checks that trajectories can start from the drawn state: that of one cell, or of a finite sheet.
+/// Checks that trajectories can start from the drawn state: that of one cell, or of a finite sheet; or from a tube.
 pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
     branches::check(context)?;
     let assembly = context.assembly;
     if assembly.boundary() == Boundary::Patch && assembly.sheet().lattice.is_some() {
         let message = "trajectories of a patch of a periodic sheet are not known";
         return Err(context.refuse(message, "use domain = \"screw\", or a mesh without lattice").into());
+    }
+    if assembly.sheet().screws.is_some() {
+        let message = "trajectories of a cell that its mesh draws rolled up are not known";
+        let help = "take a mesh with lattice vectors, which `domain = \"tube\"` rolls up";
+        return Err(context.refuse(message, help).into());
     }
     if spec.engine != Engine::Kinematic && assembly.terms().bars.is_none() {
         let message = "the energy engine relaxes bars, and this scene has none";
@@ -116,7 +123,7 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
     let mut finder = asked.then(|| SelfIntersection::new(assembly));
     let model = assembly.model(Gauge::Held);
     let mut crosses = |state: &Folded| {
-        let shown = state_at(&model, coordinates(state), &state.angles);
+        let shown = state_at(&model, coordinates_in(assembly.boundary(), state), &state.angles);
         finder.as_mut().is_some_and(|finder| finder.marks(assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any)
     };
     let mut step = 0;
@@ -238,8 +245,9 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
                 finder = None;
             }
             model.set_angles(&hinge_angles(&model, &folded.angles));
-            model.start_from(coordinates(folded));
-            let state = along.map_or_else(|| state_at(&model, coordinates(folded), &folded.angles), relaxed_state);
+            let coordinates = coordinates_in(assembly.boundary(), folded);
+            model.start_from(coordinates.clone());
+            let state = along.map_or_else(|| state_at(&model, coordinates, &folded.angles), relaxed_state);
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
             let compared = along.filter(|_| spec.engine == Engine::Both);
@@ -256,7 +264,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
     answer.add(format!("{}.csv", context.name()), states::table_of_rows(context, &rows));
     states::add_rows(answer, context, pictures.iter().map(|(row, shown)| (*row, shown)), Some((shown.0, &shown.1)));
     add_paths(answer, context, paths, &rows);
-    answer.state = saved_state(&model, paths);
+    answer.state = saved_state(assembly, &model, paths);
 }
 
 /// Adds the trajectories in the space of lattice strains, as a picture and for later surface studies, which draw them.
@@ -285,12 +293,12 @@ pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
 }
 
 /// Returns the last state of the first trajectory.
-fn saved_state(model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
+fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
     let path = paths.first()?;
     let along = path.relaxed.and_then(|relaxed| relaxed.states.last());
     let (coordinates, angles) = match (along, path.traced.states.last()) {
         (Some(along), _) => (along.relaxed.state.coordinates.clone(), &along.angles),
-        (None, Some(folded)) => (coordinates(folded), &folded.angles),
+        (None, Some(folded)) => (coordinates_in(assembly.boundary(), folded), &folded.angles),
         (None, None) => return None,
     };
     Some(SavedState { coordinates, angles: hinge_angles(model, angles), tension: None })
@@ -310,7 +318,7 @@ fn row(
 ) -> StateRow {
     let shape = match along {
         None => folded.shape.as_ref().map(|shape| (shape.curvature, shape.theta, shape.strain)),
-        Some(_) => cylinder(assembly.drawn(), &state.coordinates)
+        Some(along) => relaxed_cylinder(assembly.drawn(), folded, along)
             .map(|cylinder| (cylinder.curvature, cylinder.theta, cylinder.strain)),
     };
     let branch = path.traced.branch;
@@ -330,6 +338,8 @@ fn row(
         self_intersecting,
         error_to_kinematic: None,
         ratios: None,
+        seam: matches!(assembly.boundary(), Boundary::Tube { .. })
+            .then(|| [folded.seam.map(|seam| seam.turn), folded.seam.map(|seam| seam.rise)]),
         fold: state.fold_angle.clone(),
     }
 }

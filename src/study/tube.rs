@@ -12,12 +12,11 @@ const COUNTED: &str = "use domain = \"screw\"; `modes` counts the motions of a t
 pub(super) fn check(context: &Context<'_>) -> Result<(), StudyError> {
     let Boundary::Tube { .. } = context.assembly.boundary() else { return Ok(()) };
     let refused = match &*context.study.kind {
-        StudyKind::Relax(_) | StudyKind::Modes(_) => None,
+        StudyKind::Relax(_) | StudyKind::Modes(_) | StudyKind::Trace(_) => None,
         StudyKind::Wells(wells) if wells.rigid => {
             Some(("the rigid states of a closed tube are single points", "leave out `rigid`"))
         }
         StudyKind::Wells(_) => None,
-        StudyKind::Trace(_) => Some(("trajectories leave the drawn state, and a tube is another one", COUNTED)),
         StudyKind::Surface(_) => Some((
             "the folded states of a tube are no surface: its closing conditions leave one motion or none",
             COUNTED,

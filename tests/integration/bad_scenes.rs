@@ -430,7 +430,6 @@ fn studies_that_cannot_be_done() {
             "16 conditions (bars and rigid facets) for 12 coordinates of a cell",
         ),
         (of_tube("kind = \"surface\""), "scene.toml:10:8: the folded states of a tube are no surface"),
-        (of_tube("kind = \"trace\""), "scene.toml:10:8: trajectories leave the drawn state, and a tube is another one"),
         (of_tube("kind = \"branches\""), "scene.toml:10:8: branches leave the drawn state, and a tube is another one"),
         (of_tube("kind = \"bloch\""), "scene.toml:10:8: wavenumbers around a closed tube are whole numbers"),
         (

@@ -68,6 +68,7 @@ mod schema;
 mod screw_cells;
 mod self_intersection;
 mod several_scenes;
+mod slipping_tubes;
 mod solver_limits;
 mod solver_textbook;
 mod sparse_spectra;

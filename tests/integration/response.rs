@@ -396,6 +396,7 @@ fn a_cylinder_has_two_modes() {
             angles: angles.clone(),
             rates: vec![],
             shape: Some(shape.clone()),
+            seam: None,
             positions,
             residual: 0.0,
         };

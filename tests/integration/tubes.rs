@@ -64,8 +64,8 @@ fn tubes_close() {
 fn bars(sheet: &Sheet, [n1, n2]: [i32; 2], angles: &[f64], kept: &[Condition]) -> DenseMatrix {
     let shape = shape(sheet, angles);
     let (positions, rates) = (shape.positions.clone(), vec![]);
-    let folded =
-        Folded { arc_length: 0.0, angles: angles.to_vec(), rates, shape: Some(shape), positions, residual: 0.0 };
+    let (angles, shape, seam) = (angles.to_vec(), Some(shape), None);
+    let folded = Folded { arc_length: 0.0, angles, rates, shape, seam, positions, residual: 0.0 };
     let case = on(sheet.clone(), [1, 1], Boundary::Screw);
     let mut model = case.model_of(&Terms { bars: Some(f64::INFINITY.into()), ..Terms::default() }, Gauge::Held);
     let x = model.start_from(coordinates(&folded));

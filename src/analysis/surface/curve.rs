@@ -5,7 +5,7 @@
 
 use super::folding::SurfaceClosure;
 use super::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, cell, sign};
-use crate::kinematics::{Closing, KinematicsError, Ray, Rays, RealDirections};
+use crate::kinematics::{Closing, KinematicsError, Ray, Rays, RealDirections, SpatiallyPeriodic};
 use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
@@ -50,11 +50,11 @@ pub(super) fn curve(
 ) -> Result<Surface, SurfaceError> {
     let (closure, embedding, second_order) = cell(assembly)?;
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
+    let periodic = SpatiallyPeriodic(&embedding);
     let planar = second_order.one_direction_is_real()?;
     let closing = Closing::new(&closure, embedding.drawn_angles().to_vec());
     let folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
-    let mut curve =
-        FoldedCurve { closing: if planar { closing.spatially_periodic(&embedding) } else { closing }, folding };
+    let mut curve = FoldedCurve { closing: if planar { closing.keeping(&periodic) } else { closing }, folding };
     let negative = match directions {
         _ if planar => Some(Negative::OneDirection),
         RealDirections::Listed if rays.is_empty() => Some(Negative::NoRay),

@@ -1,6 +1,6 @@
 //! The closure of a cell as a surface, and as a curve on it.
 
-use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, Shape};
+use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, Shape, SpatiallyPeriodic};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::atlas::Surface;
@@ -65,7 +65,8 @@ impl<'a> SurfaceClosure<'a> {
     /// Closure and the rotation vectors of both lattice motions, which vanish at a spatially periodic state; and the
     /// Jacobian, right to first order in those vectors.
     pub(crate) fn periodic(&self, x: &[f64]) -> (DVector<f64>, DenseMatrix) {
-        let mut closing = Closing::new(self.closure, self.all(x)).spatially_periodic(self.embedding);
+        let periodic = SpatiallyPeriodic(self.embedding);
+        let mut closing = Closing::new(self.closure, self.all(x)).keeping(&periodic);
         let mut residual = DVector::zeros(closing.equations());
         let mut jacobian = DenseMatrix::zeros(closing.equations(), closing.unknowns());
         closing.linearize(x, residual.as_mut_slice(), &mut jacobian);

@@ -3,7 +3,9 @@
 //! its spatially periodic states.
 
 use super::{Net, RigidError, Sampling};
-use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, Rays, RealDirections, SecondOrder};
+use crate::kinematics::{
+    Closing, Closure, Embedding, KinematicsError, Rays, RealDirections, SecondOrder, SpatiallyPeriodic,
+};
 use crate::model::{Assembly, Boundary};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
@@ -59,8 +61,9 @@ pub(super) fn net(
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
     let embedding = if planar { Some(Embedding::new(assembly.sheet())?) } else { None };
     let closing = Closing::new(&closure, drawn.clone());
-    let mut folding = BoundedClosure(match &embedding {
-        Some(embedding) => closing.spatially_periodic(embedding),
+    let planar = embedding.as_ref().map(SpatiallyPeriodic);
+    let mut folding = BoundedClosure(match &planar {
+        Some(planar) => closing.keeping(planar),
         None => closing,
     });
     let crossing = rays.len() > 2;
@@ -70,7 +73,7 @@ pub(super) fn net(
         singular: vec![crossing],
         border: vec![false],
         dimension: 1,
-        seam: if planar { 0 } else { usize::MAX },
+        seam: if planar.is_some() { 0 } else { usize::MAX },
         open: usize::from(directions != RealDirections::Listed),
     };
     let options =

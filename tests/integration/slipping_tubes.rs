@@ -1,0 +1,219 @@
+//! Trajectories of tubes: the seam that slips, the tube that opens, and the closed tube that does not move.
+
+use crate::common::mesh;
+use foldwell::analysis::along::relax_along;
+use foldwell::analysis::modes::modes;
+use foldwell::analysis::relax::relax;
+use foldwell::analysis::trace::{Stop, TraceError, TraceOptions, Traced, trace};
+use foldwell::kinematics::tube::Condition;
+use foldwell::kinematics::{Closure, Embedding, KinematicsError, Shape, Tube};
+use foldwell::math::Vec3;
+use foldwell::run::{RunOptions, run_scene};
+use foldwell::sheet::generate::Random;
+use foldwell::sheet::{Corner, Seam, SeamKept, Sheet};
+use foldwell::solver::Options;
+use foldwell::solver::continuation::End;
+use foldwell::{Assembly, Pattern, RIGID, Roll, generate, rolled_up};
+use nalgebra::Matrix3;
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+const TURN: SeamKept = SeamKept { turn: true, rise: false };
+const RISE: SeamKept = SeamKept { turn: false, rise: true };
+
+/// Returns a random cell and the reference cell with their seams.
+fn cells() -> Vec<(Sheet, [i32; 2])> {
+    let random = generate(&Pattern::Random(Random { seed: 3, size: [2, 3], ..Random::default() })).unwrap();
+    vec![(mesh("open-star"), [1, 8]), (mesh("open-star"), [0, 7]), (random, [0, 8])]
+}
+
+fn case(sheet: &Sheet, roll: Roll) -> Assembly {
+    Assembly::tube(sheet.clone(), roll, [1, 1]).bars(RIGID).creases(1.0).build().unwrap()
+}
+
+/// Follows the motion of a tube both ways for a length in fold angles.
+fn both_ways(case: &Assembly, length: f64) -> [Traced; 2] {
+    let stop = Stop { arc_length: Some(length), ..Stop::default() };
+    let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch: None, stop };
+    let found = trace(case, &options, None, &mut |_, _| true).unwrap();
+    assert_eq!(found.iter().map(|one| one.branch).collect::<Vec<_>>(), [(0, 1), (0, -1)]);
+    found.try_into().unwrap()
+}
+
+/// Returns the roll of a state, made anew from its fold angles: the cell placed by its faces, its axis along z.
+fn roll_at(sheet: &Sheet, seam: [i32; 2], kept: SeamKept, angles: &[f64]) -> Roll {
+    let Shape { positions, screw, .. } = Shape::at(&Embedding::new(sheet).unwrap(), angles).unwrap();
+    let seam = Seam::new(seam).unwrap();
+    let [n1, n2] = seam.lattice_vector().map(f64::from);
+    let sign = 1f64.copysign(n1 * screw.theta[0] + n2 * screw.theta[1]);
+    let z = screw.axis.unwrap() * sign;
+    let centre = screw.towards_axis() / screw.towards_axis().norm_squared();
+    let x = -centre.normalize();
+    let rotation = Matrix3::from_rows(&[x.transpose(), z.cross(&x).transpose(), z.transpose()]);
+    let placed = positions.iter().flat_map(|p| <[f64; 3]>::from(rotation * (p - centre)));
+    let [strand, row] = seam.basis();
+    let of = |[a, b]: [i32; 2], each: [f64; 2]| sign * (f64::from(a) * each[0] + f64::from(b) * each[1]);
+    let free = if kept.rise { of(strand, screw.theta) } else { of(strand, screw.rise()) };
+    let coordinates = placed.chain([of(row, screw.theta), of(row, screw.rise()), free]).collect();
+    Roll { seam, kept, coordinates, angles: angles.to_vec(), frame: Matrix3::identity(), origin: Vec3::zeros() }
+}
+
+/// Claim: with the turn of the seam kept there are two trajectories. Every state closes, its seam turns by `2 pi`, the rise
+/// moves the way of the sign, and the states are those of [`Tube::slip`] at equal lengths. Tolerances: those required; for
+/// `slip`, which stops at the same length by the same arc length, a hundred residuals.
+#[test]
+fn the_seam_slips_both_ways() {
+    for (sheet, seam) in cells() {
+        let roll = rolled_up(&sheet, seam, TURN, true).unwrap();
+        let (closure, tube) = (Closure::of_cell(&sheet).unwrap(), Tube::new(&sheet, seam).unwrap());
+        for one in both_ways(&case(&sheet, roll.clone()), 0.6) {
+            assert_eq!(one.end, End::Length);
+            let mut rises = Vec::new();
+            for state in &one.states {
+                assert!(closure.residual(&state.angles).amax() <= 1e-13 && state.residual <= 1e-13);
+                let (shape, place) = (state.shape.as_ref().unwrap(), state.seam.unwrap());
+                let turn = f64::from(seam[0]) * shape.theta[0] + f64::from(seam[1]) * shape.theta[1];
+                assert!((turn.abs() - TAU).abs() <= 1e-12 && (place.turn - TAU).abs() <= 1e-12, "{turn}");
+                assert_eq!(tube.motions(&state.angles, &[Condition::Turn], &[]).unwrap().ncols(), 1);
+                rises.push(f64::from(one.branch.1) * place.rise);
+            }
+            assert!(rises.is_sorted() && rises[0].abs() <= 1e-13, "{seam:?}: {rises:?}");
+            assert!(rises[rises.len() - 1] > 0.5, "{rises:?}");
+            let slipped = tube.slip(&roll.angles, one.branch.1 > 0, 0.6).unwrap();
+            let ends = [&slipped.points.last().unwrap().x, &one.states.last().unwrap().angles];
+            let apart = ends[0].iter().zip(ends[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(apart <= 1e-11, "{seam:?}: {apart:e}");
+        }
+    }
+}
+
+/// Claim: with the rise of the seam kept its turn passes `2 pi` in the way of the sign, and the seam ends at the height where
+/// it began. Tolerance: the required one.
+#[test]
+fn the_tube_opens_both_ways() {
+    for (sheet, seam) in cells() {
+        let roll = rolled_up(&sheet, seam, RISE, true).unwrap();
+        for one in both_ways(&case(&sheet, roll), 0.4) {
+            let places: Vec<_> = one.states.iter().map(|state| state.seam.unwrap()).collect();
+            assert!(places.iter().all(|place| place.rise.abs() <= 1e-12), "{seam:?}: {places:?}");
+            let turns: Vec<f64> = places.iter().map(|place| f64::from(one.branch.1) * (place.turn - TAU)).collect();
+            assert!(turns.is_sorted() && turns[0].abs() <= 1e-12 && turns[turns.len() - 1] > 0.1, "{turns:?}");
+        }
+    }
+}
+
+/// Claim: the states are tubes of the drawn bars, by the lengths of bars, which share no equation with fold angles. Placed by
+/// its screw motions, every edge keeps its length; the copy at the end of the seam is the same cell, moved along the axis
+/// by the rise; and a model of rigid bars that starts there is at rest in lengths. Its bars have one motion, none if both
+/// conditions are kept. Tolerances: the required one; of the copy, rounding after some ten cells.
+#[test]
+fn states_are_tubes_of_the_drawn_bars() {
+    for (sheet, seam) in cells() {
+        let roll = rolled_up(&sheet, seam, TURN, true).unwrap();
+        let embedding = Embedding::new(&sheet).unwrap();
+        for one in both_ways(&case(&sheet, roll), 0.6) {
+            let state = one.states.last().unwrap();
+            let Shape { positions, screw, .. } = Shape::at(&embedding, &state.angles).unwrap();
+            let at = |Corner { vertex, shift }| screw.motion(shift).apply(&positions[vertex]);
+            for edge in &sheet.edges {
+                let [length, drawn] = [
+                    (at(edge.key.ends()[1]) - at(edge.key.ends()[0])).norm(),
+                    (sheet.position(edge.key.ends()[1]) - sheet.position(edge.key.ends()[0])).norm(),
+                ];
+                assert!((length - drawn).abs() <= 1e-12, "{seam:?}: {length} for {drawn}");
+            }
+            let place = state.seam.unwrap();
+            for (vertex, position) in positions.iter().enumerate() {
+                let moved = at(Corner { vertex, shift: seam }) - position;
+                assert!((moved - place.rise * place.axis).norm() <= 1e-12 * (1.0 + place.rise.abs()), "{moved}");
+            }
+            let slipped = case(&sheet, roll_at(&sheet, seam, TURN, &state.angles));
+            let relaxed = relax(&slipped).unwrap();
+            assert!(slipped.has_drawn_lengths() && relaxed.residual_length <= 1e-12);
+            let counted = modes(&slipped, 0, &mut || true).unwrap().seam.unwrap();
+            assert_eq!([counted.free, counted.turn, counted.rise, counted.both], [2, 1, 1, 0], "{seam:?}");
+        }
+    }
+}
+
+/// Claim: relaxations of rigid bars with one crease locked meet the trajectory, also where a lattice rotation passes a half turn
+/// (seam (1, 8) at arc length 6.246). Tolerance: 1e-9 of relaxations, whose equations are others.
+#[test]
+fn relaxed_tubes_meet_the_trajectory() {
+    let sheet = mesh("open-star");
+    let tube = case(&sheet, rolled_up(&sheet, [1, 8], TURN, true).unwrap());
+    let [up, _] = both_ways(&tube, 6.8);
+    let thetas: Vec<f64> = up.states.iter().map(|state| state.shape.as_ref().unwrap().theta[0]).collect();
+    assert!(thetas.iter().any(|theta| *theta > 3.1) && up.end == End::Length);
+    let relaxed = relax_along(&tube, Options::default(), &up, &mut |_| true);
+    assert_eq!(relaxed.failure, None);
+    assert!(relaxed.error().unwrap() <= 1e-9, "{:?}", relaxed.error());
+    // past the half turn the seam still turns once, and its rise goes on without a jump
+    let places: Vec<_> = up.states.iter().map(|state| (state.arc_length, state.seam.unwrap())).collect();
+    assert!(places.iter().all(|(_, place)| (place.turn - TAU).abs() <= 1e-12));
+    assert!(places.windows(2).all(|pair| (pair[1].1.rise - pair[0].1.rise).abs() <= 12.0 * (pair[1].0 - pair[0].0)));
+}
+
+/// Claim: a closed tube has no trajectory, and neither has a slipping one with a crease locked: both are rigid, established by
+/// a rank. A tube without conditions has two motions, which are refused with their number.
+#[test]
+fn rigid_tubes_and_tubes_with_two_motions() {
+    let sheet = mesh("open-star");
+    let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch: None, stop: Stop::default() };
+    let go = |tube: &Assembly| trace(tube, &options, None, &mut |_, _| true);
+    let roll = |kept| rolled_up(&sheet, [1, 8], kept, true).unwrap();
+    assert!(go(&case(&sheet, roll(SeamKept::BOTH))).unwrap().is_empty());
+    let tube = |kept| Assembly::tube(sheet.clone(), roll(kept), [1, 1]).bars(RIGID).creases(1.0);
+    let locked = tube(TURN).lock(sheet.edges[0].key, None).build().unwrap();
+    assert!(go(&locked).unwrap().is_empty());
+    let free = SeamKept { turn: false, rise: false };
+    let error = go(&case(&sheet, roll(free))).unwrap_err();
+    assert!(matches!(error, TraceError::MotionsOfTube { motions: 2, closed: false }), "{error}");
+    assert!(error.to_string().contains("lock 1 crease"), "{error}");
+    let one = tube(free).lock(sheet.edges[0].key, None).build().unwrap();
+    assert!(matches!(go(&one), Err(TraceError::MotionsOfTube { motions: 1, closed: false })));
+    let patch = KinematicsError::NoLattice;
+    assert_eq!(Tube::new(&mesh("helical-tube"), [0, 7]).unwrap_err(), patch);
+}
+
+/// Claim: scenes say all this. A rigid tube has the end `no-real-branch` and exit status 0; the table has the seam, whose turn is
+/// kept; a tube that its mesh draws, Poisson's ratios, and a lock at another angle are refused with the reason.
+#[test]
+fn scenes_of_slipping_tubes() {
+    let folder = tempfile::tempdir().unwrap();
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let go = |mesh: &str, sheet: &str, study: &str| {
+        let scene = folder.path().join("scene.toml");
+        let mesh = meshes.join(mesh);
+        let text = format!(
+            "[sheet]\nmesh = '{}'\ndomain = \"tube\"\n{sheet}\n[[study]]\nname = \"a\"\nkind = \"trace\"\ndraw = []\n{study}\n",
+            mesh.display()
+        );
+        std::fs::write(&scene, text).unwrap();
+        let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
+        run_scene(&scene, &options, &|_| ControlFlow::Continue(()))
+    };
+    let star = "seam = [0, 7]\nclosing = \"turn\"";
+    let stop = "stop = { arc_length = 0.2 }";
+    for (mesh, sheet, study, expected) in [
+        ("kresling-cell.fold", "seam = [6, 0]\nclosing = \"turn\"", stop, "draws rolled up"),
+        ("open-star.fold", star, "response = \"bending\"", "rolled up are not known"),
+        ("open-star.fold", star, "[[lock]]\ncrease = [0, 1, 0, 0]\nangle = 0.5", "a lock holds a crease at 0.5"),
+    ] {
+        let error = go(mesh, sheet, study).unwrap_err();
+        assert!(error.exit_status() == 2 && error.to_string().contains(expected), "{error}");
+        assert!(!folder.path().join("out").exists());
+    }
+    let closed = serde_json::to_value(go("open-star.fold", "seam = [0, 7]", "").unwrap().summary).unwrap();
+    assert!(closed.to_string().contains("no-real-branch"), "{closed}");
+    assert_eq!(closed["studies"][0]["converged"], true);
+    let slipped = go("open-star.fold", star, stop).unwrap().summary;
+    assert!(slipped.studies[0].converged, "{:?}", slipped.studies[0].reason);
+    let table = std::fs::read_to_string(folder.path().join("out/a.csv")).unwrap();
+    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = rows.next().unwrap();
+    let column = header.iter().position(|name| *name == "seam_turn").unwrap();
+    assert_eq!(header[column + 1], "seam_rise");
+    assert!(rows.all(|row| (row[column].parse::<f64>().unwrap() - TAU).abs() <= 1e-12));
+}
