@@ -348,6 +348,28 @@ mod tests {
         }
     }
 
+    /// Claim: the rates of a condition as an equation are its derivatives, edge by edge, also off the closed states, where the
+    /// rotations do not commute; and on tubes, where both conditions hold, its value is zero to rounding.
+    #[test]
+    fn conditions_are_equations() {
+        let sheet = open_star();
+        let tube = Tube::new(&sheet, [1, 8]).unwrap();
+        let closed = tube.rolled_up(true).unwrap();
+        for kept in BOTH {
+            let condition = tube.keeping(kept);
+            let linearized = |x: &[f64]| {
+                let (mut value, mut rates) = (vec![0.0], DenseMatrix::zeros(1, x.len()));
+                condition.linearize(x, &mut value, &mut rates);
+                (value, rates)
+            };
+            assert!(linearized(&closed).0[0].abs() <= 1e-14);
+            for off in [0.0, 0.02] {
+                let angles: Vec<f64> = closed.iter().enumerate().map(|(k, x)| x + off * (k as f64).sin()).collect();
+                check_jacobian(|x| linearized(x).0, &angles, &linearized(&angles).1, TOLERANCE).unwrap();
+            }
+        }
+    }
+
     /// Claim: invalid tubes are refused: the seam `[0, 0]`, a finite sheet, and a seam so short that the sheet cannot
     /// turn by a whole turn along it.
     #[test]
