@@ -3,8 +3,10 @@
 //! Where one real direction leaves a drawn state whose quadric is definite across it, the states on the curve are spatially periodic, and closure
 //! alone has three null vectors at each: the condition that the lattice does not turn leaves one.
 
+use super::covered::{Negative, Surface, SurfaceOptions, SurfacePoint};
+use super::error::SurfaceError;
 use super::folding::SurfaceClosure;
-use super::{Negative, Surface, SurfaceError, SurfaceOptions, SurfacePoint, cell, sign};
+use super::{cell, sign};
 use crate::kinematics::{Closing, KinematicsError, Ray, Rays, RealDirections, SpatiallyPeriodic};
 use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
@@ -48,7 +50,7 @@ pub(super) fn curve(
     options: &SurfaceOptions,
     observe: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Surface, SurfaceError> {
-    let (closure, embedding, second_order) = cell(assembly)?;
+    let (closure, embedding, second_order) = cell::of(assembly)?;
     let Rays { rays, directions, .. } = Rays::new(&second_order)?;
     let periodic = SpatiallyPeriodic(&embedding);
     let planar = second_order.one_direction_is_real()?;

@@ -12,6 +12,7 @@
 //! Nappes of a flat cell come close to each other where its directions nearly meet, closer than the smallest charts;
 //! there the coverage stays open, and says so.
 
+mod cell;
 mod covered;
 mod crossing;
 mod curve;
@@ -21,8 +22,8 @@ mod sign;
 mod starts;
 mod tip;
 
-use crate::kinematics::{Closure, Embedding, KinematicsError, SecondOrder};
-use crate::model::{Assembly, Boundary};
+use crate::kinematics::KinematicsError;
+use crate::model::Assembly;
 use crate::solver::atlas::{self, Atlas, Coverage};
 pub use covered::{Negative, Seam, Surface, SurfaceOptions, SurfacePoint};
 pub use crossing::Lowest;
@@ -53,22 +54,6 @@ pub fn surface(
     }
 }
 
-/// The cell of a sheet, and what second order says of its drawn state.
-fn cell(assembly: &Assembly) -> Result<(Closure, Embedding, SecondOrder), SurfaceError> {
-    let sheet = assembly.sheet();
-    if assembly.boundary() != Boundary::Screw {
-        return Err(SurfaceError::NotScrew);
-    }
-    let closure = Closure::of_cell(sheet)?.with_locked(&assembly.locked_edges());
-    if closure.unchecked_loops() > 0 || !sheet.holes.is_empty() {
-        let loops = closure.unchecked_loops().max(sheet.holes.len());
-        return Err(KinematicsError::Openings { loops }.into());
-    }
-    let embedding = Embedding::new(sheet)?;
-    let second_order = SecondOrder::new(&closure, embedding.drawn_angles())?;
-    Ok((closure, embedding, second_order))
-}
-
 /// Covers the surface as [`surface`] does.
 ///
 /// # Errors
@@ -78,7 +63,7 @@ pub(super) fn on_surface(
     options: &SurfaceOptions,
     observe: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Surface, SurfaceError> {
-    let (closure, embedding, second_order) = cell(assembly)?;
+    let (closure, embedding, second_order) = cell::of(assembly)?;
     let (modes, quadrics) = (second_order.count(), second_order.quadrics.len());
     if modes == quadrics + 1 {
         return Err(SurfaceError::Curve);

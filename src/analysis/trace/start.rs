@@ -1,6 +1,6 @@
 //! The first state of trajectories, and the rays along which they leave it.
 
-use super::TraceError;
+use super::error::TraceError;
 use crate::analysis::branches::{Branches, branches};
 use crate::kinematics::tube::{BOTH, Condition};
 use crate::kinematics::{Ray, RealDirections, Tube};
