@@ -322,7 +322,8 @@ def check_table(checks, path, kind, edges):
     fold = header[-edges:]
     between = header[len(STATE_COLUMNS):-edges]
     checks.that(all(name.startswith("fold_") for name in fold), f"{path}: a column for every edge")
-    checks.that([name for name in between if name not in RATIOS] in (["state"], ["error_to_kinematic", "state"]), f"{path}: the columns between, {between}")
+    known = (["state"], ["error_to_kinematic", "state"], ["seam_turn", "seam_rise", "state"], ["error_to_kinematic", "seam_turn", "seam_rise", "state"])
+    checks.that([name for name in between if name not in RATIOS] in known, f"{path}: the columns between, {between}")
     return [float(field) if field else np.nan for field in rows[-1][-edges:]] if rows else None
 
 
