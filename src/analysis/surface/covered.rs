@@ -64,7 +64,7 @@ pub struct Surface {
     pub dimension: usize,
     /// Neighbours on a curve.
     pub segments: Vec<[usize; 2]>,
-    /// What second order establishes where there is no surface; there are no states then, or those of a curve.
+    /// Fact of second order that leaves no surface, where there is one; the states are then none, or those of a curve.
     pub negative: Option<Negative>,
 }
 

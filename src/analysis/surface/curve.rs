@@ -135,7 +135,7 @@ impl Surface {
         Ok(found.end)
     }
 
-    /// What the end of a trajectory says about the whole.
+    /// Records the end of a trajectory in the coverage, and whether all of them close.
     fn conclude(&mut self, end: &End) {
         self.closed &= matches!(end, End::Closed(_));
         self.coverage = match (end, self.coverage) {

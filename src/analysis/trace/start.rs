@@ -13,7 +13,7 @@ pub(super) struct Start<'a> {
     pub angles: Vec<f64>,
     /// The rays to follow.
     pub rays: Vec<Ray>,
-    /// What is established about the directions in which folding leaves the state.
+    /// Completeness of the rays among all real directions of folding.
     pub directions: RealDirections,
     /// Whether folding keeps the sheet spatially periodic.
     pub planar: bool,
