@@ -331,7 +331,7 @@ impl Model {
     }
 
     /// Returns the angles of the last accepted state, from which angles continue.
-    pub(crate) fn angles(&self) -> Vec<f64> {
+    pub fn angles(&self) -> Vec<f64> {
         self.terms().flat_map(|term| term.angles().iter().copied()).collect()
     }
 

@@ -100,7 +100,7 @@ impl Table {
     /// state has this value, the columns [`RATIOS`] if the states have ratios, and [`SEAM`] if they have seams.
     pub(crate) fn of_states(edges: &[EdgeKey], states: &[StateRow]) -> Self {
         let compared = states.iter().any(|state| state.error_to_kinematic.is_some());
-        let columns = StateRow::PLACE.into_iter().chain(Solution::COLUMNS).chain(["self_intersecting"]);
+        let columns = StateRow::PLACE.into_iter().chain(CYLINDER).chain(Solution::COLUMNS).chain(["self_intersecting"]);
         let ratios = states.iter().any(|state| state.ratios.is_some()).then_some(RATIOS).into_iter().flatten();
         let seam = states.iter().any(|state| state.seam.is_some()).then_some(SEAM).into_iter().flatten();
         let columns =
@@ -265,15 +265,16 @@ pub(crate) struct StateRow {
     pub fold: Vec<f64>,
 }
 
+/// Names of the columns of a state that is periodic up to screw motions.
+pub(crate) const CYLINDER: [&str; 6] = ["curvature", "theta1", "theta2", "strain11", "strain22", "strain12"];
 /// Names of the columns of Poisson's ratios.
 pub(crate) const RATIOS: [&str; 2] = ["poisson_in_plane", "poisson_bending"];
 /// Names of the columns of the seam of a tube.
 pub(crate) const SEAM: [&str; 2] = ["seam_turn", "seam_rise"];
 
 impl StateRow {
-    /// Names of the columns before energies and residuals.
-    const PLACE: [&str; 10] =
-        ["branch", "sign", "step", "arc_length", "curvature", "theta1", "theta2", "strain11", "strain22", "strain12"];
+    /// Names of the columns before those of the cylinder.
+    const PLACE: [&str; 4] = ["branch", "sign", "step", "arc_length"];
 
     fn values(&self, row: usize, compared: bool) -> Vec<Value> {
         let counts = [self.branch, self.sign, self.step].map(Value::from);

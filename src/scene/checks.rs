@@ -261,7 +261,7 @@ fn has_states(kind: &StudyKind) -> bool {
     matches!(kind, StudyKind::Relax(_) | StudyKind::Trace(_) | StudyKind::Surface(_) | StudyKind::Path(_))
 }
 
-/// Checks that a path has a drive, and that its stops are those of a patch.
+/// Checks that a path has a drive, and that its sheet has the quantities at which it stops.
 fn driven(file: &SceneFile, study: &StudySpec, path: &PathSpec) -> Checked {
     let drives = &file.scene.drives;
     let known: Vec<_> = drives.iter().map(|drive| format!("\"{}\"", drive.name.0)).collect();
@@ -278,9 +278,10 @@ fn driven(file: &SceneFile, study: &StudySpec, path: &PathSpec) -> Checked {
         _ => {}
     }
     let Some(stop) = &path.stop else { return Ok(()) };
-    if let Some(curvature) = &stop.curvature {
-        let help = "a patch has no curvature of its own: stop at an arc length or at the angle of a crease";
-        return Err(file.error_at(curvature.span(), "a path does not stop at a curvature", help));
+    let rolls = matches!(file.scene.sheet.domain(), DomainSpec::Screw | DomainSpec::Tube);
+    if let Some(curvature) = stop.curvature.as_ref().filter(|_| !rolls) {
+        let help = "a patch or torus has no curvature of its own: stop at an arc length or at the angle of a crease";
+        return Err(file.error_at(curvature.span(), "a path of this sheet does not stop at a curvature", help));
     }
     some_condition(file, stop)
 }

@@ -26,16 +26,19 @@ enum Quantity<'a> {
 /// Checks what is wrong in drives and parts without a sheet.
 pub(super) fn check(file: &SceneFile) -> Result<(), SceneError> {
     let scene = &file.scene;
-    let names = scene.parts.iter().map(|part| ("a part", &part.name));
-    let mut names = names.chain(scene.drives.iter().map(|drive| ("a drive", &drive.name)));
-    if let Some((what, name)) = names.next()
-        && scene.sheet.domain() != DomainSpec::Patch
-    {
-        let message = format!("{what} on a sheet that is no patch");
-        return Err(file.error_at(name.span(), message, "parts and drives need domain = \"patch\""));
+    let patch = scene.sheet.domain() == DomainSpec::Patch;
+    if let Some(part) = scene.parts.first().filter(|_| !patch) {
+        let help = "parts need domain = \"patch\"";
+        return Err(file.error_at(part.name.span(), "a part on a sheet that is no patch", help));
     }
     for drive in &scene.drives {
-        end(file, drive, &quantity(file, drive)?)?;
+        let quantity = quantity(file, drive)?;
+        if let (Quantity::Vertices(_, axis), false) = (&quantity, patch) {
+            let help = "a periodic sheet moves as a whole: drive a lock, the rest angles or a stiffness, or give \
+                        domain = \"patch\"";
+            return Err(file.error_at(axis.span(), "vertices are driven on a sheet that is no patch", help));
+        }
+        end(file, drive, &quantity)?;
     }
     Ok(())
 }

@@ -28,6 +28,7 @@ mod modes;
 mod page;
 mod path;
 mod path_plot;
+mod path_table;
 mod ratios;
 mod reason;
 mod relax;

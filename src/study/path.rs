@@ -5,7 +5,7 @@ use super::context::Context;
 use super::error::StudyError;
 use super::path_plot::{Words, event_word, figure};
 use super::states::{self, Shown};
-use super::{energies, start};
+use super::{path_table, ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
     PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint, PathRecord, PathStart, PathStop,
@@ -15,7 +15,6 @@ use crate::model::{Assembly, Drive, DriveError, Driven, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
 use crate::output::summary::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary, StudyResult};
-use crate::output::table::{Solution, Table, Value};
 use crate::scene::build;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{Draw, PathSpec};
@@ -32,6 +31,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &PathSpec) -> Result<(), StudyE
         let help = "give bars, creases or facets a stiffness";
         return Err(context.refuse("there is no energy whose equilibria a path could follow", help).into());
     }
+    ratios::check(context, spec.response.as_ref())?;
     moves(context, spec)?;
     has_effect(context, spec)?;
     stop(context, spec)?;
@@ -82,7 +82,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     let found = resume_path(context.assembly, &drive, start, &options, record, callbacks);
     match (found, fault) {
         (_, Some(fault)) => Err(fault.into()),
-        (Ok(branches), None) => Ok(answer(context, (drive_name(context, spec), &drive), &branches)),
+        (Ok(branches), None) => Ok(answer(context, spec, &drive, &branches)),
         (Err(failure), None) => Ok(Answer::failed(context.study, failure)),
     }
 }
@@ -144,8 +144,8 @@ fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> 
             let edge = found.ok_or_else(|| {
                 let key = wanted.crease.0;
                 let message =
-                    format!("the patch has no crease [{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1]);
-                let help = "name a crease between two faces of the patch as [i, j, n1, n2]";
+                    format!("the sheet has no crease [{}, {}, {}, {}]", key.i, key.j, key.shift[0], key.shift[1]);
+                let help = "name a crease between two faces as [i, j, n1, n2]";
                 context.file.error_at(wanted.crease.span(), message, help)
             })?;
             Some((edge, wanted.angle.radians))
@@ -153,6 +153,7 @@ fn stop(context: &Context<'_>, spec: &PathSpec) -> Result<PathStop, StudyError> 
     };
     Ok(PathStop {
         arc_length: said.arc_length.as_ref().map(|length| length.0),
+        curvature: said.curvature.as_ref().map(|curvature| curvature.0),
         crease_angle,
         self_intersection: said.self_intersection == Some(true),
     })
@@ -170,12 +171,12 @@ fn crease_in_middle(assembly: &Assembly, key: crate::sheet::EdgeKey) -> Option<u
 }
 
 /// Returns the answer of a path that began.
-fn answer(context: &Context<'_>, (name, drive): (&str, &Drive), branches: &[PathBranch]) -> Answer {
+fn answer(context: &Context<'_>, spec: &PathSpec, drive: &Drive, branches: &[PathBranch]) -> Answer {
     let mut answer = Answer::empty(context.study);
     let marks = marks(context, branches);
-    answer.add(format!("{}.csv", context.name()), table(context, branches, marks.as_deref()));
+    answer.add(format!("{}.csv", context.name()), path_table::table(context, spec, branches, marks.as_deref()));
     add_pictures(&mut answer, context, drive, branches, marks.as_deref());
-    let result = summary(context, (name, drive), branches, marks.as_deref());
+    let result = summary(context, (drive_name(context, spec), drive), branches, marks.as_deref());
     let error = worst(result.branches.iter().filter_map(|branch| branch.max_residual));
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
     let reason = branches.first().map_or(Some("the path has no states".to_owned()), reason);
@@ -228,45 +229,6 @@ fn marks(context: &Context<'_>, branches: &[PathBranch]) -> Option<Vec<Vec<Marks
         all.push(found);
     }
     Some(all)
-}
-
-/// Returns the table of all states; where it was asked for, with the column `self_intersecting`.
-fn table(context: &Context<'_>, branches: &[PathBranch], marks: Option<&[Vec<Marks>]>) -> Table {
-    let crossing = marks.map(|_| "self_intersecting");
-    let place = ["branch", "step", "arc_length", "drive", "reaction", "work"].into_iter();
-    let columns =
-        place.chain(Solution::COLUMNS).chain(["negative_eigenvalues", "event"]).chain(crossing).chain(["state"]);
-    let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
-    let mut table = Table::with_edges(columns, "fold", edges);
-    for (number, branch) in branches.iter().enumerate() {
-        for (step, point) in branch.points.iter().enumerate() {
-            let crossing = marks.map(|marks| marks[number].get(step).map(|marks| i64::from(marks.any)).into());
-            let state = table.len();
-            table.push(row(context, [number, step, state], point, crossing));
-        }
-    }
-    table
-}
-
-fn row(
-    context: &Context<'_>,
-    [branch, step, number]: [usize; 3],
-    point: &PathPoint,
-    crossing: Option<Value>,
-) -> Vec<Value> {
-    let numbers = [point.arc_length, point.drive, point.reaction, point.work].map(Value::Number);
-    let solution = Solution {
-        energy: energies::columns(context.assembly.terms(), &point.state),
-        residual_force: Some(point.residual_force),
-        residual_length: Some(point.residual_length),
-    };
-    let event = point.event.map_or(Value::Empty, |event| Value::Word(event_word(event)));
-    let state = states::with_all_angles(context, &point.state);
-    let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);
-    let [branch, step, number] = [branch, step, number].map(|number| Value::Whole(number as i64));
-    let own = [branch, step].into_iter().chain(numbers).chain(solution.values());
-    let own = own.chain([Value::Whole(point.negative_eigenvalues as i64), event]);
-    own.chain(crossing).chain([number]).chain(fold).collect()
 }
 
 /// Adds the series of some states, the last state of the first branch, and the plot of reactions.

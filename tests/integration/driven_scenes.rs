@@ -237,14 +237,18 @@ fn faults_of_drives() {
     ]);
 }
 
-/// Claim: parts and drives are for patches.
+/// Claim: parts and driven vertices are for patches; locks, rest angles and stiffnesses are driven on every sheet.
 #[test]
 fn patches_only() {
+    let vertices = "[[drive]]\nname = \"d\"\nvertices = [0]\naxis = \"z\"\nto = 1";
     for domain in ["screw", "torus"] {
         let sheet = format!("generate = {{ pattern = \"miura\" }}\ndomain = \"{domain}\"");
-        for tables in [PARTS, "[[drive]]\nname = \"d\"\nrest = true\nto = 1"] {
+        for (tables, at) in [(PARTS, 2), (vertices, 4)] {
             let (line, message, help) = refusal(&sheet, tables);
-            assert!(line == 2 && message.contains("is no patch") && help.contains("\"patch\""), "{message}");
+            assert!(line == at && message.contains("is no patch") && help.contains("\"patch\""), "{line} {message}");
+        }
+        for tables in ["rest = true\nto = 1", "stiffness = \"bars\"\nto = 2"] {
+            assert!(assembled(&sheet, &format!("[[drive]]\nname = \"d\"\n{tables}")).is_ok(), "{tables}");
         }
     }
 }
@@ -258,7 +262,12 @@ fn studies() {
     let cases = [
         (study(""), 11, "the scene has 2 drives, and this path names none", "\"a\", \"b\""),
         (study("drive = \"c\""), 12, "no drive is called `c`", "\"a\", \"b\""),
-        (study("drive = \"a\"\nstop = { curvature = 1 }"), 13, "a path does not stop at a curvature", "arc length"),
+        (
+            study("drive = \"a\"\nstop = { curvature = 1 }"),
+            13,
+            "a path of this sheet does not stop at a curvature",
+            "arc length",
+        ),
         (study("drive = \"a\"\nstop = {}"), 13, "no condition to stop at", "arc_length"),
         (study("drive = \"a\"\nstart = \"t\""), 13, "no earlier study is called `t`", "earlier study"),
         (

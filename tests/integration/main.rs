@@ -51,6 +51,7 @@ mod pages;
 mod path_laws;
 mod paths;
 mod periodic;
+mod periodic_paths;
 mod pinned_wells;
 mod planar_curves;
 mod reasons;

@@ -388,7 +388,9 @@ impl Problem for DrivenModel {
         self.model.linearize(x, tension, kind, out);
     }
 
+    /// Keeps the unknowns: the path's tangents and earlier states are written in them.
     fn accept(&mut self, x: &mut [f64]) {
-        self.model.accept(x);
+        let all = self.model.generalised(x);
+        self.model.accept_angles(&all[..self.model.points()]);
     }
 }

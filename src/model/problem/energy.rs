@@ -79,9 +79,7 @@ impl Problem for Model {
     fn accept(&mut self, x: &mut [f64]) {
         let mut all = self.generalised(x);
         let points = self.points();
-        for term in self.soft.iter_mut().chain(&mut self.stiff) {
-            term.accept(&self.domain, &all[..points]);
-        }
+        self.accept_angles(&all[..points]);
         let moved = self.domain.recentre(&mut all[..points], self.mean_edge);
         let units = self.units_at(&all[..points]);
         if moved || units != self.units {
@@ -103,6 +101,13 @@ impl Problem for Model {
 }
 
 impl Model {
+    /// Lets fold angles continue from the state with these coordinates; the unknowns and their units stay as they are.
+    pub(super) fn accept_angles(&mut self, points: &[f64]) {
+        for term in self.soft.iter_mut().chain(&mut self.stiff) {
+            term.accept(&self.domain, points);
+        }
+    }
+
     /// Displacement of the loads, each along its force and weighted by it, from the origin; the energy falls by it times
     /// the factor of the loads.
     pub(super) fn load_displacement(&self, all: &[f64]) -> f64 {

@@ -315,8 +315,10 @@ pub struct PathSpec {
     /// Whether branches that leave at branch points are followed too.
     #[serde(default)]
     pub switch: bool,
-    /// The first of these that is met ends a branch; `curvature` is not for patches.
+    /// The first of these that is met ends a branch; `curvature` is one of `screw` and `tube`.
     pub stop: Option<Located<StopSpec>>,
+    /// Whether the table has columns with Poisson's ratios of every state, and of which modes; left out: none.
+    pub response: Option<Located<RatioColumns>>,
 }
 
 /// `kind = "response"`, of a periodic sheet.

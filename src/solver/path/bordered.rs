@@ -21,6 +21,8 @@ use crate::solver::linearization::{HessianKind, Linearization};
 /// Relative residual to which bordered systems are solved, and the one above which a solution is not used.
 const WANTED_RESIDUAL: f64 = 1e-12;
 pub(super) const REFUSED_RESIDUAL: f64 = 1e-3;
+/// Part of the tensions above which what balances no force is a self stress, and not rounding.
+const SELF_STRESS: f64 = 1e-6;
 /// Shift of the Hessian where a pivot of the factorization without shift vanishes.
 const SINGULAR_SHIFT: f64 = 1e-6;
 /// Rounds of inverse iteration, and the relative residual to which their systems are solved.
@@ -124,6 +126,16 @@ impl Bordered {
         let parameter = x.pop().unwrap_or(0.0) * self.unit;
         let tension = tension.iter().zip(&self.at.sizes).map(|(t, size)| t / size).collect();
         (Rates { x, tension, parameter }, refined.residual)
+    }
+
+    /// The tensions that balance the forces of the state alone, without a self stress of rigid measures: those that the system
+    /// finds from none, which it combines from motions. `None` where `tension` is these.
+    pub fn relieved(&mut self, tension: &[f64]) -> Option<Vec<f64>> {
+        let none = vec![0.0; tension.len()];
+        let (force, missing) = (self.at.force(&none), self.at.missing(&none, &self.compliance));
+        let found = self.system.solve(&self.at, &force, &missing, WANTED_RESIDUAL).dt;
+        let off = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        (off(tension, &found) > SELF_STRESS * off(&found, &none)).then_some(found)
     }
 
     /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates of

@@ -25,6 +25,14 @@ pub(super) struct Guess {
     pub parameter: f64,
 }
 
+impl Guess {
+    fn add(&mut self, step: &Rates) {
+        add_scaled(&mut self.x, 1.0, &step.x);
+        add_scaled(&mut self.tension, 1.0, &step.tension);
+        self.parameter += step.parameter;
+    }
+}
+
 /// A state on the path, and how it was reached.
 pub(super) struct Corrected {
     pub at: Guess,
@@ -66,19 +74,56 @@ pub(super) fn correct<P: ParametrizedProblem>(
         let length = norm_blocked(&step.x).hypot(step.parameter / bordered.unit());
         let small = length <= ROUNDING * larger(max_abs(&at.x), bordered.length());
         if residual.is_nan() || residual > REFUSED_RESIDUAL || !(small || length <= SLOWEST_CONTRACTION * last) {
-            // a right-hand side of rounding errors has no exact solution
-            return Ok(rounded.then_some(Corrected { at, residuals, off, iterations }));
+            // a right-hand side of rounding errors has no exact solution; the step is taken where it helps all the same
+            let kept = Corrected { at, residuals, off, iterations };
+            return Ok(rounded.then(|| bettered(problem, bordered, kept, &step)));
         }
         if iterations == 0 {
             off = length;
         }
         polished += usize::from(small);
         last = length;
-        add_scaled(&mut at.x, 1.0, &step.x);
-        add_scaled(&mut at.tension, 1.0, &step.tension);
-        at.parameter += step.parameter;
+        at.add(&step);
     }
     Ok(None)
+}
+
+/// Returns the state that a step leads to if its residuals are smaller, otherwise the state as it is.
+fn bettered<P: ParametrizedProblem>(
+    problem: &mut P,
+    bordered: &mut Bordered,
+    kept: Corrected,
+    step: &Rates,
+) -> Corrected {
+    let mut at = kept.at.clone();
+    at.add(step);
+    problem.set_parameter(at.parameter);
+    bordered.linearize(problem, &at.x, &at.tension);
+    let residuals = Residuals::new(problem, &bordered.at, &at.tension);
+    if larger(residuals.force, residuals.length) < larger(kept.residuals.force, kept.residuals.length) {
+        return Corrected { at, residuals, off: kept.off, iterations: kept.iterations + 1 };
+    }
+    problem.set_parameter(kept.at.parameter);
+    bordered.linearize(problem, &kept.at.x, &kept.at.tension);
+    kept
+}
+
+/// Takes the self stress of rigid measures out of a state's tensions: predictions would let it grow from state to state.
+fn relieved<P: ParametrizedProblem>(
+    problem: &P,
+    bordered: &mut Bordered,
+    found: Corrected,
+) -> Result<Corrected, FactorError> {
+    let Some(tension) = bordered.relieved(&found.at.tension) else { return Ok(found) };
+    bordered.linearize(problem, &found.at.x, &tension);
+    let residuals = Residuals::new(problem, &bordered.at, &tension);
+    if residuals.force <= larger(MOST_ROUNDING, found.residuals.force) {
+        bordered.factor()?;
+        return Ok(Corrected { at: Guess { tension, ..found.at }, residuals, ..found });
+    }
+    bordered.linearize(problem, &found.at.x, &found.at.tension);
+    bordered.factor()?;
+    Ok(found)
 }
 
 /// Completes a state on the path: its tangent on the side to which the plane's normal points, its conjugate and its
@@ -93,8 +138,9 @@ pub(super) fn complete<P: ParametrizedProblem>(
     plane: &Plane,
     arc_length: f64,
 ) -> Result<PathState, FactorError> {
-    let Corrected { at: Guess { x, tension, parameter }, residuals, iterations, .. } = found;
     bordered.factor()?;
+    let Corrected { at: Guess { x, tension, parameter }, residuals, iterations, .. } =
+        relieved(problem, bordered, found)?;
     let negative_eigenvalues = bordered.negative_eigenvalues()?;
     let (forces, stretches) = (vec![0.0; x.len()], vec![0.0; tension.len()]);
     let (mut tangent, _) = bordered.solve(&forces, &stretches, 1.0, plane);

@@ -1,0 +1,66 @@
+//! The table of a path: one row for each state.
+
+use super::context::Context;
+use super::path_plot::event_word;
+use super::{energies, ratios, states};
+use crate::analysis::intersections::Marks;
+use crate::analysis::path::{PathBranch, PathPoint};
+use crate::analysis::state::{Cylinder, cylinder};
+use crate::output::table::{CYLINDER, RATIOS, Solution, Table, Value};
+use crate::scene::spec::PathSpec;
+
+/// Returns the table of all states. That of a periodic sheet has the columns of a cylinder; where the study asks for them,
+/// there are the columns of self-intersections and of Poisson's ratios.
+pub(crate) fn table(
+    context: &Context<'_>,
+    spec: &PathSpec,
+    branches: &[PathBranch],
+    marks: Option<&[Vec<Marks>]>,
+) -> Table {
+    let asked = |given: bool, columns: &'static [&'static str]| if given { columns } else { &[] }.iter().copied();
+    let columns = ["branch", "step", "arc_length", "drive", "reaction", "work"]
+        .into_iter()
+        .chain(asked(context.assembly.boundary().is_periodic(), &CYLINDER))
+        .chain(Solution::COLUMNS)
+        .chain(["negative_eigenvalues", "event"])
+        .chain(asked(marks.is_some(), &["self_intersecting"]))
+        .chain(asked(spec.response.is_some(), &RATIOS))
+        .chain(["state"]);
+    let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
+    let mut table = Table::with_edges(columns, "fold", edges);
+    for (number, branch) in branches.iter().enumerate() {
+        for (step, point) in branch.points.iter().enumerate() {
+            let crossing = marks.map(|marks| marks[number].get(step).map(|marks| i64::from(marks.any)).into());
+            let state = table.len();
+            table.push(row(context, spec, [number, step, state], point, crossing));
+        }
+    }
+    table
+}
+
+fn row(
+    context: &Context<'_>,
+    spec: &PathSpec,
+    [branch, step, number]: [usize; 3],
+    point: &PathPoint,
+    crossing: Option<Value>,
+) -> Vec<Value> {
+    let (assembly, coordinates) = (context.assembly, &point.state.coordinates);
+    let numbers = [point.arc_length, point.drive, point.reaction, point.work].map(Value::Number);
+    let shape = cylinder(assembly.drawn(), coordinates);
+    let shape = shape.map(|Cylinder { curvature, theta, strain }| [&[curvature][..], &theta, &strain].concat());
+    let solution = Solution {
+        energy: energies::columns(assembly.terms(), &point.state),
+        residual_force: Some(point.residual_force),
+        residual_length: Some(point.residual_length),
+    };
+    let event = point.event.map_or(Value::Empty, |event| Value::Word(event_word(event)));
+    let ratios = ratios::of_state(assembly, spec.response.as_ref(), coordinates);
+    let state = states::with_all_angles(context, &point.state);
+    let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);
+    let [branch, step, number] = [branch, step, number].map(|number| Value::Whole(number as i64));
+    let own = [branch, step].into_iter().chain(numbers).chain(shape.into_iter().flatten().map(Value::Number));
+    let own = own.chain(solution.values()).chain([Value::Whole(point.negative_eigenvalues as i64), event]);
+    let asked = crossing.into_iter().chain(ratios.into_iter().flatten().map(Value::from));
+    own.chain(asked).chain([number]).chain(fold).collect()
+}

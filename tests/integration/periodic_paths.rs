@@ -1,0 +1,199 @@
+//! Driven paths of periodic sheets: one cell of a torus, a cylinder, a tube.
+//!
+//! Sources: the fold angles of a Miura-ori (zigzag creases `2 g` at the angle `g` between faces and plane) and its Poisson's
+//! ratios, in its plane `-cos^2(g) tan^2(t)` with the sector angle `t`, of bending the opposite (M. Schenk, S. D. Guest,
+//! PNAS 110, 3276 (2013)); relaxations with the lock held at another angle, which share neither tangents nor steps with a path.
+
+use foldwell::analysis::path::{PathOptions, PathPoint, PathStart, follow_path};
+use foldwell::analysis::relax::relax_from;
+use foldwell::model::{Assembly, Drive, Driven, Gauge};
+use foldwell::output::summary::{PathSummary, StudyResult};
+use foldwell::relax;
+use foldwell::run::{RunOptions, run_scene};
+use foldwell::scene::{build, parse};
+use foldwell::solver::Options;
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_3;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// The fold angle as drawn of the crease [0, 1, 0, 0], which is locked and driven.
+const DRAWN: f64 = -0.5433931680006628;
+
+/// The reference cell, rolled up by its rest angles, with these tables in its scene.
+fn rolled(tables: &str) -> Assembly {
+    let text = format!(
+        "[sheet]\nmesh = \"open-star.fold\"\ndomain = \"screw\"\ncells = [4, 4]\n[energy]\nbars = {{ stiffness = inf }}\n\
+         creases = {{ stiffness = 1.0, rest = {{ mode = [0.0, 0.3, 0.0], amplitude = 1.0 }} }}\n{tables}"
+    );
+    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    build::assembly(&parse(&text, meshes.join("s.toml")).unwrap()).unwrap()
+}
+
+/// The same with one crease locked at an angle.
+fn locked(angle: f64) -> Assembly {
+    rolled(&format!("[[lock]]\ncrease = [0, 1, 0, 0]\nangle = {angle:?}\n"))
+}
+
+/// The path of the cylinder to which the reference cell relaxes, while its lock is turned.
+fn path_of_cylinder(to: f64) -> Vec<PathPoint> {
+    let assembly = locked(DRAWN);
+    let mut model = assembly.model(Gauge::Held);
+    let drawn = model.start();
+    let relaxed = relax_from(&mut model, drawn, Options::default(), &mut |_| true).unwrap();
+    let (coordinates, angles) = (relaxed.state.coordinates, model.angles());
+    let start = PathStart { coordinates, angles, tension: Some(relaxed.tension) };
+    let drive = Drive { quantity: Driven::Lock(vec![0]), to };
+    let mut branches = follow_path(&assembly, &drive, Some(start), &PathOptions::default(), &mut |_, _| true).unwrap();
+    branches.remove(0).points
+}
+
+/// Claim: the states of a path of a cylinder are those to which the sheet relaxes with its lock at their angles, and the
+/// torque of the lock is the slope of their energy. Tolerances: 1e-10 of energies of size 1 from residuals of 1e-12; the
+/// slope by central differences over 1e-4, whose error is 1e-8 times a third derivative of size 10.
+#[test]
+fn cylinder_along_a_lock() {
+    let points = path_of_cylinder(-0.2);
+    let last = points.last().unwrap();
+    assert!((last.drive + 0.2).abs() < 1e-12 && points.len() > 10, "{} to {}", points.len(), last.drive);
+    for point in points.iter().step_by(6) {
+        let relaxed = |shift: f64| {
+            let assembly = locked(point.drive + shift);
+            let mut model = assembly.model(Gauge::Held);
+            model.set_angles(&point.angles);
+            let start = model.start_from(point.state.coordinates.clone());
+            relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap().state
+        };
+        let here = relaxed(0.0);
+        assert!((here.total() - point.state.total()).abs() < 1e-10, "{} for {}", point.state.total(), here.total());
+        let step = 1e-4;
+        let slope = (relaxed(step).total() - relaxed(-step).total()) / (2.0 * step);
+        assert!((slope - point.reaction).abs() < 1e-6, "{slope} for {} at {}", point.reaction, point.drive);
+        assert_eq!(point.negative_eigenvalues, 0);
+    }
+    let work = last.state.total() - points[0].state.total();
+    assert!((last.work - work).abs() < 1e-5 && work > 0.1, "{} for {work}", last.work);
+}
+
+/// Runs a scene; returns its paths and tables by study, rows by column.
+fn run(text: &str) -> HashMap<String, (PathSummary, Vec<HashMap<String, f64>>)> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::copy(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/open-star.fold"),
+        folder.path().join("open-star.fold"),
+    )
+    .unwrap();
+    let scene = folder.path().join("s.toml");
+    std::fs::write(&scene, text).unwrap();
+    let options = RunOptions { out: Some(folder.path().join("out")), ..RunOptions::default() };
+    let report = run_scene(&scene, &options, &|_| ControlFlow::Continue(())).unwrap();
+    let mut found = HashMap::new();
+    for study in report.summary.studies {
+        assert!(study.converged, "{}: {:?}", study.name, study.reason);
+        let Some(StudyResult::Path(path)) = study.result else { continue };
+        let table = std::fs::read_to_string(folder.path().join("out").join(format!("{}.csv", study.name))).unwrap();
+        let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let header = lines.next().unwrap();
+        let row = |line: Vec<&str>| {
+            header.iter().zip(line).map(|(name, value)| (name.to_string(), value.parse().unwrap_or(f64::NAN))).collect()
+        };
+        found.insert(study.name, (path, lines.map(row).collect()));
+    }
+    found
+}
+
+const MIURA: &str = r#"
+[sheet]
+generate = { pattern = "miura", fold = 0.6 }
+domain = "torus"
+cells = [1, 1]
+[energy]
+bars = { stiffness = inf }
+creases = { stiffness = 1.0 }
+facets = { stiffness = 10.0 }
+[[lock]]
+crease = [0, 1, 0, 0]
+[[drive]]
+name = "fold"
+lock = [0, 1, 0, 0]
+to = 0.3
+[[study]]
+name = "press"
+kind = "path"
+response = "bending"
+"#;
+
+/// Claim: the path of a Miura-ori whose zigzag crease is unfolded is its rigid folding: `tan(r/2) = tan(r'/2) cos t` joins the
+/// two fold angles, facets stay flat, both Poisson's ratios are those of the closed form, the energy is that of the creases,
+/// and so is the torque, although the bars have self stresses. Tolerance 1e-9: residuals of 1e-12 over the least singular
+/// value.
+#[test]
+fn folding_of_a_miura_ori() {
+    let found = run(MIURA);
+    let (summary, rows) = &found["press"];
+    assert_eq!(summary.branches[0].end, "arrived");
+    let tan = |angle: f64| (0.5 * angle).tan();
+    for row in rows {
+        let at = |name: &str| row[name];
+        let (zigzag, straight) = (at("fold_0_1_0_0"), at("fold_1_3_0_0"));
+        assert!((tan(straight) - FRAC_PI_3.cos() * tan(zigzag)).abs() < 1e-9, "{zigzag} {straight}");
+        assert!(at("fold_1_2_0_0").abs() < 1e-9 && at("curvature") == 0.0);
+        let ratio = (0.5 * zigzag).cos().powi(2) * FRAC_PI_3.tan().powi(2);
+        let [in_plane, bending] = ["poisson_in_plane", "poisson_bending"].map(at);
+        assert!((in_plane + ratio).abs() < 1e-9 && (bending - ratio).abs() < 1e-9, "{in_plane} {bending} for {ratio}");
+        // four creases of each kind, of length 1, from 1.2 and the angle that belongs to it
+        let rest = 2.0 * (FRAC_PI_3.cos() * tan(1.2)).atan();
+        let energy = 2.0 * ((zigzag - 1.2).powi(2) + (straight - rest).powi(2));
+        assert!((at("energy_total") - energy).abs() < 1e-9 * (1.0 + energy), "{} for {energy}", at("energy_total"));
+        let rate = FRAC_PI_3.cos() * (1.0 + tan(zigzag).powi(2)) / (1.0 + tan(straight).powi(2));
+        let torque = 4.0 * (zigzag - 1.2 + (straight - rest) * rate);
+        assert!((at("reaction") - torque).abs() < 1e-9, "{} for {torque}", at("reaction"));
+    }
+    assert!(rows.len() > 15 && (rows.last().unwrap()["drive"] - 0.3).abs() < 1e-12);
+}
+
+const CYLINDER: &str = r#"
+[sheet]
+mesh = "open-star.fold"
+domain = "screw"
+cells = [4, 4]
+[energy]
+bars = { stiffness = 1e4 }
+creases = { stiffness = 1.0, rest = { mode = [0.0, 0.3, 0.0], amplitude = 1.0 } }
+[[drive]]
+name = "roll"
+rest = true
+to = 1.0
+[[drive]]
+name = "stiffen"
+stiffness = "bars"
+to = inf
+[[study]]
+name = "rolling"
+kind = "path"
+drive = "roll"
+stop = { curvature = 0.25 }
+[[study]]
+name = "full"
+kind = "path"
+drive = "roll"
+[[study]]
+name = "rigid"
+kind = "path"
+drive = "stiffen"
+start = "full"
+"#;
+
+/// Claim: while rest angles are driven a straight sheet rolls up, and the path ends exactly at the curvature where it is told
+/// to stop; a driven stiffness goes on to rigid bars, where the state is the one to which rigid bars relax. Tolerances: those
+/// of located states; 1e-9 for energies from residuals of 1e-12.
+#[test]
+fn rolling_and_stiffening() {
+    let found = run(CYLINDER);
+    let last = |study: &str| found[study].1.last().unwrap().clone();
+    assert_eq!(found["rolling"].0.branches[0].end, "stop");
+    assert!((last("rolling")["curvature"].abs() - 0.25).abs() < 1e-9, "{}", last("rolling")["curvature"]);
+    assert_eq!(found["rolling"].1[0]["curvature"], 0.0);
+    let relaxed = relax(&rolled("")).unwrap().state.total();
+    assert!((last("rigid")["energy_total"] - relaxed).abs() < 1e-9, "{} for {relaxed}", last("rigid")["energy_total"]);
+}
