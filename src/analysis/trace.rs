@@ -6,33 +6,26 @@
 //!
 //! A tube starts closed, and its closing condition is one equation more: [`start`] has its rays.
 
+mod curve;
 mod error;
 mod start;
+mod state;
 
-use super::tube::SeamPlace;
-use crate::kinematics::{Closing, Closure, Displacement, Embedding, Ray, RealDirections, Shape, SpatiallyPeriodic};
-use crate::math::Vec3;
+use crate::kinematics::{Closing, Closure, Embedding, Ray, RealDirections, SpatiallyPeriodic};
 use crate::model::Assembly;
-use crate::numerics::DenseMatrix;
-use crate::sheet::Seam;
-use crate::solver::Implicit;
-use crate::solver::continuation::{Curve, CurveOptions, End, Event, Point, Trajectory, follow};
+use crate::solver::continuation::{CurveOptions, End, Event, Point, Trajectory, follow};
+pub(crate) use curve::TURNING;
+use curve::{CLOSED, CREASE_ANGLE, CURVATURE, INTERSECTION, TracedClosure};
 pub use error::TraceError;
 use start::Start;
+pub(crate) use state::Intersects;
+pub use state::{Folded, Stop};
 use std::f64::consts::TAU;
 
 /// Cosine of the angle within which a trajectory arrives along a ray.
 const ALONG: f64 = 0.999;
-/// Rates of strains, per arc length, up to which they are rounding errors: such a strain has no turning points.
-const NO_RATE: f64 = 1e-12;
-/// States between two questions whether to go on.
-const OBSERVED: usize = 256;
-/// Quantities whose turning points are reported, in the order of their indicators.
-pub(crate) const TURNING: [&str; 4] = ["curvature", "strain11", "strain22", "strain12"];
-/// The indicators after these.
-const CURVATURE: usize = TURNING.len();
-const CREASE_ANGLE: usize = CURVATURE + 1;
-const INTERSECTION: usize = CURVATURE + 2;
+/// Arc length before the end of a closed trajectory where a zero is that of its first state.
+const AT_START: f64 = 1e-6;
 
 /// How trajectories are followed.
 #[derive(Clone, Copy, Debug)]
@@ -45,41 +38,6 @@ pub struct TraceOptions {
     pub branch: Option<usize>,
     /// The conditions that end a trajectory.
     pub stop: Stop,
-}
-
-/// Conditions that end a trajectory: the first that is met.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Stop {
-    /// Arc length.
-    pub arc_length: Option<f64>,
-    /// Magnitude of the curvature.
-    pub curvature: Option<f64>,
-    /// An edge and its fold angle.
-    pub crease_angle: Option<(usize, f64)>,
-    /// Faces passing through each other.
-    pub self_intersection: bool,
-}
-
-/// Says whether faces of a state pass through each other.
-pub(crate) type Intersects<'a> = &'a mut dyn FnMut(&Folded) -> bool;
-
-/// A state on a trajectory.
-#[derive(Clone, Debug)]
-pub struct Folded {
-    /// Arc length from the start.
-    pub arc_length: f64,
-    /// Fold angles of all edges, continuous along the trajectory.
-    pub angles: Vec<f64>,
-    /// Rates of the fold angles per arc length.
-    pub rates: Vec<f64>,
-    /// The cylinder; `None` for a finite sheet.
-    pub shape: Option<Shape>,
-    /// The seam of a tube; `None` for other sheets.
-    pub seam: Option<SeamPlace>,
-    /// Vertices of the cell, vertex 0 and the first face at it as drawn.
-    pub positions: Vec<Vec3>,
-    /// Largest component of the closure residual.
-    pub residual: f64,
 }
 
 /// A trajectory along one ray.
@@ -97,129 +55,12 @@ pub struct Traced {
     pub states: Vec<Folded>,
     /// Turning points: which quantity of [`TURNING`], and where.
     pub turning_points: Vec<(usize, Folded)>,
+    /// States of a tube on the way in which it is closed again, both closing conditions met; empty for other sheets.
+    pub closed_tubes: Vec<Folded>,
     /// Arc length where faces first pass through each other; `None` where that does not happen or was not asked.
     pub first_self_intersection: Option<f64>,
     /// Corrections made.
     pub corrections: usize,
-}
-
-/// The closure of a sheet as a curve, with what is watched along it.
-struct TracedClosure<'a, 'b> {
-    closing: Closing<'a>,
-    embedding: &'a Embedding,
-    periodic: bool,
-    /// Whether the first state is spatially periodic, without curvature.
-    starts_straight: bool,
-    /// The seam of a tube.
-    seam: Option<Seam>,
-    /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign, and seams their
-    /// direction.
-    known: Vec<Known>,
-    stop: Stop,
-    intersects: Option<Intersects<'b>>,
-    /// Whether faces of the first state pass through each other; false also where that is not asked.
-    crosses: bool,
-}
-
-/// A state from which the sign of the curvature and the direction of the seam are carried on.
-struct Known {
-    arc_length: f64,
-    angles: Vec<f64>,
-    shape: Shape,
-    seam: Option<SeamPlace>,
-}
-
-impl TracedClosure<'_, '_> {
-    /// Asks whether faces of the first state pass through each other.
-    fn look_at_start(&mut self, x: Vec<f64>) {
-        let start = Point { arc_length: 0.0, tangent: vec![0.0; x.len()], x, residual: 0.0, corrections: 0 };
-        let state = self.folded(&start);
-        self.crosses = self.intersects.as_mut().is_some_and(|intersects| intersects(&state));
-    }
-
-    fn folded(&mut self, point: &Point) -> Folded {
-        let (angles, rates) = (self.closing.angles(&point.x), self.closing.rates(&point.tangent));
-        let placement = self.embedding.place(&angles);
-        let positions = placement.positions.clone();
-        let mut shape = Shape::of(self.embedding, placement).ok();
-        let turning = shape.as_mut().filter(|shape| shape.turns());
-        let seam = turning.and_then(|shape| self.carry_on(point.arc_length, &angles, shape));
-        Folded { arc_length: point.arc_length, angles, rates, shape, seam, positions, residual: point.residual }
-    }
-
-    /// The states at these points; fewer where `go_on` says to stop.
-    fn states(&mut self, points: &[Point], go_on: &mut dyn FnMut() -> bool) -> Vec<Folded> {
-        let mut states = Vec::with_capacity(points.len());
-        for (k, point) in points.iter().enumerate() {
-            if k > 0 && k % OBSERVED == 0 && !go_on() {
-                break;
-            }
-            states.push(self.folded(point));
-        }
-        states
-    }
-
-    /// Gives a state's curvature the sign that it has next to the nearest known one, and makes it known. Returns the seam of
-    /// a tube.
-    fn carry_on(&mut self, arc_length: f64, angles: &[f64], shape: &mut Shape) -> Option<SeamPlace> {
-        let after = self.known.partition_point(|known| known.arc_length < arc_length);
-        let beside = [after.checked_sub(1), (after < self.known.len()).then_some(after)];
-        let away = |k: &usize| (self.known[*k].arc_length - arc_length).abs();
-        let nearest = beside.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)));
-        let last = nearest.map(|k| &self.known[k]);
-        let place = |seam: Seam| SeamPlace::new(shape, &seam, last.and_then(|last| last.seam.as_ref()));
-        let seam = self.seam.and_then(place);
-        if let Some(last) = last {
-            shape.continue_over(self.embedding, &last.shape, [&last.angles, angles]);
-            if last.arc_length == arc_length {
-                return seam;
-            }
-        }
-        if shape.curvature.is_finite() {
-            self.known.insert(after, Known { arc_length, angles: angles.to_vec(), shape: shape.clone(), seam });
-        }
-        seam
-    }
-
-    /// Rates of curvature and strains; NaN where nothing turns.
-    fn rates(&self, state: &Folded) -> [f64; 4] {
-        let moving = Displacement::new(self.embedding, &state.angles, &state.rates).lattice;
-        let found = state.shape.as_ref().zip(moving).and_then(|(shape, moving)| shape.rate(self.embedding, &moving));
-        let turns = state.shape.as_ref().is_some_and(Shape::turns);
-        found.map_or([f64::NAN; 4], |rate| {
-            let strain = rate.strain.map(|rate| if rate.abs() <= NO_RATE { 0.0 } else { rate });
-            [if turns { rate.curvature } else { f64::NAN }, strain[0], strain[1], strain[2]]
-        })
-    }
-}
-
-impl Implicit for TracedClosure<'_, '_> {
-    fn unknowns(&self) -> usize {
-        self.closing.unknowns()
-    }
-
-    fn equations(&self) -> usize {
-        self.closing.equations()
-    }
-
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.closing.linearize(x, residual, jacobian);
-    }
-}
-
-impl Curve for TracedClosure<'_, '_> {
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        let state = self.folded(point);
-        let curvature = state.shape.as_ref().map_or(f64::NAN, |shape| shape.curvature.abs());
-        // what a straight state has of curvature is rounding
-        let straight = self.starts_straight && point.arc_length == 0.0 && curvature.is_finite();
-        let curvature = if straight { 0.0 } else { curvature };
-        out.extend(if self.periodic { self.rates(&state) } else { [f64::NAN; 4] });
-        out.push(self.stop.curvature.map_or(f64::NAN, |most| curvature - most));
-        out.push(self.stop.crease_angle.map_or(f64::NAN, |(edge, angle)| state.angles[edge] - angle));
-        let crosses = self.intersects.as_mut().map(|intersects| intersects(&state));
-        out.push(crosses.map_or(f64::NAN, |crosses| if crosses { 1.0 } else { -1.0 }));
-    }
 }
 
 /// Follows every ray that the options ask for; none where it is established that no direction is real, or that a tube is
@@ -256,7 +97,7 @@ pub fn trace(
         embedding: &embedding,
         periodic: assembly.boundary().is_one_cell(),
         starts_straight: condition.is_none(),
-        seam: found.tube.as_ref().map(|(tube, _)| tube.seam()),
+        tube: found.tube.as_ref().map(|(tube, kept)| (tube.seam(), *kept)),
         known: Vec::new(),
         stop: options.stop,
         intersects,
@@ -311,19 +152,24 @@ fn along(
         End::Closed(back) => arrival(&back.arrival, &directions).map(|ray| (rays[ray].branch, rays[ray].sign)),
         _ => None,
     };
+    let ends_at_start = matches!(end, End::Closed(_));
     let first_self_intersection = match (&end, points.last(), crossing(&events)) {
         (End::Stopped { indicator: INTERSECTION }, Some(last), None) => Some(last.arc_length),
         (_, _, found) => found.filter(|_| !folding.crosses).or(folding.crosses.then_some(0.0)),
     };
     let turning = |event: &&Event| event.indicator < TURNING.len();
-    let mut turned = |event: &Event| (event.indicator, folding.folded(&event.point));
+    let length = points.last().map_or(0.0, |last| last.arc_length);
+    let back = |event: &Event| ends_at_start && event.point.arc_length > length - AT_START;
+    let closed = |event: &&Event| event.indicator == CLOSED && !back(event);
+    let mut at = |event: &Event| folding.folded(&event.point);
     Traced {
         branch,
         directions: all.directions,
         ends_at,
         corrections: points.iter().map(|point| point.corrections).sum(),
         first_self_intersection,
-        turning_points: events.iter().filter(turning).map(&mut turned).collect(),
+        turning_points: events.iter().filter(turning).map(|event| (event.indicator, at(event))).collect(),
+        closed_tubes: events.iter().filter(closed).map(&mut at).collect(),
         states,
         end,
     }

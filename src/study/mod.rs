@@ -39,6 +39,7 @@ mod strip;
 mod supported;
 mod surface;
 mod trace;
+mod trajectory;
 mod tube;
 mod vibrations;
 mod wells;

@@ -4,29 +4,25 @@ use super::answer::{Answer, SavedState};
 use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
+use super::trajectory::{Path, is_tube, summary};
 use super::{branches, energies, ratios, relax};
-use crate::analysis::along::{
-    AlongFailure, RelaxedTrajectory, StateAlong, cylinder_errors, relax_along, relaxed_cylinder,
-};
+use crate::analysis::along::{RelaxedTrajectory, StateAlong, relax_along, relaxed_cylinder};
 use crate::analysis::chart::{coordinates_in, hinge_angles};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
-use crate::analysis::relax::Relaxed;
 use crate::analysis::state::State;
-use crate::analysis::trace::{Folded, Intersects, Stop, TURNING, TraceError, TraceOptions, Traced, trace};
-use crate::kinematics::RealDirections;
+use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
 use crate::math::Vec3;
 use crate::model::{Assembly, Boundary, Gauge, Model};
 use crate::numerics::{larger, worst};
-use crate::output::figure::rounded;
 use crate::output::figure::surface::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
-use crate::output::summary::{ArcLength, RayName, StudyResult, TraceSummary, TrajectorySummary, TurningPoint};
+use crate::output::summary::StudyResult;
 use crate::output::table::{Solution, StateRow};
 use crate::scene::forms::BranchChoice;
 use crate::scene::spec::{Draw, Engine, TraceSpec};
 use crate::sheet::EdgeKey;
-use crate::solver::continuation::{self, End};
-use crate::solver::{Failure, Options, Problem};
+use crate::solver::continuation;
+use crate::solver::{Options, Problem};
 
 /// Longest step, and tolerance of the closure residual, used unless the scene gives others.
 const MAX_STEP: f64 = 0.25;
@@ -151,84 +147,6 @@ fn relaxed(context: &Context<'_>, engine: Engine, traced: &[Traced]) -> Vec<Rela
     traced.iter().map(|one| relax_along(context.assembly, Options::default(), one, &mut watch)).collect()
 }
 
-/// A trajectory, with the relaxations at its states if they were computed.
-struct Path<'a> {
-    traced: &'a Traced,
-    relaxed: Option<&'a RelaxedTrajectory>,
-    /// Largest number of its pictures, apart from that of the last state.
-    pictures: usize,
-}
-
-impl Path<'_> {
-    /// Returns the reason for which the trajectory did not reach its end; `None` if it did.
-    fn failure(&self) -> Option<String> {
-        let relaxation = self.relaxed.and_then(|relaxed| relaxed.failure);
-        let (branch, sign) = self.traced.branch;
-        let why = match (relaxation, &self.traced.end) {
-            (Some(AlongFailure::Relaxation(Failure::Interrupted)), _) | (None, End::Interrupted) => {
-                "interrupted".to_owned()
-            }
-            (Some(failure), _) => format!("a relaxation failed: {failure}"),
-            (None, End::Failed) => "the trajectory did not come to its end: no step leads on".to_owned(),
-            (None, End::Steps) => {
-                let most = continuation::CurveOptions::default().steps;
-                format!("the trajectory has not come to its end after {most} steps: raise max_step, or give a stop")
-            }
-            _ => return None,
-        };
-        Some(format!("branch {branch}, sign {sign}: {why}"))
-    }
-
-    /// Whether the observer asked to stop during the trajectory or its relaxations.
-    fn interrupted(&self) -> bool {
-        let relaxation = self.relaxed.and_then(|relaxed| relaxed.failure);
-        self.traced.end == End::Interrupted || relaxation == Some(AlongFailure::Relaxation(Failure::Interrupted))
-    }
-
-    /// Number of states, up to the first at which a relaxation failed.
-    fn len(&self) -> usize {
-        let failed = self.relaxed.filter(|relaxed| relaxed.failure.is_some());
-        failed.map_or(self.traced.states.len(), |relaxed| relaxed.states.len() + 1)
-    }
-
-    /// Returns the number of the state that the picture shows, and its description: the last state, or that half way
-    /// along a closed trajectory.
-    fn shown(&self) -> (usize, String) {
-        let (states, (branch, sign)) = (&self.traced.states[..self.len()], self.traced.branch);
-        let all = states.last().map_or(0.0, |state| state.arc_length);
-        let closed = matches!(self.traced.end, End::Closed(_)) && self.failure().is_none();
-        let half = states.partition_point(|state| state.arc_length < 0.5 * all);
-        let step = if closed { half / self.every() * self.every() } else { states.len() - 1 };
-        let at = rounded(states[step].arc_length, 4);
-        let which = if closed {
-            format!("half way along a closed trajectory of {}", rounded(all, 4))
-        } else {
-            "its end".into()
-        };
-        (step, format!("branch {branch}, sign {}1, arc length {at}: {which}", if sign < 0 { '\u{2212}' } else { '+' }))
-    }
-
-    /// Returns `n` such that every `n`-th state has a picture.
-    fn every(&self) -> usize {
-        self.len().div_ceil(self.pictures)
-    }
-
-    /// Returns the relaxation at a state; `None` at the drawn state, where trajectories begin and close.
-    fn relaxed_at(&self, step: usize) -> Option<&StateAlong> {
-        self.relaxed?.states.get(step.checked_sub(1)?)
-    }
-
-    /// Returns the largest residual: the scaled residual of the relaxations if there are any, otherwise that of
-    /// closure. `None` if no relaxation has succeeded.
-    fn residual(&self) -> Option<f64> {
-        let of = |relaxed: &Relaxed| larger(relaxed.residual_force, relaxed.residual_length);
-        match self.relaxed {
-            Some(relaxed) => worst(relaxed.states.iter().map(|along| of(&along.relaxed))),
-            None => worst(self.traced.states.iter().map(|state| state.residual)),
-        }
-    }
-}
-
 /// Adds the table of all states, pictures of some, and the trajectories in the space of lattice strains. Keeps the last
 /// state of the first trajectory for studies that start from it.
 fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths: &[Path<'_>]) {
@@ -244,10 +162,8 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
             if pause && !context.step_with_residual(rows.len(), None, 0.0) {
                 finder = None;
             }
-            model.set_angles(&hinge_angles(&model, &folded.angles));
-            let coordinates = coordinates_in(assembly.boundary(), folded);
-            model.start_from(coordinates.clone());
-            let state = along.map_or_else(|| state_at(&model, coordinates, &folded.angles), relaxed_state);
+            let state = state_of(assembly, &mut model, folded);
+            let state = along.map_or(state, relaxed_state);
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
             let compared = along.filter(|_| spec.engine == Engine::Both);
@@ -262,9 +178,33 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
         shown = (first + within, words);
     }
     answer.add(format!("{}.csv", context.name()), states::table_of_rows(context, &rows));
+    if is_tube(assembly) {
+        let closed = closed_tubes(assembly, &mut model, paths);
+        answer.add(format!("{}-closed-tubes.csv", context.name()), states::table_of_rows(context, &closed));
+    }
     states::add_rows(answer, context, pictures.iter().map(|(row, shown)| (*row, shown)), Some((shown.0, &shown.1)));
     add_paths(answer, context, paths, &rows);
     answer.state = saved_state(assembly, &model, paths);
+}
+
+/// Returns a row for each state on the way in which a tube is closed again.
+fn closed_tubes(assembly: &Assembly, model: &mut Model, paths: &[Path<'_>]) -> Vec<StateRow> {
+    let mut rows = Vec::new();
+    for path in paths {
+        for folded in &path.traced.closed_tubes {
+            let state = state_of(assembly, model, folded);
+            rows.push(StateRow { step: None, ..row(assembly, (path, 0), (folded, None), &state, None) });
+        }
+    }
+    rows
+}
+
+/// Returns the state of a model with the fold angles of a state on a trajectory.
+fn state_of(assembly: &Assembly, model: &mut Model, folded: &Folded) -> State {
+    model.set_angles(&hinge_angles(model, &folded.angles));
+    let coordinates = coordinates_in(assembly.boundary(), folded);
+    model.start_from(coordinates.clone());
+    state_at(model, coordinates, &folded.angles)
 }
 
 /// Adds the trajectories in the space of lattice strains, as a picture and for later surface studies, which draw them.
@@ -338,60 +278,7 @@ fn row(
         self_intersecting,
         error_to_kinematic: None,
         ratios: None,
-        seam: matches!(assembly.boundary(), Boundary::Tube { .. })
-            .then(|| [folded.seam.map(|seam| seam.turn), folded.seam.map(|seam| seam.rise)]),
+        seam: is_tube(assembly).then(|| [folded.seam.map(|seam| seam.turn), folded.seam.map(|seam| seam.rise)]),
         fold: state.fold_angle.clone(),
     }
-}
-
-fn summary(context: &Context<'_>, paths: &[Path<'_>], engine: Engine, asked: bool) -> TraceSummary {
-    let Some(first) = paths.first() else {
-        let (directions, end) = (branches::word(RealDirections::Listed), "no-real-branch".to_owned());
-        return TraceSummary { directions, branches: vec![TrajectorySummary { end, ..TrajectorySummary::default() }] };
-    };
-    let one = |path: &Path<'_>| TrajectorySummary {
-        self_intersecting: asked.then_some(path.traced.first_self_intersection.is_some()),
-        ..trajectory(context.assembly, path, engine)
-    };
-    TraceSummary { directions: branches::word(first.traced.directions), branches: paths.iter().map(one).collect() }
-}
-
-fn trajectory(assembly: &Assembly, path: &Path<'_>, engine: Engine) -> TrajectorySummary {
-    let one = path.traced;
-    let end = match one.end {
-        _ if path.interrupted() => "interrupted",
-        _ if path.failure().is_some() => "failed",
-        End::Closed(_) => "closed",
-        End::Stopped { .. } | End::Length => "stop",
-        End::Steps | End::Failed | End::Interrupted => "failed",
-    };
-    let last = path.len().checked_sub(1).map(|last| &one.states[last]);
-    let compared = path.relaxed.filter(|_| engine == Engine::Both);
-    let errors = compared.and_then(|relaxed| cylinder_errors(assembly.drawn(), one, relaxed));
-    let newton = |relaxed: &RelaxedTrajectory| relaxed.states.iter().map(|along| along.relaxed.iterations).sum();
-    TrajectorySummary {
-        branch: Some(one.branch.0),
-        sign: Some(one.branch.1),
-        closed: end == "closed",
-        arc_length: last.map_or(0.0, |state| state.arc_length),
-        steps: path.len() - 1,
-        iterations: path.relaxed.map_or(one.corrections, newton),
-        max_residual: path.residual(),
-        ends_at: one.ends_at.map(|(branch, sign)| RayName { branch, sign }),
-        end: end.to_owned(),
-        self_intersecting: None,
-        first_self_intersection: one.first_self_intersection.map(|arc_length| ArcLength { arc_length }),
-        error_to_kinematic: compared.and_then(RelaxedTrajectory::error),
-        error_of_curvature: errors.map(|errors| errors.curvature),
-        error_of_strain: errors.map(|errors| errors.strain),
-        error_of_theta: errors.map(|errors| errors.theta),
-        turning_points: one.turning_points.iter().map(turning_point).collect(),
-    }
-}
-
-fn turning_point((quantity, state): &(usize, Folded)) -> TurningPoint {
-    let shape = state.shape.as_ref();
-    let value =
-        shape.map_or(f64::NAN, |shape| if *quantity == 0 { shape.curvature } else { shape.strain[quantity - 1] });
-    TurningPoint { of: TURNING[*quantity].to_owned(), arc_length: state.arc_length, value }
 }

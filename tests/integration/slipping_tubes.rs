@@ -54,8 +54,9 @@ fn roll_at(sheet: &Sheet, seam: [i32; 2], kept: SeamKept, angles: &[f64]) -> Rol
     let placed = positions.iter().flat_map(|p| <[f64; 3]>::from(rotation * (p - centre)));
     let [strand, row] = seam.basis();
     let of = |[a, b]: [i32; 2], each: [f64; 2]| sign * (f64::from(a) * each[0] + f64::from(b) * each[1]);
-    let free = if kept.rise { of(strand, screw.theta) } else { of(strand, screw.rise()) };
-    let coordinates = placed.chain([of(row, screw.theta), of(row, screw.rise()), free]).collect();
+    let each = if kept.rise { screw.theta } else { screw.rise() };
+    let free = (!kept.is_closed()).then(|| of(strand, each));
+    let coordinates = placed.chain([of(row, screw.theta), of(row, screw.rise())]).chain(free).collect();
     Roll { seam, kept, coordinates, angles: angles.to_vec(), frame: Matrix3::identity(), origin: Vec3::zeros() }
 }
 
@@ -216,4 +217,37 @@ fn scenes_of_slipping_tubes() {
     let column = header.iter().position(|name| *name == "seam_turn").unwrap();
     assert_eq!(header[column + 1], "seam_rise");
     assert!(rows.all(|row| (row[column].parse::<f64>().unwrap() - TAU).abs() <= 1e-12));
+}
+
+/// Returns the arc length at which a trajectory passes a closed tube with these fold angles, modulo whole turns.
+fn passes(one: &Traced, angles: &[f64]) -> Option<f64> {
+    let off = |a: f64, b: f64| (a - b - TAU * ((a - b) / TAU).round()).abs();
+    let same = |found: &[f64]| found.iter().zip(angles).map(|(a, b)| off(*a, *b)).fold(0.0, f64::max) <= 1e-8;
+    one.closed_tubes.iter().find(|state| same(&state.angles)).map(|state| state.arc_length)
+}
+
+/// Claim: where a slipping seam has no rise again the tube is closed. Its cell at the end of the seam is the first one again, no
+/// motion keeps both conditions, rigid bars closed both ways are at rest there, and seen from there the tube of the beginning
+/// is a closed tube at the same arc length. Tolerances: arc lengths to 1e-9 of 20, angles to that over the rate of the rise;
+/// copies as above.
+#[test]
+fn closed_tubes_on_the_way() {
+    let (sheet, seam) = (mesh("open-star"), [1, 8]);
+    let roll = rolled_up(&sheet, seam, TURN, true).unwrap();
+    let [forth, back] = both_ways(&case(&sheet, roll.clone()), 24.0);
+    assert!(forth.closed_tubes.is_empty());
+    let lengths: Vec<f64> = back.closed_tubes.iter().map(|state| state.arc_length).collect();
+    assert!(lengths.len() == 2 && lengths.is_sorted() && (lengths[0] - 8.8068).abs() < 1e-3, "{lengths:?}");
+    let tube = Tube::new(&sheet, seam).unwrap();
+    for state in &back.closed_tubes {
+        let Shape { positions, screw, .. } = Shape::at(&Embedding::new(&sheet).unwrap(), &state.angles).unwrap();
+        let apart = |p: &Vec3| (screw.motion(seam).apply(p) - p).norm();
+        assert!(positions.iter().map(apart).fold(0.0, f64::max) <= 1e-9);
+        assert_eq!(tube.motions(&state.angles, &[Condition::Turn, Condition::Rise], &[]).unwrap().ncols(), 0);
+        let relaxed = relax(&case(&sheet, roll_at(&sheet, seam, SeamKept::BOTH, &state.angles))).unwrap();
+        assert!(relaxed.iterations <= 2 && relaxed.residual_length <= 1e-12, "{} steps", relaxed.iterations);
+        let from_there = both_ways(&case(&sheet, roll_at(&sheet, seam, TURN, &state.angles)), 24.0);
+        let seen: Vec<f64> = from_there.iter().filter_map(|one| passes(one, &roll.angles)).collect();
+        assert!(seen.len() == 1 && (seen[0] - state.arc_length).abs() <= 1e-9 * 20.0, "{seen:?} {}", state.arc_length);
+    }
 }

@@ -31,7 +31,7 @@ pub use response::{
 };
 pub use surface::{PieceSummary, SurfaceSummary};
 pub use sweep::{PointStatus, SweepSummary, UnansweredPoint};
-pub use trace::{ArcLength, RayName, TraceSummary, TrajectorySummary, TurningPoint};
+pub use trace::{ArcLength, ClosedTube, RayName, TraceSummary, TrajectorySummary, TurningPoint};
 pub use wells::{
     BarrierSummary, FailedStartsSummary, HeightSummary, RigidPassSummary, RigidSummary, WellSummary, WellsSummary,
 };

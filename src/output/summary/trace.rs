@@ -60,6 +60,10 @@ pub struct TrajectorySummary {
     pub error_of_theta: Option<f64>,
     /// Where curvature and strains turn.
     pub turning_points: Vec<TurningPoint>,
+    /// Where a tube that keeps one closing condition meets the other one too, after its start; left out for other sheets.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    #[schemars(with = "Vec<ClosedTube>")]
+    pub closed_tubes: Option<Vec<ClosedTube>>,
 }
 
 /// A ray by its branch and sign.
@@ -77,6 +81,15 @@ pub struct RayName {
 pub struct ArcLength {
     /// Arc length in fold angles, radians.
     pub arc_length: f64,
+}
+
+/// A state of a trajectory in which a tube is closed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ClosedTube {
+    /// Arc length in fold angles, radians.
+    pub arc_length: f64,
+    /// Signed curvature at vertex 0, an inverse length.
+    pub curvature: f64,
 }
 
 /// An extremum of a quantity along a trajectory.
