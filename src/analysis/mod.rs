@@ -19,6 +19,7 @@ pub mod shown_cells;
 pub mod singular_start;
 pub mod start_state;
 pub mod state;
+mod straight;
 pub mod surface;
 pub mod trace;
 pub mod tube;

@@ -5,6 +5,7 @@ use super::method::{self, IntrinsicFailure, RelaxOptions};
 use super::recorder::{KeptState, Recorder};
 use super::singular_start::{self, BranchChoice};
 use super::state::State;
+use super::straight;
 use crate::model::{Assembly, Domain, Gauge, Model};
 use crate::solver::{
     Equilibrium, Failure, HessianKind, Linearization, NewtonError, Options, Problem, Start, Step, Tangent, tension,
@@ -164,7 +165,14 @@ pub fn relax_from(
         Err(error) => {
             model.set_angles(&origin);
             history.extend(error.history);
-            follow(model, place, options, &mut recorder, &mut history)
+            follow(model, place, options, &mut recorder, &mut history).or_else(|error| {
+                let last = model.coordinates(&error.x);
+                if hopeless(error.failure) || !straight::is_nearly(model, &last) {
+                    return Err(error);
+                }
+                history.extend(error.history);
+                straight::relaxed(model, last, options, &mut recorder, &mut history)
+            })
         }
         found => found,
     };

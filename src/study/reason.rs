@@ -1,43 +1,27 @@
 //! The reasons for which a relaxation did not converge, in the terms of the scene.
 
-use crate::analysis::state::{State, cylinder};
-use crate::model::{Assembly, Boundary};
+use crate::analysis::state::State;
+use crate::model::Assembly;
 use crate::sheet::Info;
 use crate::solver::Failure;
 
 /// Quality of a triangle below which rounding errors of its shape can matter; 1 for an equilateral triangle.
 const THIN: f64 = 1e-2;
-/// Curvature times the mean edge length up to which a cylinder is straight.
-const STRAIGHT: f64 = 1e-6;
 /// Largest difference between a locked angle and its prescribed value that counts as rounding, in radians.
 const MET: f64 = 1e-9;
 
-/// Returns a description of the failure, with its possible cause: a lock that is not satisfied, a thin triangle, or a
-/// straight cylinder with rigid bars.
+/// Returns a description of the failure, with its possible cause: a lock that is not satisfied or a thin triangle.
 pub(crate) fn reason(assembly: &Assembly, failure: Failure, state: &State) -> String {
     let cause = match failure {
         Failure::Infeasible { .. } => unmet_lock(assembly, state),
         Failure::Uncertain { force, tolerance, .. } if !(force <= tolerance) => thin_triangle(assembly),
-        Failure::Stuck { .. } | Failure::TooManySteps { .. } => {
-            thin_triangle(assembly).or_else(|| straight(assembly, state))
-        }
+        Failure::Stuck { .. } | Failure::TooManySteps { .. } => thin_triangle(assembly),
         _ => None,
     };
     match cause {
         Some(cause) => format!("{failure}; {cause}"),
         None => failure.to_string(),
     }
-}
-
-/// Describes a straight state of a cylinder with rigid bars: their gradients are dependent there, and next to it nearly so.
-fn straight(assembly: &Assembly, state: &State) -> Option<String> {
-    let rigid = assembly.terms().has_rigid_bars() && assembly.boundary() == Boundary::Screw;
-    let curvature = cylinder(assembly.drawn(), &state.coordinates)?.curvature;
-    (rigid && curvature.abs() * assembly.mean_edge() <= STRAIGHT).then(|| {
-        "the sheet is straight there, where exactly rigid bars of a cylinder have self stresses that bend it: take \
-         domain = \"torus\" for a sheet that stays straight, or bars that stretch a little"
-            .to_owned()
-    })
 }
 
 /// Describes the lock whose crease has the largest difference from its prescribed angle in the last state.

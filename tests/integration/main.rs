@@ -77,6 +77,7 @@ mod spectra;
 mod started_states;
 mod stiffness;
 mod stopping;
+mod straight_screws;
 mod surface;
 mod sweep;
 mod symmetry_types;

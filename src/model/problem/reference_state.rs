@@ -22,4 +22,13 @@ impl Model {
         self.units.clone_from(&place.units);
         self.set_angles(&place.angles);
     }
+
+    /// Makes these coordinates the reference state of a screw, and holds as many coordinates of its axis as `held` says: the
+    /// direction, then the curvature. Returns the unknowns.
+    pub(crate) fn hold_axis(&mut self, held: usize, coordinates: Vec<f64>) -> Vec<f64> {
+        let axis = self.points() - self.domain.shared();
+        self.pinned.retain(|k| !(axis..axis + 2).contains(k));
+        self.pinned.extend(axis..axis + held);
+        self.rebase_gauge(coordinates)
+    }
 }

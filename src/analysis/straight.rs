@@ -1,0 +1,60 @@
+//! Screws that a relaxation leaves next to zero curvature without an equilibrium.
+//!
+//! The motions of a screw that bend it are a curvature times the square of the axis's direction: a cone, whose apex is zero
+//! curvature. Next to it a moment that bends the sheet makes Newton's system indefinite, by the moment over the curvature, and steps
+//! become short in all unknowns. A sheet that stiff bars keep nearly straight, as a Miura-ori, is therefore held straight first,
+//! where it has the equilibrium of a torus. From there it bends about an axis that keeps its direction, and at last with all its
+//! unknowns, in balance or nearly so.
+
+use super::recorder::Recorder;
+use crate::model::Model;
+use crate::solver::{Equilibrium, NewtonError, Options, Problem, Start, Step};
+
+/// Curvature times the unit of length up to which the last state of a relaxation is nearly straight, and up to which it is rounding.
+const NEARLY: f64 = 1e-2;
+const ROUNDING: f64 = 1e-13;
+/// Direction of the axis in radians, off those of symmetric cells.
+const AXIS: f64 = 0.3;
+
+/// The curvature of a state times the unit of length; `None` if the model is no screw.
+fn curvature(model: &Model, coordinates: &[f64]) -> Option<f64> {
+    Some(model.domain().turns(coordinates)?.kappa.abs() * model.unit_of_length())
+}
+
+/// Whether the state with these coordinates is that of a screw with hardly any curvature.
+pub(super) fn is_nearly(model: &Model, coordinates: &[f64]) -> bool {
+    curvature(model, coordinates).is_some_and(|curvature| curvature <= NEARLY)
+}
+
+/// The equilibrium that a nearly straight screw reaches by way of straight ones.
+///
+/// # Errors
+/// [`NewtonError`] of the relaxation that fails.
+pub(super) fn relaxed(
+    model: &mut Model,
+    mut coordinates: Vec<f64>,
+    options: Options,
+    recorder: &mut Recorder<'_>,
+    history: &mut Vec<Step>,
+) -> Result<Equilibrium, NewtonError> {
+    model.domain().bend(&mut coordinates, AXIS, 0.0);
+    let mut start = Start::from(model.hold_axis(2, coordinates));
+    for left in [1, 0] {
+        let reached = recorder.minimize(model, start, options);
+        let last = reached.as_ref().map_or_else(|error| &error.x, |found| &found.x);
+        let mut place = model.coordinates(last);
+        let straight = curvature(model, &place).is_some_and(|curvature| curvature <= ROUNDING);
+        if straight {
+            model.domain().bend(&mut place, AXIS, 0.0);
+        }
+        let x = model.hold_axis(if reached.is_ok() { left } else { 0 }, place);
+        let found = reached?;
+        if left == 0 && straight {
+            // the direction of the axis has no effect, and whether its eigenvalue is negative no meaning
+            return Ok(Equilibrium { x, ..found });
+        }
+        history.extend(found.history);
+        start = Start { x, tension: Some(found.tension) };
+    }
+    recorder.minimize(model, start, options)
+}

@@ -1,0 +1,57 @@
+//! Screws that stay straight: sheets of parallelograms do not roll up, whatever folds them.
+//!
+//! Source: the same relaxations on a torus, whose unknowns are vertices and lattice vectors, without an axis or a curvature.
+
+use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::model::{Assembly, Gauge};
+use foldwell::relax;
+use foldwell::scene::{build, parse};
+use foldwell::solver::Options;
+
+/// A pattern on a domain with this stiffness of its bars; its creases rest at 1 and -1 rad by their letters, or one is locked.
+fn folded(pattern: &str, domain: &str, stiffness: f64, locked: bool) -> Assembly {
+    let rest = if locked { "" } else { ", rest = { M = -1.0, V = 1.0, F = 0.0 }" };
+    let lock = if locked { "[[lock]]\ncrease = [0, 1, 0, 0]\nangle = 0.8\n" } else { "" };
+    let text = format!(
+        "[sheet]\ngenerate = {{ pattern = \"{pattern}\" }}\ndomain = \"{domain}\"\ncells = [1, 1]\n[energy]\n\
+         bars = {{ stiffness = {stiffness:?} }}\ncreases = {{ stiffness = 1.0{rest} }}\nfacets = {{ stiffness = 10.0 }}\n{lock}"
+    );
+    build::assembly(&parse(&text, "s.toml").unwrap()).unwrap()
+}
+
+/// The equilibrium from the drawn state with every unknown moved by up to an amplitude, by a linear congruential generator.
+fn from_near(assembly: &Assembly, amplitude: f64) -> Relaxed {
+    let mut model = assembly.model(Gauge::Held);
+    let mut state = 1u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let x: Vec<f64> = model.start().iter().map(|x| x + amplitude * next()).collect();
+    relax_from(&mut model, x, Options::default(), &mut |_| true).unwrap()
+}
+
+/// Claim: at every stiffness, exactly rigid included, the energy of the screw is that of the torus and its curvature vanishes, from
+/// the drawn state and from states near it. Tolerance: 1e-9 for energies of size 1 from residuals of 1e-12.
+#[test]
+fn screws_of_parallelograms_stay_straight() {
+    let mut cases: Vec<(&str, f64, bool)> = vec![("miura", f64::INFINITY, true), ("miura", 1e6, true)];
+    for pattern in ["miura", "four-parallelogram", "eggbox"] {
+        cases.extend([f64::INFINITY, 1e9, 1e4, 1e2].map(|stiffness| (pattern, stiffness, false)));
+    }
+    for (pattern, stiffness, locked) in cases {
+        let torus = relax(&folded(pattern, "torus", stiffness, locked)).unwrap().state.total();
+        let screw = folded(pattern, "screw", stiffness, locked);
+        let mut all = vec![relax(&screw).unwrap()];
+        if !locked {
+            all.extend([1e-3, 3e-2].map(|amplitude| from_near(&screw, amplitude)));
+        }
+        for relaxed in all {
+            let energy = relaxed.state.total();
+            assert!(relaxed.residual_force <= 1e-12 && relaxed.residual_length <= 1e-12);
+            // bars of 1e6 stretch where the lock twists the cell, and bend it by 2e-4
+            let tolerance = if locked && stiffness.is_finite() { 3e-4 } else { 1e-9 };
+            assert!((energy - torus).abs() <= tolerance, "{pattern} {stiffness:e}: {energy} for {torus}");
+        }
+    }
+}
