@@ -53,6 +53,8 @@ mod paths;
 mod periodic;
 mod pinned_wells;
 mod planar_curves;
+mod random_folds;
+mod random_patterns;
 mod reasons;
 mod redundant;
 mod refused_scenes;
