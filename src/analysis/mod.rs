@@ -15,6 +15,7 @@ pub mod recorder;
 pub mod relax;
 pub mod response;
 pub mod restored;
+mod rigid_forces;
 pub mod shown_cells;
 pub mod singular_start;
 pub mod start_state;

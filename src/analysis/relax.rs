@@ -3,14 +3,14 @@
 use super::apex;
 use super::method::{self, IntrinsicFailure, RelaxOptions};
 use super::recorder::{KeptState, Recorder};
-use super::singular_start::{self, BranchChoice};
+use super::rigid_forces::rigid_over_others;
+use super::singular_start::{self, BranchChoice, Origin};
 use super::state::State;
 use super::straight;
 use crate::model::{Assembly, Domain, Gauge, Model};
-use crate::solver::{
-    Equilibrium, Failure, HessianKind, Linearization, NewtonError, Options, Problem, Start, Step, Tangent, tension,
-};
+use crate::solver::{Equilibrium, Failure, HessianKind, NewtonError, Options, Problem, Start, Step, Tangent, tension};
 use std::fmt;
+use std::ops::Range;
 use thiserror::Error;
 
 /// Smallest step of the continuation that is tried before giving up.
@@ -57,8 +57,8 @@ pub struct Relaxed {
     pub intrinsic_failure: Option<IntrinsicFailure>,
     /// The branch on which a flat or singular start was left; `None` for other starts.
     pub branch_choice: Option<BranchChoice>,
-    /// Number of the first steps that were made with bars that stretch, to leave a singular start.
-    pub soft_steps: usize,
+    /// Which steps of the history were made with bars that stretch, to leave a singular start.
+    pub soft_steps: Range<usize>,
     /// The states on the way that [`RelaxOptions::keep_every`] asks for.
     pub kept: Vec<KeptState>,
 }
@@ -77,8 +77,8 @@ pub struct RelaxError {
     pub history: Vec<Step>,
     /// Why fold angles were given up, if they were tried as unknowns.
     pub intrinsic_failure: Option<IntrinsicFailure>,
-    /// Number of the first steps that were made with bars that stretch, to leave a singular start.
-    pub soft_steps: usize,
+    /// Which steps of the history were made with bars that stretch, to leave a singular start.
+    pub soft_steps: Range<usize>,
     /// The states on the way that [`RelaxOptions::keep_every`] asks for.
     pub kept: Vec<KeptState>,
 }
@@ -148,24 +148,24 @@ pub fn relax_from(
     let (start, RelaxOptions { newton: options, method, keep_every }) = (start.into(), options.into());
     let mut recorder = Recorder::new(observe, keep_every);
     let restarted = start.tension.is_some();
-    let (origin, place) = (model.angles(), model.coordinates(&start.x));
+    let origin = Origin { place: model.coordinates(&start.x), angles: model.angles(), energy: model.energy(&start.x) };
     let mut history = Vec::new();
     let (first, intrinsic_failure) =
         method::minimize_in_angles(model, &start, (options, method), &mut recorder, &mut history);
-    let mut soft_steps = 0;
+    let mut soft_steps = 0..0;
     let found = match first.unwrap_or_else(|| recorder.minimize(model, start.clone(), options)) {
         Err(error) if error.failure == Failure::SingularStart && model.has_rigid_bars() => {
-            model.set_angles(&origin);
+            model.set_angles(&origin.angles);
             history.extend(error.history);
-            let left = singular_start::leave(model, place, options, &mut recorder, &mut history);
-            soft_steps = history.len();
+            let left = singular_start::leave(model, &origin, options, &mut recorder, &mut history);
+            soft_steps = 0..history.len();
             left
         }
         Err(error) if hopeless(error.failure) => Err(error),
         Err(error) => {
-            model.set_angles(&origin);
+            model.set_angles(&origin.angles);
             history.extend(error.history);
-            follow(model, place, options, &mut recorder, &mut history).or_else(|error| {
+            follow(model, origin.place.clone(), options, &mut recorder, &mut history).or_else(|error| {
                 let last = model.coordinates(&error.x);
                 if hopeless(error.failure) || !straight::is_nearly(model, &last) {
                     return Err(error);
@@ -175,6 +175,14 @@ pub fn relax_from(
             })
         }
         found => found,
+    };
+    let found = if restarted || !soft_steps.is_empty() {
+        found
+    } else {
+        let (better, soft) =
+            singular_start::leave_if_in_doubt(model, found, &origin, options, &mut recorder, &mut history);
+        soft_steps = soft;
+        better
     };
     let found = found.and_then(|found| relaxed_with_a_valid_gauge(model, found, options, &mut recorder, &mut history));
     let found = found.and_then(|found| {
@@ -193,7 +201,7 @@ pub fn relax_from(
                 NewtonError { failure, x: found.x, tension: found.tension, history: found.history }
             }
             _ => {
-                let branch_choice = BranchChoice::of(model, &found.x, &origin, soft_steps > 0);
+                let branch_choice = BranchChoice::of(model, &found.x, &origin.angles, !soft_steps.is_empty());
                 let relaxed = finish(model, found, history);
                 let kept = recorder.into_kept(Some(&relaxed.state));
                 return Ok(Relaxed { intrinsic_failure, branch_choice, soft_steps, kept, ..relaxed });
@@ -212,7 +220,7 @@ fn failed(model: &Model, error: NewtonError, mut history: Vec<Step>, recorder: R
     let is_last = history.last().is_some_and(|step| !step.intrinsic);
     let kept = recorder.into_kept(is_last.then_some(&state));
     let (failure, x) = (error.failure, error.x);
-    RelaxError { failure, state, x, history, intrinsic_failure: None, soft_steps: 0, kept }
+    RelaxError { failure, state, x, history, intrinsic_failure: None, soft_steps: 0..0, kept }
 }
 
 /// The equilibrium, once what holds the sheet against rigid motions does nothing else. It was chosen in the drawn state, and may hold
@@ -314,18 +322,6 @@ fn refined(
     }
 }
 
-/// The largest force of a rigid measure over the largest one of all others.
-fn rigid_over_others(model: &Model, found: &Equilibrium) -> f64 {
-    let mut at = Linearization::new(model.layout());
-    let mut largest = |tension: &[f64]| {
-        model.linearize(&found.x, tension, HessianKind::GaussNewton, &mut at);
-        at.largest_force
-    };
-    let of_others: Vec<f64> =
-        found.tension.iter().zip(model.compliance()).map(|(t, c)| if *c == 0.0 { 0.0 } else { *t }).collect();
-    largest(&found.tension) / largest(&of_others)
-}
-
 /// The largest change of a soft hinge's angle that one more Newton step would make, in radians: what the residual
 /// means for the state. Asked where it may mean much: where rounding errors kept it above the tolerance, and on screws, whose axis
 /// has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a state under
@@ -381,7 +377,7 @@ fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed 
         history,
         intrinsic_failure: None,
         branch_choice: None,
-        soft_steps: 0,
+        soft_steps: 0..0,
         kept: vec![],
     }
 }

@@ -18,12 +18,16 @@ use crate::output::figure::rounded;
 use crate::output::summary::{BranchChoiceSummary, IterationSummary, MethodName, RelaxSummary, StudyResult};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{MethodSpec, RelaxSpec};
-use crate::solver::Step;
+use crate::solver::{Failure, Step};
 use std::num::NonZeroUsize;
+use std::ops::Range;
 
 /// Reason for the failure of a relaxation that has left a singular start with extensible bars.
 const NO_BRANCH: &str = "the start is singular, and the state that bars that stretch reach from it has no rigid one nearby: \
                          give bars a finite stiffness, or start a little folded";
+/// Advice where forces cannot balance with rigid bars.
+const NO_BALANCE: &str = "the pattern does not fold rigidly as far as its rest angles ask: give bars a finite stiffness, or \
+                          facets a lower one";
 
 /// Checks that the model has an energy and that a start file fits the sheet.
 pub(crate) fn check(context: &Context<'_>, spec: &RelaxSpec) -> Result<(), StudyError> {
@@ -88,7 +92,11 @@ fn not_found(context: &Context<'_>, first: &State, error: &RelaxError) -> Answer
     let self_intersecting = add_states(&mut answer, context, &states, shown);
     let result = RelaxSummary { self_intersecting, ..last_of(context, error) };
     let why = reason(context.assembly, error.failure, &error.state);
-    let why = if error.soft_steps > 0 { format!("{why}; {NO_BRANCH}") } else { why };
+    let why = match error.failure {
+        Failure::Unbounded { .. } => format!("{why}; {NO_BALANCE}"),
+        _ if error.soft_steps.is_empty() => why,
+        _ => format!("{why}; {NO_BRANCH}"),
+    };
     answer.conclude(StudyResult::Relax(result), None, Some(why));
     answer
 }
@@ -157,7 +165,7 @@ fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
             on_rest_side: choice.on_rest_side,
             soft_bars: choice.soft_bars,
         }),
-        history: history(&relaxed.history, relaxed.soft_steps),
+        history: history(&relaxed.history, &relaxed.soft_steps),
         ..RelaxSummary::default()
     }
 }
@@ -173,7 +181,7 @@ fn last_of(context: &Context<'_>, error: &RelaxError) -> RelaxSummary {
         residual_force: last.map_or(f64::NAN, |step| step.residual_force),
         residual_length: last.map_or(f64::NAN, |step| step.residual_length),
         intrinsic_failure: error.intrinsic_failure.map(|failure| failure.to_string()),
-        history: history(&error.history, error.soft_steps),
+        history: history(&error.history, &error.soft_steps),
         ..RelaxSummary::default()
     }
 }
@@ -186,8 +194,8 @@ fn method(spec: MethodSpec) -> Method {
     }
 }
 
-/// Returns the rows of the history, of which the first `soft` were made with bars that stretch.
-fn history(steps: &[Step], soft: usize) -> Vec<IterationSummary> {
+/// Returns the rows of the history, of which those of `soft` were made with bars that stretch.
+fn history(steps: &[Step], soft: &Range<usize>) -> Vec<IterationSummary> {
     let row = |(iteration, step): (usize, &Step)| IterationSummary {
         iteration,
         energy: step.energy,
@@ -197,7 +205,7 @@ fn history(steps: &[Step], soft: usize) -> Vec<IterationSummary> {
         shift: step.shift,
         method: match step.intrinsic {
             true => MethodName::Intrinsic,
-            false if iteration < soft => MethodName::SoftBars,
+            false if soft.contains(&iteration) => MethodName::SoftBars,
             false => MethodName::Vertices,
         },
     };

@@ -83,7 +83,7 @@ fn a_state_for_each_step() {
         .into_iter()
         .map(|(_, assembly, method)| {
             let found = relaxed(&mut assembly.model(Gauge::Held), method, None);
-            (found.history.iter().any(|step| step.intrinsic), found.soft_steps > 0)
+            (found.history.iter().any(|step| step.intrinsic), !found.soft_steps.is_empty())
         })
         .collect();
     let expected =

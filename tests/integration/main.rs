@@ -54,6 +54,8 @@ mod periodic;
 mod periodic_paths;
 mod pinned_wells;
 mod planar_curves;
+mod random_folds;
+mod random_patterns;
 mod reasons;
 mod redundant;
 mod refused_scenes;

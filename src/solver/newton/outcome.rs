@@ -98,6 +98,16 @@ pub enum Failure {
         /// The tolerance of that.
         tolerance: f64,
     },
+    /// The stiffer the rigid measures are made that are soft for a while, the nearer comes a state that meets them, but
+    /// no tensions of theirs balance the other forces there.
+    #[error(
+        "with rigid bars the forces cannot balance: the stiffer the bars, the nearer the sheet comes to a rigid state, but \
+         for bars ten times as stiff the largest force in them grows by a factor of {growth:.2}, without bound"
+    )]
+    Unbounded {
+        /// Factor by which the largest tension grows for measures ten times as stiff.
+        growth: f64,
+    },
     /// The linear algebra failed.
     #[error(transparent)]
     Factor(#[from] FactorError),
