@@ -23,8 +23,7 @@ use crate::math::{Vec3, rotation};
 use crate::numerics::dense::{least_squares, null_space};
 use crate::numerics::{DenseMatrix, larger};
 use crate::sheet::{Seam, Sheet};
-use crate::solver::Implicit;
-use crate::solver::continuation::{Curve, CurveOptions, End, Point, Trajectory, follow};
+use crate::solver::continuation::{Curve, CurveOptions, End, Point, Trajectory, Watched, follow};
 use std::f64::consts::TAU;
 
 /// Tolerance of the closure residual and of the defects of a tube.
@@ -155,7 +154,7 @@ impl<'a> Tube<'a> {
         let options = CurveOptions { steps: MOST_POINTS, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
         let start = self.embedding.drawn_angles().to_vec();
         let kept = self.keeping(Condition::Rise);
-        let found = follow(&mut TubeCurve::new(&kept, &start), start.clone(), ray, &options, &mut |_| true);
+        let found = follow(&mut kept.curve(&start), start.clone(), ray, &options, &mut |_| true);
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
         let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);
         let missed = || KinematicsError::NoTube { seam: self.seam.lattice_vector(), turn: turns.fold(0.0, f64::max) };
@@ -202,7 +201,7 @@ impl<'a> Tube<'a> {
         let growing = self.growing(tube, Condition::Turn, motions.as_slice());
         let tangent = growing.into_iter().map(|rate| sign * rate).collect();
         let (options, kept) = (CurveOptions { length, ..CurveOptions::default() }, self.keeping(Condition::Turn));
-        Ok(follow(&mut TubeCurve::new(&kept, tube), tube.to_vec(), tangent, &options, &mut |_| true))
+        Ok(follow(&mut kept.curve(tube), tube.to_vec(), tangent, &options, &mut |_| true))
     }
 
     /// Returns one of the conditions as an equation.
@@ -297,35 +296,14 @@ fn turning(moving: &Moving) -> (Vec3, Vec3) {
     (turn, rotation::inverse_left_jacobian(&turn) * moving.twist.angular)
 }
 
-/// The curve of screw-periodic sheets that satisfy one condition; its indicator is the defect of the other one.
-struct TubeCurve<'t, 'a> {
-    closing: Closing<'t>,
-    kept: &'t TubeCondition<'t, 'a>,
-}
-
-impl<'t, 'a> TubeCurve<'t, 'a> {
-    fn new(kept: &'t TubeCondition<'t, 'a>, angles: &[f64]) -> Self {
-        Self { closing: Closing::new(&kept.tube.closure, angles.to_vec()).keeping(kept), kept }
-    }
-}
-
-impl Implicit for TubeCurve<'_, '_> {
-    fn unknowns(&self) -> usize {
-        self.closing.unknowns()
-    }
-
-    fn equations(&self) -> usize {
-        self.closing.equations()
-    }
-
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.closing.linearize(x, residual, jacobian);
-    }
-}
-
-impl Curve for TubeCurve<'_, '_> {
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        out.push(self.kept.tube.defects(&point.x)[self.kept.kept.other() as usize]);
+impl TubeCondition<'_, '_> {
+    /// The curve of screw-periodic sheets through these angles that satisfy the condition; its indicator is the defect of the
+    /// other one.
+    fn curve(&self, angles: &[f64]) -> impl Curve {
+        Watched {
+            equations: Closing::new(&self.tube.closure, angles.to_vec()).keeping(self),
+            indicator: |point: &Point| self.tube.defects(&point.x)[self.kept.other() as usize],
+        }
     }
 }
 

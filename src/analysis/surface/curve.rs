@@ -9,40 +9,12 @@ use super::folding::SurfaceClosure;
 use super::{cell, sign};
 use crate::kinematics::{Closing, KinematicsError, Ray, Rays, RealDirections, SpatiallyPeriodic};
 use crate::model::Assembly;
-use crate::numerics::DenseMatrix;
-use crate::solver::Implicit;
 use crate::solver::atlas::{Coverage, Surface as _};
-use crate::solver::continuation::{Curve, CurveOptions, End, Point, follow};
+use crate::solver::continuation::{CurveOptions, End, Point, Watched, follow};
 use std::f64::consts::TAU;
 
 /// Cosine of the angle within which a trajectory arrives along a ray.
 const ALONG: f64 = 0.999;
-
-/// The equations of the curve, and the states on it up to a curvature.
-struct FoldedCurve<'a> {
-    closing: Closing<'a>,
-    folding: SurfaceClosure<'a>,
-}
-
-impl Implicit for FoldedCurve<'_> {
-    fn unknowns(&self) -> usize {
-        self.closing.unknowns()
-    }
-
-    fn equations(&self) -> usize {
-        self.closing.equations()
-    }
-
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.closing.linearize(x, residual, jacobian);
-    }
-}
-
-impl Curve for FoldedCurve<'_> {
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        out.push(self.folding.limit(&point.x));
-    }
-}
 
 /// The curve of folded states; no states where no direction is real.
 pub(super) fn curve(
@@ -55,8 +27,10 @@ pub(super) fn curve(
     let periodic = SpatiallyPeriodic(&embedding);
     let planar = second_order.one_direction_is_real()?;
     let closing = Closing::new(&closure, embedding.drawn_angles().to_vec());
-    let folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
-    let mut curve = FoldedCurve { closing: if planar { closing.keeping(&periodic) } else { closing }, folding };
+    let states = || SurfaceClosure::new(&closure, &embedding, options.max_curvature);
+    let (mut folding, mut watched) = (states(), states());
+    let equations = if planar { closing.keeping(&periodic) } else { closing };
+    let mut curve = Watched { equations, indicator: |point: &Point| watched.limit(&point.x) };
     let negative = match directions {
         _ if planar => Some(Negative::OneDirection),
         RealDirections::Listed if rays.is_empty() => Some(Negative::NoRay),
@@ -71,11 +45,11 @@ pub(super) fn curve(
         if arrived.contains(&k) || found.coverage == Coverage::Interrupted {
             continue;
         }
-        let end = found.follow(&mut curve, (ray, options), observe)?;
+        let end = found.follow((&mut curve, &mut folding), (ray, options), observe)?;
         from.resize(found.points.len(), k);
         arrived.extend(match &end {
             End::Closed(back) => {
-                rays.iter().position(|ray| arrives(&curve.closing.folding(&ray.direction), &back.arrival))
+                rays.iter().position(|ray| arrives(&curve.equations.folding(&ray.direction), &back.arrival))
             }
             _ => None,
         });
@@ -96,7 +70,7 @@ impl Surface {
     /// Adds the states along a ray.
     fn follow(
         &mut self,
-        curve: &mut FoldedCurve<'_>,
+        (curve, folding): (&mut Watched<Closing<'_>, impl FnMut(&Point) -> f64>, &mut SurfaceClosure<'_>),
         (ray, options): (&Ray, &SurfaceOptions),
         observe: &mut dyn FnMut(usize) -> bool,
     ) -> Result<End, KinematicsError> {
@@ -109,7 +83,7 @@ impl Surface {
             stops: vec![0],
             ..CurveOptions::default()
         };
-        let (start, tangent) = (curve.folding.drawn(), curve.closing.folding(&ray.direction));
+        let (start, tangent) = (folding.drawn(), curve.equations.folding(&ray.direction));
         let mut count = before;
         let found = follow(curve, start, tangent, &limits, &mut |_| {
             count += 1;
@@ -125,8 +99,8 @@ impl Surface {
             last = at;
             self.points.push(SurfacePoint {
                 branch: (ray.branch, ray.sign),
-                angles: curve.folding.all(&point.x),
-                shape: curve.folding.shape(&point.x)?,
+                angles: folding.all(&point.x),
+                shape: folding.shape(&point.x)?,
                 residual: point.residual,
                 radius: self.radius,
             });

@@ -16,5 +16,6 @@ mod hermite;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use curve::Watched;
 pub use curve::{Curve, CurveOptions, End, Event, Point, Return, Trajectory};
 pub use follower::follow;

@@ -10,33 +10,15 @@ use crate::model::{Assembly, Boundary};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
 use crate::solver::Implicit;
-use crate::solver::continuation::{Curve, CurveOptions, End, Point, follow};
+use crate::solver::continuation::{CurveOptions, End, Point, Watched, follow};
 use std::f64::consts::{PI, TAU};
 
 /// Steps on curves over those on surfaces: they cost next to nothing.
 const FINER: f64 = 0.25;
 
-/// Closed angles, with the distance of the sharpest fold from `pi`.
-struct BoundedClosure<'a>(Closing<'a>);
-
-impl Implicit for BoundedClosure<'_> {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
-    }
-
-    fn equations(&self) -> usize {
-        self.0.equations()
-    }
-
-    fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {
-        self.0.linearize(x, residual, jacobian);
-    }
-}
-
-impl Curve for BoundedClosure<'_> {
-    fn indicators(&mut self, point: &Point, out: &mut Vec<f64>) {
-        out.push(point.x.iter().fold(0.0, |most: f64, angle| most.max(angle.abs())) - PI);
-    }
+/// By how much the largest fold angle is beyond a half turn: the curve ends there.
+fn beyond_a_half_turn(point: &Point) -> f64 {
+    point.x.iter().fold(0.0, |most: f64, angle| most.max(angle.abs())) - PI
 }
 
 /// Samples the trajectories; they hang together in the drawn state.
@@ -62,10 +44,11 @@ pub(super) fn net(
     let embedding = if planar { Some(Embedding::new(assembly.sheet())?) } else { None };
     let closing = Closing::new(&closure, drawn.clone());
     let planar = embedding.as_ref().map(SpatiallyPeriodic);
-    let mut folding = BoundedClosure(match &planar {
+    let equations = match &planar {
         Some(planar) => closing.keeping(planar),
         None => closing,
-    });
+    };
+    let mut folding = Watched { equations, indicator: beyond_a_half_turn };
     let crossing = rays.len() > 2;
     let mut net = Net {
         angles: vec![drawn.clone()],
@@ -79,7 +62,7 @@ pub(super) fn net(
     let options =
         CurveOptions { max_step: FINER * sampling.step, period: Some(TAU), stops: vec![0], ..CurveOptions::default() };
     for ray in &rays {
-        let [x, tangent] = [&drawn, &ray.direction].map(|all| folding.0.folding(all));
+        let [x, tangent] = [&drawn, &ray.direction].map(|all| folding.equations.folding(all));
         let found = follow(&mut folding, x, tangent, &options, &mut |_| go_on());
         if found.end == End::Interrupted {
             return Err(RigidError::Interrupted);
@@ -96,7 +79,7 @@ pub(super) fn net(
             }
             net.links.push([before, net.angles.len()]);
             before = net.angles.len();
-            net.angles.push(folding.0.angles(&point.x));
+            net.angles.push(folding.equations.angles(&point.x));
             net.singular.push(false);
             net.border.push(k == last);
         }
@@ -106,7 +89,7 @@ pub(super) fn net(
 
 /// Number of states, not the first or last, at which other folded states leave a curve: there singular values of the Jacobian pass
 /// zero. Between two points next to such a state the Jacobian turns round along their singular vectors.
-fn meetings(folding: &mut BoundedClosure<'_>, points: &[Point]) -> Result<usize, KinematicsError> {
+fn meetings(folding: &mut impl Implicit, points: &[Point]) -> Result<usize, KinematicsError> {
     let (rows, columns) = (folding.equations(), folding.unknowns());
     let (mut residual, mut last) = (vec![0.0; rows], None::<DenseMatrix>);
     let mut found = 0;
