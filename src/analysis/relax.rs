@@ -163,16 +163,8 @@ pub fn relax_from(
         }
         Err(error) if hopeless(error.failure) => Err(error),
         Err(error) => {
-            model.set_angles(&origin.angles);
             history.extend(error.history);
-            follow(model, origin.place.clone(), options, &mut recorder, &mut history).or_else(|error| {
-                let last = model.coordinates(&error.x);
-                if hopeless(error.failure) || !straight::is_nearly(model, &last) {
-                    return Err(error);
-                }
-                history.extend(error.history);
-                straight::relaxed(model, last, options, &mut recorder, &mut history)
-            })
+            by_steps(model, &origin, options, &mut recorder, &mut history)
         }
         found => found,
     };
@@ -210,6 +202,26 @@ pub fn relax_from(
         Err(error) => error,
     };
     Err(Box::new(RelaxError { intrinsic_failure, soft_steps, ..failed(model, open, history, recorder) }))
+}
+
+/// Relaxes again from a start, with rest values that move to their targets in steps; a screw that this leaves nearly straight, by way
+/// of straight states.
+fn by_steps(
+    model: &mut Model,
+    origin: &Origin,
+    options: Options,
+    recorder: &mut Recorder<'_>,
+    history: &mut Vec<Step>,
+) -> Result<Equilibrium, NewtonError> {
+    model.set_angles(&origin.angles);
+    follow(model, origin.place.clone(), options, recorder, history).or_else(|error| {
+        let last = model.coordinates(&error.x);
+        if hopeless(error.failure) || !straight::is_nearly(model, &last) {
+            return Err(error);
+        }
+        history.extend(error.history);
+        straight::relaxed(model, last, options, recorder, history)
+    })
 }
 
 /// The failure of a relaxation with its last state.
