@@ -6,10 +6,12 @@ use super::context::Context;
 use super::error::StudyError;
 use super::supported;
 use crate::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses, along_path};
+use crate::analysis::bloch::laurent::wavenumber;
 use crate::analysis::bloch::{BlochError, Density};
-use crate::model::Assembly;
+use crate::model::{Assembly, Gauge, Hinges};
 use crate::output::figure::bands::{self as figure, BandPlot};
 use crate::output::table::{Table, Value};
+use crate::scene::forms::StartSpec;
 use crate::scene::spec::{BlochSpec, DensitySpec, Draw};
 use crate::scene::stiffness::StiffnessSpec;
 use crate::scene::{Located, SceneFile};
@@ -43,9 +45,13 @@ pub(super) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
     let Some((key, span)) = path.or(spec.density.as_ref().map(|density| ("density", density.span()))) else {
         return Ok(());
     };
-    supported::one_stiffness_each(context, "bands")?;
-    supported::drawn_lengths(context, "bands")?;
-    if stiffnesses(file, assembly).is_none() {
+    let in_state = matches!(spec.start.as_deref(), Some(StartSpec::Study(_)));
+    if !in_state {
+        supported::one_stiffness_each(context, "bands")?;
+        supported::drawn_lengths(context, "bands")?;
+    }
+    let springs = if in_state { all_springs(assembly) } else { stiffnesses(file, assembly).is_some() };
+    if !springs {
         let help = format!("give bars a finite stiffness and facets too, or leave out `{key}`");
         return Err(file.error_at(span, "bands need an energy of springs", help).into());
     }
@@ -91,11 +97,38 @@ fn stiffnesses(file: &SceneFile, assembly: &Assembly) -> Option<Stiffnesses> {
     [found.bars, found.creases, found.facets].iter().all(|k| k.is_finite()).then_some(found)
 }
 
+/// Whether bars, creases and facets are springs, none of them rigid, and nothing is locked.
+fn all_springs(assembly: &Assembly) -> bool {
+    let terms = assembly.terms();
+    let has_facets = assembly.sheet().edges.iter().any(|edge| edge.kind == EdgeKind::Facet);
+    let soft = |hinges: &Option<Hinges>| hinges.as_ref().is_none_or(|hinges| !hinges.stiffness.has_rigid());
+    let bars = terms.bars.is_some() && !terms.has_rigid_bars();
+    bars && soft(&terms.creases)
+        && soft(&terms.facets)
+        && !(has_facets && terms.facets.is_none())
+        && terms.locks.is_empty()
+}
+
+/// Returns the dynamical matrix of the drawn state, or of the one that the study starts from; `None` without springs.
+fn matrix(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<DynamicalMatrix>, BlochError> {
+    let assembly = context.assembly;
+    if let Some(StartSpec::Study(name)) = spec.start.as_deref() {
+        let mut model = assembly.model(Gauge::Free);
+        let Some(saved) = context.earlier.states.get(name).filter(|_| all_springs(assembly)) else { return Ok(None) };
+        model.set_angles(&saved.angles);
+        return DynamicalMatrix::of_state(&model, &saved.coordinates).map(Some);
+    }
+    let Some(stiffnesses) = stiffnesses(context.file, assembly) else { return Ok(None) };
+    DynamicalMatrix::new(assembly.sheet(), stiffnesses).map(Some)
+}
+
 /// Computes the bands along the path of the scene and the density of states; `None` if the observer asked to stop.
 pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<FoundBands>, BlochError> {
     let mut found = FoundBands { path: vec![], density: None };
-    let Some(stiffnesses) = stiffnesses(context.file, context.assembly) else { return Ok(Some(found)) };
-    let matrix = DynamicalMatrix::new(context.assembly.sheet(), stiffnesses)?;
+    if spec.path.is_none() && spec.density.is_none() {
+        return Ok(Some(found));
+    }
+    let Some(matrix) = matrix(context, spec)? else { return Ok(Some(found)) };
     let heavy = masses(context.assembly).map(|masses| matrix.clone().with_masses(&masses));
     let corners: Vec<[f64; 2]> = spec.path.iter().flat_map(|path| path.iter()).map(|corner| corner.0).collect();
     for q in along_path(&corners, STEPS) {
@@ -106,9 +139,22 @@ pub(super) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<
         let (grid, bins) = (grid(density), density.bins.as_ref().map_or(BINS, |bins| bins.0 as usize));
         let total = grid[0] * grid[1];
         let Some(all) = heavy.on_grid(grid, |step| context.step(step, Some(total)))? else { return Ok(None) };
+        stable(&all, grid)?;
         found.density = Some(Density::new(&all, grid, bins));
     }
     Ok(Some(found))
+}
+
+/// Checks that no wave grows: a density of states counts frequencies.
+fn stable(all: &[Vec<f64>], [n1, n2]: [usize; 2]) -> Result<(), BlochError> {
+    let lowest = all.iter().map(|frequencies| frequencies.first().copied().unwrap_or(0.0));
+    match lowest.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((number, rate)) if rate < 0.0 => {
+            let q = [wavenumber(number % n1, n1), wavenumber(number / n1, n2)];
+            Err(BlochError::Unstable { rate: -rate, q })
+        }
+        _ => Ok(()),
+    }
 }
 
 fn grid(density: &Located<DensitySpec>) -> [usize; 2] {
@@ -116,7 +162,7 @@ fn grid(density: &Located<DensitySpec>) -> [usize; 2] {
 }
 
 /// Adds the tables of the bands and of the density of states, and their picture if the study asks for it.
-pub(super) fn add(answer: &mut Answer, context: &Context<'_>, found: &FoundBands) {
+pub(super) fn add(answer: &mut Answer, context: &Context<'_>, start: Option<&StartSpec>, found: &FoundBands) {
     let name = context.name();
     if !found.path.is_empty() {
         answer.add(format!("{name}_bands.csv"), band_table(&found.path));
@@ -132,7 +178,11 @@ pub(super) fn add(answer: &mut Answer, context: &Context<'_>, found: &FoundBands
             corners: path.step_by(STEPS).map(|(length, at)| (length, at.q)).collect(),
             density: found.density.as_ref().map(|density| (density.edges.clone(), density.values.clone())),
         };
-        let caption = context.caption("frequencies of waves in the drawn state");
+        let state = match start {
+            Some(StartSpec::Study(name)) => format!("the state of {name}"),
+            _ => "the drawn state".to_owned(),
+        };
+        let caption = context.caption(format!("frequencies of waves in {state}"));
         answer.add(format!("{name}-bands.svg"), figure::svg(&plot, &caption));
     }
 }

@@ -39,7 +39,7 @@ const DRAWN: usize = 240;
 pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), StudyError> {
     let (file, assembly) = (context.file, context.assembly);
     if let Some(start) = &spec.start {
-        check_start(context, spec, start)?;
+        check_start(context, start)?;
     }
     if context.assembly.terms().facets.as_ref().is_some_and(|facets| is_mixed(&facets.stiffness)) {
         let message = "spatially varying modes are those of polygons that are all rigid or all soft";
@@ -57,7 +57,7 @@ pub(crate) fn check(context: &Context<'_>, spec: &BlochSpec) -> Result<(), Study
 }
 
 /// Checks that the start is the drawn state, or a state of one cell that an earlier study found.
-fn check_start(context: &Context<'_>, spec: &BlochSpec, start: &Located<StartSpec>) -> Result<(), StudyError> {
+fn check_start(context: &Context<'_>, start: &Located<StartSpec>) -> Result<(), StudyError> {
     let wrong = |message: &str, help: &str| Err(context.file.error_at(start.span(), message, help).into());
     let assembly = context.assembly;
     match &**start {
@@ -67,9 +67,6 @@ fn check_start(context: &Context<'_>, spec: &BlochSpec, start: &Located<StartSpe
         {
             let help = "give domain = \"screw\", or \"torus\" with cells = [1, 1]";
             wrong("spatially varying modes are those of a state of one cell", help)
-        }
-        StartSpec::Study(_) if spec.path.is_some() || spec.density.is_some() => {
-            wrong("bands are those of the drawn state, which is at rest", "leave out `path`, `density` or `start`")
         }
         StartSpec::Study(_) => Ok(()),
         StartSpec::Random(_) | StartSpec::File(_) => {
@@ -139,7 +136,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     };
     let (name, mut answer) = (context.name(), Answer::empty(context.study));
     answer.add(format!("{name}.csv"), table(&found.survey.decays));
-    bands::add(&mut answer, context, &found.bands);
+    bands::add(&mut answer, context, spec.start.as_deref(), &found.bands);
     if !found.counts.is_empty() {
         answer.add(format!("{name}-modes.csv"), strip::count_table(&found.counts));
     }

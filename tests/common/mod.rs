@@ -138,9 +138,14 @@ pub fn jacobian(model: &Model, at: &Linearization) -> DenseMatrix {
     dense::from_rows(&at.rows(), model.layout().unknowns)
 }
 
-/// Returns the Hessian of the whole energy, `H + R^T k R`, at a state without tensions. All stiffnesses must be finite.
+/// Returns the Hessian of the whole energy at a state without tensions, as [`stressed_hessian`].
 pub fn energy_hessian(model: &Model, x: &[f64]) -> DenseMatrix {
-    let at = linearized(model, x, &vec![0.0; model.layout().stiff.len()]);
+    stressed_hessian(model, x, &vec![0.0; model.layout().stiff.len()])
+}
+
+/// Returns the Hessian of the whole energy, `H + R^T k R`, with these tensions in `H`. All stiffnesses must be finite.
+pub fn stressed_hessian(model: &Model, x: &[f64], tension: &[f64]) -> DenseMatrix {
+    let at = linearized(model, x, tension);
     let mut rows = jacobian(model, &at);
     let weights = model.compliance().iter().map(|c| c.recip().sqrt());
     rows.row_iter_mut().zip(weights).for_each(|(mut row, weight)| row *= weight);

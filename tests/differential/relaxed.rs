@@ -110,16 +110,18 @@ fn nearly_rigid(trial: &Trial, answer: &Answer, report: &mut Report, what: &str)
     if trial.bars.is_finite() || answer.negative > 0 {
         return;
     }
-    let Ok(nearly) = (Trial { bars: 1e13, ..trial.clone() }).answer() else {
+    let softer = Trial { bars: 1e13, ..trial.clone() };
+    let Ok(nearly) = softer.answer() else {
         return report.count("nearly rigid", false);
     };
     let stored = |halves: &[f64]| halves.iter().zip(&nearly.compliance).map(|(t, c)| t * c).sum::<f64>();
     let (least, most) = (stored(&nearly.halves), stored(&answer.halves));
-    let close = |energy: f64, halves: &[f64]| {
-        let (less, rounding) = (energy - nearly.energy, SAME * energy + 1e-13);
-        less >= 0.9 * least - rounding && less <= 1.1 * stored(halves) + rounding
+    let agree = |rigid: (f64, &[f64]), nearly: (f64, &[f64])| {
+        let (less, rounding) = (rigid.0 - nearly.0, SAME * rigid.0 + 1e-13);
+        less >= 0.9 * stored(nearly.1) - rounding && less <= 1.1 * stored(rigid.1) + rounding
     };
-    let is_close = close(answer.energy, &answer.halves);
+    let (of_rigid, of_nearly) = ((answer.energy, &answer.halves[..]), (nearly.energy, &nearly.halves[..]));
+    let is_close = agree(of_rigid, of_nearly);
     let apart = common::distance(&nearly.angles, &answer.angles);
     // a parallelogram may be split along either diagonal at the same cost
     let sizes = |angles: &[f64]| {
@@ -130,7 +132,11 @@ fn nearly_rigid(trial: &Trial, answer: &Answer, report: &mut Report, what: &str)
     let mirrored = apart > 1e-4 && common::distance(&sizes(&nearly.angles), &sizes(&answer.angles)) <= 1e-4;
     // a well of strained bars, which rigid ones do not have
     let strained = least > 0.5 * nearly.energy;
-    if strained || is_close && mirrored || !is_close && trial.has_equilibrium(close) {
+    let elsewhere = || {
+        trial.has_equilibrium(|energy, halves| agree((energy, halves), of_nearly))
+            || softer.has_equilibrium(|energy, halves| agree(of_rigid, (energy, halves)))
+    };
+    if strained || is_close && mirrored || !is_close && elsewhere() {
         return report.count(ELSEWHERE, true);
     }
     report.judge("nearly rigid", is_close, || {

@@ -237,7 +237,7 @@ fn what_cannot_be_done() {
     }
 }
 
-/// Claim: a state that is not of one cell, and bands of a state, are refused; a sheet without a determinant is a study that
+/// Claim: a state that is not of one cell is refused, and bands of one with a lock; a state of springs has bands; a sheet without a determinant is a study that
 /// failed, and polygons that bend have one.
 #[test]
 fn states_that_cannot_be_asked() {
@@ -252,7 +252,11 @@ fn states_that_cannot_be_asked() {
     let cases = [
         ("domain = \"patch\"", "", "those of a state of one cell"),
         ("domain = \"torus\"\ncells = [2, 1]", "", "those of a state of one cell"),
-        ("domain = \"torus\"", "path = [[0, 0], [1, 0]]", "bands are those of the drawn state"),
+        (
+            "domain = \"torus\"",
+            "path = [[0, 0], [1, 0]]\n[[lock]]\ncrease = [0, 1, 0, 0]",
+            "bands need an energy of springs",
+        ),
     ];
     for (domain, keys, expected) in cases {
         let error = run(&relaxed(domain, keys), &out, false).unwrap_err();
@@ -261,6 +265,8 @@ fn states_that_cannot_be_asked() {
     let report = run(&relaxed("domain = \"torus\"", ""), &out, false).unwrap();
     let Some(StudyResult::Bloch(still)) = &report.summary.studies[1].result else { panic!("{:?}", report.summary) };
     assert_eq!((still.theta, still.order_at_origin), (Some([0.0; 2]), Some(4)));
+    let report = run(&relaxed("domain = \"torus\"", "path = [[0, 0], [1, 0]]"), &out, false).unwrap();
+    assert!(report.summary.converged() && out.join("a_bands.csv").exists(), "{:?}", report.summary.studies[1].reason);
     let report = run(&scene("generate = { pattern = \"random-developable\" }", ""), &out, false).unwrap();
     let study = &report.summary.studies[0];
     assert!(!study.converged && study.reason.as_ref().unwrap().contains("flat sheet"), "{study:?}");

@@ -80,6 +80,7 @@ mod started_states;
 mod stiffness;
 mod stopping;
 mod straight_screws;
+mod stressed_bands;
 mod surface;
 mod sweep;
 mod symmetry_types;

@@ -4,12 +4,17 @@
 //! dynamical matrix `D = sum over elements of k g g^H`, `g` the gradient of a length or of a fold angle at the Bloch
 //! factors, `k` its spring constant: `EA / L0` of a bar, stiffness times `L0` of a hinge. Three eigenvalues vanish at
 //! `q = 0`; zero modes of the bars cost only what their creases do. With masses `m` of the vertices the squared
-//! frequencies are the eigenvalues of `M^(-1/2) D M^(-1/2)`: every gradient by a vertex is divided by `sqrt(m)`.
+//! frequencies are the eigenvalues of `M^(-1/2) D M^(-1/2)`: every row and column of a vertex is divided by `sqrt(m)`.
+//!
+//! In another state in balance bars and hinges carry forces `f`, and an element adds `f` times the second derivative of its
+//! measure. Such a state can be unstable against a wave, whose eigenvalue then is negative. On a cylinder the copies of a
+//! vertex move along with the lattice rotations, so that a wave with `q = 0` is the same in every cell as seen from the axis.
 
 use super::BlochError;
 use super::rigidity::power;
-use crate::math::Vec3;
 use crate::math::fold_angle::fold_angle_gradient;
+use crate::model::{Elements, Local, Model, Site, Spring};
+use crate::numerics::DenseMatrix;
 use crate::numerics::complex::{ComplexMatrix, hermitian_eigenvalues};
 use crate::numerics::dense::eigenvalue_rounding;
 use crate::sheet::{Corner, EdgeKind, Sheet};
@@ -23,11 +28,38 @@ pub struct DynamicalMatrix {
     elements: Vec<Element>,
 }
 
-/// A spring, its gradient and its constant.
+/// The second derivatives of the energy of a bar or hinge by the coordinates of its points, row by row.
 #[derive(Clone, Debug)]
 struct Element {
-    stiffness: f64,
-    terms: Vec<(Corner, Vec3)>,
+    corners: Vec<Corner>,
+    hessian: DenseMatrix,
+}
+
+impl Element {
+    /// A spring at rest, with the gradient of its measure.
+    fn at_rest(corners: Vec<Corner>, gradient: &[f64], stiffness: f64) -> Self {
+        let n = gradient.len();
+        Self {
+            corners,
+            hessian: DenseMatrix::from_fn(n, n, |row, column| stiffness * (gradient[row] * gradient[column])),
+        }
+    }
+
+    /// A spring that carries a force, with the first and second derivatives of its measure.
+    fn stretched(term: &dyn Elements, k: usize, local: &Local) -> Self {
+        let Spring { stiffness, rest } = term.spring(k);
+        let corners = term.sites(k).iter().map(|&Site { vertex, shift }| Corner { vertex, shift }).collect();
+        let force = stiffness * (local.value - rest);
+        let second = |row: usize, column: usize| {
+            let (low, high) = (row.min(column), row.max(column));
+            local.hessian[high * (high + 1) / 2 + low]
+        };
+        let n = 3 * term.sites(k).len();
+        let hessian = DenseMatrix::from_fn(n, n, |row, column| {
+            stiffness * (local.gradient[row] * local.gradient[column]) + force * second(row, column)
+        });
+        Self { corners, hessian }
+    }
 }
 
 /// Stiffnesses of the energy's terms, finite.
@@ -55,8 +87,8 @@ impl DynamicalMatrix {
             let [i, j] = edge.key.ends();
             let along = sheet.position(j) - sheet.position(i);
             let (length, direction) = (along.norm(), along.normalize());
-            elements
-                .push(Element { stiffness: stiffnesses.bars / length, terms: vec![(i, -direction), (j, direction)] });
+            let gradient: Vec<f64> = (-direction).iter().chain(direction.iter()).copied().collect();
+            elements.push(Element::at_rest(vec![i, j], &gradient, stiffnesses.bars / length));
             let hinge = match edge.kind {
                 EdgeKind::Crease => stiffnesses.creases,
                 EdgeKind::Facet => stiffnesses.facets,
@@ -65,18 +97,40 @@ impl DynamicalMatrix {
             if let ([Some(left), Some(right)], true) = (edge.wings, hinge > 0.0) {
                 let corners = [i, j, left, right];
                 let gradient = fold_angle_gradient(&corners.map(|corner| sheet.position(corner))).1;
-                let terms = (0..4).map(|k| (corners[k], gradient.fixed_rows::<3>(3 * k).into_owned())).collect();
-                elements.push(Element { stiffness: hinge * length, terms });
+                elements.push(Element::at_rest(corners.to_vec(), gradient.as_slice(), hinge * length));
             }
         }
         Ok(Self { vertices: sheet.vertices.len(), elements })
     }
 
+    /// The dynamical matrix of a state of a model of one cell, periodic or a cylinder, from all its coordinates: with the forces
+    /// that bars and hinges carry there. Angles continue from those of the model.
+    ///
+    /// # Errors
+    /// [`BlochError::RigidElement`] where an element has no finite stiffness.
+    pub fn of_state(model: &Model, coordinates: &[f64]) -> Result<Self, BlochError> {
+        let (mut elements, mut local) = (Vec::new(), Local::default());
+        for term in model.soft().iter().chain(model.stiff()) {
+            for k in 0..term.len() {
+                if term.spring(k).stiffness.is_infinite() {
+                    return Err(BlochError::RigidElement { kind: term.name() });
+                }
+                term.local(k, model.domain(), coordinates, true, &mut local);
+                elements.push(Element::stretched(term.as_ref(), k, &local));
+            }
+        }
+        Ok(Self { vertices: (coordinates.len() - model.domain().shared()) / 3, elements })
+    }
+
     /// The same with the mass of each vertex of the cell, positive: its eigenvalues are squared angular frequencies.
     #[must_use]
     pub fn with_masses(mut self, masses: &[f64]) -> Self {
-        let terms = self.elements.iter_mut().flat_map(|element| &mut element.terms);
-        terms.for_each(|(corner, gradient)| *gradient /= masses[corner.vertex].sqrt());
+        for Element { corners, hessian } in &mut self.elements {
+            let per_root = |k: usize| 1.0 / masses[corners[k / 3].vertex].sqrt();
+            *hessian = DenseMatrix::from_fn(hessian.nrows(), hessian.ncols(), |row, column| {
+                hessian[(row, column)] * per_root(row) * per_root(column)
+            });
+        }
         self
     }
 
@@ -84,14 +138,13 @@ impl DynamicalMatrix {
     pub fn at(&self, q: [f64; 2]) -> ComplexMatrix {
         let z = q.map(|q| Complex::from_polar(1.0, q));
         let mut matrix = ComplexMatrix::zeros(3 * self.vertices, 3 * self.vertices);
-        for element in &self.elements {
-            for (a, from) in &element.terms {
-                for (b, to) in &element.terms {
-                    let phase = power(z, a.shift).conj() * power(z, b.shift) * element.stiffness;
-                    for (row, x) in from.iter().enumerate() {
-                        for (column, y) in to.iter().enumerate() {
-                            matrix[(3 * a.vertex + row, 3 * b.vertex + column)] += phase * (x * y);
-                        }
+        for Element { corners, hessian } in &self.elements {
+            for (a, from) in corners.iter().enumerate() {
+                for (b, to) in corners.iter().enumerate() {
+                    let phase = power(z, from.shift).conj() * power(z, to.shift);
+                    for (row, column) in (0..9).map(|k| (k / 3, k % 3)) {
+                        let entry = hessian[(3 * a + row, 3 * b + column)];
+                        matrix[(3 * from.vertex + row, 3 * to.vertex + column)] += phase * entry;
                     }
                 }
             }
@@ -109,6 +162,7 @@ impl DynamicalMatrix {
 
     /// Square roots of the eigenvalues of `D(q)`, ascending: angular frequencies if masses were given. Exactly 0 are those of
     /// eigenvalues that are zero up to rounding, at most `4 sqrt(n) epsilon d` with the size `n` and the largest diagonal entry `d`.
+    /// A negative one is minus the rate at which a wave grows, of a state that is not stable.
     ///
     /// # Errors
     /// [`BlochError`] where the eigenvalues cannot be computed.
@@ -116,8 +170,9 @@ impl DynamicalMatrix {
         let matrix = self.at(q);
         let rounding = eigenvalue_rounding(matrix.nrows(), matrix.diagonal().iter().map(|d| d.re).fold(0.0, f64::max));
         let squares = hermitian_eigenvalues(&matrix)?.into_iter();
-        // a sum of squares has no eigenvalue below zero
-        Ok(squares.map(|square| if square <= rounding { 0.0 } else { square.sqrt() }).collect())
+        Ok(squares
+            .map(|square| if square.abs() <= rounding { 0.0 } else { square.abs().sqrt().copysign(square) })
+            .collect())
     }
 
     /// Frequencies at all wavenumbers `2 pi (k1 / n1, k2 / n2)` of a grid, the first one running faster; `None` if `go_on` returned

@@ -29,6 +29,23 @@ pub enum BlochError {
         /// The largest that is accepted.
         limit: f64,
     },
+    /// Waves need a finite energy.
+    #[error("bands need an energy of springs, and a state with rigid {kind} has none")]
+    RigidElement {
+        /// What is rigid.
+        kind: &'static str,
+    },
+    /// A state that is not stable has no frequencies.
+    #[error(
+        "the state is not stable: a wave with q = ({:.4}, {:.4}) grows, at the rate {rate:.4e}; without `density` its bands \
+         are tabulated along a path", q[0], q[1]
+    )]
+    Unstable {
+        /// The largest rate of growth on the grid.
+        rate: f64,
+        /// Its wavenumbers in radians.
+        q: [f64; 2],
+    },
     /// A decomposition failed.
     #[error(transparent)]
     Dense(#[from] DenseError),
