@@ -54,6 +54,7 @@ STATE_COLUMNS = ("branch,sign,step,arc_length,curvature,theta1,theta2,strain11,s
 PATH_COLUMNS = ("branch,step,arc_length,drive,reaction,work,energy_bars,energy_creases,energy_facets,energy_total,"
                 "residual_force,residual_length,negative_eigenvalues,event").split(",")
 RATIOS = ["poisson_in_plane", "poisson_bending"]
+CYLINDER = ["curvature", "theta1", "theta2", "strain11", "strain22", "strain12"]
 EVENTS = {"", "limit-load", "limit-displacement", "branch-point", "self-intersection", "stop"}
 
 
@@ -314,7 +315,9 @@ def check_table(checks, path, kind, edges):
     if kind == "path":
         between = header[len(PATH_COLUMNS):-edges]
         checks.that(header[: len(PATH_COLUMNS)] == PATH_COLUMNS, f"{path}: the first columns")
-        checks.that(between in (["state"], ["self_intersecting", "state"]), f"{path}: the columns between, {between}")
+        own = [name for name in between if name not in CYLINDER + RATIOS]
+        checks.that(own in (["state"], ["self_intersecting", "state"]), f"{path}: the columns between, {between}")
+        checks.that(not set(between) & set(CYLINDER) or set(CYLINDER) <= set(between), f"{path}: a whole cylinder")
         return None
     if kind not in ("relax", "trace", "surface", "wells"):
         return None

@@ -20,10 +20,10 @@ pub(crate) fn table(
     let asked = |given: bool, columns: &'static [&'static str]| if given { columns } else { &[] }.iter().copied();
     let columns = ["branch", "step", "arc_length", "drive", "reaction", "work"]
         .into_iter()
-        .chain(asked(context.assembly.boundary().is_periodic(), &CYLINDER))
         .chain(Solution::COLUMNS)
         .chain(["negative_eigenvalues", "event"])
         .chain(asked(marks.is_some(), &["self_intersecting"]))
+        .chain(asked(context.assembly.boundary().is_periodic(), &CYLINDER))
         .chain(asked(spec.response.is_some(), &RATIOS))
         .chain(["state"]);
     let edges = context.assembly.sheet().edges.iter().map(|edge| &edge.key);
@@ -59,8 +59,9 @@ fn row(
     let state = states::with_all_angles(context, &point.state);
     let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);
     let [branch, step, number] = [branch, step, number].map(|number| Value::Whole(number as i64));
-    let own = [branch, step].into_iter().chain(numbers).chain(shape.into_iter().flatten().map(Value::Number));
-    let own = own.chain(solution.values()).chain([Value::Whole(point.negative_eigenvalues as i64), event]);
-    let asked = crossing.into_iter().chain(ratios.into_iter().flatten().map(Value::from));
+    let own = [branch, step].into_iter().chain(numbers).chain(solution.values());
+    let own = own.chain([Value::Whole(point.negative_eigenvalues as i64), event]);
+    let shape = shape.into_iter().flatten().map(Value::Number);
+    let asked = crossing.into_iter().chain(shape).chain(ratios.into_iter().flatten().map(Value::from));
     own.chain(asked).chain([number]).chain(fold).collect()
 }

@@ -14,6 +14,7 @@ use crate::math::Vec3;
 use crate::model::{Assembly, Boundary, Gauge, Terms};
 use crate::numerics::{larger, worst};
 use crate::output::artifact::Artifact;
+use crate::output::figure::rounded;
 use crate::output::figure::surface::{self as figure, PathPoint};
 use crate::output::strain_space::StrainSurface;
 use crate::output::summary::{PieceSummary, StudyResult, SurfaceSummary};
@@ -214,7 +215,7 @@ fn add_mesh(answer: &mut Answer, context: &Context<'_>, mesh: StrainSurface, max
         let before = studies.take_while(|study| *study != name).filter_map(|study| context.earlier.paths.get(study));
         let mut paths: Vec<_> = before.flatten().flat_map(|path| within(path, max_curvature)).collect();
         paths.extend(mesh.segments.iter().map(|segment| segment.map(|k| on_curve(&mesh, k)).to_vec()));
-        let caption = context.caption(format!("all folded states up to a curvature of {max_curvature}"));
+        let caption = context.caption(format!("all folded states up to a curvature of {}", rounded(max_curvature, 4)));
         answer.add(format!("{name}.svg"), figure::svg(&mesh, &paths, &caption));
     }
     if context.draws(Draw::Vtk) {
