@@ -236,6 +236,7 @@ def path(
     max_step: float | None = None,
     switch: bool | None = None,
     stop: Mapping[str, Any] | None = None,
+    response: str | None = None,
     **common: Any,
 ) -> Result:
     """Follows equilibria along a driven quantity.
@@ -248,10 +249,11 @@ def path(
         max_step: Longest step in arc length.
         switch: Whether branches that leave at branch points are followed too.
         stop: Conditions of which the first ends a branch, as in `trace`.
+        response: Whether the table has Poisson's ratios of every state of a periodic sheet, as in `trace`.
         **common: As for every study, see `compute`.
     """
     keys = {"drive": drive, "tolerance": tolerance, "max_step": max_step, "switch": switch, "stop": stop}
-    return compute(assembly, "path", keys, start=start, **common)
+    return compute(assembly, "path", {**keys, "response": response}, start=start, **common)
 
 
 def compute(
