@@ -32,7 +32,7 @@ pub enum BlochError {
     /// Waves need a finite energy.
     #[error("bands need an energy of springs, and a state with rigid {kind} has none")]
     RigidElement {
-        /// What is rigid.
+        /// The kind of the rigid element, in the plural.
         kind: &'static str,
     },
     /// A state that is not stable has no frequencies.

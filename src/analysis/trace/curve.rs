@@ -20,7 +20,7 @@ pub(crate) const TURNING: [&str; 4] = ["curvature", "strain11", "strain22", "str
 pub(super) const CURVATURE: usize = TURNING.len();
 pub(super) const CREASE_ANGLE: usize = CURVATURE + 1;
 pub(super) const INTERSECTION: usize = CURVATURE + 2;
-/// The closing condition of a tube that is not kept.
+/// Number of the indicator of a closed tube: the defect of the condition that is not kept.
 pub(super) const CLOSED: usize = CURVATURE + 3;
 
 /// The closure of a sheet as a curve, with what is watched along it.
@@ -101,7 +101,8 @@ impl TracedClosure<'_, '_> {
         seam
     }
 
-    /// What is missing to the closing condition that a tube does not keep: zero where it is closed; NaN without seam.
+    /// Defect of the closing condition that a tube does not keep, a length or an angle: zero where the tube is closed; NaN for
+    /// other sheets.
     fn opening(&self, state: &Folded) -> f64 {
         let opening = |(seam, (_, kept)): (SeamPlace, (Seam, Condition))| match kept {
             Condition::Turn => seam.rise,

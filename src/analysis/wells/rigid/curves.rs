@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 /// Steps on curves over those on surfaces: they cost next to nothing.
 const FINER: f64 = 0.25;
 
-/// By how much the largest fold angle is beyond a half turn: the curve ends there.
+/// Returns the magnitude of the largest fold angle less a half turn; the curve ends where it is zero.
 fn beyond_a_half_turn(point: &Point) -> f64 {
     point.x.iter().fold(0.0, |most: f64, angle| most.max(angle.abs())) - PI
 }
