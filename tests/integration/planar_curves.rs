@@ -122,6 +122,71 @@ fn rigid_wells_on_the_curve() {
     }
 }
 
+/// Claim: where creases pull against each other a landscape on the curve has two wells and the pass between them, which is the highest
+/// state of the curve there. Source: with tan(s/2) = cos(sector) tan(z/2) the energy is a function of z alone; its stationary states
+/// are found on a grid and bisected. Tolerance 1e-9: bisection stops at rounding in z, and a state is as exact as its slope, whose rounding
+/// errors are 1e-14 over a second derivative of some 0.1 and more.
+#[test]
+fn a_pass_between_wells_on_the_curve() {
+    let sector = 1.4f64;
+    let pattern = |fold| Pattern::Miura(Miura { a: 1.0, b: 1.0, sector, fold });
+    let sheet = generate(&pattern(0.7)).unwrap();
+    let angles = drawn(&sheet);
+    let creases: Vec<usize> = (0..angles.len()).filter(|&k| sheet.edges[k].kind == EdgeKind::Crease).collect();
+    let largest = creases.iter().fold(0.0, |most: f64, &k| most.max(angles[k].abs()));
+    // the zigzag creases fold more than the straight ones
+    let is_zigzag = |k: usize| angles[k].abs() > largest - 1e-9;
+    let [zigzag_rest, straight_rest]: [f64; 2] = [0.1, 3.0];
+    let mut rest = vec![f64::NAN; angles.len()];
+    for &k in &creases {
+        rest[k] = if is_zigzag(k) { zigzag_rest } else { straight_rest }.copysign(angles[k]);
+    }
+    let found = wells(&cell(sheet.clone(), 0.5, &rest));
+
+    let length = |zigzag: bool| -> f64 {
+        let of_kind = creases.iter().filter(|&&k| is_zigzag(k) == zigzag);
+        let ends = of_kind.map(|&k| sheet.edges[k].key.ends().map(|end| sheet.position(end)));
+        ends.map(|[i, j]| (j - i).norm()).sum()
+    };
+    let (long, short) = (length(true), length(false));
+    let straight = |z: f64| 2.0 * (sector.cos() * (0.5 * z).tan()).atan();
+    let energy = |z: f64| 0.5 * (long * (z - zigzag_rest).powi(2) + short * (straight(z) - straight_rest).powi(2));
+    let slope = |z: f64| {
+        let (cos, tan) = (sector.cos(), (0.5 * z).tan());
+        let rate = cos * (1.0 + tan * tan) / (1.0 + (cos * tan).powi(2));
+        long * (z - zigzag_rest) + short * (straight(z) - straight_rest) * rate
+    };
+    let grid: Vec<f64> = (1..1000).map(|k| PI * f64::from(k) / 1000.0).collect();
+    let crossed = grid.windows(2).filter(|ends| slope(ends[0]).signum() != slope(ends[1]).signum());
+    let stationary: Vec<f64> = crossed.map(|ends| bisected(&slope, [ends[0], ends[1]])).collect();
+    let &[low, between, high] = stationary.as_slice() else { panic!("{stationary:?}") };
+    assert!(energy(between) > energy(low).max(energy(high)) + 0.1);
+
+    assert_eq!((found.dimension, found.wells.len(), found.passes.len(), found.lost), (1, 2, 1, 0), "{found:?}");
+    let pass = &found.passes[0];
+    assert!(!pass.singular && pass.joins[0] != pass.joins[1]);
+    let mut expected = [low, high];
+    expected.sort_by(|a, b| energy(*a).total_cmp(&energy(*b)));
+    let states = found.wells.iter().map(|well| (well.energy, &well.angles)).chain([(pass.energy, &pass.angles)]);
+    for ((height, state), z) in states.zip(expected.into_iter().chain([between])) {
+        assert!((height - energy(z)).abs() <= 1e-9 * energy(z), "{height} {}", energy(z));
+        for &k in &creases {
+            let angle = if is_zigzag(k) { z } else { straight(z) };
+            assert!((state[k].abs() - angle).abs() <= 1e-9, "{} {angle}", state[k]);
+        }
+    }
+}
+
+/// The zero of a function between two ends at which its signs differ.
+fn bisected(function: &dyn Fn(f64) -> f64, [mut a, mut b]: [f64; 2]) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (a + b);
+        let is_before = function(middle).signum() == function(a).signum();
+        *(if is_before { &mut a } else { &mut b }) = middle;
+    }
+    0.5 * (a + b)
+}
+
 /// Claim: an eggbox has a surface, not a curve, and its landscape keeps dimension 2.
 #[test]
 fn an_eggbox_is_no_curve() {
