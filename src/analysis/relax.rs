@@ -177,7 +177,6 @@ pub fn relax_from(
         better
     };
     let found = found.and_then(|found| relaxed_with_a_valid_gauge(model, found, options, &mut recorder, &mut history));
-    let found = found.and_then(|found| straight::counted(model, found, options, &mut recorder, &mut history));
     let found = found.and_then(|found| {
         // a restarted equilibrium stays where it is
         let moved = !restarted || !history.is_empty() || found.history.iter().any(|step| step.fraction > 0.0);

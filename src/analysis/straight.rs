@@ -8,11 +8,11 @@
 
 use super::recorder::Recorder;
 use crate::model::Model;
-use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Start, Step};
+use crate::solver::{Equilibrium, NewtonError, Options, Problem, Start, Step};
 
 /// Curvature times the unit of length up to which the last state of a relaxation is nearly straight, and up to which it is rounding.
 const NEARLY: f64 = 1e-2;
-const ROUNDING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-13;
 /// Direction of the axis in radians, off those of symmetric cells.
 const AXIS: f64 = 0.3;
 
@@ -57,37 +57,4 @@ pub(super) fn relaxed(
         start = Start { x, tension: Some(found.tension) };
     }
     recorder.minimize(model, start, options)
-}
-
-/// The equilibrium of a screw that is straight up to rounding, with its stability counted about an axis that keeps its direction: without
-/// curvature the direction has no effect, and the sign of its eigenvalue no meaning. Other equilibria, and those for which that
-/// fails, as they are.
-///
-/// # Errors
-/// [`NewtonError`] if it was interrupted.
-pub(super) fn counted(
-    model: &mut Model,
-    mut found: Equilibrium,
-    options: Options,
-    recorder: &mut Recorder<'_>,
-    history: &mut Vec<Step>,
-) -> Result<Equilibrium, NewtonError> {
-    let place = model.coordinates(&found.x);
-    let is_straight = curvature(model, &place).is_some_and(|curvature| curvature <= ROUNDING);
-    if found.negative_eigenvalues == 0 || !is_straight {
-        return Ok(found);
-    }
-    let (angles, steps, mut on_the_way) = (model.angles(), recorder.steps(), Vec::new());
-    match relaxed(model, place.clone(), options, recorder, &mut on_the_way) {
-        Err(error) if error.failure != Failure::Interrupted => {
-            recorder.forget_after(steps);
-            model.set_angles(&angles);
-            Ok(Equilibrium { x: model.hold_axis(0, place), ..found })
-        }
-        reached => {
-            history.append(&mut found.history);
-            history.append(&mut on_the_way);
-            reached
-        }
-    }
 }
