@@ -11,6 +11,7 @@ mod error;
 mod start;
 mod state;
 
+use super::tube::SeamPlace;
 use crate::kinematics::{Closing, Closure, Embedding, Ray, RealDirections, SpatiallyPeriodic};
 use crate::model::Assembly;
 use crate::solver::continuation::{CurveOptions, End, Event, Point, Trajectory, follow};
@@ -98,6 +99,10 @@ pub fn trace(
         periodic: assembly.boundary().is_one_cell(),
         starts_straight: condition.is_none(),
         tube: found.tube.as_ref().map(|(tube, kept)| (tube.seam(), *kept)),
+        drawn: found
+            .tube
+            .as_ref()
+            .and_then(|(tube, _)| Some(SeamPlace::drawn(assembly.sheet().screws.as_ref()?, &tube.seam()))),
         known: Vec::new(),
         stop: options.stop,
         intersects,

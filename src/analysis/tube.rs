@@ -3,7 +3,7 @@
 use crate::kinematics::{Embedding, KinematicsError, Motion, Shape, Tube};
 use crate::math::Vec3;
 use crate::model::Roll;
-use crate::sheet::{Seam, SeamKept, Sheet};
+use crate::sheet::{ScrewLattice, Seam, SeamKept, Sheet};
 use nalgebra::Matrix3;
 use std::f64::consts::TAU;
 
@@ -51,6 +51,14 @@ pub struct SeamPlace {
 }
 
 impl SeamPlace {
+    /// Returns the seam of a tube as a mesh draws it rolled up.
+    pub(super) fn drawn(screws: &ScrewLattice, seam: &Seam) -> Self {
+        let cell = seam.lattice_vector();
+        let sign = 1f64.copysign(screws.turn_of(cell));
+        let [turn, rise] = [screws.turn_of(cell), screws.rise_of(cell)].map(|amount| sign * amount);
+        Self { turn, rise, axis: sign * Vec3::z(), theta: screws.turn.map(|angle| sign * angle) }
+    }
+
     /// Returns the seam of a shape, continued from that of a shape near by; `None` for one without rotation as the first.
     pub(super) fn new(shape: &Shape, seam: &Seam, last: Option<&Self>) -> Option<Self> {
         let (screw, cell) = (&shape.screw, seam.lattice_vector());

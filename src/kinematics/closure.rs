@@ -99,9 +99,6 @@ impl Closure {
     /// # Errors
     /// [`KinematicsError`] if the faces at an interior vertex do not form one closed cycle.
     pub fn of_cell(sheet: &Sheet) -> Result<Self, KinematicsError> {
-        if sheet.screws.is_some() {
-            return Err(KinematicsError::Rolled);
-        }
         let edges: Vec<HingedEdge> = sheet.edges.iter().map(HingedEdge::from).collect();
         Self::of_edges(&edges, |corner| sheet.position(corner))
     }

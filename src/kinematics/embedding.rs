@@ -19,7 +19,7 @@ pub struct Embedding {
     pub(super) walk: FaceWalk,
     pub(super) seats: Vec<Seat>,
     pub(super) faces: Vec<DrawnFace>,
-    /// Lattice vectors as drawn.
+    /// Lattice vectors as drawn, or chords of the screw motions that repeat the drawn cell.
     pub(super) lattice: Option<[Vec3; 2]>,
     drawn_angles: Vec<f64>,
     edges: Vec<EdgeKey>,
@@ -97,7 +97,7 @@ impl Embedding {
         let lengths: Vec<f64> = edges.iter().map(length).collect();
         let longest = lengths.iter().copied().fold(0.0, f64::max);
         let drawn_angles = drawn_fold_angles(sheet);
-        Ok(Self { walk, seats, faces, lattice: sheet.lattice, drawn_angles, edges, lengths, longest })
+        Ok(Self { walk, seats, faces, lattice: sheet.chords(), drawn_angles, edges, lengths, longest })
     }
 
     /// Number of edges, which is the number of fold angles.

@@ -15,8 +15,10 @@ pub enum KinematicsError {
     /// A property of periodic sheets is wanted for a finite sheet.
     #[error("a finite sheet has neither curvature nor lattice motions nor linear folding modes: they need a lattice")]
     NoLattice,
-    /// Exact folding is wanted of a cell that screw motions repeat.
-    #[error("a cell that screw motions repeat is drawn rolled up: exact folding starts from lattice vectors")]
+    /// Exact folding is wanted of several cells that screw motions repeat.
+    #[error(
+        "a cell that screw motions repeat is drawn rolled up: it folds as a tube, and several cells need lattice vectors"
+    )]
     Rolled,
     /// The sheet has openings; closure of the vertices does not imply closure around the rims of openings.
     #[error("the sheet has {loops} opening(s): closing its vertices does not close their rims")]

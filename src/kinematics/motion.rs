@@ -12,10 +12,15 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 /// Types with the composition of rigid motions; `A * B` applies `B` first and `A` after it.
 pub(crate) trait Rigid: Copy + Mul<Output = Self> {
-    /// Returns the motion that adds a vector to every point.
-    fn shift(by: Vec3) -> Self;
+    /// Returns a motion that does not change.
+    fn constant(motion: Motion) -> Self;
     /// Returns the inverse motion.
     fn inverse(&self) -> Self;
+
+    /// Returns the motion that adds a vector to every point.
+    fn shift(by: Vec3) -> Self {
+        Self::constant(Motion { rotation: Matrix3::identity(), translation: by })
+    }
 
     /// Returns the motion that leaves every point unchanged.
     fn identity() -> Self {
@@ -88,8 +93,8 @@ impl Motion {
 }
 
 impl Rigid for Motion {
-    fn shift(by: Vec3) -> Self {
-        Self { rotation: Matrix3::identity(), translation: by }
+    fn constant(motion: Motion) -> Self {
+        motion
     }
 
     fn inverse(&self) -> Self {
@@ -167,8 +172,8 @@ impl Moving {
 }
 
 impl Rigid for Moving {
-    fn shift(by: Vec3) -> Self {
-        Self { motion: Motion::shift(by), twist: Twist::zero() }
+    fn constant(motion: Motion) -> Self {
+        Self { motion, twist: Twist::zero() }
     }
 
     fn inverse(&self) -> Self {

@@ -23,6 +23,11 @@ pub(crate) fn open_star() -> Sheet {
     from_fold(include_str!("../../tests/cases/open-star.fold"))
 }
 
+/// A cell that two screw motions repeat.
+pub(crate) fn kresling_cell() -> Sheet {
+    crate::sheet::fold::parse(include_str!("../../meshes/kresling-cell.fold"), "kresling-cell.fold").unwrap()
+}
+
 pub(crate) fn open_flat() -> Sheet {
     from_fold(include_str!("../../tests/cases/open-flat.fold"))
 }

@@ -14,6 +14,10 @@
 //! `l = n1 l1 + n2 l2` and the length `L` of the drawn seam, the conditions are `|W| = 2 pi` and
 //! `W . l / (2 pi L) = 0`. The second condition is smooth where there is no rotation. A tube is therefore found by
 //! rolling up the periodic sheet with the second condition satisfied until the first one is met.
+//!
+//! Where a lattice rotation passes `pi`, its rotation vector reverses and `W` changes by a multiple of `2 pi`. As equations
+//! that are [kept](Tube::keeping) the conditions are therefore stated with the longer of the two rotation vectors `w`, which
+//! has the direction of the axis: `W . w / |w| = 0` up to multiples of `2 pi`, and `w . l / (2 pi L) = 0`.
 
 mod cut;
 
@@ -64,6 +68,8 @@ pub struct Tube<'a> {
     seam: Seam,
     /// Length of the drawn seam.
     length: f64,
+    /// Axis of the drawing, about which the drawn seam turns by a positive angle; `None` for a sheet with lattice vectors.
+    axis: Option<Vec3>,
 }
 
 /// Rotation vector and chord of the seam, `W` and `l`.
@@ -74,16 +80,19 @@ struct SeamMotion {
 }
 
 impl<'a> Tube<'a> {
-    /// Plans a tube in which cell `seam` coincides with cell (0, 0).
+    /// Plans a tube in which cell `seam` coincides with cell (0, 0), of a periodic sheet or of one that is drawn rolled up. The
+    /// drawn seam of the latter is measured along the chords from cell to cell.
     ///
     /// # Errors
     /// [`KinematicsError`] for a finite sheet, for one whose faces are not connected, and for the seam `[0, 0]`.
     pub fn new(sheet: &'a Sheet, seam: [i32; 2]) -> Result<Self, KinematicsError> {
-        let [l1, l2] = sheet.lattice.ok_or(KinematicsError::NoLattice)?;
+        let chords = sheet.chords().ok_or(KinematicsError::NoLattice)?;
         let number = Seam::new(seam).ok_or(KinematicsError::NoSeam)?;
-        let length = (l1 * f64::from(seam[0]) + l2 * f64::from(seam[1])).norm();
+        let steps = [0, 1].map(|a| chords[a] * f64::from(seam[a]));
+        let axis = sheet.screws.map(|screws| Vec3::z() * 1f64.copysign(screws.turn_of(seam)));
+        let length = if axis.is_some() { steps[0].norm() + steps[1].norm() } else { (steps[0] + steps[1]).norm() };
         let (closure, embedding) = (Closure::of_cell(sheet)?, Embedding::new(sheet)?);
-        Ok(Self { sheet, closure, embedding, seam: number, length })
+        Ok(Self { sheet, closure, embedding, seam: number, length, axis })
     }
 
     /// Returns the seam.
@@ -95,26 +104,14 @@ impl<'a> Tube<'a> {
     /// in radians and `W . l / (2 pi L)`, which is the rise of the seam relative to its drawn length if it turns by
     /// `2 pi`.
     ///
-    /// For angles that do not close, the motions are those along the tree of the [embedding](super::embedding).
+    /// For angles that do not close, the motions are those along the tree of the [embedding](super::embedding). Lattice
+    /// rotations count as those by at most `pi`.
     /// # Panics
     /// If the length of `angles` is not the number of edges.
     pub fn defects(&self, angles: &[f64]) -> [f64; 2] {
         let SeamMotion { turn, chord } =
             self.seam_of(&Displacement::new(&self.embedding, angles, &self.still()).lattice).0;
         [turn.norm() - TAU, turn.dot(&chord) / (TAU * self.length)]
-    }
-
-    /// Returns the derivative of [`defects`](Self::defects): two rows, a column per edge. NaN if there is no rotation.
-    /// # Panics
-    /// As [`defects`](Self::defects).
-    pub(crate) fn rates(&self, angles: &[f64]) -> DenseMatrix {
-        let mut rates = DenseMatrix::zeros(2, angles.len());
-        self.each_edge(angles, |edge, lattice| {
-            let (at, rate) = self.seam_of(lattice);
-            rates[(0, edge)] = at.turn.dot(&rate.turn) / at.turn.norm();
-            rates[(1, edge)] = (rate.turn.dot(&at.chord) + at.turn.dot(&rate.chord)) / (TAU * self.length);
-        });
-        rates
     }
 
     /// Calls `visit` with every edge and the lattice motions, with their rates if this edge alone folds at rate 1.
@@ -130,12 +127,21 @@ impl<'a> Tube<'a> {
     /// Returns the closure Jacobian followed by a row for each condition in `kept`: its null vectors are the motions
     /// through screw-periodic sheets that satisfy these conditions.
     pub fn jacobian(&self, angles: &[f64], kept: &[Condition]) -> DenseMatrix {
-        let (closure, rates) = (self.closure.jacobian(angles), self.rates(angles));
-        let rows = closure.nrows();
-        let row_of = |row: usize| kept[row - rows] as usize;
-        DenseMatrix::from_fn(rows + kept.len(), angles.len(), |row, edge| {
-            if row < rows { closure[(row, edge)] } else { rates[(row_of(row), edge)] }
-        })
+        self.equations(angles, kept).1
+    }
+
+    /// Returns closure and the conditions in `kept` as equations: what vanishes on a tube, and its derivative.
+    fn equations(&self, angles: &[f64], kept: &[Condition]) -> (Vec<f64>, DenseMatrix) {
+        let mut values: Vec<f64> = self.closure.residual(angles).iter().copied().collect();
+        let mut jacobian = self.closure.jacobian(angles);
+        for &condition in kept {
+            let (row, mut value, mut rates) = (values.len(), [0.0], DenseMatrix::zeros(1, angles.len()));
+            self.keeping(condition).linearize(angles, &mut value, &mut rates);
+            values.extend(value);
+            jacobian = jacobian.insert_row(row, 0.0);
+            jacobian.row_mut(row).copy_from(&rates);
+        }
+        (values, jacobian)
     }
 
     /// Computes the fold angles of a tube, closed up to rounding: the drawn sheet rolled up about the line across the
@@ -158,7 +164,7 @@ impl<'a> Tube<'a> {
         let rolled = found.points.last().filter(|_| matches!(found.end, End::Stopped { .. }));
         let turns = found.points.iter().map(|point| self.defects(&point.x)[0] + TAU);
         let missed = || KinematicsError::NoTube { seam: self.seam.lattice_vector(), turn: turns.fold(0.0, f64::max) };
-        self.closed(&rolled.ok_or_else(missed)?.x)
+        self.closed(&rolled.ok_or_else(missed)?.x, &BOTH, &[])
     }
 
     /// Returns the motions of a tube with these fold angles that satisfy the conditions in `kept` and do not move the edges in
@@ -182,9 +188,13 @@ impl<'a> Tube<'a> {
     /// Returns a motion that keeps a condition in the direction in which the quantity of the other one grows: the rise of the
     /// seam, or its turn. Both are those along the axis about which the seam turns by a positive angle.
     pub(crate) fn growing(&self, angles: &[f64], kept: Condition, motion: &[f64]) -> Vec<f64> {
-        let rates = self.rates(angles);
-        let growth: f64 = rates.row(kept.other() as usize).iter().zip(motion).map(|(a, b)| a * b).sum();
-        motion.iter().map(|rate| rate * 1f64.copysign(growth)).collect()
+        let mut rates = DenseMatrix::zeros(1, angles.len());
+        self.keeping(kept.other()).linearize(angles, &mut [0.0], &mut rates);
+        let growth: f64 = rates.iter().zip(motion).map(|(a, b)| a * b).sum();
+        let lattice = Displacement::new(&self.embedding, angles, motion).lattice;
+        let positive = self.axis.unwrap_or_else(|| self.seam_of(&lattice).0.turn);
+        let side = longer_turn(&lattice).0.dot(&positive);
+        motion.iter().map(|rate| rate * 1f64.copysign(growth * side)).collect()
     }
 
     /// Follows the one motion of a tube whose seam turns by `2 pi` and may rise, from the tube's angles for a length in
@@ -218,20 +228,28 @@ impl<'a> Tube<'a> {
         Ok([sign * x * x, sign * y * y, sign * x * y])
     }
 
-    /// Solves closure and both conditions by Newton's method.
-    fn closed(&self, start: &[f64]) -> Result<Vec<f64>, KinematicsError> {
+    /// Solves closure and the conditions in `kept` by Newton's method, with the edges in `locked` at the angles of `start`.
+    ///
+    /// # Errors
+    /// [`KinematicsError::NotClosed`] if there is no solution near `start`.
+    pub(crate) fn closed(
+        &self,
+        start: &[f64],
+        kept: &[Condition],
+        locked: &[usize],
+    ) -> Result<Vec<f64>, KinematicsError> {
+        let moving: Vec<usize> = (0..start.len()).filter(|edge| !locked.contains(edge)).collect();
         let mut angles = start.to_vec();
         let mut residual = f64::INFINITY;
         for _ in 0..STEPS {
-            let defects: Vec<f64> =
-                self.closure.residual(&angles).iter().copied().chain(self.defects(&angles)).collect();
+            let (defects, jacobian) = self.equations(&angles, kept);
             residual = defects.iter().fold(0.0, |most, defect| larger(most, defect.abs()));
             if residual <= CLOSURE_RESIDUAL {
                 return Ok(angles);
             }
             let right = DenseMatrix::from_column_slice(defects.len(), 1, &defects);
-            let step = least_squares(&self.jacobian(&angles, &BOTH), &right)?.solution;
-            angles.iter_mut().zip(step.iter()).for_each(|(angle, step)| *angle -= step);
+            let step = least_squares(&jacobian.select_columns(&moving), &right)?.solution;
+            moving.iter().zip(step.iter()).for_each(|(&edge, step)| angles[edge] -= step);
         }
         Err(KinematicsError::NotClosed { residual })
     }
@@ -254,8 +272,8 @@ impl<'a> Tube<'a> {
 
 /// One of the conditions on a tube as an equation on its fold angles.
 ///
-/// The turn of the seam is taken modulo `2 pi`, so that it is continuous where a lattice rotation passes `pi` and its rotation
-/// vector reverses.
+/// Both are stated with the longer of the two rotation vectors, and hold where its direction or the whole turns of the seam
+/// change.
 #[derive(Clone, Copy, Debug)]
 pub struct TubeCondition<'t, 'a> {
     tube: &'t Tube<'a>,
@@ -266,13 +284,12 @@ impl TubeCondition<'_, '_> {
     /// Returns the value of the equation, and its rate with that of the lattice motions.
     fn value(&self, lattice: &Option<[Moving; 2]>) -> [f64; 2] {
         let (seam, seam_rate) = self.tube.seam_of(lattice);
+        let (larger, rate) = longer_turn(lattice);
         let length = TAU * self.tube.length;
         let Condition::Turn = self.kept else {
-            let rate = seam_rate.turn.dot(&seam.chord) + seam.turn.dot(&seam_rate.chord);
-            return [seam.turn.dot(&seam.chord) / length, rate / length];
+            let rise_rate = rate.dot(&seam.chord) + larger.dot(&seam_rate.chord);
+            return [larger.dot(&seam.chord) / length, rise_rate / length];
         };
-        let turns = lattice.iter().flatten().map(turning);
-        let (larger, rate) = turns.max_by(|a, b| a.0.norm().total_cmp(&b.0.norm())).unwrap_or_default();
         let axis = larger.normalize();
         let axis_rate = (rate - axis * axis.dot(&rate)) / larger.norm();
         let turn = axis.dot(&seam.turn);
@@ -296,6 +313,12 @@ fn turning(moving: &Moving) -> (Vec3, Vec3) {
     (turn, rotation::inverse_left_jacobian(&turn) * moving.twist.angular)
 }
 
+/// Returns the longer of the two rotation vectors of the lattice motions, and its rate.
+fn longer_turn(lattice: &Option<[Moving; 2]>) -> (Vec3, Vec3) {
+    let turns = lattice.iter().flatten().map(turning);
+    turns.max_by(|a, b| a.0.norm().total_cmp(&b.0.norm())).unwrap_or_default()
+}
+
 impl TubeCondition<'_, '_> {
     /// The curve of screw-periodic sheets through these angles that satisfy the condition; its indicator is the defect of the
     /// other one.
@@ -313,38 +336,25 @@ mod tests {
     use super::*;
     use crate::numerics::derivatives::{TOLERANCE, check_jacobian};
 
-    /// Claim: the rates of the conditions are their derivatives, edge by edge, on cylinders and on tubes.
-    #[test]
-    fn rates_are_derivatives() {
-        let sheet = open_star();
-        for seam in [[0, 7], [1, 8], [-6, 3]] {
-            let tube = Tube::new(&sheet, seam).unwrap();
-            for angles in open_star_reference().cylinders(&sheet) {
-                let at = |x: &[f64]| tube.defects(x).to_vec();
-                check_jacobian(at, &angles, &tube.rates(&angles), TOLERANCE).unwrap();
-            }
-        }
-    }
-
-    /// Claim: the rates of a condition as an equation are its derivatives, edge by edge, also off the closed states, where the
-    /// rotations do not commute; and on tubes, where both conditions hold, its value is zero to rounding.
+    /// Claim: the Jacobian of closure and both conditions is their derivative, edge by edge, on cylinders, on tubes, on a tube
+    /// that is drawn rolled up, and off the closed states, where the rotations do not commute; on tubes all equations hold to
+    /// rounding.
     #[test]
     fn conditions_are_equations() {
-        let sheet = open_star();
-        let tube = Tube::new(&sheet, [1, 8]).unwrap();
-        let closed = tube.rolled_up(true).unwrap();
-        for kept in BOTH {
-            let condition = tube.keeping(kept);
-            let linearized = |x: &[f64]| {
-                let (mut value, mut rates) = (vec![0.0], DenseMatrix::zeros(1, x.len()));
-                condition.linearize(x, &mut value, &mut rates);
-                (value, rates)
-            };
-            assert!(linearized(&closed).0[0].abs() <= 1e-14);
+        let (sheet, drawn_tube) = (open_star(), kresling_cell());
+        let (star, kresling) = (Tube::new(&sheet, [1, 8]).unwrap(), Tube::new(&drawn_tube, [6, 0]).unwrap());
+        let rolled = star.rolled_up(true).unwrap();
+        for (tube, closed) in [(&star, rolled), (&kresling, kresling.embedding.drawn_angles().to_vec())] {
+            assert!(tube.equations(&closed, &BOTH).0.iter().all(|value| value.abs() <= 1e-14));
             for off in [0.0, 0.02] {
                 let angles: Vec<f64> = closed.iter().enumerate().map(|(k, x)| x + off * (k as f64).sin()).collect();
-                check_jacobian(|x| linearized(x).0, &angles, &linearized(&angles).1, TOLERANCE).unwrap();
+                let jacobian = tube.jacobian(&angles, &BOTH);
+                check_jacobian(|x| tube.equations(x, &BOTH).0, &angles, &jacobian, TOLERANCE).unwrap();
             }
+        }
+        for angles in open_star_reference().cylinders(&sheet) {
+            let jacobian = star.jacobian(&angles, &BOTH);
+            check_jacobian(|x| star.equations(x, &BOTH).0, &angles, &jacobian, TOLERANCE).unwrap();
         }
     }
 

@@ -5,12 +5,13 @@
 //! `M_next = M * turn(edge, rho - rho0)` (valley positive; counter-clockwise about the edge from its first to its
 //! second end if the step is from the right to the left face). A tree of such steps reaches every face of the cell
 //! once. Each remaining edge leads from a face `f` to the copy of a face `g` in the cell `n`, and closes a loop: the
-//! motion from the sheet to its copy there is `A = M_f * turn * shift(n) * M_g^-1`. Products of a few loops give the
-//! two lattice motions; all other loops must agree with them, which is the compatibility of the angles.
+//! motion from the sheet to its copy there is `A = M_f * turn * D_n * M_g^-1`, with the motion `D_n` of the drawing from
+//! cell (0, 0) to the cell `n`: a translation, or a screw motion where the sheet is drawn rolled up. Products of a few
+//! loops give the two lattice motions; all other loops must agree with them, which is the compatibility of the angles.
 
 use super::KinematicsError;
-use super::motion::{Line, Rigid};
-use crate::math::Vec3;
+use super::motion::{Line, Motion, Rigid};
+use crate::math::{Vec3, rotation};
 use crate::sheet::{Corner, EdgeKey, Sheet};
 use std::collections::{HashMap, VecDeque};
 
@@ -32,8 +33,8 @@ pub(crate) struct Loop {
     pub crossing: Crossing,
     /// Cell of the copy of the face behind the edge.
     pub cell: [i32; 2],
-    /// Drawn translation of that cell.
-    pub shift: Vec3,
+    /// Drawn motion from cell (0, 0) to that cell.
+    pub drawn: Motion,
 }
 
 /// The tree, the loops, and the products of loops that give the lattice motions. Drawn positions have vertex 0 as
@@ -74,9 +75,6 @@ impl FaceWalk {
     ///
     /// Fails if the faces are not connected, or, on a periodic sheet, not along both directions of the lattice.
     pub(crate) fn new(sheet: &Sheet) -> Result<Self, KinematicsError> {
-        if sheet.screws.is_some() {
-            return Err(KinematicsError::Rolled);
-        }
         let faces = sheet.triangles.len();
         let disconnected = || KinematicsError::Disconnected { faces };
         let (root, start) = first_with_vertex_0(sheet).ok_or_else(disconnected)?;
@@ -88,7 +86,7 @@ impl FaceWalk {
         let steps = plan.steps;
         let cells: Vec<[i32; 2]> = plan.cells.into_iter().collect::<Option<_>>().ok_or_else(disconnected)?;
         let shifts: Vec<[i32; 2]> = loops.iter().map(|closing| closing.cell).collect();
-        let words = sheet.lattice.map(|_| [[1, 0], [0, 1]].map(|cell| word(&shifts, cell)));
+        let words = sheet.is_repeated().then(|| [[1, 0], [0, 1]].map(|cell| word(&shifts, cell)));
         let words = match words {
             Some([Some(first), Some(second)]) => Some([first, second]),
             Some(_) => return Err(disconnected()),
@@ -114,9 +112,9 @@ impl FaceWalk {
             faces[to] = faces[from] * turn(step);
         }
         loops.clear();
-        loops.extend(self.loops.iter().map(|Loop { crossing, shift, .. }| {
+        loops.extend(self.loops.iter().map(|Loop { crossing, drawn, .. }| {
             let [from, to] = crossing.faces.map(|face| faces[face]);
-            from * turn(crossing) * M::shift(*shift) * to.inverse()
+            from * turn(crossing) * M::constant(*drawn) * to.inverse()
         }));
         let product = |word: &Vec<(usize, bool)>| {
             let factors = word.iter().map(|&(k, back)| if back { loops[k].inverse() } else { loops[k] });
@@ -169,8 +167,7 @@ impl WalkBuilder<'_> {
             let base = sum(from, right.base);
             let crossing = self.crossing(edge, 1, base, [right.face, left.face]);
             let cell = difference(difference(base, left.base), to);
-            let shift = relative(self.sheet, Corner { vertex: 0, shift: cell });
-            loops.push(Loop { crossing, cell, shift });
+            loops.push(Loop { crossing, cell, drawn: drawn_motion(self.sheet, cell) });
         }
         loops
     }
@@ -186,6 +183,13 @@ impl WalkBuilder<'_> {
 /// Returns the drawn position of a corner relative to vertex 0.
 pub(crate) fn relative(sheet: &Sheet, corner: Corner) -> Vec3 {
     sheet.position(corner) - sheet.position(Corner::home(0))
+}
+
+/// Returns the motion from cell (0, 0) to another cell as drawn.
+fn drawn_motion(sheet: &Sheet, cell: [i32; 2]) -> Motion {
+    let turn = sheet.screws.map_or(0.0, |screws| screws.turn_of(cell));
+    let translation = relative(sheet, Corner { vertex: 0, shift: cell });
+    Motion { rotation: rotation::exp(&(turn * Vec3::z())), translation }
 }
 
 /// Returns the first face that has vertex 0, and the cell into which it is translated so that this vertex is in cell

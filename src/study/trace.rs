@@ -37,13 +37,9 @@ const STATES_ON_PAGE: usize = 200;
 pub(crate) fn check(context: &Context<'_>, spec: &TraceSpec) -> Result<(), StudyError> {
     branches::check(context)?;
     let assembly = context.assembly;
-    if assembly.boundary() == Boundary::Patch && assembly.sheet().lattice.is_some() {
+    if assembly.boundary() == Boundary::Patch && assembly.sheet().is_repeated() {
         let message = "trajectories of a patch of a periodic sheet are not known";
-        return Err(context.refuse(message, "use domain = \"screw\", or a mesh without lattice").into());
-    }
-    if assembly.sheet().screws.is_some() {
-        let message = "trajectories of a cell that its mesh draws rolled up are not known";
-        let help = "take a mesh with lattice vectors, which `domain = \"tube\"` rolls up";
+        let help = "use domain = \"screw\", of a cell that is drawn rolled up \"tube\", or a mesh without lattice";
         return Err(context.refuse(message, help).into());
     }
     if spec.engine != Engine::Kinematic && assembly.terms().bars.is_none() {

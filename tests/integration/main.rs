@@ -22,6 +22,7 @@ mod command_line;
 mod corpus;
 mod disturbed_runs;
 mod drawings;
+mod drawn_tube_traces;
 mod driven_scenes;
 mod elements;
 mod empty_answers;

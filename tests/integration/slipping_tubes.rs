@@ -179,7 +179,7 @@ fn rigid_tubes_and_tubes_with_two_motions() {
 }
 
 /// Claim: scenes say all this. A rigid tube has the end `no-real-branch` and exit status 0; the table has the seam, whose turn is
-/// kept; a tube that its mesh draws, Poisson's ratios, and a lock at another angle are refused with the reason.
+/// kept, also on a tube that its mesh draws; Poisson's ratios and a lock at another angle are refused with the reason.
 #[test]
 fn scenes_of_slipping_tubes() {
     let folder = tempfile::tempdir().unwrap();
@@ -198,7 +198,6 @@ fn scenes_of_slipping_tubes() {
     let star = "seam = [0, 7]\nclosing = \"turn\"";
     let stop = "stop = { arc_length = 0.2 }";
     for (mesh, sheet, study, expected) in [
-        ("kresling-cell.fold", "seam = [6, 0]\nclosing = \"turn\"", stop, "draws rolled up"),
         ("open-star.fold", star, "response = \"bending\"", "rolled up are not known"),
         ("open-star.fold", star, "[[lock]]\ncrease = [0, 1, 0, 0]\nangle = 0.5", "a lock holds a crease at 0.5"),
     ] {
@@ -209,14 +208,17 @@ fn scenes_of_slipping_tubes() {
     let closed = serde_json::to_value(go("open-star.fold", "seam = [0, 7]", "").unwrap().summary).unwrap();
     assert!(closed.to_string().contains("no-real-branch"), "{closed}");
     assert_eq!(closed["studies"][0]["converged"], true);
-    let slipped = go("open-star.fold", star, stop).unwrap().summary;
-    assert!(slipped.studies[0].converged, "{:?}", slipped.studies[0].reason);
-    let table = std::fs::read_to_string(folder.path().join("out/a.csv")).unwrap();
-    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let header = rows.next().unwrap();
-    let column = header.iter().position(|name| *name == "seam_turn").unwrap();
-    assert_eq!(header[column + 1], "seam_rise");
-    assert!(rows.all(|row| (row[column].parse::<f64>().unwrap() - TAU).abs() <= 1e-12));
+    for (mesh, sheet) in [("open-star.fold", star), ("kresling-cell.fold", "seam = [6, 0]\nclosing = \"turn\"")] {
+        let slipped = go(mesh, sheet, stop).unwrap().summary;
+        assert!(slipped.studies[0].converged, "{:?}", slipped.studies[0].reason);
+        let table = std::fs::read_to_string(folder.path().join("out/a.csv")).unwrap();
+        let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let header = rows.next().unwrap();
+        let column = header.iter().position(|name| *name == "seam_turn").unwrap();
+        assert_eq!(header[column + 1], "seam_rise");
+        assert!(rows.all(|row| (row[column].parse::<f64>().unwrap() - TAU).abs() <= 1e-12));
+        std::fs::remove_dir_all(folder.path().join("out")).unwrap();
+    }
 }
 
 /// Returns the arc length at which a trajectory passes a closed tube with these fold angles, modulo whole turns.

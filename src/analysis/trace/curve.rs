@@ -32,6 +32,8 @@ pub(super) struct TracedClosure<'a, 'b> {
     pub starts_straight: bool,
     /// The seam of a tube, and the closing condition that it keeps.
     pub tube: Option<(Seam, Condition)>,
+    /// The seam of the first state, if the sheet is drawn rolled up.
+    pub drawn: Option<SeamPlace>,
     /// States of the trajectory that are known, by rising arc length: near them curvatures keep their sign, and seams their
     /// direction.
     pub known: Vec<Known>,
@@ -87,7 +89,8 @@ impl TracedClosure<'_, '_> {
         let away = |k: &usize| (self.known[*k].arc_length - arc_length).abs();
         let nearest = beside.into_iter().flatten().min_by(|a, b| away(a).total_cmp(&away(b)));
         let last = nearest.map(|k| &self.known[k]);
-        let place = |seam: Seam| SeamPlace::new(shape, &seam, last.and_then(|last| last.seam.as_ref()));
+        let place =
+            |seam: Seam| SeamPlace::new(shape, &seam, last.map_or(self.drawn.as_ref(), |last| last.seam.as_ref()));
         let seam = self.tube.and_then(|(seam, _)| place(seam));
         if let Some(last) = last {
             shape.continue_over(self.embedding, &last.shape, [&last.angles, angles]);

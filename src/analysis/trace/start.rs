@@ -45,7 +45,10 @@ fn of_tube(assembly: &Assembly, angles: Vec<f64>, (seam, kept): (Seam, SeamKept)
         Condition::Rise => kept.rise,
     };
     let conditions: Vec<Condition> = BOTH.into_iter().filter(is_kept).collect();
-    let motions = tube.motions(&angles, &conditions, &assembly.locked_edges())?;
+    let locked = assembly.locked_edges();
+    // a drawing closes to the digits of its file
+    let angles = tube.closed(&angles, &conditions, &locked)?;
+    let motions = tube.motions(&angles, &conditions, &locked)?;
     let directions = RealDirections::Listed;
     match (motions.ncols(), &conditions[..]) {
         (0, _) => Ok(Start { angles, rays: Vec::new(), directions, planar: false, tube: None }),
