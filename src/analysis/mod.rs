@@ -4,6 +4,8 @@ pub mod along;
 mod apex;
 pub mod bloch;
 pub mod branches;
+mod by_steps;
+mod certainty;
 pub mod chart;
 pub mod exact;
 pub mod intersections;

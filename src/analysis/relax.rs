@@ -1,6 +1,8 @@
 //! Relaxation: from a start to the equilibrium of a model, directly or by raising what drives it step by step.
 
 use super::apex;
+use super::by_steps::{self, hopeless};
+use super::certainty::{CERTAIN, off_rest, uncertainty};
 use super::method::{self, IntrinsicFailure, RelaxOptions};
 use super::recorder::{KeptState, Recorder};
 use super::rigid_forces::rigid_over_others;
@@ -8,26 +10,15 @@ use super::singular_start::{self, BranchChoice, Origin};
 use super::state::State;
 use super::straight;
 use crate::model::{Assembly, Domain, Gauge, Model};
-use crate::solver::{Equilibrium, Failure, HessianKind, NewtonError, Options, Problem, Start, Step, Tangent, tension};
+use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Start, Step, tension};
 use std::fmt;
 use std::ops::Range;
 use thiserror::Error;
 
-/// Smallest step of the continuation that is tried before giving up.
-const LEAST_STEP: f64 = 1.0 / 64.0;
-/// Largest angle, in radians, by which a converged state may still be off.
-const CERTAIN: f64 = 1e-7;
-/// Relative residual of the linear system that tells this angle.
-const ROUGH: f64 = 0.1;
-/// Scaled force above which the state of a sheet under torques is not balanced.
-const UNBALANCED: f64 = 1e-9;
 /// How often what holds a sheet against rigid motions is chosen again.
 const HOLDS: usize = 20;
 /// Largest force of a rigid measure over those of the others from which on it hides them.
 const HIDDEN: f64 = 100.0;
-/// Tolerance of the states in between.
-const INTERMEDIATE_TOLERANCE: f64 = 1e-6;
-
 /// An equilibrium.
 #[derive(Clone, Debug)]
 pub struct Relaxed {
@@ -162,10 +153,7 @@ pub fn relax_from(
             left
         }
         Err(error) if hopeless(error.failure) => Err(error),
-        Err(error) => {
-            history.extend(error.history);
-            by_steps(model, &origin, options, &mut recorder, &mut history)
-        }
+        Err(error) => by_steps::reached(model, error, &origin, options, &mut recorder, &mut history),
         found => found,
     };
     let found = if restarted || !soft_steps.is_empty() {
@@ -194,6 +182,7 @@ pub fn relax_from(
             }
             _ => {
                 let branch_choice = BranchChoice::of(model, &found.x, &origin.angles, !soft_steps.is_empty());
+                let found = straight::counted(model, found);
                 let relaxed = finish(model, found, history);
                 let kept = recorder.into_kept(Some(&relaxed.state));
                 return Ok(Relaxed { intrinsic_failure, branch_choice, soft_steps, kept, ..relaxed });
@@ -202,26 +191,6 @@ pub fn relax_from(
         Err(error) => error,
     };
     Err(Box::new(RelaxError { intrinsic_failure, soft_steps, ..failed(model, open, history, recorder) }))
-}
-
-/// Relaxes again from a start, with rest values that move to their targets in steps; a screw that this leaves nearly straight, by way
-/// of straight states.
-fn by_steps(
-    model: &mut Model,
-    origin: &Origin,
-    options: Options,
-    recorder: &mut Recorder<'_>,
-    history: &mut Vec<Step>,
-) -> Result<Equilibrium, NewtonError> {
-    model.set_angles(&origin.angles);
-    follow(model, origin.place.clone(), options, recorder, history).or_else(|error| {
-        let last = model.coordinates(&error.x);
-        if hopeless(error.failure) || !straight::is_nearly(model, &last) {
-            return Err(error);
-        }
-        history.extend(error.history);
-        straight::relaxed(model, last, options, recorder, history)
-    })
 }
 
 /// The failure of a relaxation with its last state.
@@ -254,48 +223,6 @@ fn relaxed_with_a_valid_gauge(
         found = recorder.minimize(model, Start { x, tension: Some(found.tension) }, options)?;
     }
     Ok(found)
-}
-
-/// Failures that smaller steps cannot mend.
-fn hopeless(failure: Failure) -> bool {
-    matches!(failure, Failure::Interrupted | Failure::SingularStart)
-}
-
-/// Continuation in the rest values, from a state with these coordinates: those who accept states may change what the unknowns mean.
-fn follow(
-    model: &mut Model,
-    mut place: Vec<f64>,
-    options: Options,
-    recorder: &mut Recorder<'_>,
-    history: &mut Vec<Step>,
-) -> Result<Equilibrium, NewtonError> {
-    let start = model.start_from(place.clone());
-    let (targets, origin) = (model.rests(), model.values(&start));
-    let (mut done, mut step) = (0.0, 0.25);
-    let loose =
-        Options { tolerance: options.tolerance.max(INTERMEDIATE_TOLERANCE), iterations: options.iterations.min(50) };
-    loop {
-        let next = f64::min(done + step, 1.0);
-        let angles = model.angles();
-        model.set_rests(&origin, &targets, next);
-        let x = model.start_from(place.clone());
-        match recorder.minimize(model, x, if next < 1.0 { loose } else { options }) {
-            Ok(found) if next == 1.0 => return Ok(found),
-            Ok(found) => {
-                history.extend(found.history);
-                (place, done, step) = (model.coordinates(&found.x), next, 2.0 * step);
-            }
-            Err(error) if error.failure == Failure::Interrupted || step <= LEAST_STEP => {
-                model.set_rests(&origin, &targets, 1.0);
-                return Err(error);
-            }
-            Err(error) => {
-                history.extend(error.history);
-                model.set_angles(&angles);
-                step /= 2.0;
-            }
-        }
-    }
 }
 
 /// The equilibrium of a screw whose rigid measures are under so much tension that they hide what is left of the others' forces, with
@@ -332,44 +259,6 @@ fn refined(
             Ok(found)
         }
     }
-}
-
-/// The largest change of a soft hinge's angle that one more Newton step would make, in radians: what the residual
-/// means for the state. Asked where it may mean much: where rounding errors kept it above the tolerance, and on screws, whose axis
-/// has next to no direction near zero curvature. `None` elsewhere, and where it cannot be told; infinite where a state under
-/// torques has a residual that is no rounding error of theirs.
-fn uncertainty(model: &Model, found: &Equilibrium, tolerance: f64) -> Option<f64> {
-    if !model.gauge_is_valid(&found.x) {
-        return Some(f64::INFINITY);
-    }
-    let last = found.history.last()?;
-    if last.residual_force <= tolerance && !matches!(model.domain(), Domain::Screw) {
-        return None;
-    }
-    let strained = || off_rest(model, &found.x) > CERTAIN;
-    let of_others = || last.residual_force * rigid_over_others(model, found).max(1.0);
-    if matches!(model.domain(), Domain::Screw) && of_others() > UNBALANCED && strained() {
-        return Some(f64::INFINITY);
-    }
-    let mut tangent = Tangent::at_state(model, &found.x, &found.tension, HessianKind::Full).ok()?;
-    model.hold(&found.tension, &mut tangent.at);
-    let unknown = || (last.residual_force > UNBALANCED && strained()).then_some(f64::INFINITY);
-    if tangent.factor(0.0).is_err() {
-        return unknown();
-    }
-    let step = tangent.newton_step(&found.tension, ROUGH);
-    if !(step.residual <= ROUGH) {
-        return unknown();
-    }
-    Some(tangent.at.largest_measure_change(&step.dx))
-}
-
-/// The largest angle between a soft hinge and its rest, in radians.
-fn off_rest(model: &Model, x: &[f64]) -> f64 {
-    let coordinates = model.coordinates(x);
-    let hinges = model.soft().iter().flat_map(|term| (0..term.len()).map(move |k| (term, k)));
-    let off = hinges.map(|(term, k)| term.value(k, model.domain(), &coordinates) - term.spring(k).rest);
-    off.fold(0.0, |largest, off| largest.max(off.abs()))
 }
 
 fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed {

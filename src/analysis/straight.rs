@@ -1,4 +1,4 @@
-//! Screws that a relaxation leaves next to zero curvature without an equilibrium.
+//! Screws that a relaxation leaves next to zero curvature: those without an equilibrium, and the stability of straight ones.
 //!
 //! The motions of a screw that bend it are a curvature times the square of the axis's direction: a cone, whose apex is zero
 //! curvature. Next to it a moment that bends the sheet makes Newton's system indefinite, by the moment over the curvature, and steps
@@ -6,15 +6,20 @@
 //! where it has the equilibrium of a torus. From there it bends about an axis that keeps its direction, and at last with all its
 //! unknowns, in balance or nearly so.
 
+use super::certainty::{CERTAIN, next_change};
 use super::recorder::Recorder;
 use crate::model::Model;
-use crate::solver::{Equilibrium, NewtonError, Options, Problem, Start, Step};
+use crate::solver::{Equilibrium, HessianKind, NewtonError, Options, Problem, Start, Step, Tangent};
+use std::f64::consts::PI;
 
 /// Curvature times the unit of length up to which the last state of a relaxation is nearly straight, and up to which it is rounding.
 const NEARLY: f64 = 1e-2;
 const ROUNDING: f64 = 1e-13;
-/// Direction of the axis in radians, off those of symmetric cells.
+/// Curvature times the unit of length up to which a state is asked whether its axis has a direction.
+const STRAIGHT: f64 = 1e-9;
+/// Direction of the axis in radians, off those of symmetric cells; the first of those asked, which are even over half a turn.
 const AXIS: f64 = 0.3;
+const AXES: usize = 4;
 
 /// The curvature of a state times the unit of length; `None` if the model is no screw.
 fn curvature(model: &Model, coordinates: &[f64]) -> Option<f64> {
@@ -57,4 +62,29 @@ pub(super) fn relaxed(
         start = Start { x, tension: Some(found.tension) };
     }
     recorder.minimize(model, start, options)
+}
+
+/// The equilibrium of a screw with its negative eigenvalues counted about axes that keep their direction, the most of several, if it is
+/// straight and would bend about none of them. Then the direction has no effect, and the sign of its eigenvalue is one of
+/// rounding. Other equilibria are returned as they are.
+pub(super) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
+    let place = model.coordinates(&found.x);
+    if found.negative_eigenvalues == 0 || !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT) {
+        return found;
+    }
+    let directions = (0..AXES).map(|axis| AXIS + PI * axis as f64 / AXES as f64);
+    let counts: Option<Vec<usize>> =
+        directions.map(|axis| negative_about(model, place.clone(), axis, &found.tension)).collect();
+    let most = counts.and_then(|counts| counts.into_iter().max());
+    let negative_eigenvalues = most.unwrap_or(found.negative_eigenvalues);
+    Equilibrium { x: model.hold_axis(0, place), negative_eigenvalues, ..found }
+}
+
+/// Negative eigenvalues of a straight state about an axis of this direction, in radians; `None` if it would bend about that axis.
+fn negative_about(model: &mut Model, mut coordinates: Vec<f64>, axis: f64, tension: &[f64]) -> Option<usize> {
+    model.domain().bend(&mut coordinates, axis, 0.0);
+    let x = model.hold_axis(1, coordinates);
+    let mut tangent = Tangent::at_state(model, &x, tension, HessianKind::Full).ok()?;
+    let negative = tangent.inertia().ok()?.negative;
+    next_change(&mut tangent, tension).filter(|change| *change <= CERTAIN).map(|_| negative)
 }
