@@ -235,9 +235,10 @@ impl Track<'_> {
         model.set_angles(&hinge_angles(&model, &self.angles));
         let last = self.known.last().map(|(_, at)| at.clone());
         let last = last.unwrap_or_else(|| chart::coordinates_in(self.assembly.boundary(), state));
-        let here = model.start_from(last);
-        let ahead = self.ahead(state.arc_length).map_or(here, |ahead| model.unknowns(&ahead));
-        let relaxed = relax_from(&mut model, ahead, self.options, observe)
+        let (here, is_held_as_drawn) = model.start_well_held(last);
+        let ahead = self.ahead(state.arc_length).filter(|_| is_held_as_drawn);
+        let start = ahead.map_or(here, |ahead| model.unknowns(&ahead));
+        let relaxed = relax_from(&mut model, start, self.options, observe)
             .map_err(|error| AlongFailure::Relaxation(error.failure))?;
         self.keep(model.domain(), &model.held(), state.arc_length, relaxed.state.coordinates.clone());
         self.crease = Some(crease);
@@ -258,12 +259,10 @@ impl Track<'_> {
     /// keeps it from turning in the plane may change, and rotations jump by whole turns.
     fn keep(&mut self, domain: &Domain, held: &[bool], arc_length: f64, coordinates: Vec<f64>) {
         let near = |a: [f64; 2], b: [f64; 2]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1.0);
-        let same = |at: &[f64]| match (domain.turns(at), domain.turns(&coordinates)) {
-            (Some(there), Some(here)) => {
-                let fixed = (0..at.len()).filter(|&k| held[k]).all(|k| at[k] == coordinates[k]);
-                fixed && near(there.theta, here.theta)
-            }
-            _ => true,
+        let same = |at: &[f64]| {
+            let fixed = (0..at.len()).filter(|&k| held[k]).all(|k| at[k] == coordinates[k]);
+            let turns = domain.turns(at).zip(domain.turns(&coordinates));
+            fixed && turns.is_none_or(|(there, here)| near(there.theta, here.theta))
         };
         self.known.retain(|(_, at)| same(at));
         if self.known.len() == 2 {

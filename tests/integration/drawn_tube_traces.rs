@@ -190,6 +190,26 @@ fn rolled_up_and_drawn() {
     }
 }
 
+/// Claim: it does not matter which side of a tube its file draws in front. Slipping, the tube becomes half as wide; relaxations go along
+/// from every drawing, and end in the same energy. Tolerance: that of relaxations, for energies of size 1.
+#[test]
+fn drawings_turned_about_the_axis() {
+    let energies = [0.0, 0.4, 0.7, 1.2, 2.5].map(|turned: f64| {
+        let mut sheet = one_vertex([60.0, 30.0], [0.0, 0.8]);
+        sheet.vertices = vec![Vec3::new(turned.cos(), turned.sin(), 0.0)];
+        let case = case(&sheet, [6, 0], TURN);
+        both_ways(&case, 3.0).map(|one| {
+            let relaxed = relax_along(&case, Options::default(), &one, &mut |_| true);
+            assert!(relaxed.failure.is_none() && relaxed.error().unwrap() <= 1e-9, "{turned}: {:?}", relaxed.failure);
+            relaxed.states.last().unwrap().relaxed.state.total()
+        })
+    });
+    assert!(energies[0][0] > 0.1);
+    for energy in energies {
+        assert!((0..2).all(|way| (energy[way] - energies[0][way]).abs() <= 1e-9), "{energy:?}");
+    }
+}
+
 /// Claim: the mirror image of a tube moves as the tube does: angles are opposite, and the rise of the reversed seam is.
 #[test]
 fn mirror_images() {

@@ -12,6 +12,8 @@ use std::sync::Arc;
 /// Least separation of the rigid motions by the held coordinates, relative to that of newly chosen ones; below it the
 /// held coordinates may constrain the shape too.
 const LEAST_SEPARATION_RATIO: f64 = 1e-3;
+/// The same for a state from which steps are made.
+const WELL_HELD: f64 = 0.5;
 
 impl Model {
     /// Chooses the held coordinates at the reference state, and numbers the other ones as unknowns.
@@ -72,14 +74,28 @@ impl Model {
     /// would. If they do not, they may constrain the shape, and a state that seems to be an equilibrium need not be
     /// one.
     pub(crate) fn gauge_is_valid(&self, x: &[f64]) -> bool {
+        self.gauge_quality(x) >= LEAST_SEPARATION_RATIO
+    }
+
+    /// Makes these coordinates the reference state, as [`start_from`](Self::start_from) does, and chooses anew what is held if it would
+    /// not hold rigid motions well: steps from here may then have no room. Returns the unknowns, and whether the same is held.
+    pub(crate) fn start_well_held(&mut self, coordinates: Vec<f64>) -> (Vec<f64>, bool) {
+        let x = self.start_from(coordinates);
+        let is_well_held = self.gauge_quality(&x) >= WELL_HELD;
+        (if is_well_held { x } else { self.rebase_gauge(self.coordinates(&x)) }, is_well_held)
+    }
+
+    /// Separation of the rigid motions of the state `x` by the held coordinates, relative to that by newly chosen ones.
+    fn gauge_quality(&self, x: &[f64]) -> f64 {
         if self.gauge == Gauge::Free {
-            return true;
+            return 1.0;
         }
         let motions = self.rigid_motions(&self.generalised(x), self.loads.is_empty());
         let separation = |held: &[bool]| gauge::separation(&motions, held);
         let mut held = vec![true; motions.len()];
         self.free.iter().for_each(|&k| held[k as usize] = false);
-        separation(&held) >= LEAST_SEPARATION_RATIO * separation(&self.chosen(&motions))
+        let best = separation(&self.chosen(&motions));
+        if best > 0.0 { separation(&held) / best } else { 1.0 }
     }
 
     /// Returns the unknowns on which element `k` of a term depends: for each of its points those of its coordinates, or
