@@ -105,8 +105,8 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 /// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
 /// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`](super::method::Method::Auto).
 ///
-/// Where the direct way fails, all rest angles, rest lengths and locked angles are moved from their values at the start to
-/// their targets in steps that adapt.
+/// Where the direct way fails, a screw that it left nearly straight is relaxed by way of straight states; else, and where that fails too,
+/// all rest angles, rest lengths and locked angles are moved from their values at the start to their targets in steps that adapt.
 ///
 /// ```
 /// use foldwell::analysis::method::RelaxOptions;
