@@ -93,18 +93,17 @@ fn negative_about(model: &mut Model, mut coordinates: Vec<f64>, axis: f64, tensi
 mod tests {
     use super::*;
     use crate::analysis::relax::relax;
-    use crate::model::{Assembly, Gauge};
-    use crate::scene::{build, parse};
+    use crate::model::{Assembly, Gauge, Rest};
+    use crate::sheet::generate::{Pattern, generate};
 
     /// An eggbox on a screw with these rest angles of mountains and valleys, in radians.
     fn eggbox(rest: [f64; 2]) -> Assembly {
         let [mountains, valleys] = rest;
-        let text = format!(
-            "[sheet]\ngenerate = {{ pattern = \"eggbox\" }}\ndomain = \"screw\"\ncells = [1, 1]\n[energy]\n\
-             bars = {{ stiffness = 100.0 }}\nfacets = {{ stiffness = 0.1 }}\n\
-             creases = {{ stiffness = 1.0, rest = {{ M = {mountains:?}, V = {valleys:?} }} }}\n"
-        );
-        build::assembly(&parse(&text, "s.toml").unwrap()).unwrap()
+        let sheet = generate(&Pattern::named("eggbox").unwrap()).unwrap();
+        let drawn = sheet.edges.iter().map(|edge| sheet.drawn_angle(edge).unwrap());
+        let rest = drawn.map(|angle| if angle > 0.0 { valleys } else { mountains }).collect();
+        let builder = Assembly::screw(sheet, [1, 1]).bars(100.0).facets(0.1);
+        builder.creases(1.0).rest(Rest::PerEdge(rest)).build().unwrap()
     }
 
     /// Claim: of an eggbox that is held straight, and that relaxations leave straight, no negative eigenvalue counts, whatever number comes
