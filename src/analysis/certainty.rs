@@ -1,4 +1,4 @@
-//! How far a converged state may still be off.
+//! Error of a converged state: the change of its fold angles in one more Newton step.
 
 use super::rigid_forces::rigid_over_others;
 use crate::model::{Domain, Model};

@@ -1,8 +1,8 @@
 //! Relaxation: from a start to the equilibrium of a model, directly or by raising what drives it step by step.
 
 use super::apex;
-use super::by_steps::{self, hopeless};
 use super::certainty::{CERTAIN, off_rest, uncertainty};
+use super::fallback::{self, hopeless};
 use super::method::{self, IntrinsicFailure, RelaxOptions};
 use super::recorder::{KeptState, Recorder};
 use super::rigid_forces::rigid_over_others;
@@ -153,7 +153,7 @@ pub fn relax_from(
             left
         }
         Err(error) if hopeless(error.failure) => Err(error),
-        Err(error) => by_steps::reached(model, error, &origin, options, &mut recorder, &mut history),
+        Err(error) => fallback::relaxed(model, error, &origin, options, &mut recorder, &mut history),
         found => found,
     };
     let found = if restarted || !soft_steps.is_empty() {

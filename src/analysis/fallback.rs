@@ -1,4 +1,5 @@
-//! What a relaxation tries where the direct way from its start failed: to go straight, or step by step.
+//! Relaxation after Newton's method failed from the start: by way of straight states, for a screw that it left with hardly any
+//! curvature, and by continuation, with rest values that move to their targets in steps.
 
 use super::recorder::Recorder;
 use super::singular_start::Origin;
@@ -11,12 +12,12 @@ const LEAST_STEP: f64 = 1.0 / 64.0;
 /// Tolerance of the states in between.
 const INTERMEDIATE_TOLERANCE: f64 = 1e-6;
 
-/// The equilibrium that is reached after this failure: of a screw that it left nearly straight by way of straight states, and else from
-/// the start, with rest values that move to their targets in steps.
+/// Returns the equilibrium that is reached after this failure, by way of straight states if it left a screw nearly straight, and
+/// by continuation from the start if it did not or if that fails.
 ///
 /// # Errors
 /// [`NewtonError`] of the relaxation that failed last.
-pub(super) fn reached(
+pub(super) fn relaxed(
     model: &mut Model,
     error: NewtonError,
     origin: &Origin,
@@ -24,19 +25,20 @@ pub(super) fn reached(
     recorder: &mut Recorder<'_>,
     history: &mut Vec<Step>,
 ) -> Result<Equilibrium, NewtonError> {
-    let straight = from_nearly_straight(model, error, options, recorder, history);
-    straight.or_else(|error| {
+    let by_straight_states = from_nearly_straight(model, error, options, recorder, history);
+    by_straight_states.or_else(|error| {
         if error.failure == Failure::Interrupted {
             return Err(error);
         }
         history.extend(error.history);
         model.set_angles(&origin.angles);
-        let by_steps = follow(model, origin.place.clone(), options, recorder, history);
-        by_steps.or_else(|error| from_nearly_straight(model, error, options, recorder, history))
+        let by_continuation = follow(model, origin.place.clone(), options, recorder, history);
+        by_continuation.or_else(|error| from_nearly_straight(model, error, options, recorder, history))
     })
 }
 
-/// The equilibrium that a failed relaxation which ended nearly straight reaches by way of straight states.
+/// Returns the equilibrium that is reached by way of straight states from the last state of a failed relaxation; the failure itself if
+/// that state is not nearly straight.
 fn from_nearly_straight(
     model: &mut Model,
     error: NewtonError,
