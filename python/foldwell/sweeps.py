@@ -6,7 +6,7 @@ import csv
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import Executor, as_completed
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from . import _foldwell
 from .assembly import settings
+from .errors import FoldwellError
 from .progress import Callback, Progress, listener
 
 if TYPE_CHECKING:
@@ -52,8 +53,9 @@ def sweep(
         out: Folder for the files of `foldwell run`, a folder for each point beside the table; left out: they are not kept.
         resume: With `out`, whether points that are there already are kept.
         executor: Where the points are computed: any executor of `concurrent.futures`, or of Dask: `Client(...).get_executor()`. Its
-            workers must see the folder `out`, or the temporary folder if that is left out. If a worker is lost, call the function
-            again with the same `out`: only missing points are computed. Left out: the threads of this process.
+            workers must see the folder `out`, or the temporary folder if that is left out. A piece
+            of work that is lost with its worker is handed out once more; if the sweep fails all the same, call the function again with
+            the same `out`: only missing points are computed. Left out: the threads of this process.
         threads: Number of threads of this process; with an executor, of each point there, 1 if left out.
         progress: As for every study; the steps are points.
 
@@ -100,19 +102,39 @@ def _values(values: Any) -> Any:
 def _submit(
     points: _foldwell.Sweep, executor: Executor, how: tuple[Path, int, bool], callback: Callback | None
 ) -> None:
-    """Computes the points on the workers of an executor, in pieces. Pieces that have not begun when it ends early are cancelled."""
+    """Computes the points on the workers of an executor, in pieces. Pieces that have not begun when it ends early are cancelled.
+
+    A piece that the executor lost is handed out once more, since Dask may report an error for a piece whose worker ended while its
+    result was on the way, though another worker computes it.
+    """
+
+    def submit(piece: range) -> Future[int]:
+        return executor.submit(_compute, (points.text, points.path), piece, how)
+
     count = len(points)
     pieces = [range(first, count, PIECES) for first in range(min(PIECES, count))]
-    work = [executor.submit(_compute, (points.text, points.path), piece, how) for piece in pieces]
+    work = {submit(piece): piece for piece in pieces}
+    handed_out_again: set[range] = set()
     done = 0
     try:
-        for future in as_completed(work):
-            done += future.result()
-            if callback is not None and callback("points", done, count, None) is False:
-                return
+        while work:
+            for future in wait(work, return_when=FIRST_COMPLETED).done:
+                piece = work.pop(future)
+                if _is_lost(future) and piece not in handed_out_again:
+                    handed_out_again.add(piece)
+                    work[submit(piece)] = piece
+                    continue
+                done += future.result()
+                if callback is not None and callback("points", done, count, None) is False:
+                    return
     finally:
         for future in work:
             future.cancel()
+
+
+def _is_lost(future: Future[int]) -> bool:
+    """Returns whether an ended piece failed by its executor and not by an error of foldwell, which would only be repeated."""
+    return future.cancelled() or not isinstance(future.exception(), FoldwellError | None)
 
 
 def _compute(scene: tuple[str, Path], piece: Iterable[int], how: tuple[Path, int, bool]) -> int:

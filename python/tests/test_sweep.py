@@ -1,10 +1,12 @@
 """Sweeps: on threads, on processes, on Dask, interrupted and resumed."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -168,6 +170,52 @@ def test_a_sweep_that_was_killed_goes_on(tmp_path):
     assert sum(after[point] != time for point, time in before.items()) <= 2
     assert resumed.identical(at_once)
     assert (killed / "sweep.csv").read_bytes() == (whole / "sweep.csv").read_bytes()
+
+
+class Losing(ThreadPoolExecutor):
+    """An executor that computes each piece and then loses its result, as often as told, as Dask does with a lost worker."""
+
+    def __init__(self, times):
+        super().__init__(2)
+        self.times = times
+        self.lost = Counter()
+
+    def submit(self, function, scene, piece, how):
+        self.lost[piece] += 1
+        lose = self.lost[piece] <= self.times
+
+        def computed():
+            result = function(scene, piece, how)
+            if lose:
+                raise TypeError("cannot unpack non-iterable int object")
+            return result
+
+        return super().submit(computed)
+
+
+def test_a_piece_that_its_executor_lost_is_handed_out_once_more(expected, tmp_path):
+    """One loss of each piece changes neither the table nor the count of points; a second one is reported."""
+    data, table = expected
+    heard = []
+    with Losing(1) as pool:
+        assert fw.sweep(SCENE, AXES, out=tmp_path, executor=pool, progress=lambda *step: heard.append(step)).identical(data)
+    assert set(pool.lost.values()) == {2} and (tmp_path / "sweep.csv").read_bytes() == table
+    assert [step[1] for step in heard] == list(range(1, 19))
+    with pytest.raises(TypeError), Losing(2) as pool:
+        fw.sweep(SCENE, AXES, executor=pool)
+    assert max(pool.lost.values()) == 2
+
+
+def test_an_error_of_foldwell_is_not_repeated(tmp_path):
+    """A folder in which no point can be written fails at once."""
+    with ThreadPoolExecutor(2) as pool:
+        fw.sweep(SCENE, AXES, out=tmp_path, executor=pool)
+    for point in (tmp_path / "points").iterdir():
+        shutil.rmtree(point)
+        point.write_text("no folder")
+    with pytest.raises(fw.OutputError), Losing(0) as pool:
+        fw.sweep(SCENE, AXES, out=tmp_path, executor=pool)
+    assert set(pool.lost.values()) == {1}
 
 
 def test_a_lost_worker_of_dask_loses_nothing(tmp_path):

@@ -1,6 +1,6 @@
 //! Malformed meshes: each is refused with file, line, fault and remedy, and no file makes the reader panic.
 
-use foldwell::sheet::{Pattern, SheetError, fold, generate, obj};
+use foldwell::sheet::{Assignment, Pattern, SheetError, fold, generate, obj};
 use proptest::prelude::*;
 
 /// The unit square of two triangles: vertices on lines 3 to 6, faces on lines 9 and 10, other keys from line 12.
@@ -385,6 +385,24 @@ proptest! {
             Ok(sheet) => prop_assert_eq!(fold::parse(&fold::write(&sheet), "again").unwrap().edges.len(), sheet.edges.len()),
             Err(error) => prop_assert!(error.to_string().starts_with("damaged:")),
         }
+    }
+}
+
+/// Claim: creases of a file with fold angles and without letters take the letters of their targets where these are on the other side
+/// than the drawing, so that the file written of the sheet is read as the same sheet.
+#[test]
+fn targets_on_the_other_side_without_letters() {
+    let text = |angles: &str| {
+        let others = [r#""edges_vertices": [[0, 2], [0, 1]]"#, &format!(r#""edges_foldAngle": [{angles}, null]"#)];
+        square(&others).replace("[0, 1, 0]", "[0.5, 0.5, 0.5]")
+    };
+    for (drawn, target) in [("90.0", "-90.0"), ("90.0", "-180.0"), ("90.0", "45.0"), ("90.0", "0.0")] {
+        let sheet = fold::parse(&text(target), "targets.fold").unwrap();
+        let crease = sheet.edges.iter().find(|edge| sheet.targets.contains_key(&edge.key)).unwrap();
+        let letter = if target.starts_with('-') { Assignment::Mountain } else { Assignment::Valley };
+        assert_eq!(sheet.assignment(crease), letter, "{target}");
+        assert_eq!(fold::parse(&fold::write(&sheet), "again.fold").unwrap(), sheet, "{target}");
+        assert!(fold::parse(&text(drawn), "drawn.fold").unwrap().targets.is_empty());
     }
 }
 

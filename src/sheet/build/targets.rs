@@ -1,6 +1,7 @@
 //! The fold angles that a file gives its edges: the drawn ones, or targets of folding.
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 use super::assign::edges_by_drawn_name;
 use super::{Defect, Drawing, Identified, MeshPart, Problem};
@@ -11,13 +12,15 @@ use crate::sheet::error::DrawnEdge;
 use crate::sheet::fold_angle_fault::FoldAngleFault;
 
 /// Keeps the fold angles of the file as targets if some of them are not the drawn ones; otherwise they say nothing that
-/// the drawing does not. An angle that is not drawn has to be between -pi and pi, and on the side of its edge's letter.
+/// the drawing does not. An angle that is not drawn has to be between -pi and pi, and on the side of its edge's letter. An
+/// edge without a letter whose target is on the other side than its drawing takes the letter of its target.
 pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) -> Result<(), Defect> {
     if drawn.fold_angles.is_empty() {
         return Ok(());
     }
     let (known, letters) = (edges_by_drawn_name(sheet), letters(drawn, identified));
     let mut targets: BTreeMap<EdgeKey, f64> = BTreeMap::new();
+    let mut sides = Vec::new();
     let mut all_drawn = true;
     for (e, &(ends, angle)) in drawn.fold_angles.iter().enumerate() {
         let Some(angle) = angle else { continue };
@@ -40,10 +43,14 @@ pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) 
                 return Err(refused(FoldAngleFault::Copies { edge: e, ends: named.1, given, before }));
             }
             all_drawn &= is_drawn;
+            if !letters.contains_key(&name) && is_other_side(sheet.drawn_assignment(edge), angle) {
+                sides.push((edge.key, if angle > 0.0 { Assignment::Valley } else { Assignment::Mountain }));
+            }
         }
     }
     if !all_drawn {
         sheet.targets = targets;
+        sheet.assignments.extend(sides);
     }
     Ok(())
 }
@@ -70,16 +77,23 @@ fn fault(
     is_drawn: bool,
 ) -> Option<FoldAngleFault> {
     let given = angle.to_degrees();
-    let is_zero = is_same_angle(angle, 0.0);
-    let within_a_turn = angle.abs() <= std::f64::consts::PI || is_same_angle(angle.abs(), std::f64::consts::PI);
     match letter {
-        _ if !within_a_turn && !is_drawn => Some(FoldAngleFault::Range { edge, ends, given }),
-        Some(letter @ Assignment::Mountain) if angle > 0.0 && !is_zero && within_a_turn => {
-            Some(FoldAngleFault::OtherSide { edge, ends, letter, given })
-        }
-        Some(letter @ Assignment::Valley) if angle < 0.0 && !is_zero && within_a_turn => {
-            Some(FoldAngleFault::OtherSide { edge, ends, letter, given })
-        }
+        _ if !is_within_a_turn(angle) && !is_drawn => Some(FoldAngleFault::Range { edge, ends, given }),
+        Some(letter) if is_other_side(letter, angle) => Some(FoldAngleFault::OtherSide { edge, ends, letter, given }),
         _ => None,
     }
+}
+
+/// Whether an angle contradicts a letter: a valley below zero, or a mountain above it.
+fn is_other_side(letter: Assignment, angle: f64) -> bool {
+    let contradicts = match letter {
+        Assignment::Mountain => angle > 0.0,
+        Assignment::Valley => angle < 0.0,
+        _ => false,
+    };
+    contradicts && !is_same_angle(angle, 0.0) && is_within_a_turn(angle)
+}
+
+fn is_within_a_turn(angle: f64) -> bool {
+    angle.abs() <= PI || is_same_angle(angle.abs(), PI)
 }
