@@ -59,8 +59,6 @@ pub(crate) struct ShapeRate {
     pub screw: ScrewRate,
     /// Rate of the signed curvature.
     pub curvature: f64,
-    /// Rate of the strain.
-    pub strain: [f64; 3],
 }
 
 impl Shape {
@@ -147,13 +145,18 @@ impl Shape {
         self.continue_from(last);
     }
 
-    /// Returns the rates of the shape, from its lattice motions with their rates; `None` if there is no rotation.
-    pub(crate) fn rate(&self, embedding: &Embedding, lattice: &[Moving; 2]) -> Option<ShapeRate> {
+    /// Returns the rate of the strain, from the lattice motions with their rates; it needs no rotation.
+    pub(crate) fn strain_rate(&self, embedding: &Embedding, lattice: &[Moving; 2]) -> Option<[f64; 3]> {
+        let chords = lattice.map(|moving| moving.twist.at(&moving.motion.translation));
+        Some(LatticeFrame::new(embedding.lattice.as_ref()?).strain_rate(&self.screw.chords, &chords))
+    }
+
+    /// Returns the rates of axis and curvature, from the lattice motions with their rates; `None` if there is no rotation.
+    pub(crate) fn rate(&self, lattice: &[Moving; 2]) -> Option<ShapeRate> {
         let screw = self.screw.rate(lattice)?;
-        let frame = LatticeFrame::new(embedding.lattice.as_ref()?);
         let towards = self.screw.towards_axis();
         let curvature = towards.dot(&screw.towards_axis) / self.curvature;
-        Some(ShapeRate { screw, curvature, strain: frame.strain_rate(&self.screw.chords, &screw.chords) })
+        Some(ShapeRate { screw, curvature })
     }
 }
 
@@ -227,7 +230,8 @@ mod tests {
             };
             let lattice = Displacement::new(&embedding, &angles, &rates).lattice.unwrap();
             let shape = Shape::at(&embedding, &angles).unwrap();
-            let ShapeRate { screw, curvature, strain } = shape.rate(&embedding, &lattice).unwrap();
+            let ShapeRate { screw, curvature } = shape.rate(&lattice).unwrap();
+            let strain = shape.strain_rate(&embedding, &lattice).unwrap();
             let vectors = [screw.axis, screw.chords[0], screw.chords[1], screw.towards_axis];
             let numbers = [&[curvature], &screw.theta[..], &strain[..]].concat();
             let found: Vec<f64> = numbers.into_iter().chain(vectors.iter().flat_map(|v| v.iter().copied())).collect();

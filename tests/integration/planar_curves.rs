@@ -3,9 +3,10 @@
 
 use crate::common::on;
 use foldwell::analysis::surface::{Surface, SurfaceOptions, surface};
-use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
+use foldwell::analysis::trace::{Folded, Stop, TraceOptions, Traced, trace};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
 use foldwell::kinematics::Closure;
+use foldwell::math::{Vec3, rotation};
 use foldwell::model::{Assembly, Boundary, Hinges, Terms};
 use foldwell::sheet::generate::{Eggbox, Miura};
 use foldwell::sheet::{EdgeKind, Pattern, Sheet, generate};
@@ -105,6 +106,41 @@ fn its_trajectory_needs_no_lock() {
         let turned: Vec<usize> = one.turning_points.iter().map(|(quantity, _)| *quantity).collect();
         assert!(!turned.is_empty() && turned.iter().all(|quantity| [1, 2].contains(quantity)), "{turned:?}");
     }
+}
+
+/// Claim: along the planar folding of rigid parallelograms both strains of the sides turn at two states half a loop apart, at which all
+/// creases are at multiples of pi, and nowhere else, however the sheet is drawn: at what fold, at what angle. A state without any
+/// rotation of the lattice, or with one of rounding errors, is nothing special. Source: the closed forms of both generators, whose lengths
+/// are monotonous between these states. Tolerance 1e-3: other folded states cross the curve there, so that states beside them are not found.
+#[test]
+fn strains_turn_at_flat_and_stacked_states() {
+    let miura = |fold: f64| Pattern::Miura(Miura { fold, ..Miura::default() });
+    let eggbox = |fold: f64| Pattern::Eggbox(Eggbox { fold, ..Eggbox::default() });
+    let mut exactly_straight = 0;
+    for (pattern, k) in
+        (0..8).flat_map(|k| [(miura(0.3 + 0.11 * f64::from(k)), k), (eggbox(0.6 + 0.11 * f64::from(k)), k)])
+    {
+        let mut sheet = generate(&pattern).unwrap();
+        let turn = rotation::exp(&(0.4 * f64::from(k) * Vec3::new(0.9, -0.5, 0.7)));
+        sheet.vertices.iter_mut().for_each(|x| *x = turn * *x);
+        sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| turn * l));
+        let unrested = vec![f64::NAN; sheet.edges.len()];
+        for one in traced(&cell(sheet.clone(), f64::INFINITY, &unrested)) {
+            assert!(matches!(one.end, End::Closed(_)), "{:?}", one.end);
+            let half = 0.5 * one.states.last().unwrap().arc_length;
+            let is_straight = |state: &&Folded| state.shape.as_ref().is_some_and(|shape| shape.screw.axis.is_none());
+            exactly_straight += one.states.iter().filter(is_straight).count();
+            let [a, b, c, d] = &one.turning_points[..] else { panic!("{pattern:?}: {}", one.turning_points.len()) };
+            for (first, second) in [(a, b), (c, d)] {
+                assert_eq!(first.0 + second.0, 3, "one of strain11 and one of strain22");
+                assert!((first.1.arc_length - second.1.arc_length).abs() <= 1e-3);
+            }
+            assert!((c.1.arc_length - a.1.arc_length - half).abs() <= 1e-3);
+            let folded = |angle: &f64| (angle / PI - (angle / PI).round()).abs() <= 1e-3;
+            assert!([a, b, c, d].iter().all(|(_, state)| state.angles.iter().all(folded)), "{pattern:?}");
+        }
+    }
+    assert!(exactly_straight >= 10, "{exactly_straight}");
 }
 
 /// Claim: creases that rest at the angles of another fold have one rigid well, there, with energy 0; the flat state, at which

@@ -114,15 +114,14 @@ impl TracedClosure<'_, '_> {
         state.seam.zip(self.tube).map_or(f64::NAN, opening)
     }
 
-    /// Rates of curvature and strains; NaN where nothing turns.
+    /// Rates of curvature and strains; that of the curvature is NaN without rotation.
     fn rates(&self, state: &Folded) -> [f64; 4] {
         let moving = Displacement::new(self.embedding, &state.angles, &state.rates).lattice;
-        let found = state.shape.as_ref().zip(moving).and_then(|(shape, moving)| shape.rate(self.embedding, &moving));
-        let turns = state.shape.as_ref().is_some_and(Shape::turns);
-        found.map_or([f64::NAN; 4], |rate| {
-            let strain = rate.strain.map(|rate| if rate.abs() <= NO_RATE { 0.0 } else { rate });
-            [if turns { rate.curvature } else { f64::NAN }, strain[0], strain[1], strain[2]]
-        })
+        let Some((shape, moving)) = state.shape.as_ref().zip(moving) else { return [f64::NAN; 4] };
+        let curvature = shape.turns().then(|| shape.rate(&moving)).flatten().map_or(f64::NAN, |rate| rate.curvature);
+        let strain = shape.strain_rate(self.embedding, &moving).unwrap_or([f64::NAN; 3]);
+        let [strain11, strain22, strain12] = strain.map(|rate| if rate.abs() <= NO_RATE { 0.0 } else { rate });
+        [curvature, strain11, strain22, strain12]
     }
 }
 
