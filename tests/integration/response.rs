@@ -2,7 +2,7 @@
 
 use crate::common::{self, four_parallelograms};
 use foldwell::analysis::chart::coordinates;
-use foldwell::analysis::response::{Poisson, Relation, Response, response, response_at};
+use foldwell::analysis::response::{Poisson, Relation, Response, SelfStress, response, response_at};
 use foldwell::analysis::start_state::StartState;
 use foldwell::analysis::trace::Folded;
 use foldwell::kinematics::{Closure, Embedding, Shape};
@@ -260,6 +260,45 @@ fn fields_belong_to_the_table() {
             let normal = l1.cross(&l2).normalize();
             let bent = (vertex([2, 0]) - 2.0 * vertex([1, 0])).dot(&normal) / l1.norm_squared();
             assert!((bent - mode.curvature[0]).abs() <= 1e-11, "{}: {bent} for {:?}", sheet.title, mode.curvature);
+        }
+    }
+}
+
+/// Claim: self stresses are orthonormal, no two do work on the same strain and bending, and their work falls; so their forces and moments
+/// belong to the sheet: they are the same in every orientation, and with another unit of length forces fall with it and moments do not.
+/// Tolerance: rounding over the distance between singular values.
+#[test]
+fn self_stresses_belong_to_the_sheet() {
+    let turn = rotation::exp(&Vec3::new(0.4, -1.1, 0.7));
+    let redrawn = |sheet: &Sheet, unit: f64| {
+        let mut sheet = sheet.clone();
+        sheet.vertices.iter_mut().for_each(|x| *x = unit * (turn * *x));
+        sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| unit * (turn * l)));
+        sheet
+    };
+    for sheet in [common::mesh("open-star"), four_parallelograms(random_sides(5)), four_parallelograms(random_sides(8))]
+    {
+        let found = bending(sheet.clone());
+        let [l1, l2] = sheet.lattice.unwrap();
+        let length = l1.cross(&l2).norm().sqrt();
+        let work = |stress: &SelfStress| {
+            let scaled = stress.moment.map(|moment| moment / length);
+            [stress.force, scaled].concat()
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        for (k, a) in found.stresses.iter().enumerate() {
+            for (l, b) in found.stresses.iter().enumerate() {
+                let expected = f64::from(u8::from(k == l));
+                assert!((dot(&a.tension, &b.tension) - expected).abs() <= 1e-13);
+                assert!(k == l || dot(&work(a), &work(b)).abs() <= 1e-13);
+                assert!(k >= l || dot(&work(a), &work(a)) > 1.01 * dot(&work(b), &work(b)), "well separated");
+            }
+        }
+        for unit in [1.0, 40.0] {
+            for (one, other) in found.stresses.iter().zip(bending(redrawn(&sheet, unit)).stresses) {
+                assert!((0..3).all(|k| (one.force[k] - unit * other.force[k]).abs() <= 1e-11), "{one:?} {other:?}");
+                assert!((0..3).all(|k| (one.moment[k] - other.moment[k]).abs() <= 1e-11), "{one:?} {other:?}");
+            }
         }
     }
 }

@@ -247,7 +247,7 @@ fn the_rigid_limit_knows_the_modes() {
             let off = (at(bars) / bars - limit).amax() / limit.amax();
             assert!(off <= 100.0 / bars, "{bars}: {off:e}");
         }
-        let (soft, stiff) = (at(1e4), at(1e6));
+        let (soft, stiff) = (at(1e6), at(1e8)); // the stress with the least work has 2 % of it from hinges at 1e4
         for stress in &cell.stresses {
             let direction = SVector::<f64, 6>::from_iterator(stress.force.iter().chain(&stress.moment).copied());
             let growth = direction.dot(&(stiff * direction)) / direction.dot(&(soft * direction));

@@ -8,7 +8,8 @@ use super::cell::PeriodicCell;
 use super::compatibility::rates;
 use super::error::ResponseError;
 use crate::model::Assembly;
-use crate::numerics::dense::null_space;
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::{DenseError, full_svd, null_space};
 
 /// A self stress of one cell whose lattice is held, of norm 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,7 +24,8 @@ pub struct SelfStress {
     pub moment: [f64; 3],
 }
 
-/// Returns an orthonormal basis of the self stresses; `assembly` is the one of the cell, with rigid terms alone.
+/// Returns an orthonormal basis of the self stresses, by falling [work](ordered_by_work); `assembly` is the one of the cell, with rigid
+/// terms alone.
 ///
 /// # Errors
 /// [`ResponseError::Decomposition`] where their number is not clear.
@@ -32,6 +34,7 @@ pub(super) fn of_cell(assembly: &Assembly, cell: &PeriodicCell) -> Result<Vec<Se
     let rates = rates(cell, &elements);
     let null = null_space(&rates.by_vertices.transpose())?;
     let (edges, area) = (cell.sheet.edges.len(), cell.area());
+    let basis = ordered_by_work(&null.basis, &rates.by_lattice, area.sqrt())?;
     let stress = |values: &[f64]| {
         let (mut tension, mut torque) = (vec![0.0; edges], vec![0.0; edges]);
         let mut work = [0.0; 6];
@@ -46,5 +49,22 @@ pub(super) fn of_cell(assembly: &Assembly, cell: &PeriodicCell) -> Result<Vec<Se
         }
         SelfStress { tension, torque, force: [work[0], work[1], work[2]], moment: [work[3], work[4], work[5]] }
     };
-    Ok(null.basis.column_iter().map(|values| stress(values.as_slice())).collect())
+    Ok(basis.column_iter().map(|values| stress(values.as_slice())).collect())
+}
+
+/// Returns the orthonormal basis of the same space in which no two stresses do work on the same strain and bending: the right singular
+/// vectors of the work on strains and on curvatures times this length, by falling singular value. The largest of the six numbers of each
+/// is positive. Stresses that do no work come last. Where singular values are equal the basis is any.
+fn ordered_by_work(basis: &DenseMatrix, by_lattice: &DenseMatrix, length: f64) -> Result<DenseMatrix, DenseError> {
+    let mut work = by_lattice.transpose() * basis;
+    (3..6).for_each(|k| work.row_mut(k).unscale_mut(length));
+    let rotation = full_svd(&work)?.v;
+    let (mut ordered, work) = (basis * &rotation, work * rotation);
+    for (mut stress, work) in ordered.column_iter_mut().zip(work.column_iter()) {
+        let close = (1.0 - 1e-6) * work.amax();
+        if work.iter().find(|work| work.abs() >= close).is_some_and(|largest| *largest < 0.0) {
+            stress.neg_mut();
+        }
+    }
+    Ok(ordered)
 }
