@@ -72,7 +72,8 @@ def sweep(
     if zip:
         wanted["sweep.zip"] = True
     points = _foldwell.Sweep(given, Path(base).absolute(), settings(set) + settings(wanted))
-    with TemporaryDirectory() as temporary, listener(progress) as callback:
+    # after a failure a worker of Dask may still write there while the folder is removed
+    with TemporaryDirectory(ignore_cleanup_errors=True) as temporary, listener(progress) as callback:
         folder = Path(temporary if out is None else out).absolute()
         if executor is None:
             summary = points.run(folder, threads, resume and out is not None, callback)
@@ -102,7 +103,8 @@ def _values(values: Any) -> Any:
 def _submit(
     points: _foldwell.Sweep, executor: Executor, how: tuple[Path, int, bool], callback: Callback | None
 ) -> None:
-    """Computes the points on the workers of an executor, in pieces. Pieces that have not begun when it ends early are cancelled.
+    """Computes the points on the workers of an executor, in pieces. When it ends early, pieces that have not begun are
+    cancelled, and those that have begun are waited for, because they write files.
 
     A piece that the executor lost is handed out once more, since Dask may report an error for a piece whose worker ended while its
     result was on the way, though another worker computes it.
@@ -128,8 +130,7 @@ def _submit(
                 if callback is not None and callback("points", done, count, None) is False:
                     return
     finally:
-        for future in work:
-            future.cancel()
+        wait([future for future in work if not future.cancel()])
 
 
 def _is_lost(future: Future[int]) -> bool:

@@ -77,12 +77,13 @@ def test_points_are_kept_or_computed_anew_as_asked(tmp_path):
             assert all(finished(tmp_path)[point] > time for point, time in first.items())
 
 
+def failing(*step):
+    raise ValueError(step)
+
+
 def test_a_callback_stops_a_sweep(tmp_path):
     """No piece of the sweep begins after a callback has said so, or has failed; the next call computes what is missing, and that alone."""
     axes = {"sheet.generate.seed": range(200)}
-
-    def failing(*step):
-        raise ValueError(step)
 
     with ThreadPoolExecutor(1) as pool:
         stopped = fw.sweep(SCENE, axes, out=tmp_path, executor=pool, progress=lambda *step: False)
@@ -216,6 +217,16 @@ def test_an_error_of_foldwell_is_not_repeated(tmp_path):
     with pytest.raises(fw.OutputError), Losing(0) as pool:
         fw.sweep(SCENE, AXES, out=tmp_path, executor=pool)
     assert set(pool.lost.values()) == {1}
+
+
+def test_nothing_is_written_after_a_sweep_has_failed(tmp_path):
+    """Pieces that run when another one fails have ended when the error is reported, and no other has begun."""
+    with ThreadPoolExecutor(2) as pool:
+        with pytest.raises(ValueError):
+            fw.sweep(SCENE, {"sheet.generate.seed": range(200)}, out=tmp_path, executor=pool, progress=failing)
+        at_once = finished(tmp_path)
+        time.sleep(0.2)
+        assert finished(tmp_path) == at_once and len(at_once) < 200
 
 
 def test_a_lost_worker_of_dask_loses_nothing(tmp_path):
