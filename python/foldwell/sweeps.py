@@ -53,9 +53,9 @@ def sweep(
         out: Folder for the files of `foldwell run`, a folder for each point beside the table; left out: they are not kept.
         resume: With `out`, whether points that are there already are kept.
         executor: Where the points are computed: any executor of `concurrent.futures`, or of Dask: `Client(...).get_executor()`. Its
-            workers must see the folder `out`, or the temporary folder if that is left out. A piece
-            of work that is lost with its worker is handed out once more; if the sweep fails all the same, call the function again with
-            the same `out`: only missing points are computed. Left out: the threads of this process.
+            workers must see the folder `out`, or the temporary folder if that is left out. A piece of work that is lost with its worker
+            is handed out once more; if the sweep fails all the same, call the function again with the same `out`: only missing points
+            are computed. Left out: the threads of this process.
         threads: Number of threads of this process; with an executor, of each point there, 1 if left out.
         progress: As for every study; the steps are points.
 

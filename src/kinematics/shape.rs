@@ -15,7 +15,7 @@ use super::KinematicsError;
 use super::embedding::{Compatibility, Embedding, Placement};
 use super::metric::LatticeFrame;
 use super::motion::{Motion, Moving};
-use super::screw::{Screw, ScrewRate};
+use super::screw::Screw;
 use crate::math::Vec3;
 use std::f64::consts::TAU;
 
@@ -50,15 +50,6 @@ pub struct Shape {
     pub axis_angle: Option<f64>,
     /// The errors of closure of the angles.
     pub compatibility: Compatibility,
-}
-
-/// Rates of a shape that is a cylinder.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ShapeRate {
-    /// Rates of axis, angles and chords.
-    pub screw: ScrewRate,
-    /// Rate of the signed curvature.
-    pub curvature: f64,
 }
 
 impl Shape {
@@ -151,12 +142,10 @@ impl Shape {
         Some(LatticeFrame::new(embedding.lattice.as_ref()?).strain_rate(&self.screw.chords, &chords))
     }
 
-    /// Returns the rates of axis and curvature, from the lattice motions with their rates; `None` if there is no rotation.
-    pub(crate) fn rate(&self, lattice: &[Moving; 2]) -> Option<ShapeRate> {
-        let screw = self.screw.rate(lattice)?;
-        let towards = self.screw.towards_axis();
-        let curvature = towards.dot(&screw.towards_axis) / self.curvature;
-        Some(ShapeRate { screw, curvature })
+    /// Returns the rate of the signed curvature, from the lattice motions with their rates; `None` if there is no rotation.
+    pub(crate) fn curvature_rate(&self, lattice: &[Moving; 2]) -> Option<f64> {
+        let towards = self.screw.rate(lattice)?.towards_axis;
+        Some(self.screw.towards_axis().dot(&towards) / self.curvature)
     }
 }
 
@@ -230,7 +219,7 @@ mod tests {
             };
             let lattice = Displacement::new(&embedding, &angles, &rates).lattice.unwrap();
             let shape = Shape::at(&embedding, &angles).unwrap();
-            let ShapeRate { screw, curvature } = shape.rate(&lattice).unwrap();
+            let (screw, curvature) = (shape.screw.rate(&lattice).unwrap(), shape.curvature_rate(&lattice).unwrap());
             let strain = shape.strain_rate(&embedding, &lattice).unwrap();
             let vectors = [screw.axis, screw.chords[0], screw.chords[1], screw.towards_axis];
             let numbers = [&[curvature], &screw.theta[..], &strain[..]].concat();

@@ -38,6 +38,11 @@ impl Assignment {
         Self::LETTERS.iter().find(|(_, known)| *known == letter).map(|(assignment, _)| *assignment)
     }
 
+    /// Returns the letter of a crease that is to fold to this angle, in radians, which is not zero.
+    pub(crate) fn of_side(angle: f64) -> Self {
+        if angle > 0.0 { Self::Valley } else { Self::Mountain }
+    }
+
     /// Returns the fold angle of an edge with this letter in the sheet folded flat, in radians: -pi for a mountain, pi for
     /// a valley, 0 for an edge that does not fold; `None` if the letter says nothing about it.
     pub fn flat_folded_angle(self) -> Option<f64> {

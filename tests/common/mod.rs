@@ -10,6 +10,7 @@ use foldwell::run::{RunOptions, run_scene};
 use foldwell::sheet::generate::FourParallelogram;
 use foldwell::sheet::{EdgeKind, Pattern, Sheet, fold, generate};
 use foldwell::solver::{HessianKind, Linearization, Options, Problem};
+use nalgebra::Matrix3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::ops::ControlFlow;
@@ -42,6 +43,13 @@ pub fn mesh(name: &str) -> Sheet {
 pub fn scaled(mut sheet: Sheet, by: f64) -> Sheet {
     sheet.vertices.iter_mut().for_each(|p| *p *= by);
     sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| l * by));
+    sheet
+}
+
+/// Returns the sheet turned about the origin by this rotation.
+pub fn turned(mut sheet: Sheet, turn: &Matrix3<f64>) -> Sheet {
+    sheet.vertices.iter_mut().for_each(|p| *p = turn * *p);
+    sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| turn * l));
     sheet
 }
 

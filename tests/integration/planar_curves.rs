@@ -1,7 +1,7 @@
 //! Folded states of a periodic cell that are a curve: the planar folding of a triangulated Miura-ori, as a surface study, a
 //! trajectory and a landscape of rigid wells see it, compared with rigid parallelograms and with the closed form of the generator.
 
-use crate::common::on;
+use crate::common::{on, turned};
 use foldwell::analysis::surface::{Surface, SurfaceOptions, surface};
 use foldwell::analysis::trace::{Folded, Stop, TraceOptions, Traced, trace};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
@@ -120,10 +120,8 @@ fn strains_turn_at_flat_and_stacked_states() {
     for (pattern, k) in
         (0..8).flat_map(|k| [(miura(0.3 + 0.11 * f64::from(k)), k), (eggbox(0.6 + 0.11 * f64::from(k)), k)])
     {
-        let mut sheet = generate(&pattern).unwrap();
         let turn = rotation::exp(&(0.4 * f64::from(k) * Vec3::new(0.9, -0.5, 0.7)));
-        sheet.vertices.iter_mut().for_each(|x| *x = turn * *x);
-        sheet.lattice = sheet.lattice.map(|lattice| lattice.map(|l| turn * l));
+        let sheet = turned(generate(&pattern).unwrap(), &turn);
         let unrested = vec![f64::NAN; sheet.edges.len()];
         for one in traced(&cell(sheet.clone(), f64::INFINITY, &unrested)) {
             assert!(matches!(one.end, End::Closed(_)), "{:?}", one.end);

@@ -52,9 +52,9 @@ pub(super) fn of_cell(assembly: &Assembly, cell: &PeriodicCell) -> Result<Vec<Se
     Ok(basis.column_iter().map(|values| stress(values.as_slice())).collect())
 }
 
-/// Returns the orthonormal basis of the same space in which no two stresses do work on the same strain and bending: the right singular
-/// vectors of the work on strains and on curvatures times this length, by falling singular value. The largest of the six numbers of each
-/// is positive. Stresses that do no work come last. Where singular values are equal the basis is any.
+/// Returns the orthonormal basis of the same space whose forces and moments are orthogonal too, moments divided by this length: the right
+/// singular vectors of these six numbers, by falling singular value. The largest number of each is positive. Stresses that do no work
+/// come last. Where singular values are equal the basis is any.
 fn ordered_by_work(basis: &DenseMatrix, by_lattice: &DenseMatrix, length: f64) -> Result<DenseMatrix, DenseError> {
     let mut work = by_lattice.transpose() * basis;
     (3..6).for_each(|k| work.row_mut(k).unscale_mut(length));

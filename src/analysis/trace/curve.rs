@@ -118,7 +118,7 @@ impl TracedClosure<'_, '_> {
     fn rates(&self, state: &Folded) -> [f64; 4] {
         let moving = Displacement::new(self.embedding, &state.angles, &state.rates).lattice;
         let Some((shape, moving)) = state.shape.as_ref().zip(moving) else { return [f64::NAN; 4] };
-        let curvature = shape.turns().then(|| shape.rate(&moving)).flatten().map_or(f64::NAN, |rate| rate.curvature);
+        let curvature = shape.turns().then(|| shape.curvature_rate(&moving)).flatten().unwrap_or(f64::NAN);
         let strain = shape.strain_rate(self.embedding, &moving).unwrap_or([f64::NAN; 3]);
         let [strain11, strain22, strain12] = strain.map(|rate| if rate.abs() <= NO_RATE { 0.0 } else { rate });
         [curvature, strain11, strain22, strain12]

@@ -56,7 +56,7 @@ pub(super) fn assign(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet
 fn targets(drawn: &Drawing) -> BTreeSet<([usize; 2], Assignment)> {
     let side = |(ends, angle): &([usize; 2], Option<f64>)| {
         let angle = angle.filter(|angle| *angle != 0.0 && angle.abs() <= PI)?;
-        Some((sorted(*ends), if angle > 0.0 { Assignment::Valley } else { Assignment::Mountain }))
+        Some((sorted(*ends), Assignment::of_side(angle)))
     };
     drawn.fold_angles.iter().filter_map(side).collect()
 }

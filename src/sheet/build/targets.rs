@@ -20,7 +20,7 @@ pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) 
     }
     let (known, letters) = (edges_by_drawn_name(sheet), letters(drawn, identified));
     let mut targets: BTreeMap<EdgeKey, f64> = BTreeMap::new();
-    let mut sides = Vec::new();
+    let mut letters_of_targets = Vec::new();
     let mut all_drawn = true;
     for (e, &(ends, angle)) in drawn.fold_angles.iter().enumerate() {
         let Some(angle) = angle else { continue };
@@ -44,13 +44,13 @@ pub(super) fn keep(drawn: &Drawing, identified: &Identified, sheet: &mut Sheet) 
             }
             all_drawn &= is_drawn;
             if !letters.contains_key(&name) && is_other_side(sheet.drawn_assignment(edge), angle) {
-                sides.push((edge.key, if angle > 0.0 { Assignment::Valley } else { Assignment::Mountain }));
+                letters_of_targets.push((edge.key, Assignment::of_side(angle)));
             }
         }
     }
     if !all_drawn {
         sheet.targets = targets;
-        sheet.assignments.extend(sides);
+        sheet.assignments.extend(letters_of_targets);
     }
     Ok(())
 }
