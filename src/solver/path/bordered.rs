@@ -15,6 +15,7 @@ use crate::numerics::factor::{FactorError, Inertia};
 use crate::numerics::sparse::symmetric_product;
 use crate::numerics::vector::{add_scaled, dot, max_abs, norm_blocked};
 use crate::solver::corrections::{self, NearlySolved, Pair, Patience};
+use crate::solver::inertia;
 use crate::solver::kkt::{KktSystem, stiffness_size};
 use crate::solver::linearization::{HessianKind, Linearization};
 
@@ -97,11 +98,11 @@ impl Bordered {
     /// Number of negative eigenvalues of the Hessian at fixed parameter, on what the rigid measures leave free.
     pub fn negative_eigenvalues(&mut self) -> Result<usize, FactorError> {
         match self.inertia {
-            Some(inertia) => Ok(inertia.negative),
-            None => {
-                let inertia = self.system.inertia(&self.at, &self.compliance)?;
+            Some(inertia) if inertia.negative == 0 || self.system.weights_are_exact() => Ok(inertia.negative),
+            factored => {
+                let counted = inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)?;
                 self.factor()?;
-                Ok(inertia.negative)
+                Ok(counted.or(factored.map(|inertia| inertia.negative)).unwrap_or(0))
             }
         }
     }
