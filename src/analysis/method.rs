@@ -7,15 +7,16 @@
 //! result.
 
 use super::recorder::Recorder;
+use super::singular_start::Origin;
 use super::state::State;
 use crate::model::intrinsic::{FoldedUp, IntrinsicModel, Unsupported};
 use crate::model::{Elements, Model};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
-use crate::solver::inertia::in_words;
 use crate::solver::constrained::{
     ConstrainedFailure, ConstrainedIterate, ConstrainedStep, Settings, minimize_constrained_iterates,
 };
+use crate::solver::inertia::in_words;
 use crate::solver::{Equilibrium, Failure, Iterate, NewtonError, Options, Problem, Start, Step, minimize_iterates};
 use std::num::NonZeroUsize;
 use thiserror::Error;
@@ -34,7 +35,7 @@ const LARGEST_ANGLE: f64 = 1.01 * std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
     /// Positions; but fold angles for a patch with many vertices that starts without known tensions and of whose first
-    /// step in positions no more than a quarter can be taken.
+    /// step in positions no more than a quarter can be taken, and for any patch where positions do not converge.
     #[default]
     Auto,
     /// Positions of the vertices.
@@ -104,19 +105,74 @@ pub(super) fn minimize_in_angles(
         Ok(Some(intrinsic)) => intrinsic,
         Err(reason) => return (None, Some(reason.into())),
     };
-    let (angles, coordinates) = (model.angles(), model.coordinates(&start.x));
-    let reset = |model: &mut Model| {
-        model.set_angles(&angles);
-        model.start_from(coordinates.clone());
-    };
     if method == Method::Auto {
+        let (angles, coordinates) = (model.angles(), model.coordinates(&start.x));
         match minimize_unless_damped(model, start, options, recorder) {
             Ok(found) => return (Some(found), None),
             Err(steps) => history.extend(steps),
         }
-        reset(model);
+        model.set_angles(&angles);
+        model.start_from(coordinates);
     }
-    let found = solve(&intrinsic, model, start, recorder, history).and_then(|near| {
+    match solved_and_confirmed(&intrinsic, model, start, options, recorder, history) {
+        Ok(found) => (Some(found), None),
+        Err(reason) => (None, Some(reason)),
+    }
+}
+
+/// A relaxation in positions that failed.
+pub(super) struct Stalled<'a> {
+    /// Where it began.
+    pub origin: &'a Origin,
+    /// Whether it knew its tensions there.
+    pub restarted: bool,
+    /// The method that was asked for.
+    pub method: Method,
+    /// How it ended.
+    pub error: NewtonError,
+    /// Why fold angles were given up, if they were tried.
+    pub tried: Option<IntrinsicFailure>,
+}
+
+/// Minimises in fold angles, from the same start, what failed in positions, if the method leaves the choice and they have not been
+/// tried. Where that is not so, or fails too, the failure in positions is returned, and why fold angles were given up.
+///
+/// # Errors
+/// [`NewtonError`] of positions, or where the relaxation was interrupted.
+pub(super) fn minimize_stalled_in_angles(
+    model: &mut Model,
+    stalled: Stalled<'_>,
+    options: Options,
+    recorder: &mut Recorder<'_>,
+    history: &mut Vec<Step>,
+) -> (Result<Equilibrium, NewtonError>, Option<IntrinsicFailure>) {
+    let Stalled { origin, restarted, method, mut error, tried } = stalled;
+    if method != Method::Auto || tried.is_some() || restarted || !model.is_free_patch() {
+        return (Err(error), tried);
+    }
+    let Ok(intrinsic) = IntrinsicModel::new(model) else { return (Err(error), None) };
+    history.append(&mut error.history);
+    model.set_angles(&origin.angles);
+    let x = model.start_from(origin.place.clone());
+    let start = &Start { x, tension: None };
+    match solved_and_confirmed(&intrinsic, model, start, options, recorder, history) {
+        Ok(found) => (found, None),
+        Err(reason) => (Err(error), Some(reason)),
+    }
+}
+
+/// Minimises in fold angles, and confirms the result in positions. `history` receives the steps in fold angles. The outer
+/// result is the reason for which there is none; the model is then as it was.
+fn solved_and_confirmed(
+    intrinsic: &IntrinsicModel,
+    model: &mut Model,
+    start: &Start,
+    options: Options,
+    recorder: &mut Recorder<'_>,
+    history: &mut Vec<Step>,
+) -> Result<Result<Equilibrium, NewtonError>, IntrinsicFailure> {
+    let (angles, coordinates) = (model.angles(), model.coordinates(&start.x));
+    let found = solve(intrinsic, model, start, recorder, history).and_then(|near| {
         match recorder.minimize(model, near, options) {
             Ok(found) if found.negative_eigenvalues == Some(0) => Ok(Ok(found)),
             Ok(found) => Err(IntrinsicFailure::Saddle { negative: found.negative_eigenvalues }),
@@ -125,18 +181,18 @@ pub(super) fn minimize_in_angles(
         }
     });
     match found {
-        Ok(found) => (Some(found), None),
         Err(IntrinsicFailure::Solver(ConstrainedFailure::Interrupted)) => {
             let tension = vec![0.0; model.compliance().len()];
-            let error = NewtonError { failure: Failure::Interrupted, x: start.x.clone(), tension, history: vec![] };
-            (Some(Err(error)), None)
+            Ok(Err(NewtonError { failure: Failure::Interrupted, x: start.x.clone(), tension, history: vec![] }))
         }
         Err(reason) => {
             // what did not confirm the state does not belong to the history
             recorder.forget_after(history.len());
-            reset(model);
-            (None, Some(reason))
+            model.set_angles(&angles);
+            model.start_from(coordinates);
+            Err(reason)
         }
+        found => found,
     }
 }
 

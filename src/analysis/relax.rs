@@ -3,7 +3,7 @@
 use super::apex;
 use super::certainty::{CERTAIN, off_rest, uncertainty};
 use super::fallback::{self, hopeless};
-use super::method::{self, IntrinsicFailure, RelaxOptions};
+use super::method::{self, IntrinsicFailure, RelaxOptions, Stalled};
 use super::recorder::{KeptState, Recorder};
 use super::rigid_forces::rigid_over_others;
 use super::singular_start::{self, BranchChoice, Origin};
@@ -142,7 +142,7 @@ pub fn relax_from(
     let restarted = start.tension.is_some();
     let origin = Origin { place: model.coordinates(&start.x), angles: model.angles(), energy: model.energy(&start.x) };
     let mut history = Vec::new();
-    let (first, intrinsic_failure) =
+    let (first, mut intrinsic_failure) =
         method::minimize_in_angles(model, &start, (options, method), &mut recorder, &mut history);
     let mut soft_steps = 0..0;
     let found = match first.unwrap_or_else(|| recorder.minimize(model, start.clone(), options)) {
@@ -154,7 +154,18 @@ pub fn relax_from(
             left
         }
         Err(error) if hopeless(error.failure) => Err(error),
-        Err(error) => fallback::relaxed(model, error, &origin, options, &mut recorder, &mut history),
+        Err(error) => {
+            let stalled = Stalled { origin: &origin, restarted, method, error, tried: intrinsic_failure };
+            let (in_angles, failure) =
+                method::minimize_stalled_in_angles(model, stalled, options, &mut recorder, &mut history);
+            intrinsic_failure = failure;
+            match in_angles {
+                Err(error) if error.failure != Failure::Interrupted => {
+                    fallback::relaxed(model, error, &origin, options, &mut recorder, &mut history)
+                }
+                found => found,
+            }
+        }
         found => found,
     };
     let found = if restarted || !soft_steps.is_empty() {

@@ -69,7 +69,8 @@ pub(super) fn relaxed(
 /// rounding. Other equilibria are returned as they are.
 pub(super) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
     let place = model.coordinates(&found.x);
-    if found.negative_eigenvalues == Some(0) || !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT) {
+    if found.negative_eigenvalues == Some(0) || !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT)
+    {
         return found;
     }
     let directions = (0..AXES).map(|axis| AXIS + PI * axis as f64 / AXES as f64);

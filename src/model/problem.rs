@@ -18,6 +18,7 @@ mod energy;
 mod hinges;
 mod kept;
 mod reference_state;
+mod short_steps;
 mod softened;
 mod support;
 mod turning;

@@ -7,23 +7,30 @@
 //! too soft in `S`, and the bound is not reached. A lower bound comes from motions: on the span of any motions that meet
 //! the measures, `H` has at most as many negative eigenvalues (Courant and Fischer). These motions are a block Krylov space of
 //! the inverse of the true system, which is solved by corrections with the factorization of `S`. Where the bounds meet
-//! the count is known. Where they do not, heavier weights lower the upper one; what then still differs is not known.
+//! the count is known. Small problems are projected on the null space of the rigid measures instead. Where they do not, heavier weights lower the upper one; what then still differs is not known.
 
 use super::kkt::{KktSystem, largest_weighted_entry};
 use super::linearization::Linearization;
-use crate::numerics::{DenseMatrix, dense};
+use crate::numerics::dense::NullSpace;
 use crate::numerics::factor::FactorError;
 use crate::numerics::random::symmetric;
-use crate::numerics::sparse::symmetric_product;
+use crate::numerics::sparse::{Rows, symmetric_product};
 use crate::numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
+use crate::numerics::{DenseMatrix, dense};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use std::ops::Range;
 
 /// Eigenvalues of `S` above minus this, relative to its largest diagonal entry, count as zero: rounding errors of the sums
 /// in its entries are about as large.
 const ZERO_EIGENVALUE: f64 = 1e-14;
 /// Problems of at most this many unknowns are projected dense, which takes a few milliseconds.
 const DENSE_LIMIT: usize = 120;
+/// The same where the bounds do not meet: about a second.
+const MOST_PROJECTED: usize = 800;
+/// Singular values of the gradients of rigid measures, relative to the largest one, of which it cannot be told whether they are zero:
+/// above rounding errors, and below errors of the state by which they change.
+const UNDECIDED_SINGULAR_VALUES: Range<f64> = 1e-12..1e-9;
 /// Weights of further counts, relative to the usual ones. Heavier ones lose small eigenvalues to rounding.
 const HEAVIER_WEIGHTS: [f64; 3] = [1e2, 1e3, 1e5];
 /// Counts above this are not confirmed by motions, which cost about two solves each, but by the count of a heavier weight.
@@ -39,9 +46,11 @@ const BARREN_FORCES: usize = 2;
 /// Relative residual to which the true system is solved.
 const SOLVED: f64 = 1e-12;
 /// Largest stretch of a rigid measure by a motion of length 1 that meets the measures, in natural sizes: between rounding
-/// errors of a solve and the singular values (`P / EA` for a column under a load `P`) of gradients that nearly depend on
-/// each other.
-const MEETS_MEASURES: f64 = 1e-9;
+/// errors and the singular values of gradients that nearly depend on each other, which are `P / EA` for a column under a load
+/// `P` and smaller for the higher modes of a long one.
+const MEETS_MEASURES: f64 = 1e-12;
+/// Number of times that a motion is brought onto the measures.
+const MOST_CORRECTIONS: usize = 3;
 /// Part of a motion that must be new.
 const LEAST_NEW_PART: f64 = 1e-6;
 /// Seed of the random forces.
@@ -57,13 +66,13 @@ pub(super) fn negative_eigenvalues(
     at: &Linearization,
     compliance: &[f64],
 ) -> Result<Option<usize>, FactorError> {
+    if at.gradient.len() <= DENSE_LIMIT {
+        return Ok(negative_by_projection(at, compliance));
+    }
     let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
     let most = system.count_negative(at, compliance, [zero, 1.0])?;
     if most == 0 || system.weights_are_exact() {
         return Ok(Some(most));
-    }
-    if at.gradient.len() <= DENSE_LIMIT {
-        return Ok(negative_by_projection(at, compliance, zero).filter(|count| *count <= most));
     }
     let least = if most <= MOST_CONFIRMED_BY_MOTIONS {
         Motions::new(system, at, compliance, zero).negative(most)
@@ -78,23 +87,34 @@ pub(super) fn negative_eigenvalues(
             return Ok(Some(least));
         }
     }
-    Ok(None)
+    Ok(if at.gradient.len() <= MOST_PROJECTED { negative_by_projection(at, compliance) } else { None })
 }
 
-/// Number of negative eigenvalues of the projection on the null space of the rigid measures, dense; `None` where that
-/// space cannot be found.
-fn negative_by_projection(at: &Linearization, compliance: &[f64], zero: f64) -> Option<usize> {
-    let mut values = at.hessian.clone();
-    at.pattern().add_to_diagonal(&mut values, zero);
-    for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
-        at.add_outer(row, 1.0 / c, &mut values);
+/// Number of negative eigenvalues by a projection on the null space of the rigid measures, dense; `None` where that space cannot be
+/// found. Measures of finite stiffness keep their tensions as unknowns, each of which adds one negative eigenvalue: no stiffness
+/// is so large that rounding errors of its multiples matter.
+fn negative_by_projection(at: &Linearization, compliance: &[f64]) -> Option<usize> {
+    let unknowns = at.gradient.len();
+    let mut hessian = at.pattern().to_dense(&at.hessian);
+    let rounding = dense::eigenvalue_rounding(unknowns, at.pattern().largest_diagonal(&at.hessian));
+    (0..unknowns).for_each(|k| hessian[(k, k)] += rounding);
+    let rows = dense::from_rows(&Rows { cliques: at.rows().cliques, values: &at.scaled_jacobian() }, unknowns);
+    let (rigid, finite): (Vec<usize>, Vec<usize>) = (0..compliance.len()).partition(|&row| compliance[row] == 0.0);
+    let NullSpace { basis: free, singular_values, .. } = dense::null_space(&rows.select_rows(&rigid)).ok()?;
+    let largest = singular_values.first().copied().unwrap_or(0.0);
+    if singular_values.iter().any(|value| UNDECIDED_SINGULAR_VALUES.contains(&(value / largest))) {
+        return None;
     }
-    let whole = at.pattern().to_dense(&values);
-    let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
-    let rows = dense::from_rows(&at.rows(), at.gradient.len()).select_rows(&rigid);
-    let free = dense::null_space(&rows).ok()?.basis;
-    let values = dense::symmetric_eigenvalues(&(free.transpose() * whole * &free)).ok()?;
-    Some(values.iter().filter(|value| **value < 0.0).count())
+    let (hessian, rows) = (free.transpose() * hessian * &free, rows.select_rows(&finite) * &free);
+    let (size, tensions) = (free.ncols(), finite.len());
+    let mut whole = DenseMatrix::zeros(size + tensions, size + tensions);
+    whole.view_mut((0, 0), (size, size)).copy_from(&hessian);
+    whole.view_mut((size, 0), (tensions, size)).copy_from(&rows);
+    for (k, row) in finite.into_iter().enumerate() {
+        whole[(size + k, size + k)] = -compliance[row] / at.sizes[row].powi(2);
+    }
+    let negative = dense::symmetric_eigenvalues(&whole).ok()?.iter().filter(|value| **value < 0.0).count();
+    negative.checked_sub(tensions)
 }
 
 /// A number of negative eigenvalues in a message.
@@ -156,8 +176,11 @@ impl<'a> Motions<'a> {
         let nothing = vec![0.0; self.compliance.len()];
         let step = self.system.solve(self.at, force, &nothing, SOLVED);
         let (mut dx, mut dt) = self.across_the_others(step.dx, step.dt)?;
-        let open = self.open_stretch(&dx, &dt);
-        if self.largest_stretch(&open) > MEETS_MEASURES {
+        for _ in 0..MOST_CORRECTIONS {
+            let open = self.open_stretch(&dx, &dt);
+            if self.largest_stretch(&open) <= MEETS_MEASURES {
+                break;
+            }
             // what is left is short, and rounding errors of the whole were not
             let no_force = vec![0.0; dx.len()];
             let back = self.system.solve(self.at, &no_force, &open, SOLVED);

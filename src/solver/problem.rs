@@ -2,6 +2,7 @@
 
 use super::layout::Layout;
 use super::linearization::{HessianKind, Linearization};
+use super::newton::Failure;
 use crate::numerics::larger;
 use std::sync::Arc;
 
@@ -27,6 +28,15 @@ pub trait Problem {
     /// Adds terms to the Hessian that make it regular along motions that cost nothing, where there are any; forces stay
     /// as they are.
     fn hold(&self, _tension: &[f64], _out: &mut Linearization) {}
+    /// Whether a step from the accepted state `from` to `to` is short enough for the problem to be what its derivatives say, as one
+    /// that turns an angle too far or flattens a triangle is not.
+    fn admits(&self, _from: &[f64], _to: &[f64]) -> bool {
+        true
+    }
+    /// Why a state is none of which derivatives tell anything, as one with a triangle without height; `None` for other states.
+    fn breakdown(&self, _x: &[f64]) -> Option<Failure> {
+        None
+    }
     /// Sees every accepted state; may write the same state in other coordinates.
     fn accept(&mut self, x: &mut [f64]);
     /// Sees every accepted state; may move it as a whole where that lowers the soft energy and changes no gap. Returns

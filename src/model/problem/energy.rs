@@ -5,12 +5,14 @@ use crate::model::Site;
 use crate::model::element::{Elements, Local};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
-use crate::solver::{HessianKind, Layout, Linearization, Problem, SoftElement};
+use crate::solver::{Failure, HessianKind, Layout, Linearization, Problem, SoftElement};
 use std::sync::Arc;
 
 /// Angle in radians whose torque is the least force to which residuals are relative: if every hinge is closer to rest
 /// than that, residuals are relative to the force of a milliradian instead of to round-off.
 const LEAST_ANGLE: f64 = 1e-3;
+/// Mean edges over the shortest height of a triangle whose forces count in full where residuals are made relative.
+const SHORTEST_ARMS: f64 = 100.0;
 /// Gap of a stiff measure, relative to its natural size, below which its force counts as that of this gap where no soft
 /// element and no load gives forces a size.
 const LEAST_GAP: f64 = 1e-3;
@@ -74,6 +76,14 @@ impl Problem for Model {
         self.linearize_soft(&all, kind, out);
         self.linearize_stiff(&all, tension, out);
         self.linearize_supports(&all, tension, out);
+    }
+
+    fn admits(&self, from: &[f64], to: &[f64]) -> bool {
+        self.turns_no_hinge_too_far(from, to)
+    }
+
+    fn breakdown(&self, x: &[f64]) -> Option<Failure> {
+        self.collapsed(x)
     }
 
     fn accept(&mut self, x: &mut [f64]) {
@@ -151,12 +161,13 @@ impl Model {
     fn linearize_soft(&self, all: &[f64], kind: HessianKind, out: &mut Linearization) {
         let full = kind == HessianKind::Full;
         for (first, term) in numbered(&self.soft) {
+            let most = self.most_arm(term);
             let add = |k: usize, local: &Local| {
                 let spring = term.spring(k);
                 let off = local.value - spring.rest;
                 let force = spring.stiffness * off;
                 out.energy += 0.5 * force * off;
-                let largest = max_abs(&local.gradient);
+                let largest = max_abs(&local.gradient).min(most);
                 out.largest_force = out.largest_force.max(largest * spring.stiffness * off.abs().max(LEAST_ANGLE));
                 let (gradient, hessian) = (&local.gradient, &local.hessian);
                 out.add_soft(first + k, &SoftElement { stiffness: spring.stiffness, force, gradient, hessian });
@@ -169,10 +180,11 @@ impl Model {
         let sizes = self.gap_scale.iter().map(|scale| scale / self.mean_edge);
         out.sizes.iter_mut().zip(sizes).for_each(|(out, size)| *out = size);
         for (first, term) in numbered(&self.stiff) {
+            let most = self.most_arm(term);
             let add = |k: usize, local: &Local| {
                 let measure = first + k;
                 out.gaps[measure] = local.value - term.spring(k).rest;
-                let largest = max_abs(&local.gradient);
+                let largest = max_abs(&local.gradient).min(most);
                 out.largest_force = out.largest_force.max(largest * tension[measure].abs());
                 out.jacobian[self.layout.stiff.range(measure)].copy_from_slice(&local.gradient);
                 out.add_stiff(measure, tension[measure], &local.hessian);
@@ -182,6 +194,12 @@ impl Model {
         if self.soft.is_empty() && self.loads.is_empty() {
             out.largest_force = out.largest_force.max(self.least_force(out));
         }
+    }
+
+    /// Largest gradient of a measure that counts where forces are given a size: those of angles grow without bound as a triangle
+    /// collapses, and would hide every other force.
+    fn most_arm(&self, term: &dyn Elements) -> f64 {
+        if term.is_angle() { SHORTEST_ARMS / self.mean_edge } else { f64::INFINITY }
     }
 
     /// Returns the force to which those of a model without soft elements and loads are relative where all of them

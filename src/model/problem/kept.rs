@@ -1,7 +1,7 @@
 //! Constraints on the position of a sheet: the coordinates that pins and parts hold, and those along the directions of guides.
 
 use super::Model;
-use crate::model::gauge::{self, Motion};
+use crate::model::gauge::Motion;
 
 /// A coordinate, or a linear function of coordinates, that keeps its value. Angles count as lengths at the distance of
 /// one mean edge.
@@ -32,7 +32,7 @@ impl Model {
     pub(crate) fn rigid_motion_counts(&self) -> [usize; 2] {
         let motions = self.rigid_motions(&self.base, true);
         let nothing = vec![false; motions.len()];
-        [nothing, self.held_by_conditions(motions.len())].map(|held| gauge::choose(&motions, &held).len())
+        [nothing, self.held_by_conditions(motions.len())].map(|held| self.chosen_by_pieces(&motions, &held).len())
     }
 
     /// Whether vertices move as rigid parts.

@@ -28,7 +28,7 @@ impl Model {
         let motions = self.rigid_motions(&self.base, true);
         let mut held = held;
         held.resize(motions.len(), true);
-        gauge::choose(&motions, &held).into_iter().map(|k| number[k]).collect()
+        self.chosen_by_pieces(&motions, &held).into_iter().map(|k| number[k]).collect()
     }
 
     /// Adds the artificial stiffness of rotations to the Hessian, and no force: a rotation that no load resists has

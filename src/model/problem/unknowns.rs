@@ -2,10 +2,12 @@
 
 use super::{LEFT_WING, Model, POSE, RIGHT_WING};
 use crate::math::rotation::inverse_left_jacobian;
+use crate::model::domain::Domain;
 use crate::model::element::Elements;
 use crate::model::gauge;
 use crate::model::problem::Gauge;
 use crate::numerics::sparse::{Cliques, FIXED};
+use crate::sheet::pieces::pieces;
 use crate::solver::Layout;
 use std::sync::Arc;
 
@@ -14,6 +16,11 @@ use std::sync::Arc;
 const LEAST_SEPARATION_RATIO: f64 = 1e-3;
 /// The same for a state from which steps are made.
 const WELL_HELD: f64 = 0.5;
+
+/// The rigid motions of the coordinates of a piece, and which of them are held.
+fn of_members(motions: &[gauge::Motion], held: &[bool], piece: &[usize]) -> (Vec<gauge::Motion>, Vec<bool>) {
+    piece.iter().map(|&k| (motions[k], held[k])).unzip()
+}
 
 impl Model {
     /// Chooses the held coordinates at the reference state, and numbers the other ones as unknowns.
@@ -65,9 +72,44 @@ impl Model {
     pub(super) fn chosen(&self, motions: &[gauge::Motion]) -> Vec<bool> {
         let mut held = self.held_by_conditions(motions.len());
         if self.gauge == Gauge::Held {
-            gauge::choose(motions, &held).into_iter().for_each(|k| held[k] = true);
+            self.chosen_by_pieces(motions, &held).into_iter().for_each(|k| held[k] = true);
         }
         held
+    }
+
+    /// Returns the coordinates to hold, in addition to those already `held`, so that no piece of the sheet has a rigid motion.
+    pub(super) fn chosen_by_pieces(&self, motions: &[gauge::Motion], held: &[bool]) -> Vec<usize> {
+        let of_piece = |piece: &Vec<usize>| {
+            let (motions, held) = of_members(motions, held, piece);
+            gauge::choose(&motions, &held).into_iter().map(|k| piece[k]).collect::<Vec<_>>()
+        };
+        self.pieces().iter().flat_map(of_piece).collect()
+    }
+
+    /// Returns the generalised coordinates of each connected piece of the sheet, with the supports that act on them, which come
+    /// after all coordinates. Elements, rigid parts and supports connect points. Pieces on a screw count as one, and the coordinates
+    /// that all points share are those of the first piece.
+    fn pieces(&self) -> Vec<Vec<usize>> {
+        let (points, count) = (self.points(), self.base.len() + self.supports.len());
+        if matches!(self.domain, Domain::Screw) {
+            return vec![(0..count).collect()];
+        }
+        let shared = points - self.domain.shared();
+        let of_points = (0..shared / 3).flat_map(|vertex| [1, 2].map(|axis| [3 * vertex, 3 * vertex + axis]));
+        let of_elements = self.terms().flat_map(|term| {
+            (0..term.len()).flat_map(move |k| {
+                let sites = term.sites(k);
+                sites.iter().map(|site| [3 * sites[0].vertex, 3 * site.vertex])
+            })
+        });
+        let of_parts = (0..shared / 3).filter_map(|vertex| Some((vertex, self.bodies.part_of(vertex)?)));
+        let of_parts = of_parts.map(|(vertex, part)| [3 * vertex, points + POSE * part]);
+        let of_poses = (points..self.base.len()).map(|k| [points + (k - points) / POSE * POSE, k]);
+        let of_supports = self.supports.iter().zip(self.base.len()..);
+        let of_supports =
+            of_supports.flat_map(|(support, k)| support.terms.iter().map(move |(member, _)| [*member, k]));
+        let links = of_points.chain(of_elements).chain(of_parts).chain(of_poses).chain(of_supports);
+        pieces(count, links.chain((shared..points).map(|k| [0, k])), 0..count)
     }
 
     /// Whether the held coordinates remove the rigid motions of the state `x` nearly as well as newly chosen ones
@@ -91,11 +133,17 @@ impl Model {
             return 1.0;
         }
         let motions = self.rigid_motions(&self.generalised(x), self.loads.is_empty());
-        let separation = |held: &[bool]| gauge::separation(&motions, held);
         let mut held = vec![true; motions.len()];
         self.free.iter().for_each(|&k| held[k as usize] = false);
-        let best = separation(&self.chosen(&motions));
-        if best > 0.0 { separation(&held) / best } else { 1.0 }
+        let chosen = self.chosen(&motions);
+        let quality = |piece: &Vec<usize>| {
+            let [now, best] = [&held, &chosen].map(|held| {
+                let (motions, held) = of_members(&motions, held, piece);
+                gauge::separation(&motions, &held)
+            });
+            if best > 0.0 { now / best } else { 1.0 }
+        };
+        self.pieces().iter().map(quality).fold(1.0, f64::min)
     }
 
     /// Returns the unknowns on which element `k` of a term depends: for each of its points those of its coordinates, or

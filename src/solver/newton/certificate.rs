@@ -5,7 +5,7 @@ use super::iteration::Newton;
 use super::outcome::Failure;
 use super::retraction::START_GAP;
 use crate::numerics::random::symmetric;
-use crate::numerics::vector::{max_abs, moved};
+use crate::numerics::vector::{larger, max_abs, moved};
 use crate::solver::linearization::{HessianKind, missing};
 use crate::solver::problem::Problem;
 use crate::solver::self_stress::self_stresses;
@@ -14,6 +14,10 @@ use rand_chacha::rand_core::SeedableRng;
 
 /// Scaled force below which the inertia of a state is that of the minimum next to it.
 const FORCE_NEAR_MINIMUM: f64 = 1e-4;
+/// Largest change of a measure of a soft element (an angle, in radians), and of an unknown in units of length, by one more step
+/// from a state at rest; and the relative residual to which that step is known.
+const AT_REST: f64 = 1e-7;
+const STEP_RESIDUAL: f64 = 0.1;
 /// Largest component of the step with which a start is probed, in units of length.
 const PROBE_LENGTH: f64 = 1e-3;
 /// Relative part of the probe's stretch that no motion makes above which a start is singular.
@@ -42,6 +46,21 @@ impl<P: Problem> Newton<'_, P> {
         self.kind = HessianKind::Full;
         self.linearize();
         Ok(self.tangent.negative_eigenvalues()?)
+    }
+
+    /// Whether one more Newton step with the full Hessian would change nothing. A force above the tolerance is rounding error
+    /// only then: a single huge stiffness, such as that of a fold angle beside a triangle that collapses, makes rounding errors of
+    /// coordinates look like any force.
+    pub(super) fn is_at_rest(&mut self) -> bool {
+        self.kind = HessianKind::Full;
+        self.linearize();
+        if self.tangent.factor(0.0).is_err() {
+            return false;
+        }
+        let step = self.tangent.newton_step(&self.tension, STEP_RESIDUAL);
+        let length = max_abs(&step.dx) / self.problem.unit_of_length();
+        let change = larger(self.tangent.at.largest_measure_change(&step.dx), length);
+        step.residual <= STEP_RESIDUAL && change <= AT_REST
     }
 
     /// Whether the stretch that a step makes beyond its linear part cannot be taken back by any motion: then the rigid

@@ -59,7 +59,10 @@ impl<'a, P: Problem> Newton<'a, P> {
     }
 
     /// The outcome of the iteration: a converged state with this number of negative eigenvalues, or a failure.
-    pub(super) fn end(mut self, negative_eigenvalues: Result<Option<usize>, Failure>) -> Result<Equilibrium, NewtonError> {
+    pub(super) fn end(
+        mut self,
+        negative_eigenvalues: Result<Option<usize>, Failure>,
+    ) -> Result<Equilibrium, NewtonError> {
         match negative_eigenvalues {
             Ok(negative_eigenvalues) => Ok(Equilibrium {
                 energy: self.history.last().map_or(f64::NAN, |step| step.energy),
@@ -107,8 +110,8 @@ impl<'a, P: Problem> Newton<'a, P> {
         gaps.iter().zip(self.problem.gap_scale()).fold(0.0, |m, (gap, scale)| larger(m, gap.abs() / scale))
     }
 
-    /// The scaled force that rounding of the unknowns alone makes: a last place of the largest unknown times the
-    /// largest stiffness. It is above the tolerance only where all forces are tiny.
+    /// The scaled force that rounding of the unknowns alone may make: a last place of the largest unknown times the
+    /// largest stiffness. It is above the tolerance where all forces are tiny, or where a stiffness is huge.
     pub(super) fn rounding_force(&self) -> f64 {
         let at = &self.tangent.at;
         f64::EPSILON * max_abs(&self.x) * at.pattern().largest_diagonal(&at.hessian) / at.largest_force

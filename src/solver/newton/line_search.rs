@@ -30,6 +30,9 @@ const SMALLEST_GAP: f64 = 1e-14;
 const LARGEST_GAP: f64 = 1e-4;
 /// Rise of the merit, relative, that is taken for rounding error.
 const ROUNDING_OF_MERIT: f64 = 1e-13;
+/// Largest change of the measure of a soft element by a whole step, to first order (an angle, in radians): with 0.3 and with 1 the
+/// scenes of `meshes/` take as many iterations, and a step that turns a hinge further says little about it.
+const LARGEST_CHANGE: f64 = 0.3;
 
 impl<P: Problem> Newton<'_, P> {
     /// Takes one step; returns the fraction of the Newton step that was taken.
@@ -81,7 +84,8 @@ impl<P: Problem> Newton<'_, P> {
 
     /// Takes the largest fraction of a step that can be accepted, if there is one.
     fn take_largest_fraction(&mut self, step: &Increment, last: &Step) -> Option<f64> {
-        let fractions = (self.first_halving()..HALVINGS).map(|halving| 0.5f64.powi(halving));
+        let first = self.first_halving().max(self.halvings_of_angles(&step.dx));
+        let fractions = (first..first.max(0) + HALVINGS).map(|halving| 0.5f64.powi(halving));
         for fraction in fractions {
             if let Some(trial) = self.attempt(step, fraction, last) {
                 self.take(trial, fraction, last);
@@ -97,11 +101,20 @@ impl<P: Problem> Newton<'_, P> {
         if last > 0.0 { (-last.log2().round() as i32 - 2).max(0) } else { 0 }
     }
 
+    /// Number of halvings after which a step changes the measure of no soft element too much, to first order.
+    fn halvings_of_angles(&self, dx: &[f64]) -> i32 {
+        let change = self.tangent.at.largest_measure_change(dx) / LARGEST_CHANGE;
+        if change > 1.0 { change.log2().ceil() as i32 } else { 0 }
+    }
+
     /// The retracted state after a fraction of a step, where its merit is lower.
     fn attempt(&mut self, step: &Increment, fraction: f64, last: &Step) -> Option<Trial> {
         let (x, tension) = (moved(&self.x, fraction, &step.dx), moved(&self.tension, fraction, &step.dt));
         let wanted = (GAP_PER_FORCE * last.residual_force).clamp(SMALLEST_GAP, LARGEST_GAP);
         let trial = self.retract(x, tension, wanted, TRIAL_CHORDS).ok()?;
+        if !self.problem.admits(&self.x, &trial.x) {
+            return None;
+        }
         (trial.merit <= last.energy + self.merit_uncertainty(&trial, last)).then_some(trial)
     }
 

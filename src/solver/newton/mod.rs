@@ -71,8 +71,12 @@ fn run<P: Problem>(
         if !observe(&Iterate { problem, x, tension, step: &step }) {
             return Err(Failure::Interrupted);
         }
+        if let Some(failure) = newton.problem.breakdown(&newton.x) {
+            return Err(failure);
+        }
         let (force, length) = (step.residual_force, step.residual_length);
-        if length <= options.tolerance && (force <= options.tolerance || newton.exhausted(&step)) {
+        let met = length <= options.tolerance;
+        if met && (force <= options.tolerance || (newton.exhausted(&step) && newton.is_at_rest())) {
             let last = if finished { None } else { newton.finishing_step(&step) };
             let Some(trial) = last else { return newton.certify() };
             newton.take(trial, 1.0, &step);
@@ -84,7 +88,7 @@ fn run<P: Problem>(
             return Err(Failure::TooManySteps { iterations: options.iterations, force, length });
         }
         fraction = match newton.advance(&step) {
-            Err(Failure::Stuck { .. }) if length <= options.tolerance && force <= newton.rounding_force() => {
+            Err(Failure::Stuck { .. }) if met && force <= newton.rounding_force() && newton.is_at_rest() => {
                 return newton.certify();
             }
             taken => taken?,
