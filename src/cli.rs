@@ -12,7 +12,7 @@ mod ending;
 mod runs;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ use foldwell::sheet::pattern::Cleanup;
 use crate::parameters;
 use crate::progress::Watch;
 use crate::scenes;
-use ending::{Failure, INTERRUPTED, report, say};
+use ending::{Failure, INTERRUPTED, closed, report, say};
 use runs::{Told, run_scenes, status_of};
 
 /// Energy wells of folding sheets.
@@ -187,7 +187,15 @@ enum Described {
 
 /// Runs the command line.
 pub(crate) fn main() -> ExitCode {
-    let status = dispatch(Cli::parse().command).unwrap_or_else(|failure| {
+    let done = match Cli::try_parse() {
+        Ok(cli) => dispatch(cli.command),
+        // help and the version, which are asked for, are no errors of use
+        Err(help) if !help.use_stderr() => {
+            help.print().and_then(|()| io::stdout().flush()).map_or_else(closed, |()| Ok(0))
+        }
+        Err(wrong) => wrong.exit(),
+    };
+    let status = done.unwrap_or_else(|failure| {
         report(&failure);
         failure.exit_status()
     });
@@ -215,7 +223,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
                 return say(&parameters::help(&pattern).map_err(Failure::Parameters)?);
             }
             let (table, out) = parameters::parse(&pattern, &parameters).map_err(Failure::Parameters)?;
-            run::new_mesh(&table, &out)?;
+            remark(&out, &run::new_mesh(&table, &out)?);
             Ok(0)
         }
         Command::Convert { from, to, frame, merge, split, flatten } => {
@@ -227,10 +235,7 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
             } else {
                 run::convert_cleaned(&from, &to, frame, &cleanup)?
             };
-            for note in notes {
-                // an error is ignored: there is no other place for the message if standard error is closed
-                let _ = writeln!(io::stderr(), "{}: {note}", to.display());
-            }
+            remark(&to, &notes);
             Ok(0)
         }
         Command::View { folder, o } => say(&format!("{}\n", run::view(&folder, o.as_deref())?.display())),
@@ -244,6 +249,14 @@ fn dispatch(command: Command) -> Result<u8, Failure> {
         Command::Schema { of: Described::Summary } => say(&output::schema::schema()),
         Command::Schema { of: Described::Sweep } => say(&output::schema::of_sweep()),
         Command::Completions { shell } => say(&completions(shell)),
+    }
+}
+
+/// Prints remarks about a mesh that was written on standard error.
+fn remark(to: &Path, notes: &[String]) {
+    for note in notes {
+        // an error is ignored: there is no other place for the message if standard error is closed
+        let _ = writeln!(io::stderr(), "{}: {note}", to.display());
     }
 }
 

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::output::{OutputError, files};
+use crate::output::OutputError;
 use crate::scene::{SceneFile, Setting};
 use crate::sheet::pattern::Cleanup;
-use crate::sheet::{Info, Pattern, Sheet, flatten, fold, generate};
+use crate::sheet::{Info, Pattern, Sheet, flatten, generate};
 
 mod belongings;
 mod convert;
@@ -72,12 +72,13 @@ pub fn check(file: &SceneFile, options: &RunOptions) -> Result<(), RunError> {
     single::check(file, options)
 }
 
-/// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it as a FOLD file.
+/// Generates a pattern from the table `{ pattern = "miura", .. }` and writes it into a file of the format of its ending.
+/// Returns a sentence for each part of the pattern that the file does not keep.
 ///
 /// # Errors
-/// [`RunError`] if a parameter is wrong or the file cannot be written.
-pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<(), RunError> {
-    Ok(files::write(out, fold::write(&new_sheet(table)?))?)
+/// [`RunError`] if a parameter is wrong, the ending is unknown or the file cannot be written.
+pub fn new_mesh(table: &toml::Table, out: &Path) -> Result<Vec<String>, RunError> {
+    meshes::write(&new_sheet(table)?, out)
 }
 
 /// Generates the sheet of a pattern from the table `{ pattern = "miura", .. }`.

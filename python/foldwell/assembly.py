@@ -313,6 +313,18 @@ class _Tables:
         path.write_text("\n".join([f"{header},{column}", *rows]) + "\n")
         return {"file": path}
 
+    def refuse_rigid_facets(self, rest: NDArray[Any]) -> None:
+        """Refuses an array of rest angles of creases that has one at a facet, where facets are rigid."""
+        of_cell = rest.shape == self._sheet.kinds.shape
+        edges, kinds = (self._sheet.edges, self._sheet.kinds) if of_cell else (self._bare.edges, np.array(self._bare.kinds))
+        given = (kinds == "facet") & ~np.isnan(rest) & (rest != 0.0)
+        if given.any():
+            k = int(np.flatnonzero(given)[0])
+            edge = tuple(map(int, edges[k]))
+            raise ValueError(
+                f"rest[{k}] is {float(rest[k])!r}, but edge {edge} is a facet, which is rigid; give 0 or nan there, or `facets` a stiffness"
+            )
+
 
 def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
     """Returns the tables of a scene for the keyword arguments of `Assembly.patch`."""
@@ -334,6 +346,9 @@ def _terms(terms: dict[str, Any], tables: _Tables) -> dict[str, Any]:
             if term not in energy:
                 raise TypeError(f"{name} is given without {term}")
             energy[term]["rest"] = tables.value(given[name], term, name, column)
+    rest, facets = given.get("rest"), given.get("facets", math.inf)
+    if isinstance(rest, np.ndarray) and rest.ndim > 0 and isinstance(facets, float) and math.isinf(facets):
+        tables.refuse_rigid_facets(rest)
     if "fraction" in given:
         energy.setdefault("creases", {})["fraction"] = given["fraction"]
     scene: dict[str, Any] = {"energy": energy, "mass": given.get("mass"), "lock": _locks(given.get("locks", ()))}

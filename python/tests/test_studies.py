@@ -4,6 +4,7 @@ import csv
 import inspect
 import json
 import pickle
+import re
 import subprocess
 
 import foldwell as fw
@@ -90,6 +91,21 @@ def test_arrays_are_the_tables_of_a_scene(miura):
     assert varied.energy(x) - uniform.energy(x) == pytest.approx(more, rel=1e-11)
     lengths = fw.Assembly.patch(miura, (3, 2), bars=1e3, rest_lengths=uniform.lengths(x))
     assert lengths.energy(x) == pytest.approx(0.0, abs=1e-24)
+
+
+def test_rest_angles_of_rigid_facets(miura):
+    """A rest angle at a facet is refused by its place where facets are rigid, and 0, nan or an angle of a soft facet is not."""
+    facet = int(np.flatnonzero(miura.kinds == "facet")[0])
+    edge = tuple(map(int, miura.edges[facet]))
+    for angle, facets, wrong in [(0.0, None, False), (np.nan, None, False), (0.1, 5.0, False), (0.1, None, True), (0.1, fw.RIGID, True)]:
+        rest = np.full(len(miura.edges), 0.25)
+        rest[miura.kinds == "facet"] = 0.0
+        rest[facet] = angle
+        if wrong:
+            with pytest.raises(ValueError, match=re.escape(f"rest[{facet}] is 0.1, but edge {edge} is a facet, which is rigid")):
+                fw.Assembly.patch(miura, (3, 2), bars=1e3, creases=2.0, facets=facets, rest=rest)
+        else:
+            fw.Assembly.patch(miura, (3, 2), bars=1e3, creases=2.0, facets=facets, rest=rest)
 
 
 @pytest.mark.parametrize(

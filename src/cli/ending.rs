@@ -58,10 +58,12 @@ impl Failure {
 /// Prints on standard output; it is not an error if the reader has closed it.
 pub(super) fn say(text: &str) -> Result<u8, Failure> {
     let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::StandardOutput(error)),
-        _ => Ok(0),
-    }
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_or_else(closed, |()| Ok(0))
+}
+
+/// Returns the end of a command whose text could not be printed.
+pub(super) fn closed(error: io::Error) -> Result<u8, Failure> {
+    if error.kind() == io::ErrorKind::BrokenPipe { Ok(0) } else { Err(Failure::StandardOutput(error)) }
 }
 
 /// Prints a failure on standard error: description, place in the scene and proposed correction.

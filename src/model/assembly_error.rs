@@ -60,6 +60,17 @@ pub enum AssemblyError {
         /// The name of the edge that was given.
         key: EdgeKey,
     },
+    /// No copy of a crease is between two faces of the tiling.
+    #[error(
+        "no copy of the crease [{}, {}, {}, {}] folds in a patch of {} x {} cells",
+        key.i, key.j, key.shift[0], key.shift[1], cells[0], cells[1]
+    )]
+    NoCopy {
+        /// The name of the crease in the sheet.
+        key: EdgeKey,
+        /// Numbers of cells along the two lattice vectors.
+        cells: [usize; 2],
+    },
     /// The tiling has no such vertex or no such cell.
     #[error("there is no vertex {vertex} of cell {cell:?}")]
     NoVertex {

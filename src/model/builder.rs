@@ -190,7 +190,7 @@ impl Builder {
     /// # Errors
     /// [`AssemblyError`] if the sheet cannot have these boundary conditions, a stiffness, a rest length or the mass is
     /// not a positive number, rest values are given without a stiffness, the length of a list does not match the tiling, a
-    /// crease or a vertex does not exist, or loads do not balance along an axis without pins.
+    /// crease or a vertex does not exist in it, or loads do not balance along an axis without pins.
     pub fn build(self) -> Result<Assembly, AssemblyError> {
         let Self { sheet, cells, boundary, roll, given } = self;
         let bare = match roll {
@@ -302,7 +302,9 @@ fn angles(assembly: &Assembly, rest: Rest) -> Result<Vec<f64>, AssemblyError> {
 fn copies(assembly: &Assembly, crease: EdgeKey) -> Result<Vec<usize>, AssemblyError> {
     let (sheet, tiling, angles) = (assembly.sheet(), assembly.tiling(), assembly.drawn_angles());
     let edge = sheet.crease(crease).ok_or(AssemblyError::NoCrease { key: crease })?;
-    Ok((0..tiling.edges.len()).filter(|&k| tiling.edges[k].edge == edge && !angles[k].is_nan()).collect())
+    let found = (0..tiling.edges.len()).filter(|&k| tiling.edges[k].edge == edge && !angles[k].is_nan());
+    let found: Vec<usize> = found.collect();
+    if found.is_empty() { Err(AssemblyError::NoCopy { key: crease, cells: tiling.cells }) } else { Ok(found) }
 }
 
 /// Returns what is given on vertices of cells, on the vertices of the tiling.

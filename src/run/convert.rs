@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use crate::output::picture::Picture;
 use crate::output::vtk::VtuMesh;
-use crate::sheet::build::Drawing;
-use crate::sheet::info::TURNED_OVER;
+use crate::sheet::build::{self, Drawing};
+use crate::sheet::info::{TURNED_OVER, gap_said};
 use crate::sheet::{Assignment, Edge, EdgeKind, Sheet};
 
 /// Largest magnitude of a fold angle, in radians, at which a mountain or valley may be drawn on the other side.
@@ -49,6 +50,7 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     if sheet.record.turned_over {
         notes.push(TURNED_OVER.to_owned());
     }
+    notes.extend(sheet.record.gap.map(gap_said));
     if ending == "obj" && !sheet.listed_edges.is_empty() {
         notes.push("OBJ has no list of edges: their order is not kept".to_owned());
     }
@@ -71,6 +73,13 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
     if ending == "stl" && (sheet.lattice.is_some() || !sheet.assignments.is_empty()) {
         notes.push("STL has triangles only: lattice vectors and letters of edges are not kept".to_owned());
     }
+    if ending == "vtu" && sheet.lattice.is_some() {
+        let again = build::build(&drawing(drawn_mesh(sheet), String::new()));
+        let unread = again.err().map_or(String::new(), |defect| {
+            format!("; it cannot be read as such, since with its own edges alone {}", defect.problem)
+        });
+        notes.push(format!("VTU has no lattice vectors: the cell is written as a finite sheet{unread}"));
+    }
     if !is_fold && sheet.screws.is_some() {
         notes.push("the screw motions that repeat the cell are not kept: FOLD alone has a place for them".to_owned());
     }
@@ -79,6 +88,12 @@ pub(super) fn not_kept(sheet: &Sheet, ending: &str) -> Vec<String> {
         notes.push(format!("{stiffnesses} stiffnesses of edges are not kept: FOLD alone has a place for them"));
     }
     notes
+}
+
+/// Returns the mesh of the file into which a sheet is drawn.
+fn drawn_mesh(sheet: &Sheet) -> VtuMesh {
+    let Picture { points, triangles, lines, fold_angle, letters, .. } = Picture::drawn(sheet);
+    VtuMesh { points, triangles, lines, fold_angle: Some(fold_angle), letters: Some(letters), ..VtuMesh::default() }
 }
 
 /// Returns the number of creases whose target angle is not that of their letter in a flat fold.

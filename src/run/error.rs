@@ -103,7 +103,10 @@ pub enum RunError {
     },
     /// A study has no states on a branch.
     #[error("{}: there is no branch {branch}", path.display())]
-    #[diagnostic(help("the branches are {}", known.iter().map(i64::to_string).collect::<Vec<_>>().join(", ")))]
+    #[diagnostic(help("{}", match &known[..] {
+        [] => "this study has no branches; leave out --branch".to_owned(),
+        known => format!("the branches are {}", known.iter().map(i64::to_string).collect::<Vec<_>>().join(", ")),
+    }))]
     NoBranch {
         /// The series.
         path: PathBuf,

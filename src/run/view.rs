@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value};
 
 use super::RunError;
+use super::ending::ending;
 use super::folder::{contents, study_name, summary};
 use crate::output::html::{StudyFiles, page};
 use crate::output::{OutputError, files};
@@ -16,9 +17,13 @@ const PAGE: &str = "view.html";
 /// Writes the page of a run and returns its path: `view.html` in the folder of the run, unless `to` is another one.
 ///
 /// # Errors
-/// [`RunError::NoRun`] if the folder has no `summary.json` of a run, [`RunError::PageOfStudy`] if the page would replace
+/// [`RunError::Ending`] if `to` does not end in `.html`, [`RunError::NoRun`] if the folder has no `summary.json` of a run,
+/// [`RunError::PageOfStudy`] if the page would replace
 /// that of a study, [`RunError::Output`] if a file cannot be read or the page cannot be written.
 pub fn view(folder: &Path, to: Option<&Path>) -> Result<PathBuf, RunError> {
+    if let Some(to) = to.filter(|to| ending(to) != "html") {
+        return Err(RunError::Ending { path: to.into(), ending: ending(to), expected: ".html" });
+    }
     let summary = summary(folder)?;
     let word = |key: &str| summary.get(key).and_then(Value::as_str);
     let title = word("title").or(word("scene")).unwrap_or_default();

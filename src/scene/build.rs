@@ -282,12 +282,19 @@ impl<'a> Reader<'a> {
     fn locks(&self) -> Result<Vec<(usize, f64)>, SceneError> {
         let mut locks = Vec::new();
         for lock in &self.file.scene.locks {
-            let edge = self.crease(&lock.crease)?;
+            let (edge, before) = (self.crease(&lock.crease)?, locks.len());
             for (k, tiled) in self.tiling.edges.iter().enumerate() {
                 if tiled.edge == edge && !self.angles[k].is_nan() {
                     let start = self.assembly.start_angles()[k];
                     locks.push((k, lock.angle.as_ref().map_or(start, |angle| angle.radians)));
                 }
+            }
+            if locks.len() == before {
+                let [n1, n2] = self.tiling.cells;
+                let message =
+                    format!("no copy of the crease {} folds in a patch of {n1} x {n2} cells", name(lock.crease.0));
+                let help = "all of them are on its rim or beyond: lock a crease inside, or give more `cells`";
+                return Err(self.file.error_at(lock.crease.span(), message, help));
             }
         }
         Ok(locks)

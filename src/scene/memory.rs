@@ -1,41 +1,44 @@
 //! A lower bound of the memory that a scene needs, from its numbers alone, before anything is built.
 
 use std::ops::Range;
+use std::path::Path;
 
 use super::spec::{DensitySpec, MapSpec, StudyKind, StudySpec};
 use super::{Located, SceneError, SceneFile};
 use crate::sheet::Sheet;
 
 /// Largest number of vertices: more would overflow the indices of the sparse matrices.
-const MOST_VERTICES: u64 = 30_000_000;
+const MOST_VERTICES: f64 = 30_000_000.0;
 
 /// Bytes that are assumed to be free if the operating system does not report them.
-const USUAL_MEMORY: u64 = 16 << 30;
+const USUAL_MEMORY: f64 = (16_u64 << 30) as f64;
 
 /// Largest number of bytes that the numbers of a study may require on any machine.
-const MOST_OF_STUDY: u64 = 24 << 30;
+const MOST_OF_STUDY: f64 = (24_u64 << 30) as f64;
 
 /// Bytes for each vertex of the model: its edges and triangles, once for the studies and once for pictures.
-const TILED_VERTEX: u64 = 1_500;
+const TILED_VERTEX: f64 = 1_500.0;
 /// Bytes for each vertex of a model whose energy is relaxed: derivatives and their factors.
-const RELAXED_VERTEX: u64 = 8_000;
+const RELAXED_VERTEX: f64 = 8_000.0;
 /// Bytes for each wavenumber of a grid.
-const WAVENUMBER: u64 = 16;
+const WAVENUMBER: f64 = 16.0;
 /// Bytes for each frequency at a wavenumber.
-const FREQUENCY: u64 = 8;
+const FREQUENCY: f64 = 8.0;
 /// Bytes for each bin of a density of states: its row of the table.
-const BIN: u64 = 160;
+const BIN: f64 = 160.0;
 /// Bytes for each random start.
-const START: u64 = 32;
+const START: f64 = 32.0;
 /// Bytes for each sample of a map: its direction, its triangles and its row.
-const SAMPLE: u64 = 160;
+const SAMPLE: f64 = 160.0;
+/// Bytes for each direction of Poisson's ratios: its row of the table and its line of the file.
+const DIRECTION: f64 = 200.0;
 
 /// A part of a scene that needs memory.
 struct Need {
     /// Description of the part and its size, for messages.
     what: String,
     /// Number of bytes.
-    bytes: u64,
+    bytes: f64,
     /// The key whose value would have to be smaller, and its place.
     key: &'static str,
     span: Range<usize>,
@@ -46,29 +49,32 @@ pub(super) fn check(file: &SceneFile, sheet: &Sheet) -> Result<(), SceneError> {
     let spec = &file.scene.sheet;
     let span = || spec.cells.as_ref().map_or(0..0, Located::span);
     let cells = if !sheet.is_repeated() { [1, 1] } else { spec.cells() };
-    let vertices = cells.iter().fold(sheet.vertices.len() as u64, |product, &n| product.saturating_mul(n as u64));
+    let vertices = cells.iter().fold(sheet.vertices.len() as f64, |product, &n| product * n as f64);
     let whose = if spec.is_one_cell() { "the pictures have" } else { "the model has" };
+    let what = format!("{whose} {} vertices", shown(vertices));
     if vertices > MOST_VERTICES {
-        let message = format!("{whose} {vertices} vertices");
-        return Err(file.error_at(span(), message, format!("at most {MOST_VERTICES} can be indexed")));
+        return Err(file.error_at(span(), what, format!("at most {MOST_VERTICES} can be indexed")));
     }
     let relaxed = !spec.is_one_cell() && file.scene.studies.iter().any(|study| relaxes(&study.kind));
-    let each = TILED_VERTEX + if relaxed { RELAXED_VERTEX } else { 0 };
-    let model =
-        Need { what: format!("{whose} {vertices} vertices"), bytes: vertices * each, key: "cells", span: span() };
+    let each = TILED_VERTEX + if relaxed { RELAXED_VERTEX } else { 0.0 };
     let free = free_memory();
-    fits(file, model, free)?;
+    fits(file, Need { what, bytes: vertices * each, key: "cells", span: span() }, free)?;
     let densities = file.scene.studies.iter().flat_map(|study| of_density(study, sheet.vertices.len()));
     let mut needs = file.scene.studies.iter().filter_map(of_study).chain(densities);
     needs.try_for_each(|need| fits(file, need, free.min(MOST_OF_STUDY)))
 }
 
-fn fits(file: &SceneFile, need: Need, room: u64) -> Result<(), SceneError> {
+/// Returns a whole number as messages show it: in full, or with two digits if it is very large.
+fn shown(count: f64) -> String {
+    if count < 1e15 { format!("{count:.0}") } else { format!("{count:.1e}") }
+}
+
+fn fits(file: &SceneFile, need: Need, room: f64) -> Result<(), SceneError> {
     if need.bytes <= room {
         return Ok(());
     }
-    let [needed, room] = [need.bytes, room].map(|bytes| bytes as f64 / 1e9);
-    let message = format!("{}, which need at least {needed:.0} GB; there is room for {room:.0} GB", need.what);
+    let [needed, room] = [need.bytes, room].map(|bytes| shown(bytes / 1e9));
+    let message = format!("{}, which need at least {needed} GB; there is room for {room} GB", need.what);
     Err(file.error_at(need.span, message, format!("make `{}` smaller", need.key)))
 }
 
@@ -82,14 +88,18 @@ fn of_study(study: &StudySpec) -> Option<Need> {
     let name = &study.name.0;
     match &*study.kind {
         StudyKind::Bloch(bloch) => bloch.grid.as_ref().map(|grid| {
-            let count = grid.0.iter().fold(1u64, |product, &n| product.saturating_mul(n as u64));
-            let what = format!("the grid of `{name}` has {count} wavenumbers");
-            Need { what, bytes: count.saturating_mul(WAVENUMBER), key: "grid", span: grid.span() }
+            let count: f64 = grid.0.iter().map(|&n| n as f64).product();
+            let what = format!("the grid of `{name}` has {} wavenumbers", shown(count));
+            Need { what, bytes: count * WAVENUMBER, key: "grid", span: grid.span() }
         }),
         StudyKind::Wells(wells) => wells.starts.as_ref().map(|starts| {
-            let count = u64::from(starts.0);
-            let what = format!("`{name}` has {count} starts");
-            Need { what, bytes: count.saturating_mul(START), key: "starts", span: starts.span() }
+            let what = format!("`{name}` has {} starts", starts.0);
+            Need { what, bytes: f64::from(starts.0) * START, key: "starts", span: starts.span() }
+        }),
+        StudyKind::Response(response) => response.directions.as_ref().map(|directions| {
+            let what = format!("the ratios of `{name}` have {} directions", directions.0);
+            let bytes = f64::from(directions.0) * DIRECTION;
+            Need { what, bytes, key: "directions", span: directions.span() }
         }),
         StudyKind::Landscape(landscape) => landscape.map.as_ref().and_then(|map| of_map(name, map)),
         _ => None,
@@ -102,45 +112,69 @@ fn of_density(study: &StudySpec, vertices: usize) -> Vec<Need> {
     let Some(DensitySpec { grid, bins }) = bloch.density.as_deref() else { return vec![] };
     let name = &study.name.0;
     let of_grid = grid.as_ref().map(|grid| {
-        let count = grid.0.iter().fold(1u64, |product, &n| product.saturating_mul(n as u64));
-        let what = format!("the density of states of `{name}` has {count} wavenumbers");
-        let each = WAVENUMBER + 3 * FREQUENCY * vertices as u64;
-        Need { what, bytes: count.saturating_mul(each), key: "grid", span: grid.span() }
+        let count: f64 = grid.0.iter().map(|&n| n as f64).product();
+        let what = format!("the density of states of `{name}` has {} wavenumbers", shown(count));
+        let each = WAVENUMBER + 3.0 * FREQUENCY * vertices as f64;
+        Need { what, bytes: count * each, key: "grid", span: grid.span() }
     });
     let of_bins = bins.as_ref().map(|bins| {
         let what = format!("the density of states of `{name}` has {} bins", bins.0);
-        Need { what, bytes: u64::from(bins.0).saturating_mul(BIN), key: "bins", span: bins.span() }
+        Need { what, bytes: f64::from(bins.0) * BIN, key: "bins", span: bins.span() }
     });
     of_grid.into_iter().chain(of_bins).collect()
 }
 
 fn of_map(name: &str, map: &MapSpec) -> Option<Need> {
     let rings = map.rings.as_ref()?;
-    let samples = u64::from(rings.0).saturating_mul(u64::from(rings.0)).saturating_mul(8);
-    let what = format!("the map of `{name}` has {samples} samples");
-    Some(Need { what, bytes: samples.saturating_mul(SAMPLE), key: "rings", span: rings.span() })
+    let samples = 8.0 * f64::from(rings.0) * f64::from(rings.0);
+    let what = format!("the map of `{name}` has {} samples", shown(samples));
+    Some(Need { what, bytes: samples * SAMPLE, key: "rings", span: rings.span() })
 }
 
-/// Returns the number of bytes of memory that are available to programs.
-fn free_memory() -> u64 {
-    let text = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    available(&text).unwrap_or(USUAL_MEMORY)
+/// Returns the number of bytes of memory that this process may have: what the machine has free, or less by a limit of its
+/// address space or of a group of processes to which it belongs, as those of a container or of a job.
+fn free_memory() -> f64 {
+    let text = |path: &str| std::fs::read_to_string(path).unwrap_or_default();
+    let machine = kilobytes(&text("/proc/meminfo")).unwrap_or(USUAL_MEMORY);
+    let address_space = address_space(&text("/proc/self/limits"));
+    let own = text("/proc/self/cgroup");
+    let groups = group(&own).into_iter().flat_map(|group| Path::new(group).ancestors());
+    let limits = groups.filter_map(|group| {
+        let limit = Path::new("/sys/fs/cgroup").join(group).join("memory.max");
+        std::fs::read_to_string(limit).ok()?.trim().parse().ok()
+    });
+    address_space.into_iter().chain(limits).fold(machine, f64::min)
 }
 
-/// Reads the line `MemAvailable: N kB` of `/proc/meminfo`.
-fn available(text: &str) -> Option<u64> {
+/// Reads the line `MemAvailable: N kB` of `/proc/meminfo`, in bytes.
+fn kilobytes(text: &str) -> Option<f64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    Some(line.split_whitespace().next()?.parse::<u64>().ok()?.saturating_mul(1024))
+    Some(line.split_whitespace().next()?.parse::<f64>().ok()? * 1024.0)
+}
+
+/// Reads the line `Max address space N ..` of `/proc/self/limits`, in bytes; `None` if it is unlimited.
+fn address_space(text: &str) -> Option<f64> {
+    let line = text.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    line.split_whitespace().next()?.parse::<u64>().ok().map(|bytes| bytes as f64)
+}
+
+/// Reads the line `0::/PATH` of `/proc/self/cgroup`: the group of processes, as a path relative to that of all.
+fn group(text: &str) -> Option<&str> {
+    text.lines().find_map(|line| line.strip_prefix("0::/"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Claim: the line of the kernel is read in kB, and other texts give no number.
+    /// Claim: the lines of the kernel are read in their units, and other texts give no number.
     #[test]
     fn what_the_kernel_says() {
-        assert_eq!(available("MemTotal: 9 kB\nMemAvailable:    2048 kB\n"), Some(2 << 20));
-        assert_eq!(available("MemTotal: 9 kB\n"), None);
+        assert_eq!(kilobytes("MemTotal: 9 kB\nMemAvailable:    2048 kB\n"), Some(2_097_152.0));
+        assert_eq!(kilobytes("MemTotal: 9 kB\n"), None);
+        let limit = |value: &str| format!("Limit  Soft Limit\nMax address space         {value}   unlimited  bytes\n");
+        assert_eq!(address_space(&limit("400000000")), Some(4e8));
+        assert_eq!(address_space(&limit("unlimited")), None);
+        assert_eq!(group("1:memory:/a\n0::/slurm/job_1\n"), Some("slurm/job_1"));
     }
 }

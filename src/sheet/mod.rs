@@ -16,6 +16,7 @@ pub(crate) mod angle;
 mod assigned;
 pub(crate) mod assignment;
 pub(crate) mod assignment_fault;
+mod boxes;
 pub mod build;
 pub(crate) mod cell;
 mod drawn_edge;

@@ -69,6 +69,30 @@ pub enum PatternFault {
         /// Their letters, and their fold angles in degrees.
         meanings: [(Assignment, Option<f64>); 2],
     },
+    /// Two points that are a little too far apart to be merged, where the pattern is wrong.
+    #[error(
+        "there is a gap of {distance:.3e} {gap}, and points are merged up to {tolerance:.3e}; draw one point, or merge within \
+         more, as `foldwell convert --merge` does"
+    )]
+    Apart {
+        /// The two points, as the ends of a line.
+        gap: LineName,
+        /// Their distance.
+        distance: f64,
+        /// The distance within which points are merged.
+        tolerance: f64,
+    },
+    /// Points that are near each other without being near one point.
+    #[error(
+        "the line {line} meets a chain of points of which each is within {tolerance:.3e} of the next, or of a line at the next, \
+         too long to be one point; draw them as one point, or merge within another distance, as `foldwell convert --merge` does"
+    )]
+    Tangled {
+        /// A line at these points.
+        line: LineName,
+        /// The distance within which points are merged.
+        tolerance: f64,
+    },
     /// A line that separates no faces.
     #[error(
         "the line {line}, or a part of it, has the same face on both sides or the outside on both; a line should bound a face \

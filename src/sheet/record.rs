@@ -2,7 +2,7 @@
 
 /// Content of a mesh file other than the shape of the sheet: the keys that are kept, and the names of those that are
 /// not.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FileRecord {
     /// Keys that are kept, such as `file_author`, with their values as JSON text.
     pub metadata: Vec<(String, String)>,
@@ -16,4 +16,7 @@ pub struct FileRecord {
     pub further_frames: usize,
     /// The text of `file_frames`, if the frames can be kept beside the one that is read.
     pub frames: Option<String>,
+    /// For a drawing of lines of which two points are close enough to be meant as one: their distance, and the smaller one
+    /// within which points were merged, both in units of the file.
+    pub gap: Option<[f64; 2]>,
 }

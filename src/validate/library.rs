@@ -41,7 +41,6 @@ const CLAIMS: &[(&str, &str)] = files!("validation/claims", ".toml":
     "tolerance-finest"
     "tolerance-is-kept"
     "stiffness-residuals"
-    "stiffness-cost"
     "stiffness-iterations"
     "stiffness-penalty-fails"
     "stiffness-rigid-limit"

@@ -286,6 +286,7 @@ const MISFITS: &[Misfit] = &[
     // creases, vertices, cells
     misfit("[sheet]\nmesh = \"star.fold\"\n[[lock]]\ncrease = [0, 1, 3, 0]", "4:10", "the sheet has no crease [0, 1, 3, 0]", "the creases are [0, 1, 0, 0], "),
     misfit("[sheet]\nmesh = \"star.fold\"\n[[lock]]\ncrease = [0, 9, 0, 0]", "4:10", "the sheet has no crease [0, 9, 0, 0]", "the creases are [0, 1, 0, 0], "),
+    misfit("[sheet]\nmesh = \"star.fold\"\n[[lock]]\ncrease = [0, 1, 0, 0]", "4:10", "no copy of the crease [0, 1, 0, 0] folds in a patch of 1 x 1 cells", "all of them are on its rim or beyond: lock a crease inside, or give more `cells`"),
     misfit("[sheet]\nmesh = \"finite.fold\"\n[[lock]]\ncrease = [1, 2, 0, 0]", "4:10", "the sheet has no crease [1, 2, 0, 0]", "the creases are [0, 1, 0, 0], "),
     misfit("[sheet]\ngenerate = { pattern = \"miura\" }\n[[lock]]\ncrease = [0, 3, 0, 0]", "4:10", "the sheet has no crease [0, 3, 0, 0]", "the creases are [0, 1, 0, 0], "),
     misfit("[sheet]\nmesh = \"star.fold\"\ncells = [2, 2]\n[[pin]]\nvertex = 4", "5:10", "there is no vertex 4", "the vertices of a cell are 0 to 3"),

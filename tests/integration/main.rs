@@ -48,6 +48,7 @@ mod landscape_map;
 mod landscape_runs;
 mod landscape_torus;
 mod loads_and_units;
+mod mesh_files;
 mod miura;
 mod pages;
 mod path_laws;

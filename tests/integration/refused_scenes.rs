@@ -46,7 +46,13 @@ fn sizes_beyond_the_memory() {
         ("", study("kind = \"bloch\"\ndensity = { grid = [46340, 46340] }"), "2147395600 wavenumbers", "`grid`"),
         ("", study("kind = \"bloch\"\ndensity = { bins = 4294967295 }"), "4294967295 bins", "`bins`"),
         ("domain = \"screw\"", wells, "4294967295 starts", "`starts`"),
-        ("cells = [2, 2]", map, "samples", "`rings`"),
+        ("cells = [2, 2]", map, "has 1.3e20 samples", "`rings`"),
+        (
+            "domain = \"torus\"",
+            study("kind = \"response\"\ndirections = 4294967295"),
+            "4294967295 directions",
+            "`directions`",
+        ),
         ("domain = \"torus\"\ncells = [2700, 2700]", relax.clone(), "29160000 vertices", "`cells`"),
         ("cells = [1, 7000000]", relax.clone(), "28000000 vertices", "`cells`"),
         ("domain = \"screw\"\ncells = [40000, 40000]", relax, "the pictures have 6400000000 vertices", "at most"),
@@ -55,6 +61,20 @@ fn sizes_beyond_the_memory() {
         let (status, said) = run(sheet, &more);
         assert!(status == 2 && said.contains(what) && said.contains(key), "{status}: {said}");
     }
+}
+
+/// Claim: a model that fits the machine and not the limit of the process is refused in the same way. Source: 360,000
+/// vertices that are relaxed need 3 GB.
+#[test]
+#[cfg(target_os = "linux")]
+fn sizes_beyond_the_limit_of_the_process() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "[sheet]\ngenerate = { pattern = \"miura\" }\ncells = [300, 300]\n";
+    std::fs::write(folder.path().join("s.toml"), format!("{scene}{}", study("kind = \"relax\""))).unwrap();
+    let limited = format!("ulimit -v 2000000; exec {} run s.toml --out out", env!("CARGO_BIN_EXE_foldwell"));
+    let output = Command::new("sh").args(["-c", &limited]).current_dir(folder.path()).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(2) && said.contains("there is room for 2 GB"), "{:?}: {said}", output.status);
 }
 
 /// Claim: angles of more than a turn are taken for degrees, and are refused with their value in radians: 60 degrees are

@@ -8,7 +8,7 @@ use crate::math::Vec3;
 use crate::output::OutputError;
 use crate::output::fault::VtuFault;
 use crate::output::picture::Picture;
-use crate::sheet::{Assignment, EdgeKind};
+use crate::sheet::{Assignment, EdgeKind, text};
 
 /// The mesh of a sheet read from a VTU file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,12 +29,13 @@ pub struct VtuMesh {
     pub torque: Option<Vec<f64>>,
 }
 
-/// Reads a VTU file of triangles and lines, uncompressed or compressed with zlib.
+/// Reads a VTU file of triangles and lines, uncompressed or compressed with zlib. The points of all its pieces are
+/// numbered one piece after the other, and arrays are read that all pieces have.
 ///
 /// # Errors
 /// [`OutputError::Read`] if the file cannot be read, [`OutputError::Vtu`] if its content is not valid.
 pub fn read_vtu(path: &Path) -> Result<VtuMesh, OutputError> {
-    let bytes = std::fs::read(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
+    let bytes = text::read_bytes(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
     parse_vtu(&bytes).map_err(|fault| OutputError::Vtu { path: path.into(), fault })
 }
 
@@ -46,12 +47,13 @@ pub fn read_vtu(path: &Path) -> Result<VtuMesh, OutputError> {
 /// # Errors
 /// [`OutputError::Read`] if the file cannot be read, [`OutputError::Vtu`] if its content is not valid.
 pub(crate) fn read_picture(path: &Path) -> Result<Picture, OutputError> {
-    let bytes = std::fs::read(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
+    let bytes = text::read_bytes(path).map_err(|source| OutputError::Read { path: path.into(), source })?;
     parse_picture(&bytes).map_err(|fault| OutputError::Vtu { path: path.into(), fault })
 }
 
 pub(super) fn parse_picture(bytes: &[u8]) -> Result<Picture, VtuFault> {
-    let piece = guarded_piece(bytes)?;
+    let pieces = <[UnstructuredGridPiece; 1]>::try_from(guarded_pieces(bytes)?);
+    let [piece] = pieces.map_err(|all| VtuFault::Format(format!("it has {} pieces, expected one", all.len())))?;
     let mut mesh = VtuMesh { points: points(&piece)?, ..<_>::default() };
     let types = piece.cells.types.clone();
     let line_cells = mesh.add_cells(piece.cells)?;
@@ -128,7 +130,12 @@ fn points(piece: &UnstructuredGridPiece) -> Result<Vec<Vec3>, VtuFault> {
 }
 
 pub(super) fn parse_vtu(bytes: &[u8]) -> Result<VtuMesh, VtuFault> {
-    let piece = guarded_piece(bytes)?;
+    let pieces = guarded_pieces(bytes)?.into_iter().filter(|piece| !piece.cells.types.is_empty());
+    let meshes: Vec<VtuMesh> = pieces.map(mesh_of).collect::<Result<_, _>>()?;
+    Ok(meshes.into_iter().reduce(VtuMesh::joined).unwrap_or_default())
+}
+
+fn mesh_of(piece: UnstructuredGridPiece) -> Result<VtuMesh, VtuFault> {
     let mut mesh = VtuMesh { points: points(&piece)?, ..<_>::default() };
     let line_cells = mesh.add_cells(piece.cells)?;
     let on_lines = |name: &str| numbers_on(name, &piece.data, &line_cells);
@@ -138,28 +145,41 @@ pub(super) fn parse_vtu(bytes: &[u8]) -> Result<VtuMesh, VtuFault> {
     Ok(mesh)
 }
 
-/// Returns the grid of a VTU file; panics of the parser are errors.
-fn guarded_piece(bytes: &[u8]) -> Result<UnstructuredGridPiece, VtuFault> {
+/// Returns the pieces of the grid of a VTU file; panics of the parser are errors.
+fn guarded_pieces(bytes: &[u8]) -> Result<Vec<UnstructuredGridPiece>, VtuFault> {
     // vtkio panics on a grid without points, which is therefore excluded first; other panics are caught below
     if !bytes.windows(7).any(|tag| tag == b"<Points") {
         return Err(VtuFault::Format("it has no points".into()));
     }
-    let piece = std::panic::catch_unwind(|| parse_piece(bytes));
-    piece.unwrap_or_else(|_| Err(VtuFault::Format("the XML is not complete".into())))
+    let pieces = std::panic::catch_unwind(|| parse_pieces(bytes));
+    pieces.unwrap_or_else(|_| Err(VtuFault::Format("the XML is not complete".into())))
 }
 
-fn parse_piece(bytes: &[u8]) -> Result<UnstructuredGridPiece, VtuFault> {
+fn parse_pieces(bytes: &[u8]) -> Result<Vec<UnstructuredGridPiece>, VtuFault> {
     let format = |error: &dyn std::error::Error| VtuFault::Format(error.to_string());
     let vtk = Vtk::parse_xml(bytes).map_err(|error| format(&error))?;
-    match vtk.data {
-        data @ DataSet::UnstructuredGrid { .. } => {
-            UnstructuredGridPiece::try_from(data).map_err(|error| format(&error))
-        }
-        _ => Err(VtuFault::NotUnstructured),
-    }
+    let DataSet::UnstructuredGrid { pieces, .. } = vtk.data else { return Err(VtuFault::NotUnstructured) };
+    let loaded = pieces.into_iter().map(|piece| piece.into_loaded_piece_data(None).map_err(|error| format(&error)));
+    loaded.collect()
 }
 
 impl VtuMesh {
+    /// Returns this mesh with the points and cells of another one after its own.
+    fn joined(mut self, other: Self) -> Self {
+        fn both<T>(values: Option<Vec<T>>, others: Option<Vec<T>>) -> Option<Vec<T>> {
+            Some(values?.into_iter().chain(others?).collect())
+        }
+        let points = self.points.len();
+        self.points.extend(other.points);
+        self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|point| point + points)));
+        self.lines.extend(other.lines.iter().map(|ends| ends.map(|point| point + points)));
+        self.fold_angle = both(self.fold_angle, other.fold_angle);
+        self.letters = both(self.letters, other.letters);
+        self.tension = both(self.tension, other.tension);
+        self.torque = both(self.torque, other.torque);
+        self
+    }
+
     /// Adds the cells to the triangles or the lines; returns the indices of the cells that are lines.
     fn add_cells(&mut self, cells: Cells) -> Result<Vec<usize>, VtuFault> {
         let types = cells.types;

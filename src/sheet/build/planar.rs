@@ -2,9 +2,11 @@
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use super::{Defect, Drawing, MeshPart, Problem};
-use crate::math::Vec3;
+use crate::math::{Vec2, Vec3};
+use crate::sheet::boxes::{around, for_pairs_that_meet};
 
 /// Sine of the angle below which three points count as collinear.
 const ALIGNED: f64 = 1e-12;
@@ -14,24 +16,15 @@ pub(crate) type PlacedSide = ([usize; 2], MeshPart);
 
 /// Checks that no two edges meet in the plane other than at common ends.
 pub(crate) fn check_crossings(drawn: &Drawing, sides: &[PlacedSide]) -> Result<(), Defect> {
-    let span = |s: &PlacedSide, k: usize| {
-        let [a, b] = s.0.map(|v| drawn.coords[v][k]);
-        (a.min(b), a.max(b))
-    };
-    let mut order: Vec<&PlacedSide> = sides.iter().collect();
-    order.sort_by(|a, b| span(a, 0).0.total_cmp(&span(b, 0).0));
-    let mut open: Vec<&PlacedSide> = Vec::new();
-    for side in order {
-        let (left, (low, high)) = (span(side, 0).0, span(side, 1));
-        open.retain(|o| span(o, 0).1 >= left);
-        let near = open.iter().filter(|o| span(o, 1).0 <= high && span(o, 1).1 >= low);
-        if let Some(other) = near.copied().find(|o| meet(&drawn.coords, o.0, side.0)) {
-            let (a, b) = (drawn.edge_name(other.0), drawn.edge_name(side.0));
-            return Err(Defect::new(side.1, Problem::Crossing { a, b }));
-        }
-        open.push(side);
-    }
-    Ok(())
+    let boxes: Vec<[Vec2; 2]> = sides.iter().map(|side| around(side.0.map(|v| drawn.coords[v].xy()), 0.0)).collect();
+    let crossing = for_pairs_that_meet(&boxes, |p, q| match meet(&drawn.coords, sides[q].0, sides[p].0) {
+        true => ControlFlow::Break([q, p]),
+        false => ControlFlow::Continue(()),
+    });
+    let Some([a, b]) = crossing.break_value() else { return Ok(()) };
+    let place = sides[b].1;
+    let [a, b] = [a, b].map(|side| drawn.edge_name(sides[side].0));
+    Err(Defect::new(place, Problem::Crossing { a, b }))
 }
 
 /// Returns the orientation of the corner `a`, `b`, `c` seen from above, -1, 0 or 1; it is 0 within [`ALIGNED`].

@@ -16,6 +16,7 @@ use crate::sheet::cell::Sheet;
 use crate::sheet::error::SheetError;
 use crate::sheet::pattern::{Cleanup, Line, sheet_of_lines};
 use crate::sheet::pattern_fault::PatternFault;
+use crate::sheet::record::FileRecord;
 use crate::sheet::text;
 
 /// Largest difference in z, relative to the extent, of a drawing that counts as flat.
@@ -55,7 +56,7 @@ pub fn parse_cleaned(text: &str, name: &str, frame: Option<usize>, cleanup: &Cle
         None => source.at_start(*problem),
     })?;
     edges.rebuilt = true;
-    sheet.record = record::read_renumbered(&frame, &edges);
+    sheet.record = FileRecord { gap: sheet.record.gap, ..record::read_renumbered(&frame, &edges) };
     let lost = LOST.into_iter().filter(|key| frame.values.get(key).is_some());
     sheet.record.left_out.extend(lost.map(str::to_owned));
     Ok(sheet)

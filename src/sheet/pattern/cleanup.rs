@@ -1,11 +1,13 @@
 //! Conversion of the lines of a crease pattern to the mesh that they draw.
 
-use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
 
 use super::arrangement::{Arrangement, Piece, arrange};
 use super::line::Line;
 use crate::math::{Vec2, Vec3};
+use crate::sheet::boxes::{around, for_pairs_that_meet};
 use crate::sheet::build::{Drawing, build_identified, listed_order, rebuild_faces};
 use crate::sheet::cell::Sheet;
 use crate::sheet::error::{Defect, MeshPart, Problem};
@@ -17,6 +19,10 @@ const SAME_POINT: f64 = 1e-4;
 
 /// Largest distance of merging, relative to the extent.
 const COARSEST: f64 = 0.1;
+
+/// Distance, in distances of merging, below which two points may be meant as one: ends drawn with an error a little above
+/// that distance are this far apart.
+const CLOSE: f64 = 3.0;
 
 /// Largest difference of two fold angles in degrees that lines on each other may have.
 const SAME_ANGLE_DEG: f64 = 1e-3;
@@ -39,9 +45,15 @@ pub(crate) type Misdrawn = (Option<usize>, Box<Problem>);
 pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: Drawing) -> Result<Sheet, Misdrawn> {
     let tolerance = tolerance(lines, cleanup)?;
     let ends: Vec<[Vec2; 2]> = lines.iter().map(|line| line.ends).collect();
-    let Arrangement { points, pieces } = arrange(&ends, tolerance, cleanup.split);
-    let pieces = without_dangling(lines, &points, without_doubles(lines, &pieces)?);
-    let (coords, pieces) = renumbered(&points, &pieces);
+    let tangled = |k: usize| (Some(k), PatternFault::Tangled { line: lines[k].name(), tolerance }.into());
+    let Arrangement { points, pieces } = arrange(&ends, tolerance, cleanup.split).map_err(tangled)?;
+    let gap = |pieces: &[Piece], at: Option<Piece>| gap(&points, pieces, at, tolerance);
+    let doubled = |(piece, fault): (Piece, PatternFault)| {
+        let fault = gap(&pieces, Some(piece)).map_or(fault, |ends| apart(lines, ends, tolerance));
+        (Some(piece.segment), fault.into())
+    };
+    let arranged = without_dangling(lines, &points, without_doubles(lines, &pieces).map_err(doubled)?);
+    let (coords, pieces) = renumbered(&points, &arranged);
     let mut drawn = Drawing { coords, planar: true, ..head };
     let of = |piece: &Piece| &lines[piece.segment];
     let edges: Vec<[usize; 2]> = pieces.iter().map(|piece| piece.ends).collect();
@@ -50,12 +62,44 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: Drawing) -> Result<
     if pieces.iter().any(|piece| of(piece).angle.is_some()) {
         drawn.fold_angles = pieces.iter().map(angle).collect();
     }
-    let located = |defect: Defect| located(lines, &pieces, defect);
+    let located = |defect: Defect| {
+        let number = piece_of(&pieces, &defect);
+        match gap(&arranged, number.map(|k| arranged[k])) {
+            Some(ends) => (number.map(|k| arranged[k].segment), apart(lines, ends, tolerance).into()),
+            None => located(lines, number.map(|k| arranged[k].segment), defect),
+        }
+    };
     rebuild_faces(&mut drawn, &edges).map_err(located)?;
     let (mut sheet, identified) = build_identified(&drawn).map_err(located)?;
+    sheet.record.gap = gap(&arranged, None).map(|[a, b]| [(b - a).norm(), tolerance]);
     let order = listed_order(&drawn, &edges);
     sheet.listed_edges = order.into_iter().map(|ends| ends.map(|v| identified.corner[v])).collect();
     Ok(sheet)
+}
+
+/// Returns the nearest two of the points of `pieces`, one of them an end of the piece `at` if one is given, if they are so
+/// close that they may be meant as one.
+fn gap(points: &[Vec2], pieces: &[Piece], at: Option<Piece>, tolerance: f64) -> Option<[Vec2; 2]> {
+    let used: BTreeSet<usize> = pieces.iter().flat_map(|piece| piece.ends).collect();
+    let used: Vec<usize> = used.into_iter().collect();
+    let (close, mut nearest) = (CLOSE * tolerance, None);
+    let mut least = close;
+    let boxes: Vec<[Vec2; 2]> = used.iter().map(|&v| around([points[v]; 2], close / 2.0)).collect();
+    let _: ControlFlow<()> = for_pairs_that_meet(&boxes, |p, q| {
+        let [p, q] = [used[p.min(q)], used[p.max(q)]];
+        let distance = (points[q] - points[p]).norm();
+        if distance < least && at.is_none_or(|piece| piece.ends.iter().any(|end| [p, q].contains(end))) {
+            (least, nearest) = (distance, Some([points[p], points[q]]));
+        }
+        ControlFlow::Continue(())
+    });
+    nearest
+}
+
+/// Returns the fault of two ends that are a little too far apart to be one point.
+fn apart(lines: &[Line], ends: [Vec2; 2], tolerance: f64) -> PatternFault {
+    let distance = (ends[1] - ends[0]).norm();
+    PatternFault::Apart { gap: Line { ends, ..lines[0] }.name(), distance, tolerance }
 }
 
 /// Returns the distance within which points are merged.
@@ -81,7 +125,7 @@ fn tolerance(lines: &[Line], cleanup: &Cleanup) -> Result<f64, Misdrawn> {
 }
 
 /// Returns the pieces without those that lie on earlier ones, which have to mean the same.
-fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, Misdrawn> {
+fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piece, PatternFault)> {
     let mut known: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     let mut kept: Vec<Piece> = Vec::new();
     for piece in pieces {
@@ -99,7 +143,7 @@ fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, Misdr
                 } else if !second.auxiliary && !agree(first, second) {
                     let meanings = [first, second].map(|line| (line.letter, line.angle));
                     let fault = PatternFault::Overlap { a: first.name(), b: second.name(), meanings };
-                    return Err((Some(piece.segment), fault.into()));
+                    return Err((*piece, fault));
                 }
             }
         }
@@ -142,14 +186,17 @@ fn renumbered(points: &[Vec2], pieces: &[Piece]) -> (Vec<Vec3>, Vec<Piece>) {
     (coords, pieces)
 }
 
-/// Says a defect of the mesh in terms of the lines.
-fn located(lines: &[Line], pieces: &[Piece], defect: Defect) -> Misdrawn {
-    let piece = match defect.place {
-        MeshPart::Edge(e) | MeshPart::FoldAngle(e) => pieces.get(e),
-        MeshPart::Vertex(v) => pieces.iter().find(|piece| piece.ends.contains(&v)),
+/// Returns the number of a piece at a defect of the mesh.
+fn piece_of(pieces: &[Piece], defect: &Defect) -> Option<usize> {
+    match defect.place {
+        MeshPart::Edge(e) | MeshPart::FoldAngle(e) => Some(e).filter(|&e| e < pieces.len()),
+        MeshPart::Vertex(v) => pieces.iter().position(|piece| piece.ends.contains(&v)),
         _ => None,
-    };
-    let number = piece.map(|piece| piece.segment);
+    }
+}
+
+/// Says a defect of the mesh in terms of the lines, of which one has it.
+fn located(lines: &[Line], number: Option<usize>, defect: Defect) -> Misdrawn {
     let problem = match (*defect.problem, number.map(|k| lines[k].name())) {
         (Problem::LooseEdge { .. }, Some(line)) => PatternFault::Loose { line }.into(),
         (Problem::Pieces { pieces }, _) => PatternFault::Pieces { pieces }.into(),

@@ -6,10 +6,10 @@
 //! | valley | blue | 3 | `V` | 180 degrees times the opacity |
 //! | boundary | black | 1 | `B` | |
 //! | facet, which stays flat | yellow | | `F` | 0 |
-//! | hinge, which is free | magenta | | `U` | |
+//! | hinge, which is free | magenta | 4 (`.opx`) | `U` | |
 //! | cut | green | | `C` | |
 //! | joint of two faces | cyan | | `J` | |
-//! | auxiliary | | 0, 4 | `F` | 0 |
+//! | auxiliary | | 0, 4 (`.cp`) | `F` | 0 |
 //!
 //! Lines are split where they cross and touch, points within 1e-4 of the extent are merged, and lines that lie on each
 //! other are one ([`Cleanup`]); faces are what the lines bound. In these files y points downwards: a point `(x, y)` of
@@ -18,7 +18,7 @@
 //!
 //! Sources: A. Ghassaei, E. D. Demaine, N. Gershenfeld, "Fast, interactive origami simulation using GPU computation",
 //! Origami 7 (2018), and the files that its program Origami Simulator reads and writes, for the colours and the opacity;
-//! J. Mitani, ORIPA, for the types.
+//! J. Mitani, ORIPA, and Oriedita, for the types.
 //!
 //! ```
 //! use foldwell::sheet::{Assignment, pattern};

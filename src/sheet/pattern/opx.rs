@@ -9,13 +9,21 @@
 
 use roxmltree::{Document, Node};
 
-use super::cp::{typed, value};
+use super::cp::{self, LineType, typed, value};
 use super::line::Lines;
 use super::xml;
+use crate::sheet::assignment::Assignment;
 use crate::sheet::pattern_fault::PatternFault;
 
 /// Ending of the Java class of a line: `oripa.OriLineProxy`, in later versions in another package.
 const LINE: &str = "OriLineProxy";
+
+/// The types of ORIPA; lines of type 4 are not yet mountain or valley.
+const TYPES: [LineType; 5] =
+    [cp::TYPES[0], cp::TYPES[1], cp::TYPES[2], cp::TYPES[3], (4, Assignment::Unassigned, None, false)];
+
+/// The types as messages name them.
+const RIGHT: &str = "1 (boundary), 2 (mountain), 3 (valley), 4 (unassigned) or 0 (auxiliary)";
 
 /// Reads the lines of a text.
 pub(super) fn lines(text: &str) -> Lines {
@@ -43,5 +51,5 @@ fn line(document: &Document, object: Node) -> Result<super::line::Line, PatternF
             *number = finite.ok_or_else(|| value(word, "coordinate", "a finite number"))?;
         }
     }
-    typed(given("type").unwrap_or("0"), numbers, xml::place(document, object))
+    typed(given("type").unwrap_or("0"), (&TYPES, RIGHT), numbers, xml::place(document, object))
 }

@@ -10,6 +10,8 @@ use foldwell::analysis::method::{Method, RelaxOptions};
 use foldwell::analysis::relax::{RelaxError, Relaxed};
 use foldwell::analysis::state::State;
 use foldwell::output::figure::chart::{Chart, Point, Series};
+use foldwell::solver::Problem;
+use foldwell::solver::kkt::KktSystem;
 use serde_json::json;
 
 const CELLS: [usize; 6] = [3, 6, 9, 12, 18, 24];
@@ -35,6 +37,8 @@ struct Size {
     iterations: [usize; 2],
     errors: [f64; 2],
     seconds: [f64; 2],
+    /// Count of numbers in the factor of the system in positions.
+    stored: usize,
     /// Error and run time in seconds of the plain penalty.
     penalty: Option<[f64; 2]>,
 }
@@ -58,13 +62,12 @@ pub(crate) fn measure(bench: &Bench) -> Result<Findings, ExperimentError> {
     }
     let measured = stars.iter().zip(&cells).zip(&times).map(|((star, &n), &seconds)| relaxed(star, n, seconds));
     let sizes = measured.collect::<Result<Vec<_>, _>>()?;
-    let growth: Vec<(f64, f64)> =
-        sizes[SMALL..].iter().map(|s| (s.unknowns as f64, s.seconds[0] / s.iterations[0] as f64)).collect();
+    let growth: Vec<(f64, f64)> = sizes[SMALL..].iter().map(|s| (s.unknowns as f64, s.stored as f64)).collect();
     let values = json!({
         "errors": sizes.iter().flat_map(|size| size.errors).collect::<Vec<_>>(),
         "iterations": sizes.iter().map(|size| size.iterations[0]).collect::<Vec<_>>(),
         "iterations in fold angles": sizes.iter().map(|size| size.iterations[1]).collect::<Vec<_>>(),
-        "growth of an iteration": exponent(&growth),
+        "growth of the factor": exponent(&growth),
     });
     Ok(Findings { values, charts: vec![chart(&sizes)], tables: vec![table(&sizes)], ..Findings::default() })
 }
@@ -81,9 +84,12 @@ fn relaxed(star: &Star, n: usize, seconds: [f64; 2]) -> Result<Size, ExperimentE
         let seconds = shortest(1, &mut [Box::new(|| angles = by_penalty(star))])[0];
         [distance(&angles, &star.rest), seconds]
     });
+    let model = star.model(f64::INFINITY);
+    let too_large = |_| ExperimentError::Other("a pattern is too large".into());
     Ok(Size {
         cells: n,
-        unknowns: size(&star.model(f64::INFINITY)).0,
+        unknowns: size(&model).0,
+        stored: KktSystem::new(model.layout()).map_err(too_large)?.stored(),
         iterations: found.each_ref().map(|found| found.iterations),
         errors: found.each_ref().map(|found| distance(&found.state.fold_angle, &star.rest)),
         seconds,
