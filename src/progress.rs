@@ -4,8 +4,8 @@
 //! estimated from the number of steps if that is known.
 //!
 //! The work runs on a separate thread ([`Watch::over`]). After Ctrl-C it stops between two steps; if a step takes long,
-//! the program ends without waiting for it. Work that has stopped is waited for, however long it takes to draw and write
-//! what was computed: a second Ctrl-C ends the program at once.
+//! the program ends without waiting for it. Work that has stopped is waited for, however long it takes to draw and
+//! write what was computed: a second Ctrl-C ends the program at once.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -204,7 +204,8 @@ mod tests {
         assert_eq!(watch.over(|watch| watch.interrupted()).unwrap(), Some(true), "it ends soon");
     }
 
-    /// Claim: work that was told to stop is waited for longer than a step that does not end: what it has computed is not lost.
+    /// Claim: work that was told to stop is waited for longer than a step that does not end: what it has computed is
+    /// not lost.
     #[test]
     fn work_that_has_stopped_may_write_for_long() {
         let watch = Arc::new(Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: None });
