@@ -4,7 +4,8 @@
 //! estimated from the number of steps if that is known.
 //!
 //! The work runs on a separate thread ([`Watch::over`]). After Ctrl-C it stops between two steps; if a step takes long,
-//! the program ends without waiting for it.
+//! the program ends without waiting for it. Work that has stopped is waited for, however long it takes to draw and
+//! write what was computed: a second Ctrl-C ends the program at once.
 
 use std::io;
 use std::ops::ControlFlow;
@@ -27,6 +28,8 @@ const STACK: usize = 8 << 20;
 /// Shows the progress of a run, and stops it after Ctrl-C.
 pub(crate) struct Watch {
     interrupted: Arc<AtomicBool>,
+    /// Whether the work has been told to stop.
+    told: AtomicBool,
     shown: Option<Mutex<Shown>>,
 }
 
@@ -48,7 +51,7 @@ impl Watch {
             }
         });
         let shown = (!quiet && console_is_terminal()).then(|| Mutex::new(Shown::new()));
-        Self { interrupted, shown }
+        Self { interrupted, told: AtomicBool::new(false), shown }
     }
 
     /// Whether Ctrl-C was pressed.
@@ -57,7 +60,7 @@ impl Watch {
     }
 
     /// Runs some work on a separate thread and returns its result; `None` if Ctrl-C was pressed and the work does not
-    /// end soon after that. A panic of the work is passed on.
+    /// reach the end of its step soon after that. A panic of the work is passed on.
     pub(crate) fn over<T: Send + 'static>(
         self: &Arc<Self>,
         work: impl FnOnce(&Self) -> T + Send + 'static,
@@ -69,7 +72,7 @@ impl Watch {
             let _ = sender.send(work(&watch));
         };
         let worker = thread::Builder::new().name("run".into()).stack_size(STACK).spawn(work)?;
-        let mut stopped: Option<Instant> = None;
+        let (mut stopped, mut announced): (Option<Instant>, bool) = (None, false);
         loop {
             match receiver.recv_timeout(GLANCE) {
                 Ok(found) => return Ok(Some(found)),
@@ -78,8 +81,13 @@ impl Watch {
                     Ok(()) => return Ok(None),
                 },
                 Err(RecvTimeoutError::Timeout) if self.interrupted() => {
-                    if stopped.get_or_insert_with(Instant::now).elapsed() > GRACE {
+                    let is_late = stopped.get_or_insert_with(Instant::now).elapsed() > GRACE;
+                    if is_late && !self.told.load(Ordering::Relaxed) {
                         return Ok(None);
+                    }
+                    if is_late && !announced {
+                        self.announce_writing();
+                        announced = true;
                     }
                 }
                 Err(RecvTimeoutError::Timeout) => {}
@@ -92,7 +100,19 @@ impl Watch {
         if let Some(shown) = &self.shown {
             shown.lock().unwrap_or_else(PoisonError::into_inner).step(progress);
         }
-        if self.interrupted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if !self.interrupted() {
+            return ControlFlow::Continue(());
+        }
+        self.told.store(true, Ordering::Relaxed);
+        ControlFlow::Break(())
+    }
+
+    /// Says in place of the progress bar why the program has not ended yet.
+    fn announce_writing(&self) {
+        if self.shown.is_some() {
+            self.finish();
+            eprintln!("stopped; what was computed is being written, Ctrl-C again ends at once");
+        }
     }
 
     /// Removes the progress bar.
@@ -157,7 +177,8 @@ mod tests {
     /// Claim: without a terminal nothing is shown; steps go on until Ctrl-C is pressed and stop then.
     #[test]
     fn a_watch_stops_after_an_interrupt() {
-        let watch = Watch { interrupted: Arc::default(), shown: Some(Mutex::new(Shown::new())) };
+        let watch =
+            Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: Some(Mutex::new(Shown::new())) };
         let progress = Progress { study: "a".into(), step: 1, of: None, residual: 0.1 };
         assert_eq!(watch.step(&progress), ControlFlow::Continue(()));
         assert!(watch.shown.as_ref().unwrap().lock().unwrap().bar.is_hidden());
@@ -169,7 +190,7 @@ mod tests {
     /// left alone and is told to stop. If it were not left alone, the second work here would never end.
     #[test]
     fn work_is_waited_for_unless_interrupted() {
-        let watch = Arc::new(Watch { interrupted: Arc::default(), shown: None });
+        let watch = Arc::new(Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: None });
         assert_eq!(watch.over(|_| 7).unwrap(), Some(7));
         let lost = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| watch.over(|_| -> u8 { panic!("lost") })));
         assert_eq!(lost.unwrap_err().downcast_ref::<&str>(), Some(&"lost"));
@@ -181,6 +202,20 @@ mod tests {
         assert_eq!(watch.over(stuck).unwrap(), None);
         drop(hold);
         assert_eq!(watch.over(|watch| watch.interrupted()).unwrap(), Some(true), "it ends soon");
+    }
+
+    /// Claim: work that was told to stop is waited for longer than a step that does not end: what it has computed is
+    /// not lost.
+    #[test]
+    fn work_that_has_stopped_may_write_for_long() {
+        let watch = Arc::new(Watch { interrupted: Arc::default(), told: AtomicBool::new(false), shown: None });
+        let writes_for_long = |watch: &Watch| {
+            watch.interrupted.store(true, Ordering::Relaxed);
+            let stopped = watch.step(&Progress { study: "a".into(), step: 1, of: None, residual: 0.1 }).is_break();
+            thread::sleep(3 * GRACE);
+            stopped
+        };
+        assert_eq!(watch.over(writes_for_long).unwrap(), Some(true));
     }
 
     /// Claim: the residual is shown if there is one.

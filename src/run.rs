@@ -8,6 +8,7 @@ use crate::sheet::pattern::Cleanup;
 use crate::sheet::{Info, Pattern, Sheet, flatten, generate};
 
 mod belongings;
+mod claim;
 mod convert;
 mod ending;
 mod error;

@@ -26,6 +26,17 @@ pub enum OutputError {
         /// Error of the operating system.
         source: io::Error,
     },
+    /// Another run is writing into the folder.
+    #[error(
+        "{}: another run (process {process}) is writing into this folder; wait for its end, or choose another folder",
+        path.display()
+    )]
+    Claimed {
+        /// Path of the folder.
+        path: PathBuf,
+        /// The process of the other run, on the machine on which it is.
+        process: u32,
+    },
     /// The file was read, but its content is not a valid VTU file of triangles and lines.
     #[error("{}: {fault}", path.display())]
     Vtu {

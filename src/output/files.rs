@@ -14,6 +14,8 @@ use super::OutputError;
 
 /// File name extension of drafts.
 const DRAFT_ENDING: &str = ".part";
+/// Ending, before the process and the extension, of the names of drafts that are claims on their folder.
+pub(super) const CLAIM_ENDING: &str = ".claim";
 
 /// Writes a file, and creates the folders on its path if they do not exist.
 ///
@@ -46,7 +48,7 @@ fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> 
 
 /// Creates a locked draft in the folder of `path`, with a unique name; it is removed when dropped. If [`remove_drafts`]
 /// removes the draft between its creation and its locking, another one is created.
-fn draft(path: &Path) -> io::Result<NamedTempFile> {
+pub(super) fn draft(path: &Path) -> io::Result<NamedTempFile> {
     let name = path.file_name().ok_or_else(|| io::Error::from(io::ErrorKind::InvalidFilename))?;
     let prefix = format!(".{}.{}-", name.to_string_lossy(), std::process::id());
     let mut builder = tempfile::Builder::new();
@@ -67,18 +69,19 @@ fn draft(path: &Path) -> io::Result<NamedTempFile> {
 /// does not exist. On systems without file locks the drafts stay.
 pub(crate) fn remove_drafts(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        if is_draft(&entry.file_name().to_string_lossy()) {
+        if process_of(&entry.file_name().to_string_lossy()).is_some() {
             let _ = remove_unlocked(&entry.path());
         }
     }
 }
 
-/// Removes the drafts of this program in a folder, before it exits without waiting for its other threads.
+/// Removes the drafts of this program in a folder, before it exits without waiting for its other threads. Claims on the
+/// folder stay, since such a thread may still write there.
 pub(crate) fn remove_own_drafts(folder: &Path) {
-    let own = format!(".{}-", std::process::id());
+    let own = std::process::id().to_string();
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
-        if is_draft(&name) && name.contains(&own) {
+        if process_of(&name) == Some(&own) && !name.contains(&format!("{CLAIM_ENDING}.{own}-")) {
             let _ = fs::remove_file(entry.path());
         }
     }
@@ -91,12 +94,12 @@ fn remove_unlocked(path: &Path) -> io::Result<()> {
     fs::remove_file(path)
 }
 
-/// Whether a name has the form of the names made by [`draft`].
-fn is_draft(name: &str) -> bool {
+/// Returns the number of the process in a name that [`draft`] made; `None` for names of another form.
+pub(super) fn process_of(name: &str) -> Option<&str> {
     let all = |text: &str, kind: fn(&u8) -> bool| !text.is_empty() && text.as_bytes().iter().all(kind);
-    let middle = name.strip_prefix('.').and_then(|name| name.strip_suffix(DRAFT_ENDING));
-    let parts = middle.and_then(|name| name.rsplit_once('.')).and_then(|(_, parts)| parts.split_once('-'));
-    parts.is_some_and(|(process, random)| all(process, u8::is_ascii_digit) && all(random, u8::is_ascii_alphanumeric))
+    let (_, parts) = name.strip_prefix('.')?.strip_suffix(DRAFT_ENDING)?.rsplit_once('.')?;
+    let (process, random) = parts.split_once('-')?;
+    (all(process, u8::is_ascii_digit) && all(random, u8::is_ascii_alphanumeric)).then_some(process)
 }
 
 #[cfg(test)]

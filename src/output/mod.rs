@@ -3,6 +3,7 @@
 //! All files are written through [`files`], so that a file appears complete or not at all.
 
 pub mod artifact;
+pub(crate) mod claim;
 pub(crate) mod error;
 pub(crate) mod fault;
 pub mod figure;

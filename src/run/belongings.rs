@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::output::OutputError;
 use crate::output::summary::Files;
-use crate::scene::outputs::{growing_table, is_one_of, outputs, owned};
+use crate::scene::outputs::{is_one_of, outputs, owned};
 use crate::scene::{Fingerprint, SceneFile};
 
 /// The assignment of files to studies.
@@ -43,19 +43,6 @@ impl Belongings {
                 && fs::canonicalize(path).is_ok_and(|real| !self.read.contains(&real))
         };
         beside.chain(inside).filter(is_own).collect::<BTreeSet<_>>().into_iter().collect()
-    }
-
-    /// Removes the tables that an earlier run was filling: a run that goes on from this one would take their rows for its
-    /// own, if this one ends before it begins to fill them.
-    ///
-    /// # Errors
-    /// [`OutputError::Write`] if a table cannot be removed.
-    pub(crate) fn remove_growing_tables(&self, file: &SceneFile) -> Result<(), OutputError> {
-        for study in &file.scene.studies {
-            let table = growing_table(study).filter(|table| self.present(&study.name.0).contains(table));
-            table.map_or(Ok(()), |table| remove(&self.out.join(table)))?;
-        }
-        Ok(())
     }
 
     /// Removes the files that an earlier run wrote for a study of this name and this run did not write, and the study's

@@ -155,7 +155,7 @@ impl From<StudyError> for RunError {
 
 impl RunError {
     /// Returns the exit status of the program: 2 if the input is wrong, 3 if an existing file or folder cannot be read
-    /// or written.
+    /// or written, or is being written by another run.
     pub fn exit_status(&self) -> u8 {
         match self {
             Self::Scene(SceneError::Read { source, .. } | SceneError::Mesh(SheetError::Read { source, .. }))
@@ -167,7 +167,7 @@ impl RunError {
                     3
                 }
             }
-            Self::Output(OutputError::Write { .. }) => 3,
+            Self::Output(OutputError::Write { .. } | OutputError::Claimed { .. }) => 3,
             _ => 2,
         }
     }

@@ -7,7 +7,6 @@ use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
 use crate::output::OutputError;
 use crate::output::summary::Summary;
-use crate::output::table::Table;
 use crate::scene::SceneFile;
 use crate::scene::spec::StudySpec;
 use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers};
@@ -115,19 +114,11 @@ impl InMemory<'_> {
 struct NotKept;
 
 impl Checkpoints for NotKept {
-    fn rows(&self, _file: &str, _columns: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
-        Ok(Vec::new())
-    }
-
-    fn keep(&self, _file: &str, _table: &Table) -> Result<(), OutputError> {
-        Ok(())
-    }
-
     fn log(&self, _file: &str) -> Result<Vec<String>, OutputError> {
         Ok(Vec::new())
     }
 
-    fn log_line(&self, _file: &str, _line: &str) -> Result<(), OutputError> {
+    fn log_line(&self, _line: &str) -> Result<(), OutputError> {
         Ok(())
     }
 }

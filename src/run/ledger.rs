@@ -27,8 +27,8 @@ struct Entries {
     report: Option<RunReport>,
     /// Positions of the finished studies in the scene, in increasing order.
     places: Vec<usize>,
-    /// The current study, not yet computed, and its position in the scene.
-    at_work: Option<(StudySummary, usize)>,
+    /// The current study, not yet computed, its position in the scene, and when it began.
+    at_work: Option<(StudySummary, usize, Instant)>,
     /// Time at which the summary was last written, and how long that took.
     written: Option<(Instant, Duration)>,
 }
@@ -48,7 +48,8 @@ impl Ledger {
 
     /// Records the study that is computed now, and its position in the scene.
     pub(super) fn begin(&self, study: &StudySpec, place: usize) {
-        self.entries().at_work = Some((StudySummary::unanswered(&study.name.0, study.kind.name()), place));
+        let unanswered = StudySummary::unanswered(&study.name.0, study.kind.name());
+        self.entries().at_work = Some((unanswered, place, Instant::now()));
     }
 
     /// Records a finished study and its position in the scene, and writes the summary unless that was just done.
@@ -90,9 +91,10 @@ impl Ledger {
             entries.closed = true;
             return Ok(None);
         };
-        if let Some((study, place)) = at_work {
+        if let Some((study, place, clock)) = at_work {
             files::remove_own_drafts(&out.join(&study.name));
-            entries.insert(StudySummary { reason: Some(INTERRUPTED.into()), ..study }, place);
+            let seconds = clock.elapsed().as_secs_f64();
+            entries.insert(StudySummary { reason: Some(INTERRUPTED.into()), seconds, ..study }, place);
         }
         files::remove_own_drafts(&out);
         entries.write()?;

@@ -2,12 +2,13 @@
 
 use super::belongings::Belongings;
 use super::ledger::{INTERRUPTED, Ledger};
+use super::log::Log;
 use super::resume::{self, PreviousRun};
-use super::{RunError, RunOptions, RunReport, inputs, log};
+use super::{RunError, RunOptions, RunReport, claim, inputs};
 use crate::analysis::shown_cells::ShownCells;
 use crate::model::Assembly;
+use crate::output::claim::Claim;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
-use crate::output::table::{Table, read_columns};
 use crate::output::{OutputError, files};
 use crate::scene::build::notes;
 use crate::scene::spec::StudySpec;
@@ -37,6 +38,10 @@ pub(crate) struct Runner<'a> {
     belongings: Belongings,
     /// Files written by the current study.
     written: Mutex<BTreeSet<PathBuf>>,
+    /// The log of the current study.
+    log: Mutex<Option<Log>>,
+    /// The claim on the folder, from [`Self::begin`] on.
+    claim: Option<Claim>,
     observer: Observer<'a>,
     interrupted: AtomicBool,
     ledger: Ledger,
@@ -65,6 +70,8 @@ impl<'a> Runner<'a> {
             order: file.scene.studies.iter().enumerate().map(|(k, study)| (study.name.0.as_str(), k)).collect(),
             belongings: Belongings::new(file, &out),
             written: Mutex::default(),
+            log: Mutex::default(),
+            claim: None,
             out,
             observer,
             interrupted: AtomicBool::new(false),
@@ -77,18 +84,18 @@ impl<'a> Runner<'a> {
         Ok(runner)
     }
 
-    /// Prepares the folder; with `resume`, keeps the studies that an earlier run of the same scene finished.
+    /// Claims the folder, unless it is claimed already, and prepares it; with `resume`, keeps the studies that an
+    /// earlier run of the same scene finished.
     ///
     /// The summary is written at once, with the studies that are kept, so that a later run cannot take files of this
     /// run for those of an earlier scene.
-    pub(crate) fn begin(&mut self, resume: bool) -> Result<(), RunError> {
+    pub(crate) fn begin(&mut self, resume: bool, claim: Option<Claim>) -> Result<(), RunError> {
         let digest = digest(self.file)?;
+        let claimed = || claim::of_run(&self.out, false, self.observer);
+        self.claim = Some(claim.map_or_else(claimed, Ok)?);
         let previous = if resume { PreviousRun::read(&self.out, &digest) } else { PreviousRun::default() };
         self.resumed = previous.is_of_this_scene();
         self.digest.clone_from(&digest);
-        if !self.resumed {
-            self.belongings.remove_growing_tables(self.file)?;
-        }
         self.take_over(summary_of(self.file, self.assembly, digest), &previous)
     }
 
@@ -188,24 +195,15 @@ impl<'a> Runner<'a> {
 }
 
 impl Checkpoints for Runner<'_> {
-    fn rows(&self, file: &str, columns: &[&str]) -> Result<Vec<Vec<f64>>, OutputError> {
-        let path = self.path(file);
-        if self.resumed && path.exists() { read_columns(&path, columns) } else { Ok(Vec::new()) }
-    }
-
-    fn keep(&self, file: &str, table: &Table) -> Result<(), OutputError> {
-        table.write(&self.path(file))
-    }
-
     fn log(&self, file: &str) -> Result<Vec<String>, OutputError> {
-        let path = self.out.join(file);
-        let kept = if self.resumed { log::lines(&path, &self.digest) } else { vec![] };
-        log::begin(&path, &self.digest, &kept)?;
+        let (log, kept) = Log::begin(self.out.join(file), &self.digest, self.resumed)?;
+        *self.log.lock().unwrap_or_else(PoisonError::into_inner) = Some(log);
         Ok(kept)
     }
 
-    fn log_line(&self, file: &str, line: &str) -> Result<(), OutputError> {
-        log::append(&self.out.join(file), line)
+    fn log_line(&self, line: &str) -> Result<(), OutputError> {
+        let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
+        log.as_mut().map_or(Ok(()), |log| log.append(line))
     }
 }
 

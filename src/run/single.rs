@@ -6,6 +6,7 @@ use super::report::{RunOptions, RunReport};
 use super::runner::Runner;
 use crate::model::Assembly;
 use crate::numerics::parallel::Threads;
+use crate::output::claim::Claim;
 use crate::scene::SceneFile;
 use crate::study::{Observer, Progress};
 use std::ops::ControlFlow;
@@ -20,10 +21,21 @@ pub fn run(file: &SceneFile, options: &RunOptions, observer: Observer, ledger: &
         let help = "its points are computed by `foldwell run`, in the library by `run::sweep`; or leave out [sweep]";
         return Err(file.error_at(sweep.span(), "this scene is a sweep", help).into());
     }
+    run_with(file, options, observer, ledger, None)
+}
+
+/// Does the same for a scene without a sweep, in a folder that may be claimed already.
+pub(super) fn run_with(
+    file: &SceneFile,
+    options: &RunOptions,
+    observer: Observer,
+    ledger: &Ledger,
+    claim: Option<Claim>,
+) -> Result<RunReport, RunError> {
     Threads::new(options.threads).install(|| {
         let assembly = assembly(file)?;
         let mut runner = Runner::new(file, &assembly, options, observer, ledger)?;
-        runner.begin(options.resume)?;
+        runner.begin(options.resume, claim)?;
         for study in &file.scene.studies {
             runner.study(study)?;
             if runner.interrupted() {

@@ -9,7 +9,7 @@ use super::spec::{StudyKind, StudySpec};
 const ANY: [&str; 7] = ["@.csv", "@.svg", "@.html", "@.pvd", "@-paraview.py", "@.state.json", "@/@_#.vtu"];
 const TRACE: &[&str] = &["@-strain.svg"];
 const SURFACE: &[&str] = &["@/@_#.vtp"];
-const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp"];
+const MAP: &[&str] = &["@-map.csv", "@-map.svg", "@/@_map.vtp", "@.map.jsonl"];
 const BLOCH: &[&str] = &["@/@_determinant.vti", "@/@_zero_lines.vtp", "@/@_mode_#.vtu"];
 const BANDS: &[&str] = &["@_bands.csv", "@-bands.svg", "@-density.csv", "@-strip.csv", "@-modes.csv"];
 const MODES: &[&str] = &["@-frequencies.csv", "@-vibrations.pvd", "@/@_vibration_#.vtu"];
@@ -31,14 +31,6 @@ pub(crate) fn outputs(study: &StudySpec) -> Vec<String> {
         StudyKind::Relax(_) | StudyKind::Branches(_) | StudyKind::Landscape(_) => [&[], &[]],
     };
     named(&study.name.0, ANY.iter().chain(own[0]).chain(own[1]))
-}
-
-/// Returns the table that a study fills while it runs, and from which it goes on after an interruption.
-pub(crate) fn growing_table(study: &StudySpec) -> Option<String> {
-    match &*study.kind {
-        StudyKind::Landscape(spec) if spec.map.is_some() => Some(format!("{}-map.csv", study.name.0)),
-        _ => None,
-    }
 }
 
 /// Returns the files that a study of this name can have written, whatever its kind was.

@@ -4,11 +4,10 @@ mod axis;
 mod place;
 mod rows;
 
-use std::ops::Range;
-
 use super::checks::check;
 use super::setting::{Setting, without};
-use super::{SceneError, SceneFile};
+use super::spec::SweepSpec;
+use super::{Located, SceneError, SceneFile};
 use axis::Axis;
 use place::{MOST_POINTS, Place, TABLE};
 
@@ -57,13 +56,19 @@ impl Sweep {
     /// that run together have different lengths, or if there are too many points; with the line if the table is wrong.
     pub fn of(file: &SceneFile) -> Result<Option<Self>, SceneError> {
         let Some(spec) = &file.scene.sweep else { return Ok(None) };
+        // before the values are made, of which there may be too many for the memory
+        let counts = spec.axes.iter().filter_map(|axis| axis.values.count());
+        number_of_points(file, spec, counts)?;
         let axes = spec.axes.iter().map(|axis| Axis::read(file, axis)).collect::<Result<Vec<_>, _>>()?;
         if axes.is_empty() {
             let help = "add one, as in \"energy.bars.stiffness\" = [1e2, 1e4]";
             return Err(file.error_at(spec.span(), "the sweep has no axes", help));
         }
         different_keys(file, &axes)?;
-        let len = if spec.zip { common_length(file, &axes)? } else { product(file, spec.span(), &axes)? };
+        if spec.zip {
+            common_length(file, &axes)?;
+        }
+        let len = number_of_points(file, spec, axes.iter().map(Axis::len))?;
         Ok(Some(Self { file: file.clone(), text: without(file.text(), TABLE), zip: spec.zip, axes, len }))
     }
 
@@ -181,7 +186,7 @@ fn different_keys(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {
     Ok(())
 }
 
-fn common_length(file: &SceneFile, axes: &[Axis]) -> Result<usize, SceneError> {
+fn common_length(file: &SceneFile, axes: &[Axis]) -> Result<(), SceneError> {
     let len = axes.first().map_or(0, Axis::len);
     match axes.iter().find(|axis| axis.len() != len) {
         Some(other) => {
@@ -192,15 +197,22 @@ fn common_length(file: &SceneFile, axes: &[Axis]) -> Result<usize, SceneError> {
                 "give all axes one length, or leave out zip: then every value meets every other",
             ))
         }
-        None => Ok(len),
+        None => Ok(()),
     }
 }
 
-fn product(file: &SceneFile, span: Range<usize>, axes: &[Axis]) -> Result<usize, SceneError> {
-    let len = axes.iter().try_fold(1usize, |product, axis| product.checked_mul(axis.len()));
+/// Returns the number of points of a sweep whose axes have these numbers of values: their product, or the largest of
+/// them if they run together.
+fn number_of_points(
+    file: &SceneFile,
+    spec: &Located<SweepSpec>,
+    counts: impl Iterator<Item = usize>,
+) -> Result<usize, SceneError> {
+    let counts: Vec<usize> = if spec.zip { counts.max().into_iter().collect() } else { counts.collect() };
+    let len = counts.iter().try_fold(1usize, |product, count| product.checked_mul(*count));
     len.filter(|len| *len <= MOST_POINTS).ok_or_else(|| {
-        let sizes: Vec<_> = axes.iter().map(|axis| axis.len().to_string()).collect();
-        let message = format!("the sweep has {} points", sizes.join(" x "));
-        file.error_at(span, message, format!("{MOST_POINTS} are the most that one sweep can have"))
+        let counts: Vec<_> = counts.iter().map(usize::to_string).collect();
+        let message = format!("the sweep has {} points", counts.join(" x "));
+        file.error_at(spec.span(), message, format!("{MOST_POINTS} are the most that one sweep can have"))
     })
 }

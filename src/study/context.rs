@@ -7,7 +7,6 @@ use crate::model::Assembly;
 use crate::output::OutputError;
 use crate::output::figure::Caption;
 use crate::output::figure::surface::PathPoint;
-use crate::output::table::Table;
 use crate::scene::spec::{Check, Draw, StudySpec};
 use crate::scene::{SceneError, SceneFile};
 use std::collections::HashMap;
@@ -41,31 +40,18 @@ pub struct PreviousAnswers {
 
 /// Storage for the partial results of a long study, from which an interrupted run can continue.
 pub trait Checkpoints: Sync {
-    /// Returns the rows of a table that an interrupted run kept, with the values of the named columns; no rows if it
-    /// kept none.
-    ///
-    /// # Errors
-    /// [`OutputError`] if there is a table that cannot be read.
-    fn rows(&self, file: &str, columns: &[&str]) -> Result<Vec<Vec<f64>>, OutputError>;
-
-    /// Keeps a table.
-    ///
-    /// # Errors
-    /// [`OutputError`] if the table cannot be kept.
-    fn keep(&self, file: &str, table: &Table) -> Result<(), OutputError>;
-
-    /// Returns the lines of a log that an interrupted run kept, without the last one if it is incomplete; no lines if it
-    /// kept none. New lines follow these.
+    /// Begins a log, and returns the lines of it that an interrupted run kept, up to the first that is incomplete or
+    /// was changed; no lines if it kept none. New lines follow these.
     ///
     /// # Errors
     /// [`OutputError`] if the log cannot be begun.
     fn log(&self, file: &str) -> Result<Vec<String>, OutputError>;
 
-    /// Appends a line to a log, which is removed when the study is finished.
+    /// Appends a line to the log that was begun last, which is removed when the study is finished.
     ///
     /// # Errors
     /// [`OutputError`] if the log cannot be written.
-    fn log_line(&self, file: &str, line: &str) -> Result<(), OutputError>;
+    fn log_line(&self, line: &str) -> Result<(), OutputError>;
 }
 
 /// A study in its scene, the argument of [`super::check`] and [`super::compute`].

@@ -1,6 +1,6 @@
 //! The map of a landscape: energies over the sphere of curvature tensors, with the exact cone of cylinders.
 //!
-//! Samples are stored as they are computed, so that an interrupted map continues where it stopped.
+//! Samples are kept in a log as they are computed, so that an interrupted map continues where it stopped.
 
 use super::answer::Answer;
 use super::context::Context;
@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Number of rings, unless the scene gives another.
 const RINGS: u32 = 8;
-/// Number of samples between two writings of the table.
+/// Number of samples between two writings of the log.
 const BATCH: usize = 64;
 /// Number of points of the exact cone on each nappe, and number of those at which the distance to a zero of the energy
 /// is computed.
@@ -100,9 +100,8 @@ fn sampled(
         Ok(courses) => courses,
         Err(error) => return Ok((Vec::new(), Some(error.to_string()))),
     };
-    let file = format!("{}-map.csv", context.name());
-    let kept = context.checkpoints.rows(&file, &COLUMNS)?;
-    let mut rows: Vec<Row> = kept.into_iter().filter_map(|row| row.try_into().ok()).take(points.len()).collect();
+    let kept = context.checkpoints.log(&format!("{}.map.jsonl", context.name()))?;
+    let mut rows: Vec<Row> = kept.iter().map_while(|line| row_of(line)).take(points.len()).collect();
     let mut reason = None;
     let done = AtomicUsize::new(rows.len());
     let go_on = || context.step(done.fetch_add(1, Ordering::Relaxed) + 1, Some(points.len()));
@@ -111,13 +110,16 @@ fn sampled(
         let found = sphere::samples(&make, &courses, batch, amplitude, &go_on);
         for (point, sample) in batch.iter().zip(found) {
             match sample {
-                Some(sample) if reason.is_none() => rows.push(row(point, sample)),
+                Some(sample) if reason.is_none() => {
+                    let row = row(point, sample);
+                    context.checkpoints.log_line(&line_of(&row))?;
+                    rows.push(row);
+                }
                 _ => reason = Some("interrupted".to_owned()),
             }
         }
-        context.checkpoints.keep(&file, &table(&rows))?;
     }
-    answer.add(file, table(&rows));
+    answer.add(format!("{}-map.csv", context.name()), table(&rows));
     let failed = rows.iter().filter(|row| row[TOTAL].is_nan()).count();
     Ok((rows, reason.or_else(|| (failed > 0).then(|| format!("{failed} samples of the map did not converge")))))
 }
@@ -132,6 +134,18 @@ fn row(point: &Vec3, sample: Result<Sample, SampleError>) -> Row {
         let [bars, creases, total] = energies;
         [k11, k22, k12, bars, creases, total, residuals[0], residuals[1], sample.iterations as f64]
     })
+}
+
+/// Returns a row as a line of the log, with null for NaN, which JSON does not have.
+fn line_of(row: &Row) -> String {
+    // numbers and null only, so that serialization cannot fail
+    serde_json::to_string(&row.map(|number| Some(number).filter(|number| !number.is_nan()))).unwrap_or_default()
+}
+
+/// Returns the row of a line of the log; `None` if it is none.
+fn row_of(line: &str) -> Option<Row> {
+    let row: [Option<f64>; COLUMNS.len()] = serde_json::from_str(line).ok()?;
+    Some(row.map(|number| number.unwrap_or(f64::NAN)))
 }
 
 fn table(rows: &[Row]) -> Table {

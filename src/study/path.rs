@@ -75,7 +75,7 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     let mut keep = |entry: &PathEntry| {
         // numbers and words only, so that serialization cannot fail
         let line = serde_json::to_string(entry).unwrap_or_default();
-        fault = context.checkpoints.log_line(&log, &line).err();
+        fault = context.checkpoints.log_line(&line).err();
         fault.is_none()
     };
     let callbacks = PathCallbacks { observe: &mut observe, keep: &mut keep };

@@ -149,12 +149,20 @@ fn runs_without_room_say_so_and_break_nothing() {
     }
 }
 
-/// Claim: two simultaneous runs into one folder leave the files of one run.
+/// Claim: two simultaneous runs into one folder leave the files of one run, and one of them at least has its answer;
+/// the other, if the first has not ended before it begins, says that another run is at work and ends with status 3.
 #[test]
 fn two_runs_in_one_folder_leave_what_one_leaves() {
     let undisturbed = Undisturbed::new();
     let folder = undisturbed.folder.path();
-    [start(folder, "shared", false), start(folder, "shared", false)].into_iter().for_each(finish);
+    let runs = [start(folder, "shared", false), start(folder, "shared", false)];
+    let ended = runs.map(|run| run.wait_with_output().unwrap());
+    assert!(ended.iter().any(|run| run.status.success()));
+    for run in ended.iter().filter(|run| !run.status.success()) {
+        let said = String::from_utf8_lossy(&run.stderr);
+        assert_eq!(run.status.code(), Some(CANNOT_WRITE), "{said}");
+        assert!(said.contains("another run"), "{said}");
+    }
     undisturbed.assert_same(&read(&folder.join("shared")), "shared");
 }
 

@@ -41,7 +41,7 @@ fn run(scene: &Path, out: &Path, (threads, resume): (usize, bool), most_steps: u
 }
 
 /// Claim: a map has a sample for every direction and its zeros on the exact cone; an interrupted map is continued and
-/// ends with the same bytes, also with another number of threads.
+/// ends with the same bytes, also with another number of threads and where its log was damaged.
 #[test]
 fn maps_go_on_where_they_stopped() {
     let folder = tempfile::tempdir().unwrap();
@@ -58,8 +58,14 @@ fn maps_go_on_where_they_stopped() {
     let lines = |folder: &Path| fs::read_to_string(folder.join("a-map.csv")).unwrap().lines().count();
     let (done, all) = (lines(&parts), lines(&whole));
     assert!(1 < done && done < all, "{done} of {all}");
+    // a sample whose energy was changed, and those after it, are not used
+    let log = parts.join("a.map.jsonl");
+    let kept = fs::read_to_string(&log).unwrap();
+    let damaged = kept.lines().nth(done / 2).unwrap();
+    fs::write(&log, kept.replace(damaged, &damaged.replacen("e-", "e-1", 1))).unwrap();
+    assert!(damaged.contains("e-"), "{damaged}");
     let resumed = run(&scene, &parts, (1, true), usize::MAX);
-    assert!(resumed.converged);
+    assert!(resumed.converged && !log.exists());
     for file in ["a.csv", "a-map.csv", "a.svg", "a-map.svg", "a.pvd", "a/a_map.vtp"] {
         assert_eq!(fs::read(whole.join(file)).unwrap(), fs::read(parts.join(file)).unwrap(), "{file}");
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
@@ -166,27 +166,96 @@ fn a_log_of_another_scene_is_not_used() {
     assert_same(&out, &whole, "stale");
 }
 
+/// Claim: a log in which a line was lost, doubled or moved, or a digit was changed, is not used from there on: the
+/// resumed run has the files of one that was not stopped. Without the check sums of its lines it had another table, and
+/// said that all was well.
+#[test]
+fn a_damaged_log_is_used_up_to_the_damage() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene(folder.path(), "two-bars-load", &[]);
+    let [whole, out] = ["whole", "out"].map(|name| folder.path().join(name));
+    let (_, all) = run(&scene, &whole, false, usize::MAX);
+    run(&scene, &out, false, 20);
+    let log = out.join("loaded.path.jsonl");
+    let kept = fs::read_to_string(&log).unwrap();
+    let lines: Vec<&str> = kept.lines().collect();
+    let lost = [&lines[..10], &lines[11..]].concat();
+    let doubled = [&lines[..10], &lines[9..]].concat();
+    let moved = [&lines[..10], &[lines[11], lines[10]], &lines[12..]].concat();
+    let digit = lines[10].rfind(|letter: char| letter.is_ascii_digit()).unwrap();
+    let changed = lines[10][..digit].to_owned() + "0" + &lines[10][digit + 1..];
+    let changed_back = lines[10][..digit].to_owned() + "1" + &lines[10][digit + 1..];
+    let changed = if changed == lines[10] { changed_back } else { changed };
+    let changed = [&lines[..10], &[changed.as_str()], &lines[11..]].concat();
+    for (what, damaged) in [("lost", lost), ("doubled", doubled), ("moved", moved), ("changed", changed)] {
+        let stopped = folder.path().join(what);
+        run(&scene, &stopped, false, 20);
+        fs::write(stopped.join("loaded.path.jsonl"), damaged.join("\n") + "\n").unwrap();
+        let (_, rest) = run(&scene, &stopped, true, usize::MAX);
+        assert!((all - 11..all).contains(&rest), "{what}: {rest} of {all}");
+        assert_same(&stopped, &whole, what);
+    }
+}
+
+/// The program with a scene, a folder and more words, silent.
+fn program(folder: &Path, scene: &Path, words: &[&str]) -> Command {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_foldwell"));
+    program.current_dir(folder).args(["run", scene.to_str().unwrap(), "--quiet", "--out"]).args(words);
+    program.stderr(Stdio::piped()).stdout(Stdio::null());
+    program
+}
+
+/// Starts the program and waits until the log of its path has 30 lines.
+fn started(mut program: Command, log: &Path) -> Child {
+    let lines = || fs::read(log).unwrap_or_default().iter().filter(|byte| **byte == b'\n').count();
+    let mut child = program.spawn().unwrap();
+    while lines() < 30 && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    assert!(lines() >= 30, "it is on its way");
+    child
+}
+
 /// Claim: a program that is killed in the middle of a path leaves what a resumed one goes on from, to the same files.
 #[test]
 fn a_killed_path_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene(folder.path(), "bellows", &[("switch = true", "switch = true\nmax_step = 0.025")]);
-    let program = |out: &str, resume: &[&str]| {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_foldwell"));
-        program.current_dir(folder.path()).args(["run", scene.to_str().unwrap(), "--out", out, "--quiet"]).args(resume);
-        program.stderr(Stdio::null()).stdout(Stdio::null());
-        program
-    };
-    assert!(program("whole", &[]).status().unwrap().success());
-    let log = folder.path().join("out/pressed.path.jsonl");
-    let lines = || fs::read(&log).unwrap_or_default().iter().filter(|byte| **byte == b'\n').count();
-    let mut killed = program("out", &[]).spawn().unwrap();
-    while lines() < 30 && killed.try_wait().unwrap().is_none() {
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    assert!(program(folder.path(), &scene, &["whole"]).status().unwrap().success());
+    let mut killed = started(program(folder.path(), &scene, &["out"]), &folder.path().join("out/pressed.path.jsonl"));
     killed.kill().unwrap();
     killed.wait().unwrap();
-    assert!(lines() >= 30 && !folder.path().join("out/pressed.csv").exists(), "it was killed on its way");
-    assert!(program("out", &["--resume"]).status().unwrap().success());
+    assert!(!folder.path().join("out/pressed.csv").exists(), "it was killed on its way");
+    assert!(program(folder.path(), &scene, &["out", "--resume"]).status().unwrap().success());
     assert_same(&folder.path().join("out"), &folder.path().join("whole"), "killed");
+}
+
+/// Claim: while a run writes into a folder, another one of the same or of another scene, resumed or not, ends with
+/// status 3 and a message that names the folder and the process, and changes no file. Killed, the first one keeps
+/// nobody out.
+#[test]
+fn a_folder_has_one_run_at_a_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let other = scene(folder.path(), "drum-path", &[]);
+    let scene = scene(folder.path(), "two-bars-load", &[("max_step = 0.05", "max_step = 1e-3")]);
+    let out = folder.path().join("out");
+    let log = out.join("loaded.path.jsonl");
+    let mut first = started(program(folder.path(), &scene, &["out"]), &log);
+    // it stands still while the others try, so that what they change is seen
+    let signal =
+        |name: &str| assert!(Command::new("kill").args([name, &first.id().to_string()]).status().unwrap().success());
+    signal("-STOP");
+    let before = files(&out);
+    for (scene, words) in [(&scene, &["out"][..]), (&scene, &["out", "--resume"]), (&other, &["out"])] {
+        let second = program(folder.path(), scene, words).output().unwrap();
+        let said = String::from_utf8_lossy(&second.stderr);
+        assert_eq!(second.status.code(), Some(3), "{said}");
+        let named = format!("out: another run (process {}) is writing into this folder", first.id());
+        assert!(said.contains(&named), "{said}");
+        assert!(files(&out) == before, "{words:?}");
+    }
+    first.kill().unwrap();
+    first.wait().unwrap();
+    assert!(program(folder.path(), &scene, &["out", "--resume"]).status().unwrap().success());
+    assert!(!log.exists() && out.join("loaded.csv").exists());
 }

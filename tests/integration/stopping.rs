@@ -59,6 +59,7 @@ fn a_closed_ledger_is_the_last_word() {
     let report = ledger.close().unwrap().unwrap();
     let expected = vec![("first".to_owned(), true, None), ("second".to_owned(), false, Some("interrupted".to_owned()))];
     assert!(report.interrupted && studies(&out) == expected, "{:?}", studies(&out));
+    assert!(report.summary.studies[1].seconds > 0.0, "the time until then is that of the study");
     drop((go, hung));
     worker.join().unwrap().unwrap();
     assert_eq!(studies(&out), expected);

@@ -256,7 +256,15 @@ fn wrong_sweeps_are_refused() {
         ("\"energy.bars.stiffness\" = { log = [0, 1, 3] }", ["a logarithmic range has an end at 0", "above 0"]),
         ("\"energy.bars.stiffness\" = { linear = [1, 2, 1] }", ["the range has 1 values", "from 2"]),
         ("\"sheet.frame\" = { seeds = [-1, 3] }", ["there are 3 seeds from -1", "0 or more"]),
-        ("\"sheet.frame\" = { seeds = [0, 2000000] }", ["there are 2000000 seeds", "1000000"]),
+        ("\"sheet.frame\" = { seeds = [0, 2000000] }", ["the sweep has 2000000 points", "1000000"]),
+        (
+            "zip = true\n\"sheet.frame\" = { seeds = [0, 9000000000000000000] }",
+            ["the sweep has 9000000000000000000 points", "1000000"],
+        ),
+        (
+            "\"title\" = { linear = [0, 1, 1000000] }\n\"sheet.frame\" = { seeds = [0, 1000000] }",
+            ["the sweep has 1000000 x 1000000 points", "1000000"],
+        ),
         (
             "\"sheet.frame\" = { seeds = [0, 2000] }\n\"title\" = { seeds = [0, 2000] }",
             ["the sweep has 2000 x 2000 points", "1000000"],
@@ -430,4 +438,56 @@ fn the_library_runs_single_points() {
     assert_eq!(run_point(&sweep, 0, &options, &|_| ControlFlow::Break(())).unwrap(), Some(PointStatus::Converged));
     let anew = RunOptions { resume: false, ..options };
     assert_eq!(run_point(&sweep, 0, &anew, &|_| ControlFlow::Break(())).unwrap(), None);
+}
+
+/// Claim: while a sweep writes into a folder, a sweep of another scene there ends with status 3 and changes nothing,
+/// and so does a run without a sweep; the first one ends as if it were alone.
+#[test]
+fn a_folder_has_one_sweep_at_a_time() {
+    let scene = format!("{STAR}draw = []\n{TWELVE}");
+    let alone = with_scene(&scene);
+    run(alone.path(), "run scene.toml --quiet", 0);
+    let folder = with_scene(&scene);
+    fs::write(folder.path().join("other.toml"), scene.replace("[0, 0.1, 0]", "[0, 0.2, 0]")).unwrap();
+    fs::write(folder.path().join("single.toml"), STAR).unwrap();
+    let first = started(folder.path(), "run scene.toml --threads 1", 1);
+    let signal = |name: &str| {
+        assert!(Command::new("kill").args([name, &first.id().to_string()]).status().unwrap().success());
+    };
+    signal("-STOP");
+    for words in
+        ["run other.toml --out scene", "run other.toml --out scene --resume --shard 1/2", "run single.toml --out scene"]
+    {
+        let second = foldwell(folder.path(), words);
+        assert_eq!(second.status.code(), Some(3), "{words}: {}", said(&second));
+        assert!(said(&second).contains("scene: another run (process"), "{words}: {}", said(&second));
+    }
+    signal("-CONT");
+    let output = first.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    assert!(read(&folder.path().join("scene")) == read(&alone.path().join("scene")));
+}
+
+/// Claim: a sweep that the observer stops while its points are checked ends at that call, with all points missing, and
+/// writes nothing. Counted and not timed: a sweep of twenty thousand points once called its observer after all checks.
+#[test]
+fn checks_of_points_are_interrupted() {
+    use foldwell::run::{RunOptions, read_scene, sweep};
+    use std::ops::ControlFlow;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    let folder =
+        with_scene(&format!("{STAR}draw = []\n\n[sweep]\n\"energy.bars.stiffness\" = {{ linear = [1, 2, 20000] }}\n"));
+    let options = RunOptions { out: Some(folder.path().join("out")), threads: Some(1), resume: false };
+    let calls = AtomicUsize::new(0);
+    let observer = |progress: &foldwell::run::Progress| {
+        calls.fetch_add(1, Ordering::Relaxed);
+        assert!(progress.step < 1000, "it was called early");
+        ControlFlow::Break(())
+    };
+    let report =
+        sweep(&read_scene(&folder.path().join("scene.toml"), &[]).unwrap(), &options, None, &observer).unwrap();
+    assert!(report.interrupted && !report.converged && report.kept == 0);
+    assert_eq!((report.summary.missing.len(), calls.into_inner()), (20000, 1));
+    assert!(!folder.path().join("out").exists());
 }

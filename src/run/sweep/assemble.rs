@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::place::{SUMMARY, TABLE, folder, point_folder, points};
 use super::record::Record;
@@ -9,7 +10,7 @@ use super::scalars;
 use crate::output::files;
 use crate::output::summary::{PointStatus, SweepSummary, UnansweredPoint};
 use crate::output::table::csv_line;
-use crate::run::{RunError, RunOptions};
+use crate::run::{RunError, RunOptions, claim};
 use crate::scene::{SceneFile, Sweep, digest};
 
 /// A row of the table: what became of a point, why, and its scalar results.
@@ -19,29 +20,101 @@ struct Row {
     scalars: BTreeMap<String, String>,
 }
 
+impl Row {
+    fn new(found: Option<&Record>) -> Self {
+        let scalars = match found {
+            Some(Record::Computed(studies)) => studies.iter().flat_map(scalars::of_study).collect(),
+            _ => BTreeMap::new(),
+        };
+        let status = found.map_or(PointStatus::Missing, Record::status);
+        Self { status, reason: found.map(Record::reason).unwrap_or_default(), scalars }
+    }
+
+    /// Whether another run may find another result: the point has none, or failed and may be tried again.
+    fn is_open(&self) -> bool {
+        matches!(self.status, PointStatus::Missing | PointStatus::Failed)
+    }
+}
+
+/// The table of a sweep while its points are computed: what became of each, as far as that was looked up.
+pub(super) struct Board<'a> {
+    pub(super) sweep: &'a Sweep,
+    pub(super) out: &'a Path,
+    rows: Mutex<Vec<Row>>,
+}
+
+impl<'a> Board<'a> {
+    /// The table of a sweep of which no point was looked up.
+    pub(super) fn new(sweep: &'a Sweep, out: &'a Path) -> Self {
+        Self { sweep, out, rows: Mutex::new((0..sweep.len()).map(|_| Row::new(None)).collect()) }
+    }
+
+    fn rows(&self) -> MutexGuard<'_, Vec<Row>> {
+        self.rows.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Records what was found of a point.
+    pub(super) fn set(&self, index: usize, found: Option<&Record>) {
+        let row = Row::new(found);
+        self.rows()[index] = row;
+    }
+
+    /// Looks up what became of a point.
+    ///
+    /// # Errors
+    /// [`RunError`] if its scene is refused.
+    pub(super) fn look_up(&self, index: usize) -> Result<(), RunError> {
+        let folder = point_folder(self.out, index);
+        // most points of a long sweep that was just begun have no folder, and their scenes need not be read
+        let found = if folder.is_dir() { Record::read(&self.sweep.scene(index)?, &folder) } else { None };
+        self.set(index, found.as_ref());
+        Ok(())
+    }
+
+    /// Writes the table and the summary, which it returns, after it has looked up the points that were missing or
+    /// failed.
+    ///
+    /// Several runs may do this at once. Each looks again after it has written, and writes once more if a point was
+    /// finished meanwhile: so the table that is written last has all points.
+    ///
+    /// # Errors
+    /// [`RunError`] if the scene of a point is refused, or if a file cannot be written.
+    pub(super) fn write(&self) -> Result<SweepSummary, RunError> {
+        let mut written = None;
+        loop {
+            let open: Vec<usize> =
+                (0..).zip(self.rows().iter()).filter(|(_, row)| row.is_open()).map(|(k, _)| k).collect();
+            open.into_iter().try_for_each(|index| self.look_up(index))?;
+            let summary = self.summary()?;
+            if written.as_ref() == Some(&summary) {
+                return Ok(summary);
+            }
+            files::write(&self.out.join(TABLE), table(self.sweep, &self.rows()))?;
+            files::write(&self.out.join(SUMMARY), summary.to_json())?;
+            written = Some(summary);
+        }
+    }
+
+    /// Returns the summary.
+    ///
+    /// # Errors
+    /// [`RunError`] if a file that the scene names cannot be read.
+    pub(super) fn summary(&self) -> Result<SweepSummary, RunError> {
+        summary(self.sweep, &self.rows())
+    }
+}
+
 /// Collects the finished points from their folders and writes the table and the summary of a sweep into `out`; returns the
 /// summary. The bytes of the table depend on the results of the points alone, not on the runs that computed them.
 ///
-/// Several runs may do this at once. Each looks again after it has written, and writes once more if a point was finished
-/// meanwhile: so the table that is written last has all points.
+/// Several runs of one sweep may do this at once: the table that is written last has all points.
 ///
 /// # Errors
-/// [`RunError`] if the scene of a point is refused, or if a file cannot be written.
+/// [`RunError`] if a run of another scene is writing into the folder, if the scene of a point is refused, or if a file
+/// cannot be written.
 pub fn assemble(sweep: &Sweep, out: &Path) -> Result<SweepSummary, RunError> {
-    let mut rows = (0..sweep.len()).map(|index| row(sweep, out, index)).collect::<Result<Vec<_>, RunError>>()?;
-    loop {
-        let summary = summary(sweep, &rows)?;
-        files::write(&out.join(TABLE), table(sweep, &rows))?;
-        files::write(&out.join(SUMMARY), summary.to_json())?;
-        let mut news = false;
-        for &index in &summary.missing {
-            rows[index] = row(sweep, out, index)?;
-            news |= rows[index].status != PointStatus::Missing;
-        }
-        if !news {
-            return Ok(summary);
-        }
-    }
+    let _claim = claim::of_sweep(out, sweep)?;
+    Board::new(sweep, out).write()
 }
 
 /// Does the same for the sweep of a scene in the folder of its run, for a program that ends a run without waiting for it;
@@ -52,16 +125,6 @@ pub fn assemble(sweep: &Sweep, out: &Path) -> Result<SweepSummary, RunError> {
 pub fn assemble_at(file: &SceneFile, options: &RunOptions) -> Result<Option<SweepSummary>, RunError> {
     let out = folder(file, options);
     if out.exists() { assemble(&points(file)?, &out).map(Some) } else { Ok(None) }
-}
-
-fn row(sweep: &Sweep, out: &Path, index: usize) -> Result<Row, RunError> {
-    let found = Record::read(&sweep.scene(index)?, &point_folder(out, index));
-    let scalars = match &found {
-        Some(Record::Computed(studies)) => studies.iter().flat_map(scalars::of_study).collect(),
-        _ => BTreeMap::new(),
-    };
-    let status = found.as_ref().map_or(PointStatus::Missing, Record::status);
-    Ok(Row { status, reason: found.map(|found| found.reason()).unwrap_or_default(), scalars })
 }
 
 /// Returns the text of the table. The columns of results are those that a point has, studies in the order of the scene.

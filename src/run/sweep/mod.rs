@@ -18,19 +18,22 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::belongings::Belongings;
-use super::{Ledger, Observer, Progress, RunError, RunOptions, inputs, single};
-use crate::output::files;
+use super::{Ledger, Observer, Progress, RunError, RunOptions, claim, inputs, single};
 use crate::output::summary::{PointStatus, SweepSummary};
+use crate::output::{OutputError, files};
 use crate::scene::{SceneFile, Sweep};
+use assemble::Board;
 pub use assemble::{assemble, assemble_at};
 pub use place::points;
-use place::{POINTS, folder, point_folder};
+use place::{CHECKS, POINTS, folder, point_folder};
 use pool::Pool;
 use record::Record;
 pub use shard::{Shard, ShardError};
 
 /// Exit status where the input is wrong.
 const WRONG_INPUT: u8 = 2;
+/// Number of points that are checked between two calls of the observer.
+const OBSERVED: usize = 256;
 
 /// The report of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,44 +64,82 @@ pub fn sweep(
     shard: Option<Shard>,
     observer: Observer,
 ) -> Result<SweepReport, RunError> {
-    let sweep = points(file)?;
+    let (sweep, out) = (points(file)?, folder(file, options));
     let own = shard.unwrap_or_default().points(sweep.len());
-    let out = folder(file, options);
     check_base(&sweep, &out)?;
-    own.iter().try_for_each(|&index| sweep.scene(index).map(|_| ()))?;
+    // a folder that does not exist is made when every scene is known to be right
+    let claim = out.exists().then(|| claim::of_sweep(&out, &sweep)).transpose()?;
+    let board = Board::new(&sweep, &out);
+    let Some(kept) = survey(&board, &own, options.resume, observer)? else {
+        let summary = board.summary()?;
+        return Ok(SweepReport { summary, out: out.clone(), kept: 0, interrupted: true, converged: false });
+    };
+    let _claim = claim.map_or_else(|| claim::of_sweep(&out, &sweep), Ok)?;
     if shard.is_none() {
         // on a disk that several machines share, the locks of other shards' drafts may not be seen
         files::remove_drafts(&out);
     }
-    let kept = if options.resume { record::finished(&sweep, &out, &own) } else { Vec::new() };
     let rest: Vec<usize> = own.iter().copied().filter(|index| kept.binary_search(index).is_err()).collect();
     remove_leftovers(&sweep, &out)?;
-    assemble(&sweep, &out)?;
+    board.write()?;
     let (done, pool) = (AtomicUsize::new(kept.len()), Pool::new(options.threads, rest.len()));
     let of_run = RunOptions { out: Some(out.clone()), threads: Some(pool.threads_of_point()), ..*options };
-    let report = || {
-        let step = done.load(Ordering::Relaxed);
-        observer(&Progress { study: POINTS.into(), step, of: Some(own.len()), residual: f64::NAN })
-    };
+    let report = || observer(&progress(POINTS, done.load(Ordering::Relaxed), own.len()));
     let computed = pool.over(&rest, |index| {
-        let computed = run_point(&sweep, index, &of_run, &|_| report())?;
+        let computed = run_point(&sweep, index, &of_run, &|_| report());
+        board.look_up(index)?;
+        let computed = computed?;
         done.fetch_add(usize::from(computed.is_some()), Ordering::Relaxed);
         Ok(if computed.is_some() { report() } else { ControlFlow::Break(()) })
     });
-    let summary = assemble(&sweep, &out)?;
+    let summary = board.write()?;
     let interrupted = computed?.is_break() && own.iter().any(|index| summary.missing.binary_search(index).is_ok());
     let unanswered = summary.unanswered.iter().any(|point| own.binary_search(&point.point).is_ok());
-    Ok(SweepReport { converged: !unanswered, out, kept: kept.len(), interrupted, summary })
+    Ok(SweepReport { converged: !unanswered, out: out.clone(), kept: kept.len(), interrupted, summary })
+}
+
+/// Checks the scenes of the points `own` of a run, and looks up what became of all points in earlier runs. Returns the
+/// points of `own` that need not be computed again, none unless `resume`; `None` if the observer ends it.
+fn survey(board: &Board<'_>, own: &[usize], resume: bool, observer: Observer) -> Result<Option<Vec<usize>>, RunError> {
+    let (sweep, mut kept) = (board.sweep, Vec::new());
+    for index in 0..sweep.len() {
+        let seen = index + 1;
+        if seen.is_multiple_of(OBSERVED) && observer(&progress(CHECKS, seen, sweep.len())).is_break() {
+            return Ok(None);
+        }
+        let (is_own, folder) = (own.binary_search(&index).is_ok(), point_folder(board.out, index));
+        if !is_own {
+            board.look_up(index)?;
+            continue;
+        }
+        let scene = sweep.scene(index)?;
+        if resume {
+            files::remove_drafts(&folder);
+        }
+        let found = Record::read(&scene, &folder);
+        if resume && found.as_ref().is_some_and(|found| found.is_whole(&scene, &folder)) {
+            kept.push(index);
+        }
+        board.set(index, found.as_ref());
+    }
+    Ok(Some(kept))
+}
+
+/// Returns the progress of work over points.
+fn progress(work: &str, step: usize, of: usize) -> Progress {
+    Progress { study: work.to_owned(), step, of: Some(of), residual: f64::NAN }
 }
 
 /// Computes a point of a sweep in its folder below that of the sweep, `options.out`, as [`super::run`] does with its scene.
 /// With `options.resume` the point is left as it is if an earlier run finished it, and else its finished studies are kept.
 /// Returns what became of the point; `None` if the observer stopped it.
 ///
-/// A point whose scene cannot be computed has failed: its folder gets the reason.
+/// While another run computes this point, it waits for the end of that. A point whose scene cannot be computed has
+/// failed: its folder gets the reason.
 ///
 /// # Errors
-/// [`RunError`] if the scene of the point cannot be read or its folder cannot be written.
+/// [`RunError`] if the scene of the point cannot be read, its folder cannot be written, or a run of another scene is
+/// writing into the folder of the sweep.
 ///
 /// ```no_run
 /// use foldwell::run::{RunOptions, assemble, points, read_scene, run_point};
@@ -121,12 +162,17 @@ pub fn run_point(
 ) -> Result<Option<PointStatus>, RunError> {
     let out = folder(sweep.file(), options);
     let (scene, folder) = (sweep.scene(index)?, point_folder(&out, index));
+    let _of_sweep = claim::of_sweep(&out, sweep)?;
+    let claim = match claim::of_run(&folder, true, observer) {
+        Err(OutputError::Claimed { .. }) => return Ok(None),
+        found => found?,
+    };
     if let Some(found) = options.resume.then(|| Record::finished(&scene, &folder)).flatten() {
         return Ok(Some(found.status()));
     }
     record::forget_failure(&folder)?;
     let options = RunOptions { out: Some(folder.clone()), ..*options };
-    match single::run(&scene, &options, observer, &Ledger::default()) {
+    match single::run_with(&scene, &options, observer, &Ledger::default(), Some(claim)) {
         Ok(report) if report.interrupted => Ok(None),
         Ok(report) if report.summary.converged() => Ok(Some(PointStatus::Converged)),
         Ok(_) => Ok(Some(PointStatus::NotConverged)),

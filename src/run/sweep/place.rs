@@ -12,6 +12,9 @@ pub(crate) const SUMMARY: &str = "sweep.json";
 /// Word for the bar over the points.
 pub(super) const POINTS: &str = "points";
 
+/// Word for the bar over the points while they are checked.
+pub(super) const CHECKS: &str = "checks of points";
+
 /// Returns the points of a scene with a table `[sweep]`: their keys, and the settings and the scene of each.
 ///
 /// # Errors

@@ -11,13 +11,12 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::place::point_folder;
 use crate::output::summary::{Files, PointStatus, to_json};
 use crate::output::{OutputError, files};
 use crate::run::RunError;
 use crate::run::belongings::Belongings;
 use crate::run::ledger::INTERRUPTED;
-use crate::scene::{Fingerprint, SceneFile, Sweep, digest};
+use crate::scene::{Fingerprint, SceneFile, digest};
 
 /// Name of the summary of a run.
 pub(super) const SUMMARY: &str = "summary.json";
@@ -53,6 +52,9 @@ struct Failure {
 impl Record {
     /// Reads the result of a point with this scene; `None` if there is none.
     pub(super) fn read(scene: &SceneFile, folder: &Path) -> Option<Self> {
+        if !folder.is_dir() {
+            return None;
+        }
         let digest = digest_of(scene);
         if let Some(found) = read::<Failure>(&folder.join(FAILURE)).filter(|found| found.digest == digest) {
             return Some(Self::Failed(found.reason));
@@ -64,18 +66,21 @@ impl Record {
         (complete && !interrupted).then_some(Self::Computed(found.studies))
     }
 
-    /// Reads the result of a point that need not be computed again: its files are those on record. A point that could not
-    /// be computed is tried again. Drafts that a killed run has left in its folder are removed.
+    /// Reads the result of a point that need not be computed again. A point that could not be computed is tried again.
+    /// Drafts that a killed run has left in its folder are removed.
     pub(super) fn finished(scene: &SceneFile, folder: &Path) -> Option<Self> {
         files::remove_drafts(folder);
-        let found = Self::read(scene, folder)?;
-        let Self::Computed(studies) = &found else { return None };
+        Self::read(scene, folder).filter(|found| found.is_whole(scene, folder))
+    }
+
+    /// Whether the point was computed and its files are those on record.
+    pub(super) fn is_whole(&self, scene: &SceneFile, folder: &Path) -> bool {
+        let Self::Computed(studies) = self else { return false };
         let belongings = Belongings::new(scene, folder);
-        let unchanged = |study: &Map<String, Value>| {
+        studies.iter().all(|study| {
             let recorded = study.get("files").and_then(|files| serde_json::from_value::<Files>(files.clone()).ok());
             recorded.is_some() && recorded == word(study, "name").and_then(|name| belongings.record(name).ok())
-        };
-        studies.iter().all(unchanged).then_some(found)
+        })
     }
 
     /// Returns what became of the point.
@@ -101,12 +106,6 @@ impl Record {
             }
         }
     }
-}
-
-/// Returns those of some points that need not be computed again.
-pub(super) fn finished(sweep: &Sweep, out: &Path, points: &[usize]) -> Vec<usize> {
-    let done = |index: usize| Record::finished(&sweep.scene(index).ok()?, &point_folder(out, index));
-    points.iter().copied().filter(|&index| done(index).is_some()).collect()
 }
 
 /// Writes the reason for which a point could not be computed into its folder.

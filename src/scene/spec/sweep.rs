@@ -140,6 +140,16 @@ impl Written for SweepValues {
 }
 
 impl SweepValues {
+    /// Returns the number of values; `None` for a table, which has to be read first.
+    pub(crate) fn count(&self) -> Option<usize> {
+        match self {
+            Self::List(values) => Some(values.len()),
+            Self::Linear(range) | Self::Log(range) => Some(range.count),
+            Self::Seeds { count, .. } => Some(*count),
+            Self::File(_) => None,
+        }
+    }
+
     fn seeds([from, count]: [i64; 2]) -> Result<Self, String> {
         let most = i64::MAX - from.max(0);
         match usize::try_from(count).ok().filter(|_| from >= 0 && (1..=most).contains(&count)) {

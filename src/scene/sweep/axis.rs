@@ -3,19 +3,19 @@
 use super::super::setting::{Setting, float};
 use super::super::spec::{SweepAxis, SweepRange, SweepValues};
 use super::super::{SceneError, SceneFile};
-use super::place::{MOST_POINTS, Place, TABLE};
+use super::place::{Place, TABLE};
 use super::rows;
 use std::path::PathBuf;
 
-/// An axis with the settings of its values.
+/// An axis with its values.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
     /// The paths of the keys that are set.
     pub(super) keys: Vec<String>,
     /// The place of the axis in the scene.
     pub(super) span: std::ops::Range<usize>,
-    /// The settings of each value, one for each key.
-    values: Vec<Vec<Setting>>,
+    /// The text of each value for each key.
+    values: Vec<Vec<String>>,
     /// The table of points and the lines of its rows.
     table: Option<(PathBuf, Vec<usize>)>,
 }
@@ -28,10 +28,6 @@ impl Axis {
             SweepValues::List(values) => values.iter().map(|value| file.text()[value.span()].to_owned()).collect(),
             SweepValues::Linear(range) => linear(range),
             SweepValues::Log(range) => logarithmic(range),
-            SweepValues::Seeds { count, .. } if *count > MOST_POINTS => {
-                let help = format!("{MOST_POINTS} points are the most that one sweep can have");
-                return Err(file.error_at(spec.values.span(), format!("there are {count} seeds"), help));
-            }
             SweepValues::Seeds { from, count } => (*from..).take(*count).map(|seed| seed.to_string()).collect(),
         };
         if texts.is_empty() {
@@ -41,17 +37,15 @@ impl Axis {
                 "give at least one, as in [1e2]",
             ));
         }
-        let value = |text: &String| Ok(vec![setting(file, spec, &spec.key, text)?]);
-        let values = texts.iter().map(value).collect::<Result<Vec<_>, SceneError>>()?;
+        check_key(file, spec, &spec.key)?;
+        let values = texts.into_iter().map(|text| vec![text]).collect();
         Ok(Self { keys: vec![spec.key.to_string()], span: spec.key.span(), values, table: None })
     }
 
     fn of_table(file: &SceneFile, spec: &SweepAxis, path: PathBuf) -> Result<Self, SceneError> {
         let rows::Rows { header, rows, lines } = rows::read(&path)?;
-        let settings =
-            |row: &Vec<String>| header.iter().zip(row).map(|(key, text)| setting(file, spec, key, text)).collect();
-        let values = rows.iter().map(settings).collect::<Result<_, _>>()?;
-        Ok(Self { keys: header, span: spec.key.span(), values, table: Some((path, lines)) })
+        header.iter().try_for_each(|key| check_key(file, spec, key))?;
+        Ok(Self { keys: header, span: spec.key.span(), values: rows, table: Some((path, lines)) })
     }
 
     /// Returns the number of values.
@@ -61,7 +55,9 @@ impl Axis {
 
     /// Returns the settings of a value.
     pub(super) fn settings(&self, row: usize) -> Vec<Setting> {
-        self.values.get(row).cloned().unwrap_or_default()
+        // made anew each time: those of a million values would take a gigabyte
+        let texts = self.values.get(row).into_iter().flatten();
+        self.keys.iter().zip(texts).filter_map(|(key, text)| Setting::new(key, text).ok()).collect()
     }
 
     /// Returns the place of a value.
@@ -73,15 +69,16 @@ impl Axis {
     }
 }
 
-/// Returns the setting of a key to one of its values.
-fn setting(file: &SceneFile, spec: &SweepAxis, key: &str, value: &str) -> Result<Setting, SceneError> {
-    let refused = |message: String, help: &str| file.error_at(spec.key.span(), message, help);
-    let paths =
-        "write the path of a key of the scene in quotes, as in \"energy.bars.stiffness\" or \"study.NAME.tolerance\"";
-    let found = Setting::new(key, value).map_err(|_| refused(format!("`{key}` is no path of a key"), paths))?;
-    match found.table() {
-        TABLE => Err(refused(format!("`{key}` is a key of the sweep itself"), paths)),
-        _ => Ok(found),
+/// Checks that a key is the path of one that a point can set.
+fn check_key(file: &SceneFile, spec: &SweepAxis, key: &str) -> Result<(), SceneError> {
+    let refused = |message: String| {
+        let help = "write the path of a key of the scene in quotes, as in \"energy.bars.stiffness\" or \"study.NAME.tolerance\"";
+        Err(file.error_at(spec.key.span(), message, help))
+    };
+    match Setting::new(key, "0") {
+        Err(_) => refused(format!("`{key}` is no path of a key")),
+        Ok(found) if found.table() == TABLE => refused(format!("`{key}` is a key of the sweep itself")),
+        Ok(_) => Ok(()),
     }
 }
 
