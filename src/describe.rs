@@ -207,8 +207,13 @@ fn describe_study(study: &StudySummary) -> String {
             let energies = found.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");
             let barriers = found.barriers.iter().map(|barrier| {
                 let bars = barrier.bars.map_or("rigid bars".to_owned(), |bars| format!("bars of {bars:e}"));
+                let known = match (barrier.singular, barrier.flat, barrier.limit_error) {
+                    (true, true, _) => ", the flat state".to_owned(),
+                    (true, false, Some(error)) => format!(", extrapolated with an error of about {error:.0e}"),
+                    _ => String::new(),
+                };
                 let energy =
-                    barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e} with {bars}"));
+                    barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e} with {bars}{known}"));
                 format!("; pass {:?} {energy}", barrier.between)
             });
             let count = counted(found.wells.len(), "well");
