@@ -227,11 +227,10 @@ impl Model {
         wanted.map(|(number, (term, k))| (number, term.spring(k))).collect()
     }
 
-    /// Returns the length in the reference state between the first two points of an element: of its edge.
+    /// Returns the length in the drawn state between the first two points of an element: of its edge.
     pub(super) fn length_of(&self, term: &dyn Elements, k: usize) -> f64 {
         let sites = term.sites(k);
-        let points = &self.base[..self.points()];
-        (self.domain.point(points, sites[1]) - self.domain.point(points, sites[0])).norm()
+        (self.domain.point(&self.drawn, sites[1]) - self.domain.point(&self.drawn, sites[0])).norm()
     }
 
     fn length_of_stiff(&self, number: usize) -> f64 {
