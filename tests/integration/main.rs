@@ -49,6 +49,7 @@ mod landscape_torus;
 mod loads_and_units;
 mod miura;
 mod pages;
+mod path_events;
 mod path_laws;
 mod paths;
 mod periodic;

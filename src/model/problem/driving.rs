@@ -21,6 +21,8 @@ pub struct DrivenModel {
     way: f64,
     /// The part of the model that changes with the parameter.
     effect: Effect,
+    /// Generalised coordinates of the state at which the held coordinates were first chosen.
+    first: Vec<f64>,
 }
 
 /// The parts of a model that can change with a parameter.
@@ -80,7 +82,8 @@ impl DrivenModel {
         if !(way > 0.0) {
             return Err(DriveError::NoWay { at: parameter });
         }
-        let mut driven = Self { model, quantity, parameter, target, way, effect };
+        let first = model.base.clone();
+        let mut driven = Self { model, quantity, parameter, target, way, effect, first };
         driven.set_parameter(parameter);
         Ok(driven)
     }
@@ -272,6 +275,21 @@ impl ParametrizedProblem for DrivenModel {
 
     fn set_reference(&mut self, reference: &[f64]) {
         self.model.set_angles(reference);
+    }
+
+    fn choice(&self) -> Vec<f64> {
+        if self.model.base == self.first { vec![] } else { self.model.base.clone() }
+    }
+
+    fn set_choice(&mut self, choice: &[f64]) {
+        let place = if choice.is_empty() { &self.first } else { choice };
+        if self.model.base != place {
+            self.model.rechoose(place.to_vec());
+        }
+    }
+
+    fn choose_anew(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        self.model.still_held(x, rates)
     }
 
     fn set_parameter(&mut self, value: f64) {
