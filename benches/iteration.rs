@@ -84,7 +84,7 @@ fn minimise(star: &Star, iterations: usize) -> (Spent, Equilibrium) {
     let found = match found.expect("it ran") {
         Ok(found) => found,
         Err(NewtonError { x, tension, history, .. }) => {
-            Equilibrium { x, tension, history, energy: f64::NAN, negative_eigenvalues: 0, independent: false }
+            Equilibrium { x, tension, history, energy: f64::NAN, negative_eigenvalues: Some(0), independent: false }
         }
     };
     let sum = |count: fn(&foldwell::solver::Step) -> usize| found.history.iter().map(count).sum::<usize>() as f64;

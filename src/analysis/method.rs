@@ -15,6 +15,7 @@ use crate::numerics::vector::max_abs;
 use crate::solver::constrained::{
     ConstrainedFailure, ConstrainedIterate, ConstrainedStep, Settings, minimize_constrained_iterates,
 };
+use crate::solver::inertia::in_words;
 use crate::solver::{Equilibrium, Failure, Iterate, NewtonError, Options, Problem, Start, Step, minimize_iterates};
 use std::num::NonZeroUsize;
 use thiserror::Error;
@@ -75,10 +76,10 @@ pub enum IntrinsicFailure {
         angle: f64,
     },
     /// The state that was found is no minimum.
-    #[error("the state found in fold angles is no minimum: {negative} negative eigenvalues")]
+    #[error("the state found in fold angles is no minimum: {} negative eigenvalues", in_words(*negative))]
     Saddle {
-        /// Number of negative eigenvalues.
-        negative: usize,
+        /// Number of negative eigenvalues, `None` where it is not known.
+        negative: Option<usize>,
     },
     /// Newton's method in positions did not converge from the state that was found.
     #[error("the state found in fold angles was not confirmed in positions: {failure}")]
@@ -117,7 +118,7 @@ pub(super) fn minimize_in_angles(
     }
     let found = solve(&intrinsic, model, start, recorder, history).and_then(|near| {
         match recorder.minimize(model, near, options) {
-            Ok(found) if found.negative_eigenvalues == 0 => Ok(Ok(found)),
+            Ok(found) if found.negative_eigenvalues == Some(0) => Ok(Ok(found)),
             Ok(found) => Err(IntrinsicFailure::Saddle { negative: found.negative_eigenvalues }),
             Err(error) if error.failure == Failure::Interrupted => Ok(Err(error)),
             Err(error) => Err(IntrinsicFailure::NotConfirmed { failure: error.failure }),

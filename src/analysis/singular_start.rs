@@ -213,7 +213,7 @@ fn stiffen(
             reached = with_soft_bars(model, ratio, (&place, None), exact, recorder);
         }
         let found = match reached {
-            Ok(found) if found.negative_eigenvalues == 0 => found,
+            Ok(found) if found.negative_eigenvalues == Some(0) => found,
             Err(error) if error.failure == Failure::Interrupted => return Some(Err(error)),
             _ => {
                 recorder.forget_after(seen);

@@ -52,9 +52,6 @@ const STRETCH_UNIT_PER_LENGTH: f64 = 1e2;
 /// Residuals of the first block row are measured against this part of the forces `R^T dt` before they balance, where
 /// its right-hand side is smaller still and may be rounding error alone.
 const FORCE_UNIT_PER_PULL: f64 = 1e-9;
-/// Eigenvalues of `S` below this, relative to its largest diagonal entry, count as zero in [`KktSystem::inertia`].
-const ZERO_EIGENVALUE: f64 = 1e-14;
-
 /// A solution of the system.
 #[derive(Clone, Debug)]
 pub struct Increment {
@@ -148,19 +145,32 @@ impl KktSystem {
         self.values.fill(0.0);
         at.pattern().add_to_diagonal(&mut self.values, hessian_size(at));
         self.shifted.clone_from(&self.values);
-        self.add_weighted_measures(at, compliance);
+        self.add_weighted_measures(at, compliance, 1.0);
         self.factor_filled(at, 0.0)
     }
 
-    /// Inertia of `S`, with eigenvalues that are zero to rounding error counted as positive.
+    /// Factors `S` with `zero` times the identity added to the Hessian, and largest weights of stiff measures that are
+    /// `heavier` times the usual ones. Returns the number of its negative eigenvalues.
     ///
     /// # Errors
     /// As [`KktSystem::factor`].
-    pub(crate) fn inertia(&mut self, at: &Linearization, compliance: &[f64]) -> Result<Inertia, FactorError> {
-        self.fill(at, compliance, 0.0);
-        let zero = ZERO_EIGENVALUE * at.pattern().largest_diagonal(&self.values);
+    pub(super) fn count_negative(
+        &mut self,
+        at: &Linearization,
+        compliance: &[f64],
+        [zero, heavier]: [f64; 2],
+    ) -> Result<usize, FactorError> {
+        self.values.copy_from_slice(&at.hessian);
         at.pattern().add_to_diagonal(&mut self.values, zero);
-        self.factor_filled(at, 1.0)
+        self.shifted.clone_from(&self.values);
+        self.add_weighted_measures(at, compliance, heavier);
+        Ok(self.factor_filled(at, 1.0)?.negative)
+    }
+
+    /// Whether every stiff measure has its own stiffness as weight in the matrix that was factored last, so that this matrix is
+    /// the Hessian of the whole energy.
+    pub(super) fn weights_are_exact(&self) -> bool {
+        self.weights.iter().zip(&self.compliance).all(|(weight, c)| *weight >= 1.0 / c)
     }
 
     /// Factors the values, which contain `part` times the soft elements' Gauss-Newton Hessian.
@@ -179,14 +189,15 @@ impl KktSystem {
             at.pattern().add_to_diagonal(&mut self.values, shift * identity * hessian_size(at));
             self.shifted.clone_from(&self.values);
         }
-        self.add_weighted_measures(at, compliance);
+        self.add_weighted_measures(at, compliance, 1.0);
     }
 
-    fn add_weighted_measures(&mut self, at: &Linearization, compliance: &[f64]) {
+    /// Adds the stiff measures to the values, with largest weights that are `heavier` times the usual ones.
+    fn add_weighted_measures(&mut self, at: &Linearization, compliance: &[f64], heavier: f64) {
         self.compliance.clear();
         self.compliance.extend_from_slice(compliance);
         let size = stiffness_size(at, compliance);
-        let gamma = self.relative_weight.unwrap_or_else(|| largest_relative_weight(at.kind));
+        let gamma = heavier * self.relative_weight.unwrap_or_else(|| largest_relative_weight(at.kind));
         self.jacobian.copy_from_slice(&at.jacobian);
         for (row, &c) in compliance.iter().enumerate() {
             let largest = max_abs(at.stiff_gradient(row));
@@ -263,6 +274,11 @@ pub(super) fn stiffness_size(at: &Linearization, compliance: &[f64]) -> f64 {
     let finite = compliance.iter().enumerate().filter(|(_, c)| **c > 0.0);
     let softest = finite.map(|(row, c)| max_abs(at.stiff_gradient(row)).powi(2) / c).fold(f64::INFINITY, f64::min);
     if softest.is_finite() { hessian.max(softest) } else { hessian }
+}
+
+/// Largest diagonal entry of the Hessian with the usual weights of stiff measures.
+pub(super) fn largest_weighted_entry(at: &Linearization, compliance: &[f64]) -> f64 {
+    hessian_size(at).max(largest_relative_weight(at.kind) * stiffness_size(at, compliance))
 }
 
 /// Norm of the forces of these tensions, measure by measure, before they balance.

@@ -17,6 +17,7 @@
 //! | `layout`, `linearization` | unknowns and couplings; energy, gradient, Hessian, gaps and Jacobian at one state |
 //! | [`kkt`], [`corrections`] | the linear system of a Newton step, and its refinement by conjugate residuals |
 //! | `tangent` | the same at one state: a Newton step, the inertia, the response to a force ([`Tangent`]) |
+//! | `inertia` | the number of negative eigenvalues on what rigid measures leave free |
 //! | `newton` | [`minimize`]: Newton's method with retraction onto the stiff measures |
 //! | `stationary` | [`stationary_point`]: an equilibrium of any index near a state |
 //! | [`path`] | equilibria along a parameter, through limit points and branch points |
@@ -87,7 +88,7 @@
 //! let length = f64::sqrt(5.0);
 //! assert!((found.x[0] - 2.0 / length).abs() < 1e-12 && (found.x[1] - 1.0 / length).abs() < 1e-12);
 //! assert!((found.tension[0] - (length - 1.0)).abs() < 1e-12);
-//! assert_eq!(found.negative_eigenvalues, 0);
+//! assert_eq!(found.negative_eigenvalues, Some(0));
 //! # Ok(())
 //! # }
 //! ```
@@ -97,6 +98,7 @@ pub mod constrained;
 pub mod continuation;
 pub mod corrections;
 pub(crate) mod implicit;
+pub(crate) mod inertia;
 pub mod kkt;
 mod layout;
 mod linearization;

@@ -18,8 +18,9 @@ pub struct StationaryPoint {
     pub x: Vec<f64>,
     /// Tensions of the stiff measures.
     pub tension: Vec<f64>,
-    /// Number of negative eigenvalues of the Hessian: 0 at a minimum, 1 at a saddle point between two minima.
-    pub negative_eigenvalues: usize,
+    /// Number of negative eigenvalues of the Hessian: 0 at a minimum, 1 at a saddle point between two minima; `None` where it
+    /// cannot be established.
+    pub negative_eigenvalues: Option<usize>,
     /// Residuals reached.
     pub residuals: Residuals,
     /// Number of Newton steps.
@@ -47,7 +48,7 @@ pub fn stationary_point<P: Problem>(
         let residuals = Residuals::new(problem, &tangent.at, &tension);
         let Residuals { force, length } = residuals;
         if force <= options.tolerance && length <= options.tolerance {
-            let negative_eigenvalues = tangent.inertia()?.negative;
+            let negative_eigenvalues = tangent.negative_eigenvalues()?;
             return Ok(StationaryPoint { x, tension, negative_eigenvalues, residuals, iterations });
         }
         if iterations == options.iterations || !(force.is_finite() && length.is_finite()) {

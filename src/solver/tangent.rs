@@ -1,9 +1,10 @@
 //! The tangent problem at one state: the equations of equilibrium linearized there, factored, and solved.
 //!
 //! With it one asks for a single Newton step ([`Tangent::newton_step`]), for the number of negative eigenvalues
-//! ([`Tangent::inertia`]) or for the response to forces and stretches ([`Tangent::solve`]) without an iteration.
+//! ([`Tangent::negative_eigenvalues`]) or for the response to forces and stretches ([`Tangent::solve`]) without an iteration.
 
 use super::corrections::Patience;
+use super::inertia;
 use super::kkt::{Increment, KktSystem};
 use super::linearization::{HessianKind, Linearization};
 use super::problem::Problem;
@@ -60,13 +61,13 @@ impl Tangent {
         self.system.factor_shortest(&self.at, &self.compliance)
     }
 
-    /// Inertia of the Hessian on what the rigid measures leave free, with eigenvalues that are zero to rounding error
-    /// counted as positive. Factors anew, with a small multiple of the identity added.
+    /// Number of negative eigenvalues of the Hessian on what the rigid measures leave free; `None` where it cannot be
+    /// established. Eigenvalues that are zero to rounding error count as positive. Factors anew.
     ///
     /// # Errors
     /// As [`Tangent::factor`].
-    pub fn inertia(&mut self) -> Result<Inertia, FactorError> {
-        self.system.inertia(&self.at, &self.compliance)
+    pub fn negative_eigenvalues(&mut self) -> Result<Option<usize>, FactorError> {
+        inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)
     }
 
     /// The response of unknowns and tensions to a force on every unknown and a stretch of every stiff measure, by the

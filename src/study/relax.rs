@@ -157,7 +157,7 @@ fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
         chord_solves: relaxed.solves,
         residual_force: relaxed.residual_force,
         residual_length: relaxed.residual_length,
-        negative_eigenvalues: Some(relaxed.negative_eigenvalues),
+        negative_eigenvalues: relaxed.negative_eigenvalues,
         self_stresses: relaxed.self_stresses,
         intrinsic_failure: relaxed.intrinsic_failure.map(|failure| failure.to_string()),
         branch_choice: relaxed.branch_choice.map(|choice| BranchChoiceSummary {

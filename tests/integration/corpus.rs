@@ -359,7 +359,7 @@ fn patterns_fold_from_their_files() {
         count += 1;
         match folded(file.read().unwrap()) {
             Ok(found) => {
-                assert!(found.residual_force < 1e-11 && found.negative_eigenvalues == 0, "{}", file.name);
+                assert!(found.residual_force < 1e-11 && found.negative_eigenvalues == Some(0), "{}", file.name);
                 let most = found
                     .state
                     .fold_angle

@@ -91,7 +91,7 @@ impl Chain {
             let off = (found.x[2 * k] - place[0]).hypot(found.x[2 * k + 1] - place[1]);
             assert!(off < 1e-9, "{} bars, joint {k}: off by {off:e}", self.bars);
         }
-        assert_eq!(found.negative_eigenvalues, 0);
+        assert_eq!(found.negative_eigenvalues, Some(0));
     }
 }
 

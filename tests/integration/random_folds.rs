@@ -58,7 +58,7 @@ impl Fold {
             .sum();
         Self {
             failure,
-            minimum: found.as_ref().is_ok_and(|found| found.negative_eigenvalues == 0),
+            minimum: found.as_ref().is_ok_and(|found| found.negative_eigenvalues == Some(0)),
             largest: ratios.iter().fold(0.0, |largest, ratio| largest.max(ratio.abs())),
             mean: ratios.iter().sum::<f64>() / ratios.len() as f64,
             on_side: ratios.iter().filter(|ratio| **ratio > 0.0).count() as f64 / ratios.len() as f64,

@@ -59,7 +59,7 @@ fn miura_with_rigid_quadrilaterals() {
         let terms = rigid_quads(&case, case.rest_per_hinge(0.1, seed));
         let found = case.relax(&terms).unwrap();
         converged(&found);
-        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(64), 0));
+        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(64), Some(0)));
         let (count, part) = self_stress_part(&forces(&case, &terms, &found));
         assert_eq!(count, 64);
         assert!(part < 1e-8, "seed {seed}: {part:e} of the tensions is self stress");
@@ -78,7 +78,7 @@ fn fixed_tori() {
         let terms = Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed));
         let found = case.relax(&terms).unwrap();
         converged(&found);
-        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(3), 0), "{cells:?}");
+        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(3), Some(0)), "{cells:?}");
         let (count, part) = self_stress_part(&forces(&case, &terms, &found));
         assert_eq!(count, 3, "{cells:?}");
         assert!(part < 1e-8, "{cells:?}: {part:e}");
@@ -106,7 +106,7 @@ fn a_developable_sheet_on_a_branch() {
             Terms { facets: case.facets(1.0), ..Terms::bars_and_creases(RIGID, 1.0, case.rest_per_hinge(0.1, seed)) };
         let found = case.relax(&terms).unwrap();
         converged(&found);
-        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), 0));
+        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), Some(0)));
     }
 }
 
@@ -124,13 +124,13 @@ fn a_random_developable_patch_on_a_branch() {
             let start: Vec<f64> = model.start().iter().map(|x| x + numbers.within(0.1)).collect();
             relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap()
         };
-        assert_eq!(stiff.negative_eigenvalues, 0);
+        assert_eq!(stiff.negative_eigenvalues, Some(0));
         let mut model = case.model_of(&Terms::bars_and_creases(RIGID, 1.0, rest), Gauge::Held);
         let start = model.start_from(stiff.state.coordinates.clone());
         let found = relax_from(&mut model, start, Options::default(), &mut |_| true)
             .unwrap_or_else(|error| panic!("seed {seed}: {error}"));
         converged(&found);
-        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), 0), "seed {seed}");
+        assert_eq!((found.self_stresses, found.negative_eigenvalues), (Some(0), Some(0)), "seed {seed}");
         let off = distance(&found.state.fold_angle, &stiff.state.fold_angle);
         assert!(off < 0.1, "seed {seed}: off by {off}");
     }
@@ -155,7 +155,7 @@ fn a_flat_rigid_patch_leaves_the_flat_state() {
             let found = case.relax(&Terms::bars_and_creases(RIGID, 1.0, rest)).unwrap();
             converged(&found);
             assert!(found.branch_choice.is_some_and(|choice| choice.soft_bars), "{cells:?}, seed {seed}");
-            assert_eq!(found.negative_eigenvalues, 0, "{cells:?}, seed {seed}");
+            assert_eq!(found.negative_eigenvalues, Some(0), "{cells:?}, seed {seed}");
             assert!(found.state.total() < 0.99 * flat, "{cells:?}, seed {seed}: {} of {flat}", found.state.total());
         }
     }
@@ -214,7 +214,7 @@ fn a_flat_equilibrium_reports_its_negative_eigenvalues() {
         );
         let expected = negative(&case, &terms, &found);
         println!("rest angles {size}, bars {bars}: {expected} negative eigenvalues");
-        assert_eq!(found.negative_eigenvalues, expected);
+        assert_eq!(found.negative_eigenvalues, Some(expected));
         assert!(size > 0.1 || expected == 0);
         unstable += usize::from(expected > 0);
     }
@@ -243,8 +243,9 @@ fn a_compressed_flat_sheet_reports_buckling() {
         let found = case.relax(&terms).unwrap();
         converged(&found);
         assert!(found.state.coordinates.chunks(3).all(|p| p[2].abs() < 1e-9), "it left the plane");
-        println!("pressed by {pressure}: {} negative eigenvalues", found.negative_eigenvalues);
-        assert_eq!(found.negative_eigenvalues > 0, buckles, "{}", found.negative_eigenvalues);
-        assert_eq!(found.negative_eigenvalues, negative(&case, &terms, &found));
+        let counted = found.negative_eigenvalues.unwrap();
+        println!("pressed by {pressure}: {counted} negative eigenvalues");
+        assert_eq!(counted > 0, buckles, "{counted}");
+        assert_eq!(counted, negative(&case, &terms, &found));
     }
 }

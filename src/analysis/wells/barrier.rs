@@ -19,6 +19,7 @@ use super::settle::{MinimumTracker, Settled};
 use super::string::{self, string};
 use crate::model::{Assembly, Gauge};
 use crate::sheet::flatten;
+use crate::solver::inertia::in_words;
 use crate::solver::{Failure, Options};
 use thiserror::Error;
 
@@ -82,13 +83,14 @@ pub enum BarrierError {
     },
     /// The equilibrium near the highest state is no pass.
     #[error(
-        "with bars of {stiffness:e} the equilibrium near the highest state has {found} negative eigenvalues, not one"
+        "with bars of {stiffness:e} the equilibrium near the highest state has {} negative eigenvalues, not one",
+        in_words(*found)
     )]
     Index {
         /// Stiffness of the bars.
         stiffness: f64,
-        /// Negative eigenvalues.
-        found: usize,
+        /// Negative eigenvalues, `None` where their number is not known.
+        found: Option<usize>,
     },
     /// It is no barrier between the wells, one of which lies higher.
     #[error("the pass that was found, of energy {pass}, lies below a well that it should lead to, of energy {well}")]
@@ -316,7 +318,7 @@ fn near_top(
         let [before, top, after] = &around;
         match index_one(assembly, stiffness, [top, before, after]) {
             Ok(pass) => return Ok(pass),
-            Err(error @ (BarrierError::Index { found: 0, .. } | BarrierError::NoPass { .. })) => {
+            Err(error @ (BarrierError::Index { found: Some(0), .. } | BarrierError::NoPass { .. })) => {
                 first.get_or_insert(error);
             }
             Err(error) => return Err(first.unwrap_or(error)),
@@ -332,7 +334,7 @@ fn index_one(assembly: &Assembly, stiffness: f64, near: [&Settled; 3]) -> Result
     let mut why = None;
     for state in near {
         let reason = match equilibrium(&assembly.with_bars_at_most(stiffness), &state.place, OPTIONS) {
-            Ok(pass) if pass.negative_eigenvalues == 1 => return Ok(pass),
+            Ok(pass) if pass.negative_eigenvalues == Some(1) => return Ok(pass),
             Ok(pass) => BarrierError::Index { stiffness, found: pass.negative_eigenvalues },
             Err(failure) => BarrierError::NoPass { stiffness, failure },
         };
@@ -357,7 +359,7 @@ fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<Followed
     while at < goal {
         let next = if at >= ALMOST_RIGID * creases { goal } else { (at * factor).min(goal) };
         match equilibrium(&assembly.with_bars_at_most(next), &pass.place, OPTIONS) {
-            Ok(found) if found.negative_eigenvalues == 1 && (next.is_finite() || near(&found, &pass)) => {
+            Ok(found) if found.negative_eigenvalues == Some(1) && (next.is_finite() || near(&found, &pass)) => {
                 heights.push(Height { stiffness: next, energy: found.energy });
                 (pass, at, factor) = (found, next, (factor * factor).min(STIFFER));
             }

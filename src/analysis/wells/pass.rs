@@ -44,8 +44,9 @@ pub struct Pass {
     pub rho: Vec<f64>,
     /// Its elastic energy less the work of loads from the drawn state.
     pub energy: f64,
-    /// Negative eigenvalues of the energy's Hessian on what rigid bars leave free: one at a pass.
-    pub negative_eigenvalues: usize,
+    /// Negative eigenvalues of the energy's Hessian on what rigid bars leave free: one at a pass; `None` where their
+    /// number cannot be established.
+    pub negative_eigenvalues: Option<usize>,
     /// Largest unbalanced force over the largest force of an element.
     pub residual_force: f64,
     /// Largest gap over the mean edge.

@@ -165,7 +165,7 @@ fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number
 fn released(assembly: &Assembly, from: &StartState, warm: bool, options: Options) -> Outcome {
     match MinimumTracker::new(assembly, 1.0).free(from, warm, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),
-        Ok(found) if found.relaxed.negative_eigenvalues > 0 => Outcome::Saddle,
+        Ok(found) if found.relaxed.negative_eigenvalues != Some(0) => Outcome::Saddle,
         Ok(found) => Outcome::Well(Box::new(found)),
     }
 }

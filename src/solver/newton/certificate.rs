@@ -34,14 +34,14 @@ impl<P: Problem> Newton<'_, P> {
             && self.history.last().is_some_and(|step| step.fraction == 1.0)
     }
 
-    /// Number of negative eigenvalues of the full Hessian at the converged state.
-    pub(super) fn certify(&mut self) -> Result<usize, Failure> {
+    /// Number of negative eigenvalues of the full Hessian at the converged state; `None` where it is not known.
+    pub(super) fn certify(&mut self) -> Result<Option<usize>, Failure> {
         if self.near_certified_minimum() {
-            return Ok(0);
+            return Ok(Some(0));
         }
         self.kind = HessianKind::Full;
         self.linearize();
-        Ok(self.tangent.inertia()?.negative)
+        Ok(self.tangent.negative_eigenvalues()?)
     }
 
     /// Whether the stretch that a step makes beyond its linear part cannot be taken back by any motion: then the rigid

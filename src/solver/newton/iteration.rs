@@ -59,7 +59,10 @@ impl<'a, P: Problem> Newton<'a, P> {
     }
 
     /// The outcome of the iteration: a converged state with this number of negative eigenvalues, or a failure.
-    pub(super) fn end(mut self, negative_eigenvalues: Result<usize, Failure>) -> Result<Equilibrium, NewtonError> {
+    pub(super) fn end(
+        mut self,
+        negative_eigenvalues: Result<Option<usize>, Failure>,
+    ) -> Result<Equilibrium, NewtonError> {
         match negative_eigenvalues {
             Ok(negative_eigenvalues) => Ok(Equilibrium {
                 energy: self.history.last().map_or(f64::NAN, |step| step.energy),

@@ -53,12 +53,12 @@ pub fn minimize_iterates<P: Problem>(
     newton.end(negative_eigenvalues)
 }
 
-/// Iterates until convergence; returns the number of negative eigenvalues there.
+/// Iterates until convergence; returns the number of negative eigenvalues there, `None` where it is not known.
 fn run<P: Problem>(
     newton: &mut Newton<'_, P>,
     options: Options,
     observe: &mut dyn FnMut(&Iterate<'_, P>) -> bool,
-) -> Result<usize, Failure> {
+) -> Result<Option<usize>, Failure> {
     newton.problem.relieve(&mut newton.x);
     newton.linearize();
     newton.retract_start()?;

@@ -48,8 +48,9 @@ pub struct Equilibrium {
     pub tension: Vec<f64>,
     /// Energy, stiff measures included.
     pub energy: f64,
-    /// Negative eigenvalues of the energy's Hessian on what the rigid measures leave free.
-    pub negative_eigenvalues: usize,
+    /// Negative eigenvalues of the energy's Hessian on what the rigid measures leave free; `None` where their number cannot be
+    /// established.
+    pub negative_eigenvalues: Option<usize>,
     /// Whether the rigid measures were seen to be independent; then there is no self stress.
     pub independent: bool,
     /// Accepted steps, the start first.

@@ -18,6 +18,7 @@ use crate::numerics::factor::{FactorError, Inertia};
 use crate::numerics::sparse::symmetric_product;
 use crate::numerics::vector::{add_scaled, dot, max_abs, norm_blocked};
 use crate::solver::corrections::{self, NearlySolved, Pair, Patience};
+use crate::solver::inertia;
 use crate::solver::kkt::{KktSystem, stiffness_size};
 use crate::solver::linearization::{HessianKind, Linearization};
 
@@ -100,14 +101,15 @@ impl Bordered {
         Ok(())
     }
 
-    /// Number of negative eigenvalues of the Hessian at fixed parameter, on what the rigid measures leave free.
+    /// Number of negative eigenvalues of the Hessian at fixed parameter, on what the rigid measures leave free; `None`
+    /// where it cannot be established.
     pub fn negative_eigenvalues(&mut self) -> Result<Option<usize>, FactorError> {
         match self.inertia {
-            Some(inertia) => Ok(Some(inertia.negative)),
-            None => {
-                let inertia = self.system.inertia(&self.at, &self.compliance)?;
+            Some(inertia) if inertia.negative == 0 || self.system.weights_are_exact() => Ok(Some(inertia.negative)),
+            _ => {
+                let counted = inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)?;
                 self.factor()?;
-                Ok(Some(inertia.negative))
+                Ok(counted)
             }
         }
     }

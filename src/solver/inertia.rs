@@ -1,0 +1,223 @@
+//! The number of negative eigenvalues of the Hessian `H` on what rigid measures leave free: of `H + R^T C^-1 R`, where a
+//! compliance of zero leaves only motions with `R dx = 0`.
+//!
+//! The factored matrix `S = H + R^T W R` of [`kkt`](super::kkt) has weights `W` that are at most a few million times the
+//! Hessian. Its count is an upper bound, since a larger weight can only take negative eigenvalues away; and where gradients
+//! of rigid measures nearly depend on each other, as those of a compressed column do, a direction that they block is still
+//! too soft in `S`, and the bound is not reached. A lower bound comes from motions: on the span of any motions that meet
+//! the measures, `H` has at most as many negative eigenvalues (Courant and Fischer). These motions are a block Krylov space of
+//! the inverse of the true system, which is solved by corrections with the factorization of `S`. Where the bounds meet
+//! the count is known. Where they do not, heavier weights lower the upper one; what then still differs is not known.
+
+use super::kkt::{KktSystem, largest_weighted_entry};
+use super::linearization::Linearization;
+use crate::numerics::factor::FactorError;
+use crate::numerics::random::symmetric;
+use crate::numerics::sparse::symmetric_product;
+use crate::numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
+use crate::numerics::{DenseMatrix, dense};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+
+/// Eigenvalues of `S` above minus this, relative to its largest diagonal entry, count as zero: rounding errors of the sums
+/// in its entries are about as large.
+const ZERO_EIGENVALUE: f64 = 1e-14;
+/// Problems of at most this many unknowns are projected dense, which takes a few milliseconds.
+const DENSE_LIMIT: usize = 120;
+/// Weights of further counts, relative to the usual ones. Heavier ones lose small eigenvalues to rounding.
+const HEAVIER_WEIGHTS: [f64; 3] = [1e2, 1e3, 1e5];
+/// Counts above this are not confirmed by motions, which cost about two solves each, but by the count of a heavier weight.
+const MOST_CONFIRMED_BY_MOTIONS: usize = 64;
+/// Number of motions tried, for every negative eigenvalue that is looked for and besides.
+const MOTIONS_PER_EIGENVALUE: usize = 3;
+const FURTHER_MOTIONS: usize = 24;
+/// Number of motions that one random force leads to, by solving again and again. Repeated eigenvalues, as symmetric sheets
+/// have, need several forces.
+const MOTIONS_PER_FORCE: usize = 8;
+/// Number of random forces in a row that lead to no new motion after which all motions are taken to be found.
+const BARREN_FORCES: usize = 2;
+/// Relative residual to which the true system is solved.
+const SOLVED: f64 = 1e-12;
+/// Largest stretch of a rigid measure by a motion of length 1 that meets the measures, in natural sizes: between rounding
+/// errors of a solve and the singular values (`P / EA` for a column under a load `P`) of gradients that nearly depend on
+/// each other.
+const MEETS_MEASURES: f64 = 1e-9;
+/// Part of a motion that must be new.
+const LEAST_NEW_PART: f64 = 1e-6;
+/// Seed of the random forces.
+const SEED: u64 = 1;
+
+/// Number of negative eigenvalues of the Hessian at a linearization, on what the rigid measures leave free; `None` where the
+/// bounds of this module do not meet. The system is left factored with a multiple of the identity added.
+///
+/// # Errors
+/// [`FactorError`] where an entry is not finite, or a pivot vanishes.
+pub(super) fn negative_eigenvalues(
+    system: &mut KktSystem,
+    at: &Linearization,
+    compliance: &[f64],
+) -> Result<Option<usize>, FactorError> {
+    let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
+    let most = system.count_negative(at, compliance, [zero, 1.0])?;
+    if most == 0 || system.weights_are_exact() {
+        return Ok(Some(most));
+    }
+    if at.gradient.len() <= DENSE_LIMIT {
+        return Ok(negative_by_projection(at, compliance, zero).filter(|count| *count <= most));
+    }
+    let least = if most <= MOST_CONFIRMED_BY_MOTIONS {
+        Motions::new(system, at, compliance, zero).negative(most)
+    } else {
+        most
+    };
+    if least == most && most <= MOST_CONFIRMED_BY_MOTIONS {
+        return Ok(Some(most));
+    }
+    for heavier in HEAVIER_WEIGHTS {
+        if system.count_negative(at, compliance, [zero, heavier])? == least {
+            return Ok(Some(least));
+        }
+    }
+    Ok(None)
+}
+
+/// Number of negative eigenvalues of the projection on the null space of the rigid measures, dense; `None` where that
+/// space cannot be found.
+fn negative_by_projection(at: &Linearization, compliance: &[f64], zero: f64) -> Option<usize> {
+    let mut values = at.hessian.clone();
+    at.pattern().add_to_diagonal(&mut values, zero);
+    for (row, c) in compliance.iter().enumerate().filter(|(_, c)| **c > 0.0) {
+        at.add_outer(row, 1.0 / c, &mut values);
+    }
+    let whole = at.pattern().to_dense(&values);
+    let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
+    let rows = dense::from_rows(&at.rows(), at.gradient.len()).select_rows(&rigid);
+    let free = dense::null_space(&rows).ok()?.basis;
+    let values = dense::symmetric_eigenvalues(&(free.transpose() * whole * &free)).ok()?;
+    Some(values.iter().filter(|value| **value < 0.0).count())
+}
+
+/// A number of negative eigenvalues in a message.
+pub(crate) fn in_words(count: Option<usize>) -> String {
+    count.map_or_else(|| "an unknown number of".to_owned(), |count| count.to_string())
+}
+
+/// One motion that meets the stiff measures: `R dx = C dt`.
+struct Motion {
+    dx: Vec<f64>,
+    dt: Vec<f64>,
+    /// The Hessian times `dx`.
+    force: Vec<f64>,
+}
+
+/// Orthonormal motions that meet the stiff measures.
+struct Motions<'a> {
+    system: &'a mut KktSystem,
+    at: &'a Linearization,
+    compliance: &'a [f64],
+    /// Multiple of the identity that is added to the Hessian.
+    zero: f64,
+    found: Vec<Motion>,
+    /// The lower triangle of `dx H dx + dt C dt` between them.
+    energies: Vec<Vec<f64>>,
+}
+
+impl<'a> Motions<'a> {
+    fn new(system: &'a mut KktSystem, at: &'a Linearization, compliance: &'a [f64], zero: f64) -> Self {
+        Self { system, at, compliance, zero, found: vec![], energies: vec![] }
+    }
+
+    /// Number of negative eigenvalues on the span of motions, which grows until there are `most`, or until random forces
+    /// lead to no new motions.
+    fn negative(mut self, most: usize) -> usize {
+        let unknowns = self.at.gradient.len();
+        let enough = unknowns.min(MOTIONS_PER_EIGENVALUE * most + FURTHER_MOTIONS);
+        let (mut random, mut negative, mut barren) = (ChaCha8Rng::seed_from_u64(SEED), 0, 0);
+        while negative < most && self.found.len() < enough && barren < BARREN_FORCES {
+            let before = self.found.len();
+            let mut force: Vec<f64> = (0..unknowns).map(|_| symmetric(&mut random)).collect();
+            for _ in 0..MOTIONS_PER_FORCE {
+                let Some(motion) = self.next_motion(&force) else { break };
+                force.clone_from(&motion.dx);
+                self.push(motion);
+            }
+            if self.found.len() > before {
+                (negative, barren) = (self.negative_on_span(), 0);
+            } else {
+                barren += 1;
+            }
+        }
+        negative
+    }
+
+    /// The motion that a force makes, without its parts along those already found; `None` where nothing is left of it, or
+    /// where it does not meet the measures.
+    fn next_motion(&mut self, force: &[f64]) -> Option<Motion> {
+        let nothing = vec![0.0; self.compliance.len()];
+        let step = self.system.solve(self.at, force, &nothing, SOLVED);
+        let (mut dx, mut dt) = self.across_the_others(step.dx, step.dt)?;
+        let open = self.open_stretch(&dx, &dt);
+        if self.largest_stretch(&open) > MEETS_MEASURES {
+            // what is left is short, and rounding errors of the whole were not
+            let no_force = vec![0.0; dx.len()];
+            let back = self.system.solve(self.at, &no_force, &open, SOLVED);
+            add_scaled(&mut dx, -1.0, &back.dx);
+            add_scaled(&mut dt, -1.0, &back.dt);
+            (dx, dt) = self.across_the_others(dx, dt)?;
+        }
+        if self.largest_stretch(&self.open_stretch(&dx, &dt)) > MEETS_MEASURES {
+            return None;
+        }
+        let mut product = vec![0.0; dx.len()];
+        symmetric_product(self.at.pattern(), &self.at.hessian, &dx, &mut product);
+        add_scaled(&mut product, self.zero, &dx);
+        Some(Motion { dx, dt, force: product })
+    }
+
+    /// A motion without its parts along those already found, scaled to length 1; `None` where next to nothing is left.
+    fn across_the_others(&self, mut dx: Vec<f64>, mut dt: Vec<f64>) -> Option<(Vec<f64>, Vec<f64>)> {
+        let length = norm_blocked(&dx);
+        for _ in 0..2 {
+            for other in &self.found {
+                let part = dot_blocked(&dx, &other.dx);
+                add_scaled(&mut dx, -part, &other.dx);
+                add_scaled(&mut dt, -part, &other.dt);
+            }
+        }
+        let new = norm_blocked(&dx);
+        dx.iter_mut().chain(&mut dt).for_each(|rate| *rate /= new);
+        (new > LEAST_NEW_PART * length).then_some((dx, dt))
+    }
+
+    /// The stretch `R dx - C dt` of every measure.
+    fn open_stretch(&self, dx: &[f64], dt: &[f64]) -> Vec<f64> {
+        let mut stretch = vec![0.0; self.compliance.len()];
+        self.at.rows().product(dx, &mut stretch);
+        stretch.iter_mut().zip(self.compliance).zip(dt).for_each(|((stretch, c), dt)| *stretch -= c * dt);
+        stretch
+    }
+
+    /// The largest of these stretches, in natural sizes.
+    fn largest_stretch(&self, stretch: &[f64]) -> f64 {
+        stretch.iter().zip(&self.at.sizes).map(|(stretch, size)| (stretch / size).abs()).fold(0.0, larger)
+    }
+
+    /// Adds a motion, and its row of `dx H dx + dt C dt`.
+    fn push(&mut self, motion: Motion) {
+        self.found.push(motion);
+        let [.., last] = self.found.as_slice() else { return };
+        let entry = |other: &Motion| {
+            let stretched = last.dt.iter().zip(&other.dt).zip(self.compliance).map(|((a, b), c)| a * b * c);
+            dot_blocked(&last.dx, &other.force) + stretched.sum::<f64>()
+        };
+        self.energies.push(self.found.iter().map(entry).collect());
+    }
+
+    /// Number of negative eigenvalues of `dx H dx + dt C dt` on the span of the motions; 0 where it has none to tell.
+    fn negative_on_span(&self) -> usize {
+        let count = self.found.len();
+        let matrix = DenseMatrix::from_fn(count, count, |i, j| self.energies[i.max(j)][i.min(j)]);
+        let values = dense::symmetric_eigenvalues(&matrix).unwrap_or_default();
+        values.iter().filter(|value| **value < 0.0).count()
+    }
+}
