@@ -4,8 +4,8 @@ mod counted;
 mod sweep;
 
 use foldwell::output::summary::{
-    BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, ResponseSummary, StudyResult,
-    StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
+    BranchChoiceSummary, BranchesSummary, HalfBranchesSummary, ModesSummary, PathSummary, RelaxSummary,
+    ResponseSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
 };
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
@@ -130,15 +130,32 @@ fn describe_trace(traced: &TraceSummary) -> String {
 fn describe_path(path: &PathSummary) -> String {
     let value = |value: Option<f64>| value.map_or("inf".to_owned(), |value| format!("{value:.6}"));
     let branches = path.branches.iter().map(|branch| {
-        let events = branch
-            .events
-            .iter()
-            .map(|event| format!("; {} at {}, reaction {:.6e}", event.event, value(event.drive), event.reaction));
+        let events = branch.events.iter().map(|event| {
+            let eigenvalues = event.multiplicity.filter(|count| *count > 1);
+            let eigenvalues = eigenvalues.map_or(String::new(), |count| format!(" of {count} eigenvalues"));
+            let place = format!("{}{eigenvalues} at {}", event.event, value(event.drive));
+            format!(
+                "; {place}, reaction {:.6e}{}",
+                event.reaction,
+                describe_half_branches(event.half_branches.as_ref())
+            )
+        });
         let number = if path.branches.len() > 1 { format!("branch {}: ", branch.branch) } else { String::new() };
         let end = format!("{number}{} at {} {}", branch.end, path.drive, value(branch.drive));
         format!("{end}, {}{}", counted(branch.steps, "state"), events.collect::<String>())
     });
     branches.collect::<Vec<_>>().join("; ")
+}
+
+/// Describes how many half branches were found; empty where none were sought.
+fn describe_half_branches(sought: Option<&HalfBranchesSummary>) -> String {
+    match sought {
+        None => String::new(),
+        Some(HalfBranchesSummary { found, expected: Some(expected), .. }) => {
+            format!(", {found} of {expected} half branches")
+        }
+        Some(HalfBranchesSummary { found, .. }) => format!(", {found} half branches, not all directions sought"),
+    }
 }
 
 fn describe_surface(surface: &SurfaceSummary) -> String {
@@ -207,8 +224,13 @@ fn describe_study(study: &StudySummary) -> String {
             let energies = found.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");
             let barriers = found.barriers.iter().map(|barrier| {
                 let bars = barrier.bars.map_or("rigid bars".to_owned(), |bars| format!("bars of {bars:e}"));
+                let known = match (barrier.singular, barrier.flat, barrier.limit_error) {
+                    (true, true, _) => ", the flat state".to_owned(),
+                    (true, false, Some(error)) => format!(", extrapolated with an error of about {error:.0e}"),
+                    _ => String::new(),
+                };
                 let energy =
-                    barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e} with {bars}"));
+                    barrier.energy.map_or("not found".to_owned(), |energy| format!("{energy:.6e} with {bars}{known}"));
                 format!("; pass {:?} {energy}", barrier.between)
             });
             let count = counted(found.wells.len(), "well");

@@ -8,7 +8,7 @@ use crate::model::{Assembly, Drive, DriveError, DrivenModel, Gauge, Model};
 use crate::solver::path::{
     self, Branch, BranchEnd, MarkedState, PathError, PathMark, PathObserver, PathSettings, PathState, Watch,
 };
-pub use crate::solver::path::{PathEntry, PathRecord};
+pub use crate::solver::path::{HalfBranches, PathEntry, PathRecord};
 use crate::solver::{Failure, Options, Problem, Start};
 use std::f64::consts::TAU;
 use thiserror::Error;
@@ -89,12 +89,25 @@ pub struct PathPoint {
     pub residual_force: f64,
     /// Largest gap of a stiff measure over its natural size.
     pub residual_length: f64,
-    /// Negative eigenvalues of the Hessian while the driven value is held: 0 where the state is stable.
-    pub negative_eigenvalues: usize,
+    /// Negative eigenvalues of the Hessian while the driven value is held: 0 where the state is stable; `None` where their number
+    /// cannot be established.
+    pub negative_eigenvalues: Option<usize>,
     /// Newton steps made for this state.
     pub iterations: usize,
     /// The event that is located at this state; `None` for an ordinary state.
     pub event: Option<PathEvent>,
+    /// What is known of it where the event is a branch point.
+    pub branch_point: Option<BranchPoint>,
+}
+
+/// What is known of a branch point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BranchPoint {
+    /// Number of eigenvalues that change their sign there.
+    pub multiplicity: usize,
+    /// The half branches that leave there; `None` where they were not sought, or sought at a state of another branch that is
+    /// the same.
+    pub half_branches: Option<HalfBranches>,
 }
 
 /// The reason for which a branch of a path ends.
@@ -106,6 +119,8 @@ pub enum PathEnd {
     Stopped,
     /// A branch came back to the driven value at which the path began, or to a branch point that is known.
     Returned,
+    /// A branch came back to a state of its own and would go on over its own states.
+    Retraced,
     /// The largest number of states was reached.
     TooManySteps,
     /// No step, however short, led on.
@@ -293,7 +308,13 @@ fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoi
         negative_eigenvalues: state.negative_eigenvalues,
         iterations: state.iterations,
         event: mark.and_then(|mark| event(driven, mark)),
+        branch_point: mark.and_then(branch_point),
     }
+}
+
+fn branch_point(mark: PathMark) -> Option<BranchPoint> {
+    let PathMark::BranchPoint(multiplicity) = mark else { return None };
+    Some(BranchPoint { multiplicity, half_branches: None })
 }
 
 fn event(driven: &DrivenModel, mark: PathMark) -> Option<PathEvent> {
@@ -313,6 +334,7 @@ fn ended(branch: &Branch, mut points: Vec<PathPoint>) -> PathBranch {
     let end = match branch.end {
         BranchEnd::Target => PathEnd::Arrived,
         BranchEnd::Returned => PathEnd::Returned,
+        BranchEnd::Retraced => PathEnd::Retraced,
         BranchEnd::Length | BranchEnd::Watched(_) => PathEnd::Stopped,
         BranchEnd::Steps => PathEnd::TooManySteps,
         BranchEnd::Failed => PathEnd::Failed,
@@ -322,6 +344,11 @@ fn ended(branch: &Branch, mut points: Vec<PathPoint>) -> PathBranch {
         && let Some(last) = points.last_mut()
     {
         last.event = Some(PathEvent::Stop);
+    }
+    for (state, found) in &branch.half_branches {
+        if let Some(point) = points.get_mut(*state).and_then(|point| point.branch_point.as_mut()) {
+            point.half_branches = Some(*found);
+        }
     }
     PathBranch { points, end }
 }

@@ -41,6 +41,8 @@ pub struct Model {
     /// Generalised coordinates of the reference state, which is the drawn state or the one that replaced it: those of
     /// all points, then the poses of rigid parts. Held coordinates keep these values.
     base: Vec<f64>,
+    /// Coordinates of the drawn state, whose lengths turn a stiffness per length into that of an element.
+    drawn: Vec<f64>,
     bodies: Bodies,
     supports: Vec<Support>,
     pinned: Vec<usize>,
@@ -104,13 +106,14 @@ impl Model {
     pub(crate) fn new(parts: Parts) -> Self {
         let Parts { domain, drawn, soft, stiff, pinned, parts, supports, loads, edges, mean_edge, gauge } = parts;
         let bodies = Bodies::new(&parts, &drawn);
-        let mut base = drawn;
+        let mut base = drawn.clone();
         base.resize(base.len() + bodies.coordinates(), 0.0);
         let (free, layout) = (Vec::new(), Layout::new(Vec::new(), Cliques::new(), Cliques::new()));
         let (compliance, gap_scale) = (vec![], vec![]);
         let mut model = Self {
             domain,
             base,
+            drawn,
             bodies,
             supports,
             pinned,

@@ -7,7 +7,8 @@
 //! too soft in `S`, and the bound is not reached. A lower bound comes from motions: on the span of any motions that meet
 //! the measures, `H` has at most as many negative eigenvalues (Courant and Fischer). These motions are a block Krylov space of
 //! the inverse of the true system, which is solved by corrections with the factorization of `S`. Where the bounds meet
-//! the count is known. Small problems are projected on the null space of the rigid measures instead. Where they do not, heavier weights lower the upper one; what then still differs is not known.
+//! the count is known. Where they do not, heavier weights lower the upper one; what then still differs is not known. Small
+//! problems are projected on the null space of the rigid measures instead.
 
 use super::kkt::{KktSystem, largest_weighted_entry};
 use super::linearization::Linearization;

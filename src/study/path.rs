@@ -8,13 +8,15 @@ use super::states::{self, Shown};
 use super::{path_table, ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
-    PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint, PathRecord, PathStart, PathStop,
-    check_drive, resume_path,
+    BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
+    PathRecord, PathStart, PathStop, check_drive, resume_path,
 };
 use crate::model::{Assembly, Drive, DriveError, Driven, Gauge};
 use crate::numerics::{larger, worst};
 use crate::output::figure::rounded;
-use crate::output::summary::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary, StudyResult};
+use crate::output::summary::{
+    FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary, StudyResult,
+};
 use crate::scene::build;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{Draw, PathSpec};
@@ -193,6 +195,7 @@ fn reason(branch: &PathBranch) -> Option<String> {
         PathEnd::Returned => {
             Some("the path came back to where it began without reaching the end of the drive".to_owned())
         }
+        PathEnd::Retraced => Some(format!("the path goes back over its own states from drive {} on", rounded(at, 6))),
         PathEnd::Failed => Some(format!("no step leads on from the state with drive {}", rounded(at, 6))),
         PathEnd::TooManySteps => {
             let count = branch.points.len();
@@ -257,7 +260,11 @@ fn add_pictures(
     let Some(branch) = branches.first() else { return };
     if let Some(last) = branch.points.last() {
         let Words { quantity, .. } = Words::new(context, drive);
-        let unstable = if last.negative_eigenvalues > 0 { ", not stable" } else { "" };
+        let unstable = match last.negative_eigenvalues {
+            Some(0) => "",
+            Some(_) => ", not stable",
+            None => ", stability not known",
+        };
         let words =
             format!("{quantity} {}, energy {}{unstable}", rounded(last.drive, 5), rounded(last.state.total(), 5));
         states::add_figure(answer, context, &picture(0, branch.points.len() - 1, last), &words);
@@ -309,6 +316,8 @@ fn branch_summary(number: usize, branch: &PathBranch, marks: Option<&[Marks]>) -
             drive: finite(point.drive),
             reaction: point.reaction,
             arc_length: point.arc_length,
+            multiplicity: point.branch_point.map(|known| known.multiplicity),
+            half_branches: point.branch_point.and_then(half_branches),
         })
     };
     let crossing =
@@ -329,7 +338,7 @@ fn branch_summary(number: usize, branch: &PathBranch, marks: Option<&[Marks]>) -
         reaction: last.map(|point| point.reaction),
         work: last.map(|point| point.work),
         energy: last.map(|point| point.state.total()),
-        stable: regular.all(|point| point.negative_eigenvalues == 0),
+        stable: regular.all(|point| point.negative_eigenvalues == Some(0)),
         max_residual: worst(branch.points.iter().map(|point| larger(point.residual_force, point.residual_length))),
         self_intersecting: marks.map(|marks| marks.iter().any(|marks| marks.any)),
         first_self_intersection: first
@@ -338,11 +347,27 @@ fn branch_summary(number: usize, branch: &PathBranch, marks: Option<&[Marks]>) -
     }
 }
 
+/// What was found where branches were sought.
+fn half_branches(BranchPoint { multiplicity, half_branches }: BranchPoint) -> Option<HalfBranchesSummary> {
+    let HalfBranches { found, expected } = half_branches?;
+    let along = format!("branches were sought along {multiplicity} directions only, on both sides of each");
+    let reason = match (expected, multiplicity) {
+        (Some(expected), _) if found == expected => None,
+        (Some(expected), _) => {
+            Some(format!("{expected} half branches leave, and of {} no state was found", expected - found))
+        }
+        (None, 2) => Some(format!("{along}: what tells others from each other is rounding error")),
+        (None, _) => Some(format!("{along}: {multiplicity} eigenvalues vanish at once")),
+    };
+    Some(HalfBranchesSummary { found, expected, reason })
+}
+
 fn end_word(end: &PathEnd) -> &'static str {
     match end {
         PathEnd::Arrived => "arrived",
         PathEnd::Stopped => "stop",
         PathEnd::Returned => "returned",
+        PathEnd::Retraced => "retraced",
         PathEnd::TooManySteps => "too-many-steps",
         PathEnd::Failed => "failed",
         PathEnd::Interrupted => "interrupted",

@@ -74,7 +74,7 @@ pub(crate) fn figure(context: &Context<'_>, drive: &Drive, branches: &[PathBranc
         let states = branch.points.iter().map(|point| PlottedState {
             drive: point.drive,
             reaction: point.reaction,
-            stable: point.negative_eigenvalues == 0,
+            stable: point.negative_eigenvalues == Some(0),
             event: point.event.map(event_word),
         });
         states.collect()

@@ -60,7 +60,7 @@ fn row(
     let fold = states::cell_angles(context, &state).into_iter().map(Value::Number);
     let [branch, step, number] = [branch, step, number].map(|number| Value::Whole(number as i64));
     let own = [branch, step].into_iter().chain(numbers).chain(solution.values());
-    let own = own.chain([Value::Whole(point.negative_eigenvalues as i64), event]);
+    let own = own.chain([point.negative_eigenvalues.map(|count| count as i64).into(), event]);
     let shape = shape.into_iter().flatten().map(Value::Number);
     let asked = crossing.into_iter().chain(shape).chain(ratios.into_iter().flatten().map(Value::from));
     own.chain(asked).chain([number]).chain(fold).collect()

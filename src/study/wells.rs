@@ -239,7 +239,8 @@ impl FoundWells {
             }
         };
         let limit = rigid_limit(&found.heights);
-        let energy = if found.singular { limit.map(|limit| limit.energy) } else { Some(found.pass.energy) };
+        let extrapolated = || limit.map(|limit| limit.energy);
+        let energy = if found.singular { found.flat.or_else(extrapolated) } else { Some(found.pass.energy) };
         let above = |energy: f64| found.joins.map(|well| energy - self.wells[well].settled.energy);
         let height = |height: &crate::analysis::wells::barrier::Height| HeightSummary {
             bars: height.stiffness.is_finite().then_some(height.stiffness),
@@ -256,6 +257,8 @@ impl FoundWells {
             singular: found.singular,
             exponent: limit.map(|limit| limit.exponent),
             limit: limit.map(|limit| limit.energy),
+            limit_error: limit.map(|limit| limit.error),
+            flat: found.flat.is_some(),
             rigid: self.rigid_between(found.joins),
             residual: Some(larger(found.pass.residual_force, found.pass.residual_length)),
             heights: found.heights.iter().map(height).collect(),

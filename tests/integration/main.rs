@@ -51,6 +51,7 @@ mod loads_and_units;
 mod mesh_files;
 mod miura;
 mod pages;
+mod path_events;
 mod path_laws;
 mod paths;
 mod periodic;

@@ -17,7 +17,8 @@ use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
 use super::pass::{Pass, equilibrium, sides};
 use super::settle::{MinimumTracker, Settled};
 use super::string::{self, string};
-use crate::model::Assembly;
+use crate::model::{Assembly, Gauge};
+use crate::sheet::flatten;
 use crate::solver::inertia::in_words;
 use crate::solver::{Failure, Options};
 use thiserror::Error;
@@ -38,6 +39,11 @@ const BENDS: u64 = 3;
 const SAME_PASS: f64 = 1e-8;
 /// Tolerance of a pass.
 const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
+/// Largest fold angle, in radians, of a pass in nearly rigid bars that tends to the flat state: with the cube root of one over
+/// their stiffness.
+const NEARLY_FLAT_RAD: f64 = 1e-2;
+/// How many estimated errors of a limit it may be off.
+const ERRORS_OF_LIMIT: f64 = 5.0;
 /// Differences of energies, relative, from which their law is read.
 const CLEAR: f64 = 1e-8;
 /// Least distance of two wells in soft bars, over that of the wells of the sheet.
@@ -142,6 +148,8 @@ pub struct Barrier {
     /// Whether the bars are rigid and the pass, which exists at every finite stiffness, is singular there: branches
     /// cross in it.
     pub singular: bool,
+    /// Energy of the flat state, exactly, if the singular pass is that.
+    pub flat: Option<f64>,
     /// The pass on its way to this stiffness.
     pub heights: Vec<Height>,
     /// Stiffness of the bars in which the path was found.
@@ -281,7 +289,8 @@ fn from_softness(
     }
     match [number(&ends[1]), number(&ends[0])] {
         [Some(a), Some(b)] if a != b => {
-            Ok(Barrier { between, joins: [a, b], pass, singular, heights, stiffness, path })
+            let flat = if singular { flat_energy(assembly, &pass, &heights) } else { None };
+            Ok(Barrier { between, joins: [a, b], pass, singular, flat, heights, stiffness, path })
         }
         [Some(well), Some(_)] => Err(BarrierError::OneSided { pass: pass.energy, well }),
         [None, _] => Err(BarrierError::UnknownWell { pass: pass.energy, minimum: ends[1].energy }),
@@ -377,20 +386,40 @@ pub struct RigidLimit {
     pub exponent: f64,
     /// The limit.
     pub energy: f64,
+    /// Estimate of the limit's error: the difference to that of three energies before it, or, where there are none, to the last
+    /// energy.
+    pub error: f64,
 }
 
 /// The law through the last three energies, at stiffnesses ten times apart, that differ by more than rounding errors;
 /// `None` where there are none.
 pub fn rigid_limit(heights: &[Height]) -> Option<RigidLimit> {
     let known: Vec<&Height> = heights.iter().filter(|height| height.stiffness.is_finite()).collect();
-    known.windows(3).rev().find_map(|three| {
-        let even = three.windows(2).all(|pair| (pair[1].stiffness / pair[0].stiffness / STIFFER - 1.0).abs() <= 1e-9);
-        let [first, second] = [three[1].energy - three[0].energy, three[2].energy - three[1].energy];
-        let ratio = second / first;
-        let clear = second.abs() > CLEAR * three[2].energy.abs() && 0.0 < ratio && ratio < 1.0;
-        if !(even && clear) {
-            return None;
-        }
-        Some(RigidLimit { exponent: -ratio.log10(), energy: three[2].energy + second * ratio / (1.0 - ratio) })
-    })
+    let mut laws = known.windows(3).rev().filter_map(law);
+    let last = laws.next()?;
+    Some(RigidLimit { error: laws.next().map_or(last.error, |before| (last.energy - before.energy).abs()), ..last })
+}
+
+fn law(three: &[&Height]) -> Option<RigidLimit> {
+    let even = three.windows(2).all(|pair| (pair[1].stiffness / pair[0].stiffness / STIFFER - 1.0).abs() <= 1e-9);
+    let [first, second] = [three[1].energy - three[0].energy, three[2].energy - three[1].energy];
+    let ratio = second / first;
+    let clear = second.abs() > CLEAR * three[2].energy.abs() && 0.0 < ratio && ratio < 1.0;
+    let left = second * ratio / (1.0 - ratio);
+    let law = RigidLimit { exponent: -ratio.log10(), energy: three[2].energy + left, error: left.abs() };
+    (even && clear).then_some(law)
+}
+
+/// The energy of the flat state of a sheet without loads, where a pass that is singular in rigid bars tends to it: the sheet
+/// can be unfolded, all hinges of the last regular pass are nearly flat, and the energies tend to that energy within a few
+/// times the error of their limit.
+fn flat_energy(assembly: &Assembly, singular: &Pass, heights: &[Height]) -> Option<f64> {
+    let flat = singular.rho.iter().all(|angle| angle.abs() <= NEARLY_FLAT_RAD);
+    let limit = rigid_limit(heights).filter(|_| flat)?;
+    if !assembly.terms().loads.is_empty() || flatten(assembly.sheet()).is_err() {
+        return None;
+    }
+    let springs = assembly.model(Gauge::Held).hinge_springs();
+    let energy = springs.iter().map(|spring| 0.5 * spring.stiffness * spring.rest * spring.rest).sum::<f64>();
+    ((energy - limit.energy).abs() <= ERRORS_OF_LIMIT * limit.error).then_some(energy)
 }

@@ -21,6 +21,8 @@ pub struct DrivenModel {
     way: f64,
     /// The part of the model that changes with the parameter.
     effect: Effect,
+    /// Generalised coordinates of the state at which the held coordinates were first chosen.
+    first: Vec<f64>,
 }
 
 /// The parts of a model that can change with a parameter.
@@ -80,7 +82,8 @@ impl DrivenModel {
         if !(way > 0.0) {
             return Err(DriveError::NoWay { at: parameter });
         }
-        let mut driven = Self { model, quantity, parameter, target, way, effect };
+        let first = model.base.clone();
+        let mut driven = Self { model, quantity, parameter, target, way, effect, first };
         driven.set_parameter(parameter);
         Ok(driven)
     }
@@ -227,11 +230,10 @@ impl Model {
         wanted.map(|(number, (term, k))| (number, term.spring(k))).collect()
     }
 
-    /// Returns the length in the reference state between the first two points of an element: of its edge.
+    /// Returns the length in the drawn state between the first two points of an element: of its edge.
     pub(super) fn length_of(&self, term: &dyn Elements, k: usize) -> f64 {
         let sites = term.sites(k);
-        let points = &self.base[..self.points()];
-        (self.domain.point(points, sites[1]) - self.domain.point(points, sites[0])).norm()
+        (self.domain.point(&self.drawn, sites[1]) - self.domain.point(&self.drawn, sites[0])).norm()
     }
 
     fn length_of_stiff(&self, number: usize) -> f64 {
@@ -273,6 +275,21 @@ impl ParametrizedProblem for DrivenModel {
 
     fn set_reference(&mut self, reference: &[f64]) {
         self.model.set_angles(reference);
+    }
+
+    fn choice(&self) -> Vec<f64> {
+        if self.model.base == self.first { vec![] } else { self.model.base.clone() }
+    }
+
+    fn set_choice(&mut self, choice: &[f64]) {
+        let place = if choice.is_empty() { &self.first } else { choice };
+        if self.model.base != place {
+            self.model.rechoose(place.to_vec());
+        }
+    }
+
+    fn choose_anew(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        self.model.still_held(x, rates)
     }
 
     fn set_parameter(&mut self, value: f64) {

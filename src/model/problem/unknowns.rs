@@ -6,9 +6,11 @@ use crate::model::domain::Domain;
 use crate::model::element::Elements;
 use crate::model::gauge;
 use crate::model::problem::Gauge;
+use crate::numerics::dense::small::shortest_solution;
 use crate::numerics::sparse::{Cliques, FIXED};
 use crate::sheet::pieces::pieces;
 use crate::solver::Layout;
+use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 /// Least separation of the rigid motions by the held coordinates, relative to that of newly chosen ones; below it the
@@ -16,6 +18,11 @@ use std::sync::Arc;
 const LEAST_SEPARATION_RATIO: f64 = 1e-3;
 /// The same for a state from which steps are made.
 const WELL_HELD: f64 = 0.5;
+/// The same for a state from which a path goes on, whose states are compared with each other where the same is held.
+const STILL_HELD: f64 = 0.1;
+/// Singular value of the rigid motions of the held coordinates, relative to motions of unit length, below which a motion is
+/// not held.
+const NOT_HELD: f64 = 1e-9;
 
 /// The rigid motions of the coordinates of a piece, and which of them are held.
 fn of_members(motions: &[gauge::Motion], held: &[bool], piece: &[usize]) -> (Vec<gauge::Motion>, Vec<bool>) {
@@ -125,6 +132,33 @@ impl Model {
         let x = self.start_from(coordinates);
         let is_well_held = self.gauge_quality(&x) >= WELL_HELD;
         (if is_well_held { x } else { self.rebase_gauge(self.coordinates(&x)) }, is_well_held)
+    }
+
+    /// Chooses anew what is held where it would soon hold the shape instead of rigid motions. Returns then the unknowns of the
+    /// state `x`, and the given rates of unknowns less the rigid motion with which the coordinates now held would move.
+    pub(super) fn still_held(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        if self.gauge_quality(x) >= STILL_HELD {
+            return None;
+        }
+        let generalised = self.generalised(x);
+        let motions = self.rigid_motions(&generalised, self.loads.is_empty());
+        let mut moved = vec![0.0; motions.len()];
+        self.free.iter().zip(rates).for_each(|(&k, rate)| moved[k as usize] = *rate);
+        self.rechoose(generalised);
+        let mut held = vec![true; motions.len()];
+        self.free.iter().for_each(|&k| held[k as usize] = false);
+        let held: Vec<usize> = (0..motions.len()).filter(|&k| held[k] && !self.is_derived(k)).collect();
+        let rows = DMatrix::from_fn(held.len(), 6, |row, motion| motions[held[row]][motion]);
+        let right = DVector::from_fn(held.len(), |row, _| moved[held[row]]);
+        let drift = shortest_solution(rows, &right, NOT_HELD)?;
+        let left = |&k: &u32| moved[k as usize] - motions[k as usize].dot(&drift);
+        Some([self.start(), self.free.iter().map(left).collect()])
+    }
+
+    /// Makes these generalised coordinates the reference state, and chooses anew there what is held.
+    pub(super) fn rechoose(&mut self, generalised: Vec<f64>) {
+        self.base = generalised;
+        self.choose_unknowns();
     }
 
     /// Separation of the rigid motions of the state `x` by the held coordinates, relative to that by newly chosen ones.

@@ -23,7 +23,7 @@ pub use branches::{BranchesSummary, RaySummary};
 pub use json::to_json;
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::{ModesSummary, SeamMotionsSummary};
-pub use path::{FirstCrossing, PathBranchSummary, PathEventSummary, PathSummary};
+pub use path::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary};
 pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
 pub use response::{
     LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,

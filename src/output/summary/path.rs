@@ -23,7 +23,7 @@ pub struct PathBranchSummary {
     /// Number of the branch.
     pub branch: usize,
     /// How it ended.
-    #[schemars(extend("enum" = ["arrived", "stop", "returned", "failed", "too-many-steps", "interrupted"]))]
+    #[schemars(extend("enum" = ["arrived", "stop", "returned", "retraced", "failed", "too-many-steps", "interrupted"]))]
     pub end: String,
     /// Number of its states.
     pub steps: usize,
@@ -63,6 +63,23 @@ pub struct PathEventSummary {
     pub reaction: f64,
     /// Arc length from the beginning of the branch.
     pub arc_length: f64,
+    /// Number of eigenvalues that change their sign at a branch point; null at other events.
+    pub multiplicity: Option<usize>,
+    /// The half branches that leave at a branch point; null at other events, and where they were not sought or were sought from
+    /// another branch.
+    pub half_branches: Option<HalfBranchesSummary>,
+}
+
+/// The half branches that leave at a branch point. A branch that passes through the point is two of them; that on which the
+/// point was found does not count.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HalfBranchesSummary {
+    /// Number of those of which a state was found.
+    pub found: usize,
+    /// Number of all; null where it is not known.
+    pub expected: Option<usize>,
+    /// The reason for which there may be others than those found; null where there are none.
+    pub reason: Option<String>,
 }
 
 /// The first state of a branch whose faces pass through each other.

@@ -58,7 +58,8 @@ pub struct BarrierSummary {
     pub confirmed: bool,
     /// The wells into which the sheet descends from the pass.
     pub joins: Option<[usize; 2]>,
-    /// Energy of the pass at the sheet's own stiffness; where it is singular in the rigid limit, what the energies at finite stiffness tend to.
+    /// Energy of the pass at the sheet's own stiffness; where it is singular in the rigid limit, that of the flat state if the
+    /// pass is that, and otherwise what the energies at finite stiffness tend to.
     pub energy: Option<f64>,
     /// Stiffness of the bars for which energy and height hold; null: rigid bars, or no pass was found.
     #[serde(default)]
@@ -74,6 +75,12 @@ pub struct BarrierSummary {
     pub exponent: Option<f64>,
     /// Their limit, extrapolated.
     pub limit: Option<f64>,
+    /// Estimate of the limit's error.
+    #[serde(default)]
+    pub limit_error: Option<f64>,
+    /// Whether the singular pass is the flat state, whose energy is exact.
+    #[serde(default)]
+    pub flat: bool,
     /// The lowest pass of the rigid sheet between these wells, in fold angles alone.
     pub rigid: Option<f64>,
     /// Largest scaled residual of the pass.

@@ -8,9 +8,12 @@
 //! where Newton's own is singular with a simple null space that the border meets: at limit points. It is solved by
 //! elimination of the parameter with the factorization of Newton's system, and conjugate residuals of the bordered
 //! system take back what that loses where Newton's system is nearly singular. The parameter is counted in units in
-//! which its scale is the unit of length.
+//! which its scale is the unit of length. Next to a branch point there may be more unknowns, forces along given
+//! directions, and as many more planes.
 
 use super::problem::{ParametrizedProblem, Rates};
+use crate::numerics::DenseMatrix;
+use crate::numerics::dense::small::solve_square;
 use crate::numerics::factor::{FactorError, Inertia};
 use crate::numerics::sparse::symmetric_product;
 use crate::numerics::vector::{add_scaled, dot, max_abs, norm_blocked};
@@ -29,6 +32,9 @@ const SINGULAR_SHIFT: f64 = 1e-6;
 /// Rounds of inverse iteration, and the relative residual to which their systems are solved.
 const SOFTEST_ROUNDS: usize = 5;
 const SOFTEST_RESIDUAL: f64 = 1e-8;
+/// Rate of a quantity, relative to that of a motion of unit arc length along all of the rates by the parameter, that is
+/// an error of the linear system from which tangents come.
+const RATE_ERROR: f64 = 1e-11;
 
 /// A plane in the space of unknowns and parameter: its normal, the parameter's part in units of length.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,27 +101,58 @@ impl Bordered {
         Ok(())
     }
 
-    /// Number of negative eigenvalues of the Hessian at fixed parameter, on what the rigid measures leave free.
-    pub fn negative_eigenvalues(&mut self) -> Result<usize, FactorError> {
+    /// Number of negative eigenvalues of the Hessian at fixed parameter, on what the rigid measures leave free; `None`
+    /// where it cannot be established.
+    pub fn negative_eigenvalues(&mut self) -> Result<Option<usize>, FactorError> {
         match self.inertia {
-            Some(inertia) if inertia.negative == 0 || self.system.weights_are_exact() => Ok(inertia.negative),
-            factored => {
+            Some(inertia) if inertia.negative == 0 || self.system.weights_are_exact() => Ok(Some(inertia.negative)),
+            _ => {
                 let counted = inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)?;
                 self.factor()?;
-                Ok(counted.or(factored.map(|inertia| inertia.negative)).unwrap_or(0))
+                Ok(counted)
             }
         }
+    }
+
+    /// Work of the rates by the parameter along a tangent. Where the parameter turns, the eigenvalue that passes zero has the
+    /// sign of the negative product of this work and the tangent's parameter: `t^T K t = -(g.t) t_l`.
+    pub fn work_along(&self, tangent: &Rates) -> f64 {
+        let [force, gap] = &self.rates;
+        (dot(force, &tangent.x) + dot(gap, &tangent.tension)) / self.unit
+    }
+
+    /// The largest rates that are errors of tangents of unit arc length: of the parameter, and of its conjugate.
+    pub fn rate_errors(&self) -> [f64; 2] {
+        let [force, gap] = &self.rates;
+        let stiffness = stiffness_size(&self.at, &self.compliance);
+        let lengths: Vec<f64> = gap.iter().zip(&self.at.sizes).map(|(gap, size)| gap / size).collect();
+        let pull = norm_blocked(&lengths) * stiffness + norm_blocked(force);
+        [RATE_ERROR * self.unit * self.length, RATE_ERROR * self.length * pull / self.unit]
     }
 
     /// Solves for a force on every unknown, a stretch of every measure and a distance from the plane. Returns the
     /// changes, and the relative residual.
     pub fn solve(&mut self, force: &[f64], stretch: &[f64], distance: f64, plane: &Plane) -> (Rates, f64) {
+        let planes = Planes { planes: &[plane], distances: &[distance], pulls: &[] };
+        let (rates, _, residual) = self.solve_across(force, stretch, &planes);
+        (rates, residual)
+    }
+
+    /// Solves as [`Bordered::solve`] does with several planes. Returns the changes, the pulls times a length, and the relative
+    /// residual.
+    pub fn solve_across(&mut self, force: &[f64], stretch: &[f64], planes: &Planes<'_>) -> (Rates, Vec<f64>, f64) {
         let stiffness = stiffness_size(&self.at, &self.compliance);
         let stretches: Vec<f64> = stretch.iter().zip(&self.at.sizes).map(|(b, size)| b / size).collect();
         let mut forces = force.to_vec();
-        forces.push(stiffness * distance);
+        forces.extend(planes.distances.iter().map(|distance| stiffness * distance));
         let right = Pair(forces, stretches);
-        let mut equations = Equations { bordered: self, plane, stiffness };
+        let mut responses = vec![self.response.clone()];
+        for pull in planes.pulls {
+            let (dx, dt) = self.system.apply(pull, &vec![0.0; stretch.len()]);
+            let scaled = |rates: Vec<f64>| rates.into_iter().map(|rate| stiffness * rate).collect();
+            responses.push(Pair(scaled(dx), scaled(dt)));
+        }
+        let mut equations = Equations { bordered: self, planes, responses, stiffness };
         let found = equations.solve(&right);
         let pull = equations.bordered.pull(&found.1);
         let units = [
@@ -124,9 +161,10 @@ impl Bordered {
         ];
         let refined = corrections::correct(&mut equations, &right, found, units, (WANTED_RESIDUAL, Patience::Short));
         let Pair(mut x, tension) = refined.found;
-        let parameter = x.pop().unwrap_or(0.0) * self.unit;
+        let more = x.split_off(force.len());
         let tension = tension.iter().zip(&self.at.sizes).map(|(t, size)| t / size).collect();
-        (Rates { x, tension, parameter }, refined.residual)
+        let pulls = more[1..].iter().map(|pull| stiffness * pull).collect();
+        (Rates { x, tension, parameter: more[0] * self.unit }, pulls, refined.residual)
     }
 
     /// The tensions that balance the forces of the state alone, without a self stress of rigid measures: those that the system
@@ -192,43 +230,72 @@ fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
     values
 }
 
-/// The bordered system and its elimination. Stretches and tensions are scaled as in [`KktSystem`]; the parameter is the
-/// last unknown, and its equation is multiplied by a stiffness, so that it is a force.
+/// The equations of a bordered system beyond Newton's own: distances from planes; and its unknowns beyond the parameter,
+/// forces along given directions, one less than planes.
+pub(super) struct Planes<'a> {
+    pub planes: &'a [&'a Plane],
+    pub distances: &'a [f64],
+    pub pulls: &'a [Vec<f64>],
+}
+
+/// The bordered system and its elimination. Stretches and tensions are scaled as in [`KktSystem`]; the parameter and the
+/// pulls, divided by a stiffness so that they are lengths, are the last unknowns, and the equations of the planes are
+/// multiplied by that stiffness, so that they are forces.
 struct Equations<'a> {
     bordered: &'a mut Bordered,
-    plane: &'a Plane,
+    planes: &'a Planes<'a>,
+    /// Response to the rates by the parameter and to each pull.
+    responses: Vec<Pair>,
     stiffness: f64,
+}
+
+impl Equations<'_> {
+    /// Distance from a plane that a unit of the parameter makes (number 0), or of a pull (others).
+    fn corner(plane: &Plane, number: usize) -> f64 {
+        if number == 0 { plane.parameter } else { 0.0 }
+    }
 }
 
 impl NearlySolved for Equations<'_> {
     fn product(&self, Pair(x, t): &Pair) -> Pair {
         let Bordered { at, compliance, rates: [force, gap], .. } = &*self.bordered;
-        let (parameter, dx) = (x[x.len() - 1], &x[..x.len() - 1]);
+        let (dx, more) = x.split_at(force.len());
         let dt: Vec<f64> = t.iter().zip(&at.sizes).map(|(t, size)| t / size).collect();
         let (mut a, mut b) = (vec![0.0; dx.len()], vec![0.0; dt.len()]);
         let rows = at.rows();
         symmetric_product(at.pattern(), &at.hessian, dx, &mut a);
         rows.add_transpose_product(&dt, &mut a);
         rows.product(dx, &mut b);
-        a.iter_mut().zip(force).for_each(|(a, g)| *a += parameter * g);
-        for (k, b) in b.iter_mut().enumerate() {
-            *b = (*b - compliance[k] * dt[k] + parameter * gap[k]) / at.sizes[k];
+        add_scaled(&mut a, more[0], force);
+        for (pull, along) in more[1..].iter().zip(self.planes.pulls) {
+            add_scaled(&mut a, self.stiffness * pull, along);
         }
-        a.push(self.stiffness * (dot(&self.plane.x, dx) + self.plane.parameter * parameter));
+        for (k, b) in b.iter_mut().enumerate() {
+            *b = (*b - compliance[k] * dt[k] + more[0] * gap[k]) / at.sizes[k];
+        }
+        let off = |plane: &&Plane| self.stiffness * (dot(&plane.x, dx) + plane.parameter * more[0]);
+        a.extend(self.planes.planes.iter().map(off));
         Pair(a, b)
     }
 
     fn solve(&mut self, Pair(a, b): &Pair) -> Pair {
         let sizes = self.bordered.at.sizes.clone();
         let stretch: Vec<f64> = b.iter().zip(&sizes).map(|(b, size)| b * size).collect();
-        let (force, distance) = (&a[..a.len() - 1], a[a.len() - 1] / self.stiffness);
+        let planes = self.planes.planes;
+        let (force, distances) = a.split_at(a.len() - planes.len());
         let (mut dx, mut dt) = self.bordered.system.apply(force, &stretch);
-        let Pair(by_x, by_t) = &self.bordered.response;
-        let across = dot(&self.plane.x, by_x) - self.plane.parameter;
-        let parameter = (dot(&self.plane.x, &dx) - distance) / across;
-        dx.iter_mut().zip(by_x).for_each(|(x, by)| *x -= parameter * by);
-        dt.iter_mut().zip(by_t).zip(&sizes).for_each(|((t, by), size)| *t = (*t - parameter * by) * size);
-        dx.push(parameter);
+        let left = DenseMatrix::from_fn(planes.len(), planes.len(), |row, column| {
+            dot(&planes[row].x, &self.responses[column].0) - Self::corner(planes[row], column)
+        });
+        let right =
+            DenseMatrix::from_fn(planes.len(), 1, |row, _| dot(&planes[row].x, &dx) - distances[row] / self.stiffness);
+        let more = solve_square(left, &right).unwrap_or(right.map(|_| f64::NAN));
+        for (part, Pair(by_x, by_t)) in more.iter().zip(&self.responses) {
+            add_scaled(&mut dx, -part, by_x);
+            add_scaled(&mut dt, -part, by_t);
+        }
+        dt.iter_mut().zip(&sizes).for_each(|(t, size)| *t *= size);
+        dx.extend(more.iter());
         Pair(dx, dt)
     }
 }

@@ -11,7 +11,7 @@ use super::follower::Follower;
 use super::outcome::PathError;
 use super::problem::{ParametrizedProblem, PathState, Rates};
 use crate::numerics::random::symmetric;
-use crate::numerics::vector::{add_scaled, dot, norm_blocked};
+use crate::numerics::vector::add_scaled;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
@@ -24,25 +24,49 @@ const SEED: u64 = 7;
 /// Length of what is left of a null vector across the path below which it is the path's own direction.
 const LEAST_ACROSS: f64 = 1e-3;
 
+/// The first states of the branches that leave at a branch point, each with the reference of the problem there.
+pub(super) struct Leaving {
+    pub firsts: Vec<(PathState, Vec<f64>)>,
+    /// Number of half branches that leave, where it is known.
+    pub expected: Option<usize>,
+}
+
 impl<P: ParametrizedProblem> Follower<'_, P> {
-    /// First states of the branches that leave at a branch point where this many eigenvalues vanish, each with the
-    /// reference of the problem there: two for each null vector, where they are found. Where several eigenvalues vanish
-    /// there may be more branches, in directions between the null vectors.
-    pub(super) fn leaving(
-        &mut self,
-        point: &PathState,
-        multiplicity: usize,
-    ) -> Result<Vec<(PathState, Vec<f64>)>, PathError> {
-        let mut found = vec![];
-        for direction in self.null_vectors(point, multiplicity)? {
+    /// First states of the branches that leave at a branch point where this many eigenvalues vanish. Where one vanishes there
+    /// are two, one to each side; where two vanish they are found on a ring. Where more vanish, or no ring tells, they are
+    /// sought along the null vectors, and there may be others in directions between these.
+    pub(super) fn leaving(&mut self, point: &PathState, multiplicity: usize) -> Result<Leaving, PathError> {
+        let nulls = self.null_vectors(point, multiplicity)?;
+        if let Ok(pair) = <&[Rates; 2]>::try_from(&nulls[..])
+            && let Some(firsts) = self.ring_of(point, pair)?
+        {
+            return Ok(firsts);
+        }
+        let mut firsts = vec![];
+        for direction in &nulls {
             for sign in [1.0, -1.0] {
-                found.extend(self.leave(point, &direction, sign)?.map(|first| (first, self.problem.reference())));
+                let first = self.leave(point, direction, sign)?;
+                firsts.extend(first.map(|first| (first, self.problem.reference())));
             }
         }
-        Ok(found)
+        Ok(Leaving { firsts, expected: (multiplicity == 1).then_some(2) })
     }
 
-    /// The directions, across the path, of the motions whose stiffness vanishes.
+    /// What leaves between two null vectors; `None` where no ring tells.
+    fn ring_of(&mut self, point: &PathState, nulls: &[Rates; 2]) -> Result<Option<Leaving>, PathError> {
+        let reference = self.problem.reference();
+        let Some((zeros, states)) = self.half_branches(point, nulls)? else { return Ok(None) };
+        let mut firsts = vec![];
+        for mut first in states {
+            self.problem.set_reference(&reference);
+            self.problem.accept(&mut first.x);
+            firsts.push((first, self.problem.reference()));
+        }
+        self.problem.set_reference(&reference);
+        Ok(Some(Leaving { firsts, expected: Some(zeros) }))
+    }
+
+    /// The directions, across the path, of the motions whose stiffness vanishes: orthonormal.
     fn null_vectors(&mut self, point: &PathState, multiplicity: usize) -> Result<Vec<Rates>, PathError> {
         self.problem.set_parameter(point.parameter);
         self.bordered.linearize(self.problem, &point.x, &point.tension);
@@ -54,18 +78,20 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             let null = self.bordered.softest(&guess, &found);
             found.push(null);
         }
-        let unit = self.bordered.unit();
-        let tangent = Plane::across(&point.tangent, unit);
-        let per_length = 1.0 / self.bordered.length();
-        let across = |mut null: Rates| {
-            let part = dot(&null.x, &tangent.x) * per_length;
-            add_scaled(&mut null.x, -part, &point.tangent.x);
-            add_scaled(&mut null.tension, -part, &point.tangent.tension);
-            null.parameter = -part * point.tangent.parameter;
-            let length = norm_blocked(&null.x).hypot(null.parameter / unit);
-            (length > LEAST_ACROSS).then_some(null)
-        };
-        Ok(found.into_iter().filter_map(across).collect())
+        let mut across: Vec<Rates> = vec![point.tangent.clone().scaled(1.0 / self.bordered.length())];
+        for mut null in found {
+            for other in &across {
+                let part = self.product(&null, other);
+                add_scaled(&mut null.x, -part, &other.x);
+                add_scaled(&mut null.tension, -part, &other.tension);
+                null.parameter -= part * other.parameter;
+            }
+            let length = self.product(&null, &null).sqrt();
+            if length > LEAST_ACROSS {
+                across.push(null.scaled(1.0 / length));
+            }
+        }
+        Ok(across.split_off(1))
     }
 
     /// The first state of the branch that leaves along a direction, on the side of this sign.

@@ -14,6 +14,9 @@ const SLOWEST_CONTRACTION: f64 = 0.6;
 const ROUNDING: f64 = 1e-13;
 /// Number of steps of that length after which a state is taken as it is.
 const MOST_POLISHED: usize = 2;
+/// Relative length of a Newton step that moves next to nothing: where the iteration no longer contracts and forces are rounding
+/// errors, a state is taken as it is only there.
+const NEXT_TO_NOTHING: f64 = 1e-9;
 /// Scaled residual up to which a state that no step improves is taken where rounding errors are that large.
 const MOST_ROUNDING: f64 = 1e-8;
 
@@ -26,7 +29,7 @@ pub(super) struct Guess {
 }
 
 impl Guess {
-    fn add(&mut self, step: &Rates) {
+    pub(super) fn add(&mut self, step: &Rates) {
         add_scaled(&mut self.x, 1.0, &step.x);
         add_scaled(&mut self.tension, 1.0, &step.tension);
         self.parameter += step.parameter;
@@ -74,9 +77,10 @@ pub(super) fn correct<P: ParametrizedProblem>(
         let length = norm_blocked(&step.x).hypot(step.parameter / bordered.unit());
         let small = length <= ROUNDING * larger(max_abs(&at.x), bordered.length());
         if residual.is_nan() || residual > REFUSED_RESIDUAL || !(small || length <= SLOWEST_CONTRACTION * last) {
-            // a right-hand side of rounding errors has no exact solution; the step is taken where it helps all the same
+            // a right-hand side of rounding errors has no exact solution; a step that is short is taken where it helps
+            let is_short = length <= NEXT_TO_NOTHING * larger(max_abs(&at.x), bordered.length());
             let kept = Corrected { at, residuals, off, iterations };
-            return Ok(rounded.then(|| bettered(problem, bordered, kept, &step)));
+            return Ok((rounded && is_short).then(|| bettered(problem, bordered, kept, &step)));
         }
         if iterations == 0 {
             off = length;
@@ -149,6 +153,7 @@ pub(super) fn complete<P: ParametrizedProblem>(
     tangent.parameter /= speed;
     let conjugate =
         [problem.conjugate(&bordered.at, &x, &tension), problem.conjugate_rate(&bordered.at, &x, &tension, &tangent)];
+    let (work_along, rate_errors) = (bordered.work_along(&tangent), bordered.rate_errors());
     Ok(PathState {
         arc_length,
         x,
@@ -159,7 +164,10 @@ pub(super) fn complete<P: ParametrizedProblem>(
         residual_force: residuals.force,
         residual_length: residuals.length,
         negative_eigenvalues,
+        work_along,
+        rate_errors,
         iterations,
+        choice: problem.choice(),
     })
 }
 

@@ -1,5 +1,6 @@
 //! Special states between two states of a path: where a function of the states changes its sign.
 
+use super::exits::SAME_STATE;
 use super::follower::Follower;
 use super::interpolant::Cubic;
 use super::outcome::{PathError, PathMark};
@@ -10,6 +11,8 @@ const LOCATED_PART: f64 = 1e-12;
 const MOST_ROUNDS: usize = 60;
 /// Ratio of the rate of the conjugate quantity to its largest one on the path below which it is rounding error.
 const LEAST_RATE: f64 = 1e-8;
+/// Largest number of branch points that are sought in a step.
+const MOST_BRANCH_POINTS: usize = 16;
 
 /// Functions that the observer of a path watches besides the solver's own.
 pub trait Watch<P> {
@@ -24,6 +27,26 @@ pub(super) fn changed(before: f64, after: f64) -> bool {
     before * after < 0.0 || (after == 0.0 && before != 0.0)
 }
 
+/// Whether a rate changed its sign, where neither value is an error of the linear algebra.
+fn turned([before, after]: [f64; 2], errors: [f64; 2]) -> bool {
+    before.abs() > errors[0] && after.abs() > errors[1] && changed(before, after)
+}
+
+/// The number of negative eigenvalues along a piece of a path, less what the extremum of the parameter in it makes. Other
+/// than the number itself, this one does not change where the parameter turns: it is that of the bordered matrix.
+struct Level {
+    /// Sign of the parameter's rate at the beginning, and the change where it turns; none where it does not.
+    turn: Option<(f64, i64)>,
+}
+
+impl Level {
+    fn of(&self, state: &PathState) -> Option<i64> {
+        let count = state.negative_eigenvalues? as i64;
+        let beyond = |(sign, change): (f64, i64)| if state.tangent.parameter * sign < 0.0 { change } else { 0 };
+        Some(count - self.turn.map_or(0, beyond))
+    }
+}
+
 impl<P: ParametrizedProblem> Follower<'_, P> {
     /// Locates the marks between two states in order. `watched` are the values of the watched functions at both.
     pub(super) fn marks(
@@ -34,30 +57,22 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         watch: &mut dyn Watch<P>,
     ) -> Result<Vec<(PathState, PathMark)>, PathError> {
         let mut found = vec![];
-        let turns = changed(from.tangent.parameter, to.tangent.parameter);
-        if turns && let Some(state) = self.locate([from, to], &mut |_, state| state.tangent.parameter)? {
+        let mut level = Level { turn: None };
+        let rates = [from, to].map(|state| state.tangent.parameter);
+        if turned(rates, [from, to].map(|state| state.rate_errors[0]))
+            && let Some(state) = self.locate([from, to], &mut |_, state| state.tangent.parameter)?
+        {
+            level.turn = Some((rates[0].signum(), (state.work_along * rates[1]).signum() as i64));
             found.push((state, PathMark::ParameterTurns));
         }
         let rates = [from, to].map(|state| state.conjugate[1]);
-        let known = rates.iter().all(|rate| rate.abs() > LEAST_RATE * largest_rate);
-        if known
-            && changed(rates[0], rates[1])
+        let least = |state: &PathState| state.rate_errors[1].max(LEAST_RATE * largest_rate);
+        if turned(rates, [from, to].map(least))
             && let Some(state) = self.locate([from, to], &mut |_, state| state.conjugate[1])?
         {
             found.push((state, PathMark::ConjugateTurns));
         }
-        let [before, after] = [from, to].map(|state| state.negative_eigenvalues);
-        let crossing = before.abs_diff(after).saturating_sub(usize::from(turns));
-        if crossing > 0 {
-            let half = 0.5 * (before + after) as f64;
-            let middle = if half.fract() == 0.0 { half + 0.25 } else { half };
-            if let Some(mut state) = self.locate([from, to], &mut |_, s| s.negative_eigenvalues as f64 - middle)? {
-                // Newton's system is singular there, and its own tangent any mixture with the null vectors
-                let part = (state.arc_length - from.arc_length) / (to.arc_length - from.arc_length);
-                (state.tangent, state.conjugate[1]) = Cubic::new(from, to).tangent(part);
-                found.push((state, PathMark::BranchPoint(crossing)));
-            }
-        }
+        found.extend(self.branch_points([from, to], &level)?);
         for function in (0..watched[0].len()).filter(|&k| changed(watched[0][k], watched[1][k])) {
             let mut value = |problem: &P, state: &PathState| watch.values(problem, state)[function];
             if let Some(state) = self.locate([from, to], &mut value)? {
@@ -66,6 +81,55 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         }
         found.sort_by(|a, b| a.0.arc_length.total_cmp(&b.0.arc_length));
         Ok(found)
+    }
+
+    /// Locates all states between two others at which the level changes. Changes that are nearer to each other than states
+    /// that are taken for one are one, of higher multiplicity.
+    fn branch_points(
+        &mut self,
+        [from, to]: [&PathState; 2],
+        level: &Level,
+    ) -> Result<Vec<(PathState, PathMark)>, PathError> {
+        let mut found = vec![];
+        let (Some(mut before), Some(last)) = (level.of(from), level.of(to)) else { return Ok(found) };
+        let (mut part, beside) = (0.0, SAME_STATE / (to.arc_length - from.arc_length));
+        while before != last && found.len() < MOST_BRANCH_POINTS {
+            let mut differs = |state: &PathState| level.of(state).is_some_and(|here| here != before);
+            let Some((at, mut state)) = self.bisect([from, to], part, &mut differs)? else { break };
+            let beyond = if at + beside < 1.0 { self.between(from, to, at + beside)? } else { None };
+            let after = beyond.and_then(|state| level.of(&state)).unwrap_or(last);
+            if after != before {
+                // Newton's system is singular there, and its own tangent any mixture with the null vectors
+                (state.tangent, state.conjugate[1]) = Cubic::new(from, to).tangent(at);
+                found.push((state, PathMark::BranchPoint(before.abs_diff(after) as usize)));
+            }
+            (part, before) = (at + beside, after);
+        }
+        Ok(found)
+    }
+
+    /// Locates the first state found, beyond this part of the way between two others, of which something holds that holds of
+    /// the second one, and not where the search begins; with its part of the way. `None` where no state in between is found.
+    fn bisect(
+        &mut self,
+        [from, to]: [&PathState; 2],
+        part: f64,
+        holds: &mut dyn FnMut(&PathState) -> bool,
+    ) -> Result<Option<(f64, PathState)>, PathError> {
+        let (mut low, mut high, mut best) = (part, 1.0, None);
+        while high - low > LOCATED_PART {
+            let middle = 0.5 * (low + high);
+            let Some(state) = self.between(from, to, middle)? else { break };
+            if holds(&state) {
+                high = middle;
+                best = Some((middle, state));
+            } else {
+                low = middle;
+                // the first state of all may be the only one
+                best = best.or(Some((middle, state)));
+            }
+        }
+        Ok(best)
     }
 
     /// Locates the sign change of a function between two states, by the Illinois variant of the rule of false position

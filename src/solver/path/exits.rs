@@ -7,14 +7,15 @@
 //! singular, nothing could be decided.
 
 use super::bordered::Plane;
+use super::corrector::Guess;
 use super::follower::Follower;
 use super::interpolant::Cubic;
 use super::outcome::{MarkedState, PathError};
 use super::problem::{ParametrizedProblem, PathState, Rates};
-use crate::numerics::vector::{add_scaled, dot, norm_blocked};
+use crate::numerics::vector::{add_scaled, norm_blocked};
 
 /// Distance in arc length below which two states are one.
-const SAME_STATE: f64 = 1e-6;
+pub(super) const SAME_STATE: f64 = 1e-6;
 
 /// A way out of a branch point.
 #[derive(Clone, Debug)]
@@ -55,35 +56,46 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
 
     /// Whether a state is on the branch between two states that follow each other on it.
     pub fn passes(&mut self, from: &PathState, to: &PathState, state: &PathState) -> Result<bool, PathError> {
-        let unit = self.bordered.unit();
-        let product = |a: &Rates, b: &Rates| dot(&a.x, &b.x) + a.parameter * b.parameter / (unit * unit);
-        let cubic = Cubic::new(from, to);
-        let (chord, way) = (cubic.chord(), Cubic::new(from, state).chord());
-        let part = product(&way, &chord) / product(&chord, &chord);
-        if !(0.0..=1.0).contains(&part) {
-            return Ok(false);
-        }
-        let mut guess = cubic.at(part);
-        let mut off = Rates { x: state.x.clone(), tension: vec![], parameter: state.parameter - guess.parameter };
-        add_scaled(&mut off.x, -1.0, &guess.x);
-        if !(self.size(&off) <= self.size(&chord)) {
-            return Ok(false); // farther from the interpolant than its own length
-        }
-        let along = product(&off, &chord) / product(&chord, &chord);
+        let Some((mut guess, off)) = self.beside([from, to], state) else { return Ok(false) };
+        let chord = Cubic::new(from, to).chord();
+        let along = self.product(&off, &chord) / self.product(&chord, &chord);
         add_scaled(&mut guess.x, along, &chord.x);
         add_scaled(&mut guess.tension, along, &chord.tension);
         guess.parameter += along * chord.parameter;
-        let found = self.settle(guess, &Plane::across(&chord, unit), 0.0)?;
+        let found = self.settle(guess, &Plane::across(&chord, self.bordered.unit()), 0.0)?;
         Ok(found.is_some_and(|(found, _)| self.are_same(&found, state)))
+    }
+
+    /// Whether a state is beside the way between two others, and nearer to it than they are to each other.
+    pub fn is_near(&self, between: [&PathState; 2], state: &PathState) -> bool {
+        self.beside(between, state).is_some()
+    }
+
+    /// The interpolant between two states beside another one, and what leads from it to that; `None` where the other state is
+    /// not beside the way, farther from it than the two from each other, or written in another way.
+    fn beside(&self, [from, to]: [&PathState; 2], state: &PathState) -> Option<(Guess, Rates)> {
+        if [from, to].iter().any(|end| end.choice != state.choice) {
+            return None;
+        }
+        let cubic = Cubic::new(from, to);
+        let (chord, way) = (cubic.chord(), Cubic::new(from, state).chord());
+        let part = self.product(&way, &chord) / self.product(&chord, &chord);
+        if !(0.0..=1.0).contains(&part) {
+            return None;
+        }
+        let guess = cubic.at(part);
+        let mut off = Rates { x: state.x.clone(), tension: vec![], parameter: state.parameter - guess.parameter };
+        add_scaled(&mut off.x, -1.0, &guess.x);
+        (self.size(&off) <= self.size(&chord)).then_some((guess, off))
     }
 
     /// Whether two states are the same.
     pub fn are_same(&self, a: &PathState, b: &PathState) -> bool {
-        self.size(&Cubic::new(a, b).chord()) <= SAME_STATE
+        a.choice == b.choice && self.size(&Cubic::new(a, b).chord()) <= SAME_STATE
     }
 
     /// Size of a change in arc length.
-    fn size(&self, change: &Rates) -> f64 {
+    pub(super) fn size(&self, change: &Rates) -> f64 {
         norm_blocked(&change.x).hypot(change.parameter / self.bordered.unit()) / self.bordered.length()
     }
 }

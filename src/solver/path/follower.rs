@@ -41,6 +41,28 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
         self.settle(guess, &plane, 0.0)?.ok_or(PathError::NoStart).map(|(state, _)| state)
     }
 
+    /// Goes to how a state is written, with the reference that belongs to it.
+    pub fn go_to(&mut self, state: &PathState, reference: &[f64]) -> Result<(), PathError> {
+        self.problem.set_reference(reference);
+        if self.problem.choice() != state.choice {
+            self.problem.set_choice(&state.choice);
+            self.bordered = Bordered::new(self.problem)?;
+        }
+        Ok(())
+    }
+
+    /// The last state of a path as it is written by a new choice, where the present one would soon be singular.
+    pub fn chosen_anew(&mut self, last: &PathState) -> Result<Option<PathState>, PathError> {
+        let Some([x, rates]) = self.problem.choose_anew(&last.x, &last.tangent.x) else { return Ok(None) };
+        self.bordered = Bordered::new(self.problem)?;
+        let tangent = Rates { x: rates, ..last.tangent.clone() };
+        let per_length = 1.0 / self.size(&tangent);
+        let conjugate = [last.conjugate[0], last.conjugate[1] * per_length];
+        let work_along = last.work_along * per_length;
+        let choice = self.problem.choice();
+        Ok(Some(PathState { x, tangent: tangent.scaled(per_length), conjugate, work_along, choice, ..last.clone() }))
+    }
+
     /// The state of the path in the plane through a guess, and the error of the guess; `None` where none is found.
     pub fn settle(&mut self, guess: Guess, plane: &Plane, arc: f64) -> Result<Option<(PathState, f64)>, PathError> {
         let Self { problem, bordered, settings } = self;
@@ -87,9 +109,13 @@ impl<'a, P: ParametrizedProblem> Follower<'a, P> {
 
     /// Cosine of the angle between two tangents.
     pub fn cosine(&self, a: &Rates, b: &Rates) -> f64 {
+        self.product(a, b) / (self.product(a, a) * self.product(b, b)).sqrt()
+    }
+
+    /// Product of two changes, the parameter's part in units of length.
+    pub fn product(&self, a: &Rates, b: &Rates) -> f64 {
         let unit = self.bordered.unit();
-        let product = |a: &Rates, b: &Rates| dot(&a.x, &b.x) + a.parameter * b.parameter / (unit * unit);
-        product(a, b) / (product(a, a) * product(b, b)).sqrt()
+        dot(&a.x, &b.x) + a.parameter * b.parameter / (unit * unit)
     }
 
     /// The state of the path at a part of the way from one state to the next.

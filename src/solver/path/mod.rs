@@ -15,7 +15,8 @@
 //! | `problem` | [`ParametrizedProblem`], and the states of a path |
 //! | `bordered`, `corrector` | the linear system with the parameter as an unknown, and Newton's method with it |
 //! | `interpolant`, `follower` | states between two others, and steps |
-//! | `events`, `work`, `branching` | special states, the work along the path, and directions that leave it |
+//! | `events`, `work` | special states, and the work along the path |
+//! | `branching`, `ring` | directions that leave a path at a branch point, also where two eigenvalues vanish at once |
 //! | `run`, `exits`, `switching` | branches from their beginning to their end, and from one to the next |
 //! | `record` | what an interrupted run has found, and how a later one goes on from it |
 //! | `outcome` | settings and results |
@@ -30,6 +31,7 @@ mod interpolant;
 mod outcome;
 mod problem;
 mod record;
+mod ring;
 mod run;
 mod switching;
 #[cfg(test)]
@@ -38,7 +40,7 @@ mod work;
 
 use super::newton::Start;
 pub use events::Watch;
-pub use outcome::{Branch, BranchEnd, MarkedState, PathError, PathMark, PathSettings};
+pub use outcome::{Branch, BranchEnd, HalfBranches, MarkedState, PathError, PathMark, PathSettings};
 pub use problem::{ParametrizedProblem, PathState, Rates};
 pub use record::{PathEntry, PathObserver, PathRecord};
 use run::Run;

@@ -3,6 +3,7 @@
 use super::problem::PathState;
 use crate::numerics::factor::FactorError;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use thiserror::Error;
 
 /// Tolerance, steps and end of a path.
@@ -58,6 +59,8 @@ pub enum BranchEnd {
     Target,
     /// The branch came back to the parameter at which the path began, or to a branch point that is known.
     Returned,
+    /// The branch came back to a state of its own and would go on over its own states.
+    Retraced,
     /// The branch has the wanted length.
     Length,
     /// A watched function whose sign change ends the branch changed its sign.
@@ -77,6 +80,19 @@ pub struct Branch {
     pub states: Vec<MarkedState>,
     /// The reason for its end.
     pub end: BranchEnd,
+    /// What leaves at those of its branch points, by number of the state, at which that was sought.
+    pub half_branches: BTreeMap<usize, HalfBranches>,
+}
+
+/// Numbers of the half branches that leave at a branch point. A branch that passes through the point is two of them; that
+/// on which the point was found does not count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HalfBranches {
+    /// Number of those of which a state was found.
+    pub found: usize,
+    /// Number of all; `None` where it is not known, since more than two eigenvalues vanish at once or since what tells
+    /// directions from each other is rounding error. Then they were sought along null vectors only.
+    pub expected: Option<usize>,
 }
 
 /// A state of a branch.

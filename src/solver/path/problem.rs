@@ -16,6 +16,17 @@ pub trait ParametrizedProblem: Problem {
     }
     /// Restores what [`ParametrizedProblem::reference`] returned.
     fn set_reference(&mut self, _reference: &[f64]) {}
+    /// Returns how states are written as unknowns, by a choice made at a state of the path; empty for that of the beginning.
+    fn choice(&self) -> Vec<f64> {
+        vec![]
+    }
+    /// Restores what [`ParametrizedProblem::choice`] returned; the layout may be another one then.
+    fn set_choice(&mut self, _choice: &[f64]) {}
+    /// Chooses anew how states are written where the present choice would soon be singular. Returns then the unknowns of
+    /// the state `x`, and these rates of them.
+    fn choose_anew(&mut self, _x: &[f64], _rates: &[f64]) -> Option<[Vec<f64>; 2]> {
+        None
+    }
     /// Natural size of a change of the parameter; positive.
     fn parameter_scale(&self) -> f64;
     /// Rates by the parameter, at fixed unknowns and tensions, of the gradient of the energy (tensions of stiff
@@ -58,10 +69,17 @@ pub struct PathState {
     pub residual_force: f64,
     /// Scaled residual length.
     pub residual_length: f64,
-    /// Negative eigenvalues of the Hessian at fixed parameter.
-    pub negative_eigenvalues: usize,
+    /// Negative eigenvalues of the Hessian at fixed parameter; `None` where their number cannot be established.
+    pub negative_eigenvalues: Option<usize>,
+    /// Work of the rates by the parameter along the tangent. Its sign tells which way an eigenvalue goes where the parameter
+    /// turns.
+    pub work_along: f64,
+    /// Rates of the parameter and of the conjugate quantity up to which they are rounding errors.
+    pub rate_errors: [f64; 2],
     /// Number of Newton steps that led to the state.
     pub iterations: usize,
+    /// How the state is written; see [`ParametrizedProblem::choice`].
+    pub choice: Vec<f64>,
 }
 
 impl Rates {

@@ -6,6 +6,7 @@ use super::follower::Follower;
 use super::outcome::{Branch, BranchEnd, MarkedState, PathError, PathMark, PathSettings};
 use super::problem::{ParametrizedProblem, PathState};
 use super::record::{PathEntry, PathObserver, PathRecord};
+use std::collections::BTreeMap;
 
 /// A path on its way, with all its branches.
 pub(super) struct Run<'a, P: ParametrizedProblem> {
@@ -59,14 +60,14 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
     /// Follows one branch from its first states to its end; of what is recorded nothing is computed again.
     pub fn branch(&mut self, states: Vec<MarkedState>) -> Result<(), PathError> {
         let number = self.branches.len();
-        self.branches.push(Branch { states: vec![], end: BranchEnd::Interrupted });
+        self.branches.push(Branch { states: vec![], end: BranchEnd::Interrupted, half_branches: BTreeMap::new() });
         let (recorded, mut way) = (self.record.take(number, &states), Way::default());
         let next_step = self.follower.first_step();
         let begin = PathEntry { branch: number, begins: true, states, next_step, end: None };
         let goes_on = if recorded.is_empty() {
             self.found(begin, None, &mut way)
         } else {
-            recorded.into_iter().all(|entry| self.was_found(entry, &mut way))
+            self.all_were_found(recorded, &mut way)?
         };
         while goes_on && self.branches[number].states.len() < self.follower.settings.steps {
             let (entry, watched) = self.step(number, &way)?;
@@ -97,18 +98,28 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         self.goes_on(entry, watched, way)
     }
 
+    /// Appends the recorded states of a branch; returns whether it goes on.
+    fn all_were_found(&mut self, recorded: Vec<PathEntry>, way: &mut Way) -> Result<bool, PathError> {
+        for entry in recorded {
+            if !self.was_found(entry, way)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// Appends recorded states to their branch; returns whether the branch goes on.
-    fn was_found(&mut self, entry: PathEntry, way: &mut Way) -> bool {
+    fn was_found(&mut self, entry: PathEntry, way: &mut Way) -> Result<bool, PathError> {
         for marked in &entry.states {
             self.follower.problem.set_parameter(marked.state.parameter);
-            self.follower.problem.set_reference(&marked.reference);
+            self.follower.go_to(&marked.state, &marked.reference)?;
             self.observer.known_state(entry.branch, self.follower.problem, marked);
             if !entry.begins {
                 self.measure(&marked.state);
             }
             self.branches[entry.branch].states.push(marked.clone());
         }
-        self.goes_on(entry, None, way)
+        Ok(self.goes_on(entry, None, way))
     }
 
     /// Moves to the end of new states; returns whether their branch goes on from there.
@@ -132,7 +143,10 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
             (PathEntry { branch: number, begins: false, states, next_step: way.length, end: Some(end) }, vec![])
         };
         let [.., last] = &way.known[..] else { return Ok(ended(vec![], BranchEnd::Failed)) };
-        let before = way.known.len().checked_sub(2).map(|k| &way.known[k]);
+        let chosen_anew = self.follower.chosen_anew(last)?;
+        let last = chosen_anew.as_ref().unwrap_or(last);
+        let before =
+            way.known.len().checked_sub(2).map(|k| &way.known[k]).filter(|before| before.choice == last.choice);
         let Some((next, longer)) = self.follower.step(before, last, way.length)? else {
             return Ok(ended(vec![], BranchEnd::Failed));
         };
@@ -143,6 +157,7 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         // beyond its end a path may mean nothing: marks are sought before it
         let (to, end) = match self.end_between(number, last, &next)? {
             Some((state, end)) => (state, Some(end)),
+            None if self.retraces(number, &next)? => (next, Some(BranchEnd::Retraced)),
             None => (next, None),
         };
         self.follower.problem.set_parameter(to.parameter);
@@ -160,6 +175,27 @@ impl<'a, P: ParametrizedProblem> Run<'a, P> {
         }
         states.push(self.worked(number, &states, &from, to, None)?);
         Ok((PathEntry { branch: number, begins: false, states, next_step: longer, end }, values))
+    }
+
+    /// Whether a branch passed a state before, so that it goes on over its own states. Its last step is not asked.
+    fn retraces(&mut self, number: usize, state: &PathState) -> Result<bool, PathError> {
+        let between = |pair: &[&PathState]| {
+            let [low, high] = [pair[0].parameter.min(pair[1].parameter), pair[0].parameter.max(pair[1].parameter)];
+            (low..=high).contains(&state.parameter)
+        };
+        let ordinary = self.branches[number].states.iter().filter(|marked| marked.mark.is_none());
+        let states: Vec<&PathState> = ordinary.map(|marked| &marked.state).collect();
+        let passed: Vec<[PathState; 2]> = states[..states.len().saturating_sub(1)]
+            .windows(2)
+            .filter(|pair| between(pair) && self.follower.is_near([pair[0], pair[1]], state))
+            .map(|pair| [pair[0].clone(), pair[1].clone()])
+            .collect();
+        for [from, to] in &passed {
+            if self.follower.passes(from, to, state)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// The state between two others at which the branch ends, if there is one.

@@ -1,8 +1,9 @@
 //! Branches that leave a path at its branch points.
 
+use super::branching::Leaving;
 use super::exits::Exit;
 use super::interpolant::Cubic;
-use super::outcome::{BranchEnd, MarkedState, PathError, PathMark};
+use super::outcome::{BranchEnd, HalfBranches, MarkedState, PathError, PathMark};
 use super::problem::{ParametrizedProblem, PathState};
 use super::run::Run;
 
@@ -21,7 +22,7 @@ impl<P: ParametrizedProblem> Run<'_, P> {
                     return Ok(());
                 }
                 let Exit { first, reference, .. } = self.exits[exit].clone();
-                self.follower.problem.set_reference(&reference);
+                self.follower.go_to(&first, &reference)?;
                 if !self.is_known(&first)? {
                     self.leave(exit)?;
                 }
@@ -37,28 +38,22 @@ impl<P: ParametrizedProblem> Run<'_, P> {
 
     /// Finds the ways out of the branch points of a branch that no other one has.
     fn find_exits(&mut self, number: usize) -> Result<(), PathError> {
-        for point in self.new_points(number) {
-            self.points.push(point.clone());
+        for state in 0..self.branches[number].states.len() {
+            let point = self.branches[number].states[state].clone();
             let Some(PathMark::BranchPoint(multiplicity)) = point.mark else { continue };
-            self.follower.problem.set_reference(&point.reference);
-            for (first, reference) in self.follower.leaving(&point.state, multiplicity)? {
+            if self.points.iter().any(|known| self.follower.are_same(&known.state, &point.state)) {
+                continue;
+            }
+            self.points.push(point.clone());
+            self.follower.go_to(&point.state, &point.reference)?;
+            let Leaving { firsts, expected } = self.follower.leaving(&point.state, multiplicity)?;
+            let found = HalfBranches { found: firsts.len(), expected };
+            self.branches[number].half_branches.insert(state, found);
+            for (first, reference) in firsts {
                 self.exits.push(Exit { point: point.clone(), first, reference, taken_by: None });
             }
         }
         Ok(())
-    }
-
-    /// The branch points of a branch that no other one has.
-    fn new_points(&self, number: usize) -> Vec<MarkedState> {
-        let mut new: Vec<MarkedState> = vec![];
-        for marked in &self.branches[number].states {
-            let branches = matches!(marked.mark, Some(PathMark::BranchPoint(_)));
-            let same = |point: &MarkedState| self.follower.are_same(&point.state, &marked.state);
-            if branches && !self.points.iter().chain(&new).any(same) {
-                new.push(marked.clone());
-            }
-        }
-        new
     }
 
     /// Follows the branch that leaves through an exit.

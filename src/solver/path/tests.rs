@@ -167,7 +167,7 @@ fn a_truss_snaps_through() {
     assert!((turns[0].parameter - 9.530291997895e-3).abs() <= 1e-14);
     let unstable = branch.states.iter().filter(|marked| marked.mark.is_none());
     for MarkedState { state, .. } in unstable {
-        assert_eq!(state.negative_eigenvalues, usize::from(state.x[0].abs() < limit), "{}", state.x[0]);
+        assert_eq!(state.negative_eigenvalues, Some(usize::from(state.x[0].abs() < limit)), "{}", state.x[0]);
     }
     // the integral of the displacement over the load is the product less the elastic energy
     let last = &branch.states[branch.states.len() - 1];
@@ -251,14 +251,14 @@ fn a_column_buckles() {
     let points = marked(&branches[0], PathMark::BranchPoint(1));
     assert!(points.len() == 1 && (points[0].parameter - 1.0).abs() <= 1e-10, "{points:?}");
     assert!(branches[0].states.iter().all(|marked| marked.state.x[0] == 0.0));
-    assert_eq!(branches[0].states.last().map(|last| last.state.negative_eigenvalues), Some(1));
+    assert_eq!(branches[0].states.last().and_then(|last| last.state.negative_eigenvalues), Some(1));
     assert_eq!(branches.len(), 3);
     for (branch, sign) in branches[1..].iter().zip([1.0, -1.0]) {
         assert_eq!(branch.end, BranchEnd::Target);
         for MarkedState { state, .. } in &branch.states[1..] {
             let angle = state.x[0];
             assert!((state.parameter - angle / angle.sin()).abs() <= 1e-10, "{angle} {}", state.parameter);
-            assert_eq!(state.negative_eigenvalues, 0);
+            assert_eq!(state.negative_eigenvalues, Some(0));
         }
         let _ = sign;
     }
@@ -305,4 +305,35 @@ fn neighbouring_branches_are_told_apart() {
     assert!(follower.passes(from, to, on).unwrap());
     assert!(!follower.passes(from, to, beside).unwrap());
     assert!(!follower.passes(from, middle, on).unwrap(), "beyond the second state");
+}
+
+/// Claim: a path that is a closed curve ends where it comes back to its own states, and not after many rounds. Source: the
+/// energy `x^3/3 - (1 - u^2) x` with `u = load` has the equilibria `x^2 + u^2 = 1`, a circle; in arc length, in which two
+/// unknowns count half and the load once, its circumference is the integral of `sqrt(1/2 + cos^2)`. Tolerance: the last step.
+#[test]
+fn a_closed_path_ends_where_it_began() {
+    let mut circle = Textbook {
+        layout: Textbook::layout(2, 1),
+        compliance: vec![0.0],
+        scale: vec![1.0],
+        parameter: 0.0,
+        way: 1.0,
+        soft: |x, _| {
+            let height = 1.0 - x[1] * x[1];
+            let energy = x[0].powi(3) / 3.0 - height * x[0];
+            let gradient = vec![x[0] * x[0] - height, 2.0 * x[0] * x[1]];
+            (energy, gradient, vec![2.0 * x[0], 2.0 * x[1], 2.0 * x[0]])
+        },
+        stiff: |x, load| vec![(x[1] - load, vec![0.0, 1.0], vec![0.0; 3])],
+        rates: |_| [vec![0.0; 2], vec![-1.0]],
+        conjugate: |_, tension| -tension[0],
+    };
+    let settings = PathSettings { target: 2.0, ..PathSettings::default() };
+    let branches = follow(&mut circle, vec![1.0, 0.0], &settings);
+    let speed = |k: i32| (0.5 + (f64::from(k) * std::f64::consts::PI / 500.0).cos().powi(2)).sqrt();
+    let circumference = (0..1000).map(speed).sum::<f64>() * std::f64::consts::PI / 500.0;
+    let beyond = branches[0].states.last().map_or(0.0, |last| last.state.arc_length) - circumference;
+    assert_eq!(branches[0].end, BranchEnd::Retraced);
+    assert!((-0.01..0.2).contains(&beyond), "{beyond}");
+    assert_eq!(marked(&branches[0], PathMark::ParameterTurns).len(), 2);
 }
