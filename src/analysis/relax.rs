@@ -185,6 +185,7 @@ pub fn relax_from(
         let found = if may_bend { apex::bent(model, found, off, options, &mut recorder, &mut history)? } else { found };
         if moved { refined(model, found, options, &mut recorder, &mut history) } else { Ok(found) }
     });
+    let found = found.and_then(|found| without_self_stress(model, found, options, &mut recorder, &mut history));
     let open = match found {
         Ok(found) => match uncertainty(model, &found, options.tolerance) {
             Some(angle) if !(angle <= CERTAIN) => {
@@ -271,6 +272,24 @@ fn refined(
             Ok(found)
         }
     }
+}
+
+/// The equilibrium with tensions of least norm. Where a self stress was large beside them, what was balanced to the tolerance with it need
+/// not be so without: the iteration then goes on from there.
+fn without_self_stress(
+    model: &mut Model,
+    mut found: Equilibrium,
+    options: Options,
+    recorder: &mut Recorder<'_>,
+    history: &mut Vec<Step>,
+) -> Result<Equilibrium, NewtonError> {
+    let settled = tension::settle(model, &found);
+    let met = found.history.last().is_some_and(|step| step.residual_force <= options.tolerance);
+    if !met || settled.residuals.force <= options.tolerance {
+        return Ok(found);
+    }
+    history.append(&mut found.history);
+    recorder.minimize(model, Start { x: found.x, tension: Some(settled.tension) }, options)
 }
 
 fn finish(model: &Model, found: Equilibrium, mut history: Vec<Step>) -> Relaxed {

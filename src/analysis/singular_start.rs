@@ -79,7 +79,7 @@ impl Origin {
     }
 }
 
-/// Leaves a flat start by soft bars where the way with rigid ones ended in doubt: it failed, or it relieved next to nothing,
+/// Leaves a flat start, or one from which rigid measures cannot be met, by soft bars where the way with rigid ones ended in doubt: it failed, or it relieved next to nothing,
 /// since Newton's method chose a branch there that it saw to first order only. Returns what is better, and which steps of the
 /// history were made with bars that stretch.
 pub(super) fn leave_if_in_doubt(
@@ -94,7 +94,9 @@ pub(super) fn leave_if_in_doubt(
         Ok(found) => origin.hardly_relieved(found),
         Err(error) => !matches!(error.failure, Failure::Interrupted | Failure::SingularStart),
     };
-    if !(in_doubt && is_flat(&origin.angles) && model.has_rigid_bars()) {
+    // next to a flat state rigid measures may be met only at second order, which bars that stretch find their way to
+    let infeasible = matches!(&found, Err(NewtonError { failure: Failure::Infeasible { .. }, .. }));
+    if !(in_doubt && (infeasible || is_flat(&origin.angles)) && model.has_rigid_bars()) {
         return (found, 0..0);
     }
     let (here, seen, mut soft) = (model.place(), recorder.steps(), vec![]);

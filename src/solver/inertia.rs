@@ -67,11 +67,11 @@ pub(super) fn negative_eigenvalues(
     at: &Linearization,
     compliance: &[f64],
 ) -> Result<Option<usize>, FactorError> {
+    let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
+    let most = system.count_negative(at, compliance, [zero, 1.0])?;
     if at.gradient.len() <= DENSE_LIMIT {
         return Ok(negative_by_projection(at, compliance));
     }
-    let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
-    let most = system.count_negative(at, compliance, [zero, 1.0])?;
     if most == 0 || system.weights_are_exact() {
         return Ok(Some(most));
     }

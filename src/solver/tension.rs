@@ -3,9 +3,8 @@
 use super::linearization::{HessianKind, Linearization};
 use super::newton::Equilibrium;
 use super::problem::{Problem, Residuals};
-use super::self_stress::self_stresses;
+use super::self_stress::{RigidRows, self_stresses};
 use crate::numerics::rank;
-use crate::numerics::sparse::Rows;
 
 /// Tensions without self stress are taken where the scaled residual force with them is at most this many times the one
 /// before.
@@ -43,25 +42,27 @@ pub fn settle<P: Problem>(problem: &P, found: &Equilibrium) -> BalancedTensions 
         BalancedTensions { tension, self_stresses, residuals }
     };
     let before = settled(&at, found.tension.clone());
-    let all_rigid = problem.compliance().iter().all(|c| *c == 0.0);
-    if !all_rigid || self_stresses.unwrap_or(0) == 0 {
+    if self_stresses.unwrap_or(0) == 0 {
         return before;
     }
+    let unbalanced =
+        |of: &BalancedTensions, at: &Linearization| of.residuals.force.max(ROUNDING_FORCE) * at.largest_force;
+    let allowed = MOST_FORCE_RATIO * unbalanced(&before, &at);
     let Some(least) = without_self_stress(problem, &at, &found.tension) else { return before };
     // the unit of forces is smaller without those that only hold each other
     problem.linearize(&found.x, &least, HessianKind::GaussNewton, &mut at);
     let least = settled(&at, least);
     // next to a singular state what is taken out is only nearly a self stress: balanced forces are worth more
-    let allowed = MOST_FORCE_RATIO * before.residuals.force.max(ROUNDING_FORCE);
-    if least.residuals.force <= allowed { least } else { before }
+    if unbalanced(&least, &at) <= allowed { least } else { before }
 }
 
-/// The tensions of least norm that make the same forces.
+/// Tensions that make the same forces, of which those of rigid measures have the least norm: those of finite stiffness follow from
+/// their stretch.
 fn without_self_stress<P: Problem>(problem: &P, at: &Linearization, tension: &[f64]) -> Option<Vec<f64>> {
-    let layout = problem.layout();
-    let scaled = at.scaled_jacobian();
-    let rows = Rows { cliques: &layout.stiff, values: &scaled };
-    let forces: Vec<f64> = tension.iter().zip(&at.sizes).map(|(t, size)| t * size).collect();
-    let least = rank::without_null(&rows, layout.unknowns, &layout.node, &forces).ok()?;
-    Some(least.iter().zip(&at.sizes).map(|(t, size)| t / size).collect())
+    let (layout, rigid) = (problem.layout(), RigidRows::new(problem, at));
+    let forces: Vec<f64> = rigid.numbers.iter().map(|&row| tension[row] * at.sizes[row]).collect();
+    let least = rank::without_null(&rigid.rows(), layout.unknowns, &layout.node, &forces).ok()?;
+    let mut tension = tension.to_vec();
+    rigid.numbers.into_iter().zip(least).for_each(|(row, force)| tension[row] = force / at.sizes[row]);
+    Some(tension)
 }
