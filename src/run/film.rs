@@ -14,6 +14,7 @@ use crate::output::html::Content;
 use crate::output::picture::Picture;
 use crate::output::sequence::{Place, Sequence, sequences};
 use crate::output::table::read_columns;
+use crate::sheet::text::read_bytes;
 
 /// Kinds of study whose states are modes: their displacements are velocities.
 const MODES: [&str; 3] = ["modes", "bloch", "response"];
@@ -76,7 +77,7 @@ fn studies(from: &Path) -> Result<(PathBuf, Vec<(String, String)>), RunError> {
         return Ok((from.into(), named(from)?));
     }
     // a series that is not there, or must not be read, is named as such
-    std::fs::read(from).map_err(|source| OutputError::Read { path: from.into(), source })?;
+    read_bytes(from).map_err(|source| OutputError::Read { path: from.into(), source })?;
     let folder = from.parent().unwrap_or(Path::new("")).to_owned();
     let name = from.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let place = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };

@@ -1,7 +1,6 @@
 //! A digest of the input of a run: of the scene and the files that it names.
 
 use std::fmt;
-use std::fs;
 use std::path::PathBuf;
 
 use super::forms::{Mode, StartSpec};
@@ -9,6 +8,7 @@ use super::rest::RestSpec;
 use super::spec::{BarsSpec, EnergySpec, StudyKind, SweepValues};
 use super::stiffness::{RestLengthSpec, StiffnessSpec};
 use super::{Located, SceneError, SceneFile};
+use crate::sheet::text::read_bytes;
 
 /// Returns sixteen hexadecimal digits that change with the version of this program, the text of the scene and the bytes
 /// of every file that the scene names: the mesh, tables of angles and rates, states to start from.
@@ -22,7 +22,7 @@ pub(crate) fn digest(file: &SceneFile) -> Result<String, SceneError> {
     hash.add(env!("CARGO_PKG_VERSION").as_bytes());
     hash.add(file.text().as_bytes());
     for path in named_files(file) {
-        hash.add(&fs::read(&path).map_err(|source| SceneError::Read { path, source })?);
+        hash.add(&read_bytes(&path).map_err(|source| SceneError::Read { path, source })?);
     }
     Ok(hash.to_string())
 }
@@ -102,6 +102,7 @@ fn length_table(bars: &BarsSpec) -> Option<PathBuf> {
 mod tests {
     use super::super::parse;
     use super::*;
+    use std::fs;
 
     /// Claim: the digest changes with every additional letter in the scene and every changed byte in a file that the
     /// scene names, and with nothing else.

@@ -166,6 +166,8 @@ fn vtu_files_of_several_pieces_and_pipes() {
         assert_eq!(counts, [4 * pieces, 2 * pieces, pieces]);
     }
     if cfg!(unix) {
+        assert!(Command::new("mkfifo").arg(here.join("a.pvd")).status().unwrap().success());
+        assert!(said(here, &["film", "a.pvd"], 3).contains("this is a device or a pipe"));
         assert!(Command::new("mkfifo").arg(here.join("pipe.vtu")).status().unwrap().success());
         fs::write(
             here.join("s.toml"),

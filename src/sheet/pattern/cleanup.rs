@@ -48,8 +48,8 @@ pub(crate) fn sheet(lines: &[Line], cleanup: &Cleanup, head: Drawing) -> Result<
     let tangled = |k: usize| (Some(k), PatternFault::Tangled { line: lines[k].name(), tolerance }.into());
     let Arrangement { points, pieces } = arrange(&ends, tolerance, cleanup.split).map_err(tangled)?;
     let gap = |pieces: &[Piece], at: Option<Piece>| gap(&points, pieces, at, tolerance);
-    let doubled = |(piece, fault): (Piece, PatternFault)| {
-        let fault = gap(&pieces, Some(piece)).map_or(fault, |ends| apart(lines, ends, tolerance));
+    let doubled = |(piece, fault): (Piece, Box<PatternFault>)| {
+        let fault = gap(&pieces, Some(piece)).map_or(*fault, |ends| apart(lines, ends, tolerance));
         (Some(piece.segment), fault.into())
     };
     let arranged = without_dangling(lines, &points, without_doubles(lines, &pieces).map_err(doubled)?);
@@ -125,7 +125,7 @@ fn tolerance(lines: &[Line], cleanup: &Cleanup) -> Result<f64, Misdrawn> {
 }
 
 /// Returns the pieces without those that lie on earlier ones, which have to mean the same.
-fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piece, PatternFault)> {
+fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piece, Box<PatternFault>)> {
     let mut known: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     let mut kept: Vec<Piece> = Vec::new();
     for piece in pieces {
@@ -143,7 +143,7 @@ fn without_doubles(lines: &[Line], pieces: &[Piece]) -> Result<Vec<Piece>, (Piec
                 } else if !second.auxiliary && !agree(first, second) {
                     let meanings = [first, second].map(|line| (line.letter, line.angle));
                     let fault = PatternFault::Overlap { a: first.name(), b: second.name(), meanings };
-                    return Err((*piece, fault));
+                    return Err((*piece, fault.into()));
                 }
             }
         }
