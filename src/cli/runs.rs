@@ -108,7 +108,7 @@ fn run_scene(scene: SceneFile, options: RunOptions, watch: &Arc<Watch>) -> Resul
     watch.finish();
     match found.map_err(Failure::Thread)? {
         Some(report) => Ok(Some(report?)),
-        None => Ok(ledger.close()?),
+        None => Ok(ledger.close(true)?),
     }
 }
 

@@ -13,8 +13,10 @@ use std::time::Duration;
 use tempfile::NamedTempFile;
 
 use super::OutputError;
-use super::files::{CLAIM_ENDING, draft, process_of};
+use super::files::{draft, process_of};
 
+/// Ending of the names of claims, before the process.
+const CLAIM_ENDING: &str = ".claim";
 /// The purpose of a claim that bears no other claim.
 const ALONE: &str = "alone";
 /// Number of attempts to be the only program that claims a folder at this moment, and the time between two of them. The
@@ -77,7 +79,7 @@ fn is_locked(path: &Path) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::files::{remove_drafts, remove_own_drafts};
+    use super::super::files::remove_drafts;
     use super::*;
 
     /// Claim: a folder has one claim alone, or several for one purpose; the error names folder and process, and leaves
@@ -94,7 +96,6 @@ mod tests {
             assert!(words.iter().all(|word| message.contains(word)), "{message}");
         }
         remove_drafts(&folder);
-        remove_own_drafts(&folder);
         assert_eq!(claims(), 1);
         drop(alone);
         let shared = [Claim::on(&folder, Some("one")).unwrap(), Claim::on(&folder, Some("one")).unwrap()];

@@ -14,8 +14,6 @@ use super::OutputError;
 
 /// File name extension of drafts.
 const DRAFT_ENDING: &str = ".part";
-/// Ending, before the process and the extension, of the names of drafts that are claims on their folder.
-pub(super) const CLAIM_ENDING: &str = ".claim";
 
 /// Writes a file, and creates the folders on its path if they do not exist.
 ///
@@ -75,13 +73,12 @@ pub(crate) fn remove_drafts(folder: &Path) {
     }
 }
 
-/// Removes the drafts of this program in a folder, before it exits without waiting for its other threads. Claims on the
-/// folder stay, since such a thread may still write there.
+/// Removes the drafts of this program in a folder, before it exits without waiting for its other threads.
 pub(crate) fn remove_own_drafts(folder: &Path) {
     let own = std::process::id().to_string();
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
-        if process_of(&name) == Some(&own) && !name.contains(&format!("{CLAIM_ENDING}.{own}-")) {
+        if process_of(&name) == Some(&own) {
             let _ = fs::remove_file(entry.path());
         }
     }

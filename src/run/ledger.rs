@@ -79,26 +79,29 @@ impl Ledger {
     /// Ends the record while the run is still working: writes `summary.json` with the finished studies and with the
     /// current one as interrupted. Returns `None` if the run has not begun to write.
     ///
-    /// Unfinished files of the run are removed from its folder, but not those that it begins to write later. This
-    /// function is for a program that ends immediately afterwards.
+    /// If the program ends immediately afterwards, as `ends` says, unfinished files of the run are removed from its
+    /// folder, but not those that it begins to write later, and the folder is free for other runs. Else it is so when
+    /// the run has ended its step.
     ///
     /// # Errors
     /// [`RunError`] if the summary cannot be written.
-    pub fn close(&self) -> Result<Option<RunReport>, RunError> {
+    pub fn close(&self, ends: bool) -> Result<Option<RunReport>, RunError> {
         let mut entries = self.entries();
         let at_work = entries.at_work.take();
         let Some(out) = entries.report.as_ref().map(|report| report.out.clone()) else {
             entries.closed = true;
             return Ok(None);
         };
+        let folder = at_work.as_ref().map(|(study, ..)| out.join(&study.name));
         if let Some((study, place, clock)) = at_work {
-            files::remove_own_drafts(&out.join(&study.name));
             let seconds = clock.elapsed().as_secs_f64();
             entries.insert(StudySummary { reason: Some(INTERRUPTED.into()), seconds, ..study }, place);
         }
-        files::remove_own_drafts(&out);
         entries.write()?;
         entries.closed = true;
+        if ends {
+            folder.iter().chain([&out]).for_each(|folder| files::remove_own_drafts(folder));
+        }
         Ok(entries.report.clone().map(|report| RunReport { interrupted: true, ..report }))
     }
 }

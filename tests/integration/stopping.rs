@@ -56,7 +56,7 @@ fn a_closed_ledger_is_the_last_word() {
     let books = ledger.clone();
     let worker = std::thread::spawn(move || run(&read_scene(&path, &[])?, &options, &observer, &books));
     hung.recv().unwrap();
-    let report = ledger.close().unwrap().unwrap();
+    let report = ledger.close(false).unwrap().unwrap();
     let expected = vec![("first".to_owned(), true, None), ("second".to_owned(), false, Some("interrupted".to_owned()))];
     assert!(report.interrupted && studies(&out) == expected, "{:?}", studies(&out));
     assert!(report.summary.studies[1].seconds > 0.0, "the time until then is that of the study");
@@ -73,7 +73,7 @@ fn a_closed_ledger_is_the_last_word() {
 /// Claim: a run that is ended before it has written anything leaves nothing.
 #[test]
 fn before_anything_is_written_nothing_is() {
-    assert_eq!(Ledger::default().close().unwrap(), None);
+    assert_eq!(Ledger::default().close(true).unwrap(), None);
 }
 
 /// Claim: every kind of study that the observer stops, at its first step or later, is interrupted and not failed.
@@ -137,4 +137,8 @@ fn a_grid_is_interrupted() {
     scene(folder.path(), [1, 1], "[[study]]\nname = \"a\"\nkind = \"bloch\"\ngrid = [16000, 16000]\n");
     assert_eq!(interrupted_after(folder.path(), 3000), Some(130));
     assert_eq!(studies(&folder.path().join("out")), [("a".to_owned(), false, Some("interrupted".to_owned()))]);
+    let parts = fs::read_dir(folder.path().join("out"))
+        .unwrap()
+        .filter(|entry| entry.as_ref().unwrap().path().extension().is_some_and(|ending| ending == "part"));
+    assert_eq!(parts.count(), 0, "no draft and no claim is left");
 }

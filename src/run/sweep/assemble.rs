@@ -117,14 +117,20 @@ pub fn assemble(sweep: &Sweep, out: &Path) -> Result<SweepSummary, RunError> {
     Board::new(sweep, out).write()
 }
 
-/// Does the same for the sweep of a scene in the folder of its run, for a program that ends a run without waiting for it;
-/// `None` if the folder does not exist.
+/// Does the same for the sweep of a scene in the folder of its run, for a program that ends a run without waiting for
+/// it, and removes its unfinished files; `None` if the folder does not exist.
 ///
 /// # Errors
 /// As [`assemble`].
 pub fn assemble_at(file: &SceneFile, options: &RunOptions) -> Result<Option<SweepSummary>, RunError> {
     let out = folder(file, options);
-    if out.exists() { assemble(&points(file)?, &out).map(Some) } else { Ok(None) }
+    if !out.exists() {
+        return Ok(None);
+    }
+    let summary = assemble(&points(file)?, &out)?;
+    summary.missing.iter().for_each(|&index| files::remove_own_drafts(&point_folder(&out, index)));
+    files::remove_own_drafts(&out);
+    Ok(Some(summary))
 }
 
 /// Returns the text of the table. The columns of results are those that a point has, studies in the order of the scene.
