@@ -169,7 +169,10 @@ fn describe_surface(surface: &SurfaceSummary) -> String {
 /// Describes the modes and Poisson's ratios along the first lattice vector.
 fn describe_response(response: &ResponseSummary) -> String {
     let poisson = &response.poisson;
-    let ratio = |ratio: Option<f64>| ratio.map_or("none".to_owned(), |ratio| format!("{ratio:.6}"));
+    let ratio = |ratio: Option<f64>, reason: &Option<String>| {
+        let reason = reason.iter().map(|reason| format!(" [{reason}]")).collect::<String>();
+        ratio.map_or_else(|| format!("none{reason}"), |ratio| format!("{ratio:.6}"))
+    };
     let opposite = match poisson.opposite {
         Some(true) => ", opposite in every direction",
         Some(false) => ", not opposite in every direction",
@@ -179,8 +182,8 @@ fn describe_response(response: &ResponseSummary) -> String {
         "{}, table of rank {}; Poisson's ratio {} in the plane, {} of bending{opposite} ({})",
         counted(response.linear_modes.len(), "linear mode"),
         response.table_rank,
-        ratio(poisson.in_plane),
-        ratio(poisson.bending),
+        ratio(poisson.in_plane, &poisson.no_in_plane),
+        ratio(poisson.bending, &poisson.no_bending),
         poisson.because
     )
 }

@@ -5,10 +5,11 @@
 //! `Z^T (K + sum_r lambda_r B_r) Z`, `J^T lambda = -K (rho - rest)`, `B_r` the second derivative of closure
 //! (J. Nocedal and S. J. Wright, "Numerical Optimization", 2006, section 18.3). No bar enters.
 
+use crate::kinematics::closure::DIRECTION;
 use crate::kinematics::{Closing, Closure};
 use crate::model::{Domain, Model, TermKind};
 use crate::numerics::dense::{
-    NullSpace, full_svd, least_squares, null_space, rank_at_largest_gap, symmetric_eigenvalues,
+    NullSpace, full_svd, least_squares, least_squares_of_sums, rank_of_sums, symmetric_eigenvalues,
 };
 use crate::numerics::{DenseMatrix, worst};
 use crate::sheet::{Sheet, Tiling};
@@ -162,7 +163,7 @@ impl Springs {
                 return Some(());
             }
             let svd = full_svd(&jacobian).ok()?;
-            let rank = rank_at_largest_gap(&svd.singular_values).ok()?.rank;
+            let rank = rank_of_sums(&svd.singular_values, DIRECTION).ok()?.rank;
             let parts = svd.u.columns(0, rank).tr_mul(&DVector::from_column_slice(&residual));
             let scaled = DVector::from_fn(rank, |k, _| parts[k] / svd.singular_values[k]);
             let step = svd.v.columns(0, rank) * scaled;
@@ -175,14 +176,14 @@ impl Springs {
     fn along(&self, closing: &Closing<'_>, x: &[f64]) -> Option<Along> {
         let folding = self.closure.folding_edges();
         let angles = closing.angles(x);
-        let jacobian = self.closure.jacobian(&angles);
-        let NullSpace { basis: tangents, singular_values, rank, .. } = null_space(&jacobian).ok()?;
+        let NullSpace { basis: tangents, singular_values, rank, .. } = self.closure.motions(&angles).ok()?;
         let least = rank.checked_sub(1).map_or(f64::INFINITY, |last| singular_values[last]);
         let stiffness = DVector::from_iterator(folding.len(), folding.iter().map(|&edge| self.stiffness[edge]));
         let off = folding.iter().map(|&edge| angles[edge] - self.rest[edge]);
         let force = -stiffness.component_mul(&DVector::from_iterator(folding.len(), off));
         let right = DenseMatrix::from_column_slice(folding.len(), 1, force.as_slice());
-        let lambda = least_squares(&jacobian.transpose(), &right).ok()?.solution;
+        let jacobian = self.closure.jacobian(&angles);
+        let lambda = least_squares_of_sums(&jacobian.transpose(), &right, DIRECTION).ok()?.solution;
         let mut spread = DenseMatrix::zeros(angles.len(), tangents.ncols());
         folding.iter().enumerate().for_each(|(row, &edge)| spread.row_mut(edge).copy_from(&tangents.row(row)));
         let mut hessian = tangents.transpose() * DenseMatrix::from_diagonal(&stiffness) * &tangents;

@@ -15,7 +15,6 @@ use super::restored::{self, Forces};
 use super::start_state::StartState;
 use crate::kinematics::closure::{Closure, HingedEdge};
 use crate::model::{Assembly, Bars, Boundary, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
-use crate::numerics::dense;
 use crate::sheet::{Corner, Site, Tiling, pieces};
 use crate::solver::Problem;
 pub use error::{ModesError, SPARSE_EIGENVALUES};
@@ -194,7 +193,7 @@ fn folding_modes(assembly: &Assembly, state: &Drawn) -> Result<Option<usize>, Mo
     let locked = assembly.rigid_facet_edges();
     let angles = assembly.fold_angles_at(&state.coordinates);
     let angles: Vec<f64> = angles.iter().map(|angle| if angle.is_nan() { 0.0 } else { *angle }).collect();
-    let null = dense::null_space(&closure.with_locked(&locked).jacobian(&angles))?;
+    let null = closure.with_locked(&locked).motions(&angles)?;
     Ok(Some(null.basis.ncols()))
 }
 

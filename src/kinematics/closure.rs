@@ -10,11 +10,16 @@
 use super::KinematicsError;
 use crate::math::{Vec3, rotation};
 use crate::numerics::DenseMatrix;
+use crate::numerics::dense::{DenseError, NullSpace, null_space_of_sums};
 use crate::sheet::tiling::{Site, TiledEdge, Tiling};
 use crate::sheet::{Corner, Edge, Sheet};
 use nalgebra::{DVector, Matrix3};
 
 mod second_derivative;
+
+/// Magnitude of the terms of which the entries of the Jacobian are sums: directions of edges. An edge between two copies of one
+/// vertex has two terms, which cancel where it passes straight through.
+pub(crate) const DIRECTION: f64 = 1.0;
 
 /// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
 ///
@@ -195,6 +200,17 @@ impl Closure {
         let mut jacobian = DenseMatrix::zeros(residual.len(), self.folding.len());
         self.linearize_into(angles, &mut residual, &mut jacobian);
         jacobian
+    }
+
+    /// Returns the linear motions of a closed state: the null space of the [`jacobian`](Self::jacobian).
+    ///
+    /// # Errors
+    /// [`DenseError`] where an angle is not finite, and where the number of motions is not clear.
+    ///
+    /// # Panics
+    /// As [`residual`](Self::residual).
+    pub(crate) fn motions(&self, angles: &[f64]) -> Result<NullSpace, DenseError> {
+        null_space_of_sums(&self.jacobian(angles), DIRECTION)
     }
 
     /// Writes the [`residual`](Self::residual) into a slice of three numbers per interior vertex, without allocation.

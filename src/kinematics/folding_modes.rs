@@ -16,7 +16,7 @@ use super::{Closure, Displacement, Embedding, KinematicsError};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::solve_3;
-use crate::numerics::dense::{NullSpace, null_space, singular_values};
+use crate::numerics::dense::{NullSpace, singular_values};
 use crate::sheet::Sheet;
 use nalgebra::{DVector, Matrix2, Matrix3};
 
@@ -67,7 +67,7 @@ pub fn folding_modes_with_locked(sheet: &Sheet, locked: &[usize]) -> Result<Fold
         loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }),
     }
     let embedding = Embedding::new(sheet)?;
-    let NullSpace { basis: folding, gap, .. } = null_space(&closure.jacobian(embedding.drawn_angles()))?;
+    let NullSpace { basis: folding, gap, .. } = closure.motions(embedding.drawn_angles())?;
     let basis = with_zero_rates(sheet.edges.len(), closure.folding_edges(), &folding);
     let modes = basis.column_iter().map(|mode| lattice_rotations(&embedding, mode.as_slice()));
     let lattice_rotations = modes.collect::<Result<Vec<_>, _>>()?;
@@ -137,7 +137,7 @@ mod tests {
     use super::super::test_sheets::*;
     use super::*;
     use crate::kinematics::drawn_fold_angles;
-    use crate::numerics::dense::least_squares;
+    use crate::numerics::dense::{least_squares, null_space};
     use crate::sheet::{Corner, EdgeKey};
 
     /// Returns the curvature tensor from a fit of `c + bx + dy + (k11 x^2 + k22 y^2 + 2 k12 xy)/2` to the normal

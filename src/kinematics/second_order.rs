@@ -7,10 +7,11 @@
 //! quadric, that of the loop: `Omega_1 x Omega_2` along the normal. A flat developable state has `Nv + 2` modes and
 //! `Nv` quadrics, one for each vertex; the loop is their sum.
 
+use super::closure::DIRECTION;
 use super::{Closure, KinematicsError};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::orthonormal_triangular;
-use crate::numerics::dense::{Svd, full_svd, null_space, rank_at_largest_gap, symmetric_eigenvalues};
+use crate::numerics::dense::{Svd, full_svd, null_space_of_sums, rank_of_sums, symmetric_eigenvalues};
 use crate::numerics::vector::max_abs;
 
 /// Largest closure residual of a state whose directions are computed.
@@ -48,9 +49,8 @@ impl SecondOrder {
         if !closed {
             return Err(KinematicsError::NotClosed { residual });
         }
-        let jacobian = closure.jacobian(angles);
-        let right = null_space(&jacobian)?;
-        let left = null_space(&jacobian.transpose())?.basis;
+        let right = closure.motions(angles)?;
+        let left = null_space_of_sums(&closure.jacobian(angles).transpose(), DIRECTION)?.basis;
         let mut modes = DenseMatrix::zeros(angles.len(), right.basis.ncols());
         for (row, &edge) in right.basis.row_iter().zip(closure.folding_edges()) {
             modes.row_mut(edge).copy_from(&row);
@@ -85,8 +85,7 @@ impl SecondOrder {
 /// Returns orthonormal matrices with the span of the forms, and the gap between the singular values that count as
 /// nonzero and as zero.
 ///
-/// The motions and the directions of edges have norm 1, so that nonzero forms are of the order of 1. The rank is
-/// determined from the singular values preceded by a 1, so that forms which consist of rounding errors have rank 0.
+/// The motions have norm 1, so that forms are sums of terms of the size of the [`DIRECTION`] of an edge.
 fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), KinematicsError> {
     let entries = forms.first().map_or(0, DenseMatrix::len);
     if entries == 0 {
@@ -94,14 +93,12 @@ fn independent(forms: &[DenseMatrix]) -> Result<(Vec<DenseMatrix>, f64), Kinemat
     }
     let columns = DenseMatrix::from_fn(entries, forms.len(), |entry, form| forms[form][entry]);
     let Svd { singular_values, v, .. } = full_svd(&orthonormal_triangular(columns)[1])?;
-    let natural = singular_values.first().copied().unwrap_or(0.0).max(1.0);
-    let with_natural: Vec<f64> = [natural].into_iter().chain(singular_values.iter().copied()).collect();
-    let found = rank_at_largest_gap(&with_natural)?;
+    let found = rank_of_sums(&singular_values, DIRECTION)?;
     let combined = |k: usize| -> DenseMatrix {
         let weights = v.column(k) / singular_values[k];
         forms.iter().zip(weights.iter()).map(|(form, weight)| form * *weight).sum()
     };
-    Ok(((0..found.rank - 1).map(combined).collect(), found.gap))
+    Ok(((0..found.rank).map(combined).collect(), found.gap))
 }
 
 /// Returns the numbers of positive, negative and zero eigenvalues of a symmetric matrix; an eigenvalue counts as zero

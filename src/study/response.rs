@@ -5,7 +5,7 @@ use super::context::Context;
 use super::error::StudyError;
 use super::{start, states};
 use crate::analysis::response::{
-    Field, LinearMode, Moduli, Principal, Response, SelfStress, SymmetryTypes, moduli_at, response_at,
+    Field, LinearMode, Moduli, NoRatio, Principal, Response, SelfStress, SymmetryTypes, moduli_at, response_at,
 };
 use crate::math::Vec3;
 use crate::model::{Domain, Gauge};
@@ -119,22 +119,24 @@ fn stresses_table(context: &Context<'_>, stresses: &[SelfStress]) -> Table {
     table
 }
 
-/// Returns a row for each direction; fields are empty where there is no ratio.
+/// Returns a row for each direction; where there is no ratio its field is empty, and the reason is in another.
 fn ratios_table(response: &Response, directions: u32) -> Table {
-    let mut table = Table::new(["direction", "in_plane", "bending"].map(str::to_owned).to_vec());
+    let columns = ["direction", "in_plane", "bending", "no_in_plane", "no_bending"];
+    let mut table = Table::new(columns.map(str::to_owned).to_vec());
     for k in 0..directions {
         let angle = PI * f64::from(k) / f64::from(directions);
-        let ratio = |ratio: Option<f64>| ratio.map_or(Value::Empty, Value::Number);
-        let [in_plane, bending] = ratios_at(response, angle).map(ratio);
-        table.push(vec![Value::Number(angle), in_plane, bending]);
+        let ratios = ratios_at(response, angle);
+        let numbers = ratios.map(|ratio| ratio.map_or(Value::Empty, Value::Number));
+        let reasons = ratios.map(|ratio| ratio.err().map_or(Value::Empty, |reason| Value::Word(reason.word())));
+        table.push([Value::Number(angle)].into_iter().chain(numbers).chain(reasons).collect());
     }
     table
 }
 
-/// Returns the ratios in the plane and of bending along a direction.
-fn ratios_at(response: &Response, angle: f64) -> [Option<f64>; 2] {
-    let poisson = response.poisson.as_ref();
-    [poisson.and_then(|p| p.in_plane.ratio(angle)), poisson.and_then(|p| p.bending.ratio(angle))]
+/// Returns the ratios in the plane and of bending along a direction; a sheet that is rolled up has no modes of this kind.
+fn ratios_at(response: &Response, angle: f64) -> [Result<f64, NoRatio>; 2] {
+    let spaces = response.poisson.as_ref().map(|poisson| [&poisson.in_plane, &poisson.bending]);
+    spaces.map_or([Err(NoRatio::NoTensor); 2], |spaces| spaces.map(|space| space.ratio(angle)))
 }
 
 /// Adds every mode as a state with its velocities, the picture of the last mode, and the plot of the ratios.
@@ -159,7 +161,7 @@ fn add_pictures(answer: &mut Answer, context: &Context<'_>, response: &Response,
     }
     states::add_series(answer, context, pictures);
     if context.draws(Draw::Svg) && response.poisson.is_some() {
-        let [in_plane, bending] = [0, 1].map(|which| move |angle: f64| ratios_at(response, angle)[which]);
+        let [in_plane, bending] = [0, 1].map(|which| move |angle: f64| ratios_at(response, angle)[which].ok());
         let plots: [(&str, ratios::RatioOf<'_>); 2] =
             [("Poisson's ratio in the plane", &in_plane), ("Poisson's ratio of bending", &bending)];
         let state = "ratios by direction, x along the first lattice vector";
@@ -178,6 +180,15 @@ fn velocities(context: &Context<'_>, mode: &LinearMode, coordinates: &[f64]) -> 
     }
 }
 
+/// Returns why there is no ratio along the first lattice vector, of tensors with this name.
+fn in_words(reason: NoRatio, what: &str) -> String {
+    match reason {
+        NoRatio::NoTensor => format!("no mode has a {what}"),
+        NoRatio::Any => format!("modes combine to a {what} of any ratio"),
+        NoRatio::NothingAlong => format!("the {what} has nothing along the first lattice vector"),
+    }
+}
+
 fn summary(response: &Response) -> ResponseSummary {
     let mode = |mode: &LinearMode| LinearModeSummary {
         strain: mode.strain,
@@ -188,8 +199,10 @@ fn summary(response: &Response) -> ResponseSummary {
     let [in_plane, bending] = ratios_at(response, 0.0);
     let poisson = match &response.poisson {
         Some(found) => PoissonSummary {
-            in_plane,
-            bending,
+            in_plane: in_plane.ok(),
+            bending: bending.ok(),
+            no_in_plane: in_plane.err().map(|reason| in_words(reason, "strain without curvature")),
+            no_bending: bending.err().map(|reason| in_words(reason, "curvature without twist")),
             opposite: found.relation.opposite(),
             because: found.relation.because(),
             sum: found.sum,

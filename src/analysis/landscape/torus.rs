@@ -9,7 +9,7 @@ use crate::math::fold_angle::fold_angle_gradient;
 use crate::model::{Assembly, Drawn, Gauge, Hinges, Model, RIGID, Terms};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::{orthonormal_triangular, solve_square};
-use crate::numerics::dense::{from_rows, null_space, rank_at_largest_gap, singular_values, symmetric_eigen};
+use crate::numerics::dense::{null_space_of_rows, rank_at_largest_gap, singular_values, symmetric_eigen};
 use crate::sheet::{TiledEdge, Tiling};
 use crate::solver::{HessianKind, Linearization, Problem};
 use nalgebra::{Complex, DVector};
@@ -92,7 +92,7 @@ fn zero_modes(bars: &Model) -> Result<Vec<Vec<f64>>, LandscapeError> {
     }
     let mut at = Linearization::new(bars.layout());
     bars.linearize(&bars.start(), &vec![0.0; bars.layout().stiff.len()], HessianKind::GaussNewton, &mut at);
-    let null = null_space(&from_rows(&at.rows(), unknowns))?.basis;
+    let null = null_space_of_rows(&at.rows(), unknowns)?.basis;
     if null.ncols() == 0 {
         return Err(LandscapeError::NoZeroModes);
     }

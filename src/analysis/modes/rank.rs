@@ -4,6 +4,7 @@ use super::error::{LEAST_GAP, ModesError};
 use super::spectrum::{DENSE_LIMIT, Observer, go_on, linearized};
 use crate::model::{Hinges, Model, RIGID, Terms};
 use crate::numerics::sparse::Rows;
+use crate::numerics::vector::max_abs;
 use crate::numerics::{dense, rank};
 use crate::solver::Problem;
 
@@ -24,11 +25,11 @@ pub(super) fn rank_of(model: &Model, observe: &mut Observer<'_>) -> Result<(usiz
     }
     go_on(observe)?;
     let values = dense::singular_values(&dense::from_rows(&rows, layout.unknowns))?;
-    let found = dense::rank_at_largest_gap(&values)?;
+    let largest = max_abs(rows.values);
+    let found = dense::rank_of_sums(&values, largest)?;
     if found.rank == 0 {
         return Ok((0, None));
     }
-    let largest = rows.values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let threshold = threshold(&values, found.rank) / largest;
     go_on(observe)?;
     let by_inertia = rank::count_above(&rows, layout.unknowns, &layout.node, threshold)?;

@@ -7,7 +7,7 @@ use super::error::{DENSE_EIGENVALUES, ModesError, SPARSE_EIGENVALUES};
 use crate::model::Model;
 use crate::numerics::factor::FactorError;
 use crate::numerics::sparse::symmetric_product;
-use crate::numerics::vector::{dot, normalize};
+use crate::numerics::vector::{dot, max_abs, normalize};
 use crate::numerics::{DenseMatrix, dense, eigen};
 use crate::solver::{HessianKind, Linearization, Problem, Tangent};
 
@@ -105,7 +105,7 @@ fn lowest_dense(
     let free = if rigid.is_empty() {
         DenseMatrix::identity(layout.unknowns, layout.unknowns)
     } else {
-        dense::null_space(&full.select_rows(&rigid))?.basis
+        dense::null_space_of_sums(&full.select_rows(&rigid), max_abs(at.rows().values))?.basis
     };
     go_on(observe)?;
     let found = dense::symmetric_eigen(&(free.transpose() * hessian * &free))?;

@@ -12,31 +12,37 @@ use super::cell::{CellElement, PeriodicCell};
 use crate::kinematics::motion::{Motion, Moving, Rigid, Twist};
 use crate::math::Vec3;
 use crate::model::Local;
-use crate::numerics::DenseMatrix;
+use crate::numerics::{DenseMatrix, larger};
 use nalgebra::{Matrix2, Vector2};
 
 /// Components of strain and of curvature.
 pub(super) const MACROSCOPIC: usize = 6;
 
-/// Rates of the measures of some elements.
+/// Rates of the measures of some elements, all of them lengths: a fold angle counts times the root of the cell's area, so that no
+/// unit decides which of them matter.
 pub(super) struct Rates {
     /// Per unit velocity of the vertices of the cell: a row for each element, three columns for each vertex.
     pub by_vertices: DenseMatrix,
     /// Per unit of `[e11, e22, e12, k11, k22, k12]`.
     pub by_lattice: DenseMatrix,
+    /// Magnitude of the terms of which the rates by vertices are sums.
+    pub terms: f64,
 }
 
 /// Returns the rates of the measures of these elements of a cell.
 pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Rates {
-    let vertices = cell.sheet.vertices.len();
+    let (vertices, length) = (cell.sheet.vertices.len(), cell.area().sqrt());
+    let mut terms = 0.0;
     let mut by_vertices = DenseMatrix::zeros(elements.len(), 3 * vertices);
     let mut by_lattice = DenseMatrix::zeros(elements.len(), MACROSCOPIC);
     let moving: Vec<[Moving; 2]> = (0..MACROSCOPIC).map(|component| lattice_motions(cell, component)).collect();
     let mut local = Local::default();
     for (row, element) in elements.iter().enumerate() {
         element.term.local(element.number, &cell.domain, &cell.coordinates, false, &mut local);
+        let unit = if element.term.is_angle() { length } else { 1.0 };
         for (k, place) in element.places.iter().enumerate() {
-            let gradient = Vec3::from_column_slice(&local.gradient[3 * k..3 * k + 3]);
+            let gradient = Vec3::from_column_slice(&local.gradient[3 * k..3 * k + 3]) * unit;
+            terms = larger(terms, gradient.amax());
             (0..3).for_each(|axis| by_vertices[(row, 3 * place.vertex + axis)] += gradient[axis]);
             for (component, lattice) in moving.iter().enumerate() {
                 let there = Moving::lattice_power(lattice, place.shift);
@@ -45,7 +51,7 @@ pub(super) fn rates(cell: &PeriodicCell, elements: &[CellElement<'_>]) -> Rates 
             }
         }
     }
-    Rates { by_vertices, by_lattice }
+    Rates { by_vertices, by_lattice, terms }
 }
 
 /// Returns the lattice motions at the unit rate of one component of strain or curvature.

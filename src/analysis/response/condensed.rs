@@ -18,9 +18,9 @@ use super::cell::{CellElement, PeriodicCell};
 use super::compatibility::{MACROSCOPIC, rates};
 use super::error::ResponseError;
 use super::moduli_matrices::{ModuliMatrices, Principal};
-use crate::numerics::DenseMatrix;
 use crate::numerics::dense::small::{CholeskyFactor, cholesky};
-use crate::numerics::dense::{DenseError, full_svd, null_space, symmetric_eigen};
+use crate::numerics::dense::{DenseError, full_svd, null_space_of_sums, symmetric_eigen};
+use crate::numerics::{DenseMatrix, larger};
 use std::f64::consts::SQRT_2;
 
 /// Singular value that counts as zero, of rates in units of the cell.
@@ -46,6 +46,8 @@ pub(super) struct Springs {
     /// Rigid elements other than bars.
     rigid_hinges: Weighted,
     area: f64,
+    /// Magnitude of the terms of which the rates are sums.
+    terms: f64,
 }
 
 impl Weighted {
@@ -78,11 +80,10 @@ impl Springs {
         let angle = |row: usize| elements[row].term.is_angle();
         // lengths in units of `length`; vertex 0 does not move
         let rows = DenseMatrix::from_fn(elements.len(), vertices + MACROSCOPIC, |row, column| {
-            let rate = match column.checked_sub(vertices) {
-                Some(component) => found.by_lattice[(row, component)] / units[component],
-                None => length * found.by_vertices[(row, column + 3)],
-            };
-            if angle(row) { rate } else { rate / length }
+            match column.checked_sub(vertices) {
+                Some(component) => found.by_lattice[(row, component)] / units[component] / length,
+                None => found.by_vertices[(row, column + 3)],
+            }
         });
         let spring = |row: usize| {
             let spring = elements[row].term.spring(elements[row].number);
@@ -110,6 +111,7 @@ impl Springs {
             limit: Weighted::of(&rows, &limit.collect::<Vec<_>>()),
             rigid_hinges: Weighted::of(&rows, &chosen(&|row, k| k.is_infinite() && angle(row))),
             area,
+            terms: found.terms,
         }
     }
 
@@ -139,7 +141,7 @@ impl Condensed {
     /// # Errors
     /// [`ResponseError::Decomposition`] where a rank is not clear.
     pub(super) fn new(springs: &Springs) -> Result<Self, ResponseError> {
-        let allowed = null_space(&springs.rigid.rates)?.basis;
+        let allowed = null_space_of_sums(&springs.rigid.rates, springs.terms)?.basis;
         let lattice = allowed.rows(allowed.nrows() - MACROSCOPIC, MACROSCOPIC).into_owned();
         // motions that change a bar's length, and the others
         let (stretching, still) = split(&springs.bars.rates, &allowed)?;
@@ -161,7 +163,8 @@ impl Condensed {
         let free = reach.v.columns(reached, stretching.ncols() - reached).into_owned();
         // along those motions the rigid modes are taken back
         let along = &stretching - &modes * (rigid.transpose() * &lattice * &stretching);
-        let relaxed = without(&springs.hinges.rooted(&(&allowed * &local)))?;
+        let terms = springs.hinges.stiffness.iter().fold(0.0, |most, k| larger(most, springs.terms * k.sqrt()));
+        let relaxed = without(&springs.hinges.rooted(&(&allowed * &local)), terms)?;
         let a = &relaxed * springs.hinges.rooted(&(&allowed * &along));
         let b = &relaxed * springs.hinges.rooted(&(&allowed * &modes));
         let bars = springs.bars.rooted(&(&allowed * &along));
@@ -312,11 +315,10 @@ fn split(rows: &DenseMatrix, basis: &DenseMatrix) -> Result<(DenseMatrix, DenseM
     Ok((columns(0, rank), columns(rank, basis.ncols() - rank)))
 }
 
-/// Returns the projection onto what is orthogonal to all columns.
-fn without(columns: &DenseMatrix) -> Result<DenseMatrix, ResponseError> {
+/// Returns the projection onto what is orthogonal to all columns, whose entries are sums of terms of this magnitude.
+fn without(columns: &DenseMatrix, terms: f64) -> Result<DenseMatrix, ResponseError> {
     let found = full_svd(columns)?;
-    let largest = found.singular_values.first().copied().unwrap_or(0.0);
-    let rank = found.singular_values.iter().filter(|value| **value > ZERO * largest && **value > 0.0).count();
+    let rank = found.singular_values.iter().filter(|value| **value > ZERO * terms).count();
     let span = found.u.columns(0, rank);
     Ok(DenseMatrix::identity(columns.nrows(), columns.nrows()) - span * span.transpose())
 }

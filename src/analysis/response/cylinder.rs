@@ -12,7 +12,7 @@ use crate::analysis::state::cylinder;
 use crate::kinematics::metric::LatticeFrame;
 use crate::math::Vec3;
 use crate::model::{Assembly, Domain, Gauge, Local, Model, Site, Terms, Turns};
-use crate::numerics::{DenseMatrix, dense};
+use crate::numerics::dense;
 use crate::solver::{HessianKind, Linearization, Problem};
 use nalgebra::{DVector, Matrix2};
 use std::f64::consts::TAU;
@@ -24,7 +24,9 @@ use std::f64::consts::TAU;
 pub(super) fn response(assembly: &Assembly, coordinates: &[f64]) -> Result<Response, ResponseError> {
     let mut model = assembly.model(Gauge::Held);
     let x = model.start_from(coordinates.to_vec());
-    let null = dense::null_space(&stiff_rows(&model, &x))?;
+    let mut at = Linearization::new(model.layout());
+    model.linearize(&x, &vec![0.0; model.layout().stiff.len()], HessianKind::GaussNewton, &mut at);
+    let null = dense::null_space_of_rows(&at.rows(), model.layout().unknowns)?;
     let state = Rolled::new(assembly, model.coordinates(&x));
     let basis: Vec<LinearMode> =
         null.basis.column_iter().map(|rates| state.mode(model.velocity(rates.as_slice()))).collect();
@@ -33,13 +35,13 @@ pub(super) fn response(assembly: &Assembly, coordinates: &[f64]) -> Result<Respo
         curvatures: basis.iter().map(|mode| mode.curvature).collect(),
         length: state.area().sqrt(),
     };
-    let amplitudes = raw.arranged()?;
+    let error = null.gap.recip();
+    let amplitudes = raw.arranged(error)?.amplitudes;
     let mixed = |mix: DVector<f64>| state.mode(model.velocity((&null.basis * mix).as_slice()));
     let modes = amplitudes.column_iter().map(|mix| mixed(mix.into_owned())).collect();
-    let (table, error) = (raw.ranks()?, null.gap.recip());
     Ok(Response {
         modes,
-        table,
+        table: raw.ranks()?,
         lattice: state.lattice(),
         self_stresses: 0,
         stresses: vec![],
@@ -47,13 +49,6 @@ pub(super) fn response(assembly: &Assembly, coordinates: &[f64]) -> Result<Respo
         poisson: None,
         error,
     })
-}
-
-/// Returns the Jacobian of the stiff measures of a model.
-fn stiff_rows(model: &Model, x: &[f64]) -> DenseMatrix {
-    let mut at = Linearization::new(model.layout());
-    model.linearize(x, &vec![0.0; model.layout().stiff.len()], HessianKind::GaussNewton, &mut at);
-    dense::from_rows(&at.rows(), model.layout().unknowns)
 }
 
 /// A rolled up state.

@@ -49,7 +49,7 @@ pub use poisson::{Poisson, Relation};
 pub use result::{LatticeMotions, Response};
 pub use stresses::SelfStress;
 pub use symmetry_types::SymmetryTypes;
-pub use tensors::TensorSpace;
+pub use tensors::{NoRatio, TensorSpace};
 
 use super::modes::modes_at;
 use super::restored::{self, Forces};
@@ -70,7 +70,8 @@ use cell::PeriodicCell;
 /// assert_eq!((response.modes.len(), response.table.rank), (3, 3));
 /// let poisson = response.poisson.ok_or("a sheet that is not rolled up has ratios")?;
 /// let [in_plane, bending] = [poisson.in_plane.ratio(0.0), poisson.bending.ratio(0.0)];
-/// assert!((in_plane.ok_or("a planar mode")? + bending.ok_or("two bending modes")?).abs() < 1e-10);
+/// let sum = in_plane.and_then(|ratio| bending.map(|other| ratio + other));
+/// assert!(sum.is_ok_and(|sum| sum.abs() < 1e-10), "one planar mode and two bending modes");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -124,7 +125,7 @@ pub fn ratios_at(assembly: &Assembly, coordinates: &[f64], bending: bool) -> Res
         return Ok([None, None]);
     };
     let found = periodic::modes_of(&cell)?;
-    Ok([found.poisson.in_plane.ratio(0.0), found.poisson.bending.ratio(0.0)])
+    Ok([found.poisson.in_plane.ratio(0.0).ok(), found.poisson.bending.ratio(0.0).ok()])
 }
 
 /// Finds the effective moduli of a state of a periodic assembly: of the stretching, bending and their coupling.

@@ -1,7 +1,7 @@
 //! A linear folding mode with what it does to the sheet as a whole, and the table of all modes.
 
 use super::error::ResponseError;
-use super::tensors::{Span, flat};
+use super::tensors::{Span, TensorSpace, flat};
 use crate::kinematics::Displacement;
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
@@ -73,6 +73,16 @@ pub(super) struct RawTable {
     pub length: f64,
 }
 
+/// The modes by which a table is shown.
+pub(super) struct Arranged {
+    /// Amplitudes along the basis, a column for each mode.
+    pub amplitudes: DenseMatrix,
+    /// Strains of the modes without curvature.
+    pub in_plane: TensorSpace,
+    /// Curvature tensors of all modes.
+    pub bending: TensorSpace,
+}
+
 impl RawTable {
     fn matrix(tensors: &[[f64; 3]], unit: f64) -> DenseMatrix {
         DenseMatrix::from_fn(3, tensors.len(), |row, k| unit * flat(tensors[k])[row])
@@ -99,7 +109,8 @@ impl RawTable {
         })
     }
 
-    /// Returns the modes by which the table is shown, as combinations of the basis, one for each column.
+    /// Returns the modes by which the table is shown, as combinations of the basis, and the spaces of their tensors; `error` is
+    /// the error of the basis.
     ///
     /// First the modes without curvature, by falling strain, each with 1 as its largest component of strain, or of norm
     /// 1 if it has no strain. Then modes with curvature, orthogonal to those: of three, those with one component 1 and
@@ -108,13 +119,14 @@ impl RawTable {
     ///
     /// # Errors
     /// [`ResponseError::UnclearRank`].
-    pub(super) fn arranged(&self) -> Result<DenseMatrix, ResponseError> {
+    pub(super) fn arranged(&self, error: f64) -> Result<Arranged, ResponseError> {
         let bends = Span::new(&Self::matrix(&self.curvatures, self.length), "curvatures")?;
         let (bending, count) = (bends.rank, self.curvatures.len());
         let planar = bends.combinations.columns(bending, count - bending).into_owned();
-        let mut columns: Vec<_> = Vec::new();
+        let (mut columns, mut in_plane): (Vec<_>, _) = (Vec::new(), TensorSpace::default());
         if planar.ncols() > 0 {
             let strained = Span::new(&(Self::matrix(&self.strains, 1.0) * &planar), "strains without curvature")?;
+            in_plane = TensorSpace::new(&strained, error);
             let sorted = planar * &strained.combinations;
             let strains = Self::matrix(&self.strains, 1.0) * &sorted;
             for (k, mode) in sorted.column_iter().enumerate() {
@@ -132,7 +144,8 @@ impl RawTable {
             let scaled = DenseMatrix::from_fn(bending, 1, |k, _| self.length * parts[k] / bends.values[k]);
             columns.push((bends.combinations.columns(0, bending) * scaled).column(0).into_owned());
         }
-        Ok(DenseMatrix::from_fn(count, columns.len(), |row, k| columns[k][row]))
+        let amplitudes = DenseMatrix::from_fn(count, columns.len(), |row, k| columns[k][row]);
+        Ok(Arranged { amplitudes, in_plane, bending: TensorSpace::new(&bends, error) })
     }
 }
 

@@ -49,16 +49,17 @@ pub(super) fn modes_of(cell: &PeriodicCell) -> Result<CellModes, ResponseError> 
         curvatures: basis.iter().map(|mode| mode.curvature).collect(),
         length: cell.area().sqrt(),
     };
-    let amplitudes = raw.arranged()?;
-    let modes: Vec<LinearMode> =
-        amplitudes.column_iter().map(|mix| mixed(mix.into_owned())).collect::<Result<_, _>>()?;
     let disagreement = basis.iter().map(|mode| match &mode.field {
         Field::OfCells(field) => field.disagreement,
         Field::OfCoordinates(_) => 0.0,
     });
     let error = larger(disagreement.fold(0.0, larger), defect_of_reciprocity(&raw));
+    let arranged = raw.arranged(larger(error, found.gap.recip()))?;
+    let columns = arranged.amplitudes.column_iter();
+    let modes: Vec<LinearMode> = columns.map(|mix| mixed(mix.into_owned())).collect::<Result<_, _>>()?;
     let table = raw.ranks()?;
-    let poisson = Poisson::new(&cell.sheet, &modes, &table, !cell.locked.is_empty(), raw.length)?;
+    let spaces = [arranged.in_plane, arranged.bending];
+    let poisson = Poisson::new(&cell.sheet, (&modes, spaces), &table, !cell.locked.is_empty(), raw.length);
     Ok(CellModes { modes, table, poisson, error })
 }
 

@@ -10,7 +10,6 @@
 //! e2202777119 (2022)); for Miura-ori see M. Schenk, S. D. Guest, PNAS 110, 3276 (2013) and Z. Y. Wei, Z. V. Guo,
 //! L. Dudte, H. Y. Liang, L. Mahadevan, Phys. Rev. Lett. 110, 215501 (2013).
 
-use super::error::ResponseError;
 use super::mode::{LinearMode, ModeTable};
 use super::tensors::{TensorSpace, flat};
 use crate::numerics::dense::least_squares;
@@ -131,24 +130,17 @@ impl Relation {
 }
 
 impl Poisson {
-    /// Finds the ratios of these modes, which are arranged: those without curvature first. `length` is the unit of
-    /// length, `locked` whether some hinges keep their angles.
-    ///
-    /// # Errors
-    /// [`ResponseError::UnclearRank`].
+    /// Finds the ratios of these modes, which are arranged, those without curvature first, with the spaces of the strains of
+    /// those and of all curvatures. `length` is the unit of length, `locked` whether some hinges keep their angles.
     pub(super) fn new(
         sheet: &Sheet,
-        modes: &[LinearMode],
+        (modes, [in_plane, bent]): (&[LinearMode], [TensorSpace; 2]),
         table: &ModeTable,
         locked: bool,
         length: f64,
-    ) -> Result<Self, ResponseError> {
+    ) -> Self {
         let (planar, bending) = modes.split_at(modes.len() - table.curvatures);
-        let strains: Vec<[f64; 3]> = planar.iter().map(|mode| mode.strain).collect();
-        let tensors: Vec<[f64; 3]> = bending.iter().map(|mode| mode.curvature.map(|k| k * length)).collect();
-        let in_plane = TensorSpace::new(&strains, "strains without curvature")?;
-        let bending_space = TensorSpace::new(&tensors, "curvatures")?;
-        let relation = match (planar.len(), in_plane.dimension(), bending_space.dimension()) {
+        let relation = match (planar.len(), in_plane.dimension(), bent.dimension()) {
             (0, _, 0) => Relation::NoModes,
             (0, ..) => {
                 let least = table.curvature_values.last().zip(table.curvature_values.first());
@@ -164,11 +156,11 @@ impl Poisson {
         };
         let sum = worst((0..DIRECTIONS).filter_map(|k| {
             let angle = PI * k as f64 / DIRECTIONS as f64;
-            let (in_plane, bending) = (in_plane.ratio(angle)?, bending_space.ratio(angle)?);
+            let (in_plane, bending) = (in_plane.ratio(angle).ok()?, bent.ratio(angle).ok()?);
             Some((in_plane + bending).abs() / larger(1.0, larger(in_plane.abs(), bending.abs())))
         }));
         let neutral_height = neutral_height(planar, bending, length);
-        Ok(Self { in_plane, bending: bending_space, relation, sum, neutral_height })
+        Self { in_plane, bending: bent, relation, sum, neutral_height }
     }
 }
 
@@ -190,9 +182,10 @@ fn neutral_height(planar: &[LinearMode], bending: &[LinearMode], length: f64) ->
     let mut right = DenseMatrix::zeros(3 * bending.len(), 1);
     for (j, mode) in bending.iter().enumerate() {
         let (strain, curvature) = (flat(mode.strain), flat(mode.curvature));
+        // a mode with a curvature of 1 per unit of length, times the inverse of that unit: no number has a unit
         for row in 0..3 {
-            right[(3 * j + row, 0)] = strain[row];
-            matrix[(3 * j + row, 0)] = 2.0 * length * curvature[row];
+            right[(3 * j + row, 0)] = strain[row] / length;
+            matrix[(3 * j + row, 0)] = 2.0 * curvature[row];
         }
         for (k, flat_mode) in planar.iter().enumerate() {
             (0..3).for_each(|row| {

@@ -9,9 +9,9 @@ use super::compatibility::rates;
 use super::error::ResponseError;
 use crate::model::Assembly;
 use crate::numerics::DenseMatrix;
-use crate::numerics::dense::{DenseError, full_svd, null_space};
+use crate::numerics::dense::{DenseError, full_svd, null_space_of_sums};
 
-/// A self stress of one cell whose lattice is held, of norm 1.
+/// A self stress of one cell whose lattice is held, of norm 1 with torques over the root of the cell's area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelfStress {
     /// Tension of the bar along every edge of the cell.
@@ -32,16 +32,17 @@ pub struct SelfStress {
 pub(super) fn of_cell(assembly: &Assembly, cell: &PeriodicCell) -> Result<Vec<SelfStress>, ResponseError> {
     let elements = cell.elements(assembly);
     let rates = rates(cell, &elements);
-    let null = null_space(&rates.by_vertices.transpose())?;
+    let null = null_space_of_sums(&rates.by_vertices.transpose(), rates.terms)?;
     let (edges, area) = (cell.sheet.edges.len(), cell.area());
-    let basis = ordered_by_work(&null.basis, &rates.by_lattice, area.sqrt())?;
+    let length = area.sqrt();
+    let basis = ordered_by_work(&null.basis, &rates.by_lattice, length)?;
     let stress = |values: &[f64]| {
         let (mut tension, mut torque) = (vec![0.0; edges], vec![0.0; edges]);
         let mut work = [0.0; 6];
         for (row, (element, value)) in elements.iter().zip(values).enumerate() {
             let edge = assembly.tiling().edges[element.term.edge(element.number)].edge;
             if element.term.is_angle() {
-                torque[edge] += value
+                torque[edge] += length * value
             } else {
                 tension[edge] += value
             }

@@ -50,7 +50,11 @@ pub(super) fn of_cell(cell: &PeriodicCell, modes: &[LinearMode], stresses: &[Sel
 /// sign; `None` if the map does not keep the span.
 fn types(vectors: &[Vec<f64>], image: impl Fn(usize) -> (usize, f64)) -> Option<[usize; 2]> {
     let Some(length) = vectors.first().map(Vec::len) else { return Some([0, 0]) };
-    let span = DenseMatrix::from_fn(length, vectors.len(), |row, column| vectors[column][row]);
+    // of norm 1, since modes of different units may span the space
+    let mut span = DenseMatrix::from_fn(length, vectors.len(), |row, column| vectors[column][row]);
+    span.column_iter_mut().for_each(|mut vector| {
+        vector.normalize_mut();
+    });
     let mut moved = DenseMatrix::zeros(length, vectors.len());
     for row in 0..length {
         let (to, sign) = image(row);

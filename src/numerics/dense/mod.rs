@@ -7,6 +7,7 @@ mod unit;
 
 use super::DenseMatrix;
 use super::sparse::{FIXED, Rows};
+use super::vector::max_abs;
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
@@ -160,19 +161,28 @@ pub fn full_svd(matrix: &DenseMatrix) -> Result<Svd, DenseError> {
     Ok(Svd { u, singular_values, v })
 }
 
-/// The number of singular values before their largest gap, among `values` in descending order.
-///
-/// A matrix of zeros has rank 0; any other has at least rank 1.
+/// The number of singular values before their largest gap, among `values` in descending order, of a matrix whose entries are
+/// data: one of zeros has rank 0, any other has at least rank 1.
 ///
 /// # Errors
 /// [`DenseError::NoGap`] where the largest gap is below [`SMALLEST_GAP`].
 pub(crate) fn rank_at_largest_gap(values: &[f64]) -> Result<Rank, DenseError> {
+    rank_of_sums(values, 0.0)
+}
+
+/// The number of singular values before their largest gap, as [`rank_at_largest_gap`], of a matrix whose entries are sums of
+/// terms of the magnitude `terms`. Where the terms cancel in every entry, what is left is rounding: the gap before the first
+/// value counts too, and the rank may be 0.
+///
+/// # Errors
+/// As [`rank_at_largest_gap`].
+pub(crate) fn rank_of_sums(values: &[f64], terms: f64) -> Result<Rank, DenseError> {
     let largest = values.first().copied().unwrap_or(0.0);
     if largest == 0.0 {
         return Ok(Rank { rank: 0, gap: 1.0 / f64::EPSILON });
     }
-    let after = |rank: usize| values.get(rank).copied().unwrap_or(0.0).max(f64::EPSILON * largest);
-    let mut best = Rank { rank: 0, gap: 0.0 };
+    let after = |rank: usize| values.get(rank).copied().unwrap_or(0.0).max(f64::EPSILON * f64::max(largest, terms));
+    let mut best = Rank { rank: 0, gap: terms / largest };
     for (position, kept) in values.iter().enumerate() {
         let gap = kept / after(position + 1);
         if gap > best.gap {
@@ -183,7 +193,8 @@ pub(crate) fn rank_at_largest_gap(values: &[f64]) -> Result<Rank, DenseError> {
         return Ok(best);
     }
     let Rank { rank, gap } = best;
-    Err(DenseError::NoGap { rank, kept: values[rank - 1], dropped: after(rank), gap, singular_values: values.to_vec() })
+    let kept = rank.checked_sub(1).map_or(terms, |last| values[last]);
+    Err(DenseError::NoGap { rank, kept, dropped: after(rank), gap, singular_values: values.to_vec() })
 }
 
 /// An orthonormal basis of the null space, the rank chosen by [`rank_at_largest_gap`].
@@ -193,10 +204,28 @@ pub(crate) fn rank_at_largest_gap(values: &[f64]) -> Result<Rank, DenseError> {
 /// # Errors
 /// As [`singular_values`] and [`rank_at_largest_gap`].
 pub fn null_space(matrix: &DenseMatrix) -> Result<NullSpace, DenseError> {
+    null_space_of_sums(matrix, 0.0)
+}
+
+/// An orthonormal basis of the null space of a matrix whose entries are sums of terms of the magnitude `terms`, which may
+/// cancel in all of them, the rank chosen by [`rank_of_sums`].
+///
+/// # Errors
+/// As [`null_space`].
+pub(crate) fn null_space_of_sums(matrix: &DenseMatrix, terms: f64) -> Result<NullSpace, DenseError> {
     let Svd { v, singular_values, .. } = full_svd(matrix)?;
-    let Rank { rank, gap } = rank_at_largest_gap(&singular_values)?;
+    let Rank { rank, gap } = rank_of_sums(&singular_values, terms)?;
     let basis = v.columns(rank, v.ncols() - rank).into_owned();
     Ok(NullSpace { basis, singular_values, rank, gap })
+}
+
+/// An orthonormal basis of the null space of sparse rows, of `columns` columns, by [`null_space_of_sums`]: entries of the same
+/// unknown in a row may cancel.
+///
+/// # Errors
+/// As [`null_space`].
+pub(crate) fn null_space_of_rows(rows: &Rows<'_>, columns: usize) -> Result<NullSpace, DenseError> {
+    null_space_of_sums(&from_rows(rows, columns), max_abs(rows.values))
 }
 
 /// The minimal-norm least-squares solutions of `matrix * x = right`, a column for each of `right`, the rank chosen by
@@ -205,12 +234,25 @@ pub fn null_space(matrix: &DenseMatrix) -> Result<NullSpace, DenseError> {
 /// # Errors
 /// As [`null_space`], and [`DenseError::RightHandSide`].
 pub fn least_squares(matrix: &DenseMatrix, right: &DenseMatrix) -> Result<LeastSquares, DenseError> {
+    least_squares_of_sums(matrix, right, 0.0)
+}
+
+/// The minimal-norm least-squares solutions, as [`least_squares`], with a matrix whose entries are sums of terms of the
+/// magnitude `terms`, the rank chosen by [`rank_of_sums`].
+///
+/// # Errors
+/// As [`least_squares`].
+pub(crate) fn least_squares_of_sums(
+    matrix: &DenseMatrix,
+    right: &DenseMatrix,
+    terms: f64,
+) -> Result<LeastSquares, DenseError> {
     if right.nrows() != matrix.nrows() {
         return Err(DenseError::RightHandSide { rows: matrix.nrows(), found: right.nrows() });
     }
     check_finite(right)?;
     let Svd { u, singular_values, v } = full_svd(matrix)?;
-    let rank = rank_at_largest_gap(&singular_values)?;
+    let rank = rank_of_sums(&singular_values, terms)?;
     let mut parts = u.columns(0, rank.rank).tr_mul(right);
     parts.row_iter_mut().zip(&singular_values).for_each(|(mut part, value)| part /= *value);
     let solution = v.columns(0, rank.rank) * parts;
@@ -359,6 +401,20 @@ mod tests {
         assert_eq!(rank(&[4.0, 2.0]), Rank { rank: 2, gap: 0.5 / f64::EPSILON });
         assert_eq!(rank(&[0.0, 0.0]).rank, 0);
         assert_eq!(rank(&[]).rank, 0);
+    }
+
+    /// Claim: what is left where terms cancel in every entry is rounding beside the terms, and beside nothing a rank; terms
+    /// no larger than the values change nothing.
+    #[test]
+    fn cancelled_terms_have_rank_zero() {
+        let left = [4e-16, 2e-16, 1e-18];
+        assert_eq!(rank_of_sums(&left, 1.0).unwrap(), Rank { rank: 0, gap: 1.0 / 4e-16 });
+        assert_eq!(rank_of_sums(&left, 0.0).unwrap().rank, 3);
+        assert_eq!(rank_of_sums(&[4.0, 2.0, 1e-12], 1.0).unwrap(), Rank { rank: 2, gap: 2.0 / 1e-12 });
+        assert_eq!(rank_of_sums(&[1e-5, 1e-6], 1.0).unwrap().rank, 2);
+        assert!(matches!(rank_of_sums(&[0.1, 0.01], 1.0).unwrap(), Rank { rank: 2, .. }));
+        let falling: Vec<f64> = (1..17).map(|k| 10f64.powi(-k)).collect();
+        assert!(matches!(rank_of_sums(&falling, 1.0), Err(DenseError::NoGap { .. })));
     }
 
     /// Claim: singular values that fall by a factor of 10 each down to rounding have no rank, and the error tells

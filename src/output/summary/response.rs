@@ -147,10 +147,18 @@ pub struct LatticeSummary {
 /// Poisson's ratios, along the first lattice vector.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PoissonSummary {
-    /// Ratio of a stretch without curvature; null where no mode has it, or several.
+    /// Ratio of a stretch without curvature; null where no mode has it, or several, or it does not stretch along the first
+    /// lattice vector.
     pub in_plane: Option<f64>,
-    /// Ratio of a bending without twist; null where no mode has it, or several.
+    /// Ratio of a bending without twist; null where no mode has it, or several, or it does not bend along the first lattice
+    /// vector.
     pub bending: Option<f64>,
+    /// Why there is no ratio in the plane; null where there is, and of a sheet that is rolled up.
+    #[serde(default)]
+    pub no_in_plane: Option<String>,
+    /// Why there is no ratio of bending; null where there is, and of a sheet that is rolled up.
+    #[serde(default)]
+    pub no_bending: Option<String>,
     /// Whether the two are opposite in every direction; null where one of them does not exist.
     pub opposite: Option<bool>,
     /// Why they are opposite or not, or do not exist.
