@@ -163,7 +163,7 @@ fn a_relaxation_finds_the_end_of_a_path() {
     let found = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
     assert!((found.state.total() - end.state.total()).abs() <= 1e-10 * end.state.total());
     assert!((found.state.coordinates[5] - 0.2).abs() <= 1e-10, "{:?}", found.state.coordinates);
-    assert_eq!(found.negative_eigenvalues, 0);
+    assert_eq!(found.negative_eigenvalues, Some(0));
 }
 
 /// Claim: the stiffness of the bars of a patch is driven from 1e2 to infinity along one branch, whose end is the rigid

@@ -32,7 +32,7 @@ fn every_domain_at_every_stiffness() {
                             && found.self_stresses == k.is_infinite().then_some(stresses);
                         if !good {
                             failed.push(format!(
-                                "{what}: {} iterations, residuals {:.1e} {:.1e}, negative {}, self stresses {:?}",
+                                "{what}: {} iterations, residuals {:.1e} {:.1e}, negative {:?}, self stresses {:?}",
                                 found.iterations,
                                 found.residual_force,
                                 found.residual_length,

@@ -17,7 +17,7 @@ fn sweep(n: usize, rest: impl Fn(&Assembly) -> Vec<f64>, most: usize) -> Vec<Rel
     let run = |k: f64| match case.relax(&Terms::bars_and_creases(k, 1.0, rest.clone())) {
         Ok(found) => {
             println!(
-                "n = {n}, k = {k:e}: {} iterations, {} factorizations, residuals {:.1e} {:.1e}, energy {:.10}, negative {}",
+                "n = {n}, k = {k:e}: {} iterations, {} factorizations, residuals {:.1e} {:.1e}, energy {:.10}, negative {:?}",
                 found.iterations,
                 found.factorizations,
                 found.residual_force,
