@@ -178,12 +178,14 @@ impl Bordered {
     }
 
     /// The softest motion of Newton's system across the motions in `others`, by inverse iteration from `guess`: rates of
-    /// unknowns and tensions, the former of length 1. Where the system is singular it is a null vector.
-    pub fn softest(&mut self, guess: &[f64], others: &[Rates]) -> Rates {
+    /// unknowns and tensions, the former of length 1, and its stiffness. Where the system is singular it is a null vector.
+    pub fn softest(&mut self, guess: &[f64], others: &[Rates]) -> (Rates, f64) {
         let nothing = vec![0.0; self.compliance.len()];
         let mut found = Rates { x: guess.to_vec(), tension: nothing.clone(), parameter: 0.0 };
+        let mut stiffness = f64::NAN;
         for _ in 0..SOFTEST_ROUNDS {
             let answer = self.system.solve(&self.at, &found.x, &nothing, SOFTEST_RESIDUAL);
+            stiffness = dot(&answer.dx, &found.x) / dot(&answer.dx, &answer.dx);
             found = Rates { x: answer.dx, tension: answer.dt, parameter: 0.0 };
             for other in others {
                 let part = dot(&found.x, &other.x);
@@ -193,7 +195,7 @@ impl Bordered {
             let per_length = 1.0 / norm_blocked(&found.x).max(f64::MIN_POSITIVE);
             found.x.iter_mut().chain(&mut found.tension).for_each(|rate| *rate *= per_length);
         }
-        found
+        (found, stiffness)
     }
 
     /// The scaled force that rounding of unknowns of this size makes: a last place of them times the largest stiffness

@@ -24,6 +24,12 @@ const SEED: u64 = 7;
 /// Length of what is left of a null vector across the path below which it is the path's own direction.
 const LEAST_ACROSS: f64 = 1e-3;
 
+/// Random vectors of this many numbers, the same whenever they are asked for.
+pub(super) fn guesses(unknowns: usize) -> impl Iterator<Item = Vec<f64>> {
+    let mut numbers = ChaCha8Rng::seed_from_u64(SEED);
+    std::iter::repeat_with(move || (0..unknowns).map(|_| symmetric(&mut numbers)).collect())
+}
+
 /// The first states of the branches that leave at a branch point, each with the reference of the problem there.
 pub(super) struct Leaving {
     pub firsts: Vec<(PathState, Vec<f64>)>,
@@ -71,11 +77,9 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         self.problem.set_parameter(point.parameter);
         self.bordered.linearize(self.problem, &point.x, &point.tension);
         self.bordered.factor()?;
-        let mut numbers = ChaCha8Rng::seed_from_u64(SEED);
         let mut found: Vec<Rates> = vec![];
-        for _ in 0..multiplicity {
-            let guess: Vec<f64> = point.x.iter().map(|_| symmetric(&mut numbers)).collect();
-            let null = self.bordered.softest(&guess, &found);
+        for guess in guesses(point.x.len()).take(multiplicity) {
+            let (null, _) = self.bordered.softest(&guess, &found);
             found.push(null);
         }
         let mut across: Vec<Rates> = vec![point.tangent.clone().scaled(1.0 / self.bordered.length())];

@@ -1,5 +1,6 @@
 //! Special states between two states of a path: where a function of the states changes its sign.
 
+use super::branching::guesses;
 use super::exits::SAME_STATE;
 use super::follower::Follower;
 use super::interpolant::Cubic;
@@ -11,7 +12,13 @@ const LOCATED_PART: f64 = 1e-12;
 const MOST_ROUNDS: usize = 60;
 /// Ratio of the rate of the conjugate quantity to its largest one on the path below which it is rounding error.
 const LEAST_RATE: f64 = 1e-8;
-/// Largest number of branch points that are sought in a step.
+/// Distance in arc length between states around a branch point at which it is interpolated.
+const AROUND: f64 = 1e-4;
+/// How often those states are moved to where a stiffness would vanish that does not change its sign among them, and how far in
+/// units of the way to there.
+const MOST_SHIFTS: usize = 5;
+const BEYOND: f64 = 1.2;
+/// Largest number of changes of the level that are sought in a step.
 const MOST_BRANCH_POINTS: usize = 16;
 
 /// Functions that the observer of a path watches besides the solver's own.
@@ -45,6 +52,24 @@ impl Level {
         let beyond = |(sign, change): (f64, i64)| if state.tangent.parameter * sign < 0.0 { change } else { 0 };
         Some(count - self.turn.map_or(0, beyond))
     }
+}
+
+/// What the stiffness of the softest motion says of a branch point.
+enum Crossing {
+    /// It vanishes at this part of the way, in this state.
+    At(f64, Box<PathState>),
+    /// It does not change its sign: it left what counts as zero.
+    Nowhere,
+    /// States around the point are not found.
+    Unknown,
+}
+
+/// Where a quantity vanishes of which four values at four places are given, by inverse interpolation.
+fn zero_of(values: &[[f64; 2]]) -> f64 {
+    let weight = |k: usize, other: usize| values[other][1] / (values[other][1] - values[k][1]);
+    let place =
+        |k: usize| values[k][0] * (0..4).filter(|&other| other != k).map(|other| weight(k, other)).product::<f64>();
+    (0..4).map(place).sum()
 }
 
 impl<P: ParametrizedProblem> Follower<'_, P> {
@@ -93,12 +118,22 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         let mut found = vec![];
         let (Some(mut before), Some(last)) = (level.of(from), level.of(to)) else { return Ok(found) };
         let (mut part, beside) = (0.0, SAME_STATE / (to.arc_length - from.arc_length));
-        while before != last && found.len() < MOST_BRANCH_POINTS {
+        for _ in 0..MOST_BRANCH_POINTS {
+            if before == last {
+                break;
+            }
             let mut differs = |state: &PathState| level.of(state).is_some_and(|here| here != before);
-            let Some((at, mut state)) = self.bisect([from, to], part, &mut differs)? else { break };
+            let Some((at, state)) = self.bisect([from, to], part, &mut differs)? else { break };
             let beyond = if at + beside < 1.0 { self.between(from, to, at + beside)? } else { None };
             let after = beyond.and_then(|state| level.of(&state)).unwrap_or(last);
-            if after != before {
+            let crossing = if after == before { Crossing::Nowhere } else { self.refined([from, to], at)? };
+            let point = match crossing {
+                Crossing::At(at, state) => Some((at, *state)),
+                // where the parameter turns as well another motion may be the softest
+                Crossing::Nowhere if after == before || level.turn.is_none() => None,
+                Crossing::Nowhere | Crossing::Unknown => Some((at, state)),
+            };
+            if let Some((at, mut state)) = point {
                 // Newton's system is singular there, and its own tangent any mixture with the null vectors
                 (state.tangent, state.conjugate[1]) = Cubic::new(from, to).tangent(at);
                 found.push((state, PathMark::BranchPoint(before.abs_diff(after) as usize)));
@@ -106,6 +141,40 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
             (part, before) = (at + beside, after);
         }
         Ok(found)
+    }
+
+    /// Locates a branch point near this part of the way where the stiffness of the softest motion vanishes, by inverse
+    /// interpolation between states around it. At the point itself neither Newton's method nor a count of signs is
+    /// exact: rounding errors move a state along the null vector, and stiffnesses that are rounding errors count as positive.
+    fn refined(&mut self, [from, to]: [&PathState; 2], mut at: f64) -> Result<Crossing, PathError> {
+        let mut guess = guesses(from.x.len()).next().unwrap_or_default();
+        for _ in 0..MOST_SHIFTS {
+            let apart = f64::min(AROUND / (to.arc_length - from.arc_length), 0.4 * f64::min(at, 1.0 - at));
+            let mut around: Vec<[f64; 2]> = vec![];
+            for place in [-2.0, -1.0, 1.0, 2.0] {
+                let part = at + place * apart;
+                if self.between(from, to, part)?.is_none() {
+                    return Ok(Crossing::Unknown);
+                }
+                let (softest, stiffness) = self.bordered.softest(&guess, &[]);
+                guess = softest.x;
+                around.push([part, stiffness]);
+            }
+            if around[0][1] * around[3][1] < 0.0 {
+                let part = zero_of(&around);
+                if !((part - at).abs() <= 2.0 * apart) {
+                    return Ok(Crossing::Unknown);
+                }
+                let state = self.between(from, to, part)?;
+                return Ok(state.map_or(Crossing::Unknown, |state| Crossing::At(part, Box::new(state))));
+            }
+            let way = (around[3][0] - around[0][0]) / (around[3][1] - around[0][1]);
+            at -= BEYOND * way * 0.5 * (around[1][1] + around[2][1]);
+            if !(0.0 < at && at < 1.0) {
+                break;
+            }
+        }
+        Ok(Crossing::Nowhere)
     }
 
     /// Locates the first state found, beyond this part of the way between two others, of which something holds that holds of
