@@ -46,7 +46,7 @@ class SheetError(SceneError):
 
 
 class OutputError(FoldwellError):
-    """A file cannot be read or written: no space, no permission."""
+    """A file cannot be read or written: no space, no permission, another process at work in the folder."""
 
 
 class DidNotConverge(FoldwellError):

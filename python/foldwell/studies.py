@@ -36,8 +36,8 @@ def relax(
 
     Args:
         assembly: The sheet and its energy.
-        start: The state where it starts: the result of a study of the same assembly, a .vtu file, or `{"random": amplitude,
-            "seed": n}`. Left out: as drawn.
+        start: The state where it starts: the result of a study of the same assembly, also with other stiffnesses and rest angles, a
+            .vtu file, or `{"random": amplitude, "seed": n}`. Left out: as drawn.
         tolerance: Bound on both scaled residuals.
         method: The unknowns: "vertices", "intrinsic" (fold angles), or "auto", the default.
         keep_every: Steps between the states on the way that are kept; left out: none are.

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 #[pyclass(frozen, module = "foldwell._foldwell")]
 pub(crate) struct Answer {
     summary: String,
-    assembly: foldwell::Assembly,
+    pub assembly: foldwell::Assembly,
     states: Vec<(String, Py<State>)>,
     files: Vec<(String, Artifact)>,
     pub saved: Option<SavedState>,
@@ -113,13 +113,13 @@ impl Answer {
 
     /// Writes the files of the study into a folder; returns their names.
     fn save(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<String>> {
-        let written = |error: OutputError| raise(py, &error.into());
-        for (name, state) in &self.states {
-            foldwell::write_vtu(&folder.join(name), &state.get().picture).map_err(written)?;
-        }
-        for (name, artifact) in &self.files {
-            artifact.write(&folder.join(name)).map_err(written)?;
-        }
+        let write = || {
+            for (name, state) in &self.states {
+                foldwell::write_vtu(&folder.join(name), &state.get().picture)?;
+            }
+            self.files.iter().try_for_each(|(name, artifact)| artifact.write(&folder.join(name)))
+        };
+        py.detach(write).map_err(|error: OutputError| raise(py, &error.into()))?;
         let states = self.states.iter().map(|(name, _)| name.clone());
         Ok(states.chain(self.files.iter().map(|(name, _)| name.clone())).collect())
     }

@@ -2,12 +2,13 @@
 
 use crate::answer::{Answer, answers};
 use crate::arrays::{Array2, rows};
-use crate::errors::raise;
+use crate::errors::{raise, refused};
 use crate::forms::Forms;
 use crate::run::Given;
 use crate::sheet::Sheet;
 use crate::values::{table, text};
 use crate::watch::watched;
+use foldwell::model::Boundary;
 use foldwell::run::{self, RunError};
 use foldwell::scene::{build, parse};
 use foldwell::study::PreviousAnswers;
@@ -26,6 +27,18 @@ pub(crate) struct Assembly {
     path: PathBuf,
 }
 
+/// Whether the coordinates of a state of one assembly are those of a state of the other: the same vertices, joined in
+/// the same way.
+fn has_same_coordinates(one: &foldwell::Assembly, other: &foldwell::Assembly) -> bool {
+    let seam = |assembly: &foldwell::Assembly| match assembly.boundary() {
+        Boundary::Tube { seam, .. } => Some(seam),
+        _ => None,
+    };
+    let joined = |assembly: &foldwell::Assembly| (assembly.drawn().coordinates.len(), seam(assembly));
+    let (of_one, of_other) = (one.tiling(), other.tiling());
+    joined(one) == joined(other) && (&of_one.edges, &of_one.triangles) == (&of_other.edges, &of_other.triangles)
+}
+
 #[pymethods]
 impl Assembly {
     /// Builds the assembly of a scene; `sheet` replaces its mesh.
@@ -39,14 +52,14 @@ impl Assembly {
     ) -> PyResult<Self> {
         let file = scene.read(py, &base, &settings)?;
         let sheet = sheet.map(|sheet| sheet.get().sheet.clone());
-        let built = py.detach(|| match sheet {
-            Some(sheet) => build::assembly_of(&file, sheet),
-            None => build::assembly(&file),
-        });
-        let assembly = built.map_err(|error| raise(py, &error.into()))?;
         let mut scene: Table = file.text().parse().unwrap_or_default(); // it was read above
         scene.retain(|key, _| key != "study" && key != "sweep");
-        Ok(Self { assembly, scene, path: file.path().to_owned() })
+        let path = file.path().to_owned();
+        let built = watched(py, None, move |_| match sheet {
+            Some(sheet) => build::assembly_of(&file, sheet),
+            None => build::assembly(&file),
+        })?;
+        Ok(Self { assembly: built.map_err(|error| raise(py, &error.into()))?, scene, path })
     }
 
     /// Computes studies, given as the tables of a scene. `earlier` are answers from which they start, by the names of their studies,
@@ -63,6 +76,10 @@ impl Assembly {
         let mut scene = self.scene.clone();
         scene.insert("study".to_owned(), Value::Array(studies));
         let file = parse(&text(&scene)?, &self.path).map_err(|error| raise(py, &error.into()))?;
+        if earlier.iter().any(|(_, answer)| !has_same_coordinates(&answer.get().assembly, &self.assembly)) {
+            let help = "vertices, edges, cells and boundary conditions are the same; stiffnesses and rest angles may be others";
+            return Err(refused(py, "the start is a state of another assembly".to_owned(), help));
+        }
         let states = earlier.iter().filter_map(|(name, answer)| Some((name.clone(), answer.get().saved.clone()?)));
         let earlier = PreviousAnswers { states: states.collect(), ..PreviousAnswers::default() };
         let assembly = self.assembly.clone();

@@ -28,6 +28,11 @@ pub(crate) fn raise(py: Python<'_>, error: &RunError) -> PyErr {
     exception(py, class, (error.to_string(), help, file, line))
 }
 
+/// Returns the `SceneError` about something that was given, with a hint.
+pub(crate) fn refused(py: Python<'_>, message: String, help: &str) -> PyErr {
+    exception(py, "SceneError", (message, Some(help.to_owned()), None, None))
+}
+
 /// Returns the exception for a wrong mesh.
 pub(crate) fn raise_sheet(py: Python<'_>, error: SheetError) -> PyErr {
     raise(py, &error.into())

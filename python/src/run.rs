@@ -4,7 +4,7 @@ use crate::answer::{Answer, answers};
 use crate::errors::raise;
 use crate::values::{table, text};
 use crate::watch::watched;
-use foldwell::run::{self, Ledger, RunError, RunOptions};
+use foldwell::run::{self, Ledger, Progress, RunError, RunOptions};
 use foldwell::scene::{SceneFile, Setting, build, parse_set};
 use foldwell::{Pattern, output};
 use pyo3::exceptions::PyValueError;
@@ -62,7 +62,7 @@ pub(crate) fn run_scene(
         let work = move |observer: run::Observer<'_>| run::run(&file, &options, observer, &record);
         let ended = watched(py, progress, work);
         if ended.is_err() {
-            ledger.close().map_err(|error| raise(py, &error))?; // at Ctrl-C: what is finished is recorded
+            ledger.close(false).map_err(|error| raise(py, &error))?; // at Ctrl-C: what is finished is recorded
         }
         let report = ended?.map_err(|error| raise(py, &error))?;
         return Ok((serde_json::to_string(&report.summary).unwrap_or_default(), vec![], report.interrupted));
@@ -76,10 +76,15 @@ pub(crate) fn run_scene(
     answers(py, &assembly, computed)
 }
 
-/// Converts a mesh; returns what the new file does not keep.
+/// Converts a mesh; returns what the new file does not keep. After Ctrl-C no file is begun.
 #[pyfunction]
 pub(crate) fn convert(py: Python<'_>, from: PathBuf, to: PathBuf, frame: Option<usize>) -> PyResult<Vec<String>> {
-    run::convert(&from, &to, frame).map_err(|error| raise(py, &error))
+    let reading = Progress { study: "convert".to_owned(), step: 0, of: None, residual: f64::NAN };
+    let work = move |observer: run::Observer<'_>| {
+        let sheet = run::read_sheet(&from, frame)?;
+        if observer(&reading).is_break() { Ok(Vec::new()) } else { run::write_sheet(&sheet, &to) }
+    };
+    watched(py, None, work)?.map_err(|error: RunError| raise(py, &error))
 }
 
 /// Returns the names of the patterns.

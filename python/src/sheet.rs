@@ -3,6 +3,7 @@
 use crate::arrays::{Array1, Array2, points, rows, vector};
 use crate::errors::{raise, raise_sheet};
 use crate::values::table;
+use crate::watch::watched;
 use foldwell::kinematics::drawn_fold_angles;
 use foldwell::run;
 use foldwell::sheet::{Assignment, EdgeKey, EdgeKind, Info, fold, obj};
@@ -21,38 +22,42 @@ impl Sheet {
     /// Reads a mesh file in the format of its ending.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf, frame: Option<usize>) -> PyResult<Self> {
-        run::read_sheet(&path, frame).map(|sheet| Self { sheet }).map_err(|error| raise(py, &error))
+        let read = watched(py, None, move |_| run::read_sheet(&path, frame))?;
+        read.map(|sheet| Self { sheet }).map_err(|error| raise(py, &error))
     }
 
     /// Reads the text of a FOLD file, or of an OBJ file if `name` ends in `.obj`.
     #[staticmethod]
-    fn parse(py: Python<'_>, text: &str, name: &str, frame: Option<usize>) -> PyResult<Self> {
-        let parsed = match (name.to_lowercase().ends_with(".obj"), frame) {
-            (true, _) => obj::parse(text, name),
-            (false, frame) => fold::parse_frame(text, name, frame),
-        };
+    fn parse(py: Python<'_>, text: String, name: String, frame: Option<usize>) -> PyResult<Self> {
+        let parsed = watched(py, None, move |_| match (name.to_lowercase().ends_with(".obj"), frame) {
+            (true, _) => obj::parse(&text, &name),
+            (false, frame) => fold::parse_frame(&text, &name, frame),
+        })?;
         parsed.map(|sheet| Self { sheet }).map_err(|error| raise_sheet(py, error))
     }
 
     /// Generates a pattern from its table.
     #[staticmethod]
     fn generate(py: Python<'_>, pattern: &Bound<'_, PyDict>) -> PyResult<Self> {
-        run::new_sheet(&table(pattern)?).map(|sheet| Self { sheet }).map_err(|error| raise(py, &error))
+        let pattern = table(pattern)?;
+        let made = watched(py, None, move |_| run::new_sheet(&pattern))?;
+        made.map(|sheet| Self { sheet }).map_err(|error| raise(py, &error))
     }
 
     /// Writes the sheet; returns what the file does not keep.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<String>> {
-        run::write_sheet(&self.sheet, &path).map_err(|error| raise(py, &error))
+        let sheet = self.sheet.clone();
+        watched(py, None, move |_| run::write_sheet(&sheet, &path))?.map_err(|error| raise(py, &error))
     }
 
     /// Returns the text of a FOLD file of the sheet.
-    fn to_fold(&self) -> String {
-        fold::write(&self.sheet)
+    fn to_fold(&self, py: Python<'_>) -> String {
+        py.detach(|| fold::write(&self.sheet))
     }
 
     /// Returns counts and measures of the sheet as JSON.
-    fn info(&self) -> String {
-        serde_json::to_string(&Info::new(&self.sheet)).unwrap_or_default()
+    fn info(&self, py: Python<'_>) -> String {
+        py.detach(|| serde_json::to_string(&Info::new(&self.sheet)).unwrap_or_default())
     }
 
     #[getter]

@@ -63,7 +63,7 @@ impl Sweep {
     fn check(&self, py: Python<'_>, out: PathBuf) -> PyResult<()> {
         let options = RunOptions { out: Some(out), ..RunOptions::default() };
         let sweep = self.sweep.clone();
-        py.detach(|| run::check(sweep.file(), &options)).map_err(|error| raise(py, &error))
+        watched(py, None, move |_| run::check(sweep.file(), &options))?.map_err(|error| raise(py, &error))
     }
 
     /// Computes a point in its folder, unless it is kept; returns the word for what became of it.
@@ -84,7 +84,7 @@ impl Sweep {
     /// Writes the table of the finished points; returns the summary as JSON.
     fn assemble(&self, py: Python<'_>, out: PathBuf) -> PyResult<String> {
         let sweep = self.sweep.clone();
-        let summary = py.detach(|| run::assemble(&sweep, &out)).map_err(|error| raise(py, &error))?;
+        let summary = watched(py, None, move |_| run::assemble(&sweep, &out))?.map_err(|error| raise(py, &error))?;
         Ok(serde_json::to_string(&summary).unwrap_or_default())
     }
 

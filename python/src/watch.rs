@@ -5,6 +5,7 @@ use crate::errors::bug;
 use foldwell::run::{Observer, Progress};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
+use std::io;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
@@ -15,6 +16,8 @@ use std::time::{Duration, Instant};
 
 /// Time between two looks at signals.
 const PATIENCE: Duration = Duration::from_millis(50);
+/// Stack size of the working thread in bytes, as in the program.
+const STACK: usize = 8 << 20;
 /// Longest time that the end of the interpreter waits for threads of Python.
 const FAREWELL: Duration = Duration::from_secs(5);
 
@@ -41,7 +44,7 @@ pub(crate) fn watched<R: Send + 'static>(
 ) -> PyResult<R> {
     let callback = progress.map(|callback| callback.clone().unbind());
     let stop = Arc::new(AtomicBool::new(false));
-    let receiver = spawned(work, callback.is_some(), stop.clone());
+    let receiver = spawned(work, callback.is_some(), stop.clone())?;
     AT_WORK.fetch_add(1, Ordering::SeqCst);
     let waited = py.detach(move || wait(&receiver, callback.as_ref(), &stop));
     AT_WORK.fetch_sub(1, Ordering::SeqCst);
@@ -53,9 +56,9 @@ fn spawned<R: Send + 'static>(
     work: impl FnOnce(Observer<'_>) -> R + Send + 'static,
     listens: bool,
     stop: Arc<AtomicBool>,
-) -> Receiver<News<R>> {
+) -> io::Result<Receiver<News<R>>> {
     let (sender, receiver) = mpsc::channel();
-    thread::spawn(move || {
+    let worker = move || {
         let observer = |progress: &Progress| {
             if listens {
                 let _ = sender.send(News::Progress(progress.clone())); // nobody hears it after Ctrl-C
@@ -67,8 +70,8 @@ fn spawned<R: Send + 'static>(
             words.unwrap_or("no words").to_owned()
         });
         let _ = sender.send(News::Done(done));
-    });
-    receiver
+    };
+    thread::Builder::new().stack_size(STACK).spawn(worker).map(|_| receiver)
 }
 
 /// Waits for the end of the work, or for a reason not to wait for it.

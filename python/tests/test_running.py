@@ -133,6 +133,36 @@ def test_ctrl_c_stops_a_study():
 
 
 @pytest.mark.parametrize(
+    "work",
+    [
+        'fw.generate("kresling", sides=2000, levels=2000)',
+        "fw.Sheet.read(path)",
+        "fw.convert(path, path.with_suffix('.obj'))",
+    ],
+)
+def test_ctrl_c_stops_work_on_sheets(work, tmp_path):
+    """Reading, converting and generating take a minute or more here; Ctrl-C raises at once, and threads of Python go on."""
+    path = tmp_path / "long.fold"
+    code = f"import foldwell as fw, threading, time\nfrom pathlib import Path\npath = Path({str(path)!r})\n"
+    code += "ticks = [0]\ndef tick():\n    while True:\n        time.sleep(0.01)\n        ticks[0] += 1\n"
+    code += "threading.Thread(target=tick, daemon=True).start()\nprint('begun', flush=True)\n"
+    code += f"try:\n    {work}\nexcept KeyboardInterrupt:\n    print(ticks[0])\n"
+    if "path" in work:
+        side = 1000
+        points = ", ".join(f"[{k % side}, {k // side}, 0]" for k in range(side * side))
+        rows = (y * side + x for y in range(side - 1) for x in range(side - 1))
+        faces = ", ".join(f"[{k}, {k + 1}, {k + side + 1}, {k + side}]" for k in rows)
+        path.write_text(f'{{"vertices_coords": [{points}], "faces_vertices": [{faces}]}}')
+    process = run_python(code)
+    assert process.stdout.readline() == "begun\n"
+    time.sleep(1.0)
+    process.send_signal(signal.SIGINT)
+    told, errors = process.communicate(timeout=30)
+    assert process.returncode == 0 and int(told) > 10, errors
+    assert not path.with_suffix(".obj").exists()
+
+
+@pytest.mark.parametrize(
     "ending",
     [
         "",  # the main thread ends
@@ -158,3 +188,23 @@ def test_a_forked_process_computes_too(soft):
         same = np.array_equal(fw.relax(soft).state.positions, expected)
         os._exit(0 if same else 1)
     assert os.waitpid(child, 0)[1] == 0
+
+
+def test_a_run_follows_one_that_was_broken_off(tmp_path):
+    """A run into the folder of one that still ends its step in the background waits for it, and has the files of one alone."""
+    scene = {
+        "sheet": {"generate": {"pattern": "miura"}, "cells": [12, 12]},
+        "energy": {"bars": {"stiffness": 1e3}, "creases": {"stiffness": 1.0, "rest": 0.5}},
+        "study": [{"name": "relaxed", "kind": "relax", "draw": ["vtk"]}],
+    }
+
+    def fail(study, step, of, residual):
+        raise ZeroDivisionError
+
+    fw.run(scene, out=tmp_path / "alone")
+    with pytest.raises(ZeroDivisionError):
+        fw.run(scene, out=tmp_path / "twice", progress=fail)
+    assert fw.run(scene, out=tmp_path / "twice").converged
+    for name in ("relaxed.csv", "relaxed.pvd"):
+        assert (tmp_path / "twice" / name).read_bytes() == (tmp_path / "alone" / name).read_bytes()
+    assert not list((tmp_path / "twice").glob("*.part")) and not list((tmp_path / "twice").glob(".*"))

@@ -2,6 +2,7 @@
 
 import csv
 import inspect
+import itertools
 import json
 import pickle
 import re
@@ -278,3 +279,48 @@ def test_arrays_are_views_of_the_memory_of_the_program(soft):
     del state
     fw.relax(soft)
     assert np.array_equal(kept, before)  # the array keeps the memory alive
+
+
+def test_values_without_end_are_refused():
+    """Values that contain themselves, are very deep, never end or multiply raise, and do not end the interpreter."""
+
+    class Same:
+        def tolist(self):
+            return self
+
+    def scene():
+        return {"sheet": {"generate": {"pattern": "miura"}}, "study": [{"name": "a", "kind": "modes"}]}
+
+    itself = []
+    itself.append(itself)
+    deep = []
+    for _ in range(10_000):
+        deep = [deep]
+    doubled = [1]
+    for _ in range(60):
+        doubled = [doubled, doubled]
+    around = scene()
+    around["x"] = around
+    for value in (itself, deep, Same(), around):
+        with pytest.raises(fw.SceneError, match="more than 100 dicts and lists within each other"):
+            fw.run({**scene(), "x": value})
+    for value in (doubled, itertools.count()):
+        with pytest.raises(fw.SceneError, match="a scene has at most 10000000 values"):
+            fw.run({**scene(), "x": value})
+    for value in (10**30, "\ud800"):
+        with pytest.raises(fw.SceneError, match="^title: "):
+            fw.run({**scene(), "title": value})
+
+
+def test_a_start_belongs_to_the_same_assembly(miura):
+    """A result of another sheet or of other cells is no start, also where it has as many coordinates; other stiffnesses are."""
+    make = fw.Assembly.patch
+    result = fw.relax(make(miura, (3, 3), bars=1e4, creases=1.0))
+    assert fw.relax(make(miura, (3, 3), bars=1e3, creases=2.0), start=result).converged
+    eggbox = fw.generate("eggbox")
+    assert len(eggbox.vertices) == len(miura.vertices)
+    for other in (make(eggbox, (3, 3), bars=1e4, creases=1.0), make(miura, (2, 2), bars=1e4, creases=1.0)):
+        with pytest.raises(fw.SceneError, match="the start is a state of another assembly"):
+            fw.relax(other, start=result)
+    with pytest.raises(fw.SceneError, match="another assembly"):
+        fw.relax(fw.Assembly.torus(miura, (3, 3), bars=1e4, creases=1.0), start=result)
