@@ -1,10 +1,11 @@
 //! Closing round the openings of a finite sheet: a tube, a ring, a closed surface with handles.
 //!
-//! The faces round its interior vertices may close while those round an opening do not. A loop leads over the faces round the
-//! opening and back to the first. From the drawn sheet, which closes, folding turns the faces behind each edge on the way by
-//! `rho - rho0` about the edge as drawn, and the product of these motions is the identity: six conditions for each opening. What
-//! changes with an angle is the twist of the edge where the motions before it have taken it, `(w, u)`; of two edges `j` before `k`
-//! the rotation vector changes in addition by `1/2 w_j x w_k`, and the translation by `w_j x u_k`.
+//! The faces round its interior vertices may close while those round an opening do not. A loop leads over the faces
+//! round the opening and back to the first. From the drawn sheet, which closes, folding turns the faces behind each
+//! edge on the way by `rho - rho0` about the edge as drawn, and the product of these motions is the identity: six
+//! conditions for each opening. What changes with an angle is the twist of the edge where the motions before it have
+//! taken it, `(w, u)`; of two edges `j` before `k` the rotation vector changes in addition by `1/2 w_j x w_k`, and the
+//! translation by `w_j x u_k`.
 
 use super::HingedEdge;
 use super::second_derivative::add_products;
@@ -32,7 +33,8 @@ struct Turn {
     edge: usize,
     /// Column of the Jacobian; `None` if the edge is locked.
     column: Option<usize>,
-    /// The edge as drawn, from the centre of the loop; a larger fold angle turns the faces behind it counter-clockwise about it.
+    /// The edge as drawn, from the centre of the loop; a larger fold angle turns the faces behind it counter-clockwise
+    /// about it.
     line: Line,
     /// Fold angle as drawn.
     drawn: f64,
@@ -102,11 +104,12 @@ struct Step {
     leftwards: bool,
 }
 
-/// Loops round the openings of a finite sheet, `inside` being its interior vertices; none where its faces do not hang together by
-/// edges.
+/// Loops round the openings of a finite sheet, `inside` being its interior vertices; none where its faces do not hang
+/// together by edges.
 ///
-/// A tree of steps reaches every face. Each edge that is not in it closes a loop; those of a forest of such edges that joins
-/// every interior vertex to a rim follow from the closure of these vertices, and the others are the loops round openings.
+/// A tree of steps reaches every face. Each edge that is not in it closes a loop; those of a forest of such edges that
+/// joins every interior vertex to a rim follow from the closure of these vertices, and the others are the loops round
+/// openings.
 pub(super) fn openings(edges: &[HingedEdge], inside: &[usize], position: &impl Fn(Corner) -> Vec3) -> Vec<Opening> {
     let (beside, faces) = faces_beside(edges);
     let mut steps: Vec<Vec<Step>> = vec![Vec::new(); faces];
