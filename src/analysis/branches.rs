@@ -54,18 +54,15 @@ pub struct Branches {
 /// Finds the branches that leave the drawn state; locks and rigid diagonals of its terms are kept. No real ray is an answer.
 ///
 /// # Errors
-/// [`BranchesError`] for a torus, for sheets with openings or too many edges, and where ranks are not clear or the solutions
-/// do not add up.
+/// [`BranchesError`] for a torus, for periodic sheets with openings, for too many edges, and where ranks are not clear
+/// or the solutions do not add up.
 pub fn branches(assembly: &Assembly) -> Result<Branches, BranchesError> {
     let (sheet, boundary) = (assembly.sheet(), assembly.boundary());
     if matches!(boundary, Boundary::FixedTorus | Boundary::FreeTorus) {
         return Err(BranchesError::Torus);
     }
     let closure = Closure::of_tiling(sheet, assembly.tiling())?.with_locked(&assembly.locked_edges());
-    match closure.unchecked_loops() {
-        0 if sheet.holes.is_empty() => {}
-        loops => return Err(KinematicsError::Openings { loops: loops.max(sheet.holes.len()) }.into()),
-    }
+    closure.is_complete()?;
     let edges = closure.folding_edges().len();
     if edges > MOST_EDGES {
         return Err(BranchesError::TooLarge { edges });

@@ -71,7 +71,7 @@ struct Along {
 /// tiling, in radians.
 ///
 /// `None` where there is none to compare with: loads pull, vertices are pinned, bars have other rest lengths than the drawn
-/// ones, the sheet is periodic without screws, a tube or has openings, it is too
+/// ones, the sheet is periodic without screws, or with openings, or a tube of one cell, it is too
 /// large, no exact state is found nearby, or what is found is not known well enough itself.
 pub fn error_to_kinematic(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<f64> {
     let springs = Springs::new(sheet, tiling, model, angles)?;
@@ -98,7 +98,7 @@ impl Springs {
     pub(crate) fn new(sheet: &Sheet, tiling: &Tiling, model: &Model, angles: &[f64]) -> Option<Self> {
         let edges = angles.len();
         let closes = matches!(model.domain(), Domain::FixedTorus(_) | Domain::FreeTorus | Domain::Tube { .. });
-        if edges > MOST_EDGES || model.held_or_loaded() || closes || !sheet.holes.is_empty() {
+        if edges > MOST_EDGES || model.held_or_loaded() || closes {
             return None;
         }
         if !rests_at_drawn_lengths(sheet, tiling, model) {
@@ -120,7 +120,13 @@ impl Springs {
             }
         }
         let closure = Closure::of_tiling(sheet, tiling).ok()?.with_locked(&rigid);
-        (closure.unchecked_loops() == 0).then_some(Self { closure, stiffness, rest, start })
+        closure.is_complete().ok()?;
+        Some(Self { closure, stiffness, rest, start })
+    }
+
+    /// Rest angles of all edges; 0 where there is no spring.
+    pub(crate) fn rest(&self) -> &[f64] {
+        self.rest.as_slice()
     }
 
     /// The energy of the hinges at fold angles of all edges.

@@ -61,7 +61,7 @@ impl<'a> Closing<'a> {
 
     /// Returns the equations followed by those of conditions.
     pub fn keeping(self, conditions: &'a dyn AngleConditions) -> Self {
-        let closure = DenseMatrix::zeros(3 * self.closure.vertices().len(), self.closure.folding_edges().len());
+        let closure = DenseMatrix::zeros(self.closure.rows(), self.closure.folding_edges().len());
         let kept = Some(Kept { conditions, closure, rates: DenseMatrix::zeros(conditions.count(), self.angles.len()) });
         Self { kept, ..self }
     }
@@ -94,7 +94,7 @@ impl Implicit for Closing<'_> {
     }
 
     fn equations(&self) -> usize {
-        3 * self.closure.vertices().len() + self.kept.as_ref().map_or(0, |kept| kept.conditions.count())
+        self.closure.rows() + self.kept.as_ref().map_or(0, |kept| kept.conditions.count())
     }
 
     fn linearize(&mut self, x: &[f64], residual: &mut [f64], jacobian: &mut DenseMatrix) {

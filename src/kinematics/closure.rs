@@ -15,11 +15,16 @@ use crate::sheet::tiling::{Site, TiledEdge, Tiling};
 use crate::sheet::{Corner, Edge, Sheet};
 use nalgebra::{DVector, Matrix3};
 
+mod opening;
 mod second_derivative;
 
+<<<<<<< HEAD
 /// Magnitude of the terms of which the entries of the Jacobian are sums: directions of edges. An edge between two copies of one
 /// vertex has two terms, which cancel where it passes straight through.
 pub(crate) const DIRECTION: f64 = 1.0;
+=======
+use opening::Opening;
+>>>>>>> h3
 
 /// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
 ///
@@ -32,14 +37,15 @@ pub(crate) struct HingedEdge {
     pub wings: [Option<Corner>; 2],
 }
 
-/// The closure conditions of the interior vertices of a sheet: three for each.
+/// The closure conditions of a sheet: three for each interior vertex, and six for each opening of a finite sheet.
 ///
 /// A vertex is interior if each of its edges has two faces. On a torus all vertices are interior, on a finite sheet
-/// those that are not on the rim. On a finite sheet the conditions are complete only if
-/// [`unchecked_loops`](Self::unchecked_loops) is zero.
+/// those that are not on the rim. The conditions are complete only if [`unchecked_loops`](Self::unchecked_loops) is
+/// zero.
 #[derive(Clone, Debug)]
 pub struct Closure {
     rounds: Vec<Round>,
+    openings: Vec<Opening>,
     /// Number of the edge of every column of the Jacobian.
     folding: Vec<usize>,
     edges: usize,
@@ -140,8 +146,15 @@ impl Closure {
         }
         let folding = (0..edges.len()).filter(|&edge| edges[edge].folds()).collect();
         let vertices = halves.iter().filter(|halves| !halves.is_empty()).count();
-        let unchecked_loops = unchecked_loops(edges, vertices);
-        Ok(Self { rounds, folding, edges: edges.len(), unchecked_loops }.with_columns())
+        let unchecked = unchecked_loops(edges, vertices);
+        let inside: Vec<usize> = rounds.iter().map(|round: &Round| round.vertex).collect();
+        let openings = match unchecked {
+            0 => Vec::new(),
+            _ if is_periodic(edges) => Vec::new(),
+            _ => opening::openings(edges, &inside, &position),
+        };
+        let unchecked_loops = unchecked.saturating_sub(openings.len());
+        Ok(Self { rounds, openings, folding, edges: edges.len(), unchecked_loops }.with_columns())
     }
 
     /// Returns the same conditions with some edges locked: the Jacobian has no columns for these.
@@ -156,6 +169,7 @@ impl Closure {
         self.folding.iter().enumerate().for_each(|(column, &edge)| columns[edge] = Some(column));
         let spokes = self.rounds.iter_mut().flat_map(|round| &mut round.spokes);
         spokes.for_each(|spoke| spoke.column = columns[spoke.edge]);
+        self.openings.iter_mut().for_each(|opening| opening.set_columns(&columns));
         self
     }
 
@@ -165,43 +179,60 @@ impl Closure {
     }
 
     /// Returns the interior vertices, in the order of their rows.
-    pub(crate) fn vertices(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+    #[cfg(test)]
+    fn vertices(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
         self.rounds.iter().map(|round| round.vertex)
     }
 
-    /// Number of independent loops that are not closed by the interior vertices, except for the two of a torus: the
-    /// openings of a connected sheet in addition to the one rim that a finite sheet has. If it is not zero, the
-    /// conditions are incomplete.
+    /// Number of conditions.
+    pub(crate) fn rows(&self) -> usize {
+        3 * self.rounds.len() + opening::ROWS * self.openings.len()
+    }
+
+    /// Number of independent loops that the conditions do not close, except for the two of a torus: the openings of a
+    /// periodic sheet. If it is not zero, the conditions are incomplete.
     pub(crate) fn unchecked_loops(&self) -> usize {
         self.unchecked_loops
     }
 
+    /// Returns an error if a loop is left that the conditions do not close.
+    ///
+    /// # Errors
+    /// [`KinematicsError::Openings`] for a periodic sheet with openings, and for several sheets in one.
+    pub(crate) fn is_complete(&self) -> Result<(), KinematicsError> {
+        match self.unchecked_loops {
+            0 => Ok(()),
+            loops => Err(KinematicsError::Openings { loops }),
+        }
+    }
+
     /// Returns the closure residual: the rotation vector of the product around each vertex, three numbers per interior
-    /// vertex.
+    /// vertex; then six per opening, the rotation vector of the product of motions around it and its translation
+    /// relative to the size of the loop.
     ///
     /// `angles` holds the fold angle of every edge, valley positive, in radians; those of the rim are not read.
     /// # Panics
     /// If the length of `angles` is not the number of edges.
     pub fn residual(&self, angles: &[f64]) -> DVector<f64> {
-        let mut residual = DVector::zeros(3 * self.rounds.len());
+        let mut residual = DVector::zeros(self.rows());
         self.residual_into(angles, residual.as_mut_slice());
         residual
     }
 
-    /// Returns the derivative of [`residual`](Self::residual): three rows per interior vertex, a column per folding
-    /// edge.
+    /// Returns the derivative of [`residual`](Self::residual), with a column per folding edge.
     ///
     /// If the faces close, a column holds the direction of the edge in the frame of the first edge of each vertex at
     /// its ends: null vectors are self stresses of the edges.
     /// # Panics
     /// As [`residual`](Self::residual).
     pub fn jacobian(&self, angles: &[f64]) -> DenseMatrix {
-        let mut residual = vec![0.0; 3 * self.rounds.len()];
+        let mut residual = vec![0.0; self.rows()];
         let mut jacobian = DenseMatrix::zeros(residual.len(), self.folding.len());
         self.linearize_into(angles, &mut residual, &mut jacobian);
         jacobian
     }
 
+<<<<<<< HEAD
     /// Returns the linear motions of a closed state: the null space of the [`jacobian`](Self::jacobian).
     ///
     /// # Errors
@@ -214,6 +245,9 @@ impl Closure {
     }
 
     /// Writes the [`residual`](Self::residual) into a slice of three numbers per interior vertex, without allocation.
+=======
+    /// Writes the [`residual`](Self::residual) into a slice of as many numbers, without allocation.
+>>>>>>> h3
     /// # Panics
     /// If `angles` or `residual` has the wrong length.
     pub fn residual_into(&self, angles: &[f64], residual: &mut [f64]) {
@@ -222,6 +256,8 @@ impl Closure {
             let product = round.walk(angles, |_, _| {});
             rows.copy_from_slice(rotation::log(&product).as_slice());
         }
+        let loops = residual[3 * self.rounds.len()..].chunks_exact_mut(opening::ROWS);
+        self.openings.iter().zip(loops).for_each(|(opening, rows)| opening.residual_into(angles, rows));
     }
 
     /// Writes [`residual`](Self::residual) and [`jacobian`](Self::jacobian) at once, without allocation.
@@ -242,11 +278,15 @@ impl Closure {
             residual[3 * row..3 * row + 3].copy_from_slice(defect.as_slice());
             round.put_into_chart(&rotation::inverse_left_jacobian(&defect), row, jacobian);
         }
+        for (number, opening) in self.openings.iter().enumerate() {
+            let row = 3 * self.rounds.len() + opening::ROWS * number;
+            opening.linearize_into(angles, &mut residual[row..row + opening::ROWS], (jacobian, row));
+        }
     }
 
     fn check(&self, angles: &[f64], residual: &[f64]) {
         assert_eq!(angles.len(), self.edges, "one fold angle for every edge");
-        assert_eq!(residual.len(), 3 * self.rounds.len(), "three numbers for every interior vertex");
+        assert_eq!(residual.len(), self.rows(), "three numbers for every interior vertex and six for every opening");
     }
 }
 
@@ -321,9 +361,13 @@ fn halves_by_vertex(edges: &[HingedEdge]) -> Vec<Vec<HalfEdge>> {
 /// smaller by one for every opening.
 fn unchecked_loops(edges: &[HingedEdge], vertices: usize) -> usize {
     let sides = edges.iter().flat_map(|edge| edge.wings).flatten().count();
-    let periodic = edges.iter().any(|edge| edge.ends[0].shift != edge.ends[1].shift);
-    let euler_of_whole = if periodic { 0 } else { 1 };
+    let euler_of_whole = if is_periodic(edges) { 0 } else { 1 };
     (euler_of_whole + edges.len()).saturating_sub(vertices + sides / 3)
+}
+
+/// Whether an edge leads to another cell.
+fn is_periodic(edges: &[HingedEdge]) -> bool {
+    edges.iter().any(|edge| edge.ends[0].shift != edge.ends[1].shift)
 }
 
 fn angle(a: Vec3, b: Vec3) -> f64 {
@@ -419,10 +463,12 @@ mod tests {
 
     /// Claim: every entry of the Jacobian is the derivative of the residual, at closed states and at random angles,
     /// which do not close; on a torus, on a finite sheet, in a cell so narrow that edges lead from a vertex to its own
-    /// copy, and with locked edges.
+    /// copy, on a column, which closes round itself, and with locked edges.
     #[test]
     fn jacobian_is_the_derivative() {
-        for (seed, sheet) in [open_star(), open_flat(), finite_grid(3, 3, 0.4), narrow()].into_iter().enumerate() {
+        for (seed, sheet) in
+            [open_star(), open_flat(), finite_grid(3, 3, 0.4), narrow(), column()].into_iter().enumerate()
+        {
             let closure = Closure::of_cell(&sheet).unwrap().with_locked(&[0, 7]);
             let drawn = drawn_fold_angles(&sheet);
             for amplitude in [0.0, 0.3, 1.2] {
@@ -462,7 +508,8 @@ mod tests {
         }
     }
 
-    /// Claim: a vertex at which two cycles of faces touch is refused with its number; an opening is counted as a loop.
+    /// Claim: a vertex at which two cycles of faces touch is refused with its number; the opening of a finite sheet is
+    /// closed by a loop of its own.
     #[test]
     fn broken_rounds_and_openings() {
         let mut edges: Vec<HingedEdge> = finite_grid(2, 2, 0.3).edges.iter().map(HingedEdge::from).collect();
@@ -472,6 +519,7 @@ mod tests {
         let position = |corner: Corner| Vec3::new(corner.vertex as f64, (corner.vertex as f64).cos(), 0.0);
         let error = Closure::of_edges(&edges, position).unwrap_err();
         assert_eq!(error, KinematicsError::BrokenRound { vertex: 4 });
-        assert_eq!(Closure::of_cell(&ring()).unwrap().unchecked_loops(), 1);
+        let ring = Closure::of_cell(&ring()).unwrap();
+        assert_eq!((ring.unchecked_loops(), ring.vertices().len(), ring.rows()), (0, 0, 6));
     }
 }

@@ -20,8 +20,10 @@ pub enum KinematicsError {
         "a cell that screw motions repeat is drawn rolled up: it folds as a tube, and several cells need lattice vectors"
     )]
     Rolled,
-    /// The sheet has openings; closure of the vertices does not imply closure around the rims of openings.
-    #[error("the sheet has {loops} opening(s): closing its vertices does not close their rims")]
+    /// A periodic sheet has openings; closure of the vertices does not imply closure around their rims.
+    #[error(
+        "the sheet has {loops} opening(s): closing its vertices does not close their rims, which is done for finite sheets only"
+    )]
     Openings {
         /// Number of independent loops that are not closed by the closure of the vertices.
         loops: usize,

@@ -68,6 +68,22 @@ pub(crate) fn narrow() -> Sheet {
     generate(&Pattern::Random(pattern)).unwrap()
 }
 
+/// Returns a column with five sides and two rows of triangles, in general position.
+pub(crate) fn column() -> Sheet {
+    let moved = random_numbers(8, 45);
+    let place = |k: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * (k % 5) as f64 / 5.0).sin_cos();
+        Vec3::new(cos, sin, (k / 5) as f64) + 0.1 * Vec3::from_column_slice(&moved[3 * k..3 * k + 3])
+    };
+    let mut faces = Vec::new();
+    for (row, k) in (0..10).map(|face| (face / 5, face % 5)) {
+        let [a, b] = [5 * row + k, 5 * row + (k + 1) % 5];
+        let [a, b, c, d] = [a, b, b + 5, a + 5].map(Corner::home);
+        faces.extend([[a, b, c], [a, c, d]]);
+    }
+    sheet("column", (0..15).map(place).collect(), None, &faces)
+}
+
 /// Returns a ring of six triangles, with an opening that no vertex closes.
 pub(crate) fn ring() -> Sheet {
     let place = |k: usize| {

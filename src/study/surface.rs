@@ -99,7 +99,7 @@ pub(crate) fn curvature_of_cell(assembly: &Assembly) -> f64 {
 fn reason(surface: &Surface) -> Option<String> {
     match surface.coverage {
         Coverage::Complete if surface.lost > 0 => Some(format!(
-            "along {} of the ways away from the drawn state no folded state was found: what lies there may be missing",
+            "along {} of the ways away from spatially periodic states no folded state was found: what lies there may be missing",
             surface.lost
         )),
         Coverage::Complete => None,
@@ -242,6 +242,7 @@ fn within(path: &[PathPoint], max_curvature: f64) -> Vec<Vec<PathPoint>> {
 fn summary(surface: &Surface, options: &SurfaceOptions) -> SurfaceSummary {
     let coverage = match surface.coverage {
         _ if surface.negative.is_some() && surface.points.is_empty() => "no-real-branch",
+        Coverage::Complete if surface.lost > 0 => "open",
         Coverage::Complete => "complete",
         Coverage::Open { .. } => "open",
         Coverage::GivenUp { .. } => "given-up",
@@ -261,7 +262,7 @@ fn summary(surface: &Surface, options: &SurfaceOptions) -> SurfaceSummary {
         gaps: surface.gaps,
         closed: surface.closed && !surface.points.is_empty(),
         oriented: surface.oriented,
-        tips: surface.points.iter().filter(|point| point.radius == 0.0).count(),
+        tips: surface.tips,
         max_curvature: options.max_curvature,
         radius: surface.radius,
         max_residual: worst(surface.points.iter().map(|point| point.residual)),

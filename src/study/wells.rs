@@ -174,11 +174,16 @@ impl FoundWells {
         if let Some(Err(error)) = &self.rigid {
             return Some(error.to_string());
         }
-        if let Some(Ok(RigidLandscape { wells, contacts, states, lost, .. })) = &self.rigid
+        if let Some(Ok(RigidLandscape { wells, contacts, states, .. })) = &self.rigid
             && wells.is_empty()
             && contacts.is_empty()
         {
-            return Some(format!("no rigid well was found on {states} states, and {lost} could not be made exact"));
+            return Some(self.not_sampled().unwrap_or_else(|| {
+                format!(
+                    "no rigid well lies among the {states} states that were sampled: the energy is lowest where they end, at the \
+                     largest curvature or where a crease is folded by half a turn"
+                )
+            }));
         }
         let barriers = self.barriers.iter().map(|(between, found)| self.barrier(*between, found.as_ref()));
         let failed = barriers.into_iter().find_map(|found| Some((found.between, found.reason?)));

@@ -2,9 +2,10 @@
 
 use crate::common::{self, on};
 use approx::{abs_diff_eq, assert_abs_diff_eq};
+use foldwell::analysis::branches::branches;
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use foldwell::kinematics::{Embedding, Shape, drawn_fold_angles};
-use foldwell::model::{Boundary, Terms};
+use foldwell::model::{Boundary, Hinges, Terms};
 use foldwell::sheet::{EdgeKey, Sheet};
 use foldwell::solver::continuation::End;
 use serde_json::Value;
@@ -146,4 +147,58 @@ fn curvature_keeps_its_sign() {
         let inner = &kappa[1..kappa.len() - 1];
         assert!(inner.iter().all(|k| k.signum() == inner[0].signum() && *k != 0.0), "{:?}: {kappa:?}", one.branch);
     }
+}
+
+/// The product of a step along a tube with a side of its cross-section, which folding keeps.
+const ALONG: f64 = 0.35;
+
+/// Returns the corners of a tube of parallelograms whose cross-section is a rhombus with half an angle `half` between
+/// its sides: rings of four corners along a zigzag. All sides have length 1.
+///
+/// With sides `u, v = (cos, +-sin, 0)` of the rhombus and steps `e, e' = (+-p, 0, q)` of the zigzag, the lengths and
+/// the angles of the parallelograms stay the same as long as `e . u = p cos(half)` and `p^2 + q^2 = 1` do (T. Tachi and
+/// K. Miura, "Rigid-foldable cylinders and cells", Journal of the IASS 53 (2012) 217-226).
+fn tube(rings: usize, half: f64) -> Vec<[f64; 3]> {
+    let (sin, cos) = half.sin_cos();
+    let p = ALONG / cos;
+    let q = (1.0 - p * p).sqrt();
+    let corner = |k: usize| [[0.0, 0.0], [cos, sin], [2.0 * cos, 0.0], [cos, -sin]][k % 4];
+    let place = |k: usize| {
+        let ([x, y], ring) = (corner(k), k / 4);
+        [x + p * (ring % 2) as f64, y, q * ring as f64]
+    };
+    (0..4 * rings).map(place).collect()
+}
+
+/// Claim: a finite tube of rigid parallelograms, which has an opening beside its outer rim, folds along one branch,
+/// both ways; each state is that of the closed form, in the distances of all its 28 corners, with that of one diagonal
+/// of its rhombus given. Tolerance 1e-11: closure to 3e-14 over the smallest singular value, along seven rings.
+#[test]
+fn a_finite_tube_folds_as_in_closed_form() {
+    let (rings, drawn) = (7, 0.6);
+    let side = |ring: usize, k: usize| [0, 1, 5, 4].map(|at| 4 * (ring + at / 4) + (k + at % 4) % 4);
+    let faces: Vec<[usize; 4]> = (0..4 * (rings - 1)).map(|face| side(face / 4, face % 4)).collect();
+    let text = format!(r#"{{"vertices_coords": {:?}, "faces_vertices": {faces:?}}}"#, tube(rings, drawn));
+    let sheet = foldwell::sheet::fold::parse(&text, "tube.fold").unwrap();
+    let facets = Some(Hinges { stiffness: f64::INFINITY.into(), rest: vec![0.0; sheet.edges.len()] });
+    let case = on(sheet.clone(), [1, 1], Boundary::Patch).with_terms(Terms { facets, ..Terms::default() });
+    let found = branches(&case).unwrap();
+    assert_eq!((found.modes, found.quadrics, found.rays.rays.len()), (1, 0, 2));
+    let stop = Stop { arc_length: Some(2.0), ..Stop::default() };
+    let options = TraceOptions { max_step: 0.25, tolerance: 3e-14, branch: None, stop };
+    let traced = trace(&case, &options, None, &mut |_, _| true).unwrap();
+    let embedding = Embedding::new(&sheet).unwrap();
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    let mut widths = Vec::new();
+    for state in traced.iter().flat_map(|one| &one.states) {
+        let placed: Vec<[f64; 3]> = embedding.place(&state.angles).positions.into_iter().map(Into::into).collect();
+        let width = 0.5 * apart(&placed[1], &placed[3]);
+        let closed = tube(rings, width.asin());
+        for (i, j) in (0..placed.len()).flat_map(|j| (0..j).map(move |i| (i, j))) {
+            assert_abs_diff_eq!(apart(&placed[i], &placed[j]), apart(&closed[i], &closed[j]), epsilon = 1e-11);
+        }
+        widths.push(width);
+    }
+    let [least, most] = [f64::min, f64::max].map(|pick| widths.iter().copied().reduce(pick).unwrap());
+    assert!(traced.len() == 2 && widths.len() > 10 && least < 0.45 && most > 0.65, "{least} to {most}");
 }

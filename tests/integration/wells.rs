@@ -263,6 +263,23 @@ fn no_barrier_lies_below_its_wells() {
     assert!(confirmed >= 2, "{confirmed}");
 }
 
+/// Claim: a rigid well behind another spatially periodic state is found: creases at rest in a state of the nappe there,
+/// one of them wound beyond pi, have their well in that state, of energy 0; so it is where that crease is at rest a
+/// whole turn further. Tolerance: the closure of the state, 1e-13, over the singular values of closure.
+#[test]
+fn a_rigid_well_behind_another_periodic_state() {
+    let case = on(mesh("open-star"), [1, 1], Boundary::Screw);
+    let sampling = Sampling { step: TAU / 20.0, max_curvature: 0.5 };
+    for turns in [0.0, TAU] {
+        let mut rest = crate::surface::BEHIND[1].to_vec();
+        rest[0] += turns;
+        let terms = Terms::bars_and_creases(f64::INFINITY, 1.0, rest.clone());
+        let found = landscape(&case.with_terms(terms), &sampling, &mut || true).unwrap();
+        let well = found.wells.first().unwrap_or_else(|| panic!("no well: {found:?}"));
+        assert!(well.energy <= 1e-20 && well.angles.iter().zip(&rest).all(|(a, b)| (a - b).abs() <= 1e-9), "{well:?}");
+    }
+}
+
 /// Claim: the energy of the reference cell's creases on the surface of its folded states has three wells for these rest
 /// angles, which random starts of rigid bars reach too; the pass between the two lowest, by strings of bars of every
 /// stiffness from soft to rigid, tends to the one on the surface as 1/stiffness and equals it for rigid bars. Tolerance

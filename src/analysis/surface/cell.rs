@@ -1,7 +1,7 @@
 //! The cell whose folded states are sought.
 
 use super::error::SurfaceError;
-use crate::kinematics::{Closure, Embedding, KinematicsError, SecondOrder};
+use crate::kinematics::{Closure, Embedding, SecondOrder};
 use crate::model::{Assembly, Boundary};
 
 /// The cell of a sheet, and what second order says of its drawn state.
@@ -11,10 +11,7 @@ pub(super) fn of(assembly: &Assembly) -> Result<(Closure, Embedding, SecondOrder
         return Err(SurfaceError::NotScrew);
     }
     let closure = Closure::of_cell(sheet)?.with_locked(&assembly.locked_edges());
-    if closure.unchecked_loops() > 0 || !sheet.holes.is_empty() {
-        let loops = closure.unchecked_loops().max(sheet.holes.len());
-        return Err(KinematicsError::Openings { loops }.into());
-    }
+    closure.is_complete()?;
     let embedding = Embedding::new(sheet)?;
     let second_order = SecondOrder::new(&closure, embedding.drawn_angles())?;
     Ok((closure, embedding, second_order))

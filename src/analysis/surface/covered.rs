@@ -20,7 +20,7 @@ pub struct SurfaceOptions {
 /// A folded state.
 #[derive(Clone, Debug)]
 pub struct SurfacePoint {
-    /// Branch, and the sign of the curvature with which folding left the drawn state on the way here.
+    /// Branch, and the sign of the curvature with which folding left the drawn state, or the last tip, on the way here.
     pub branch: (usize, i8),
     /// Fold angles of all edges, in radians; continuous from the start of the piece.
     pub angles: Vec<f64>,
@@ -50,11 +50,15 @@ pub struct Surface {
     /// Whether it has no border.
     pub closed: bool,
     /// Branch and sign of the nappes from which it was begun. One number is shared by nappes that lie opposite each
-    /// other at the drawn state, and by those that hang together elsewhere.
+    /// other at the drawn state, and by those that hang together elsewhere; a nappe that was found only behind another
+    /// spatially periodic state has one of its own.
     pub branches: Vec<(usize, i8)>,
     /// Largest radius of a chart: that of the options, or less where the largest curvature is met close to the drawn state.
     pub radius: f64,
-    /// Ways away from the drawn state along which no state was found, or that are not known: what lies there may be missing.
+    /// Spatially periodic states at which nappes meet, each once.
+    pub tips: usize,
+    /// Ways away from spatially periodic states along which no state was found, or that are not known: what lies there
+    /// may be missing.
     pub lost: usize,
     /// Whether two surfaces cross at the drawn state, along a curve of spatially periodic states.
     pub crossing: bool,
@@ -118,6 +122,7 @@ impl Surface {
             closed: false,
             branches,
             radius,
+            tips: 0,
             lost: 0,
             crossing: false,
             seam: Vec::new(),

@@ -1,6 +1,6 @@
 //! The closure of a cell as a surface, and as a curve on it.
 
-use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, Shape, SpatiallyPeriodic};
+use crate::kinematics::{Closing, Closure, Embedding, KinematicsError, SecondOrder, Shape, SpatiallyPeriodic};
 use crate::numerics::DenseMatrix;
 use crate::solver::Implicit;
 use crate::solver::atlas::Surface;
@@ -30,6 +30,13 @@ impl<'a> SurfaceClosure<'a> {
         let closing = Closing::new(closure, angles.to_vec());
         let origin = closing.folding(angles);
         Self { closure, closing, embedding, origin, max_curvature, crossing: false }
+    }
+
+    /// The same surface with folding that starts from a closed state on it, and what second order says of that.
+    pub(crate) fn leaving(&self, x: &[f64]) -> Result<(Self, SecondOrder), KinematicsError> {
+        let angles = self.all(x);
+        let second_order = SecondOrder::new(self.closure, &angles)?;
+        Ok((Self::at(self.closure, self.embedding, (&angles, self.max_curvature)), second_order))
     }
 
     /// What places the cell.

@@ -4,7 +4,8 @@
 //! the folded states are a surface in the space of fold angles: at cylinders closure has a null space of dimension two,
 //! and the drawn state is the tip of a cone, at which two nappes or more meet. [`crate::solver::atlas`] covers them
 //! with charts, from a state on each (`starts`), until they close modulo 2 pi or the curvature is met. The hole that
-//! charts leave around the tip is closed with triangles to the drawn state (`tip`).
+//! charts leave around the tip is closed with triangles to the drawn state (`tip`). Where the surface comes to other
+//! spatially periodic states, these are tips as well, and the nappes behind them are covered in turn (`behind`).
 //!
 //! Where that difference is one, or the drawn state has but one real direction, the folded states are a curve, which is followed
 //! (`curve`).
@@ -12,6 +13,7 @@
 //! Nappes of a flat cell come close to each other where its directions nearly meet, closer than the smallest charts;
 //! there the coverage stays open, and says so.
 
+mod behind;
 mod cell;
 mod covered;
 mod crossing;
@@ -24,7 +26,7 @@ mod tip;
 
 use crate::kinematics::KinematicsError;
 use crate::model::Assembly;
-use crate::solver::atlas::{self, Atlas, Coverage};
+use crate::solver::atlas::{self, Atlas, Chart, Coverage};
 pub use covered::{Negative, Seam, Surface, SurfaceOptions, SurfacePoint};
 pub use crossing::Lowest;
 pub use error::SurfaceError;
@@ -73,7 +75,7 @@ pub(super) fn on_surface(
         return Err(SurfaceError::NotTwoDimensional { modes, quadrics, left });
     }
     let mut folding = SurfaceClosure::new(&closure, &embedding, options.max_curvature);
-    let starts = match starts::starts(&mut folding, &second_order, options)? {
+    let mut starts = match starts::starts(&mut folding, &second_order, options)? {
         Ok(starts) => starts,
         Err(Negative::OneDirection) => return Err(SurfaceError::Curve),
         Err(negative) => return Ok(Surface::nothing(negative, options.radius)),
@@ -85,7 +87,7 @@ pub(super) fn on_surface(
         max_charts: options.max_points,
     };
     folding.crossing = starts.crossing;
-    let atlas = cover(&mut folding, &starts, charts, observe)?;
+    let atlas = cover(&mut folding, (&mut starts, options), charts, observe)?;
     let radius = charts.radius;
     let found = Surface { radius, ..put_together(&folding, atlas, &starts, observe)? };
     if found.points.is_empty() && found.coverage != Coverage::Interrupted {
@@ -98,7 +100,7 @@ pub(super) fn on_surface(
 /// not taken for neighbours of those of the other.
 fn cover(
     folding: &mut SurfaceClosure<'_>,
-    starts: &starts::Starts,
+    (starts, options): (&mut starts::Starts, &SurfaceOptions),
     mut charts: atlas::CoverOptions,
     observe: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Atlas, atlas::AtlasError> {
@@ -109,10 +111,17 @@ fn cover(
         let numbers: Vec<usize> = (0..starts.list.len()).filter(on_line).collect();
         let states: Vec<Vec<f64>> = numbers.iter().map(|&k| starts.list[k].x.clone()).collect();
         let before = whole.as_ref().map_or(0, |atlas| atlas.charts.len());
-        let mut next = atlas::cover(folding, &states, charts, &mut |count| observe(before + count))?;
-        next.charts.iter_mut().for_each(|chart| chart.start = numbers[chart.start]);
+        let mut further = |folding: &mut SurfaceClosure<'_>, charts: &[Chart], triangles: &[[usize; 3]]| {
+            if starts.crossing { Vec::new() } else { behind::starts(folding, starts, options, (charts, triangles)) }
+        };
+        let mut next = atlas::cover(folding, &states, charts, &mut further, &mut |count| observe(before + count))?;
+        if starts.crossing {
+            let number = |start: &mut usize| *start = numbers[*start];
+            next.charts.iter_mut().for_each(|chart| number(&mut chart.start));
+            next.reached.iter_mut().flatten().for_each(number);
+        }
         charts.max_charts = charts.max_charts.saturating_sub(next.charts.len());
-        let stopped = !matches!(next.coverage, Coverage::Complete | Coverage::Open { .. });
+        let stopped = !next.coverage.is_whole();
         whole = Some(match whole {
             Some(atlas) => atlas.and(next),
             None => next,
@@ -132,7 +141,7 @@ fn put_together(
     observe: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Surface, KinematicsError> {
     let branch = starts::branches(&atlas, &starts.list);
-    let tip::Left { border, open } = tip::close(folding, &mut atlas);
+    let tip::Left { border, open, nappes } = tip::close(folding, &mut atlas);
     let coverage = match atlas.coverage {
         Coverage::Open { .. } if open == 0 => Coverage::Complete,
         Coverage::Open { .. } => Coverage::Open { charts: open },
@@ -141,11 +150,15 @@ fn put_together(
     let points = Vec::with_capacity(atlas.charts.len());
     let (triangles, closed, negative) = (atlas.triangles, border == 0, None);
     let gaps = if coverage == Coverage::Complete { open } else { 0 };
-    let Atlas { oriented, .. } = atlas;
-    let mut branches = branch.clone();
+    let Atlas { oriented, reached, .. } = atlas;
+    let begun = |k: &usize| reached[*k] == Some(*k);
+    let mut branches: Vec<(usize, i8)> = (0..branch.len()).filter(begun).map(|k| branch[k]).collect();
     branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
     branches.dedup();
-    let (lost, crossing, radius, seam) = (starts.lost, starts.crossing, 0.0, Vec::new());
+    let (tips, crossing, radius, seam) = (nappes.len(), starts.crossing, 0.0, Vec::new());
+    // nappes meet in pairs: where one has none opposite, that is missing
+    let odd = nappes.iter().filter(|count| *count % 2 == 1 && coverage.is_whole() && !crossing).count();
+    let lost = starts.lost + reached.iter().filter(|start| start.is_none()).count() + odd;
     let mut surface = Surface {
         points,
         triangles,
@@ -155,6 +168,7 @@ fn put_together(
         closed,
         branches,
         radius,
+        tips,
         lost,
         crossing,
         seam,

@@ -33,7 +33,8 @@ pub(super) struct SurfaceStart {
     pub x: Vec<f64>,
     /// Sign of its curvature; 1 where that is 0.
     pub sign: i8,
-    /// Number of the line through the drawn state from which it comes.
+    /// Number of the line through the drawn state from which it comes; of a state behind another tip a number of its
+    /// own.
     pub line: usize,
 }
 
@@ -44,6 +45,8 @@ pub(super) struct Starts {
     pub reach: f64,
     /// Ways along which no state was found, or that are not known themselves.
     pub lost: usize,
+    /// Spatially periodic states whose nappes are among the starts: the drawn one first.
+    pub tips: Vec<Vec<f64>>,
     /// Whether they lie on surfaces that cross along a curve through the drawn state.
     pub crossing: bool,
 }
@@ -63,7 +66,7 @@ pub(super) fn starts(
     let (directions, unknown) = match &second_order.quadrics[..] {
         [] => {
             let list = vec![SurfaceStart { x: folding.drawn(), sign: 1, line: 0 }];
-            return Ok(Ok(Starts { list, reach: f64::INFINITY, lost: 0, crossing: false }));
+            return Ok(Ok(Starts { list, reach: f64::INFINITY, lost: 0, tips: Vec::new(), crossing: false }));
         }
         [quadric] => match of_one_quadric(quadric)? {
             Ok(directions) => (directions, 0),
@@ -72,7 +75,8 @@ pub(super) fn starts(
         _ => on_sections(second_order)?,
     };
     let crossing = second_order.quadrics.len() == 1 && directions.len() == 2;
-    let mut found = Starts { list: Vec::new(), reach: f64::INFINITY, lost: unknown, crossing };
+    let mut found =
+        Starts { list: Vec::new(), reach: f64::INFINITY, lost: unknown, tips: vec![folding.drawn()], crossing };
     for (line, Direction { along, normal }) in directions.iter().enumerate() {
         let [along, normal] = [along, normal].map(|v| folding.folding((&second_order.modes * v).as_slice()));
         for sign in [1.0, -1.0] {
@@ -203,6 +207,9 @@ fn join(class: &mut [usize], a: usize, b: usize) {
 /// For each start a number that it shares with the starts on the same piece.
 fn pieces(atlas: &Atlas, starts: usize) -> Vec<usize> {
     let mut piece: Vec<usize> = (0..starts).collect();
+    for (start, other) in atlas.reached.iter().enumerate() {
+        other.iter().for_each(|other| join(&mut piece, *other, start));
+    }
     for [a, b, c] in &atlas.triangles {
         for other in [b, c] {
             join(&mut piece, atlas.charts[*a].start, atlas.charts[*other].start);

@@ -3,7 +3,7 @@
 //! Charts shrink towards a tip and end near it, so that a small hole is left on every nappe. The drawn state is a tip;
 //! others are further spatially periodic states of the cell, such as the drawn one inside out. Newton's method looks
 //! for one in every hole, as a solution of closure together with lattice rotations that are the identity, and joins the
-//! rim to it.
+//! rim to it. Every nappe has a tip of its own.
 
 use super::folding::SurfaceClosure;
 use crate::numerics::DenseMatrix;
@@ -21,28 +21,52 @@ const STEPS: usize = 20;
 /// A tip is no further from a point of the rim than this times the largest distance of two of its points.
 const TIP_REACH: f64 = 1.5;
 
-/// The border of an atlas.
+/// Largest difference of an angle, modulo 2 pi, between two tips in one state: both are solved to [`TIP_RESIDUAL`].
+const ONE_STATE_RAD: f64 = 1e-7;
+
+/// The border of an atlas, and its tips.
 pub(super) struct Left {
     /// Charts on it.
     pub border: usize,
     /// Those of them that are not at the limit.
     pub open: usize,
+    /// Number of nappes that were joined to each spatially periodic state.
+    pub nappes: Vec<usize>,
 }
 
 /// Joins rims to the tips in their holes.
 pub(super) fn close(folding: &SurfaceClosure<'_>, atlas: &mut Atlas) -> Left {
-    for rim in rims(&atlas.triangles) {
-        if !rim.iter().all(|&k| off_limit(&atlas.charts[k])) {
-            continue;
+    let mut tips: Vec<(Vec<f64>, usize)> = Vec::new();
+    for (rim, chart) in tips_of_rims(folding, &atlas.charts, &atlas.triangles) {
+        match tips.iter_mut().find(|(known, _)| are_one(known, &chart.x)) {
+            Some((_, nappes)) => *nappes += 1,
+            None => tips.push((chart.x.clone(), 1)),
         }
-        if let Some(chart) = tip(folding, &atlas.charts, &rim) {
-            let tip = atlas.charts.len();
-            atlas.charts.push(chart);
-            atlas.triangles.extend((0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], tip]));
-        }
+        let tip = atlas.charts.len();
+        atlas.charts.push(chart);
+        atlas.triangles.extend((0..rim.len()).map(|k| [rim[k], rim[(k + 1) % rim.len()], tip]));
     }
     let border = border(&atlas.triangles);
-    Left { border: border.len(), open: border.into_iter().filter(|&k| off_limit(&atlas.charts[k])).count() }
+    let open = border.iter().filter(|&&k| off_limit(&atlas.charts[k])).count();
+    Left { border: border.len(), open, nappes: tips.into_iter().map(|(_, nappes)| nappes).collect() }
+}
+
+/// The spatially periodic states within the holes of a triangulation, one for each hole that has one.
+pub(super) fn in_holes(folding: &SurfaceClosure<'_>, charts: &[Chart], triangles: &[[usize; 3]]) -> Vec<Vec<f64>> {
+    tips_of_rims(folding, charts, triangles).into_iter().map(|(_, tip)| tip.x).collect()
+}
+
+/// Whether two spatially periodic states are one, modulo 2 pi.
+pub(super) fn are_one(a: &[f64], b: &[f64]) -> bool {
+    let apart = |(a, b): (&f64, &f64)| (a - b - TAU * ((a - b) / TAU).round()).abs();
+    a.iter().zip(b).map(apart).all(|apart| apart <= ONE_STATE_RAD)
+}
+
+/// The rims within the limit, with the tip in the hole of each.
+fn tips_of_rims(folding: &SurfaceClosure<'_>, charts: &[Chart], triangles: &[[usize; 3]]) -> Vec<(Vec<usize>, Chart)> {
+    let within = |rim: &Vec<usize>| rim.iter().all(|&k| charts[k].limit < -BORDER);
+    let rims = rims(triangles).into_iter().filter(within);
+    rims.filter_map(|rim| tip(folding, charts, &rim).map(|chart| (rim, chart))).collect()
 }
 
 fn off_limit(chart: &Chart) -> bool {

@@ -7,7 +7,7 @@
 //!
 //! (formula of Baker, Campbell and Hausdorff).
 
-use super::Closure;
+use super::{Closure, opening};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
 
@@ -23,26 +23,30 @@ impl Closure {
     pub(crate) fn second_order(&self, angles: &[f64], modes: &DenseMatrix) -> Vec<DenseMatrix> {
         assert_eq!([angles.len(), modes.nrows()], [self.edges; 2], "a row for every edge");
         let count = modes.ncols();
-        let mut parts = vec![DenseMatrix::zeros(count, count); 3 * self.rounds.len()];
-        for (round, parts) in self.rounds.iter().zip(parts.chunks_exact_mut(3)) {
+        let mut parts = vec![DenseMatrix::zeros(count, count); self.rows()];
+        let (rounds, loops) = parts.split_at_mut(3 * self.rounds.len());
+        for (round, parts) in self.rounds.iter().zip(rounds.chunks_exact_mut(3)) {
             let mut directions = Vec::with_capacity(round.spokes.len());
             round.walk(angles, |_, direction| directions.push(*direction));
             let mut before = vec![Vec3::zeros(); count];
             for (spoke, direction) in round.spokes.iter().zip(directions) {
                 let turns: Vec<Vec3> = (0..count).map(|mode| modes[(spoke.edge, mode)] * direction).collect();
-                add_products(parts, &before, &turns);
+                add_products(parts, (&before, &turns), 0.25);
                 before.iter_mut().zip(&turns).for_each(|(sum, turn)| *sum += turn);
             }
+        }
+        for (opening, parts) in self.openings.iter().zip(loops.chunks_exact_mut(opening::ROWS)) {
+            opening.add_second_order(angles, modes, parts);
         }
         parts
     }
 }
 
-/// Adds the symmetric part of `1/2 before_a x turns_b` to the matrices of its three components.
-fn add_products(parts: &mut [DenseMatrix], before: &[Vec3], turns: &[Vec3]) {
+/// Adds the symmetric part of `2 half before_a x turns_b` to the matrices of its three components.
+pub(super) fn add_products(parts: &mut [DenseMatrix], (before, turns): (&[Vec3], &[Vec3]), half: f64) {
     for (a, before) in before.iter().enumerate() {
         for (b, turn) in turns.iter().enumerate() {
-            let product = 0.25 * before.cross(turn);
+            let product = half * before.cross(turn);
             for (part, component) in parts.iter_mut().zip(product.iter()) {
                 part[(a, b)] += component;
                 part[(b, a)] += component;

@@ -28,7 +28,7 @@ pub struct SurfaceSummary {
     pub closed: bool,
     /// Whether neighbouring triangles go the same way round everywhere.
     pub oriented: bool,
-    /// Spatially periodic states on the surface, once for each nappe that ends there.
+    /// Spatially periodic states at which nappes of the surface meet, each once.
     pub tips: usize,
     /// The curvature at which the surface ends.
     pub max_curvature: f64,

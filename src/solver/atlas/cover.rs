@@ -41,7 +41,7 @@ const MOST_OPEN_BESIDE_CROSSINGS: usize = 1024;
 const MOST_NEIGHBOURS: usize = 256;
 
 pub(super) struct Cover<'a, S: Surface> {
-    surface: &'a mut S,
+    pub surface: &'a mut S,
     options: CoverOptions,
     corrector: Corrector,
     periods: Vec<Option<f64>>,
@@ -92,8 +92,9 @@ impl<'a, S: Surface> Cover<'a, S> {
         }
     }
 
-    /// Places the chart of a start, unless it lies in one.
-    pub(crate) fn start(&mut self, number: usize, start: &[f64]) -> Result<(), AtlasError> {
+    /// Places the chart of a start, unless it lies in one; returns the number of the start from which that one was
+    /// reached.
+    pub(crate) fn start(&mut self, number: usize, start: &[f64]) -> Result<usize, AtlasError> {
         let mut residual = vec![0.0; self.surface.equations()];
         let mut jacobian = DenseMatrix::zeros(residual.len(), start.len());
         self.surface.linearize(start, &mut residual, &mut jacobian);
@@ -108,10 +109,11 @@ impl<'a, S: Surface> Cover<'a, S> {
             self.chart(x, frame, self.options.radius, place)
         });
         let chart = chart.ok_or(AtlasError::Start { start: number })?;
-        if !self.covered(&chart) {
-            self.insert(chart, 0);
+        if let Some(other) = self.covering(&chart) {
+            return Ok(self.charts[other].start);
         }
-        Ok(())
+        self.insert(chart, 0);
+        Ok(number)
     }
 
     /// Places charts until none is open.
@@ -317,7 +319,8 @@ impl<'a, S: Surface> Cover<'a, S> {
         Some(found)
     }
 
-    fn covered(&mut self, chart: &Chart) -> bool {
+    /// The chart in which the centre of another lies.
+    fn covering(&mut self, chart: &Chart) -> Option<usize> {
         let mut near = std::mem::take(&mut self.near);
         self.grid.near(&chart.x, MOST_DISTANCE_PER_RADII * (chart.radius + self.options.radius), &mut near);
         let covers = |other: &usize, way: &mut [f64]| {
@@ -325,9 +328,9 @@ impl<'a, S: Surface> Cover<'a, S> {
             see(other, chart, &self.periods, way)
                 .is_some_and(|(found, _)| found.at[0].hypot(found.at[1]) < other.radius)
         };
-        let covered = near.iter().any(|other| covers(other, &mut self.way));
+        let covering = near.iter().copied().find(|other| covers(other, &mut self.way));
         self.near = near;
-        covered
+        covering
     }
 
     /// The neighbours around a chart, counter-clockwise; `None` where it is open.

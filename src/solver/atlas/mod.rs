@@ -30,8 +30,14 @@ pub use surface::Surface;
 pub(crate) use surface::{Atlas, KEPT};
 pub use surface::{AtlasError, Chart, CoverOptions, Coverage};
 
+/// Finds further starts from the charts and triangles placed so far: points on parts of the surface that meet these in
+/// singular points only.
+pub(crate) type Further<'a, S> = &'a mut dyn FnMut(&mut S, &[Chart], &[[usize; 3]]) -> Vec<Vec<f64>>;
+
 /// Covers the parts of a surface that hold the `starts`: points on it, or within a thousandth of the radius of it, at
-/// which it is not singular. A start that lies in a chart already is passed over.
+/// which it is not singular. A start that lies in a chart already is passed over. Once all that is reached from them is
+/// covered,
+/// `further` is asked for more, until it has none.
 ///
 /// `observe` is told the number of charts from time to time and returns false to stop. What is kept then are the first
 /// [`KEPT`] charts and their triangles, so that stopping is quick however many there are.
@@ -42,16 +48,27 @@ pub(crate) fn cover<S: Surface>(
     surface: &mut S,
     starts: &[Vec<f64>],
     options: CoverOptions,
+    further: Further<'_, S>,
     observe: &mut dyn FnMut(usize) -> bool,
 ) -> Result<Atlas, AtlasError> {
     let mut cover = cover::Cover::new(surface, options);
+    let mut reached = Vec::new();
     for (number, start) in starts.iter().enumerate() {
-        cover.start(number, start)?;
+        reached.push(Some(cover.start(number, start)?));
     }
-    let mut coverage = cover.run(observe);
-    let rings = cover.rings(&mut coverage, observe);
-    let triangles = mesh::triangles(&rings, &|a, b| cover.distance(a, b));
+    let (mut coverage, triangles) = loop {
+        let mut coverage = cover.run(observe);
+        let rings = cover.rings(&mut coverage, observe);
+        let triangles = mesh::triangles(&rings, &|a, b| cover.distance(a, b));
+        let more = if coverage.is_whole() { further(cover.surface, &cover.charts, &triangles) } else { Vec::new() };
+        if more.is_empty() {
+            break (coverage, triangles);
+        }
+        for start in more {
+            reached.push(cover.start(reached.len(), &start).ok());
+        }
+    };
     let oriented = cover.oriented;
     let (charts, triangles) = cut::at_limit(&mut cover, triangles, &mut coverage, observe);
-    Ok(Atlas { charts, triangles, coverage, oriented })
+    Ok(Atlas { charts, triangles, reached, coverage, oriented })
 }

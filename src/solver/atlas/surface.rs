@@ -82,6 +82,13 @@ pub enum Coverage {
     Interrupted,
 }
 
+impl Coverage {
+    /// Whether the covering came to its own end: nothing more could be placed.
+    pub(crate) fn is_whole(self) -> bool {
+        matches!(self, Self::Complete | Self::Open { .. })
+    }
+}
+
 /// A covered surface.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Atlas {
@@ -90,6 +97,9 @@ pub(crate) struct Atlas {
     /// Triangles of neighbouring charts, counter-clockwise in their frames. Across the end of a period the nearest
     /// images are meant.
     pub triangles: Vec<[usize; 3]>,
+    /// For each start, the number of that from which the chart was reached that holds it: its own unless it was passed
+    /// over; `None` where a further start is not on the surface.
+    pub reached: Vec<Option<usize>>,
     /// The end of a covering.
     pub coverage: Coverage,
     /// Whether the frames of all neighbours go the same way round.
@@ -100,6 +110,7 @@ impl Atlas {
     /// Two atlases side by side, the charts of the other behind; the coverage is that of the less complete one.
     pub(crate) fn and(mut self, other: Self) -> Self {
         let before = self.charts.len();
+        self.reached.extend(other.reached);
         self.charts.extend(other.charts);
         self.triangles.extend(other.triangles.into_iter().map(|triangle| triangle.map(|corner| corner + before)));
         self.coverage = match (self.coverage, other.coverage) {

@@ -107,7 +107,7 @@ fn derivatives() {
 
 fn run<const N: usize>(surface: &mut Textbook<N>, start: [f64; N], radius: f64) -> Atlas {
     let options = CoverOptions { radius, ..CoverOptions::default() };
-    let atlas = cover(surface, &[start.to_vec()], options, &mut |_| true).unwrap();
+    let atlas = cover(surface, &[start.to_vec()], options, &mut none, &mut |_| true).unwrap();
     for chart in &atlas.charts {
         let rows = (surface.rows)(&chart.x);
         let slope =
@@ -238,7 +238,7 @@ fn torus_is_closed() {
         assert!(missing.abs() <= 0.5 * (radius / 0.4f64).powi(2), "{missing}");
     }
     let options = CoverOptions { radius: 0.2, max_turn: 0.2, ..CoverOptions::default() };
-    let atlas = cover(&mut Textbook::new(torus), &[vec![1.4, 0.0, 0.0]], options, &mut |_| true).unwrap();
+    let atlas = cover(&mut Textbook::new(torus), &[vec![1.4, 0.0, 0.0]], options, &mut none, &mut |_| true).unwrap();
     assert_eq!((topology(&atlas).euler, topology(&atlas).border), (0, 0));
     let normal = |chart: usize| {
         nalgebra::Vector3::from_column_slice(&atlas.charts[chart].frame[..3])
@@ -313,12 +313,22 @@ fn a_tip_is_not_crossed() {
     assert!(lowest > 0.0 && lowest <= 0.02, "{lowest}");
     let starts = [vec![0.3, 0.4, 0.5], vec![0.3, 0.4, -0.5], vec![0.31, 0.4, 0.506]];
     let options = CoverOptions { radius: 0.1, ..CoverOptions::default() };
-    let both = cover(&mut surface, &starts, options, &mut |_| true).unwrap();
+    let both = cover(&mut surface, &starts, options, &mut none, &mut |_| true).unwrap();
     let side = |chart: usize| both.charts[chart].x[2] > 0.0;
     assert!(both.triangles.iter().all(|[a, b, c]| side(*a) == side(*b) && side(*b) == side(*c)));
     assert!(both.charts.iter().all(|chart| (chart.x[2] > 0.0) == (chart.start != 1)), "each knows its start");
     let upper = both.charts.iter().filter(|chart| chart.x[2] > 0.0).count();
     assert!(upper.abs_diff(atlas.charts.len()) * 20 <= upper && upper < both.charts.len(), "{upper}");
+    assert_eq!(both.reached, [Some(0), Some(1), Some(0)], "the third lies in a chart of the first");
+    // the same, with the lower sheet begun only after the upper one is covered, and a start that is nowhere
+    let mut asked = 0;
+    let mut further = |_: &mut Textbook<3>, charts: &[Chart], _: &[[usize; 3]]| {
+        asked += 1;
+        assert_eq!(charts.iter().any(|chart| chart.x[2] < 0.0), asked > 1);
+        if asked > 1 { vec![] } else { vec![starts[1].clone(), vec![0.0; 3]] }
+    };
+    let behind = cover(&mut surface, &starts[..1], options, &mut further, &mut |_| true).unwrap();
+    assert_eq!((behind.reached, behind.charts.len()), (vec![Some(0), Some(1), None], both.charts.len()));
 }
 
 /// Claim: a singular start, a start off the surface, a small allowance and an impatient observer are all said.
@@ -326,13 +336,18 @@ fn a_tip_is_not_crossed() {
 fn what_cannot_be_done_is_said() {
     let options = CoverOptions::default();
     let mut always = |_: usize| true;
-    let tip = cover(&mut Textbook::new(cone), &[vec![0.0; 3]], options, &mut always);
+    let tip = cover(&mut Textbook::new(cone), &[vec![0.0; 3]], options, &mut none, &mut always);
     assert_eq!(tip, Err(AtlasError::Singular { start: 0, tangents: 3 }));
-    let off = cover(&mut Textbook::new(cone), &[vec![0.3, 0.4, 0.6]], options, &mut always);
+    let off = cover(&mut Textbook::new(cone), &[vec![0.3, 0.4, 0.6]], options, &mut none, &mut always);
     assert!(matches!(off, Err(AtlasError::Start { start: 0 })), "{off:?}");
     let few = CoverOptions { max_charts: 50, ..options };
-    let atlas = cover(&mut Textbook::new(sphere), &[vec![0.0, 0.0, 1.0]], few, &mut always).unwrap();
+    let atlas = cover(&mut Textbook::new(sphere), &[vec![0.0, 0.0, 1.0]], few, &mut none, &mut always).unwrap();
     assert_eq!(atlas.coverage, Coverage::TooManyCharts);
-    let atlas = cover(&mut Textbook::new(sphere), &[vec![0.0, 0.0, 1.0]], options, &mut |_| false).unwrap();
+    let atlas = cover(&mut Textbook::new(sphere), &[vec![0.0, 0.0, 1.0]], options, &mut none, &mut |_| false).unwrap();
     assert_eq!(atlas.coverage, Coverage::Interrupted);
+}
+
+/// No further starts.
+fn none<S: Surface>(_surface: &mut S, _charts: &[Chart], _triangles: &[[usize; 3]]) -> Vec<Vec<f64>> {
+    Vec::new()
 }

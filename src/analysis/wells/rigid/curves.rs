@@ -2,6 +2,7 @@
 //! folded by `pi`. Where the drawn state of a periodic cell has but one real direction, that of planar folding, the curve is that of
 //! its spatially periodic states.
 
+use super::extent::Extent;
 use super::{Net, RigidError, Sampling};
 use crate::kinematics::{
     Closing, Closure, Embedding, KinematicsError, Rays, RealDirections, SecondOrder, SpatiallyPeriodic,
@@ -11,28 +12,19 @@ use crate::numerics::DenseMatrix;
 use crate::numerics::dense::full_svd;
 use crate::solver::Implicit;
 use crate::solver::continuation::{CurveOptions, End, Point, Watched, follow};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Steps on curves over those on surfaces: they cost next to nothing.
 const FINER: f64 = 0.25;
 
-/// Returns the magnitude of the largest fold angle less a half turn; the curve ends where it is zero.
-fn beyond_a_half_turn(point: &Point) -> f64 {
-    point.x.iter().fold(0.0, |most: f64, angle| most.max(angle.abs())) - PI
-}
-
 /// Samples the trajectories; they hang together in the drawn state.
 pub(super) fn net(
     assembly: &Assembly,
-    sampling: &Sampling,
+    (sampling, extent): (&Sampling, &Extent),
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Net, RigidError> {
-    let holes = assembly.sheet().holes.len();
     let closure = Closure::of_tiling(assembly.sheet(), assembly.tiling())?.with_locked(&assembly.locked_edges());
-    match closure.unchecked_loops() {
-        0 if holes == 0 => {}
-        loops => return Err(KinematicsError::Openings { loops: loops.max(holes) }.into()),
-    }
+    closure.is_complete()?;
     let drawn = assembly.drawn_angles_or_zero();
     let second_order = SecondOrder::new(&closure, &drawn)?;
     let dimension = second_order.count() as i64 - second_order.quadrics.len() as i64;
@@ -48,7 +40,9 @@ pub(super) fn net(
         Some(planar) => closing.keeping(planar),
         None => closing,
     };
-    let mut folding = Watched { equations, indicator: beyond_a_half_turn };
+    // the curve ends where an angle leaves the landscape
+    let watched = Closing::new(&closure, drawn.clone());
+    let mut folding = Watched { equations, indicator: |point: &Point| extent.excess(&watched.angles(&point.x)) };
     let crossing = rays.len() > 2;
     let mut net = Net {
         angles: vec![drawn.clone()],

@@ -4,12 +4,14 @@
 //! (`curves`, `surface`). On states sampled there wells are the lowest of their neighbours and passes are found by
 //! flooding (`flood`); each is then made exact by Newton's method for the energy of the creases along the closed states
 //! ([`crate::analysis::exact`]), and its index counted. States at which a crease is folded by more than `pi`, where
-//! panels have gone through each other, do not belong to this landscape.
+//! panels have gone through each other, do not belong to this landscape, unless its rest angle is beyond that too
+//! (`extent`).
 //!
 //! The drawn state itself may be a pass: branches cross there, and no Hessian says so. Its energy is the height all the
 //! same.
 
 mod curves;
+mod extent;
 mod flood;
 mod surface;
 
@@ -19,8 +21,8 @@ use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
 use crate::model::{Assembly, Boundary, Gauge};
 use crate::numerics::vector::distance;
+use extent::Extent;
 use flood::Merge;
-use std::f64::consts::PI;
 use thiserror::Error;
 
 /// Two stationary states are one where no angle differs by more.
@@ -136,25 +138,27 @@ pub fn landscape(
     let (sheet, tiling) = (assembly.sheet(), assembly.tiling());
     let model = assembly.model(Gauge::Held);
     let springs = Springs::new(sheet, tiling, &model, assembly.drawn_angles()).ok_or(RigidError::NotOfHinges)?;
+    let extent = Extent::new(&springs);
     let net = match assembly.boundary() {
-        Boundary::Screw => match surface::net(assembly, sampling, go_on) {
-            Err(RigidError::Surface(SurfaceError::Curve)) => curves::net(assembly, sampling, go_on)?,
+        Boundary::Screw => match surface::net(assembly, (sampling, &extent), go_on) {
+            Err(RigidError::Surface(SurfaceError::Curve)) => curves::net(assembly, (sampling, &extent), go_on)?,
             net => net?,
         },
-        _ => curves::net(assembly, sampling, go_on)?,
+        _ => curves::net(assembly, (sampling, &extent), go_on)?,
     };
     let options = surface::options(sampling);
     let lowest = |angles: &[f64], sign: f64| {
         Surface::lowest_on_crossing(assembly, &options, angles, &|angles| sign * springs.energy(angles))
     };
-    Ok(polished(&springs, &net, (sampling.step, &lowest)))
+    Ok(polished((&springs, &extent), &net, (sampling.step, &lowest)))
 }
 
 /// The lowest state, for the sign 1, or the highest one, for the sign -1, near a state of the curve of spatially periodic states.
 type OnCrossing<'a> = &'a dyn Fn(&[f64], f64) -> Option<Lowest>;
 
 /// Wells and passes of a net, made exact.
-fn polished(springs: &Springs, net: &Net, (step, lowest): (f64, OnCrossing<'_>)) -> RigidLandscape {
+fn polished(within: (&Springs, &Extent), net: &Net, (step, lowest): (f64, OnCrossing<'_>)) -> RigidLandscape {
+    let (springs, extent) = within;
     let energies: Vec<f64> = net.angles.iter().map(|angles| springs.energy(angles)).collect();
     let flood::Flood { minima, merges } = flood::flood(&energies, &net.links, &net.border);
     let (dimension, states) = (net.dimension, net.angles.len());
@@ -163,32 +167,32 @@ fn polished(springs: &Springs, net: &Net, (step, lowest): (f64, OnCrossing<'_>))
     // the well of each minimum; none where the landscape ends there, or where it is no well
     let mut well = vec![None; states];
     for &at in &minima {
-        let found = if let Some(found) = net.well_on_seam(springs, at, (NEIGHBOUR_DISTANCES * step, lowest)) {
+        let found = if let Some(found) = net.well_on_seam(within, at, (NEIGHBOUR_DISTANCES * step, lowest)) {
             Some(found)
         } else if net.seam == 0 {
             None
         } else if net.border[at] || net.singular[at] {
-            net.beside(at).find_map(|other| between(springs, net, [at, other]))
+            net.beside(at).find_map(|other| between(within, net, [at, other]))
         } else {
-            exact(springs, &net.angles[at], (0, NEIGHBOUR_DISTANCES * step))
+            exact(within, &net.angles[at], (0, NEIGHBOUR_DISTANCES * step))
         };
         match found {
             Some(found) => well[at] = Some(known(&mut landscape.wells, found)),
-            None if net.border[at] => landscape.contacts.extend(net.touches(at).then_some(energies[at])),
+            None if net.border[at] => landscape.contacts.extend(net.touches(extent, at).then_some(energies[at])),
             // where branches cross nothing is stationary: the state is the lowest of the samples only
             None => landscape.lost += usize::from(!net.singular[at] || at >= net.seam),
         }
     }
     // wells so near to where branches cross that no sample lies between
     for at in (0..states).filter(|&at| net.singular[at] && dimension == 1) {
-        let hidden = net.beside(at).filter_map(|other| between(springs, net, [at, other]));
+        let hidden = net.beside(at).filter_map(|other| between(within, net, [at, other]));
         hidden.for_each(|found| {
             known(&mut landscape.wells, found);
         });
     }
     for Merge { lower, at } in merges {
         if let [Some(a), Some(b)] = lower.map(|minimum| well[minimum]) {
-            landscape.add_pass(springs, net, ([a, b], at), (step, lowest));
+            landscape.add_pass(within, net, ([a, b], at), (step, lowest));
         }
     }
     landscape.sort();
@@ -202,11 +206,16 @@ impl Net {
     }
 
     /// The well on the curve on which surfaces cross, next to a state of it or beside it.
-    fn well_on_seam(&self, springs: &Springs, at: usize, (reach, lowest): (f64, OnCrossing<'_>)) -> Option<Stationary> {
+    fn well_on_seam(
+        &self,
+        (springs, extent): (&Springs, &Extent),
+        at: usize,
+        (reach, lowest): (f64, OnCrossing<'_>),
+    ) -> Option<Stationary> {
         let mut on = [at].into_iter().chain(self.beside(at)).filter(|&at| at >= self.seam);
         let Lowest { angles, residual, error, well } = lowest(&self.angles[on.next()?], 1.0)?;
         let apart = distance(&angles, &self.angles[at]);
-        let inside = angles.iter().all(|angle| angle.abs() <= PI);
+        let inside = extent.holds(&angles);
         let energy = springs.energy(&angles);
         (well && inside && apart <= reach).then_some(Stationary {
             angles,
@@ -218,27 +227,26 @@ impl Net {
     }
 
     /// Whether a curve ends in a state because a crease is shut.
-    fn touches(&self, at: usize) -> bool {
-        let sharpest = self.angles[at].iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
-        self.dimension == 1 && (sharpest - PI).abs() <= SAME_STATE_ANGLE_RAD
+    fn touches(&self, extent: &Extent, at: usize) -> bool {
+        self.dimension == 1 && extent.is_met(&self.angles[at])
     }
 }
 
 /// The well between two neighbours, the first of which has no tangents or lies on the border.
-fn between(springs: &Springs, net: &Net, [at, other]: [usize; 2]) -> Option<Stationary> {
+fn between((springs, extent): (&Springs, &Extent), net: &Net, [at, other]: [usize; 2]) -> Option<Stationary> {
     let [here, there] = [at, other].map(|state| &net.angles[state]);
     let length = distance(here, there);
     let found = springs.stationary(there)?;
     let inside = [here, there].iter().all(|end| distance(&found.angles, end) <= (1.0 + SAME_STATE_ANGLE_RAD) * length)
-        && found.angles.iter().all(|angle| angle.abs() <= PI);
+        && extent.holds(&found.angles);
     (found.negative_eigenvalues == 0 && inside).then_some(found)
 }
 
 /// The stationary state of this index next to a sampled one.
-fn exact(springs: &Springs, angles: &[f64], (index, reach): (usize, f64)) -> Option<Stationary> {
+fn exact((springs, extent): (&Springs, &Extent), angles: &[f64], (index, reach): (usize, f64)) -> Option<Stationary> {
     let found = springs.stationary(angles)?;
     let apart = distance(&found.angles, angles);
-    (found.negative_eigenvalues == index && apart <= reach).then_some(found)
+    (found.negative_eigenvalues == index && apart <= reach && extent.holds(&found.angles)).then_some(found)
 }
 
 /// The number of a well, which is added where it is new.
@@ -255,11 +263,12 @@ impl RigidLandscape {
     /// Makes the pass at a state exact.
     fn add_pass(
         &mut self,
-        springs: &Springs,
+        within: (&Springs, &Extent),
         net: &Net,
         (joins, at): ([usize; 2], usize),
         (step, lowest): (f64, OnCrossing<'_>),
     ) {
+        let springs = within.0;
         if joins[0] == joins[1] {
             return;
         }
@@ -279,7 +288,7 @@ impl RigidLandscape {
             self.passes.push(RigidPass { joins, energy: springs.energy(&angles), angles, singular: true });
             return;
         }
-        match exact(springs, &net.angles[at], (1, NEIGHBOUR_DISTANCES * step)) {
+        match exact(within, &net.angles[at], (1, NEIGHBOUR_DISTANCES * step)) {
             Some(Stationary { angles, energy, .. }) => {
                 self.passes.push(RigidPass { joins, energy, angles, singular: false });
             }

@@ -1,11 +1,13 @@
 //! Folded states that are a surface: one periodic cell, repeated by screw motions.
 
+use super::extent::Extent;
 use super::{Net, RigidError, Sampling};
-use crate::analysis::surface::{Seam, Surface, SurfaceOptions, SurfacePoint, on_surface};
+use crate::analysis::surface::{Seam, Surface, SurfaceOptions, on_surface};
 use crate::model::Assembly;
+use crate::numerics::vector::distance;
 use crate::solver::atlas::Coverage;
-use std::collections::BTreeSet;
-use std::f64::consts::PI;
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
 
 /// Bound on the closure residual.
 const TOLERANCE: f64 = 3e-14;
@@ -17,8 +19,8 @@ const MOST_POINTS: usize = 300_000;
 const BESIDE: f64 = 1.5;
 /// States whose curvature is the largest to this part of it are on the border where it is met.
 const AT_LIMIT: f64 = 1e-6;
-/// Largest difference of an angle between two tips in one state.
-const ONE: f64 = 1e-9;
+/// Largest distance between two tips in one state.
+const ONE: f64 = 1e-7;
 
 /// How the surface is covered that is sampled.
 pub(super) fn options(sampling: &Sampling) -> SurfaceOptions {
@@ -30,31 +32,69 @@ pub(super) fn options(sampling: &Sampling) -> SurfaceOptions {
     }
 }
 
-/// Adds the states of the curve on which surfaces cross, between those whose edge goes over it, and next to each other.
-fn sew(net: &mut Net, seam: Vec<Seam>, step: f64) {
-    let over: BTreeSet<[usize; 2]> = seam.iter().map(|on| on.between).collect();
-    net.links.retain(|link| !over.contains(link));
-    let first = net.angles.len();
-    for Seam { angles, between } in seam {
-        let at = net.angles.len();
-        net.links.extend(between.map(|beside| [beside, at]));
-        for other in first..at {
-            let square: f64 = net.angles[other].iter().zip(&angles).map(|(a, b)| (a - b).powi(2)).sum();
-            if square <= (BESIDE * step).powi(2) {
-                net.links.push([other, at]);
-            }
-        }
-        net.border.push(angles.iter().any(|angle| angle.abs() > PI));
-        net.singular.push(true);
-        net.angles.push(angles);
+/// The images of the surface's states that belong to the landscape, as nodes of a net.
+struct Nodes<'a> {
+    extent: &'a Extent,
+    /// Fold angles of all nodes.
+    angles: Vec<Vec<f64>>,
+    /// Number of the state of each node.
+    states: Vec<usize>,
+    /// Nodes of each state.
+    of_state: Vec<Vec<usize>>,
+}
+
+impl<'a> Nodes<'a> {
+    fn new<'b>(states: impl Iterator<Item = &'b Vec<f64>>, extent: &'a Extent) -> Self {
+        let mut nodes = Self { extent, angles: Vec::new(), states: Vec::new(), of_state: Vec::new() };
+        states.for_each(|angles| nodes.add(angles));
+        nodes
     }
-    net.seam = first;
+
+    /// Adds the images of one more state.
+    fn add(&mut self, angles: &[f64]) {
+        let (first, state) = (self.angles.len(), self.of_state.len());
+        self.angles.extend(self.extent.images(angles));
+        self.of_state.push((first..self.angles.len()).collect());
+        self.states.resize(self.angles.len(), state);
+    }
+
+    /// The image of a state that is next to a node; `None` where it does not belong to the landscape.
+    fn next_to(&self, node: usize, state: usize) -> Option<usize> {
+        let near = |&other: &usize| {
+            let mut pairs = self.angles[node].iter().zip(&self.angles[other]);
+            pairs.all(|(a, b)| (a - b).abs() <= 0.5 * TAU)
+        };
+        self.of_state[state].iter().copied().find(near)
+    }
+
+    /// Distance of two nodes.
+    fn apart(&self, [a, b]: [usize; 2]) -> f64 {
+        distance(&self.angles[a], &self.angles[b])
+    }
+}
+
+/// Adds the states of the curve on which surfaces cross, between those whose edge goes over it, and next to each other;
+/// returns the number of the first.
+fn sew(nodes: &mut Nodes<'_>, links: &mut BTreeSet<[usize; 2]>, seam: &[Seam], step: f64) -> usize {
+    let first = nodes.angles.len();
+    for Seam { angles, between: [a, b] } in seam {
+        nodes.add(angles);
+        for at in nodes.of_state[nodes.of_state.len() - 1].clone() {
+            let ends = [*a, *b].map(|state| nodes.next_to(at, state));
+            if let [Some(a), Some(b)] = ends {
+                links.remove(&[a.min(b), a.max(b)]);
+            }
+            links.extend(ends.into_iter().flatten().map(|end| [end, at]));
+            links.extend((first..at).map(|other| [other, at]).filter(|pair| nodes.apart(*pair) <= BESIDE * step));
+        }
+    }
+    first
 }
 
 /// Samples the surface.
 pub(super) fn net(
     assembly: &Assembly,
-    sampling: &Sampling,
+    (sampling, extent): (&Sampling, &Extent),
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Net, RigidError> {
     let found = on_surface(assembly, &options(sampling), &mut |_| go_on())?;
@@ -69,56 +109,42 @@ pub(super) fn net(
         Coverage::Complete => {}
         Coverage::Open { charts } => open += charts,
     }
-    let inside: Vec<bool> = points.iter().map(|point| point.angles.iter().all(|angle| angle.abs() <= PI)).collect();
-    let mut count: std::collections::BTreeMap<[usize; 2], usize> = Default::default();
+    let mut count: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     for &[a, b, c] in &triangles {
         for [a, b] in [[a, b], [b, c], [c, a]] {
             *count.entry([a.min(b), a.max(b)]).or_default() += 1;
         }
     }
     let at_limit = |at: usize| !(points[at].shape.curvature.abs() < (1.0 - AT_LIMIT) * sampling.max_curvature);
-    let mut border: Vec<bool> = inside.iter().map(|inside| !inside).collect();
-    let mut rim = BTreeSet::new();
+    let mut nodes = Nodes::new(points.iter().map(|point| &point.angles), extent);
+    let mut border = vec![false; nodes.angles.len()];
+    let (mut rim, mut links) = (BTreeSet::new(), BTreeSet::new());
     for (&[a, b], triangles) in &count {
-        for (at, other) in [(a, b), (b, a)] {
-            border[at] |= !inside[other] || (*triangles == 1 && at_limit(at));
-            rim.extend((*triangles == 1 && inside[at] && !at_limit(at)).then_some(at));
+        for (state, other) in [(a, b), (b, a)] {
+            for &at in &nodes.of_state[state] {
+                let next = nodes.next_to(at, other);
+                border[at] |= next.is_none() || (*triangles == 1 && at_limit(state));
+                rim.extend((*triangles == 1 && !at_limit(state)).then_some(at));
+                links.extend(next.map(|next| [at.min(next), at.max(next)]));
+            }
         }
     }
-    // neighbours across the end of a period are none here: a turn more is another state
-    let near = |a: usize, b: usize| points[a].angles.iter().zip(&points[b].angles).all(|(a, b)| (a - b).abs() <= PI);
-    let mut links: BTreeSet<[usize; 2]> =
-        count.into_keys().filter(|&[a, b]| inside[a] && inside[b] && near(a, b)).collect();
-    links.extend(tips(&points));
-    links.extend(across(&points, &rim, sampling.step));
-    let mut net = Net {
-        seam: points.len(),
-        singular: points.iter().map(|point| point.radius == 0.0).collect(),
-        angles: points.into_iter().map(|point| point.angles).collect(),
-        links: links.into_iter().collect(),
-        border,
-        dimension: 2,
-        open,
-    };
-    sew(&mut net, seam, sampling.step);
-    Ok(net)
+    let tips: Vec<usize> = (0..nodes.angles.len()).filter(|&node| points[nodes.states[node]].radius == 0.0).collect();
+    // every nappe has a tip of its own; those in one state hang together
+    links.extend(pairs(&tips).filter(|pair| nodes.apart(*pair) <= ONE));
+    // without links between the rims of holes lakes on both sides of a slit would not meet
+    let rim: Vec<usize> = rim.into_iter().collect();
+    links.extend(pairs(&rim).filter(|pair| nodes.apart(*pair) <= BESIDE * sampling.step));
+    let mut singular = vec![false; nodes.angles.len()];
+    tips.iter().for_each(|&tip| singular[tip] = true);
+    let seam = sew(&mut nodes, &mut links, &seam, sampling.step);
+    border.resize(nodes.angles.len(), false);
+    singular.resize(nodes.angles.len(), true);
+    let links = links.into_iter().collect();
+    Ok(Net { angles: nodes.angles, links, singular, border, dimension: 2, seam, open })
 }
 
-/// Links between states on the rims of holes that the triangles leave where the surface goes on: without them lakes on both sides of
-/// a slit would not meet.
-fn across(points: &[SurfacePoint], rim: &BTreeSet<usize>, step: f64) -> Vec<[usize; 2]> {
-    let rim: Vec<usize> = rim.iter().copied().collect();
-    let pairs = rim.iter().enumerate().flat_map(|(k, &a)| rim[..k].iter().map(move |&b| [b, a]));
-    let square = |[a, b]: [usize; 2]| -> f64 {
-        points[a].angles.iter().zip(&points[b].angles).map(|(a, b)| (a - b).powi(2)).sum()
-    };
-    pairs.filter(|pair| square(*pair) <= (BESIDE * step).powi(2)).collect()
-}
-
-/// Every nappe has a tip of its own; those in one state hang together.
-fn tips(points: &[SurfacePoint]) -> Vec<[usize; 2]> {
-    let tips: Vec<usize> = (0..points.len()).filter(|&k| points[k].radius == 0.0).collect();
-    let pairs = tips.iter().enumerate().flat_map(|(k, &a)| tips[..k].iter().map(move |&b| [b, a]));
-    let same = |a: usize, b: usize| points[a].angles.iter().zip(&points[b].angles).all(|(a, b)| (a - b).abs() <= ONE);
-    pairs.filter(|&[a, b]| same(a, b)).collect()
+/// All pairs of nodes.
+fn pairs(nodes: &[usize]) -> impl Iterator<Item = [usize; 2]> + '_ {
+    nodes.iter().enumerate().flat_map(move |(k, &a)| nodes[..k].iter().map(move |&b| [b, a]))
 }
