@@ -196,15 +196,16 @@ fn describe_study(study: &StudySummary) -> String {
             modes.collect::<Vec<_>>().join("; ")
         }
         Some(StudyResult::Bloch(bloch)) => {
-            let [p1, p2] = bloch.polarization;
             let lines = bloch.zero_lines.map(|count| counted(count, "zero line"));
             let lines = lines
+                .or_else(|| bloch.no_determinant.clone())
                 .or_else(|| bloch.no_zero_lines.clone())
                 .unwrap_or_else(|| "no real determinant, so that zero lines are not looked for".to_owned());
             let pairing = bloch.pairing_error.map_or("no root known well enough to be paired".to_owned(), |error| {
                 format!("pairing error {error:.1e}")
             });
-            format!("{lines}, {pairing}, polarization ({p1}, {p2})")
+            let decays = bloch.polarization.map(|[p1, p2]| format!(", {pairing}, polarization ({p1}, {p2})"));
+            lines + &decays.unwrap_or_default()
         }
         Some(StudyResult::Wells(found)) => {
             let energies = found.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");

@@ -88,7 +88,7 @@ fn random_cells_are_symmetric_and_not_polarized() {
         for q1 in [-2.5, -1.0, 0.4, 0.9, 1.7, 2.9] {
             let first = Decay::new(&found, 0, q1).unwrap();
             first_left_out += first.pairing().left_out;
-            let pairs_here = first.clone().refined(&rigidity);
+            let pairs_here = first.clone().refined(&found, &rigidity);
             let here = pairs_here.pairing();
             let error = here.error.unwrap_or_default(); // all of a wavenumber's roots may be left out, and are counted
             assert!(error <= 1e-9, "{}: {here:?}", sheet.description);
@@ -373,7 +373,7 @@ fn places(sheet: &Sheet, numbers: &mut Numbers) -> Vec<(&'static str, [Complex<f
     let points = lines.lines.iter().flat_map(|line| &line.points);
     let off_origin = points.filter(|q| q.iter().any(|q| ((q + PI).rem_euclid(TAU) - PI).abs() > 0.3));
     places.extend(off_origin.step_by(97).map(|q| ("zero line", on_zone(*q))));
-    let decay = Decay::new(&found, 0, 0.9).unwrap().refined(&rigidity);
+    let decay = Decay::new(&found, 0, 0.9).unwrap().refined(&found, &rigidity);
     let roots =
         decay.roots.iter().filter(|root| !root.on_circle() && root.condition <= 1e3 && root.kappa().abs() < 2.0);
     places.extend(roots.map(|root| ("complex root", [Complex::from_polar(1.0, 0.9), root.z])));
@@ -426,7 +426,7 @@ fn decay_rates_agree_with_the_matrix_pencil() {
         let found = determinant(&sheet);
         for q1 in [0.4, 0.9, -2.2] {
             let direct = pencil_roots(&rigidity, q1);
-            let decay = Decay::new(&found, 0, q1).unwrap().refined(&rigidity);
+            let decay = Decay::new(&found, 0, q1).unwrap().refined(&found, &rigidity);
             for root in decay.roots.iter().filter(|root| root.condition <= WELL_CONDITIONED) {
                 let apart = direct.iter().map(|z| (z / root.z - 1.0).norm()).fold(f64::INFINITY, f64::min);
                 worst = worst.max(apart);
@@ -463,7 +463,7 @@ fn ill_conditioned_cells() {
             Ok(found) => {
                 let direct = pencil_roots(&rigidity, 0.9);
                 let limit = 1e-9 / found.error.max(1e-16);
-                let decay = Decay::new(&found, 0, 0.9).unwrap().refined(&rigidity);
+                let decay = Decay::new(&found, 0, 0.9).unwrap().refined(&found, &rigidity);
                 for root in decay.roots.iter().filter(|root| root.condition <= limit) {
                     let apart = direct.iter().map(|z| (z / root.z - 1.0).norm()).fold(f64::INFINITY, f64::min);
                     worst = worst.max(apart);

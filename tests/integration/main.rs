@@ -17,6 +17,7 @@ mod bent;
 mod bloch;
 mod bloch_runs;
 mod branches;
+mod cell_drawings;
 mod circles;
 mod command_line;
 mod corpus;
