@@ -4,8 +4,8 @@ mod counted;
 mod sweep;
 
 use foldwell::output::summary::{
-    BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, ResponseSummary, StudyResult,
-    StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
+    BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, ResponseSummary, SeamMotionsSummary,
+    StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
 };
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
@@ -68,7 +68,14 @@ fn describe_modes(modes: &ModesSummary) -> String {
         } else {
             format!("{} self stresses", modes.self_stresses)
         },
-        modes.folding_modes.map_or("folding modes unknown".into(), |count| counted(count, "folding mode")),
+        match (modes.folding_modes, &modes.seam) {
+            (Some(count), _) => counted(count, "folding mode"),
+            (None, Some(SeamMotionsSummary { free, turn, rise, both, .. })) => format!(
+                "{} of the closed tube, {turn} if the seam may slip, {rise} if it may open, {free} without conditions",
+                counted(*both, "folding mode")
+            ),
+            (None, None) => "folding modes unknown".into(),
+        },
     ) + &describe_frequencies(modes)
 }
 
