@@ -4,8 +4,13 @@ mod counted;
 mod sweep;
 
 use foldwell::output::summary::{
+<<<<<<< HEAD
     BranchChoiceSummary, BranchesSummary, HalfBranchesSummary, ModesSummary, PathSummary, RelaxSummary,
     ResponseSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
+=======
+    BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, ResponseSummary, SeamMotionsSummary,
+    StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
+>>>>>>> h4
 };
 use foldwell::run::RunReport;
 use std::fmt::Write as _;
@@ -68,7 +73,14 @@ fn describe_modes(modes: &ModesSummary) -> String {
         } else {
             format!("{} self stresses", modes.self_stresses)
         },
-        modes.folding_modes.map_or("folding modes unknown".into(), |count| counted(count, "folding mode")),
+        match (modes.folding_modes, &modes.seam) {
+            (Some(count), _) => counted(count, "folding mode"),
+            (None, Some(SeamMotionsSummary { free, turn, rise, both, .. })) => format!(
+                "{} of the closed tube, {turn} if the seam may slip, {rise} if it may open, {free} without conditions",
+                counted(*both, "folding mode")
+            ),
+            (None, None) => "folding modes unknown".into(),
+        },
     ) + &describe_frequencies(modes)
 }
 
@@ -213,15 +225,16 @@ fn describe_study(study: &StudySummary) -> String {
             modes.collect::<Vec<_>>().join("; ")
         }
         Some(StudyResult::Bloch(bloch)) => {
-            let [p1, p2] = bloch.polarization;
             let lines = bloch.zero_lines.map(|count| counted(count, "zero line"));
             let lines = lines
+                .or_else(|| bloch.no_determinant.clone())
                 .or_else(|| bloch.no_zero_lines.clone())
                 .unwrap_or_else(|| "no real determinant, so that zero lines are not looked for".to_owned());
             let pairing = bloch.pairing_error.map_or("no root known well enough to be paired".to_owned(), |error| {
                 format!("pairing error {error:.1e}")
             });
-            format!("{lines}, {pairing}, polarization ({p1}, {p2})")
+            let decays = bloch.polarization.map(|[p1, p2]| format!(", {pairing}, polarization ({p1}, {p2})"));
+            lines + &decays.unwrap_or_default()
         }
         Some(StudyResult::Wells(found)) => {
             let energies = found.wells.iter().map(|well| format!("{:.6e}", well.energy)).collect::<Vec<_>>().join(", ");

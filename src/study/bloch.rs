@@ -115,7 +115,8 @@ fn rigidity(file: &SceneFile, assembly: &Assembly) -> Result<Rigidity, BlochErro
 /// The results of the analysis.
 struct FoundModes {
     ground: Ground,
-    survey: Survey,
+    /// What is read off the determinant; the reason where there is none.
+    survey: Result<Survey, BlochError>,
     grid: [usize; 2],
     bands: FoundBands,
     strip: Option<FoundStrip>,
@@ -135,7 +136,8 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
         Err(error) => return Answer::failed(context.study, error),
     };
     let (name, mut answer) = (context.name(), Answer::empty(context.study));
-    answer.add(format!("{name}.csv"), table(&found.survey.decays));
+    let survey = found.survey.as_ref().ok();
+    answer.add(format!("{name}.csv"), table(survey.map_or(&[], |survey| &survey.decays)));
     bands::add(&mut answer, context, spec.start.as_deref(), &found.bands);
     if !found.counts.is_empty() {
         answer.add(format!("{name}-modes.csv"), strip::count_table(&found.counts));
@@ -143,10 +145,18 @@ pub(crate) fn compute(context: &Context<'_>, spec: &BlochSpec) -> Answer {
     if let Some(found) = &found.strip {
         strip::add(&mut answer, name, found);
     }
-    add_maps(&mut answer, context, &found);
-    add_figure(&mut answer, context, &found);
-    let result = summary(context.assembly, &found);
-    answer.conclude(StudyResult::Bloch(Box::new(result)), Some(found.survey.determinant.error), None);
+    if let Some(survey) = survey {
+        add_maps(&mut answer, context, (&found, survey));
+        add_figure(&mut answer, context, (&found, survey));
+    }
+    let theta = theta(context.assembly, &found.ground);
+    let result = BlochSummary {
+        no_determinant: found.survey.as_ref().err().map(ToString::to_string),
+        theta,
+        strip: found.strip.as_ref().map(|strip| strip.summary.clone()),
+        ..survey.map_or_else(BlochSummary::default, |survey| summary(survey, found.grid, theta))
+    };
+    answer.conclude(StudyResult::Bloch(Box::new(result)), survey.map(|survey| survey.determinant.error), None);
     answer
 }
 
@@ -159,7 +169,13 @@ fn find(context: &Context<'_>, spec: &BlochSpec, ground: Ground) -> Result<Optio
         modes: spec.modes.iter().flat_map(|modes| modes.iter()).map(|pair| pair.0).collect(),
     };
     let mut go_on = |step: usize| context.step(step, Some(bloch::STEPS));
-    let Some(survey) = bloch::survey(&ground.rigidity, &options, &mut go_on)? else { return Ok(None) };
+    let survey = match bloch::survey(&ground.rigidity, &options, &mut go_on) {
+        Ok(None) => return Ok(None),
+        Ok(Some(survey)) => Ok(survey),
+        // counts and bands need no determinant
+        Err(error) if error.is_of_determinant() => Err(error),
+        Err(error) => return Err(error),
+    };
     let wanted = spec.zero_modes_at.iter().flat_map(|list| list.iter());
     let counts = wanted.map(|pair| Counts::at(&ground.rigidity, pair.0)).collect::<Result<_, _>>()?;
     let strip = match &spec.strip {
@@ -199,11 +215,11 @@ fn table(decays: &[Decay]) -> Table {
 }
 
 /// Adds the map of the determinant, the lines of zero modes and the displacements of modes, if the study asks for them.
-fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
+fn add_maps(answer: &mut Answer, context: &Context<'_>, (found, survey): (&FoundModes, &Survey)) {
     if !context.draws(Draw::Vtk) {
         return;
     }
-    let (name, survey, mut files) = (context.name(), &found.survey, Vec::new());
+    let (name, mut files) = (context.name(), Vec::new());
     let mut add = |file: String, artifact: Artifact| {
         files.push((files.len() as f64, file.clone()));
         answer.add(file, artifact);
@@ -233,11 +249,10 @@ fn add_maps(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
 }
 
 /// Adds the picture of determinant and decay rates, if the study asks for it.
-fn add_figure(answer: &mut Answer, context: &Context<'_>, found: &FoundModes) {
+fn add_figure(answer: &mut Answer, context: &Context<'_>, (found, survey): (&FoundModes, &Survey)) {
     if !context.draws(Draw::Svg) {
         return;
     }
-    let survey = &found.survey;
     let lines = survey.lines().iter().flat_map(|lines| &lines.lines).map(|line| line.points.clone()).collect();
     let theta = theta(context.assembly, &found.ground);
     let marks = theta.map_or(vec![], |theta| vec![theta, theta.map(|angle| -angle)]);
@@ -282,19 +297,19 @@ fn rates(determinant: &Determinant) -> Vec<(f64, f64, bool)> {
         .collect()
 }
 
-fn summary(assembly: &Assembly, found: &FoundModes) -> BlochSummary {
-    let Survey { determinant, decays, polarization, real, map, .. } = &found.survey;
+/// Returns what is read off the determinant of a state with these rotation angles from a cell to the next.
+fn summary(survey: &Survey, grid: [usize; 2], theta: Option<[f64; 2]>) -> BlochSummary {
+    let Survey { determinant, decays, polarization, real, .. } = survey;
     let pairings: Vec<_> = decays.iter().map(Decay::pairing).collect();
     let decay = |decay: &Decay| DecaySummary {
         q1: decay.q,
         kappa2: decay.roots.iter().map(|root| root.kappa()).collect(),
         condition: decay.roots.iter().map(|root| root.condition.min(f64::MAX)).collect(),
         multiplicity: decay.roots.iter().map(|root| root.multiplicity).collect(),
+        vanishes: decay.vanishes,
     };
-    let positive = map[0].iter().filter(|value| **value > 0.0).count() as f64 / map[0].len() as f64;
-    let traced = found.survey.lines();
+    let traced = survey.lines();
     let lines = traced.map_or(&[][..], |lines| &lines.lines);
-    let theta = theta(assembly, &found.ground);
     let to_zero = |(zone, q): (&Zone, [f64; 2])| {
         let (value, gradient) = zone.at(q);
         value.abs() / gradient[0].hypot(gradient[1])
@@ -306,17 +321,17 @@ fn summary(assembly: &Assembly, found: &FoundModes) -> BlochSummary {
     };
     BlochSummary {
         determinant: determinant.polynomial.terms().map(|(m, n, c)| [m, n, c]).collect(),
-        symmetry_error: determinant.symmetry_error,
-        imaginary_part: determinant.imaginary_part,
+        symmetry_error: Some(determinant.symmetry_error),
+        imaginary_part: Some(determinant.imaginary_part),
         decay: decays.iter().map(decay).collect(),
         pairing_error: worst(pairings.iter().filter_map(|pairing| pairing.error)),
         pairing_condition: worst(pairings.iter().filter_map(|pairing| pairing.condition)),
         ill_conditioned: pairings.iter().map(|pairing| pairing.left_out).sum(),
-        polarization: polarization.polarization,
-        on_circle: polarization.on_circle,
-        positive_fraction: real.as_ref().map(|_| positive),
+        polarization: Some(polarization.polarization),
+        on_circle: Some(polarization.on_circle),
+        positive_fraction: real.as_ref().map(|(zone, _)| zone.positive_fraction(grid)),
         zero_lines: traced.map(|lines| lines.lines.len()),
-        no_zero_lines: found.survey.no_lines().map(ToString::to_string),
+        no_zero_lines: survey.no_lines().map(ToString::to_string),
         lines: lines
             .iter()
             .map(|line| ZeroLineSummary {
@@ -329,8 +344,7 @@ fn summary(assembly: &Assembly, found: &FoundModes) -> BlochSummary {
         regions: traced.iter().flat_map(|lines| lines.regions.iter().map(region)).collect(),
         order_at_origin: real.as_ref().map(|(zone, _)| zone.order),
         directions: real.iter().flat_map(|(zone, _)| zone.directions().unwrap_or_default()).collect(),
-        theta,
-        strip: found.strip.as_ref().map(|strip| strip.summary.clone()),
         theta_to_zero: real.as_ref().map(|(zone, _)| zone).zip(theta).map(to_zero),
+        ..BlochSummary::default()
     }
 }

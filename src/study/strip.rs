@@ -105,7 +105,8 @@ struct Halves {
     interface: bool,
     clamped: bool,
     rigidity: [Rigidity; 2],
-    determinant: [Determinant; 2],
+    /// `None` where there is no determinant: then no rates are predicted.
+    determinant: [Option<Determinant>; 2],
 }
 
 /// Computes the strip at all wavenumbers; `None` if the observer asked to stop, or the other cell cannot be read any more.
@@ -119,7 +120,7 @@ pub(super) fn compute(
     let Ok(above) = other(context, spec) else { return Ok(None) };
     let halves = match &above {
         None => {
-            let determinant = Determinant::new(rigidity)?;
+            let determinant = determinant_of(rigidity)?;
             let strip = Strip::new(rigidity, cells)?;
             let pair = [rigidity.clone(), rigidity.clone()];
             Halves {
@@ -133,13 +134,13 @@ pub(super) fn compute(
         }
         Some(above) => {
             let upper = Rigidity::of_sheet(above, rigid)?;
-            let determinant = [Determinant::new(rigidity)?, Determinant::new(&upper)?];
+            let determinant = [determinant_of(rigidity)?, determinant_of(&upper)?];
             let strip = Strip::with_interface([context.assembly.sheet(), above], rigid, cells)?;
             Halves { strip, cells, interface: true, clamped: false, rigidity: [rigidity.clone(), upper], determinant }
         }
     };
     let halves = if spec.clamped { Halves { strip: halves.strip.clamped(), clamped: true, ..halves } } else { halves };
-    let upper = halves.interface.then(|| halves.determinant[1].clone());
+    let upper = halves.determinant[1].clone().filter(|_| halves.interface);
     let mut found = FoundStrip { rows: Vec::new(), upper, summary: StripSummary { cells, ..StripSummary::default() } };
     for (k, q1) in wavenumbers.iter().enumerate() {
         if !context.step(k, Some(wavenumbers.len())) {
@@ -154,9 +155,18 @@ pub(super) fn compute(
     Ok(Some(found))
 }
 
+/// The determinant of a cell; `None` where there is none to speak of.
+fn determinant_of(rigidity: &Rigidity) -> Result<Option<Determinant>, BlochError> {
+    match Determinant::new(rigidity) {
+        Err(error) if error.is_of_determinant() => Ok(None),
+        found => found.map(Some),
+    }
+}
+
 impl Halves {
-    fn decay(&self, half: usize, q1: f64) -> Result<Decay, BlochError> {
-        Ok(Decay::new(&self.determinant[half], 0, q1)?.refined(&self.rigidity[half]))
+    fn decay(&self, half: usize, q1: f64) -> Result<Option<Decay>, BlochError> {
+        let Some(determinant) = &self.determinant[half] else { return Ok(None) };
+        Ok(Some(Decay::new(determinant, 0, q1)?.refined(determinant, &self.rigidity[half])))
     }
 
     fn add(&self, q1: f64, found: &mut FoundStrip) -> Result<(), BlochError> {
@@ -168,6 +178,7 @@ impl Halves {
             let upper = modes.factors(last, false, 1)?;
             let both = [(Place::Lower, &below, lower), (Place::Upper, &above, upper)];
             for (place, decay, factors) in both {
+                let Some(decay) = decay else { continue };
                 let roots = bound_roots(decay, place == Place::Lower);
                 found.rows.extend(matched(&modes, place, &roots, factors));
             }
@@ -180,19 +191,21 @@ impl Halves {
             let bound = modes.bound(middle / 2..middle + (self.cells - middle) / 2)?;
             found.summary.interface_zero_modes.push(bound.zero_modes);
             found.summary.interface_self_stresses.push(bound.self_stresses);
-            let inside = [self.inside(0, q1)?, self.inside(1, q1)?];
-            found.summary.interface_predicted.push(inside[1] as i64 - inside[0] as i64);
-            if bound.zero_modes > 0 {
-                found.rows.extend(self.slowest(&modes, &below, false)?);
-                found.rows.extend(self.slowest(&modes, &above, true)?);
+            let inside = self.inside(0, q1)?.zip(self.inside(1, q1)?);
+            found.summary.interface_predicted.push(inside.map(|(below, above)| above as i64 - below as i64));
+            for (decay, upwards) in [(below, false), (above, true)] {
+                if let Some(decay) = decay.filter(|_| bound.zero_modes > 0) {
+                    found.rows.extend(self.slowest(&modes, &decay, upwards)?);
+                }
             }
         }
         Ok(())
     }
 
-    /// Number of roots inside the circle, those at zero too, where every row belongs to the lowest cell it touches.
-    fn inside(&self, half: usize, q1: f64) -> Result<usize, BlochError> {
-        self.rigidity[half].roots_inside(q1)
+    /// Number of roots inside the circle, those at zero too, where every row belongs to the lowest cell it touches; `None` without
+    /// a determinant.
+    fn inside(&self, half: usize, q1: f64) -> Result<Option<usize>, BlochError> {
+        self.determinant[half].as_ref().map(|_| self.rigidity[half].roots_inside(q1)).transpose()
     }
 
     /// The slowest rate of what is bound to the interface, measured where faster modes are gone.

@@ -37,12 +37,14 @@ fn reference_cell() {
     let folder = tempfile::tempdir().unwrap();
     let report = run(&meshes().join("star-bloch.toml"), folder.path(), false).unwrap();
     let found = result(&report);
-    assert!(report.summary.converged() && found.symmetry_error <= 1e-14 && found.pairing_error.unwrap() <= 1e-12);
+    assert!(
+        report.summary.converged() && found.symmetry_error.unwrap() <= 1e-14 && found.pairing_error.unwrap() <= 1e-12
+    );
     let decay = &found.decay[2];
     assert_eq!((decay.q1, decay.kappa2.len()), (0.9, 4));
     // the stored number, see tests/cases/open-star.json
     assert!(abs_diff_eq!(decay.kappa2[3], 0.137_712_570_259_862, epsilon = 1e-12), "{decay:?}");
-    assert_eq!((found.polarization, found.order_at_origin, found.directions.len()), ([0.0, 0.0], Some(4), 2));
+    assert_eq!((found.polarization, found.order_at_origin, found.directions.len()), (Some([0.0, 0.0]), Some(4), 2));
     assert_eq!((found.zero_lines, found.lines[0].passes), (Some(1), 2));
     let positive: f64 = found.regions.iter().filter(|region| region.sign > 0).map(|region| region.fraction).sum();
     assert_abs_diff_eq!(positive, found.positive_fraction.unwrap(), epsilon = 0.01);
@@ -67,10 +69,12 @@ fn kirigami_cell() {
     let report = run(&meshes().join("kirigami-bloch.toml"), folder.path(), false).unwrap();
     let found = result(&report);
     assert!(
-        found.pairing_error.unwrap() > 0.1 && found.symmetry_error > 0.1 && found.imaginary_part > 0.1,
+        found.pairing_error.unwrap() > 0.1
+            && found.symmetry_error.unwrap() > 0.1
+            && found.imaginary_part.unwrap() > 0.1,
         "{found:?}"
     );
-    assert_eq!((found.polarization, found.on_circle), ([0.5, 0.5], [0.0, 0.0]));
+    assert_eq!((found.polarization, found.on_circle), (Some([0.5, 0.5]), Some([0.0, 0.0])));
     assert_eq!((found.zero_lines, found.positive_fraction, found.order_at_origin), (None, None, None));
 }
 
@@ -80,7 +84,7 @@ fn kirigami_cell() {
 fn polygons_cut_by_the_rim_are_rigid() {
     let folder = tempfile::tempdir().unwrap();
     let report = run(&meshes().join("kirigami-polarized-bloch.toml"), folder.path(), false).unwrap();
-    assert_eq!((result(&report).polarization, result(&report).on_circle), ([-1.0, 1.5], [0.0, 0.0]));
+    assert_eq!((result(&report).polarization, result(&report).on_circle), (Some([-1.0, 1.5]), Some([0.0, 0.0])));
 }
 
 /// Claim: the scene of the cylinder gives modes of the rolled state: a determinant that vanishes to second order at `q
@@ -91,9 +95,11 @@ fn cylinder() {
     let folder = tempfile::tempdir().unwrap();
     let report = run(&meshes().join("star-cylinder-bloch.toml"), folder.path(), false).unwrap();
     let Some(StudyResult::Bloch(found)) = &report.summary.studies[1].result else { panic!("{:?}", report.summary) };
-    assert!(report.summary.converged() && found.symmetry_error <= 1e-12 && found.pairing_error.unwrap() <= 1e-9);
+    assert!(
+        report.summary.converged() && found.symmetry_error.unwrap() <= 1e-12 && found.pairing_error.unwrap() <= 1e-9
+    );
     println!("theta {:?}, from a zero {:e}", found.theta, found.theta_to_zero.unwrap());
-    assert_eq!((found.order_at_origin, found.polarization), (Some(2), [0.0, 0.0]));
+    assert_eq!((found.order_at_origin, found.polarization), (Some(2), Some([0.0, 0.0])));
     assert!(found.theta.unwrap().iter().all(|theta| theta.abs() > 0.01));
     assert!(found.theta_to_zero.unwrap() <= 1e-12, "{:?}", found.theta_to_zero);
     let picture = std::fs::read_to_string(folder.path().join("modes.svg")).unwrap();
@@ -139,7 +145,7 @@ fn strips_and_interfaces() {
     assert!(counts.lines().nth(1).unwrap().starts_with("0.0,0.0,3,3,3,"), "{counts}");
     let report = run(&meshes().join("kirigami-interface.toml"), folder.path(), false).unwrap();
     let strip = result(&report).strip.clone().unwrap();
-    assert_eq!((strip.interface_zero_modes, strip.interface_predicted), (vec![3; 3], vec![3; 3]));
+    assert_eq!((strip.interface_zero_modes, strip.interface_predicted), (vec![3; 3], vec![Some(3); 3]));
     assert_eq!((strip.interface_self_stresses, strip.unmatched), (vec![0; 3], 0));
     assert!(strip.error.unwrap() <= 1e-6, "{:?}", strip.error);
 }

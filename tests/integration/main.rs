@@ -17,7 +17,11 @@ mod bent;
 mod bloch;
 mod bloch_runs;
 mod branches;
+<<<<<<< HEAD
 mod certificates;
+=======
+mod cell_drawings;
+>>>>>>> h4
 mod circles;
 mod command_line;
 mod corpus;

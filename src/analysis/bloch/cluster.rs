@@ -5,10 +5,12 @@
 //! `G = W^H R V` is their diagonal there and has the derivative `G' = W^H dR V` by `log z`: what couples these vectors to the
 //! others vanishes at `z` on both sides, so that it enters with the square of a step. The eigenvalues of `-G'^-1 G` are
 //! therefore Newton steps to the `m` roots near by. Where `R` has `m` null vectors at a root of multiplicity `m`, `G'` is
-//! invertible there and all of them end at one point.
+//! invertible there and all of them end at one point. Where `R` has fewer null vectors, the roots coincide as far as the
+//! determinant's coefficients tell and are then found as a zero of its derivative.
 
-use super::Rigidity;
+use super::rigidity::TERM;
 use super::root::Root;
+use super::{Laurent, Rigidity};
 use crate::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
 use crate::numerics::dense::small::inverse;
 use nalgebra::Complex;
@@ -63,6 +65,51 @@ pub(crate) fn on_matrix(rigidity: &Rigidity, mut z: [Complex<f64>; 2], a: usize,
         }
     }
     None
+}
+
+/// The root of a multiplicity `count` near `start`, along `z_b` at `z_a = exp(i q)`, of a determinant whose matrix may have fewer null
+/// vectors there.
+///
+/// Where `p` has such a root, its derivative of order `count - 1` by `log z` has a simple one, which the coefficients know to all
+/// digits. `None` where one of the lower derivatives is there more than the rounding of the coefficients.
+pub(crate) fn of_polynomial(
+    polynomial: &Laurent,
+    (a, q): (usize, f64),
+    start: Complex<f64>,
+    count: usize,
+) -> Option<Root> {
+    let (coefficients, sizes) = (polynomial.along(a, q), polynomial.sizes(a));
+    let largest = polynomial.largest();
+    let derivative = |z: Complex<f64>, order: usize| -> (Complex<f64>, f64) {
+        let (mut value, mut size) = (Complex::ZERO, 0.0);
+        for (k, (c, bound)) in coefficients.iter().zip(&sizes).enumerate() {
+            let power = polynomial.lowest[1 - a] + k as f64;
+            let factor = z.powf(power) * power.powi(order as i32);
+            value += c * factor;
+            // every coefficient carries the rounding of the largest
+            size += bound.max(largest) * factor.norm();
+        }
+        (value, size)
+    };
+    let mut z = start;
+    for _ in 0..STEPS {
+        let step: Complex<f64> = -derivative(z, count - 1).0 / derivative(z, count).0;
+        z *= step.exp();
+    }
+    let vanishes = |order: usize| {
+        let (value, size) = derivative(z, order);
+        value.norm() <= ROUNDINGS * f64::EPSILON * size
+    };
+    let near = (z / start).ln().norm() <= FARTHEST;
+    let condition = derivative(z, count - 1).1 / derivative(z, count).0.norm();
+    (near && condition.is_finite() && (0..count).all(vanishes)).then_some(Root { z, condition, multiplicity: count })
+}
+
+/// Whether the matrix has a null vector up to rounding.
+pub(crate) fn is_singular(rigidity: &Rigidity, z: [Complex<f64>; 2]) -> bool {
+    let values = complex_svd(&rigidity.at(z)).map(|found| found.singular_values).unwrap_or_default();
+    let ends = values.first().zip(values.last());
+    ends.is_some_and(|(most, least)| *least <= ROUNDINGS * f64::EPSILON * most.max(TERM))
 }
 
 /// Newton steps from one place to all roots of a cluster.

@@ -4,11 +4,12 @@
 //! `q` there are as many zero modes as self stresses at `-q` where bars and coordinates balance (C. L. Kane, T. C. Lubensky,
 //! Nature Physics 10, 39 (2014); McInerney and others, PNAS 117, 30252 (2020), equation 16).
 
+use super::rigidity::TERM;
 use super::{BlochError, Rigidity};
 use crate::numerics::complex::{ComplexMatrix, complex_svd};
 use nalgebra::Complex;
 
-/// Singular values below this part of the largest are zero.
+/// Singular values below this part of the largest, or of the terms of the matrix, are zero.
 const ZERO: f64 = 1e-11;
 
 /// The numbers at one wavenumber.
@@ -55,9 +56,9 @@ impl Counts {
 /// The number of null vectors of a square matrix, and how clearly they stand out.
 fn nullity(matrix: &ComplexMatrix) -> Result<(usize, f64), BlochError> {
     let values = complex_svd(matrix)?.singular_values;
-    let largest = values.first().copied().unwrap_or(0.0);
+    let largest = values.first().copied().unwrap_or(0.0).max(TERM);
     let rank = values.iter().filter(|value| **value > ZERO * largest).count();
-    let kept = rank.checked_sub(1).map_or(0.0, |last| values[last]);
+    let kept = rank.checked_sub(1).map_or(TERM, |last| values[last]);
     let dropped = values.get(rank).copied().unwrap_or(0.0).max(f64::EPSILON * largest);
     Ok((values.len() - rank, kept / dropped))
 }

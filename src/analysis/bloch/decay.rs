@@ -6,7 +6,7 @@
 
 use super::root::Root;
 use super::singular::Search;
-use super::{BlochError, Determinant, Rigidity, cluster};
+use super::{BlochError, Determinant, Laurent, Rigidity, cluster};
 use crate::numerics::polynomial::{Roots, roots, value_and_slope};
 use crate::numerics::{larger, worst};
 use nalgebra::Complex;
@@ -15,6 +15,8 @@ use nalgebra::Complex;
 pub const WELL_CONDITIONED: f64 = 1e5;
 /// Roots of a larger condition number are corrected on the matrix.
 const WELL_KNOWN: f64 = 1e3;
+/// Coefficients at a wavenumber below this part of the terms that cancel in them are rounding.
+const CANCELLED: f64 = 1e-13;
 
 /// All roots at one wavenumber.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +31,8 @@ pub struct Decay {
     pub at_zero: usize,
     /// Roots that are infinite: modes of the last cell alone.
     pub at_infinity: usize,
+    /// Whether the determinant vanishes at this wavenumber for every factor along the other direction: then there are no roots.
+    pub vanishes: bool,
 }
 
 /// How well decay rates of opposite sign pair.
@@ -46,12 +50,16 @@ impl Decay {
     /// The roots `z2` at `z1 = exp(i q)` (`a` = 0), or `z1` at `z2 = exp(i q)` (`a` = 1).
     ///
     /// # Errors
-    /// [`BlochError`] where the determinant vanishes for all of them.
+    /// [`BlochError`] where the wavenumber is not finite, and where no roots are found.
     pub fn new(determinant: &Determinant, a: usize, q: f64) -> Result<Self, BlochError> {
         let polynomial = &determinant.polynomial;
         let (coefficients, sizes) = (polynomial.along(a, q), polynomial.sizes(a));
-        let Roots { finite, at_zero, at_infinity } = roots(&coefficients)?;
         let largest = polynomial.largest();
+        let left = coefficients.iter().zip(&sizes).all(|(c, size)| c.norm() <= CANCELLED * size.max(largest));
+        if left {
+            return Ok(Self { q, along: a, roots: Vec::new(), at_zero: 0, at_infinity: 0, vanishes: true });
+        }
+        let Roots { finite, at_zero, at_infinity } = roots(&coefficients)?;
         let condition = |z: Complex<f64>| {
             // every coefficient carries the rounding of the largest
             let size: f64 = sizes
@@ -65,14 +73,14 @@ impl Decay {
         let mut roots: Vec<Root> =
             finite.into_iter().map(|z| Root { z, condition: condition(z), multiplicity: 1 }).collect();
         roots.sort_by(|a, b| a.kappa().total_cmp(&b.kappa()));
-        Ok(Self { q, along: a, roots, at_zero, at_infinity })
+        Ok(Self { q, along: a, roots, at_zero, at_infinity, vanishes: false })
     }
 
     /// The roots corrected on the matrix of which they are, those that the polynomial knows to less than twelve digits:
     /// the condition is then that of the matrix. Roots that coincide are corrected together. A root to which the matrix
     /// leads from two others stays as it is, and so does one from which it leads nowhere.
-    pub fn refined(mut self, rigidity: &Rigidity) -> Self {
-        let together = self.refine_clusters(rigidity);
+    pub fn refined(mut self, determinant: &Determinant, rigidity: &Rigidity) -> Self {
+        let together = self.refine_clusters(&determinant.polynomial, rigidity);
         let mut search = Search::new(rigidity);
         let corrected = |(k, root): (usize, &Root)| {
             let wanted = root.condition > WELL_KNOWN && !together.contains(&k);
@@ -98,7 +106,7 @@ impl Decay {
     }
 
     /// Corrects roots that coincide, and says which were corrected.
-    fn refine_clusters(&mut self, rigidity: &Rigidity) -> Vec<usize> {
+    fn refine_clusters(&mut self, polynomial: &Laurent, rigidity: &Rigidity) -> Vec<usize> {
         let mut done = Vec::new();
         for cluster in cluster::clusters(&self.roots) {
             // the sum of the roots of a cluster is known to all digits where each by itself is not
@@ -106,6 +114,10 @@ impl Decay {
             let ways = cluster.iter().map(|&k| (self.roots[k].z / first).ln());
             let middle = first * (ways.sum::<Complex<f64>>() / cluster.len() as f64).exp();
             let found = cluster::on_matrix(rigidity, self.at(middle), 1 - self.along, cluster.len());
+            let found = found.or_else(|| {
+                let root = cluster::of_polynomial(polynomial, (self.along, self.q), middle, cluster.len())?;
+                cluster::is_singular(rigidity, self.at(root.z)).then(|| vec![root; cluster.len()])
+            });
             for (k, root) in cluster.into_iter().zip(found.into_iter().flatten()) {
                 self.roots[k] = root;
                 done.push(k);

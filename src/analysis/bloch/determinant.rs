@@ -6,7 +6,7 @@
 //! are opposite.
 
 use super::laurent::Laurent;
-use super::{BlochError, Rigidity};
+use super::{BlochError, Counts, Rigidity};
 use crate::numerics::DenseMatrix;
 use crate::numerics::complex::ComplexMatrix;
 use crate::numerics::fourier;
@@ -46,8 +46,8 @@ impl Determinant {
     /// The determinant of a rigidity matrix.
     ///
     /// # Errors
-    /// [`BlochError`] where the matrix is not square, and where the determinant is nothing but rounding: it vanishes
-    /// identically, as for a flat sheet, or the cell is too ill-conditioned.
+    /// [`BlochError`] where the matrix is not square, where the determinant [vanishes](BlochError::Vanishes) identically, as
+    /// for a flat sheet, and where it is [nothing but rounding](BlochError::NoDeterminant).
     pub fn new(rigidity: &Rigidity) -> Result<Self, BlochError> {
         rigidity.require_square()?;
         let lowest = [0, 1].map(|a| rigidity.powers(a)[0]);
@@ -59,7 +59,12 @@ impl Determinant {
         let polynomial = cropped(&coefficients, center.twice);
         let error = difference(rigidity, &polynomial, absolute)? / largest;
         if !(error <= UNKNOWN) {
-            return Err(BlochError::NoDeterminant { error, limit: UNKNOWN });
+            let at = |turns: [f64; 2]| Counts::at(rigidity, turns.map(|turn| TAU * turn));
+            let counts = COMPARED.into_iter().map(at).collect::<Result<Vec<_>, _>>()?;
+            return Err(match counts.iter().map(|count| count.zero_modes).min() {
+                Some(zero_modes) if zero_modes > 0 => BlochError::Vanishes { compared: COMPARED.len(), zero_modes },
+                _ => BlochError::NoDeterminant { error, limit: UNKNOWN },
+            });
         }
         let symmetry_error = asymmetry(&polynomial);
         let imaginary_part = imaginary(&values, absolute) / largest;

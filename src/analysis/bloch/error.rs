@@ -18,10 +18,20 @@ pub enum BlochError {
         /// Coordinates of a cell.
         columns: usize,
     },
-    /// The determinant is rounding.
+    /// The determinant is zero for all Bloch factors.
     #[error(
-        "the determinant is known to {error:.1e} of its size only, more than {limit:e}: it vanishes at all \
-         wavenumbers, as for a flat sheet, or the cell is too ill-conditioned"
+        "the determinant vanishes at all wavenumbers: the rigidity matrix has zero modes at each of {compared} generic ones, \
+         {zero_modes} or more"
+    )]
+    Vanishes {
+        /// Wavenumbers that were looked at.
+        compared: usize,
+        /// Fewest zero modes at one of them.
+        zero_modes: usize,
+    },
+    /// The determinant is rounding, although there are wavenumbers without zero modes.
+    #[error(
+        "the determinant is known to {error:.1e} of its size only, more than {limit:e}: the cell is too ill-conditioned"
     )]
     NoDeterminant {
         /// Difference to the matrix over the largest magnitude.
@@ -81,6 +91,13 @@ pub enum BlochError {
     /// The linear folding modes are not known.
     #[error(transparent)]
     Kinematics(#[from] KinematicsError),
+}
+
+impl BlochError {
+    /// Whether this says that there is no determinant to speak of, so that what needs one does not exist.
+    pub(crate) fn is_of_determinant(&self) -> bool {
+        matches!(self, Self::Vanishes { .. } | Self::NoDeterminant { .. })
+    }
 }
 
 fn contradiction(edges: usize) -> String {

@@ -44,20 +44,24 @@ impl Count {
 }
 
 impl Polarization {
-    /// The polarization, from this many wavenumbers along each direction.
+    /// The polarization, from this many wavenumbers along each direction; those at which the determinant vanishes for every other
+    /// factor are left out.
     ///
     /// # Errors
     /// [`BlochError`] where the determinant cannot be computed.
     pub fn new(determinant: &Determinant, samples: usize) -> Result<Self, BlochError> {
         let mut found = Self::default();
         for a in 0..2 {
+            let mut known = 0;
             for k in 0..samples {
-                let count = Count::of(&Decay::new(determinant, 1 - a, wavenumber(k, samples))?);
+                let decay = Decay::new(determinant, 1 - a, wavenumber(k, samples))?;
+                let count = Count::of(&decay);
+                known += usize::from(!decay.vanishes);
                 found.polarization[a] += 0.5 * (count.inside as f64 - count.outside as f64);
                 found.on_circle[a] += count.on_circle as f64;
             }
-            found.polarization[a] /= samples as f64;
-            found.on_circle[a] /= samples as f64;
+            found.polarization[a] /= known.max(1) as f64;
+            found.on_circle[a] /= known.max(1) as f64;
         }
         Ok(found)
     }

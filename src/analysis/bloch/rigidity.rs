@@ -18,6 +18,10 @@ use crate::numerics::complex::{ComplexMatrix, determinant};
 use crate::sheet::{Corner, EdgeKey, EdgeKind, Sheet};
 use nalgebra::{Complex, Matrix3, Rotation3};
 
+/// Magnitude of the terms of which entries of the matrix are sums at real wavenumbers: directions, which cancel where both ends
+/// of a bar are copies of one vertex.
+pub(crate) const TERM: f64 = 1.0;
+
 /// One condition on the displacements: the sum of `direction . u` over some corners is zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {

@@ -10,7 +10,7 @@
 //! less the self stresses bound to it are `w(above) - w(below)`: the index of half a sheet of the upper cell is `w`, that
 //! of half a sheet of the lower one, with all its rows, `-w` (C. L. Kane, T. C. Lubensky, Nature Physics 10, 39 (2014)).
 
-use super::rigidity::Row;
+use super::rigidity::{Row, TERM};
 use super::{BlochError, Rigidity};
 use crate::numerics::complex::{ComplexMatrix, ComplexSvd, complex_svd, eigenvalues};
 use crate::sheet::{Corner, Sheet};
@@ -18,7 +18,7 @@ use nalgebra::Complex;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Singular values below this part of the largest are zero.
+/// Singular values below this part of the largest, or of the terms of the matrix, are zero.
 const ZERO: f64 = 1e-11;
 /// Smallest ratio between the smallest singular value that is kept and the largest that is dropped.
 const SMALLEST_GAP: f64 = 1e3;
@@ -182,10 +182,10 @@ impl Strip {
         let (size, width) = (matrix.ncols(), self.below.columns());
         let columns = width * self.cells;
         let ComplexSvd { u, singular_values, v } = complex_svd(&matrix)?;
-        let largest = singular_values[0];
+        let largest = singular_values.first().copied().unwrap_or(0.0).max(TERM);
         let rank = singular_values.iter().filter(|value| **value > ZERO * largest).count();
         let dropped = singular_values.get(rank).map_or(0.0, |value| *value).max(f64::EPSILON * largest);
-        let gap = singular_values[rank - 1] / dropped;
+        let gap = rank.checked_sub(1).map_or(TERM, |last| singular_values[last]) / dropped;
         if !(gap >= SMALLEST_GAP) {
             return Err(BlochError::StripRank { q1, gap });
         }

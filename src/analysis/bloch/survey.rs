@@ -81,7 +81,7 @@ pub fn survey(
     if !go_on(1) {
         return Ok(None);
     }
-    let decay = |q1: &f64| Decay::new(&determinant, 0, *q1).map(|decay| decay.refined(rigidity));
+    let decay = |q1: &f64| Decay::new(&determinant, 0, *q1).map(|decay| decay.refined(&determinant, rigidity));
     let decays = options.wavenumbers.iter().map(decay).collect::<Result<_, _>>()?;
     if !go_on(2) {
         return Ok(None);
@@ -108,7 +108,7 @@ pub fn survey(
 fn shapes(rigidity: &Rigidity, named: &[[f64; 2]], determinant: &Determinant) -> Result<Vec<ModeShape>, BlochError> {
     let mut found = Vec::new();
     for [q1, kappa2] in named {
-        let decay = Decay::new(determinant, 0, *q1)?.refined(rigidity);
+        let decay = Decay::new(determinant, 0, *q1)?.refined(determinant, rigidity);
         let away = |root: &Root| (root.kappa() - kappa2).abs();
         if let Some(root) = decay.roots.iter().min_by(|a, b| away(a).total_cmp(&away(b))) {
             found.push(ModeShape::new(rigidity, [Complex::from_polar(1.0, *q1), root.z])?);

@@ -5,7 +5,7 @@
 //! that add up to zero are taken out: `cos t - 1`, or `cos t - 1 + t^2/2` by its series. So signs, zeros and directions
 //! of lines are right at any distance from `q = 0`.
 
-use super::laurent::Laurent;
+use super::laurent::{Laurent, wavenumber};
 use super::{BlochError, Determinant};
 use crate::numerics::polynomial::roots;
 use nalgebra::Complex;
@@ -15,6 +15,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 const ZERO: f64 = 1e-9;
 /// Wavenumbers below this are near `q = 0`.
 const SMALL_WAVENUMBER: f64 = 0.5;
+/// The sign of a value of so many times its uncertainty is certain.
+const CERTAIN: f64 = 10.0;
 /// Relative imaginary part of a root that is real up to rounding.
 const REAL: f64 = 1e-7;
 
@@ -69,6 +71,19 @@ impl Zone {
         let parts = self.parts(q);
         let squares = self.terms.iter().map(|[m, n, _]| remainder(m * q[0] + n * q[1], parts).0.powi(2));
         self.rounding * (squares.sum::<f64>() / self.terms.len() as f64).sqrt()
+    }
+
+    /// Part of the wavenumbers of a grid at which the value is positive, among those at which its sign is certain.
+    pub fn positive_fraction(&self, [n1, n2]: [usize; 2]) -> f64 {
+        let mut signs = [0usize; 2];
+        for k in 0..n1 * n2 {
+            let q = [wavenumber(k % n1, n1), wavenumber(k / n1, n2)];
+            let value = self.at(q).0;
+            if value.abs() > CERTAIN * self.uncertainty(q) {
+                signs[usize::from(value > 0.0)] += 1;
+            }
+        }
+        signs[1] as f64 / (signs[0] + signs[1]).max(1) as f64
     }
 
     /// Second derivatives, `[11, 22, 12]`.

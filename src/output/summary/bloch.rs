@@ -7,13 +7,17 @@ use serde::{Deserialize, Serialize};
 /// Spatially varying modes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BlochSummary {
-    /// `[m, n, c]` of the centred determinant `sum c z1^m z2^n`.
+    /// `[m, n, c]` of the centred determinant `sum c z1^m z2^n`; empty where there is none.
     pub determinant: Vec<[f64; 3]>,
-    /// Largest `|c_mn - c_-m,-n|` over the largest coefficient.
-    pub symmetry_error: f64,
-    /// Largest imaginary part on the zone over the largest magnitude.
-    pub imaginary_part: f64,
-    /// At every given `q1`.
+    /// Why there is no determinant, so that all that is read off it is null or empty: it vanishes at all wavenumbers, or is rounding;
+    /// null where there is one.
+    #[serde(default)]
+    pub no_determinant: Option<String>,
+    /// Largest `|c_mn - c_-m,-n|` over the largest coefficient; null without a determinant.
+    pub symmetry_error: Option<f64>,
+    /// Largest imaginary part on the zone over the largest magnitude; null without a determinant.
+    pub imaginary_part: Option<f64>,
+    /// At every given `q1`; empty without a determinant.
     pub decay: Vec<DecaySummary>,
     /// Largest `|kappa2 + kappa2'|` of a pair; null where no pair is known well enough to be compared.
     pub pairing_error: Option<f64>,
@@ -21,11 +25,13 @@ pub struct BlochSummary {
     pub pairing_condition: Option<f64>,
     /// Roots left out of the pairing, whose condition is larger.
     pub ill_conditioned: usize,
-    /// Half the difference of the numbers of roots `z1`, `z2` inside and outside the unit circle, averaged.
-    pub polarization: [f64; 2],
-    /// Mean numbers of roots on the unit circle.
-    pub on_circle: [f64; 2],
-    /// Part of the zone in which the determinant is positive; null where it is not real.
+    /// Half the difference of the numbers of roots `z1`, `z2` inside and outside the unit circle, averaged; null without a
+    /// determinant.
+    pub polarization: Option<[f64; 2]>,
+    /// Mean numbers of roots on the unit circle; null without a determinant.
+    pub on_circle: Option<[f64; 2]>,
+    /// Part of the wavenumbers of the grid at which the determinant is positive, among those at which its sign is certain; null
+    /// where it is not real.
     pub positive_fraction: Option<f64>,
     /// Number of lines of zeros in the zone; null where the determinant is not real, and none were looked for, or where they could
     /// not be followed.
@@ -74,8 +80,9 @@ pub struct StripSummary {
     pub interface_zero_modes: Vec<usize>,
     /// Self stresses bound to the interface.
     pub interface_self_stresses: Vec<usize>,
-    /// Zero modes less self stresses that the winding numbers of both determinants predict.
-    pub interface_predicted: Vec<i64>,
+    /// Zero modes less self stresses that the winding numbers of both determinants predict; null where one of them vanishes at
+    /// all wavenumbers.
+    pub interface_predicted: Vec<Option<i64>>,
 }
 
 /// Roots at one wavenumber.
@@ -89,6 +96,9 @@ pub struct DecaySummary {
     pub condition: Vec<f64>,
     /// How many roots coincide with every root, itself among them, as far as the rigidity matrix tells.
     pub multiplicity: Vec<usize>,
+    /// Whether the determinant vanishes at this wavenumber for every `z2`, so that there are no roots.
+    #[serde(default)]
+    pub vanishes: bool,
 }
 
 /// A line of zeros of the determinant.
