@@ -4,13 +4,8 @@ mod counted;
 mod sweep;
 
 use foldwell::output::summary::{
-<<<<<<< HEAD
     BranchChoiceSummary, BranchesSummary, HalfBranchesSummary, ModesSummary, PathSummary, RelaxSummary,
-    ResponseSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
-=======
-    BranchChoiceSummary, BranchesSummary, ModesSummary, PathSummary, RelaxSummary, ResponseSummary, SeamMotionsSummary,
-    StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
->>>>>>> h4
+    ResponseSummary, SeamMotionsSummary, StudyResult, StudySummary, SurfaceSummary, TraceSummary, WellsSummary,
 };
 use foldwell::run::RunReport;
 use std::fmt::Write as _;

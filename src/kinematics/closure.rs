@@ -18,13 +18,11 @@ use nalgebra::{DVector, Matrix3};
 mod opening;
 mod second_derivative;
 
-<<<<<<< HEAD
+use opening::Opening;
+
 /// Magnitude of the terms of which the entries of the Jacobian are sums: directions of edges. An edge between two copies of one
 /// vertex has two terms, which cancel where it passes straight through.
 pub(crate) const DIRECTION: f64 = 1.0;
-=======
-use opening::Opening;
->>>>>>> h3
 
 /// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
 ///
@@ -232,7 +230,6 @@ impl Closure {
         jacobian
     }
 
-<<<<<<< HEAD
     /// Returns the linear motions of a closed state: the null space of the [`jacobian`](Self::jacobian).
     ///
     /// # Errors
@@ -244,10 +241,7 @@ impl Closure {
         null_space_of_sums(&self.jacobian(angles), DIRECTION)
     }
 
-    /// Writes the [`residual`](Self::residual) into a slice of three numbers per interior vertex, without allocation.
-=======
     /// Writes the [`residual`](Self::residual) into a slice of as many numbers, without allocation.
->>>>>>> h3
     /// # Panics
     /// If `angles` or `residual` has the wrong length.
     pub fn residual_into(&self, angles: &[f64], residual: &mut [f64]) {

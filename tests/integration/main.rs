@@ -17,11 +17,8 @@ mod bent;
 mod bloch;
 mod bloch_runs;
 mod branches;
-<<<<<<< HEAD
-mod certificates;
-=======
 mod cell_drawings;
->>>>>>> h4
+mod certificates;
 mod circles;
 mod command_line;
 mod corpus;
