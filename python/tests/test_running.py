@@ -135,13 +135,13 @@ def test_ctrl_c_stops_a_study():
 @pytest.mark.parametrize(
     "work",
     [
-        'fw.generate("kresling", sides=2000, levels=2000)',
+        'fw.generate("kresling", sides=1000, levels=700)',
         "fw.Sheet.read(path)",
         "fw.convert(path, path.with_suffix('.obj'))",
     ],
 )
 def test_ctrl_c_stops_work_on_sheets(work, tmp_path):
-    """Reading, converting and generating take a minute or more here; Ctrl-C raises at once, and threads of Python go on."""
+    """Reading, converting and generating take many seconds here; Ctrl-C raises at once, and threads of Python go on."""
     path = tmp_path / "long.fold"
     code = f"import foldwell as fw, threading, time\nfrom pathlib import Path\npath = Path({str(path)!r})\n"
     code += "ticks = [0]\ndef tick():\n    while True:\n        time.sleep(0.01)\n        ticks[0] += 1\n"
