@@ -59,7 +59,10 @@ fn scenes_of_the_book() {
             assert!(soft.ratio.unwrap() <= 1.0 + 1e-12 && soft.ratio.unwrap() > 0.5);
         }
         let (header, rows) = table(&folder.path().join("elastic-ratios.csv"));
-        assert_eq!((header.join(","), rows.len()), ("direction,in_plane,bending".to_owned(), 72));
+        assert_eq!(
+            (header.join(","), rows.len()),
+            ("direction,in_plane,bending,no_in_plane,no_bending".to_owned(), 72)
+        );
         for row in &rows {
             let (s, c) = row[0].sin_cos();
             let expected = -(s * s - c * c * in_plane) / (c * c - s * s * in_plane);
