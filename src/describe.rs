@@ -27,8 +27,9 @@ pub(crate) fn describe_run(report: &RunReport) -> String {
 
 /// Describes energy and residuals, and warns if the state is unstable, if faces pass through each other, or if other
 /// branches leave the start.
-fn describe_relaxation(relax: &RelaxSummary) -> String {
+fn describe_relaxation(relax: &RelaxSummary, converged: bool) -> String {
     let unstable = match relax.negative_eigenvalues {
+        None if converged => ", whether it is stable is not known".to_owned(),
         None | Some(0) => String::new(),
         Some(count) => format!(", not stable ({})", counted(count, "negative eigenvalue")),
     };
@@ -197,7 +198,7 @@ fn describe_response(response: &ResponseSummary) -> String {
 
 fn describe_study(study: &StudySummary) -> String {
     let what = match &study.result {
-        Some(StudyResult::Relax(relax)) => describe_relaxation(relax),
+        Some(StudyResult::Relax(relax)) => describe_relaxation(relax, study.converged),
         Some(StudyResult::Modes(modes)) => describe_modes(modes),
         Some(StudyResult::Branches(branches)) => describe_branches(branches),
         Some(StudyResult::Trace(traced)) => describe_trace(traced),

@@ -34,7 +34,8 @@ pub struct RelaxSummary {
     /// Largest error of a length over the mean edge; null where a relaxation failed before it was known.
     #[schemars(with = "Option<f64>")]
     pub residual_length: f64,
-    /// Negative eigenvalues of the energy's Hessian on what the rigid terms leave free; null where it did not converge.
+    /// Negative eigenvalues of the energy's Hessian on what the rigid terms leave free; null where it did not converge, or where their number
+    /// cannot be established.
     pub negative_eigenvalues: Option<usize>,
     /// Redundant rigid terms; null where they were not counted.
     pub self_stresses: Option<usize>,
