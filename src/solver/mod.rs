@@ -114,6 +114,6 @@ pub use implicit::Implicit;
 pub use layout::Layout;
 pub use linearization::{HessianKind, Linearization, SoftElement};
 pub use newton::{Equilibrium, Failure, Iterate, NewtonError, Options, Start, Step, minimize, minimize_iterates};
-pub use problem::{Problem, Residuals};
+pub use problem::{Collapse, Problem, Residuals};
 pub use stationary::{StationaryPoint, stationary_point};
 pub use tangent::Tangent;

@@ -2,9 +2,9 @@
 
 use super::layout::Layout;
 use super::linearization::{HessianKind, Linearization};
-use super::newton::Failure;
 use crate::numerics::larger;
 use std::sync::Arc;
+use thiserror::Error;
 
 /// A soft energy with stiff measures: minimise `E(x) + sum_r m_r(x)^2 / (2 c_r)`.
 pub trait Problem {
@@ -34,7 +34,7 @@ pub trait Problem {
         true
     }
     /// Why a state is none of which derivatives tell anything, as one with a triangle without height; `None` for other states.
-    fn breakdown(&self, _x: &[f64]) -> Option<Failure> {
+    fn breakdown(&self, _x: &[f64]) -> Option<Collapse> {
         None
     }
     /// Sees every accepted state; may write the same state in other coordinates.
@@ -44,6 +44,20 @@ pub trait Problem {
     fn relieve(&mut self, _x: &mut [f64]) -> f64 {
         0.0
     }
+}
+
+/// A triangle that has lost its height, so that fold angles beside it mean nothing.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error(
+    "the triangle of vertices {}, {} and {} has collapsed: its height is {quality:.0e} of its longest side, and fold angles mean \
+     nothing beside it. Stiffer bars keep it open, or a start nearer to the equilibrium",
+    vertices[0], vertices[1], vertices[2]
+)]
+pub struct Collapse {
+    /// Numbers of its vertices, copies of the cell numbered one after the other.
+    pub vertices: [usize; 3],
+    /// Least height over longest side.
+    pub quality: f64,
 }
 
 /// Distance of a state from equilibrium. A component is not a number where one of the numbers it is made of is none.

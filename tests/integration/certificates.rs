@@ -149,7 +149,7 @@ fn steps_that_are_short_lead_to_equilibria() {
         assert!(found.residual_force <= 1e-12 && found.negative_eigenvalues == Some(0));
     }
     let failed = hypar(1e2, 1.0).unwrap_err();
-    assert!(matches!(failed, Failure::Collapsed { quality, .. } if quality < 1e-6), "{failed}");
+    assert!(matches!(failed, Failure::Collapsed(triangle) if triangle.quality < 1e-6), "{failed}");
 }
 
 /// Claim: pieces of a sheet come to rest each for itself, without pins and with pins on one of them only: two copies side by side have

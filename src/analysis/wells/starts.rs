@@ -107,7 +107,7 @@ fn reason_of(failure: &Failure) -> &'static str {
     match failure {
         Failure::Infeasible { .. } => "the rigid measures cannot be met",
         Failure::SingularStart => "singular start",
-        Failure::Collapsed { .. } => "a triangle collapsed",
+        Failure::Collapsed(_) => "a triangle collapsed",
         Failure::Unbounded { .. } => "the forces cannot balance with rigid bars",
         Failure::Stuck { .. } => "no step lowers the energy",
         Failure::TooManySteps { .. } => "too many steps",

@@ -5,7 +5,7 @@ use crate::model::Site;
 use crate::model::element::{Elements, Local};
 use crate::numerics::parallel;
 use crate::numerics::vector::max_abs;
-use crate::solver::{Failure, HessianKind, Layout, Linearization, Problem, SoftElement};
+use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem, SoftElement};
 use std::sync::Arc;
 
 /// Angle in radians whose torque is the least force to which residuals are relative: if every hinge is closer to rest
@@ -82,7 +82,7 @@ impl Problem for Model {
         self.turns_no_hinge_too_far(from, to)
     }
 
-    fn breakdown(&self, x: &[f64]) -> Option<Failure> {
+    fn breakdown(&self, x: &[f64]) -> Option<Collapse> {
         self.collapsed(x)
     }
 

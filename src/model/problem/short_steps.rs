@@ -6,7 +6,7 @@
 use super::Model;
 use crate::math::Vec3;
 use crate::model::element::Elements;
-use crate::solver::Failure;
+use crate::solver::Collapse;
 
 /// Part of its height over a hinge that a triangle must keep in one step.
 const KEPT_HEIGHT: f64 = 0.4;
@@ -17,13 +17,13 @@ const LARGEST_TURN_RAD: f64 = 1.0;
 const COLLAPSED: f64 = 1e-6;
 
 impl Model {
-    /// The failure of a state in which the thinnest triangle beside a hinge has no height to speak of; `None` for other states.
-    pub(super) fn collapsed(&self, x: &[f64]) -> Option<Failure> {
+    /// The thinnest triangle beside a hinge in a state, where it has no height to speak of.
+    pub(super) fn collapsed(&self, x: &[f64]) -> Option<Collapse> {
         let coordinates = self.coordinates(x);
         let triangles =
             self.hinges().flat_map(|(term, k)| [2, 3].map(|wing| self.triangle(term, k, wing, &coordinates)));
         let (quality, vertices) = triangles.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (quality < COLLAPSED).then_some(Failure::Collapsed { vertices, quality })
+        (quality < COLLAPSED).then_some(Collapse { vertices, quality })
     }
 
     /// Least height over longest side of the triangle of a hinge with one of its wings, the third or fourth site, and the numbers of

@@ -71,8 +71,8 @@ fn run<P: Problem>(
         if !observe(&Iterate { problem, x, tension, step: &step }) {
             return Err(Failure::Interrupted);
         }
-        if let Some(failure) = newton.problem.breakdown(&newton.x) {
-            return Err(failure);
+        if let Some(collapse) = newton.problem.breakdown(&newton.x) {
+            return Err(collapse.into());
         }
         let (force, length) = (step.residual_force, step.residual_length);
         let met = length <= options.tolerance;

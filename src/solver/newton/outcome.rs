@@ -1,6 +1,7 @@
 //! What a minimisation finds, or why it finds nothing.
 
 use crate::numerics::factor::FactorError;
+use crate::solver::problem::Collapse;
 use std::fmt;
 use thiserror::Error;
 
@@ -109,18 +110,9 @@ pub enum Failure {
         /// Factor by which the largest tension grows for measures ten times as stiff.
         growth: f64,
     },
-    /// A triangle has lost its height, so that fold angles beside it mean nothing.
-    #[error(
-        "the triangle of vertices {}, {} and {} has collapsed: its height is {quality:.0e} of its longest side, and fold angles \
-         mean nothing beside it. Stiffer bars keep it open, or a start nearer to the equilibrium",
-        vertices[0], vertices[1], vertices[2]
-    )]
-    Collapsed {
-        /// Numbers of its vertices, copies of the cell numbered one after the other.
-        vertices: [usize; 3],
-        /// Least height over longest side.
-        quality: f64,
-    },
+    /// A state was reached in which derivatives tell nothing.
+    #[error(transparent)]
+    Collapsed(#[from] Collapse),
     /// The linear algebra failed.
     #[error(transparent)]
     Factor(#[from] FactorError),
