@@ -31,7 +31,8 @@ pub struct StationaryPoint {
 /// would change the measure of a soft element by more than `longest`. A start without tensions has none.
 ///
 /// # Errors
-/// [`Failure::TooManySteps`] where the iteration does not converge, and [`Failure::Factor`] where a linear system
+/// [`Failure::TooManySteps`] where the iteration does not converge, [`Failure::Collapsed`] where it leads to a state in which derivatives
+/// tell nothing, and [`Failure::Factor`] where a linear system
 /// cannot be solved.
 pub fn stationary_point<P: Problem>(
     problem: &mut P,
@@ -47,6 +48,9 @@ pub fn stationary_point<P: Problem>(
         problem.linearize(&x, &tension, HessianKind::Full, &mut tangent.at);
         let residuals = Residuals::new(problem, &tangent.at, &tension);
         let Residuals { force, length } = residuals;
+        if let Some(collapse) = problem.breakdown(&x) {
+            return Err(collapse.into());
+        }
         if force <= options.tolerance && length <= options.tolerance {
             let negative_eigenvalues = tangent.negative_eigenvalues()?;
             return Ok(StationaryPoint { x, tension, negative_eigenvalues, residuals, iterations });

@@ -5,7 +5,7 @@ use crate::model::drive::{Drive, DriveError, Driven};
 use crate::model::element::{Elements, Local, TermKind};
 use crate::numerics::vector::dot;
 use crate::solver::path::{ParametrizedProblem, Rates};
-use crate::solver::{HessianKind, Layout, Linearization, Problem};
+use crate::solver::{Collapse, HessianKind, Layout, Linearization, Problem};
 use std::sync::Arc;
 
 /// A model with a driven quantity, for [`crate::solver::path::follow_path`].
@@ -406,6 +406,10 @@ impl Problem for DrivenModel {
     }
 
     /// Keeps the unknowns: the path's tangents and earlier states are written in them.
+    fn breakdown(&self, x: &[f64]) -> Option<Collapse> {
+        self.model.breakdown(x)
+    }
+
     fn accept(&mut self, x: &mut [f64]) {
         let all = self.model.generalised(x);
         self.model.accept_angles(&all[..self.model.points()]);

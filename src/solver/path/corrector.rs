@@ -45,7 +45,8 @@ pub(super) struct Corrected {
     pub iterations: usize,
 }
 
-/// Moves a guess within the plane through it onto the path. Returns `None` where the iteration does not converge.
+/// Moves a guess within the plane through it onto the path. Returns `None` where the iteration does not converge,
+/// or leads to a state in which derivatives tell nothing.
 ///
 /// # Errors
 /// [`FactorError`] where a system cannot be factored.
@@ -66,7 +67,8 @@ pub(super) fn correct<P: ParametrizedProblem>(
         let rounding = larger(MOST_ROUNDING, bordered.rounding_force(max_abs(&at.x)));
         let rounded = residuals.length <= tolerance && size <= rounding;
         if size <= tolerance || (polished == MOST_POLISHED && rounded) {
-            return Ok(Some(Corrected { at, residuals, off, iterations }));
+            let broken_down = problem.breakdown(&at.x).is_some();
+            return Ok((!broken_down).then_some(Corrected { at, residuals, off, iterations }));
         }
         if !size.is_finite() || iterations == MOST_STEPS || polished == MOST_POLISHED {
             break;
