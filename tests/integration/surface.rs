@@ -135,7 +135,7 @@ fn nappes_at_tips(surface: &Surface) -> Vec<usize> {
 fn snub_hexagons() -> Sheet {
     let corner = |k: usize| {
         let (sin, cos) = (TAU * k as f64 / 6.0).sin_cos();
-        [cos, sin, if k % 2 == 0 { 0.25 } else { -0.25 }]
+        [cos, sin, if k.is_multiple_of(2) { 0.25 } else { -0.25 }]
     };
     let lattice = [[2.5, 0.75_f64.sqrt(), 0.0], [0.5, 6.75_f64.sqrt(), 0.0]];
     let mut points = vec![[0.0, 0.0, 0.3]];

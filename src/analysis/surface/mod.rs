@@ -147,12 +147,11 @@ fn put_together(
         Coverage::Open { .. } => Coverage::Open { charts: open },
         other => other,
     };
-    let points = Vec::with_capacity(atlas.charts.len());
-    let (triangles, closed, negative) = (atlas.triangles, border == 0, None);
+    let (points, triangles, closed, negative) = (Vec::new(), atlas.triangles, border == 0, None);
     let gaps = if coverage == Coverage::Complete { open } else { 0 };
     let Atlas { oriented, reached, .. } = atlas;
-    let begun = |k: &usize| reached[*k] == Some(*k);
-    let mut branches: Vec<(usize, i8)> = (0..branch.len()).filter(begun).map(|k| branch[k]).collect();
+    let begun = (0..branch.len()).filter(|&k| reached[k] == Some(k));
+    let mut branches: Vec<(usize, i8)> = begun.map(|k| branch[k]).collect();
     branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
     branches.dedup();
     let (tips, crossing, radius, seam) = (nappes.len(), starts.crossing, 0.0, Vec::new());
