@@ -122,7 +122,7 @@ impl Surface {
     }
 
     /// Lists the branches of the states.
-    fn name_branches(&mut self) {
+    pub(super) fn name_branches(&mut self) {
         self.branches = self.points.iter().map(|point| point.branch).collect();
         self.branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
         self.branches.dedup();

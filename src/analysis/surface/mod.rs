@@ -147,14 +147,9 @@ fn put_together(
         Coverage::Open { .. } => Coverage::Open { charts: open },
         other => other,
     };
-    let points = Vec::with_capacity(atlas.charts.len());
-    let (triangles, closed, negative) = (atlas.triangles, border == 0, None);
+    let (points, triangles, closed, negative) = (Vec::new(), atlas.triangles, border == 0, None);
     let gaps = if coverage == Coverage::Complete { open } else { 0 };
     let Atlas { oriented, reached, .. } = atlas;
-    let begun = |k: &usize| reached[*k] == Some(*k);
-    let mut branches: Vec<(usize, i8)> = (0..branch.len()).filter(begun).map(|k| branch[k]).collect();
-    branches.sort_unstable_by_key(|(branch, sign)| (*branch, -sign));
-    branches.dedup();
     let (tips, crossing, radius, seam) = (nappes.len(), starts.crossing, 0.0, Vec::new());
     // nappes meet in pairs: where one has none opposite, that is missing
     let odd = nappes.iter().filter(|count| *count % 2 == 1 && coverage.is_whole() && !crossing).count();
@@ -166,7 +161,7 @@ fn put_together(
         gaps,
         oriented,
         closed,
-        branches,
+        branches: Vec::new(),
         radius,
         tips,
         lost,
@@ -202,5 +197,6 @@ fn put_together(
         let sides = surface.points.iter_mut().filter(|point| point.shape.turns());
         sides.for_each(|point| point.branch.1 = if point.shape.curvature < 0.0 { -1 } else { 1 });
     }
+    surface.name_branches();
     Ok(surface)
 }
