@@ -28,7 +28,7 @@ pub fn examine(seed: u64, report: &mut Report) {
     if let (Some(exact), true) = (answer.exact, trial.bars.is_infinite()) {
         report.judge("exact kinematics", exact <= 1e-7, || format!("{what}: off by {exact:e}"));
     }
-    if answer.negative == 0 {
+    if answer.negative == Some(0) {
         // where rounding left more than the tolerance a few steps are tried again
         let most = if answer.residual <= Options::default().tolerance { 0 } else { FEW };
         let near = |(again, steps): &(f64, usize)| {
@@ -74,7 +74,7 @@ fn moved(trial: &Trial, answer: &Answer, seed: u64, report: &mut Report, what: &
 /// More cells of a torus cost no more than so many times one.
 fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
     use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
-    if !trial.loads.is_empty() || answer.negative > 0 {
+    if !trial.loads.is_empty() || answer.negative != Some(0) {
         return;
     }
     let wider = match (trial.boundary, trial.cells) {
@@ -91,7 +91,7 @@ fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
         match trial.answer() {
             Ok(freer) => {
                 let ok = freer.energy <= bound * (1.0 + SAME) + 1e-13;
-                if !ok && (freer.negative > 0 || trial.has_equilibrium(|found, _| found <= bound * (1.0 + SAME))) {
+                if !ok && (freer.negative != Some(0) || trial.has_equilibrium(|found, _| found <= bound * (1.0 + SAME))) {
                     report.count(ELSEWHERE, true);
                 } else {
                     report.judge("more freedom", ok, || {
@@ -107,7 +107,7 @@ fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
 /// The same with bars that are next to rigid. The energy falls with their compliance, by `t^2 / 2` of each, and tensions fall with
 /// it: the energy is less than that of rigid bars by at least what they store, and at most what the rigid bars' tensions would.
 fn nearly_rigid(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
-    if trial.bars.is_finite() || answer.negative > 0 {
+    if trial.bars.is_finite() || answer.negative != Some(0) {
         return;
     }
     let softer = Trial { bars: 1e13, ..trial.clone() };

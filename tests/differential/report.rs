@@ -48,7 +48,7 @@ impl Report {
         let energy = other.energy / unit;
         let same = (energy - answer.energy).abs() <= SAME * answer.energy.abs() + 1e-13;
         if !same
-            && (answer.negative + other.negative > 0
+            && ([answer.negative, other.negative] != [Some(0); 2]
                 || trial.has_equilibrium(|found, _| (found - energy).abs() <= 10.0 * SAME * energy))
         {
             return self.count(ELSEWHERE, true);

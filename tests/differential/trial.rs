@@ -39,7 +39,7 @@ pub struct Answer {
     pub energy: f64,
     /// Fold angles of the tiling's edges.
     pub angles: Vec<f64>,
-    pub negative: usize,
+    pub negative: Option<usize>,
     /// The same, asked again from the answer.
     pub again: Result<(f64, usize), String>,
     pub residual: f64,
