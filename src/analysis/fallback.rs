@@ -11,6 +11,8 @@ use crate::solver::{Equilibrium, Failure, NewtonError, Options, Step};
 const LEAST_STEP: f64 = 1.0 / 64.0;
 /// Tolerance of the states in between.
 const INTERMEDIATE_TOLERANCE: f64 = 1e-6;
+/// Largest number of Newton steps to one of them: a crease turns by at most 0.3 rad in each.
+const INTERMEDIATE_STEPS: usize = 100;
 
 /// Returns the equilibrium that is reached after this failure, by way of straight states if it left a screw nearly straight, and
 /// by continuation from the start if it did not or if that fails.
@@ -71,7 +73,7 @@ fn follow(
     let (targets, origin) = (model.rests(), model.values(&start));
     let (mut done, mut step) = (0.0, 0.25);
     let loose =
-        Options { tolerance: options.tolerance.max(INTERMEDIATE_TOLERANCE), iterations: options.iterations.min(50) };
+        Options { tolerance: options.tolerance.max(INTERMEDIATE_TOLERANCE), iterations: options.iterations.min(INTERMEDIATE_STEPS) };
     loop {
         let next = f64::min(done + step, 1.0);
         let angles = model.angles();
