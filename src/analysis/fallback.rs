@@ -72,8 +72,10 @@ fn follow(
     let start = model.start_from(place.clone());
     let (targets, origin) = (model.rests(), model.values(&start));
     let (mut done, mut step) = (0.0, 0.25);
-    let loose =
-        Options { tolerance: options.tolerance.max(INTERMEDIATE_TOLERANCE), iterations: options.iterations.min(INTERMEDIATE_STEPS) };
+    let loose = Options {
+        tolerance: options.tolerance.max(INTERMEDIATE_TOLERANCE),
+        iterations: options.iterations.min(INTERMEDIATE_STEPS),
+    };
     loop {
         let next = f64::min(done + step, 1.0);
         let angles = model.angles();

@@ -91,7 +91,8 @@ fn nested(trial: &Trial, answer: &Answer, report: &mut Report, what: &str) {
         match trial.answer() {
             Ok(freer) => {
                 let ok = freer.energy <= bound * (1.0 + SAME) + 1e-13;
-                if !ok && (freer.negative != Some(0) || trial.has_equilibrium(|found, _| found <= bound * (1.0 + SAME))) {
+                if !ok && (freer.negative != Some(0) || trial.has_equilibrium(|found, _| found <= bound * (1.0 + SAME)))
+                {
                     report.count(ELSEWHERE, true);
                 } else {
                     report.judge("more freedom", ok, || {
