@@ -130,8 +130,13 @@ fn points(piece: &UnstructuredGridPiece) -> Result<Vec<Vec3>, VtuFault> {
 }
 
 pub(super) fn parse_vtu(bytes: &[u8]) -> Result<VtuMesh, VtuFault> {
-    let pieces = guarded_pieces(bytes)?.into_iter().filter(|piece| !piece.cells.types.is_empty());
-    let meshes: Vec<VtuMesh> = pieces.map(mesh_of).collect::<Result<_, _>>()?;
+    let mut pieces = guarded_pieces(bytes)?;
+    let has_cells = |piece: &UnstructuredGridPiece| !piece.cells.types.is_empty();
+    if pieces.iter().any(has_cells) {
+        // a piece without cells may lack the arrays that the others have
+        pieces.retain(has_cells);
+    }
+    let meshes: Vec<VtuMesh> = pieces.into_iter().map(mesh_of).collect::<Result<_, _>>()?;
     Ok(meshes.into_iter().reduce(VtuMesh::joined).unwrap_or_default())
 }
 
