@@ -35,7 +35,7 @@ fn main() {
                 &mut || seconds(|| Determinant::new(&rigidity).unwrap()),
                 &mut || seconds(|| determinant.polynomial.map([side, side])),
                 &mut || seconds(|| ZeroLines::new(&zone).unwrap().refined(&zone, &rigidity)),
-                &mut || seconds(|| Decay::new(&determinant, 0, 0.9).unwrap().refined(&rigidity)),
+                &mut || seconds(|| Decay::new(&determinant, 0, 0.9).unwrap().refined(&determinant, &rigidity)),
             ],
         );
         let [coefficients, map, zero_lines, decay] = [0, 1, 2, 3].map(|k| 1e3 * times[k]);

@@ -156,15 +156,9 @@ pub fn relax_from(
         Err(error) if hopeless(error.failure) => Err(error),
         Err(error) => {
             let stalled = Stalled { origin: &origin, restarted, method, error, tried: intrinsic_failure };
-            let (in_angles, failure) =
-                method::minimize_stalled_in_angles(model, stalled, options, &mut recorder, &mut history);
+            let (found, failure) = recovered(model, stalled, options, &mut recorder, &mut history);
             intrinsic_failure = failure;
-            match in_angles {
-                Err(error) if error.failure != Failure::Interrupted => {
-                    fallback::relaxed(model, error, &origin, options, &mut recorder, &mut history)
-                }
-                found => found,
-            }
+            found
         }
         found => found,
     };
@@ -204,6 +198,26 @@ pub fn relax_from(
         Err(error) => error,
     };
     Err(Box::new(RelaxError { intrinsic_failure, soft_steps, ..failed(model, open, history, recorder) }))
+}
+
+/// The equilibrium that is reached after positions failed: in fold angles, or by the ways of [`fallback`]; and why fold angles were given
+/// up, if they were tried.
+fn recovered(
+    model: &mut Model,
+    stalled: Stalled<'_>,
+    options: Options,
+    recorder: &mut Recorder<'_>,
+    history: &mut Vec<Step>,
+) -> (Result<Equilibrium, NewtonError>, Option<IntrinsicFailure>) {
+    let origin = stalled.origin;
+    let (in_angles, failure) = method::minimize_stalled_in_angles(model, stalled, options, recorder, history);
+    let found = match in_angles {
+        Err(error) if error.failure != Failure::Interrupted => {
+            fallback::relaxed(model, error, origin, options, recorder, history)
+        }
+        found => found,
+    };
+    (found, failure)
 }
 
 /// The failure of a relaxation with its last state.
