@@ -11,29 +11,21 @@ use super::KinematicsError;
 use crate::math::{Vec3, rotation};
 use crate::numerics::DenseMatrix;
 use crate::numerics::dense::{DenseError, NullSpace, null_space_of_sums};
-use crate::sheet::tiling::{Site, TiledEdge, Tiling};
-use crate::sheet::{Corner, Edge, Sheet};
+use crate::sheet::tiling::Tiling;
+use crate::sheet::{Corner, Sheet};
 use nalgebra::{DVector, Matrix3};
 
+mod edge;
 mod opening;
+mod products;
 mod second_derivative;
 
+pub(crate) use edge::HingedEdge;
 use opening::Opening;
 
 /// Magnitude of the terms of which the entries of the Jacobian are sums: directions of edges. An edge between two copies of one
 /// vertex has two terms, which cancel where it passes straight through.
 pub(crate) const DIRECTION: f64 = 1.0;
-
-/// An edge with its ends and the opposite vertices of its left and right face, as in [`Edge`].
-///
-/// The corners may be in any cells; those of one edge refer to the same frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct HingedEdge {
-    /// First and second end.
-    pub ends: [Corner; 2],
-    /// Opposite vertices of the left and of the right face; if one of them is missing, the edge does not fold.
-    pub wings: [Option<Corner>; 2],
-}
 
 /// The closure conditions of a sheet: three for each interior vertex, and six for each opening of a finite sheet.
 ///
@@ -82,23 +74,6 @@ impl HingedEdge {
         let seen = |corner: Corner| corner.translated(back);
         let wings = [self.wings[side].map(seen), self.wings[1 - side].map(seen)];
         HalfEdge { edge, to: seen(self.ends[1 - side]), wings }
-    }
-
-    fn folds(&self) -> bool {
-        self.wings.iter().all(Option::is_some)
-    }
-}
-
-impl From<&Edge> for HingedEdge {
-    fn from(edge: &Edge) -> Self {
-        Self { ends: edge.key.ends(), wings: edge.wings }
-    }
-}
-
-impl From<&TiledEdge> for HingedEdge {
-    fn from(edge: &TiledEdge) -> Self {
-        let corner = |site: Site| Corner { vertex: site.vertex, shift: site.shift };
-        Self { ends: edge.ends.map(corner), wings: edge.wings.map(|wing| wing.map(corner)) }
     }
 }
 

@@ -12,7 +12,7 @@
 
 use super::kkt::{KktSystem, largest_weighted_entry};
 use super::linearization::Linearization;
-use crate::numerics::dense::NullSpace;
+use crate::numerics::dense::Svd;
 use crate::numerics::factor::FactorError;
 use crate::numerics::random::symmetric;
 use crate::numerics::sparse::{Rows, symmetric_product};
@@ -20,7 +20,6 @@ use crate::numerics::vector::{add_scaled, dot_blocked, larger, norm_blocked};
 use crate::numerics::{DenseMatrix, dense};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use std::ops::Range;
 
 /// Eigenvalues of `S` above minus this, relative to its largest diagonal entry, count as zero: rounding errors of the sums
 /// in its entries are about as large.
@@ -29,9 +28,9 @@ const ZERO_EIGENVALUE: f64 = 1e-14;
 const DENSE_LIMIT: usize = 120;
 /// The same where the bounds do not meet: about a second.
 const MOST_PROJECTED: usize = 800;
-/// Singular values of the gradients of rigid measures, relative to the largest one, of which it cannot be told whether they are zero:
-/// above rounding errors, and below errors of the state by which they change.
-const UNDECIDED_SINGULAR_VALUES: Range<f64> = 1e-12..1e-9;
+/// Singular values of the gradients of rigid measures, relative to the largest one, up to which they may be zero: rounding errors, and
+/// errors of the state by which they change.
+const ZERO_SINGULAR_VALUES: [f64; 2] = [1e-12, 1e-9];
 /// Weights of further counts, relative to the usual ones. Heavier ones lose small eigenvalues to rounding.
 const HEAVIER_WEIGHTS: [f64; 3] = [1e2, 1e3, 1e5];
 /// Counts above this are not confirmed by motions, which cost about two solves each, but by the count of a heavier weight.
@@ -70,7 +69,7 @@ pub(super) fn negative_eigenvalues(
     let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
     let most = system.count_negative(at, compliance, [zero, 1.0])?;
     if at.gradient.len() <= DENSE_LIMIT {
-        return Ok(negative_by_projection(at, compliance));
+        return Ok(negative_by_projection(at, compliance, zero));
     }
     if most == 0 || system.weights_are_exact() {
         return Ok(Some(most));
@@ -88,25 +87,38 @@ pub(super) fn negative_eigenvalues(
             return Ok(Some(least));
         }
     }
-    Ok(if at.gradient.len() <= MOST_PROJECTED { negative_by_projection(at, compliance) } else { None })
+    Ok(if at.gradient.len() <= MOST_PROJECTED { negative_by_projection(at, compliance, zero) } else { None })
 }
 
-/// Number of negative eigenvalues by a projection on the null space of the rigid measures, dense; `None` where that space cannot be
-/// found. Measures of finite stiffness keep their tensions as unknowns, each of which adds one negative eigenvalue: no stiffness
-/// is so large that rounding errors of its multiples matter.
-fn negative_by_projection(at: &Linearization, compliance: &[f64]) -> Option<usize> {
-    let unknowns = at.gradient.len();
-    let mut hessian = at.pattern().to_dense(&at.hessian);
-    let rounding = dense::eigenvalue_rounding(unknowns, at.pattern().largest_diagonal(&at.hessian));
-    (0..unknowns).for_each(|k| hessian[(k, k)] += rounding);
-    let rows = dense::from_rows(&Rows { cliques: at.rows().cliques, values: &at.scaled_jacobian() }, unknowns);
-    let (rigid, finite): (Vec<usize>, Vec<usize>) = (0..compliance.len()).partition(|&row| compliance[row] == 0.0);
-    let NullSpace { basis: free, singular_values, .. } = dense::null_space(&rows.select_rows(&rigid)).ok()?;
+/// Number of negative eigenvalues by a projection on the null space of the rigid measures, dense; `None` where singular values of which
+/// it cannot be told whether they are zero make a difference. Eigenvalues above `-zero` count as zero.
+fn negative_by_projection(at: &Linearization, compliance: &[f64], zero: f64) -> Option<usize> {
+    let rows = Rows { cliques: at.rows().cliques, values: &at.scaled_jacobian() };
+    let rows = dense::from_rows(&rows, at.gradient.len());
+    let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();
+    let Svd { v, singular_values, .. } = dense::full_svd(&rows.select_rows(&rigid)).ok()?;
     let largest = singular_values.first().copied().unwrap_or(0.0);
-    if singular_values.iter().any(|value| UNDECIDED_SINGULAR_VALUES.contains(&(value / largest))) {
-        return None;
-    }
-    let (hessian, rows) = (free.transpose() * hessian * &free, rows.select_rows(&finite) * &free);
+    let counted = ZERO_SINGULAR_VALUES.map(|cut| {
+        let rank = singular_values.iter().filter(|value| **value > cut * largest).count();
+        let free = v.columns(rank, v.ncols() - rank).into_owned();
+        negative_on(at, (compliance, &rows), &free, zero)
+    });
+    if counted[0] == counted[1] { counted[0] } else { None }
+}
+
+/// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a matrix. Measures of
+/// finite stiffness keep their tensions as unknowns, each of which adds one negative eigenvalue: no stiffness is so large that rounding
+/// errors of its multiples matter.
+fn negative_on(
+    at: &Linearization,
+    (compliance, rows): (&[f64], &DenseMatrix),
+    free: &DenseMatrix,
+    zero: f64,
+) -> Option<usize> {
+    let finite: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] > 0.0).collect();
+    let mut hessian = at.pattern().to_dense(&at.hessian);
+    (0..hessian.nrows()).for_each(|k| hessian[(k, k)] += zero);
+    let (hessian, rows) = (free.transpose() * hessian * free, rows.select_rows(&finite) * free);
     let (size, tensions) = (free.ncols(), finite.len());
     let mut whole = DenseMatrix::zeros(size + tensions, size + tensions);
     whole.view_mut((0, 0), (size, size)).copy_from(&hessian);

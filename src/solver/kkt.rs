@@ -276,9 +276,11 @@ pub(super) fn stiffness_size(at: &Linearization, compliance: &[f64]) -> f64 {
     if softest.is_finite() { hessian.max(softest) } else { hessian }
 }
 
-/// Largest diagonal entry of the Hessian with the usual weights of stiff measures.
+/// Size of the largest entry of the Hessian with the usual weights of stiff measures.
 pub(super) fn largest_weighted_entry(at: &Linearization, compliance: &[f64]) -> f64 {
-    hessian_size(at).max(largest_relative_weight(at.kind) * stiffness_size(at, compliance))
+    let heaviest = largest_relative_weight(at.kind) * stiffness_size(at, compliance);
+    let weighted = |(row, c): (usize, &f64)| f64::min(heaviest, max_abs(at.stiff_gradient(row)).powi(2) / c);
+    compliance.iter().enumerate().map(weighted).fold(hessian_size(at), f64::max)
 }
 
 /// Norm of the forces of these tensions, measure by measure, before they balance.

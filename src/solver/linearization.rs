@@ -183,11 +183,12 @@ impl Linearization {
         Rows { cliques: &self.layout.soft, values: &self.soft_gradients }
     }
 
-    /// Largest change of a soft element's measure along `dx`, to first order.
+    /// Largest change along `dx`, to first order, of the measure of a soft element that has a stiffness; the others are loads.
     pub fn largest_measure_change(&self, dx: &[f64]) -> f64 {
         let mut changes = vec![0.0; self.layout.soft.len()];
         self.soft_rows().product(dx, &mut changes);
-        changes.iter().fold(0.0, |most, change| larger(most, change.abs()))
+        let stiff = changes.iter().zip(&self.soft_stiffness).filter(|(_, k)| **k != 0.0);
+        stiff.fold(0.0, |most, (change, _)| larger(most, change.abs()))
     }
 
     /// The stretch `c t - m` that each stiff measure lacks to its tension's law `m = c t`.

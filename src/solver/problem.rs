@@ -18,6 +18,10 @@ pub trait Problem {
     fn unit_of_length(&self) -> f64 {
         1.0
     }
+    /// Largest change of the measure of a soft element in one step, to first order; without one, steps of any length are tried.
+    fn largest_change(&self) -> f64 {
+        f64::INFINITY
+    }
     /// Soft energy at `x`.
     fn energy(&self, x: &[f64]) -> f64;
     /// Gaps of the stiff measures at `x`: each measure minus its rest value.

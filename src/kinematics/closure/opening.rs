@@ -7,8 +7,8 @@
 //! taken it, `(w, u)`; of two edges `j` before `k` the rotation vector changes in addition by `1/2 w_j x w_k`, and the
 //! translation by `w_j x u_k`.
 
-use super::HingedEdge;
-use super::second_derivative::add_products;
+use super::edge::HingedEdge;
+use super::products::add_products;
 use crate::kinematics::motion::{Line, Motion, Rigid, Twist};
 use crate::math::fold_angle::fold_angle;
 use crate::math::{Vec3, rotation};

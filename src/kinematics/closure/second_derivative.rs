@@ -7,6 +7,7 @@
 //!
 //! (formula of Baker, Campbell and Hausdorff).
 
+use super::products::add_products;
 use super::{Closure, opening};
 use crate::math::Vec3;
 use crate::numerics::DenseMatrix;
@@ -39,18 +40,5 @@ impl Closure {
             opening.add_second_order(angles, modes, parts);
         }
         parts
-    }
-}
-
-/// Adds the symmetric part of `2 half before_a x turns_b` to the matrices of its three components.
-pub(super) fn add_products(parts: &mut [DenseMatrix], (before, turns): (&[Vec3], &[Vec3]), half: f64) {
-    for (a, before) in before.iter().enumerate() {
-        for (b, turn) in turns.iter().enumerate() {
-            let product = half * before.cross(turn);
-            for (part, component) in parts.iter_mut().zip(product.iter()) {
-                part[(a, b)] += component;
-                part[(b, a)] += component;
-            }
-        }
     }
 }

@@ -94,11 +94,11 @@ impl Model {
     }
 
     /// Returns the generalised coordinates of each connected piece of the sheet, with the supports that act on them, which come
-    /// after all coordinates. Elements, rigid parts and supports connect points. Pieces on a screw count as one, and the coordinates
+    /// after all coordinates. Elements, rigid parts and supports connect points. Pieces on a screw, and points without elements, count as one, and the coordinates
     /// that all points share are those of the first piece.
     fn pieces(&self) -> Vec<Vec<usize>> {
         let (points, count) = (self.points(), self.base.len() + self.supports.len());
-        if matches!(self.domain, Domain::Screw) {
+        if matches!(self.domain, Domain::Screw) || self.terms().next().is_none() {
             return vec![(0..count).collect()];
         }
         let shared = points - self.domain.shared();

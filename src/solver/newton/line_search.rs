@@ -30,9 +30,6 @@ const SMALLEST_GAP: f64 = 1e-14;
 const LARGEST_GAP: f64 = 1e-4;
 /// Rise of the merit, relative, that is taken for rounding error.
 const ROUNDING_OF_MERIT: f64 = 1e-13;
-/// Largest change of the measure of a soft element by a whole step, to first order (an angle, in radians): with 0.3 and with 1 the
-/// scenes of `meshes/` take as many iterations, and a step that turns a hinge further says little about it.
-const LARGEST_CHANGE: f64 = 0.3;
 
 impl<P: Problem> Newton<'_, P> {
     /// Takes one step; returns the fraction of the Newton step that was taken.
@@ -103,7 +100,7 @@ impl<P: Problem> Newton<'_, P> {
 
     /// Number of halvings after which a step changes the measure of no soft element too much, to first order.
     fn halvings_of_angles(&self, dx: &[f64]) -> i32 {
-        let change = self.tangent.at.largest_measure_change(dx) / LARGEST_CHANGE;
+        let change = self.tangent.at.largest_measure_change(dx) / self.problem.largest_change();
         if change > 1.0 { change.log2().ceil() as i32 } else { 0 }
     }
 

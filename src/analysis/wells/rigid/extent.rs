@@ -4,9 +4,11 @@
 //! beyond `pi` it may be wound up to half a turn further than that. Angles of states are known modulo `2 pi` only, and
 //! each of a state's images within these bounds is a state of its own, with its own energy.
 
-use super::SAME_STATE_ANGLE_RAD;
 use crate::analysis::exact::Springs;
 use std::f64::consts::{PI, TAU};
+
+/// Two stationary states are one where no angle differs by more, in radians.
+pub(super) const SAME_STATE_ANGLE_RAD: f64 = 1e-7;
 
 /// Bounds of the fold angle of every edge, in radians.
 pub(super) struct Extent {

@@ -21,12 +21,10 @@ use crate::analysis::surface::{Lowest, Negative, Surface, SurfaceError};
 use crate::kinematics::KinematicsError;
 use crate::model::{Assembly, Boundary, Gauge};
 use crate::numerics::vector::distance;
-use extent::Extent;
+use extent::{Extent, SAME_STATE_ANGLE_RAD};
 use flood::Merge;
 use thiserror::Error;
 
-/// Two stationary states are one where no angle differs by more.
-const SAME_STATE_ANGLE_RAD: f64 = 1e-7;
 /// How far, in fold angles, a sampled state may be from the stationary one next to it, in distances of neighbours.
 const NEIGHBOUR_DISTANCES: f64 = 4.0;
 
