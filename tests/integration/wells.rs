@@ -478,7 +478,7 @@ fn run(scene: &Path, out: &Path, threads: usize, most_steps: usize) -> (StudySum
 #[test]
 fn runs_write_wells_and_passes() {
     let folder = tempfile::tempdir().unwrap();
-    let path = scene(folder.path(), CROSS, RIGID, "starts = 32\nrigid = true\nbarriers = [[0, 1]]");
+    let path = scene(folder.path(), CROSS, RIGID, "starts = 32\nseed = 1\nrigid = true\nbarriers = [[0, 1]]");
     let [one, two] = [1, 2].map(|threads| folder.path().join(threads.to_string()));
     let (study, wells) = run(&path, &one, 1, usize::MAX);
     let wells = wells.unwrap();
