@@ -13,7 +13,7 @@
 
 use super::recorder::Recorder;
 use super::rigid_forces::rigid_over_others;
-use crate::model::Model;
+use crate::model::{Model, TermKind};
 use crate::numerics::vector::max_abs;
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step};
 use std::ops::{Range, RangeInclusive};
@@ -94,8 +94,10 @@ pub(super) fn leave_if_in_doubt(
         Ok(found) => origin.hardly_relieved(found),
         Err(error) => !matches!(error.failure, Failure::Interrupted | Failure::SingularStart),
     };
-    // next to a flat state rigid measures may be met only at second order, which bars that stretch find their way to
-    let infeasible = matches!(&found, Err(NewtonError { failure: Failure::Infeasible { .. }, .. }));
+    // next to a flat state rigid measures may be met only at second order, which bars that stretch find their way to; from a lock they
+    // might find their way to another branch than the one that it drives
+    let infeasible = matches!(&found, Err(NewtonError { failure: Failure::Infeasible { .. }, .. }))
+        && model.stiff().iter().all(|term| term.kind() != TermKind::Locks);
     if !(in_doubt && (infeasible || is_flat(&origin.angles)) && model.has_rigid_bars()) {
         return (found, 0..0);
     }
