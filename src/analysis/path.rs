@@ -96,11 +96,11 @@ pub struct PathPoint {
     pub iterations: usize,
     /// The event that is located at this state; `None` for an ordinary state.
     pub event: Option<PathEvent>,
-    /// What is known of it where the event is a branch point.
+    /// The multiplicity and half branches where the event is a branch point; `None` for other events.
     pub branch_point: Option<BranchPoint>,
 }
 
-/// What is known of a branch point.
+/// The multiplicity of a branch point, and the half branches that were found to leave it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BranchPoint {
     /// Number of eigenvalues that change their sign there.

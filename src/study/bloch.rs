@@ -115,7 +115,7 @@ fn rigidity(file: &SceneFile, assembly: &Assembly) -> Result<Rigidity, BlochErro
 /// The results of the analysis.
 struct FoundModes {
     ground: Ground,
-    /// What is read off the determinant; the reason where there is none.
+    /// The results that are read off the determinant, or the reason for which there is no determinant.
     survey: Result<Survey, BlochError>,
     grid: [usize; 2],
     bands: FoundBands,

@@ -23,7 +23,7 @@ pub struct TensorSpace {
 /// Why there is no Poisson's ratio in a direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRatio {
-    /// There is no tensor.
+    /// No mode has a tensor of this kind, a strain or a curvature.
     NoTensor,
     /// Any ratio is possible: three tensors are independent, or two have no shear in the direction.
     Any,

@@ -58,7 +58,7 @@ impl<P: ParametrizedProblem> Follower<'_, P> {
         Ok(Leaving { firsts, expected: (multiplicity == 1).then_some(2) })
     }
 
-    /// What leaves between two null vectors; `None` where no ring tells.
+    /// The half branches that a scan of the ring between two null vectors found; `None` where no ring is large enough to tell.
     fn ring_of(&mut self, point: &PathState, nulls: &[Rates; 2]) -> Result<Option<Leaving>, PathError> {
         let reference = self.problem.reference();
         let Some((zeros, states)) = self.half_branches(point, nulls)? else { return Ok(None) };

@@ -54,7 +54,7 @@ impl Level {
     }
 }
 
-/// What the stiffness of the softest motion says of a branch point.
+/// The verdict on a supposed branch point by the stiffness of its softest motion, which vanishes at a true one.
 enum Crossing {
     /// It vanishes at this part of the way, in this state.
     At(f64, Box<PathState>),

@@ -80,7 +80,7 @@ pub struct Branch {
     pub states: Vec<MarkedState>,
     /// The reason for its end.
     pub end: BranchEnd,
-    /// What leaves at those of its branch points, by number of the state, at which that was sought.
+    /// The half branches found at its branch points, by number of the state; only for points at which they were sought.
     pub half_branches: BTreeMap<usize, HalfBranches>,
 }
 
