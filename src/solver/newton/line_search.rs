@@ -19,6 +19,8 @@ const RESIDUAL_PER_FORCE: f64 = 0.01;
 const REFUSED_RESIDUAL: f64 = 0.1;
 /// Number of fractions tried of a step, each half of the one before; then the shift is raised.
 const HALVINGS: i32 = 5;
+/// Number of halvings up to which the retracted part of a step is taken at once: with shorter ones the iteration creeps.
+const MOST_RETRACTED_HALVINGS: i32 = 4;
 /// Largest number of shifts with which a step is tried.
 const MOST_SHIFTS: usize = 12;
 /// Largest number of chord corrections of a trial.
@@ -66,7 +68,7 @@ impl<P: Problem> Newton<'_, P> {
             return None;
         }
         let step = self.direction(last);
-        let trial = (step.residual <= wanted_residual(last)).then(|| self.attempt(&step, 1.0, last))??;
+        let trial = (step.residual <= wanted_residual(last)).then(|| self.attempt(&step, 0, last))??;
         self.take(trial, 1.0, last);
         Some(1.0)
     }
@@ -79,17 +81,22 @@ impl<P: Problem> Newton<'_, P> {
         step
     }
 
-    /// Takes the largest fraction of a step that can be accepted, if there is one.
+    /// Takes the largest fraction of a step that can be accepted, if there is one: retracted, or where only short ones can be retracted,
+    /// with the stretch that measures of finite stiffness have there.
     fn take_largest_fraction(&mut self, step: &Increment, last: &Step) -> Option<f64> {
         let first = self.first_halving().max(self.halvings_of_angles(&step.dx));
-        let fractions = (first..first.max(0) + HALVINGS).map(|halving| 0.5f64.powi(halving));
-        for fraction in fractions {
-            if let Some(trial) = self.attempt(step, fraction, last) {
-                self.take(trial, fraction, last);
-                return Some(fraction);
-            }
-        }
-        None
+        let retracted =
+            (first..first + HALVINGS).find_map(|halving| Some((halving, self.attempt(step, halving, last)?)));
+        let longer = match &retracted {
+            Some((halving, _)) if *halving <= MOST_RETRACTED_HALVINGS => first..first,
+            Some((halving, _)) => first..*halving,
+            None => first..first + HALVINGS,
+        };
+        let stretched =
+            longer.into_iter().find_map(|halving| Some((halving, self.attempt_stretched(step, halving, last)?)));
+        let (halving, trial) = stretched.or(retracted)?;
+        self.take(trial, fraction(halving), last);
+        Some(fraction(halving))
     }
 
     /// Number of halvings with which the search begins: at twice the fraction that the last step took.
@@ -104,15 +111,28 @@ impl<P: Problem> Newton<'_, P> {
         if change > 1.0 { change.log2().ceil() as i32 } else { 0 }
     }
 
-    /// The retracted state after a fraction of a step, where its merit is lower.
-    fn attempt(&mut self, step: &Increment, fraction: f64, last: &Step) -> Option<Trial> {
-        let (x, tension) = (moved(&self.x, fraction, &step.dx), moved(&self.tension, fraction, &step.dt));
-        let wanted = (GAP_PER_FORCE * last.residual_force).clamp(SMALLEST_GAP, LARGEST_GAP);
-        let trial = self.retract(x, tension, wanted, TRIAL_CHORDS).ok()?;
-        if !self.problem.admits(&self.x, &trial.x) {
-            return None;
-        }
-        (trial.merit <= last.energy + self.merit_uncertainty(&trial, last)).then_some(trial)
+    /// The retracted state after a step halved so often, where its merit is lower.
+    fn attempt(&mut self, step: &Increment, halving: i32, last: &Step) -> Option<Trial> {
+        let (x, tension) = self.moved(step, halving);
+        let trial = self.retract(x, tension, allowed_gap(last), TRIAL_CHORDS).ok()?;
+        self.is_acceptable(&trial, last).then_some(trial)
+    }
+
+    /// The state after a step halved so often as it is, where its merit is lower and rigid measures are met.
+    fn attempt_stretched(&mut self, step: &Increment, halving: i32, last: &Step) -> Option<Trial> {
+        let (x, tension) = self.moved(step, halving);
+        let trial = self.stretched(x, tension, allowed_gap(last))?;
+        self.is_acceptable(&trial, last).then_some(trial)
+    }
+
+    /// Unknowns and tensions after a step halved so often.
+    fn moved(&self, step: &Increment, halving: i32) -> (Vec<f64>, Vec<f64>) {
+        let part = fraction(halving);
+        (moved(&self.x, part, &step.dx), moved(&self.tension, part, &step.dt))
+    }
+
+    fn is_acceptable(&self, trial: &Trial, last: &Step) -> bool {
+        self.problem.admits(&self.x, &trial.x) && trial.merit <= last.energy + self.merit_uncertainty(trial, last)
     }
 
     /// Uncertainty of the difference between the merits of the last state and of a trial: rounding error, and the
@@ -151,6 +171,15 @@ impl<P: Problem> Newton<'_, P> {
         self.problem.accept(&mut self.x);
         self.merit -= self.problem.relieve(&mut self.x);
     }
+}
+
+fn fraction(halving: i32) -> f64 {
+    0.5f64.powi(halving)
+}
+
+/// Scaled gap that is left open by the retraction of a trial.
+fn allowed_gap(last: &Step) -> f64 {
+    (GAP_PER_FORCE * last.residual_force).clamp(SMALLEST_GAP, LARGEST_GAP)
 }
 
 /// Relative residual to which the linear system of a step is solved.

@@ -76,6 +76,17 @@ impl<P: Problem> Newton<'_, P> {
         None
     }
 
+    /// The state at `x` with the tensions that measures of finite stiffness have there; `None` where rigid ones are not met to
+    /// the scaled gap `wanted`.
+    pub(super) fn stretched(&self, x: Vec<f64>, mut tension: Vec<f64>, wanted: f64) -> Option<Trial> {
+        let (gaps, compliance) = (self.problem.gaps(&x), self.problem.compliance());
+        let measures = tension.iter_mut().zip(&gaps).zip(compliance);
+        measures.filter(|(_, c)| **c > 0.0).for_each(|((tension, gap), c)| *tension = gap / c);
+        let open = self.largest_scaled_gap(&missing(&gaps, &tension, compliance));
+        let merit = self.merit_of(&x, &tension, &gaps);
+        (open <= wanted).then_some(Trial { x, tension, merit })
+    }
+
     /// Chord corrections onto `m = c t` until the largest scaled gap is `wanted`, or at the level of rounding error.
     ///
     /// # Errors
