@@ -39,6 +39,9 @@ fn describe_relaxation(relax: &RelaxSummary, converged: bool) -> String {
         [force, length] => format!("residuals {force:.1e} (force) {length:.1e} (length)"),
     };
     let iterations = counted(relax.iterations, "iteration");
+    let by_way_of: Vec<&str> =
+        relax.routes.iter().skip(1).filter(|route| route.iterations > 0).map(|route| route.name.as_str()).collect();
+    let by_way_of = if by_way_of.is_empty() { String::new() } else { format!(", by way of {}", by_way_of.join(", ")) };
     let branching = match (relax.branch_point_start, relax.directions_at_start.as_deref()) {
         (_, Some("continuum")) => {
             ", infinitely many directions leave the start: others may lead to other equilibria".into()
@@ -53,7 +56,10 @@ fn describe_relaxation(relax: &RelaxSummary, converged: bool) -> String {
         let by = if soft_bars { ", by bars that stretch at first" } else { "" };
         format!(", the start was left with {on_rest_side} of {hinges} hinges on the side of their rest angles{by}")
     });
-    format!("energy {:.9e}, {iterations}, {residuals}{unstable}{crossing}{branching}{left}", relax.energy.total)
+    format!(
+        "energy {:.9e}, {iterations}, {residuals}{by_way_of}{unstable}{crossing}{branching}{left}",
+        relax.energy.total
+    )
 }
 
 /// Describes the linear modes. Folding modes are counted separately, by fold angles: they are not a part of the zero

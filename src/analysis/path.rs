@@ -211,8 +211,9 @@ pub fn resume_path(
     record: PathRecord,
     callbacks: PathCallbacks<'_>,
 ) -> Result<Vec<PathBranch>, PathFailure> {
-    let (mut driven, first) = begin(assembly, drive, start, options)?;
-    let measures = assembly.model(Gauge::Held).compliance().len();
+    let mut model = assembly.model(Gauge::Held);
+    let measures = model.compliance().len();
+    let (mut driven, first) = begin(&mut model, drive, start, options)?;
     let settings = PathSettings {
         tolerance: options.tolerance,
         max_step: options.max_step,
@@ -235,13 +236,13 @@ struct Seen<'a> {
     callbacks: PathCallbacks<'a>,
 }
 
-impl PathObserver<DrivenModel> for Seen<'_> {
-    fn state(&mut self, branch: usize, driven: &DrivenModel, marked: &MarkedState) -> bool {
+impl PathObserver<DrivenModel<'_>> for Seen<'_> {
+    fn state(&mut self, branch: usize, driven: &DrivenModel<'_>, marked: &MarkedState) -> bool {
         self.known_state(branch, driven, marked);
         self.branches[branch].last().is_none_or(|point| (self.callbacks.observe)(branch, point))
     }
 
-    fn known_state(&mut self, branch: usize, driven: &DrivenModel, marked: &MarkedState) {
+    fn known_state(&mut self, branch: usize, driven: &DrivenModel<'_>, marked: &MarkedState) {
         self.branches.resize_with(self.branches.len().max(branch + 1), Vec::new);
         self.branches[branch].push(point(driven, marked, self.measures));
     }
@@ -256,19 +257,18 @@ impl PathObserver<DrivenModel> for Seen<'_> {
 /// # Errors
 /// [`DriveError`] if it has none.
 pub fn check_drive(assembly: &Assembly, drive: &Drive) -> Result<(), DriveError> {
-    let model = assembly.model(Gauge::Held);
+    let mut model = assembly.model(Gauge::Held);
     let drawn = model.values(&model.start());
-    DrivenModel::new(model, drive, drawn, false).map(|_| ())
+    DrivenModel::new(&mut model, drive, drawn, false).map(|_| ())
 }
 
 /// Makes the driven model and finds its equilibrium at the beginning.
-fn begin(
-    assembly: &Assembly,
+fn begin<'m>(
+    model: &'m mut Model,
     drive: &Drive,
     start: Option<PathStart>,
     options: &PathOptions,
-) -> Result<(DrivenModel, Start), PathFailure> {
-    let mut model = assembly.model(Gauge::Held);
+) -> Result<(DrivenModel<'m>, Start), PathFailure> {
     let drawn = model.values(&model.start());
     let restarted = start.is_some();
     let tension = start.and_then(|PathStart { coordinates, angles, tension }| {
@@ -279,7 +279,7 @@ fn begin(
         }
         tension.filter(|tension| tension.len() == model.compliance().len())
     });
-    let mut driven = DrivenModel::new(model, drive, drawn, restarted)?;
+    let driven = DrivenModel::new(model, drive, drawn, restarted)?;
     let x = driven.model.start();
     if let Some(mut tension) = tension {
         // an equilibrium of any stability: the path's own iteration finds what the new support carries
@@ -287,11 +287,11 @@ fn begin(
         return Ok((driven, Start { x, tension: Some(tension) }));
     }
     let newton = Options { tolerance: options.tolerance, ..Options::default() };
-    let relaxed = relax_from(&mut driven.model, x, newton, &mut |_| true).map_err(|error| error.failure)?;
+    let relaxed = relax_from(driven.model, x, newton, &mut |_| true).map_err(|error| error.failure)?;
     Ok((driven, Start { x: relaxed.x, tension: Some(relaxed.tension) }))
 }
 
-fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoint {
+fn point(driven: &DrivenModel<'_>, marked: &MarkedState, measures: usize) -> PathPoint {
     let MarkedState { state, mark, work, .. } = marked;
     let PathState { x, tension, parameter, conjugate: [conjugate, _], .. } = state;
     PathPoint {
@@ -299,10 +299,10 @@ fn point(driven: &DrivenModel, marked: &MarkedState, measures: usize) -> PathPoi
         drive: driven.drive_at(*parameter),
         reaction: driven.reaction_of(*conjugate, *parameter),
         work: driven.work_of(*work, *conjugate, *parameter),
-        state: State::new(&driven.model, x, tension),
+        state: State::new(driven.model, x, tension),
         x: x.clone(),
         tension: tension[..measures].to_vec(),
-        angles: angles_at(&driven.model, x),
+        angles: angles_at(driven.model, x),
         residual_force: state.residual_force,
         residual_length: state.residual_length,
         negative_eigenvalues: state.negative_eigenvalues,
@@ -317,7 +317,7 @@ fn branch_point(mark: PathMark) -> Option<BranchPoint> {
     Some(BranchPoint { multiplicity, half_branches: None })
 }
 
-fn event(driven: &DrivenModel, mark: PathMark) -> Option<PathEvent> {
+fn event(driven: &DrivenModel<'_>, mark: PathMark) -> Option<PathEvent> {
     match (mark, driven.is_load()) {
         (PathMark::ParameterTurns, true) => Some(PathEvent::LimitLoad),
         (PathMark::ParameterTurns, false) => Some(PathEvent::LimitDisplacement),
@@ -392,20 +392,20 @@ impl<'a> Stops<'a> {
     }
 
     /// 1 where faces pass through each other, -1 elsewhere.
-    fn crosses(&mut self, driven: &DrivenModel, state: &PathState) -> Option<f64> {
+    fn crosses(&mut self, driven: &DrivenModel<'_>, state: &PathState) -> Option<f64> {
         let finder = self.crossing.as_mut()?;
-        let shown = State::new(&driven.model, &state.x, &state.tension);
+        let shown = State::new(driven.model, &state.x, &state.tension);
         let any = finder.marks(self.assembly.drawn(), &shown, STACKED_LAYERS_MARGIN).any;
         Some(if any { 1.0 } else { -1.0 })
     }
 }
 
-impl Watch<DrivenModel> for Stops<'_> {
-    fn values(&mut self, driven: &DrivenModel, state: &PathState) -> Vec<f64> {
+impl Watch<DrivenModel<'_>> for Stops<'_> {
+    fn values(&mut self, driven: &DrivenModel<'_>, state: &PathState) -> Vec<f64> {
         let coordinates = driven.model.coordinates(&state.x);
         let mut values = vec![f64::NAN; 3];
         values[CURVATURE] = self.curvature(&coordinates).unwrap_or(f64::NAN);
-        values[CREASE_ANGLE] = self.angle(&driven.model, &coordinates).unwrap_or(f64::NAN);
+        values[CREASE_ANGLE] = self.angle(driven.model, &coordinates).unwrap_or(f64::NAN);
         values[CROSSING] = self.crosses(driven, state).unwrap_or(f64::NAN);
         values
     }

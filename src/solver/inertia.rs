@@ -106,6 +106,22 @@ fn negative_by_projection(at: &Linearization, compliance: &[f64], zero: f64) -> 
     if counted[0] == counted[1] { counted[0] } else { None }
 }
 
+/// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the unknowns of length 1;
+/// `None` where none is found. The system is left factored with a multiple of the identity added.
+///
+/// # Errors
+/// As [`negative_eigenvalues`].
+pub(super) fn falling_motion(
+    system: &mut KktSystem,
+    at: &Linearization,
+    compliance: &[f64],
+) -> Result<Option<Vec<f64>>, FactorError> {
+    let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
+    let most = system.count_negative(at, compliance, [zero, 1.0])?;
+    let mut motions = Motions::new(system, at, compliance, zero);
+    Ok(if motions.negative(most) > 0 { motions.lowest() } else { None })
+}
+
 /// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a matrix. Measures of
 /// finite stiffness keep their tensions as unknowns, each of which adds one negative eigenvalue: no stiffness is so large that rounding
 /// errors of its multiples matter.
@@ -162,7 +178,7 @@ impl<'a> Motions<'a> {
 
     /// Number of negative eigenvalues on the span of motions, which grows until there are `most`, or until random forces
     /// lead to no new motions.
-    fn negative(mut self, most: usize) -> usize {
+    fn negative(&mut self, most: usize) -> usize {
         let unknowns = self.at.gradient.len();
         let enough = unknowns.min(MOTIONS_PER_EIGENVALUE * most + FURTHER_MOTIONS);
         let (mut random, mut negative, mut barren) = (ChaCha8Rng::seed_from_u64(SEED), 0, 0);
@@ -249,11 +265,22 @@ impl<'a> Motions<'a> {
         self.energies.push(self.found.iter().map(entry).collect());
     }
 
+    /// The motion of the span, of length 1, with the lowest `dx H dx + dt C dt`.
+    fn lowest(&self) -> Option<Vec<f64>> {
+        let vectors = dense::symmetric_eigen(&self.energies_on_span()).ok()?.vectors;
+        let mut lowest = vec![0.0; self.at.gradient.len()];
+        self.found.iter().enumerate().for_each(|(k, motion)| add_scaled(&mut lowest, vectors[(k, 0)], &motion.dx));
+        Some(lowest)
+    }
+
+    fn energies_on_span(&self) -> DenseMatrix {
+        let count = self.found.len();
+        DenseMatrix::from_fn(count, count, |i, j| self.energies[i.max(j)][i.min(j)])
+    }
+
     /// Number of negative eigenvalues of `dx H dx + dt C dt` on the span of the motions; 0 where it has none to tell.
     fn negative_on_span(&self) -> usize {
-        let count = self.found.len();
-        let matrix = DenseMatrix::from_fn(count, count, |i, j| self.energies[i.max(j)][i.min(j)]);
-        let values = dense::symmetric_eigenvalues(&matrix).unwrap_or_default();
+        let values = dense::symmetric_eigenvalues(&self.energies_on_span()).unwrap_or_default();
         values.iter().filter(|value| **value < 0.0).count()
     }
 }

@@ -70,6 +70,15 @@ impl Tangent {
         inertia::negative_eigenvalues(&mut self.system, &self.at, &self.compliance)
     }
 
+    /// A motion that meets the stiff measures to first order and on which the energy falls to second, rates of the unknowns of
+    /// length 1; `None` where none is found. Factors anew.
+    ///
+    /// # Errors
+    /// As [`Tangent::factor`].
+    pub fn falling_motion(&mut self) -> Result<Option<Vec<f64>>, FactorError> {
+        inertia::falling_motion(&mut self.system, &self.at, &self.compliance)
+    }
+
     /// The response of unknowns and tensions to a force on every unknown and a stretch of every stiff measure, by the
     /// last factorization and corrected until the relative residual is at most `tolerance` or no longer falls.
     pub fn solve(&mut self, force: &[f64], stretch: &[f64], tolerance: f64) -> Increment {

@@ -9,13 +9,15 @@ use super::{branches, energies, start};
 use crate::analysis::exact::error_to_kinematic;
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::method::{Method, RelaxOptions};
-use crate::analysis::recorder::KeptState;
-use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
+use crate::analysis::relax::recorder::KeptState;
+use crate::analysis::relax::{RelaxError, Relaxed, RouteTried, relax_from};
 use crate::analysis::state::State;
 use crate::model::{Gauge, Model};
 use crate::numerics::larger;
 use crate::output::figure::rounded;
-use crate::output::summary::{BranchChoiceSummary, IterationSummary, MethodName, RelaxSummary, StudyResult};
+use crate::output::summary::{
+    BranchChoiceSummary, IterationSummary, MethodName, RelaxSummary, RouteSummary, StudyResult,
+};
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{MethodSpec, RelaxSpec};
 use crate::solver::{Failure, Step};
@@ -159,6 +161,7 @@ fn result_of(context: &Context<'_>, relaxed: &Relaxed) -> RelaxSummary {
         residual_length: relaxed.residual_length,
         negative_eigenvalues: relaxed.negative_eigenvalues,
         self_stresses: relaxed.self_stresses,
+        routes: relaxed.routes.iter().map(route).collect(),
         intrinsic_failure: relaxed.intrinsic_failure.map(|failure| failure.to_string()),
         branch_choice: relaxed.branch_choice.map(|choice| BranchChoiceSummary {
             hinges: choice.hinges,
@@ -180,10 +183,16 @@ fn last_of(context: &Context<'_>, error: &RelaxError) -> RelaxSummary {
         chord_solves: error.history.iter().map(|step| step.solves).sum(),
         residual_force: last.map_or(f64::NAN, |step| step.residual_force),
         residual_length: last.map_or(f64::NAN, |step| step.residual_length),
+        routes: error.routes.iter().map(route).collect(),
         intrinsic_failure: error.intrinsic_failure.map(|failure| failure.to_string()),
         history: history(&error.history, &error.soft_steps),
         ..RelaxSummary::default()
     }
+}
+
+fn route(tried: &RouteTried) -> RouteSummary {
+    let RouteTried { name, iterations, failure } = *tried;
+    RouteSummary { name: name.to_owned(), iterations, failure: failure.map(|failure| failure.to_string()) }
 }
 
 fn method(spec: MethodSpec) -> Method {

@@ -25,7 +25,7 @@ impl Model {
     }
 
     /// Returns the number among the stiff measures and the rest length of each bar that is rigid by its own stiffness.
-    fn rigid_bars(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub(super) fn rigid_bars(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let measures = self.stiff.iter().flat_map(|term| (0..term.len()).map(move |k| (term, k))).enumerate();
         let rigid =
             measures.filter(|(_, (term, k))| term.kind() == TermKind::Bars && term.spring(*k).stiffness.is_infinite());

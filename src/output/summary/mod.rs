@@ -24,7 +24,7 @@ pub use json::to_json;
 pub use landscape::{LandscapeSummary, MapSummary, ModeLandscape, SampleSummary};
 pub use modes::{ModesSummary, SeamMotionsSummary};
 pub use path::{FirstCrossing, HalfBranchesSummary, PathBranchSummary, PathEventSummary, PathSummary};
-pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary};
+pub use relax::{BranchChoiceSummary, EnergySummary, IterationSummary, MethodName, RelaxSummary, RouteSummary};
 pub use response::{
     LatticeSummary, LinearModeSummary, ModuliSummary, PoissonSummary, PrincipalSummary, ResponseSummary,
     RigidLimitSummary, StressSummary, SymmetrySummary, TableSummary,

@@ -54,6 +54,9 @@ pub struct RelaxSummary {
     /// The branch on which a flat sheet, or another singular start of rigid bars, was left; null for other starts.
     #[serde(default)]
     pub branch_choice: Option<BranchChoiceSummary>,
+    /// The ways that were taken, in order: in positions or fold angles from the start, then those that were tried after it.
+    #[serde(default)]
+    pub routes: Vec<RouteSummary>,
     /// Why fold angles were given up as unknowns; null where they were not tried or led to the result.
     #[serde(default)]
     pub intrinsic_failure: Option<String>,
@@ -70,6 +73,20 @@ pub struct BranchChoiceSummary {
     pub on_rest_side: usize,
     /// Whether rigid bars stretched on the way, since no motion relieves the torques at the start.
     pub soft_bars: bool,
+}
+
+/// A way that a relaxation took.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct RouteSummary {
+    /// Its name.
+    #[schemars(extend("enum" = [
+        "positions", "fold angles", "soft bars", "straight screw", "rest path", "other gauge", "saddle", "bent screw", "other tensions"
+    ]))]
+    pub name: String,
+    /// Accepted steps that it added to the history; 0 where it found nothing better than what was there.
+    pub iterations: usize,
+    /// The failure that stood after it; null for an equilibrium.
+    pub failure: Option<String>,
 }
 
 /// One iteration of a relaxation; null: not finite, before a relaxation failed.

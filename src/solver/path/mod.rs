@@ -18,6 +18,7 @@
 //! | `events`, `work` | special states, and the work along the path |
 //! | `branching`, `ring` | directions that leave a path at a branch point, also where two eigenvalues vanish at once |
 //! | `run`, `exits`, `switching` | branches from their beginning to their end, and from one to the next |
+//! | `reach` | the state at the target alone |
 //! | `record` | what an interrupted run has found, and how a later one goes on from it |
 //! | `outcome` | settings and results |
 
@@ -30,6 +31,7 @@ mod follower;
 mod interpolant;
 mod outcome;
 mod problem;
+mod reach;
 mod record;
 mod ring;
 mod run;
@@ -42,6 +44,7 @@ use super::newton::Start;
 pub use events::Watch;
 pub use outcome::{Branch, BranchEnd, HalfBranches, MarkedState, PathError, PathMark, PathSettings};
 pub use problem::{ParametrizedProblem, PathState, Rates};
+pub use reach::{Reached, reach};
 pub use record::{PathEntry, PathObserver, PathRecord};
 use run::Run;
 

@@ -6,10 +6,11 @@
 //! where it has the equilibrium of a torus. From there it bends about an axis that keeps its direction, and at last with all its
 //! unknowns, in balance or nearly so.
 
-use super::certainty::{CERTAIN, next_change};
-use super::recorder::Recorder;
+use super::has_failed;
+use crate::analysis::relax::certainty::{CERTAIN, next_change};
+use crate::analysis::relax::run::{Ending, Run};
 use crate::model::Model;
-use crate::solver::{Equilibrium, HessianKind, NewtonError, Options, Problem, Start, Step, Tangent};
+use crate::solver::{Equilibrium, HessianKind, Problem, Start, Tangent};
 use std::f64::consts::PI;
 
 /// Curvature times the unit of length up to which the last state of a relaxation is nearly straight, and up to which it is rounding.
@@ -26,48 +27,45 @@ fn curvature(model: &Model, coordinates: &[f64]) -> Option<f64> {
     Some(model.domain().turns(coordinates)?.kappa.abs() * model.unit_of_length())
 }
 
-/// Whether the state with these coordinates is that of a screw with hardly any curvature.
-pub(super) fn is_nearly(model: &Model, coordinates: &[f64]) -> bool {
-    curvature(model, coordinates).is_some_and(|curvature| curvature <= NEARLY)
+/// Whether a relaxation of a screw failed with hardly any curvature.
+pub(super) fn is_nearly_straight(run: &Run<'_>, ending: &Ending) -> bool {
+    let Err(error) = ending else { return false };
+    let curvature = || curvature(run.model, &run.model.coordinates(&error.x));
+    has_failed(run, ending) && curvature().is_some_and(|curvature| curvature <= NEARLY)
 }
 
 /// The equilibrium that a nearly straight screw reaches by way of straight ones.
 ///
 /// # Errors
-/// [`NewtonError`] of the relaxation that fails.
-pub(super) fn relaxed(
-    model: &mut Model,
-    mut coordinates: Vec<f64>,
-    options: Options,
-    recorder: &mut Recorder<'_>,
-    history: &mut Vec<Step>,
-) -> Result<Equilibrium, NewtonError> {
-    model.domain().bend(&mut coordinates, AXIS, 0.0);
-    let mut start = Start::from(model.hold_axis(2, coordinates));
+/// [`NewtonError`](crate::solver::NewtonError) of the relaxation that fails.
+pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
+    let last = ending.as_ref().map_or_else(|error| &error.x, |found| &found.x);
+    let mut coordinates = run.model.coordinates(last);
+    run.model.domain().bend(&mut coordinates, AXIS, 0.0);
+    let mut start = Start::from(run.model.hold_axis(2, coordinates));
     for left in [1, 0] {
-        let reached = recorder.minimize(model, start, options);
+        let reached = run.minimize(start);
         let last = reached.as_ref().map_or_else(|error| &error.x, |found| &found.x);
-        let mut place = model.coordinates(last);
-        let straight = curvature(model, &place).is_some_and(|curvature| curvature <= ROUNDING);
+        let mut place = run.model.coordinates(last);
+        let straight = curvature(run.model, &place).is_some_and(|curvature| curvature <= ROUNDING);
         if straight {
-            model.domain().bend(&mut place, AXIS, 0.0);
+            run.model.domain().bend(&mut place, AXIS, 0.0);
         }
-        let x = model.hold_axis(if reached.is_ok() { left } else { 0 }, place);
+        let x = run.model.hold_axis(if reached.is_ok() { left } else { 0 }, place);
         let found = reached?;
         if left == 0 && straight {
             // the direction of the axis has no effect, and whether its eigenvalue is negative no meaning
             return Ok(Equilibrium { x, ..found });
         }
-        history.extend(found.history);
         start = Start { x, tension: Some(found.tension) };
     }
-    recorder.minimize(model, start, options)
+    run.minimize(start)
 }
 
 /// The equilibrium of a screw with its negative eigenvalues counted about axes that keep their direction, the most of several, if it is
 /// straight and would bend about none of them. Then the direction has no effect, and the sign of its eigenvalue is one of
 /// rounding. Other equilibria are returned as they are.
-pub(super) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
+pub(in crate::analysis::relax) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
     let place = model.coordinates(&found.x);
     if found.negative_eigenvalues == Some(0) || !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT)
     {
@@ -96,6 +94,7 @@ mod tests {
     use crate::analysis::relax::relax;
     use crate::model::{Assembly, Gauge, Rest};
     use crate::sheet::generate::{Pattern, generate};
+    use crate::solver::{Options, minimize};
 
     /// An eggbox on a screw with these rest angles of mountains and valleys, in radians.
     fn eggbox(rest: [f64; 2]) -> Assembly {
@@ -117,8 +116,7 @@ mod tests {
             let mut coordinates = model.coordinates(&model.start());
             model.domain().bend(&mut coordinates, AXIS, 0.0);
             let start = Start::from(model.hold_axis(2, coordinates));
-            let mut observe = |_: &Step| true;
-            let held = Recorder::new(&mut observe, None).minimize(&mut model, start, Options::default()).unwrap();
+            let held = minimize(&mut model, start, Options::default(), &mut |_| true).unwrap();
             let place = model.coordinates(&held.x);
             let found = Equilibrium { x: model.hold_axis(0, place), negative_eigenvalues: Some(7), ..held };
             let straight_energy = found.energy;

@@ -1,11 +1,11 @@
 //! The states on the way of a relaxation: its observer, which keeps every n-th of them where that is asked for.
 
-use super::state::State;
+use crate::analysis::state::State;
 use crate::model::Model;
 use crate::solver::{Equilibrium, NewtonError, Options, Start, Step, minimize_iterates};
 use std::num::NonZeroUsize;
 
-/// A state on the way of a relaxation, which [`RelaxOptions::keep_every`](super::method::RelaxOptions::keep_every) asks for.
+/// A state on the way of a relaxation, which [`RelaxOptions::keep_every`](crate::analysis::method::RelaxOptions::keep_every) asks for.
 ///
 /// ```
 /// use foldwell::analysis::method::RelaxOptions;
@@ -32,27 +32,27 @@ pub struct KeptState {
     pub state: State,
 }
 
-/// The observer of a relaxation. It counts the steps that belong to the history, shows them to another observer, and
-/// keeps states.
+/// The observer of a relaxation. It writes the history of its steps, shows them to another observer, and keeps states.
 pub(super) struct Recorder<'a> {
     observe: &'a mut dyn FnMut(&Step) -> bool,
     every: Option<NonZeroUsize>,
-    steps: usize,
+    history: Vec<Step>,
     kept: Vec<KeptState>,
 }
 
 impl<'a> Recorder<'a> {
     /// An observer that shows steps to `observe` and keeps one in `every` states, the first one included; none without that.
     pub(super) fn new(observe: &'a mut dyn FnMut(&Step) -> bool, every: Option<NonZeroUsize>) -> Self {
-        Self { observe, every, steps: 0, kept: Vec::new() }
+        Self { observe, every, history: vec![], kept: vec![] }
     }
 
     /// Sees a step, and the state that it leads to, which is made only where it is kept. Returns whether to go on.
     pub(super) fn see(&mut self, step: &Step, state: impl FnOnce() -> State) -> bool {
-        if self.every.is_some_and(|every| self.steps.is_multiple_of(every.get())) {
-            self.kept.push(KeptState { iteration: self.steps, state: state() });
+        let iteration = self.steps();
+        if self.every.is_some_and(|every| iteration.is_multiple_of(every.get())) {
+            self.kept.push(KeptState { iteration, state: state() });
         }
-        self.steps += 1;
+        self.history.push(*step);
         (self.observe)(step)
     }
 
@@ -71,25 +71,31 @@ impl<'a> Recorder<'a> {
         })
     }
 
-    /// Number of steps seen that belong to the history.
+    /// The steps so far.
+    pub(super) fn history(&self) -> &[Step] {
+        &self.history
+    }
+
+    /// Number of steps so far.
     pub(super) fn steps(&self) -> usize {
-        self.steps
+        self.history.len()
     }
 
     /// Forgets all steps after the first `steps`: they turn out not to belong to the history.
     pub(super) fn forget_after(&mut self, steps: usize) {
-        self.steps = steps;
+        self.history.truncate(steps);
         self.kept.retain(|kept| kept.iteration < steps);
     }
 
-    /// Returns the states that were kept, the last of the history among them in any case: as `last`, where that is known.
-    pub(super) fn into_kept(mut self, last: Option<&State>) -> Vec<KeptState> {
+    /// Returns the history, and the states that were kept, the last of the history among them in any case: as `last`, where that is
+    /// known.
+    pub(super) fn end(mut self, last: Option<&State>) -> (Vec<Step>, Vec<KeptState>) {
         if let Some(last) = last.filter(|_| self.every.is_some()) {
-            let iteration = self.steps.saturating_sub(1);
-            self.forget_after(iteration);
+            let iteration = self.steps().saturating_sub(1);
+            self.kept.retain(|kept| kept.iteration < iteration);
             self.kept.push(KeptState { iteration, state: last.clone() });
         }
-        self.kept
+        (self.history, self.kept)
     }
 }
 
@@ -116,7 +122,7 @@ mod tests {
         let mut observe = |_: &Step| true;
         let mut recorder = Recorder::new(&mut observe, every.and_then(NonZeroUsize::new));
         see(&mut recorder);
-        let kept = recorder.into_kept(Some(&state(99)));
+        let (_, kept) = recorder.end(Some(&state(99)));
         kept.into_iter().map(|kept| (kept.iteration, kept.state.coordinates[0])).collect()
     }
 

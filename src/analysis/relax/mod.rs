@@ -1,0 +1,229 @@
+//! Relaxation: from a start to the equilibrium of a model, directly or by raising what drives it step by step.
+
+mod certainty;
+pub mod recorder;
+mod rigid_forces;
+mod routes;
+mod run;
+
+use super::method::{IntrinsicFailure, RelaxOptions};
+use super::state::State;
+use crate::model::{Assembly, Gauge, Model};
+use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step, tension};
+use certainty::{CERTAIN, uncertainty};
+use recorder::KeptState;
+pub use routes::soft_bars::BranchChoice;
+use routes::{ROUTES, fold_angles, straight_screw};
+use run::{Ending, Run};
+use std::fmt;
+use std::ops::Range;
+use thiserror::Error;
+
+/// A way that a relaxation took, and how it stood after it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RouteTried {
+    /// The name of the route.
+    pub name: &'static str,
+    /// Accepted steps that it added to the history: none where it found nothing better.
+    pub iterations: usize,
+    /// The failure that stood after it; `None` for an equilibrium.
+    pub failure: Option<Failure>,
+}
+
+/// An equilibrium.
+#[derive(Clone, Debug)]
+pub struct Relaxed {
+    /// The state.
+    pub state: State,
+    /// The model's unknowns: where what is held was chosen again, others than those of the start.
+    pub x: Vec<f64>,
+    /// Tensions of the stiff measures, of least norm where they are not unique.
+    pub tension: Vec<f64>,
+    /// Accepted Newton steps, those of the continuation included.
+    pub iterations: usize,
+    /// Factorizations made.
+    pub factorizations: usize,
+    /// Solves made, chord corrections included.
+    pub solves: usize,
+    /// Largest unbalanced force over the largest force of an element.
+    pub residual_force: f64,
+    /// Largest `|L - L0 - t/k|` over the mean edge.
+    pub residual_length: f64,
+    /// Negative eigenvalues of the energy's Hessian on what rigid terms leave free; `None` where their number cannot be
+    /// established.
+    pub negative_eigenvalues: Option<usize>,
+    /// Self stresses of the rigid measures; `None` where none is rigid.
+    pub self_stresses: Option<usize>,
+    /// All accepted steps.
+    pub history: Vec<Step>,
+    /// The ways that were taken, in order: in positions or fold angles from the start, then those that were tried after it.
+    pub routes: Vec<RouteTried>,
+    /// Why fold angles were given up, if they were tried as unknowns.
+    pub intrinsic_failure: Option<IntrinsicFailure>,
+    /// The branch on which a flat or singular start was left; `None` for other starts.
+    pub branch_choice: Option<BranchChoice>,
+    /// Which steps of the history were made with bars that stretch, to leave a singular start.
+    pub soft_steps: Range<usize>,
+    /// The states on the way that [`RelaxOptions::keep_every`] asks for.
+    pub kept: Vec<KeptState>,
+}
+
+/// Relaxation failed; the last accepted state is here.
+#[derive(Error)]
+#[error("{failure}")]
+pub struct RelaxError {
+    /// Why.
+    pub failure: Failure,
+    /// Last accepted state.
+    pub state: State,
+    /// Its unknowns.
+    pub x: Vec<f64>,
+    /// All accepted steps.
+    pub history: Vec<Step>,
+    /// The ways that were taken, in order.
+    pub routes: Vec<RouteTried>,
+    /// Why fold angles were given up, if they were tried as unknowns.
+    pub intrinsic_failure: Option<IntrinsicFailure>,
+    /// Which steps of the history were made with bars that stretch, to leave a singular start.
+    pub soft_steps: Range<usize>,
+    /// The states on the way that [`RelaxOptions::keep_every`] asks for.
+    pub kept: Vec<KeptState>,
+}
+
+/// Says why it failed and how far it came, not the numbers of the state.
+impl fmt::Debug for RelaxError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (steps, edges) = (self.history.len(), self.state.energy.len());
+        write!(out, "{} (after {steps} steps; a sheet of {edges} edges)", self.failure)
+    }
+}
+
+/// The equilibrium that a sheet reaches from its drawn state.
+///
+/// ```
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate, relax};
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// let relaxed = relax(&assembly)?;
+/// assert!(relaxed.state.total() < 1e-12 && relaxed.negative_eigenvalues == Some(0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
+pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
+    let mut model = assembly.model(Gauge::Held);
+    let start = model.start();
+    relax_from(&mut model, start, Options::default(), &mut |_| true)
+}
+
+/// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
+/// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`](super::method::Method::Auto).
+///
+/// Where the direct way fails, a screw that it left nearly straight is relaxed by way of straight states; else, and where that fails too,
+/// all rest angles, rest lengths and locked angles are moved from their values at the start to their targets in steps that adapt.
+///
+/// ```
+/// use foldwell::analysis::method::RelaxOptions;
+/// use foldwell::analysis::relax::relax_from;
+/// use foldwell::model::Gauge;
+/// use foldwell::{Assembly, Pattern, RIGID, Rest, generate};
+///
+/// let sheet = generate(&Pattern::named("miura")?)?;
+/// let assembly = Assembly::patch(sheet, [2, 2]).bars(RIGID).creases(1.0).rest(Rest::Flat).build()?;
+/// // the held gauge is the one for minimisation; the unknowns of the drawn state are one start among others
+/// let mut model = assembly.model(Gauge::Held);
+/// let start = model.start();
+/// let mut steps = 0;
+/// let relaxed = relax_from(&mut model, start, RelaxOptions::default(), &mut |_step| {
+///     steps += 1;
+///     steps <= 100
+/// })?;
+/// assert!(relaxed.negative_eigenvalues == Some(0) && steps == relaxed.history.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RelaxError`] with the reason and the last accepted state, where it does not converge.
+pub fn relax_from(
+    model: &mut Model,
+    start: impl Into<Start>,
+    options: impl Into<RelaxOptions>,
+    observe: &mut dyn FnMut(&Step) -> bool,
+) -> Result<Relaxed, Box<RelaxError>> {
+    let start = start.into();
+    let mut run = Run::new(model, &start, options.into(), observe);
+    let mut ending = fold_angles::begin(&mut run, start);
+    let in_angles = run.intrinsic_failure.is_none() && run.recorder.history().iter().any(|step| step.intrinsic);
+    let first = if in_angles { "fold angles" } else { "positions" };
+    let mut routes = vec![tried(first, run.recorder.history(), &ending)];
+    for route in &ROUTES {
+        if (route.wanted)(&run, &ending) {
+            let steps = run.recorder.steps();
+            ending = (route.go)(&mut run, ending);
+            let added = run.recorder.history().get(steps..).unwrap_or_default();
+            routes.push(tried(route.name, added, &ending));
+        }
+    }
+    match ending.and_then(|found| certain(&run, found)) {
+        Ok(found) => Ok(Relaxed { routes, ..relaxed(run, found) }),
+        Err(error) => Err(Box::new(RelaxError { routes, ..failed(run, error) })),
+    }
+}
+
+fn tried(name: &'static str, added: &[Step], ending: &Ending) -> RouteTried {
+    let iterations = added.iter().filter(|step| step.fraction > 0.0).count();
+    RouteTried { name, iterations, failure: ending.as_ref().err().map(|error| error.failure) }
+}
+
+/// The equilibrium; an error where it is not known well enough.
+fn certain(run: &Run<'_>, found: Equilibrium) -> Ending {
+    match uncertainty(run.model, &found, run.options.tolerance) {
+        Some(angle) if !(angle <= CERTAIN) => {
+            let force = found.history.last().map_or(f64::NAN, |step| step.residual_force);
+            let failure = Failure::Uncertain { angle, force, tolerance: run.options.tolerance };
+            Err(NewtonError { failure, x: found.x, tension: found.tension, history: found.history })
+        }
+        _ => Ok(found),
+    }
+}
+
+/// What a relaxation found.
+fn relaxed(run: Run<'_>, found: Equilibrium) -> Relaxed {
+    let Run { model, origin, recorder, soft_steps, intrinsic_failure, .. } = run;
+    let branch_choice = BranchChoice::of(model, &found.x, &origin.angles, !soft_steps.is_empty());
+    let found = straight_screw::counted(model, found);
+    let settled = tension::settle(model, &found);
+    let state = State::new(model, &found.x, &settled.tension);
+    let (history, kept) = recorder.end(Some(&state));
+    Relaxed {
+        state,
+        x: found.x,
+        tension: settled.tension,
+        iterations: history.iter().filter(|step| step.fraction > 0.0).count(),
+        factorizations: history.iter().map(|step| step.factorizations).sum(),
+        solves: history.iter().map(|step| step.solves).sum(),
+        residual_force: settled.residuals.force,
+        residual_length: settled.residuals.length,
+        negative_eigenvalues: found.negative_eigenvalues,
+        self_stresses: settled.self_stresses,
+        history,
+        routes: vec![],
+        intrinsic_failure,
+        branch_choice,
+        soft_steps,
+        kept,
+    }
+}
+
+/// The failure of a relaxation with its last state.
+fn failed(run: Run<'_>, error: NewtonError) -> RelaxError {
+    let Run { model, recorder, soft_steps, intrinsic_failure, .. } = run;
+    let (failure, x) = (error.failure, error.x);
+    let state = State::new(model, &x, &error.tension);
+    // stopped in fold angles, it ends where it started
+    let is_last = recorder.history().last().is_some_and(|step| !step.intrinsic);
+    let (history, kept) = recorder.end(is_last.then_some(&state));
+    RelaxError { failure, state, x, history, routes: vec![], intrinsic_failure, soft_steps, kept }
+}

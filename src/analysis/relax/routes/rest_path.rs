@@ -1,0 +1,168 @@
+//! The path of minima on which the rest values move from those of the start to their targets.
+//!
+//! The start is an equilibrium where all rest values are its own. From there the path is followed as
+//! [`solver::path`](crate::solver::path) does, as long as it is stable. At a branch point or a limit point the sheet goes to the
+//! next minimum below, as one would in an experiment, and the path goes on from there. Where rigid bars make the start singular, as
+//! that of a flat sheet, bars that stretch a little are taken along this path, and become rigid along a second one.
+
+use super::saddle;
+use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
+use crate::analysis::state::State;
+use crate::model::{DrivenModel, Model};
+use crate::solver::path::{ParametrizedProblem, PathSettings, PathState, Reached, reach};
+use crate::solver::{Equilibrium, Failure, NewtonError, Problem, Start, Step};
+
+/// Longest step in arc length, in mean edges, and the largest number of states of a path.
+const LONGEST_STEP: f64 = 0.05;
+const MOST_STATES: usize = 1000;
+/// Tolerance of the states on the way.
+const TOLERANCE_ON_THE_WAY: f64 = 1e-9;
+/// Largest number of stretches of a path, between which it loses its stability.
+const MOST_STRETCHES: usize = 50;
+/// Part of the whole way by which a limit point is passed: the state at it is where two equilibria meet.
+const BEYOND_LIMIT: f64 = 0.005;
+/// Stiffness of bars that stretch a little, over that of the softest hinge.
+const SOFT_RATIO: f64 = 1e4;
+
+/// The equilibrium at the end of the path; the ending before where the path does not lead there.
+pub(super) fn follow(run: &mut Run<'_>, ending: Ending) -> Ending {
+    run.prefer(ending, followed, is_better)
+}
+
+/// The ending of the path, first with bars as they are; `None` where the path does not lead to the targets.
+fn followed(run: &mut Run<'_>) -> Option<Ending> {
+    let as_they_are = along_rests(run);
+    if as_they_are.is_some() || !run.model.has_rigid_bars() {
+        return as_they_are;
+    }
+    let stiffness = SOFT_RATIO * run.model.softest_hinge();
+    let first = run.recorder.steps();
+    run.model.soften_rigid_bars(stiffness);
+    let soft = along_rests(run);
+    run.model.soften_rigid_bars(f64::INFINITY);
+    run.soft_steps = first..run.recorder.steps();
+    match soft? {
+        Ok(found) => along(run, &|model| DrivenModel::by_stiffening(model, stiffness), found),
+        interrupted => Some(interrupted),
+    }
+}
+
+/// Follows the path of rest values from the start of the relaxation.
+fn along_rests(run: &mut Run<'_>) -> Option<Ending> {
+    let x = run.begin_anew(run.origin.coordinates.clone());
+    let (own, targets) = (run.model.values(&x), run.model.rests());
+    run.model.set_rests(&own, &targets, 0.0);
+    let begun = run.minimize(x);
+    run.model.set_rests(&own, &targets, 1.0);
+    match begun {
+        Ok(found) => along(run, &|model| DrivenModel::by_rests(model, [own.clone(), targets.clone()]), found),
+        Err(error) => is_interruption(&error).then_some(Err(error)),
+    }
+}
+
+/// Follows a path of minima from a start to its target, where it ends with a minimum. `None` where it does not lead there; the model
+/// is left at the target.
+fn along(run: &mut Run<'_>, drive: &dyn Fn(&mut Model) -> DrivenModel<'_>, start: Equilibrium) -> Option<Ending> {
+    let ending = follow_minima(run, drive, start);
+    let mut driven = drive(run.model);
+    driven.set_parameter(driven.target());
+    ending
+}
+
+/// Follows a path while it is stable. Where it becomes unstable it is left to the lower side, and goes on from the minimum there.
+fn follow_minima(
+    run: &mut Run<'_>,
+    drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
+    mut start: Equilibrium,
+) -> Option<Ending> {
+    let mut parameter = None;
+    for _ in 0..MOST_STRETCHES {
+        let Stretch { end, next, state } = stretch(run, drive, (parameter, start))?;
+        drive(run.model).set_parameter(next);
+        let PathState { x, tension, .. } = state;
+        if end == StretchEnd::Interrupted {
+            return Some(Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] }));
+        }
+        let settled = run.minimize(Start { x, tension: Some(tension) });
+        start = match saddle::leave(run, settled) {
+            Ok(found) if found.negative_eigenvalues != Some(0) => return None,
+            Ok(found) if end == StretchEnd::Target => return Some(Ok(found)),
+            Ok(found) => found,
+            Err(error) => return is_interruption(&error).then_some(Err(error)),
+        };
+        parameter = Some(next);
+    }
+    None
+}
+
+/// The reason for which a stretch of a path ends.
+#[derive(Clone, Copy, PartialEq)]
+enum StretchEnd {
+    Target,
+    Unstable,
+    Interrupted,
+}
+
+/// A stretch of a path on which states are stable.
+struct Stretch {
+    end: StretchEnd,
+    /// The parameter from which to go on.
+    next: f64,
+    /// The last state, the first one that is not stable.
+    state: PathState,
+}
+
+/// Follows a path from an equilibrium at a parameter, its first one if `None`, as far as it is stable; `None` where no step leads on.
+fn stretch(
+    run: &mut Run<'_>,
+    drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
+    (parameter, start): (Option<f64>, Equilibrium),
+) -> Option<Stretch> {
+    let (mut driven, recorder) = (drive(run.model), &mut run.recorder);
+    parameter.into_iter().for_each(|value| driven.set_parameter(value));
+    let (from, target) = (driven.parameter(), driven.target());
+    let settings = PathSettings {
+        tolerance: TOLERANCE_ON_THE_WAY,
+        max_step: LONGEST_STEP,
+        steps: MOST_STATES,
+        target,
+        ..PathSettings::default()
+    };
+    let start = Start { x: start.x, tension: Some(start.tension) };
+    let (mut end, mut furthest) = (StretchEnd::Target, from);
+    let reached = reach(&mut driven, start, &settings, &mut |driven, state| {
+        if !recorder.see(&step_of(driven, state), || State::new(driven.model, &state.x, &state.tension)) {
+            end = StretchEnd::Interrupted;
+        } else if state.negative_eigenvalues.is_some_and(|count| count > 0) {
+            end = StretchEnd::Unstable;
+        } else if (state.parameter - furthest) * (target - from) > 0.0 {
+            furthest = state.parameter;
+        }
+        end == StretchEnd::Target
+    });
+    match reached.ok()? {
+        Reached::Target(state) => Some(Stretch { end, next: target, state }),
+        Reached::Stopped(state) => {
+            let turned = state.tangent.parameter * (target - from) < 0.0;
+            let beyond = furthest + BEYOND_LIMIT * driven.parameter_scale() * (target - from).signum();
+            let next = if turned { beyond } else { state.parameter };
+            Some(Stretch { end, next, state })
+        }
+        Reached::Lost => None,
+    }
+}
+
+/// What a state of a path looks like among the steps of a relaxation.
+fn step_of(driven: &DrivenModel<'_>, state: &PathState) -> Step {
+    let stored = state.tension.iter().zip(driven.compliance()).map(|(t, c)| 0.5 * c * t * t);
+    Step {
+        energy: driven.energy(&state.x) + stored.sum::<f64>(),
+        residual_force: state.residual_force,
+        residual_length: state.residual_length,
+        fraction: 1.0,
+        shift: 0.0,
+        factorizations: state.iterations,
+        solves: state.iterations,
+        intrinsic: false,
+    }
+}
