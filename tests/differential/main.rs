@@ -10,6 +10,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod folded;
+#[path = "../common/redrawn.rs"]
+mod redrawn;
 mod relaxed;
 mod report;
 mod threads;
