@@ -1,6 +1,6 @@
 //! Random sheets, asked in two ways that must agree: in another unit of length, mirrored, moved, turned, with other numbers of their
 //! vertices and another cell of the same lattice, with bars all but rigid, once more from the answer, by dense
-//! eigenvalues and by the exact kinematics.
+//! eigenvalues and by the exact kinematics; and the scenes of the repository on a grid of rest values and stiffnesses.
 //!
 //! Where one of the two ways says that it has no answer there is nothing to compare: these cases are counted. `FOLDWELL_CASES=20000
 //! cargo test --release --test differential -- --nocapture` runs many and prints how many there were of each kind, and the seed of
@@ -10,6 +10,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod folded;
+mod grid;
 #[path = "../common/redrawn.rs"]
 mod redrawn;
 mod relaxed;
