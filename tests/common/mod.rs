@@ -34,8 +34,13 @@ impl Numbers {
     }
 }
 
+/// Returns the folder of the repository's meshes and scenes.
+pub fn mesh_folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes")
+}
+
 pub fn mesh(name: &str) -> Sheet {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("meshes").join(format!("{name}.fold"));
+    let path = mesh_folder().join(format!("{name}.fold"));
     fold::read(&path).expect("the repository's meshes can be read")
 }
 

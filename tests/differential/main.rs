@@ -1,6 +1,6 @@
 //! Random sheets, asked in two ways that must agree: in another unit of length, mirrored, moved, turned, with other numbers of their
 //! vertices and another cell of the same lattice, with bars all but rigid, once more from the answer, by dense
-//! eigenvalues and by the exact kinematics.
+//! eigenvalues and by the exact kinematics; and the scenes of the repository on a grid of rest values and stiffnesses.
 //!
 //! Where one of the two ways says that it has no answer there is nothing to compare: these cases are counted. `FOLDWELL_CASES=20000
 //! cargo test --release --test differential -- --nocapture` runs many and prints how many there were of each kind, and the seed of
@@ -10,13 +10,16 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod folded;
+mod grid;
+#[path = "../common/redrawn.rs"]
+mod redrawn;
 mod relaxed;
 mod report;
+mod threads;
 mod trial;
 
 use report::Report;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use threads::on_all_threads;
 
 /// Seeds that once fell.
 const FELL: [u64; 27] = [
@@ -38,29 +41,13 @@ fn examine(seed: u64) -> Report {
     report
 }
 
-/// All cases, on as many threads as the machine has: of the operating system, since what is examined has threads of its own.
-fn examine_all(seeds: &[u64]) -> Report {
-    let (next, threads) = (AtomicUsize::new(0), thread::available_parallelism().map_or(1, Into::into));
-    let some = || {
-        let mut report = Report::default();
-        while let Some(seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
-            report = report.and(examine(*seed));
-        }
-        report
-    };
-    thread::scope(|scope| {
-        let all: Vec<_> = (0..threads).map(|_| scope.spawn(some)).collect();
-        all.into_iter().map(|one| one.join().unwrap()).fold(Report::default(), Report::and)
-    })
-}
-
 /// Claim: two ways to the same answer give the same one, or one of them says why it gives none.
 #[test]
 fn two_ways_agree() {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let (cases, first) = (number("FOLDWELL_CASES").unwrap_or(USUAL), number("FOLDWELL_FIRST").unwrap_or(0));
     let seeds: Vec<u64> = FELL.into_iter().chain(first..first + cases).collect();
-    let report = examine_all(&seeds);
+    let report = on_all_threads(&seeds, |seed| examine(*seed)).into_iter().fold(Report::default(), Report::and);
     println!("{cases} cases; comparisons, and those without an answer: {:#?}", report.made);
     println!("what was said where there was no answer: {:#?}", report.said);
     let [answered, unanswered] = report.made["relaxed"];

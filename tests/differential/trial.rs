@@ -1,6 +1,7 @@
 //! One random sheet, and its answers.
 
 use crate::common::{Numbers, Testing, on};
+use crate::redrawn::redrawn;
 use foldwell::analysis::exact::error_to_kinematic;
 use foldwell::analysis::relax::relax_from;
 use foldwell::analysis::shown_cells::ShownCells;
@@ -8,11 +9,9 @@ use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
 use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Gauge, Terms};
 use foldwell::output::picture::Picture;
-use foldwell::sheet::build::{Drawing, build};
 use foldwell::sheet::generate::{Eggbox, Miura, Random, RandomDevelopable};
-use foldwell::sheet::{Corner, EdgeKind, Pattern, Sheet, generate};
+use foldwell::sheet::{EdgeKind, Pattern, Sheet, generate};
 use foldwell::solver::{Options, Problem, Start};
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Random starts from which another equilibrium is sought, of each size.
@@ -181,59 +180,17 @@ impl Trial {
 
     /// The same sheet with its vertices in another order and other lattice vectors.
     pub fn redrawn(&self, numbers: &mut Numbers, basis: [[i32; 2]; 2]) -> Option<Self> {
-        let lattice = self.sheet.lattice?;
-        let mut corners: Vec<Corner> = self.sheet.polygons.iter().flatten().copied().collect();
-        corners.sort_unstable_by_key(|c| (c.vertex, c.shift));
-        corners.dedup();
-        let mut shuffled: Vec<(f64, Corner)> = corners.into_iter().map(|c| (numbers.within(1.0), c)).collect();
-        shuffled.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let number: BTreeMap<(usize, [i32; 2]), usize> =
-            shuffled.iter().enumerate().map(|(k, (_, c))| ((c.vertex, c.shift), k)).collect();
-        let coords = shuffled.iter().map(|(_, corner)| self.sheet.position(*corner)).collect();
-        let polygon = |p: &Vec<Corner>| p.iter().map(|c| number[&(c.vertex, c.shift)]).collect();
-        let faces = self.sheet.polygons.iter().map(polygon).collect();
-        let vector = |[a, b]: [i32; 2]| lattice[0] * f64::from(a) + lattice[1] * f64::from(b);
-        let title = self.sheet.title.clone();
-        let drawing = Drawing { title, coords, faces, lattice: Some(basis.map(vector)), ..Drawing::default() };
-        let sheet = build(&drawing).unwrap();
-        let number = same_edges(&sheet, &self.sheet)?;
+        let other = redrawn(&self.sheet, numbers, basis);
+        let number = other.edges(&self.sheet)?;
         let off = number.iter().map(|&old| self.off[old]).collect();
         let lock = match self.lock {
             Some((edge, off)) => Some((number.iter().position(|&old| old == edge)?, off)),
             None => None,
         };
-        Some(Self { sheet, off, lock, ..self.clone() })
+        Some(Self { sheet: other.sheet, off, lock, ..self.clone() })
     }
 }
 
 fn halves(tension: &[f64]) -> Vec<f64> {
     tension.iter().map(|t| 0.5 * t * t).collect()
-}
-
-/// The edge of `old` that each edge of `new` is, by its middle and direction; `None` where diagonals were drawn otherwise.
-pub fn same_edges(new: &Sheet, old: &Sheet) -> Option<Vec<usize>> {
-    let [l1, l2] = old.lattice?;
-    let normal = l1.cross(&l2);
-    let ends = |sheet: &Sheet, k: usize| {
-        let key = sheet.edges[k].key;
-        let end = Corner { vertex: key.j, shift: key.shift };
-        [sheet.position(Corner::home(key.i)), sheet.position(end)]
-    };
-    let middle = |sheet: &Sheet, k: usize| ends(sheet, k).iter().sum::<Vec3>() / 2.0;
-    let along = |sheet: &Sheet, k: usize| ends(sheet, k)[1] - ends(sheet, k)[0];
-    let whole = |x: f64| (x - x.round()).abs() < 1e-6;
-    let same = |a: Vec3, b: Vec3| {
-        let d = a - b;
-        let along = [d.cross(&l2).dot(&normal), l1.cross(&d).dot(&normal)].map(|x| x / normal.norm_squared());
-        let rest = d - l1 * along[0].round() - l2 * along[1].round();
-        along.into_iter().all(whole) && rest.norm() < 1e-6
-    };
-    // the two diagonals of a parallelogram have the same middle
-    let parallel = |a: Vec3, b: Vec3| (a - b).norm().min((a + b).norm()) < 1e-6;
-    let found = (0..new.edges.len()).map(|k| {
-        let is = |o: &usize| same(middle(new, k), middle(old, *o)) && parallel(along(new, k), along(old, *o));
-        let mut fit = (0..old.edges.len()).filter(is);
-        fit.next().filter(|_| fit.next().is_none())
-    });
-    found.collect()
 }
