@@ -191,8 +191,9 @@ fn last_of(context: &Context<'_>, error: &RelaxError) -> RelaxSummary {
 }
 
 fn route(tried: &RouteTried) -> RouteSummary {
-    let RouteTried { name, iterations, failure } = *tried;
-    RouteSummary { name: name.to_owned(), iterations, failure: failure.map(|failure| failure.to_string()) }
+    let RouteTried { name, iterations, failure, negative_eigenvalues } = *tried;
+    let failure = failure.map(|failure| failure.to_string());
+    RouteSummary { name: name.to_owned(), iterations, failure, negative_eigenvalues }
 }
 
 fn method(spec: MethodSpec) -> Method {

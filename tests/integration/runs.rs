@@ -208,11 +208,11 @@ fn what_a_run_says_and_writes() {
     assert_eq!(names, ["one.csv", "summary.json"]);
 }
 
-/// Claim: an unstable equilibrium is also reported on standard output. A flat sheet that is compressed in its plane
-/// stays flat, since no force acts out of the plane: unstable under a force a hundred times the stiffness of the
-/// creases, which are of length 1 and more, and stable under one as large as that stiffness.
+/// Claim: a saddle is left, and standard output says so. A flat sheet that is compressed in its plane has no force out of the plane:
+/// it is unstable under a force a hundred times the stiffness of the creases, which are of length 1 and more, and stable under one
+/// as large as that stiffness.
 #[test]
-fn a_state_that_is_not_stable_is_called_so() {
+fn a_saddle_is_left_and_called_so() {
     let out = tempfile::tempdir().unwrap();
     for (name, force, unstable) in [("strongly", -1.0, true), ("weakly", -0.01, false)] {
         let scene = format!(
@@ -226,8 +226,10 @@ fn a_state_that_is_not_stable_is_called_so() {
         fs::write(out.path().join(format!("{name}.toml")), scene).unwrap();
         let said = text(&foldwell(out.path(), &["run", &format!("{name}.toml")]).stdout);
         let summary = json(&out.path().join(name).join("summary.json"));
-        let count = summary["studies"][0]["negative_eigenvalues"].as_u64().unwrap();
-        assert_eq!((said.contains(", not stable ("), count > 0), (unstable, unstable), "{count}: {said}");
+        let study = &summary["studies"][0];
+        let flat = study["routes"][0]["negative_eigenvalues"].as_u64().unwrap();
+        assert_eq!((said.contains(", by way of saddle"), flat > 0), (unstable, unstable), "{flat}: {said}");
+        assert_eq!(study["negative_eigenvalues"], 0, "{said}");
     }
 }
 

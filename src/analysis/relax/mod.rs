@@ -28,6 +28,8 @@ pub struct RouteTried {
     pub iterations: usize,
     /// The failure that stood after it; `None` for an equilibrium.
     pub failure: Option<Failure>,
+    /// Negative eigenvalues of the equilibrium that stood after it; `None` where it is none, or where they could not be counted.
+    pub negative_eigenvalues: Option<usize>,
 }
 
 /// An equilibrium.
@@ -174,7 +176,11 @@ pub fn relax_from(
 
 fn tried(name: &'static str, added: &[Step], ending: &Ending) -> RouteTried {
     let iterations = added.iter().filter(|step| step.fraction > 0.0).count();
-    RouteTried { name, iterations, failure: ending.as_ref().err().map(|error| error.failure) }
+    let (failure, negative_eigenvalues) = match ending {
+        Ok(found) => (None, found.negative_eigenvalues),
+        Err(error) => (Some(error.failure), None),
+    };
+    RouteTried { name, iterations, failure, negative_eigenvalues }
 }
 
 /// The equilibrium; an error where it is not known well enough.

@@ -129,7 +129,7 @@ fn rates_of_drives() {
     for quantity in drives {
         let what = format!("{quantity:?}");
         let pinned = Terms { pins: vec![(8, [true; 3])], ..all.clone() };
-        let model = assembly.with_terms(pinned).model(Gauge::Held);
+        let mut model = assembly.with_terms(pinned).model(Gauge::Held);
         let drawn = model.values(&model.start());
         let drive = Drive { quantity, to: 0.37 };
         let mut driven = DrivenModel::new(&mut model, &drive, drawn, false).unwrap();

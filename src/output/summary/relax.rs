@@ -87,6 +87,9 @@ pub struct RouteSummary {
     pub iterations: usize,
     /// The failure that stood after it; null for an equilibrium.
     pub failure: Option<String>,
+    /// Negative eigenvalues of the equilibrium that stood after it: those of a saddle, before it was left; null where there was none, or
+    /// where they could not be counted.
+    pub negative_eigenvalues: Option<usize>,
 }
 
 /// One iteration of a relaxation; null: not finite, before a relaxation failed.

@@ -10,8 +10,8 @@ use crate::solver::newton::Start;
 pub enum Reached {
     /// The state at the target.
     Target(PathState),
-    /// To no target within the largest number of states, or no step led on.
-    Lost,
+    /// The last state within the largest number of states, or from which no step led on.
+    Lost(PathState),
     /// The observer asked to stop at this state.
     Stopped(PathState),
 }
@@ -41,12 +41,12 @@ pub fn reach<P: ParametrizedProblem>(
         if (last.parameter - target) * (next.parameter - target) <= 0.0 {
             let end = follower.at_parameter(&last, &next, target)?;
             follower.problem.set_parameter(target);
-            return Ok(end.map_or(Reached::Lost, Reached::Target));
+            return Ok(end.map_or(Reached::Lost(last), Reached::Target));
         }
         if !observe(follower.problem, &next) {
             return Ok(Reached::Stopped(next));
         }
         (before, last, length) = (Some(last), next, longer);
     }
-    Ok(Reached::Lost)
+    Ok(Reached::Lost(last))
 }

@@ -29,7 +29,7 @@ const DAMPED: f64 = 0.25;
 const LARGEST_ANGLE_RAD: f64 = 1.01 * std::f64::consts::PI;
 
 /// Begins a relaxation: in fold angles where the method says so, and in positions elsewhere or where they fail.
-pub(in crate::analysis::relax) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
+pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
     let failure = match form(run, &start) {
         Ok(None) => return run.minimize(start),
         Ok(Some(intrinsic)) => {

@@ -19,6 +19,8 @@ const MOST_STATES: usize = 1000;
 const TOLERANCE_ON_THE_WAY: f64 = 1e-9;
 /// Largest number of stretches of a path, between which it loses its stability.
 const MOST_STRETCHES: usize = 50;
+/// Parts of the whole way that are tried at once where no step of a path leads on.
+const PARTS_OF_THE_WAY: [f64; 4] = [1.0 / 8.0, 1.0 / 16.0, 1.0 / 32.0, 1.0 / 64.0];
 /// Part of the whole way by which a limit point is passed: the state at it is where two equilibria meet.
 const BEYOND_LIMIT: f64 = 0.005;
 /// Stiffness of bars that stretch a little, over that of the softest hinge.
@@ -69,28 +71,59 @@ fn along(run: &mut Run<'_>, drive: &dyn Fn(&mut Model) -> DrivenModel<'_>, start
     ending
 }
 
-/// Follows a path while it is stable. Where it becomes unstable it is left to the lower side, and goes on from the minimum there.
+/// Follows a path while it is stable. Where it becomes unstable it is left to the lower side, and goes on from the minimum there;
+/// where no step of the path leads on, as next to the apex of a screw, from a minimum a little farther.
 fn follow_minima(
     run: &mut Run<'_>,
     drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
     mut start: Equilibrium,
 ) -> Option<Ending> {
-    let mut parameter = None;
+    let mut parameter = drive(run.model).parameter();
     for _ in 0..MOST_STRETCHES {
-        let Stretch { end, next, state } = stretch(run, drive, (parameter, start))?;
+        let Stretch { end, parameter: next, x, tension } = stretch(run, drive, (parameter, start));
         drive(run.model).set_parameter(next);
-        let PathState { x, tension, .. } = state;
-        if end == StretchEnd::Interrupted {
-            return Some(Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] }));
-        }
-        let settled = run.minimize(Start { x, tension: Some(tension) });
+        let settled = match end {
+            StretchEnd::Interrupted => {
+                return Some(Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] }));
+            }
+            StretchEnd::Lost => {
+                let (farther, found) = farther(run, drive, next, &x)?;
+                parameter = farther;
+                found
+            }
+            StretchEnd::Target | StretchEnd::Unstable => {
+                parameter = next;
+                run.minimize(Start { x, tension: Some(tension) })
+            }
+        };
         start = match saddle::leave(run, settled) {
             Ok(found) if found.negative_eigenvalues != Some(0) => return None,
-            Ok(found) if end == StretchEnd::Target => return Some(Ok(found)),
+            Ok(found) if parameter == drive(run.model).target() => return Some(Ok(found)),
             Ok(found) => found,
             Err(error) => return is_interruption(&error).then_some(Err(error)),
         };
-        parameter = Some(next);
+    }
+    None
+}
+
+/// Minimises a little farther on the way from a state at which no step of the path leads on: as far as that succeeds. Returns the
+/// parameter there with the ending; `None` where it succeeds nowhere.
+fn farther(
+    run: &mut Run<'_>,
+    drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
+    from: f64,
+    x: &[f64],
+) -> Option<(f64, Ending)> {
+    let (place, target) = (run.model.place(), drive(run.model).target());
+    let way = drive(run.model).parameter_scale() * (target - from).signum();
+    for part in PARTS_OF_THE_WAY {
+        let next = if (target - from).abs() <= (part * way).abs() { target } else { from + part * way };
+        run.model.go_to(&place);
+        drive(run.model).set_parameter(next);
+        let ending = run.minimize(x.to_vec());
+        if ending.as_ref().map_or_else(is_interruption, |_| true) {
+            return Some((next, ending));
+        }
     }
     None
 }
@@ -100,6 +133,7 @@ fn follow_minima(
 enum StretchEnd {
     Target,
     Unstable,
+    Lost,
     Interrupted,
 }
 
@@ -107,20 +141,21 @@ enum StretchEnd {
 struct Stretch {
     end: StretchEnd,
     /// The parameter from which to go on.
-    next: f64,
-    /// The last state, the first one that is not stable.
-    state: PathState,
+    parameter: f64,
+    /// Unknowns and tensions of the last state.
+    x: Vec<f64>,
+    tension: Vec<f64>,
 }
 
-/// Follows a path from an equilibrium at a parameter, its first one if `None`, as far as it is stable; `None` where no step leads on.
+/// Follows a path from an equilibrium at a parameter as far as it is stable.
 fn stretch(
     run: &mut Run<'_>,
     drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
-    (parameter, start): (Option<f64>, Equilibrium),
-) -> Option<Stretch> {
+    (from, start): (f64, Equilibrium),
+) -> Stretch {
     let (mut driven, recorder) = (drive(run.model), &mut run.recorder);
-    parameter.into_iter().for_each(|value| driven.set_parameter(value));
-    let (from, target) = (driven.parameter(), driven.target());
+    driven.set_parameter(from);
+    let target = driven.target();
     let settings = PathSettings {
         tolerance: TOLERANCE_ON_THE_WAY,
         max_step: LONGEST_STEP,
@@ -128,9 +163,9 @@ fn stretch(
         target,
         ..PathSettings::default()
     };
-    let start = Start { x: start.x, tension: Some(start.tension) };
-    let (mut end, mut furthest) = (StretchEnd::Target, from);
-    let reached = reach(&mut driven, start, &settings, &mut |driven, state| {
+    let begin = Start { x: start.x.clone(), tension: Some(start.tension.clone()) };
+    let (mut end, mut furthest) = (StretchEnd::Lost, from);
+    let reached = reach(&mut driven, begin, &settings, &mut |driven, state| {
         if !recorder.see(&step_of(driven, state), || State::new(driven.model, &state.x, &state.tension)) {
             end = StretchEnd::Interrupted;
         } else if state.negative_eigenvalues.is_some_and(|count| count > 0) {
@@ -138,18 +173,22 @@ fn stretch(
         } else if (state.parameter - furthest) * (target - from) > 0.0 {
             furthest = state.parameter;
         }
-        end == StretchEnd::Target
+        end == StretchEnd::Lost
     });
-    match reached.ok()? {
-        Reached::Target(state) => Some(Stretch { end, next: target, state }),
-        Reached::Stopped(state) => {
+    let (parameter, state) = match reached {
+        Ok(Reached::Target(state)) => {
+            end = StretchEnd::Target;
+            (target, state)
+        }
+        Ok(Reached::Stopped(state)) => {
             let turned = state.tangent.parameter * (target - from) < 0.0;
             let beyond = furthest + BEYOND_LIMIT * driven.parameter_scale() * (target - from).signum();
-            let next = if turned { beyond } else { state.parameter };
-            Some(Stretch { end, next, state })
+            (if turned { beyond } else { state.parameter }, state)
         }
-        Reached::Lost => None,
-    }
+        Ok(Reached::Lost(state)) => (state.parameter, state),
+        Err(_) => return Stretch { end, parameter: from, x: start.x, tension: start.tension },
+    };
+    Stretch { end, parameter, x: state.x, tension: state.tension }
 }
 
 /// What a state of a path looks like among the steps of a relaxation.

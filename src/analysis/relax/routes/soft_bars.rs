@@ -52,7 +52,7 @@ pub struct BranchChoice {
 impl BranchChoice {
     /// Returns the branch of the state `x` of a model that was started with these angles; `None` if the start was
     /// neither flat nor singular, or all rest angles are zero.
-    pub(in crate::analysis::relax) fn of(model: &Model, x: &[f64], start: &[f64], soft_bars: bool) -> Option<Self> {
+    pub(crate) fn of(model: &Model, x: &[f64], start: &[f64], soft_bars: bool) -> Option<Self> {
         let flat = is_flat(start);
         let [hinges, on_rest_side] = if flat || soft_bars { model.hinges_on_rest_side(x) } else { [0, 0] };
         (hinges > 0).then_some(Self { hinges, on_rest_side, soft_bars })
@@ -112,6 +112,7 @@ pub(super) fn leave_if_better(run: &mut Run<'_>, ending: Ending) -> Ending {
 /// [`NewtonError`] of the model with rigid bars, [`Failure::Unbounded`] where its forces cannot balance, or
 /// [`Failure::Interrupted`].
 pub(super) fn leave(run: &mut Run<'_>, _: Ending) -> Ending {
+    run.soft_steps = 0..run.recorder.steps();
     from_the_start(run)
 }
 

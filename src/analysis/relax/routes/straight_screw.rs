@@ -65,7 +65,7 @@ pub(super) fn relaxed(run: &mut Run<'_>, ending: Ending) -> Ending {
 /// The equilibrium of a screw with its negative eigenvalues counted about axes that keep their direction, the most of several, if it is
 /// straight and would bend about none of them. Then the direction has no effect, and the sign of its eigenvalue is one of
 /// rounding. Other equilibria are returned as they are.
-pub(in crate::analysis::relax) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
+pub(crate) fn counted(model: &mut Model, found: Equilibrium) -> Equilibrium {
     let place = model.coordinates(&found.x);
     if found.negative_eigenvalues == Some(0) || !curvature(model, &place).is_some_and(|curvature| curvature <= STRAIGHT)
     {
