@@ -85,7 +85,8 @@ pub(super) fn negative_eigenvalues(
         return Ok(Some(most));
     }
     for heavier in HEAVIER_WEIGHTS {
-        if system.count_negative(at, compliance, [zero, heavier])? == least {
+        // less what rounding errors of such weights may add to an eigenvalue, so that the count is an upper bound all the same
+        if system.count_negative(at, compliance, [-zero * heavier, heavier])? == least {
             return Ok(Some(least));
         }
     }
