@@ -31,6 +31,8 @@ const MOST_PROJECTED: usize = 800;
 /// Singular values of the gradients of rigid measures, relative to the largest one, up to which they may be zero: rounding errors, and
 /// errors of the state by which they change.
 const ZERO_SINGULAR_VALUES: [f64; 2] = [1e-12, 1e-9];
+/// Least and largest unit of tensions of finite measures in the dense matrix, relative to the Hessian over a gradient's size.
+const UNITS_OF_TENSIONS: [f64; 2] = [1e-3, 1e3];
 /// Weights of further counts, relative to the usual ones. Heavier ones lose small eigenvalues to rounding.
 const HEAVIER_WEIGHTS: [f64; 3] = [1e2, 1e3, 1e5];
 /// Counts above this are not confirmed by motions, which cost about two solves each, but by the count of a heavier weight.
@@ -83,7 +85,8 @@ pub(super) fn negative_eigenvalues(
         return Ok(Some(most));
     }
     for heavier in HEAVIER_WEIGHTS {
-        if system.count_negative(at, compliance, [zero, heavier])? == least {
+        // less what rounding errors of such weights may add to an eigenvalue, so that the count is an upper bound all the same
+        if system.count_negative(at, compliance, [-zero * heavier, heavier])? == least {
             return Ok(Some(least));
         }
     }
@@ -124,7 +127,8 @@ pub(super) fn falling_motion(
 
 /// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a matrix. Measures of
 /// finite stiffness keep their tensions as unknowns, each of which adds one negative eigenvalue: no stiffness is so large that rounding
-/// errors of its multiples matter.
+/// errors of its multiples matter. Tensions are in units in which compliances are of the size of the Hessian, as far as that leaves the
+/// gradients of measures moderate: beside a Hessian of large tensions a small compliance would be lost to rounding.
 fn negative_on(
     at: &Linearization,
     (compliance, rows): (&[f64], &DenseMatrix),
@@ -135,12 +139,15 @@ fn negative_on(
     let mut hessian = at.pattern().to_dense(&at.hessian);
     (0..hessian.nrows()).for_each(|k| hessian[(k, k)] += zero);
     let (hessian, rows) = (free.transpose() * hessian * free, rows.select_rows(&finite) * free);
-    let (size, tensions) = (free.ncols(), finite.len());
-    let mut whole = DenseMatrix::zeros(size + tensions, size + tensions);
-    whole.view_mut((0, 0), (size, size)).copy_from(&hessian);
-    whole.view_mut((size, 0), (tensions, size)).copy_from(&rows);
+    let (motions, tensions) = (free.ncols(), finite.len());
+    let size = if hessian.amax() > 0.0 { hessian.amax() } else { 1.0 };
+    let mut whole = DenseMatrix::zeros(motions + tensions, motions + tensions);
+    whole.view_mut((0, 0), (motions, motions)).copy_from(&hessian);
     for (k, row) in finite.into_iter().enumerate() {
-        whole[(size + k, size + k)] = -compliance[row] / at.sizes[row].powi(2);
+        let natural = compliance[row] / at.sizes[row].powi(2);
+        let unit = size * (natural * size).sqrt().recip().clamp(UNITS_OF_TENSIONS[0], UNITS_OF_TENSIONS[1]);
+        whole.view_mut((motions + k, 0), (1, motions)).copy_from(&(rows.row(k) * unit));
+        whole[(motions + k, motions + k)] = -natural * unit * unit;
     }
     let negative = dense::symmetric_eigenvalues(&whole).ok()?.iter().filter(|value| **value < 0.0).count();
     negative.checked_sub(tensions)

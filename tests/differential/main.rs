@@ -11,29 +11,57 @@
 mod common;
 mod folded;
 mod grid;
+mod inertia;
 #[path = "../common/redrawn.rs"]
 mod redrawn;
 mod relaxed;
 mod report;
 mod threads;
 mod trial;
+mod unusual;
 
 use report::Report;
 use threads::on_all_threads;
+use trial::Trial;
 
 /// Seeds that once fell.
 const FELL: [u64; 27] = [
     130, 1765, 2042, 2617, 4623, 5455, 5830, 6315, 6944, 7022, 7328, 7357, 7949, 8205, 10780, 10790, 11896, 12071,
     12920, 13210, 13432, 13568, 14790, 16586, 18530, 18956, 19010,
 ];
+/// Seeds of unusual sheets that once fell, without those that take minutes.
+const FELL_UNUSUAL: [u64; 6] = [139, 371, 679, 1015, 1549, 1767];
+/// Disagreements of the program that are known: kind and seed. An entry that no longer falls where it is examined fails.
+///
+/// All but one are of pleated cells of two vertices, with parallel creases and flat ones across, which rest on a screw that is straight but
+/// for rounding errors. There the rows of rigid bars depend on each other, and flat creases may begin to fold in many ways: the iteration
+/// for the exact state near the relaxed one goes to another one, 9 or 15 radians away, and that is taken for the error; flat creases stay
+/// at angles of 1e-7, with an energy that is uncertain by 1e-5 of itself although residuals are met; and another drawing ends in a state of
+/// higher energy. The last one is a sliver of which two drawings end in two states without negative eigenvalues; that the sheet has both
+/// is not shown, since random starts from one drawing did not reach the other's.
+const KNOWN: [(&str, u64); 9] = [
+    ("exact kinematics", 139),
+    ("exact kinematics", 371),
+    ("another unit", 679),
+    ("exact kinematics", 1015),
+    ("another cell", 1031),
+    ("exact kinematics", 1549),
+    ("another cell", 1754),
+    ("another unit", 1767),
+    ("renumbered", 1004),
+];
+/// Unusual cases where nothing else is asked for.
+const USUAL_UNUSUAL: u64 = 25;
 /// Cases where nothing else is asked for.
 const USUAL: u64 = 150;
+/// Assemblies whose negative eigenvalues are counted.
+const USUAL_COUNTS: u64 = 60;
 /// Folding is asked of one case in so many: it takes much longer than a relaxation.
 const FOLDED: u64 = 10;
 
 fn examine(seed: u64) -> Report {
     let mut report = Report::default();
-    relaxed::examine(seed, &mut report);
+    relaxed::examine(seed, &Trial::new(seed), &mut report);
     if seed.is_multiple_of(FOLDED) {
         folded::examine(seed / FOLDED, &mut report);
     }
@@ -41,13 +69,22 @@ fn examine(seed: u64) -> Report {
     report
 }
 
+fn examine_all(seeds: &[u64], examine: impl Fn(u64) -> Report + Sync) -> Report {
+    on_all_threads(seeds, |seed| examine(*seed)).into_iter().fold(Report::default(), Report::and)
+}
+
+/// Number of cases and the first seed, as asked for in the environment.
+fn asked(usual: u64) -> (u64, u64) {
+    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
+    (number("FOLDWELL_CASES").unwrap_or(usual), number("FOLDWELL_FIRST").unwrap_or(0))
+}
+
 /// Claim: two ways to the same answer give the same one, or one of them says why it gives none.
 #[test]
 fn two_ways_agree() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
-    let (cases, first) = (number("FOLDWELL_CASES").unwrap_or(USUAL), number("FOLDWELL_FIRST").unwrap_or(0));
+    let (cases, first) = asked(USUAL);
     let seeds: Vec<u64> = FELL.into_iter().chain(first..first + cases).collect();
-    let report = on_all_threads(&seeds, |seed| examine(*seed)).into_iter().fold(Report::default(), Report::and);
+    let report = examine_all(&seeds, examine);
     println!("{cases} cases; comparisons, and those without an answer: {:#?}", report.made);
     println!("what was said where there was no answer: {:#?}", report.said);
     let [answered, unanswered] = report.made["relaxed"];
@@ -56,4 +93,68 @@ fn two_ways_agree() {
     let apart = report.made.get(report::ELSEWHERE).map_or(0, |[made, _]| *made);
     assert!(50 * apart <= compared, "{apart} of {compared} comparisons are of two equilibria");
     assert!(report.fell.is_empty(), "{} disagreements: {:#?}", report.fell.len(), report.fell);
+}
+
+/// Pieces and tubes are examined in one case in so many.
+const SEVERAL: u64 = 4;
+
+/// A sheet of an unusual kind; in some cases two pieces and a tube besides.
+fn examine_unusual(seed: u64) -> Report {
+    let mut report = Report::default();
+    relaxed::examine(seed, &unusual::trial(seed), &mut report);
+    if seed.is_multiple_of(SEVERAL) {
+        unusual::pieces(seed / SEVERAL, &mut report);
+        unusual::tubes(seed / SEVERAL, &mut report);
+    }
+    report.fell.iter().for_each(|fell| println!("{fell}"));
+    report
+}
+
+/// Claim: the same for sheets of unusual kinds: few vertices, slivers, axes of symmetry, closed rings, pieces, whose energies add, and
+/// tubes.
+#[test]
+fn two_ways_agree_for_unusual_sheets() {
+    let (cases, first) = asked(USUAL_UNUSUAL);
+    let seeds: Vec<u64> = FELL_UNUSUAL.into_iter().chain(first..first + cases).collect();
+    let report = examine_all(&seeds, examine_unusual);
+    println!("{cases} cases; comparisons, and those without an answer: {:#?}", report.made);
+    println!("what was said where there was no answer: {:#?}", report.said);
+    for kind in ["relaxed", "pieces", "tube"] {
+        let [answered, unanswered] = report.made[kind];
+        assert!(4 * answered >= 3 * (answered + unanswered), "{kind}: {answered} of {}", answered + unanswered);
+    }
+    let told = |(kind, seed): &(&str, u64)| format!("{kind}: seed {seed},");
+    for known in KNOWN.iter().filter(|(_, seed)| seeds.contains(seed)) {
+        assert!(report.fell.iter().any(|fell| fell.starts_with(&told(known))), "{} no longer falls", told(known));
+    }
+    let is_known = |fell: &&String| KNOWN.iter().any(|known| fell.starts_with(&told(known)));
+    let others: Vec<_> = report.fell.iter().filter(|fell| !is_known(fell)).collect();
+    assert!(others.is_empty(), "{} disagreements: {others:#?}", others.len());
+}
+
+/// Claim: the number of negative eigenvalues that is reported for a state is never wrong, and seldom not known, but for eigenvalues that
+/// are documented to count as zero. Source: singular values and eigenvalues of dense matrices by another library. Tolerance: none; cases
+/// that rounding errors of the dense count decide are counted apart.
+#[test]
+fn negative_eigenvalues_are_those_of_a_dense_null_space() {
+    let (cases, first) = asked(USUAL_COUNTS);
+    let seeds: Vec<u64> = (first..first + cases).collect();
+    let report = examine_all(&seeds, |seed| {
+        let mut report = Report::default();
+        inertia::examine(seed, &mut report);
+        report.fell.iter().for_each(|fell| println!("{fell}"));
+        report
+    });
+    println!("{cases} assemblies: {:#?}", report.made);
+    println!("what was said where there was no answer: {:#?}", report.said);
+    let made = |kind: &str| report.made.get(kind).map_or(0, |[made, _]| *made);
+    let kinds = [inertia::COUNTED, inertia::UNKNOWN, inertia::UNSTABLE, inertia::FOR_ZERO];
+    let [compared, unknown, unstable, for_zero] = kinds.map(made);
+    assert!(2 * compared >= 3 * cases as usize, "{compared} comparisons");
+    assert!(4 * unstable >= compared, "{unstable} of {compared} are unstable");
+    assert!(inertia::MOST_UNKNOWN * unknown <= compared, "{unknown} are not known, beside {compared}");
+    // where there are none the allowance is no longer needed
+    let allowed = inertia::MOST_FOR_ZERO * for_zero <= compared && (for_zero > 0 || cases < USUAL_COUNTS);
+    assert!(allowed, "{for_zero} are taken for zero, beside {compared}");
+    assert!(report.fell.is_empty(), "{} wrong counts: {:#?}", report.fell.len(), report.fell);
 }

@@ -12,8 +12,7 @@ use nalgebra::Rotation3;
 /// Steps of a relaxation that starts where another one ended at its rounding errors.
 const FEW: usize = 4;
 
-pub fn examine(seed: u64, report: &mut Report) {
-    let trial = Trial::new(seed);
+pub fn examine(seed: u64, trial: &Trial, report: &mut Report) {
     let what = format!("seed {seed}, {}", trial.describe());
     let answer = match trial.answer() {
         Ok(answer) => answer,
@@ -37,10 +36,10 @@ pub fn examine(seed: u64, report: &mut Report) {
         let ok = answer.again.as_ref().is_ok_and(near);
         report.judge("once more", ok, || format!("{what}: {:e} and {:?}", answer.energy, answer.again));
     }
-    moved(&trial, &answer, seed, report, &what);
-    nested(&trial, &answer, report, &what);
-    nearly_rigid(&trial, &answer, report, &what);
-    eigenvalues(&trial, report, &what);
+    moved(trial, &answer, seed, report, &what);
+    nested(trial, &answer, report, &what);
+    nearly_rigid(trial, &answer, report, &what);
+    eigenvalues(trial, report, &what);
 }
 
 /// Units, mirrored, elsewhere, turned, redrawn.

@@ -14,7 +14,7 @@ use foldwell::sheet::{EdgeKind, Pattern, Sheet, generate};
 use foldwell::solver::{Options, Problem, Start};
 use std::f64::consts::PI;
 
-/// Random starts from which another equilibrium is sought, of each size.
+/// Random starts where nothing else is said.
 const STARTS: usize = 150;
 
 /// A sheet, what it is made of, and what acts on it.
@@ -32,6 +32,8 @@ pub struct Trial {
     /// Forces on vertices of the tiling.
     pub loads: Vec<(usize, Vec3)>,
     pub pins: Vec<(usize, [bool; 3])>,
+    /// Random starts from which another equilibrium is sought, of each size.
+    pub starts: usize,
 }
 
 pub struct Answer {
@@ -75,9 +77,17 @@ impl Trial {
             _ => Pattern::Random(Random { size, seed, ..Random::default() }),
         })
         .unwrap();
+        Self::around(sheet, &mut numbers)
+    }
+
+    /// A sheet with random boundary conditions and terms. A finite sheet is a patch.
+    pub fn around(sheet: Sheet, numbers: &mut Numbers) -> Self {
+        let mut pick = |n: usize| ((numbers.within(0.5) + 0.5) * n as f64) as usize % n;
         use Boundary::{FixedTorus, FreeTorus, Patch, Screw};
         let boundary = [Patch, FixedTorus, FreeTorus, Screw, Screw][pick(5)];
+        let boundary = if sheet.lattice.is_none() { Patch } else { boundary };
         let cells = if boundary == Screw { [1, 1] } else { [[1, 1], [2, 2]][pick(2)] };
+        let cells = if sheet.lattice.is_none() { [1, 1] } else { cells };
         let bars = [1e2, 1e4, 1e6, f64::INFINITY, f64::INFINITY][pick(5)];
         let facets = [1.0, 10.0, f64::INFINITY][pick(3)];
         let (with_lock, with_loads, pinned) = (pick(3) == 0, pick(2) == 0, pick(4));
@@ -85,9 +95,10 @@ impl Trial {
         let locked = hinges[pick(hinges.len())];
         let off = numbers.many(sheet.edges.len(), 0.05);
         let lock = with_lock.then(|| (locked, numbers.within(0.05)));
-        let mut trial = Self { sheet, boundary, cells, bars, facets, off, lock, loads: vec![], pins: vec![] };
+        let (loads, pins) = (vec![], vec![]);
+        let mut trial = Self { sheet, boundary, cells, bars, facets, off, lock, loads, pins, starts: STARTS };
         if boundary == Patch && with_loads {
-            trial.load(&mut numbers, pinned);
+            trial.load(numbers, pinned);
         }
         trial
     }
@@ -98,7 +109,7 @@ impl Trial {
         let size = 10f64.powf(-5.0 + numbers.within(4.0));
         let force = Vec3::from_iterator(numbers.many(3, size));
         self.loads = vec![(0, force), (count - 1, -force)];
-        self.pins = (1..=pinned.min(count - 2).min(3)).map(|vertex| (vertex, [true; 3])).collect();
+        self.pins = (1..=pinned.min(count.saturating_sub(2)).min(3)).map(|vertex| (vertex, [true; 3])).collect();
     }
 
     pub fn describe(&self) -> String {
@@ -152,7 +163,7 @@ impl Trial {
         let terms = self.terms(&case);
         let assembly = case.with_terms(terms);
         [0.05, 0.1, 0.3, 1.0].into_iter().any(|spread| {
-            let starts = Starts { count: STARTS, seed: 1, spread, options: Options::default() };
+            let starts = Starts { count: self.starts, seed: 1, spread, options: Options::default() };
             relax_all(&assembly, &starts, &|| true).into_iter().any(|outcome| match outcome {
                 Outcome::Well(found) => such(found.energy, &halves(&found.relaxed.tension)),
                 _ => false,

@@ -26,6 +26,7 @@ mod disturbed_runs;
 mod drawings;
 mod drawn_tube_traces;
 mod driven_scenes;
+mod drum_branches;
 mod elements;
 mod empty_answers;
 mod engines;
