@@ -165,7 +165,9 @@ fn inertia(pivots: impl Iterator<Item = f64>) -> Inertia {
         least = if pivot.is_nan() { 0.0 } else { least.min(pivot.abs()) };
         most = most.max(pivot.abs());
     }
-    Inertia { negative, ratio: if most > 0.0 { least / most } else { 0.0 } }
+    // a matrix without rows is regular
+    let ratio = if least.is_infinite() { 1.0 } else { least / most };
+    Inertia { negative, ratio: if ratio.is_nan() { 0.0 } else { ratio } }
 }
 
 /// A Bunch-Kaufman factorization `P A P^T = L B L^T` with a diagonal `B` of 1 x 1 and 2 x 2 blocks.

@@ -10,7 +10,7 @@
 //! the count is known. Where they do not, heavier weights lower the upper one; what then still differs is not known. Small
 //! problems are projected on the null space of the rigid measures instead.
 
-use super::kkt::{KktSystem, largest_weighted_entry};
+use super::kkt::{KktSystem, hessian_size, largest_weighted_entry};
 use super::linearization::Linearization;
 use crate::numerics::dense::Svd;
 use crate::numerics::factor::FactorError;
@@ -24,6 +24,8 @@ use rand_chacha::rand_core::SeedableRng;
 /// Eigenvalues of `S` above minus this, relative to its largest diagonal entry, count as zero: rounding errors of the sums
 /// in its entries are about as large.
 const ZERO_EIGENVALUE: f64 = 1e-14;
+/// The same of the Hessian alone.
+const ZERO_IN_PROJECTION: f64 = 1e-12;
 /// Problems of at most this many unknowns are projected dense, which takes a few milliseconds.
 const DENSE_LIMIT: usize = 120;
 /// The same where the bounds do not meet: about a second.
@@ -71,7 +73,7 @@ pub(super) fn negative_eigenvalues(
     let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
     let most = system.count_negative(at, compliance, [zero, 1.0])?;
     if at.gradient.len() <= DENSE_LIMIT {
-        return Ok(negative_by_projection(at, compliance, zero));
+        return Ok(negative_by_projection(at, compliance));
     }
     if most == 0 || system.weights_are_exact() {
         return Ok(Some(most));
@@ -90,12 +92,14 @@ pub(super) fn negative_eigenvalues(
             return Ok(Some(least));
         }
     }
-    Ok(if at.gradient.len() <= MOST_PROJECTED { negative_by_projection(at, compliance, zero) } else { None })
+    Ok(if at.gradient.len() <= MOST_PROJECTED { negative_by_projection(at, compliance) } else { None })
 }
 
 /// Number of negative eigenvalues by a projection on the null space of the rigid measures, dense; `None` where singular values of which
-/// it cannot be told whether they are zero make a difference. Eigenvalues above `-zero` count as zero.
-fn negative_by_projection(at: &Linearization, compliance: &[f64], zero: f64) -> Option<usize> {
+/// it cannot be told whether they are zero make a difference. No weights of rigid measures spoil small eigenvalues here: those above minus
+/// [`ZERO_IN_PROJECTION`] of the largest diagonal entry count as zero.
+fn negative_by_projection(at: &Linearization, compliance: &[f64]) -> Option<usize> {
+    let zero = ZERO_IN_PROJECTION * hessian_size(at);
     let rows = Rows { cliques: at.rows().cliques, values: &at.scaled_jacobian() };
     let rows = dense::from_rows(&rows, at.gradient.len());
     let rigid: Vec<usize> = (0..compliance.len()).filter(|&row| compliance[row] == 0.0).collect();

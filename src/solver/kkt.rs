@@ -259,7 +259,7 @@ impl KktSystem {
 }
 
 /// Size of the Hessian: its largest diagonal entry, 1 where it vanishes.
-fn hessian_size(at: &Linearization) -> f64 {
+pub(super) fn hessian_size(at: &Linearization) -> f64 {
     let scale = at.pattern().largest_diagonal(&at.hessian);
     if scale > 0.0 { scale } else { 1.0 }
 }
