@@ -10,8 +10,10 @@ use crate::solver::problem::Problem;
 const FIRST_SHIFT: f64 = 0.25;
 /// Ratio of one shift to the next.
 const SHIFT_RATIO: f64 = 4.0;
-/// Shift below which the next lower one is none.
-const LEAST_SHIFT: f64 = 2e-2;
+/// Shift below which none is tried, and the smallest one, for small curvatures that are negative: with a larger one the iteration
+/// would creep.
+const LOW_SHIFT: f64 = 2e-2;
+const LEAST_SHIFT: f64 = 1e-6;
 /// Largest number of shifts tried at one state.
 const MOST_SHIFTS: usize = 40;
 /// Scaled force below which the next lower shift is none at once: a remaining shift would only slow the convergence of
@@ -30,7 +32,7 @@ impl<P: Problem> Newton<'_, P> {
             self.shift.hold -= 1;
             return self.factor(self.shift.value);
         }
-        let unshifted = last.residual_force <= UNSHIFTED_FORCE || self.shift.value <= LEAST_SHIFT;
+        let unshifted = last.residual_force <= UNSHIFTED_FORCE || self.shift.value <= LOW_SHIFT;
         let lower = if unshifted { 0.0 } else { self.shift.value / SHIFT_RATIO };
         self.factor(lower)?;
         let in_vain = self.shift.value > lower;
@@ -55,7 +57,9 @@ impl<P: Problem> Newton<'_, P> {
                     return Ok(());
                 }
                 Err(error @ FactorError::NotFinite) => return Err(error.into()),
-                _ => shift = if shift == 0.0 { FIRST_SHIFT } else { SHIFT_RATIO * shift },
+                _ if shift > 0.0 => shift *= SHIFT_RATIO,
+                _ if self.shift.value > LEAST_SHIFT => shift = self.shift.value / SHIFT_RATIO,
+                _ => shift = FIRST_SHIFT,
             }
         }
         Err(FactorError::Singular { ratio: 0.0 }.into())

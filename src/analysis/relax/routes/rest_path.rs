@@ -79,31 +79,40 @@ fn follow_minima(
     mut start: Equilibrium,
 ) -> Option<Ending> {
     let mut parameter = drive(run.model).parameter();
+    let target = drive(run.model).target();
     for _ in 0..MOST_STRETCHES {
-        let Stretch { end, parameter: next, x, tension } = stretch(run, drive, (parameter, start));
-        drive(run.model).set_parameter(next);
-        let settled = match end {
-            StretchEnd::Interrupted => {
-                return Some(Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] }));
-            }
-            StretchEnd::Lost => {
-                let (farther, found) = farther(run, drive, next, &x)?;
-                parameter = farther;
-                found
-            }
-            StretchEnd::Target | StretchEnd::Unstable => {
-                parameter = next;
-                run.minimize(Start { x, tension: Some(tension) })
-            }
-        };
-        start = match saddle::leave(run, settled) {
-            Ok(found) if found.negative_eigenvalues != Some(0) => return None,
-            Ok(found) if parameter == drive(run.model).target() => return Some(Ok(found)),
-            Ok(found) => found,
-            Err(error) => return is_interruption(&error).then_some(Err(error)),
-        };
+        let Stretch { end, parameter: reached, x, tension } = stretch(run, drive, (parameter, start));
+        if end == StretchEnd::Interrupted {
+            return Some(Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] }));
+        }
+        let known = if end == StretchEnd::Lost { None } else { Some(tension) };
+        let found =
+            known.and_then(|tension| minimum(run, drive, reached, Start { x: x.clone(), tension: Some(tension) }));
+        let found = found.map(|found| (reached, found)).or_else(|| farther(run, drive, reached, &x));
+        match found? {
+            (_, Err(interrupted)) => return Some(Err(interrupted)),
+            (next, Ok(found)) if next == target => return Some(Ok(found)),
+            (next, Ok(found)) => (parameter, start) = (next, found),
+        }
     }
     None
+}
+
+/// The minimum next to a start at a parameter; `None` where none is found, an error where the observer asks to stop.
+fn minimum(
+    run: &mut Run<'_>,
+    drive: &dyn Fn(&mut Model) -> DrivenModel<'_>,
+    parameter: f64,
+    start: Start,
+) -> Option<Ending> {
+    drive(run.model).set_parameter(parameter);
+    let settled = run.minimize(start);
+    let left = saddle::leave(run, settled);
+    let is_wanted = match &left {
+        Ok(found) => found.negative_eigenvalues == Some(0),
+        Err(error) => is_interruption(error),
+    };
+    is_wanted.then_some(left)
 }
 
 /// Minimises a little farther on the way from a state at which no step of the path leads on: as far as that succeeds. Returns the
@@ -116,16 +125,11 @@ fn farther(
 ) -> Option<(f64, Ending)> {
     let (place, target) = (run.model.place(), drive(run.model).target());
     let way = drive(run.model).parameter_scale() * (target - from).signum();
-    for part in PARTS_OF_THE_WAY {
+    PARTS_OF_THE_WAY.into_iter().find_map(|part| {
         let next = if (target - from).abs() <= (part * way).abs() { target } else { from + part * way };
         run.model.go_to(&place);
-        drive(run.model).set_parameter(next);
-        let ending = run.minimize(x.to_vec());
-        if ending.as_ref().map_or_else(is_interruption, |_| true) {
-            return Some((next, ending));
-        }
-    }
-    None
+        minimum(run, drive, next, x.to_vec().into()).map(|ending| (next, ending))
+    })
 }
 
 /// The reason for which a stretch of a path ends.
