@@ -72,6 +72,7 @@ mod rest_lengths;
 mod restarts;
 mod resumed_paths;
 mod rigid_motions;
+mod routes;
 mod runs;
 mod schema;
 mod screw_cells;

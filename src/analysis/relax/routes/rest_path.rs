@@ -12,13 +12,12 @@ use crate::model::{DrivenModel, Model};
 use crate::solver::path::{ParametrizedProblem, PathSettings, PathState, Reached, reach};
 use crate::solver::{Equilibrium, Failure, NewtonError, Problem, Start, Step};
 
-/// Longest step in arc length, in mean edges, and the largest number of states of a path.
+/// Longest step in arc length, in mean edges: with 0.2 other branches are taken for the path.
 const LONGEST_STEP: f64 = 0.05;
-const MOST_STATES: usize = 1000;
+/// Number of steps, of paths and of minimisations between them, after which a path is given up.
+const MOST_STEPS: usize = 2000;
 /// Tolerance of the states on the way.
 const TOLERANCE_ON_THE_WAY: f64 = 1e-9;
-/// Largest number of stretches of a path, between which it loses its stability.
-const MOST_STRETCHES: usize = 50;
 /// Parts of the whole way that are tried at once where no step of a path leads on.
 const PARTS_OF_THE_WAY: [f64; 4] = [1.0 / 8.0, 1.0 / 16.0, 1.0 / 32.0, 1.0 / 64.0];
 /// Part of the whole way by which a limit point is passed: the state at it is where two equilibria meet.
@@ -80,7 +79,8 @@ fn follow_minima(
 ) -> Option<Ending> {
     let mut parameter = drive(run.model).parameter();
     let target = drive(run.model).target();
-    for _ in 0..MOST_STRETCHES {
+    let first = run.recorder.steps();
+    while run.recorder.steps() < first + MOST_STEPS {
         let Stretch { end, parameter: reached, x, tension } = stretch(run, drive, (parameter, start));
         if end == StretchEnd::Interrupted {
             return Some(Err(NewtonError { failure: Failure::Interrupted, x, tension, history: vec![] }));
@@ -163,7 +163,7 @@ fn stretch(
     let settings = PathSettings {
         tolerance: TOLERANCE_ON_THE_WAY,
         max_step: LONGEST_STEP,
-        steps: MOST_STATES,
+        steps: MOST_STEPS,
         target,
         ..PathSettings::default()
     };
