@@ -5,7 +5,7 @@
 //! next minimum below, as one would in an experiment, and the path goes on from there. Where rigid bars make the start singular, as
 //! that of a flat sheet, bars that stretch a little are taken along this path, and become rigid along a second one.
 
-use super::saddle;
+use super::{saddle, soft_bars};
 use crate::analysis::relax::run::{Ending, Run, is_better, is_interruption};
 use crate::analysis::state::State;
 use crate::model::{DrivenModel, Model};
@@ -33,7 +33,7 @@ pub(super) fn follow(run: &mut Run<'_>, ending: Ending) -> Ending {
 /// The ending of the path, first with bars as they are; `None` where the path does not lead to the targets.
 fn followed(run: &mut Run<'_>) -> Option<Ending> {
     let as_they_are = along_rests(run);
-    if as_they_are.is_some() || !run.model.has_rigid_bars() {
+    if as_they_are.is_some() || !run.model.has_rigid_bars() || soft_bars::has_locks(run) {
         return as_they_are;
     }
     let stiffness = SOFT_RATIO * run.model.softest_hinge();

@@ -70,8 +70,7 @@ pub(super) fn is_singular(run: &Run<'_>, ending: &Ending) -> bool {
 
 /// Whether the way with rigid bars ended in doubt: from a flat start it failed, or relieved next to nothing, since Newton's method chose
 /// a branch there that it saw to first order only; or rigid measures could not be met, which next to a flat state may be so at
-/// second order, to which bars that stretch find their way. From a lock they might find their way to another branch than the
-/// one that it drives.
+/// second order, to which bars that stretch find their way.
 pub(super) fn is_in_doubt(run: &Run<'_>, ending: &Ending) -> bool {
     if run.restarted || !run.soft_steps.is_empty() || !run.model.has_rigid_bars() {
         return false;
@@ -80,12 +79,15 @@ pub(super) fn is_in_doubt(run: &Run<'_>, ending: &Ending) -> bool {
         Ok(found) => is_flat(&run.origin.angles) && hardly_relieved(run, found),
         Err(error) => match error.failure {
             Failure::Interrupted | Failure::SingularStart => false,
-            Failure::Infeasible { .. } => {
-                is_flat(&run.origin.angles) || run.model.stiff().iter().all(|term| term.kind() != TermKind::Locks)
-            }
+            Failure::Infeasible { .. } => is_flat(&run.origin.angles) || !has_locks(run),
             _ => is_flat(&run.origin.angles),
         },
     }
+}
+
+/// Whether creases are locked: bars that stretch might find their way to another branch than the one that a lock drives.
+pub(super) fn has_locks(run: &Run<'_>) -> bool {
+    run.model.stiff().iter().any(|term| term.kind() == TermKind::Locks)
 }
 
 /// Whether an equilibrium keeps nearly all of the energy of the start, which has some.
