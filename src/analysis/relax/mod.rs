@@ -24,7 +24,7 @@ use thiserror::Error;
 pub struct RouteTried {
     /// The name of the route.
     pub name: &'static str,
-    /// Accepted steps that it added to the history: none where it found nothing better.
+    /// Accepted steps that it added to the history: none where it did not help.
     pub iterations: usize,
     /// The failure that stood after it; `None` for an equilibrium.
     pub failure: Option<Failure>,
@@ -165,7 +165,10 @@ pub fn relax_from(
             let steps = run.recorder.steps();
             ending = (route.go)(&mut run, ending);
             let added = run.recorder.history().get(steps..).unwrap_or_default();
-            routes.push(tried(route.name, added, &ending));
+            // what looked for something better and found nothing is not worth a word
+            if !added.is_empty() || ending.is_err() {
+                routes.push(tried(route.name, added, &ending));
+            }
         }
     }
     match ending.and_then(|found| certain(&run, found)) {

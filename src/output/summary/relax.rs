@@ -83,7 +83,7 @@ pub struct RouteSummary {
         "positions", "fold angles", "soft bars", "straight screw", "rest path", "other gauge", "saddle", "bent screw", "other tensions"
     ]))]
     pub name: String,
-    /// Accepted steps that it added to the history; 0 where it found nothing better than what was there.
+    /// Accepted steps that it added to the history; 0 where it did not help.
     pub iterations: usize,
     /// The failure that stood after it; null for an equilibrium.
     pub failure: Option<String>,

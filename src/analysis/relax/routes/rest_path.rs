@@ -25,9 +25,15 @@ const BEYOND_LIMIT: f64 = 0.005;
 /// Stiffness of bars that stretch a little, over that of the softest hinge.
 const SOFT_RATIO: f64 = 1e4;
 
-/// The equilibrium at the end of the path; the ending before where the path does not lead there.
+/// The equilibrium at the end of the path; the ending before where the path does not lead there, or to a state in which the forces of
+/// rigid measures hide whether the others are balanced.
 pub(super) fn follow(run: &mut Run<'_>, ending: Ending) -> Ending {
-    run.prefer(ending, followed, is_better)
+    let certain = |run: &mut Run<'_>| {
+        let ending = followed(run)?;
+        let is_hidden = ending.as_ref().is_ok_and(|found| soft_bars::hides_others(run, found));
+        (!is_hidden).then_some(ending)
+    };
+    run.prefer(ending, certain, is_better)
 }
 
 /// The ending of the path, first with bars as they are; `None` where the path does not lead to the targets.

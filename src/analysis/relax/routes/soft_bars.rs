@@ -85,6 +85,11 @@ pub(super) fn is_in_doubt(run: &Run<'_>, ending: &Ending) -> bool {
     }
 }
 
+/// Whether forces of rigid measures hide whether the others are balanced.
+pub(super) fn hides_others(run: &Run<'_>, found: &Equilibrium) -> bool {
+    rigid_over_others(run.model, found) > DOUBTFUL_FORCE
+}
+
 /// Whether creases are locked: bars that stretch might find their way to another branch than the one that a lock drives.
 pub(super) fn has_locks(run: &Run<'_>) -> bool {
     run.model.stiff().iter().any(|term| term.kind() == TermKind::Locks)
@@ -97,7 +102,7 @@ fn hardly_relieved(run: &Run<'_>, found: &Equilibrium) -> bool {
 
 /// Leaves the start by soft bars, where that is better than the way with rigid ones.
 pub(super) fn leave_if_better(run: &mut Run<'_>, ending: Ending) -> Ending {
-    let forced = ending.as_ref().is_ok_and(|found| rigid_over_others(run.model, found) > DOUBTFUL_FORCE);
+    let forced = ending.as_ref().is_ok_and(|found| hides_others(run, found));
     run.prefer(
         ending,
         |run| Some(from_the_start(run)),
@@ -150,7 +155,7 @@ fn from_the_start(run: &mut Run<'_>) -> Ending {
 /// Whether a way was interrupted, or ended in an equilibrium that is no start without balance.
 fn is_certain(run: &Run<'_>, ending: &Ending) -> bool {
     match ending {
-        Ok(found) => !(hardly_relieved(run, found) && rigid_over_others(run.model, found) > DOUBTFUL_FORCE),
+        Ok(found) => !(hardly_relieved(run, found) && hides_others(run, found)),
         Err(error) => is_interruption(error),
     }
 }
