@@ -245,7 +245,16 @@ fn a_folder_has_one_run_at_a_time() {
     let signal =
         |name: &str| assert!(Command::new("kill").args([name, &first.id().to_string()]).status().unwrap().success());
     signal("-STOP");
-    let before = files(&out);
+    // its threads stop one after the other
+    let mut before = files(&out);
+    loop {
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        let now = files(&out);
+        if now == before {
+            break;
+        }
+        before = now;
+    }
     for (scene, words) in [(&scene, &["out"][..]), (&scene, &["out", "--resume"]), (&other, &["out"])] {
         let second = program(folder.path(), scene, words).output().unwrap();
         let said = String::from_utf8_lossy(&second.stderr);
