@@ -18,8 +18,7 @@
 mod common;
 
 use common::{exponent, measuring, random, uniform, wanted};
-use foldwell::analysis::method::{Method, RelaxOptions};
-use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::analysis::relax::{Method, RelaxOptions, Relaxed, relax_from};
 use foldwell::kinematics::folding_modes;
 use foldwell::model::{Assembly, Gauge, RIGID, Terms};
 use foldwell::sheet::fold;

@@ -7,7 +7,6 @@ pub mod chart;
 pub mod exact;
 pub mod intersections;
 pub mod landscape;
-pub mod method;
 pub mod modes;
 pub mod path;
 pub mod relax;

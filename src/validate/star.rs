@@ -2,8 +2,7 @@
 
 use super::findings::ExperimentError;
 use super::library;
-use foldwell::analysis::method::RelaxOptions;
-use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
+use foldwell::analysis::relax::{RelaxError, RelaxOptions, Relaxed, relax_from};
 use foldwell::analysis::trace::{Stop, TraceOptions, Traced, trace};
 use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
 use foldwell::numerics::random::symmetric;

@@ -19,10 +19,10 @@ use points::{Answer, BARS, Point, Whole, relaxed, scenes};
 use std::collections::BTreeMap;
 use table::{BASE, Exception, Place, Reason};
 
-/// What is said of a point above the energy that stiffer bars reach, where drawings are named.
+/// Name, in the place of a drawing's, for the comparison of a point with the same sheet of stiffer bars.
 const STIFFER: &str = "stiffer";
 
-/// What is reached in the scene's own drawing, and in the others by their names.
+/// Answers of a point: in the scene's own drawing, and in the others by their names.
 struct Examined {
     point: Point,
     base: Result<Answer, String>,

@@ -139,8 +139,8 @@ fn energies_of_single_elements_add_up() {
 /// residuals of 1e-12 over the softest eigenvalue.
 #[test]
 fn both_methods_know_single_elements() {
-    use foldwell::analysis::method::{Method, RelaxOptions};
     use foldwell::analysis::relax::relax_from;
+    use foldwell::analysis::relax::{Method, RelaxOptions};
     let patch = motley();
     let angles = [Method::Vertices, Method::Intrinsic].map(|method| {
         let mut model = patch.model(foldwell::model::Gauge::Held);

@@ -2,8 +2,7 @@
 //! the springs.
 
 use crate::common::{Testing, distance, mesh, patch};
-use foldwell::analysis::method::{IntrinsicFailure, Method, RelaxOptions};
-use foldwell::analysis::relax::{RelaxError, Relaxed, relax_from};
+use foldwell::analysis::relax::{IntrinsicFailure, Method, RelaxError, RelaxOptions, Relaxed, relax_from};
 use foldwell::kinematics::folding_modes;
 use foldwell::model::intrinsic::Unsupported;
 use foldwell::model::{Assembly, Gauge, RIGID, Terms};

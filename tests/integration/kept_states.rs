@@ -1,8 +1,7 @@
 //! States on the way of a relaxation: `keep_every` of scenes and of the library.
 
 use crate::common::mesh;
-use foldwell::analysis::method::{Method, RelaxOptions};
-use foldwell::analysis::relax::{Relaxed, relax_from};
+use foldwell::analysis::relax::{Method, RelaxOptions, Relaxed, relax_from};
 use foldwell::analysis::state::State;
 use foldwell::kinematics::folding_modes;
 use foldwell::model::{Gauge, Model, TermKind};

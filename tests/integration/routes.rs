@@ -2,10 +2,10 @@
 
 use crate::common::{mesh, on};
 use approx::assert_relative_eq;
-use foldwell::Rest;
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::model::{Assembly, Boundary, Gauge, Terms};
 use foldwell::solver::{Options, Problem, Start};
+use foldwell::{Pattern, Rest, generate, relax};
 
 fn names(relaxed: &Relaxed) -> Vec<&'static str> {
     relaxed.routes.iter().map(|route| route.name).collect()
@@ -45,7 +45,7 @@ fn shallow_saddles_are_left() {
     assert!(relaxed.state.total() < saddle * (1.0 - 1e-7), "{} and {saddle}", relaxed.state.total());
 }
 
-/// Claim: the saddle of the last test is an answer where tensions are known, here those of the drawn state, which are none.
+/// Claim: the same saddle is an answer where tensions are known, here those of the drawn state, which are none.
 #[test]
 fn known_tensions_stay() {
     let case = on(mesh("open-star"), [4, 4], Boundary::FixedTorus);
@@ -55,4 +55,17 @@ fn known_tensions_stay() {
     let start = Start { x: model.start(), tension };
     let relaxed = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap();
     assert_eq!(relaxed.negative_eigenvalues, Some(2), "{:?}", names(&relaxed));
+}
+
+/// Claim: a sheet of which every vertex is pinned, so that nothing can move, is at rest where it is drawn, with bars of any stiffness.
+#[test]
+fn sheets_without_unknowns_are_at_rest() {
+    for bars in [1.0, f64::INFINITY] {
+        let mut builder = Assembly::patch(generate(&Pattern::named("truss").unwrap()).unwrap(), [1, 1]).bars(bars);
+        for vertex in 0..3 {
+            builder = builder.pin(vertex, [0, 0], [true; 3]);
+        }
+        let relaxed = relax(&builder.build().unwrap()).unwrap();
+        assert_eq!((relaxed.state.total(), relaxed.negative_eigenvalues), (0.0, Some(0)), "bars {bars}");
+    }
 }

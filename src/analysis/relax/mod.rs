@@ -1,36 +1,25 @@
 //! Relaxation: from a start to the equilibrium of a model, directly or by raising what drives it step by step.
 
 mod certainty;
+mod options;
 pub mod recorder;
 mod rigid_forces;
 mod routes;
 mod run;
 
-use super::method::{IntrinsicFailure, RelaxOptions};
 use super::state::State;
 use crate::model::{Assembly, Gauge, Model};
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Start, Step, tension};
 use certainty::{CERTAIN, uncertainty};
+pub use options::{IntrinsicFailure, Method, RelaxOptions};
 use recorder::KeptState;
 pub use routes::soft_bars::BranchChoice;
 use routes::{ROUTES, fold_angles, straight_screw};
+pub use run::RouteTried;
 use run::{Ending, Run};
 use std::fmt;
 use std::ops::Range;
 use thiserror::Error;
-
-/// A way that a relaxation took, and how it stood after it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RouteTried {
-    /// The name of the route.
-    pub name: &'static str,
-    /// Accepted steps that it added to the history: none where it did not help.
-    pub iterations: usize,
-    /// The failure that stood after it; `None` for an equilibrium.
-    pub failure: Option<Failure>,
-    /// Negative eigenvalues of the equilibrium that stood after it; `None` where it is none, or where they could not be counted.
-    pub negative_eigenvalues: Option<usize>,
-}
 
 /// An equilibrium.
 #[derive(Clone, Debug)]
@@ -121,13 +110,14 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 }
 
 /// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
-/// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`](super::method::Method::Auto).
+/// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`](Method::Auto).
 ///
-/// Where the direct way fails, a screw that it left nearly straight is relaxed by way of straight states; else, and where that fails too,
-/// all rest angles, rest lengths and locked angles are moved from their values at the start to their targets in steps that adapt.
+/// Newton's method begins at the start, in positions or in fold angles. Where it fails, or ends in a saddle or another state that need not
+/// be the answer, other ways are tried one after the other: [`Relaxed::routes`] names those that helped. A start that knows its tensions
+/// asks for the equilibrium next to it, whatever its stability.
 ///
 /// ```
-/// use foldwell::analysis::method::RelaxOptions;
+/// use foldwell::analysis::relax::RelaxOptions;
 /// use foldwell::analysis::relax::relax_from;
 /// use foldwell::model::Gauge;
 /// use foldwell::{Assembly, Pattern, RIGID, Rest, generate};
@@ -158,32 +148,18 @@ pub fn relax_from(
     let mut run = Run::new(model, &start, options.into(), observe);
     let mut ending = fold_angles::begin(&mut run, start);
     let in_angles = run.intrinsic_failure.is_none() && run.recorder.history().iter().any(|step| step.intrinsic);
-    let first = if in_angles { "fold angles" } else { "positions" };
-    let mut routes = vec![tried(first, run.recorder.history(), &ending)];
+    run.note(if in_angles { "fold angles" } else { "positions" }, 0, &ending);
     for route in &ROUTES {
         if (route.wanted)(&run, &ending) {
             let steps = run.recorder.steps();
             ending = (route.go)(&mut run, ending);
-            let added = run.recorder.history().get(steps..).unwrap_or_default();
-            // what looked for something better and found nothing is not worth a word
-            if !added.is_empty() || ending.is_err() {
-                routes.push(tried(route.name, added, &ending));
-            }
+            run.note(route.name, steps, &ending);
         }
     }
     match ending.and_then(|found| certain(&run, found)) {
-        Ok(found) => Ok(Relaxed { routes, ..relaxed(run, found) }),
-        Err(error) => Err(Box::new(RelaxError { routes, ..failed(run, error) })),
+        Ok(found) => Ok(relaxed(run, found)),
+        Err(error) => Err(Box::new(failed(run, error))),
     }
-}
-
-fn tried(name: &'static str, added: &[Step], ending: &Ending) -> RouteTried {
-    let iterations = added.iter().filter(|step| step.fraction > 0.0).count();
-    let (failure, negative_eigenvalues) = match ending {
-        Ok(found) => (None, found.negative_eigenvalues),
-        Err(error) => (Some(error.failure), None),
-    };
-    RouteTried { name, iterations, failure, negative_eigenvalues }
 }
 
 /// The equilibrium; an error where it is not known well enough.
@@ -198,9 +174,9 @@ fn certain(run: &Run<'_>, found: Equilibrium) -> Ending {
     }
 }
 
-/// What a relaxation found.
+/// The answer of a relaxation that ended in an equilibrium.
 fn relaxed(run: Run<'_>, found: Equilibrium) -> Relaxed {
-    let Run { model, origin, recorder, soft_steps, intrinsic_failure, .. } = run;
+    let Run { model, origin, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
     let branch_choice = BranchChoice::of(model, &found.x, &origin.angles, !soft_steps.is_empty());
     let found = straight_screw::counted(model, found);
     let settled = tension::settle(model, &found);
@@ -218,7 +194,7 @@ fn relaxed(run: Run<'_>, found: Equilibrium) -> Relaxed {
         negative_eigenvalues: found.negative_eigenvalues,
         self_stresses: settled.self_stresses,
         history,
-        routes: vec![],
+        routes,
         intrinsic_failure,
         branch_choice,
         soft_steps,
@@ -228,11 +204,11 @@ fn relaxed(run: Run<'_>, found: Equilibrium) -> Relaxed {
 
 /// The failure of a relaxation with its last state.
 fn failed(run: Run<'_>, error: NewtonError) -> RelaxError {
-    let Run { model, recorder, soft_steps, intrinsic_failure, .. } = run;
+    let Run { model, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
     let (failure, x) = (error.failure, error.x);
     let state = State::new(model, &x, &error.tension);
     // stopped in fold angles, it ends where it started
     let is_last = recorder.history().last().is_some_and(|step| !step.intrinsic);
     let (history, kept) = recorder.end(is_last.then_some(&state));
-    RelaxError { failure, state, x, history, routes: vec![], intrinsic_failure, soft_steps, kept }
+    RelaxError { failure, state, x, history, routes, intrinsic_failure, soft_steps, kept }
 }

@@ -5,10 +5,10 @@ use crate::model::Model;
 use crate::solver::{Equilibrium, NewtonError, Options, Start, Step, minimize_iterates};
 use std::num::NonZeroUsize;
 
-/// A state on the way of a relaxation, which [`RelaxOptions::keep_every`](crate::analysis::method::RelaxOptions::keep_every) asks for.
+/// A state on the way of a relaxation, which [`RelaxOptions::keep_every`](crate::analysis::relax::RelaxOptions::keep_every) asks for.
 ///
 /// ```
-/// use foldwell::analysis::method::RelaxOptions;
+/// use foldwell::analysis::relax::RelaxOptions;
 /// use foldwell::analysis::relax::relax_from;
 /// use foldwell::model::Gauge;
 /// use foldwell::{Assembly, Pattern, RIGID, Rest, generate};

@@ -1,7 +1,7 @@
 //! One relaxation on its way: the model, what is asked for, where it began, and what has been done so far. The routes work on it.
 
 use super::recorder::Recorder;
-use crate::analysis::method::{IntrinsicFailure, Method, RelaxOptions};
+use crate::analysis::relax::options::{IntrinsicFailure, Method, RelaxOptions};
 use crate::model::Model;
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Start, Step};
 use std::ops::Range;
@@ -12,9 +12,17 @@ pub(super) type Ending = Result<Equilibrium, NewtonError>;
 /// Relative fall of an energy that rounding errors do not explain.
 const LOWER: f64 = 1e-10;
 
-/// Whether an energy is lower than another by more than rounding errors.
-pub(super) fn is_lower(energy: f64, than: f64) -> bool {
-    than - energy > LOWER * than.abs()
+/// A way that a relaxation took, and how it stood after it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RouteTried {
+    /// The name of the route.
+    pub name: &'static str,
+    /// Accepted steps that it added to the history: none where it did not help.
+    pub iterations: usize,
+    /// The failure that stood after it; `None` for an equilibrium.
+    pub failure: Option<Failure>,
+    /// Negative eigenvalues of the equilibrium that stood after it; `None` where it is none, or where they could not be counted.
+    pub negative_eigenvalues: Option<usize>,
 }
 
 /// Whether a relaxation failed because the observer asked to stop.
@@ -25,7 +33,7 @@ pub(super) fn is_interruption(error: &NewtonError) -> bool {
 /// Whether a relaxation ended in an equilibrium of lower energy than before, or was interrupted.
 pub(super) fn is_better(other: &Ending, before: &Ending) -> bool {
     match (other, before) {
-        (Ok(other), Ok(before)) => is_lower(other.energy, before.energy),
+        (Ok(other), Ok(before)) => before.energy - other.energy > LOWER * before.energy.abs(),
         (Ok(_), Err(_)) => true,
         (Err(error), _) => is_interruption(error),
     }
@@ -48,6 +56,8 @@ pub(super) struct Run<'a> {
     /// Whether tensions were known there: it is then next to an equilibrium, and stays on its branch.
     pub(super) restarted: bool,
     pub(super) recorder: Recorder<'a>,
+    /// The ways that were taken.
+    pub(super) routes: Vec<RouteTried>,
     /// Which steps of the history were made with bars that stretch.
     pub(super) soft_steps: Range<usize>,
     /// Why fold angles were given up, if they were tried as unknowns.
@@ -66,7 +76,23 @@ impl<'a> Run<'a> {
         let RelaxOptions { newton: options, method, keep_every } = options;
         let recorder = Recorder::new(observe, keep_every);
         let restarted = start.tension.is_some();
-        Self { model, options, method, origin, restarted, recorder, soft_steps: 0..0, intrinsic_failure: None }
+        let (routes, soft_steps) = (vec![], 0..0);
+        Self { model, options, method, origin, restarted, recorder, routes, soft_steps, intrinsic_failure: None }
+    }
+
+    /// Notes a way that was taken, with the steps that it added after the first `steps` of the history. One that found nothing better than
+    /// the equilibrium that was there is passed over.
+    pub(super) fn note(&mut self, name: &'static str, steps: usize, ending: &Ending) {
+        let added = self.recorder.history().get(steps..).unwrap_or_default();
+        if added.is_empty() && ending.is_ok() {
+            return;
+        }
+        let iterations = added.iter().filter(|step| step.fraction > 0.0).count();
+        let (failure, negative_eigenvalues) = match ending {
+            Ok(found) => (None, found.negative_eigenvalues),
+            Err(error) => (Some(error.failure), None),
+        };
+        self.routes.push(RouteTried { name, iterations, failure, negative_eigenvalues });
     }
 
     /// Minimises from a start, to the tolerance that was asked for.

@@ -29,7 +29,7 @@ pub struct Point {
     pub assembly: Assembly,
 }
 
-/// What a relaxation reaches; the energy is that of the springs less the work of the loads.
+/// Equilibrium that a relaxation reaches; the energy is that of the springs less the work of the loads.
 #[derive(Clone, Copy)]
 pub struct Answer {
     pub energy: f64,

@@ -4,7 +4,7 @@ use super::points::{BARS, PARTS, Point};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// What is said of the drawing of the scene itself.
+/// Name of the drawing of the scene itself.
 pub const BASE: &str = "base";
 
 /// The reason of an exception.

@@ -6,7 +6,7 @@
 //! result.
 
 use super::has_failed;
-use crate::analysis::method::{IntrinsicFailure, Method};
+use crate::analysis::relax::options::{IntrinsicFailure, Method};
 use crate::analysis::relax::run::{Ending, Run, is_interruption};
 use crate::analysis::state::State;
 use crate::model::intrinsic::{FoldedUp, IntrinsicModel, Unsupported};

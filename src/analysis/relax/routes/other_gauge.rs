@@ -1,4 +1,4 @@
-//! What holds a sheet against rigid motions is chosen again where it would hold the shape.
+//! Choice of other held coordinates, where those that hold a sheet against rigid motions would hold its shape.
 
 use crate::analysis::relax::run::{Ending, Run};
 use crate::solver::Start;

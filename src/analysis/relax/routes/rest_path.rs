@@ -201,7 +201,7 @@ fn stretch(
     Stretch { end, parameter, x: state.x, tension: state.tension }
 }
 
-/// What a state of a path looks like among the steps of a relaxation.
+/// The record of a state of a path among the steps of a relaxation.
 fn step_of(driven: &DrivenModel<'_>, state: &PathState) -> Step {
     let stored = state.tension.iter().zip(driven.compliance()).map(|(t, c)| 0.5 * c * t * t);
     Step {

@@ -1,4 +1,4 @@
-//! What a relaxation is asked for: tolerance, unknowns, which states are kept.
+//! Options of a relaxation: tolerance, unknowns, which states on the way are kept.
 
 use crate::model::intrinsic::Unsupported;
 use crate::solver::constrained::ConstrainedFailure;
