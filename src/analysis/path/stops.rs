@@ -15,7 +15,7 @@ const CURVATURE: usize = 2;
 /// Conditions that end a path before the driven value reaches its target; the first that is met ends it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathStop {
-    /// Arc length at which the path ends; see [`PathPoint::arc_length`].
+    /// Arc length at which the path ends; see [`PathPoint::arc_length`](super::PathPoint::arc_length).
     pub arc_length: Option<f64>,
     /// Magnitude of the curvature at which the path of a periodic sheet ends, an inverse length.
     pub curvature: Option<f64>,

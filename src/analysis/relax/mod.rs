@@ -110,7 +110,7 @@ pub fn relax(assembly: &Assembly) -> Result<Relaxed, Box<RelaxError>> {
 }
 
 /// The equilibrium that a model reaches from a start: unknowns, and tensions where they are known. `observe` sees every accepted
-/// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`](Method::Auto).
+/// step and returns false to stop. [`Options`] alone leave the method to [`Method::Auto`].
 ///
 /// Newton's method begins at the start, in positions or in fold angles. Where it fails, or ends in a saddle or another state that need not
 /// be the answer, other ways are tried one after the other: [`Relaxed::routes`] names those that helped. A start that knows its tensions
