@@ -165,8 +165,7 @@ fn inertia(pivots: impl Iterator<Item = f64>) -> Inertia {
         least = if pivot.is_nan() { 0.0 } else { least.min(pivot.abs()) };
         most = most.max(pivot.abs());
     }
-    // a matrix without rows is regular
-    let ratio = if least.is_infinite() { 1.0 } else { least / most };
+    let ratio = least / most;
     Inertia { negative, ratio: if ratio.is_nan() { 0.0 } else { ratio } }
 }
 

@@ -2,12 +2,13 @@
 //! compliance of zero leaves only motions with `R dx = 0`.
 //!
 //! The factored matrix `S = H + R^T W R` of [`kkt`](super::kkt) has weights `W` that are at most a few million times the
-//! Hessian. Its count is an upper bound, since a larger weight can only take negative eigenvalues away; and where gradients
-//! of rigid measures nearly depend on each other, as those of a compressed column do, a direction that they block is still
-//! too soft in `S`, and the bound is not reached. A lower bound comes from motions: on the span of any motions that meet
-//! the measures, `H` has at most as many negative eigenvalues (Courant and Fischer). These motions are a block Krylov space of
-//! the inverse of the true system, which is solved by corrections with the factorization of `S`. Where the bounds meet
-//! the count is known. Where they do not, heavier weights lower the upper one; what then still differs is not known. Small
+//! Hessian. Its count is an upper bound, since a larger weight can only take negative eigenvalues away. The bound is not always
+//! reached: where gradients of rigid measures nearly depend on each other, as those of a compressed column do, a direction that
+//! they block is still too soft in `S`; and rounding errors of the weights hide the sign of small eigenvalues, which the bound counts as
+//! negative. Motions decide: on the span of any motions that meet the measures, `H` has at most as many eigenvalues below a value as on
+//! the whole (Courant and Fischer). These motions are a block Krylov space of the inverse of the true system, which is solved by
+//! corrections with the factorization of `S`. Once they are as many as the bound allows, the energies along them, in which no weight
+//! stands, tell which are negative. Where they are fewer, heavier weights lower the bound; what then still differs is not known. Small
 //! problems are projected on the null space of the rigid measures instead.
 
 use super::kkt::{KktSystem, hessian_size, largest_weighted_entry};
@@ -21,10 +22,10 @@ use crate::numerics::{DenseMatrix, dense};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// Eigenvalues of `S` above minus this, relative to its largest diagonal entry, count as zero: rounding errors of the sums
-/// in its entries are about as large.
+/// Eigenvalues of `S` up to this, relative to its largest diagonal entry, may be zero: rounding errors of the sums in its entries are
+/// about as large.
 const ZERO_EIGENVALUE: f64 = 1e-14;
-/// The same of the Hessian alone.
+/// The same of the Hessian on motions that meet the measures.
 const ZERO_IN_PROJECTION: f64 = 1e-12;
 /// Problems of at most this many unknowns are projected dense, which takes a few milliseconds.
 const DENSE_LIMIT: usize = 120;
@@ -71,10 +72,24 @@ pub(super) fn negative_eigenvalues(
     compliance: &[f64],
 ) -> Result<Option<usize>, FactorError> {
     let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
-    let most = system.count_negative(at, compliance, [zero, 1.0])?;
+    // with those that may be zero
+    let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
     if at.gradient.len() <= DENSE_LIMIT {
         return Ok(negative_by_projection(at, compliance));
     }
+    if in_doubt == 0 {
+        return Ok(Some(0));
+    }
+    if in_doubt <= MOST_CONFIRMED_BY_MOTIONS {
+        let mut motions = Motions::new(system, at, compliance, -zero);
+        if motions.negative(in_doubt) == in_doubt {
+            return Ok(Some(motions.below(-zero - ZERO_IN_PROJECTION * hessian_size(at))));
+        }
+        if at.gradient.len() <= MOST_PROJECTED {
+            return Ok(negative_by_projection(at, compliance));
+        }
+    }
+    let most = system.count_negative(at, compliance, [zero, 1.0])?;
     if most == 0 || system.weights_are_exact() {
         return Ok(Some(most));
     }
@@ -124,9 +139,10 @@ pub(super) fn falling_motion(
     compliance: &[f64],
 ) -> Result<Option<Vec<f64>>, FactorError> {
     let zero = ZERO_EIGENVALUE * largest_weighted_entry(at, compliance);
-    let most = system.count_negative(at, compliance, [zero, 1.0])?;
-    let mut motions = Motions::new(system, at, compliance, zero);
-    Ok(if motions.negative(most) > 0 { motions.lowest() } else { None })
+    let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
+    let mut motions = Motions::new(system, at, compliance, -zero);
+    motions.negative(in_doubt.min(MOST_CONFIRMED_BY_MOTIONS));
+    Ok(if motions.below(-zero - ZERO_IN_PROJECTION * hessian_size(at)) > 0 { motions.lowest() } else { None })
 }
 
 /// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a matrix. Measures of
@@ -202,7 +218,7 @@ impl<'a> Motions<'a> {
                 self.push(motion);
             }
             if self.found.len() > before {
-                (negative, barren) = (self.negative_on_span(), 0);
+                (negative, barren) = (self.below(0.0), 0);
             } else {
                 barren += 1;
             }
@@ -289,9 +305,10 @@ impl<'a> Motions<'a> {
         DenseMatrix::from_fn(count, count, |i, j| self.energies[i.max(j)][i.min(j)])
     }
 
-    /// Number of negative eigenvalues of `dx H dx + dt C dt` on the span of the motions; 0 where it has none to tell.
-    fn negative_on_span(&self) -> usize {
+    /// Number of eigenvalues of `dx H dx + dt C dt` on the span of the motions that are smaller than a value; 0 where they cannot be
+    /// found.
+    fn below(&self, limit: f64) -> usize {
         let values = dense::symmetric_eigenvalues(&self.energies_on_span()).unwrap_or_default();
-        values.iter().filter(|value| **value < 0.0).count()
+        values.iter().filter(|value| **value < limit).count()
     }
 }

@@ -22,18 +22,11 @@ use std::f64::consts::TAU;
 /// Comparisons of counts, and those in which the program or the dense count has no opinion.
 pub const COUNTED: &str = "negative eigenvalues";
 pub const UNKNOWN: &str = "negative eigenvalues not known to the program";
-/// Comparisons for each one in which the program does not know, and for each one in which it takes negative eigenvalues for zero.
+/// Comparisons for each one in which the program does not know.
 pub const MOST_UNKNOWN: usize = 50;
-pub const MOST_FOR_ZERO: usize = 10;
 pub const UNSTABLE: &str = "of these unstable";
-/// Those in which the program takes negative eigenvalues for zero.
-pub const FOR_ZERO: &str = "negative eigenvalues that the program takes for zero";
 const UNDECIDED: &str = "negative eigenvalues within rounding errors of the dense count";
 
-/// Eigenvalues above minus this, relative to the largest entry of the Hessian, count as zero in the program, as its documentation of
-/// `negative_eigenvalues` says: rounding errors of a matrix in which rigid measures have up to 3e6 times the weight of the Hessian, 1e-14
-/// of it. Slender columns and strips have eigenvalues that are smaller, and are then taken for stable beyond their critical loads.
-const TAKEN_FOR_ZERO: f64 = 3.1e-8;
 /// Singular values relative to the largest one between which nobody can tell whether they are zero.
 const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-9;
 /// Rounding errors of eigenvalues relative to the largest entry, and of motions relative to the smallest singular value.
@@ -97,10 +90,6 @@ fn judge(report: &mut Report, counted: Option<usize>, (dense, at): (&Projection,
     let Some(counted) = counted else { return report.count(UNKNOWN, true) };
     if expected > 0 {
         report.count(UNSTABLE, true);
-    }
-    let zero = TAKEN_FOR_ZERO * at.pattern().to_dense(&at.hessian).amax();
-    if counted < expected && dense.count(at, zero).is_none_or(|least| counted >= least) {
-        return report.count(FOR_ZERO, true);
     }
     report.judge(COUNTED, counted == expected, || {
         let (size, shift) = (at.pattern().to_dense(&at.hessian).amax(), dense.shift(at, counted));

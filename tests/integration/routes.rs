@@ -1,9 +1,10 @@
 //! Ways by which a relaxation reaches what Newton's method from the start does not.
 
-use crate::common::{mesh, on};
+use crate::common::{Testing, mesh, on};
 use approx::assert_relative_eq;
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::model::{Assembly, Boundary, Gauge, Terms};
+use foldwell::sheet::generate::Random;
 use foldwell::solver::{Options, Problem, Start};
 use foldwell::{Pattern, Rest, generate, relax};
 
@@ -67,5 +68,19 @@ fn sheets_without_unknowns_are_at_rest() {
         }
         let relaxed = relax(&builder.build().unwrap()).unwrap();
         assert_eq!((relaxed.state.total(), relaxed.negative_eigenvalues), (0.0, Some(0)), "bars {bars}");
+    }
+}
+
+/// Claim: a cell of one vertex on a torus whose lattice is fixed can only be displaced as a whole: it is at rest where it is drawn,
+/// whatever the rest angles of its creases are, with bars of any stiffness.
+#[test]
+fn cells_that_can_only_be_displaced_are_at_rest() {
+    let sheet = generate(&Pattern::Random(Random { size: [1, 1], ..Random::default() })).unwrap();
+    let case = on(sheet, [1, 1], Boundary::FixedTorus);
+    for bars in [1e3, f64::INFINITY] {
+        let terms = Terms::bars_and_creases(bars, 1.0, vec![0.3; case.edges()]);
+        let relaxed = case.relax(&terms).unwrap();
+        assert_eq!(relaxed.negative_eigenvalues, Some(0), "bars {bars}");
+        assert!(relaxed.state.total() > 0.1, "bars {bars}: {}", relaxed.state.total());
     }
 }
