@@ -267,11 +267,13 @@ fn begin<'m>(
     if let Some(mut tension) = tension {
         // an equilibrium of any stability: the path's own iteration finds what the new support carries
         tension.resize(driven.compliance().len(), 0.0);
+        let x = driven.about_best_axis(x, &tension);
         return Ok((driven, Start { x, tension: Some(tension) }));
     }
     let newton = Options { tolerance: options.tolerance, ..Options::default() };
     let relaxed = relax_from(driven.model, x, newton, &mut |_| true).map_err(|error| error.failure)?;
-    Ok((driven, Start { x: relaxed.x, tension: Some(relaxed.tension) }))
+    let x = driven.about_best_axis(relaxed.x, &relaxed.tension);
+    Ok((driven, Start { x, tension: Some(relaxed.tension) }))
 }
 
 fn point(driven: &DrivenModel<'_>, marked: &MarkedState, measures: usize) -> PathPoint {

@@ -13,7 +13,7 @@ use crate::solver::{HessianKind, Problem, Tangent};
 use std::f64::consts::PI;
 
 /// Number of directions that are tried, evenly spaced over half a turn.
-const DIRECTIONS: usize = 24;
+pub(crate) const DIRECTIONS: usize = 24;
 /// Shift of the Hessian, which keeps the Newton step finite along motions that cost no energy: `SHIFT` while
 /// directions are compared, `LEAST_SHIFT` in the search for the maximum.
 const SHIFT: f64 = 1e-2;
@@ -46,7 +46,7 @@ impl Assembly {
 }
 
 /// Returns the argument of the maximum of a function with one maximum in an interval, by golden-section search.
-fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let inner = |low: f64, high: f64| [high - golden * (high - low), low + golden * (high - low)];
     let mut places = inner(low, high);

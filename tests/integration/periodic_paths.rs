@@ -4,14 +4,17 @@
 //! ratios, in its plane `-cos^2(g) tan^2(t)` with the sector angle `t`, of bending the opposite (M. Schenk, S. D. Guest,
 //! PNAS 110, 3276 (2013)); relaxations with the lock held at another angle, which share neither tangents nor steps with a path.
 
+use crate::common::{mesh, turned};
 use foldwell::analysis::path::{PathOptions, PathPoint, PathStart, follow_path};
 use foldwell::analysis::relax::relax_from;
+use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Drive, Driven, Gauge};
 use foldwell::output::summary::{PathSummary, StudyResult};
-use foldwell::relax;
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::scene::{build, parse};
 use foldwell::solver::Options;
+use foldwell::{RIGID, relax};
+use nalgebra::Rotation3;
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_3;
 use std::ops::ControlFlow;
@@ -73,6 +76,41 @@ fn cylinder_along_a_lock() {
     }
     let work = last.state.total() - points[0].state.total();
     assert!((last.work - work).abs() < 1e-5 && work > 0.1, "{} for {work}", last.work);
+}
+
+/// Claim: the path of a straight cell whose lock is turned begins about an axis about which rigid faces let it bend, both ways and however
+/// the cell lies in its plane; its states have no residual forces, its end is a state in which a relaxation stays, and stiff bars go the
+/// same way. Tolerances: 1e-10 of forces and energies of size 1, of which rounding errors in bars of 1e9 are 1e-11; such bars under forces
+/// of 7 change the energy by 1e-8, and by much more where the cell becomes compliant.
+#[test]
+fn straight_cells_begin_to_bend() {
+    let cell = |by: f64, bars: f64, angle: Option<f64>| {
+        let sheet = turned(mesh("open-star"), Rotation3::from_axis_angle(&Vec3::z_axis(), by).matrix());
+        let lock = sheet.edges[0].key;
+        Assembly::screw(sheet, [1, 1]).bars(bars).creases(1.0).lock(lock, angle).build().unwrap()
+    };
+    for to in [-0.2, -0.9] {
+        let end = |assembly: &Assembly| {
+            let drive = Drive { quantity: Driven::Lock(vec![0]), to };
+            let mut branches = follow_path(assembly, &drive, None, &PathOptions::default(), &mut |_, _| true).unwrap();
+            let points = branches.remove(0).points;
+            let most = points.iter().map(|point| point.residual_force).fold(0.0, f64::max);
+            assert!(most <= 1e-10, "{to}: {most:e}");
+            points.into_iter().next_back().unwrap()
+        };
+        let [rigid, stiff] = [RIGID, 1e9].map(|bars| end(&cell(0.0, bars, None)));
+        assert!((rigid.drive - to).abs() < 1e-12, "to {to}: {}", rigid.drive);
+        assert_eq!(rigid.negative_eigenvalues, Some(0));
+        let energy = rigid.state.total();
+        let turned = end(&cell(0.7, RIGID, None)).state.total();
+        assert!((turned / energy - 1.0).abs() < 1e-10, "{to}: {turned} for {energy}");
+        assert!((stiff.state.total() / energy - 1.0).abs() < 1e-4, "{to}: {} for {energy}", stiff.state.total());
+        let mut model = cell(0.0, RIGID, Some(to)).model(Gauge::Held);
+        model.set_angles(&rigid.angles);
+        let start = model.start_from(rigid.state.coordinates);
+        let relaxed = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap().state.total();
+        assert!((relaxed / energy - 1.0).abs() < 1e-10, "{to}: {relaxed} for {energy}");
+    }
 }
 
 /// Runs a scene; returns its paths and tables by study, rows by column.

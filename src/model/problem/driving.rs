@@ -1,5 +1,6 @@
 //! A model whose supports, loads, rest values or stiffness one parameter drives.
 
+mod axis;
 mod effect;
 
 use super::{Model, POSE, Spring, Support};

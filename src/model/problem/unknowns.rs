@@ -20,6 +20,9 @@ const LEAST_SEPARATION_RATIO: f64 = 1e-3;
 const WELL_HELD: f64 = 0.5;
 /// The same for a state from which a path goes on, whose states are compared with each other where the same is held.
 const STILL_HELD: f64 = 0.1;
+/// Largest change of a unit with which a path goes on: the direction of an axis turns points by as much as the sheet is curved, and
+/// in the unit of a straight sheet a curved one has stiffnesses of which others are rounding errors.
+const MOST_CHANGED_UNIT: f64 = 4.0;
 /// Singular value of the rigid motions of the held coordinates, relative to motions of unit length, below which a motion is
 /// not held.
 const NOT_HELD: f64 = 1e-9;
@@ -134,16 +137,20 @@ impl Model {
         (if is_well_held { x } else { self.rebase_gauge(self.coordinates(&x)) }, is_well_held)
     }
 
-    /// Chooses anew what is held where it would soon hold the shape instead of rigid motions. Returns then the unknowns of the
-    /// state `x`, and the given rates of unknowns less the rigid motion with which the coordinates now held would move.
+    /// Chooses anew what is held where it would soon hold the shape instead of rigid motions, and the units of unknowns where they have
+    /// become others. Returns then the unknowns of the state `x`, and the given rates of unknowns less the rigid motion with which the
+    /// coordinates now held would move.
     pub(super) fn still_held(&mut self, x: &[f64], rates: &[f64]) -> Option<[Vec<f64>; 2]> {
-        if self.gauge_quality(x) >= STILL_HELD {
+        let generalised = self.generalised(x);
+        let units = self.units_at(&generalised[..self.points()]);
+        let ratios = units.iter().zip(&self.units).map(|(new, old)| f64::max(new / old, old / new));
+        if self.gauge_quality(x) >= STILL_HELD && ratios.fold(1.0, f64::max) <= MOST_CHANGED_UNIT {
             return None;
         }
-        let generalised = self.generalised(x);
         let motions = self.rigid_motions(&generalised, self.loads.is_empty());
         let mut moved = vec![0.0; motions.len()];
         self.free.iter().zip(rates).for_each(|(&k, rate)| moved[k as usize] = *rate);
+        let before: Vec<f64> = (0..self.base.len()).map(|k| self.unit(k)).collect();
         self.rechoose(generalised);
         let mut held = vec![true; motions.len()];
         self.free.iter().for_each(|&k| held[k as usize] = false);
@@ -152,11 +159,13 @@ impl Model {
         let right = DVector::from_fn(held.len(), |row, _| moved[held[row]]);
         let drift = shortest_solution(rows, &right, NOT_HELD)?;
         let left = |&k: &u32| moved[k as usize] - motions[k as usize].dot(&drift);
-        Some([self.start(), self.free.iter().map(left).collect()])
+        let in_new_units = |k: &u32| left(k) * before[*k as usize] / self.unit(*k as usize);
+        Some([self.start(), self.free.iter().map(in_new_units).collect()])
     }
 
-    /// Makes these generalised coordinates the reference state, and chooses anew there what is held.
+    /// Makes these generalised coordinates the reference state, and chooses anew there what is held and the units.
     pub(super) fn rechoose(&mut self, generalised: Vec<f64>) {
+        self.units = self.units_at(&generalised[..self.points()]);
         self.base = generalised;
         self.choose_unknowns();
     }

@@ -1,0 +1,61 @@
+//! The axis about which a straight screw begins to bend as it is driven.
+//!
+//! Without curvature the direction of the axis does not affect the shape, and any direction is an equilibrium. But rigid faces let a
+//! straight sheet bend about few axes only: from another one no path leads on. To second order the work of the drive is least about the
+//! axes about which the sheet can bend; about the others the rigid measures, which resist by their weights in the factorization, make it
+//! a million times larger.
+
+use super::DrivenModel;
+use crate::model::axis::{DIRECTIONS, maximum};
+use crate::solver::path::ParametrizedProblem;
+use crate::solver::{HessianKind, Tangent};
+use std::f64::consts::PI;
+
+/// Curvature times the mean length of edges below which a screw is straight.
+const STRAIGHT: f64 = 1e-8;
+/// Shift of the Hessian, which holds the direction of the axis and motions that cost no energy.
+const SHIFT: f64 = 1e-9;
+/// Tolerance of a solve without corrections: they would take the weights of rigid measures for what they are.
+const UNCORRECTED: f64 = f64::INFINITY;
+
+impl DrivenModel<'_> {
+    /// The unknowns of a state with these tensions whose axis is the one about which the drive bends a straight screw; the same where
+    /// the state is none.
+    pub(crate) fn about_best_axis(&self, x: Vec<f64>, tension: &[f64]) -> Vec<f64> {
+        let model = &self.model;
+        let Some(turns) = model.domain.turns(&model.coordinates(&x)) else { return x };
+        if turns.kappa.abs() * model.mean_edge > STRAIGHT {
+            return x;
+        }
+        let about = |direction: f64| {
+            let mut all = model.generalised(&x);
+            model.domain.bend(&mut all[..model.points()], direction, turns.kappa);
+            model.extracted(&all)
+        };
+        let saved = |direction: f64| -self.second_order_work(&about(direction), tension).unwrap_or(f64::INFINITY);
+        let step = PI / DIRECTIONS as f64;
+        let samples: Vec<f64> = (0..DIRECTIONS).map(|k| saved(step * k as f64)).collect();
+        let is_peak = |k: &usize| {
+            let [before, after] = [k + DIRECTIONS - 1, k + 1].map(|k| samples[k % DIRECTIONS]);
+            samples[*k] > before && samples[*k] >= after
+        };
+        let peaks = (0..DIRECTIONS).filter(is_peak).map(|k| {
+            let middle = step * k as f64;
+            maximum([middle - step, middle + step], saved)
+        });
+        let best = peaks.max_by(|a, b| saved(*a).total_cmp(&saved(*b)));
+        best.map_or(x.clone(), about)
+    }
+
+    /// Half the second derivative by the parameter of the least energy, by the factorization's weights of rigid measures; `None` where
+    /// nothing can be factored.
+    fn second_order_work(&self, x: &[f64], tension: &[f64]) -> Option<f64> {
+        let mut tangent = Tangent::at_state(self, x, tension, HessianKind::Full).ok()?;
+        tangent.factor(SHIFT).ok()?;
+        let rates = self.parameter_rates(&tangent.at, x, tension);
+        let [force, stretch] = rates.each_ref().map(|rates| rates.iter().map(|rate| -rate).collect::<Vec<f64>>());
+        let step = tangent.solve(&force, &stretch, UNCORRECTED);
+        let along = |rates: &[f64], step: &[f64]| rates.iter().zip(step).map(|(rate, step)| rate * step).sum::<f64>();
+        Some(0.5 * (along(&rates[0], &step.dx) + along(&rates[1], &step.dt)))
+    }
+}
