@@ -12,8 +12,8 @@ use crate::solver::self_stress::self_stresses;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// Scaled force below which the inertia of a state is that of the minimum next to it.
-const FORCE_NEAR_MINIMUM: f64 = 1e-4;
+/// Scaled force below which the inertia of a state is that of the minimum next to it: loads within this of a critical one are not told apart.
+const FORCE_NEAR_MINIMUM: f64 = 1e-9;
 /// Largest change of a measure of a soft element (an angle, in radians), and of an unknown in units of length, by one more step
 /// from a state at rest; and the relative residual to which that step is known.
 const AT_REST: f64 = 1e-7;
