@@ -1,6 +1,6 @@
 //! What a relaxation certifies: that it is in equilibrium, and how many negative eigenvalues it has on what rigid terms leave free.
 
-use crate::common::{Numbers, Testing, eigenvalues, jacobian, linearized, on};
+use crate::common::{Numbers, Testing, eigenvalues, jacobian, linearized, mesh, on};
 use foldwell::RIGID;
 use foldwell::analysis::relax::{Relaxed, relax_from};
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all};
@@ -8,7 +8,7 @@ use foldwell::math::Vec3;
 use foldwell::model::{Assembly, Boundary, Gauge, Hinges, Rest, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::sheet::generate::Hypar;
-use foldwell::sheet::{Sheet, fold};
+use foldwell::sheet::{self, Corner, Sheet, fold};
 use foldwell::solver::{Failure, Options, Problem};
 use foldwell::{Pattern, generate, relax};
 use std::f64::consts::PI;
@@ -171,6 +171,29 @@ fn pieces_relax_each_for_itself() {
             let together = of(copies, pinned);
             assert!((together / one - copies as f64).abs() < 1e-9, "{copies} copies, {pinned}: {together} and {one}");
         }
+    }
+}
+
+/// Claim: two cells on one screw come to rest each for itself: they have twice the energy of one, after about as few steps. Each can move
+/// about the axis and along it. Tolerance: that of two relaxations; steps of which the one takes ten.
+#[test]
+fn pieces_on_a_screw_relax_each_for_itself() {
+    let cell = mesh("open-star");
+    let vertices =
+        [Vec3::zeros(), Vec3::new(0.3, 0.2, 0.0)].map(|by| cell.vertices.iter().map(move |vertex| vertex + by));
+    let further = |corner: &Corner| Corner { vertex: corner.vertex + cell.vertices.len(), ..*corner };
+    let copies = cell.polygons.iter().map(|polygon| polygon.iter().map(further).collect());
+    let polygons = cell.polygons.iter().cloned().chain(copies).collect();
+    let pair = Sheet { vertices: vertices.into_iter().flatten().collect(), polygons, ..cell.clone() };
+    let pair = sheet::build::build(&sheet::build::draw(&pair)).unwrap();
+    for bars in [1e4, RIGID] {
+        let [one, two] = [&cell, &pair].map(|sheet| {
+            let builder = Assembly::screw(sheet.clone(), [1, 1]).bars(bars).creases(1.0);
+            relax(&builder.rest(Rest::Angle(0.05)).build().unwrap()).unwrap()
+        });
+        let ratio = two.state.total() / one.state.total();
+        assert!((ratio - 2.0).abs() < 1e-9, "{bars}: {ratio}");
+        assert!(two.history.len() <= 20, "{bars}: {} and {} steps", one.history.len(), two.history.len());
     }
 }
 

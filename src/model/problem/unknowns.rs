@@ -27,11 +27,6 @@ const MOST_CHANGED_UNIT: f64 = 4.0;
 /// not held.
 const NOT_HELD: f64 = 1e-9;
 
-/// The rigid motions of the coordinates of a piece, and which of them are held.
-fn of_members(motions: &[gauge::Motion], held: &[bool], piece: &[usize]) -> (Vec<gauge::Motion>, Vec<bool>) {
-    piece.iter().map(|&k| (motions[k], held[k])).unzip()
-}
-
 impl Model {
     /// Chooses the held coordinates at the reference state, and numbers the other ones as unknowns.
     pub(super) fn choose_unknowns(&mut self) {
@@ -89,19 +84,36 @@ impl Model {
 
     /// Returns the coordinates to hold, in addition to those already `held`, so that no piece of the sheet has a rigid motion.
     pub(super) fn chosen_by_pieces(&self, motions: &[gauge::Motion], held: &[bool]) -> Vec<usize> {
-        let of_piece = |piece: &Vec<usize>| {
-            let (motions, held) = of_members(motions, held, piece);
+        let of_piece = |(number, piece): (usize, &Vec<usize>)| {
+            let (motions, held) = self.of_piece((number, piece), motions, held);
             gauge::choose(&motions, &held).into_iter().map(|k| piece[k]).collect::<Vec<_>>()
         };
-        self.pieces().iter().flat_map(of_piece).collect()
+        self.pieces().iter().enumerate().flat_map(of_piece).collect()
+    }
+
+    /// The rigid motions of the coordinates of a piece, and which of them are held. Further cylinders about the axis of a screw move along
+    /// it and about it, which are displacements in the plane of the chart, but not away from it.
+    fn of_piece(
+        &self,
+        (number, piece): (usize, &[usize]),
+        motions: &[gauge::Motion],
+        held: &[bool],
+    ) -> (Vec<gauge::Motion>, Vec<bool>) {
+        let is_further = number > 0 && self.gauge == Gauge::Held && matches!(self.domain, Domain::Screw);
+        let of = |k: &usize| {
+            let mut motion = motions[*k];
+            motion[2] *= f64::from(u8::from(!is_further));
+            (motion, held[*k])
+        };
+        piece.iter().map(of).unzip()
     }
 
     /// Returns the generalised coordinates of each connected piece of the sheet, with the supports that act on them, which come
-    /// after all coordinates. Elements, rigid parts and supports connect points. Pieces on a screw, and points without elements, count as one, and the coordinates
-    /// that all points share are those of the first piece.
+    /// after all coordinates. Elements, rigid parts and supports connect points. Points without elements count as one, and the coordinates that all
+    /// points share are those of the first piece.
     fn pieces(&self) -> Vec<Vec<usize>> {
         let (points, count) = (self.points(), self.base.len() + self.supports.len());
-        if matches!(self.domain, Domain::Screw) || self.terms().next().is_none() {
+        if self.terms().next().is_none() {
             return vec![(0..count).collect()];
         }
         let shared = points - self.domain.shared();
@@ -179,14 +191,14 @@ impl Model {
         let mut held = vec![true; motions.len()];
         self.free.iter().for_each(|&k| held[k as usize] = false);
         let chosen = self.chosen(&motions);
-        let quality = |piece: &Vec<usize>| {
+        let quality = |(number, piece): (usize, &Vec<usize>)| {
             let [now, best] = [&held, &chosen].map(|held| {
-                let (motions, held) = of_members(&motions, held, piece);
+                let (motions, held) = self.of_piece((number, piece), &motions, held);
                 gauge::separation(&motions, &held)
             });
             if best > 0.0 { now / best } else { 1.0 }
         };
-        self.pieces().iter().map(quality).fold(1.0, f64::min)
+        self.pieces().iter().enumerate().map(quality).fold(1.0, f64::min)
     }
 
     /// Returns the unknowns on which element `k` of a term depends: for each of its points those of its coordinates, or
