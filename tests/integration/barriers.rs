@@ -58,6 +58,20 @@ fn barriers_at_the_own_stiffness() {
     assert!(table.lines().count() == 2 && table.lines().nth(1).unwrap().contains("10000"), "{table}");
 }
 
+/// Claim: the barrier of a pyramid of soft bars on pinned corners, whose apex goes through, is 0.9124522065 above the drawn state at which
+/// it begins; those to its states that pass through themselves, with creases wound beyond a half turn, are found too. Source: a search for
+/// critical points in other software. Tolerance: its digits.
+#[test]
+fn pyramids_go_through() {
+    let pins: String = (0..4).map(|vertex| format!("[[pin]]\nvertex = {vertex}\n")).collect();
+    let energy = format!("bars = {{ stiffness = 1.0 }}\ncreases = {{ stiffness = 0.02 }}\n{pins}");
+    let (study, found, _) = wells("pyramid", "", &energy, "starts = 1000\nbarriers = [[0, 1], [0, 2], [0, 3]]");
+    assert!(study.converged, "{:?}", study.reason);
+    assert!(found.barriers.iter().all(|barrier| barrier.confirmed && barrier.joins.is_some()), "{:?}", found.barriers);
+    assert!(!found.wells[1].self_intersecting && found.wells[2].self_intersecting);
+    assert_relative_eq!(found.barriers[0].energy.unwrap(), 0.912_452_206_5, max_relative = 1e-10);
+}
+
 /// Claim: a pass that is so steep that a descent from it steps across is found too: creases of 1e-8 of the bars of the
 /// drum. Its energy differs from that with creases of 1e-6, 8.219153e-5, by the energy of its creases, which lies
 /// between those of the two wells: 0 and 5.369354 times their stiffness, see the wells of the drum.
