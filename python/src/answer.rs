@@ -4,9 +4,10 @@ use crate::arrays::{Array1, vector, view};
 use crate::errors::raise;
 use crate::state::State;
 use foldwell::Picture;
+use foldwell::model::Configuration;
 use foldwell::output::{Artifact, Column, OutputError, Table};
 use foldwell::run::{Computed, RunError};
-use foldwell::study::SavedState;
+use foldwell::study::state_of;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -18,7 +19,7 @@ pub(crate) struct Answer {
     pub assembly: foldwell::Assembly,
     states: Vec<(String, Py<State>)>,
     files: Vec<(String, Artifact)>,
-    pub saved: Option<SavedState>,
+    pub saved: Option<Configuration>,
 }
 
 impl Answer {
@@ -89,7 +90,7 @@ impl Answer {
 
     /// Returns the final state; `None` if the study has none.
     fn state(&self) -> Option<State> {
-        let state = self.saved.as_ref()?.state(&self.assembly)?;
+        let state = state_of(self.saved.as_ref()?, &self.assembly)?;
         Some(State { picture: Picture::new(&self.assembly, &state) })
     }
 

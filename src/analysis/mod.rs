@@ -13,7 +13,6 @@ pub mod relax;
 pub mod response;
 pub mod restored;
 pub mod shown_cells;
-pub mod start_state;
 pub mod state;
 pub mod surface;
 pub mod trace;

@@ -12,9 +12,8 @@ mod spectrum;
 mod vibrations;
 
 use super::restored::{self, Forces};
-use super::start_state::StartState;
 use crate::kinematics::closure::{Closure, HingedEdge};
-use crate::model::{Assembly, Bars, Boundary, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
+use crate::model::{Assembly, Bars, Boundary, Configuration, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
 use crate::sheet::{Corner, Site, Tiling, pieces};
 use crate::solver::Problem;
 pub use error::{ModesError, SPARSE_EIGENVALUES};
@@ -60,7 +59,8 @@ pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>
     let model = assembly.model(Gauge::Free);
     let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
     let coordinates = assembly.drawn().coordinates.clone();
-    modes_at(&assembly, &StartState { coordinates, angles: model.angles(), tension }, eigenvalues, observe)
+    let drawn = Configuration { coordinates, angles: model.angles(), tension: Some(tension) };
+    modes_at(&assembly, &drawn, eigenvalues, observe)
 }
 
 /// Finds the modes of a state of an assembly. `observe` is asked before every decomposition and factorization, and
@@ -72,7 +72,7 @@ pub fn modes(assembly: &Assembly, eigenvalues: usize, observe: &mut Observer<'_>
 /// `observe` returned false.
 pub fn modes_at(
     assembly: &Assembly,
-    state: &StartState,
+    state: &Configuration,
     eigenvalues: usize,
     observe: &mut Observer<'_>,
 ) -> Result<Modes, ModesError> {
@@ -101,9 +101,8 @@ pub fn modes_at(
     let (mut spectrum, mut vibrations) = (Spectrum::default(), None);
     if eigenvalues > 0 {
         let mut model = assembly.model(Gauge::Free);
-        model.set_angles(&state.angles);
-        model.start_from(state.coordinates.clone());
-        let (at, wanted) = ((&model, &state.tension[..]), (eigenvalues, free));
+        let tension = model.enter(state).tension.unwrap_or_else(|| vec![0.0; model.layout().stiff.len()]);
+        let (at, wanted) = ((&model, &tension[..]), (eigenvalues, free));
         vibrations = Vibrations::lowest(assembly, at, wanted, observe)?;
         if free > 0 {
             spectrum = lowest(at, &vec![1.0; model.layout().unknowns], wanted, observe)?;

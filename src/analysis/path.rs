@@ -4,7 +4,7 @@ mod stops;
 
 use super::relax::relax_from;
 use super::state::State;
-use crate::model::{Assembly, Drive, DriveError, DrivenModel, Gauge, Model};
+use crate::model::{Assembly, Configuration, Drive, DriveError, DrivenModel, Gauge, Model};
 use crate::solver::path::{
     self, Branch, BranchEnd, MarkedState, PathError, PathMark, PathObserver, PathSettings, PathState,
 };
@@ -166,7 +166,7 @@ pub enum PathFailure {
 pub fn follow_path(
     assembly: &Assembly,
     drive: &Drive,
-    start: Option<PathStart>,
+    start: Option<Configuration>,
     options: &PathOptions,
     observe: &mut dyn FnMut(usize, &PathPoint) -> bool,
 ) -> Result<Vec<PathBranch>, PathFailure> {
@@ -189,7 +189,7 @@ pub struct PathCallbacks<'a> {
 pub fn resume_path(
     assembly: &Assembly,
     drive: &Drive,
-    start: Option<PathStart>,
+    start: Option<Configuration>,
     options: &PathOptions,
     record: PathRecord,
     callbacks: PathCallbacks<'_>,
@@ -249,18 +249,17 @@ pub fn check_drive(assembly: &Assembly, drive: &Drive) -> Result<(), DriveError>
 fn begin<'m>(
     model: &'m mut Model,
     drive: &Drive,
-    start: Option<PathStart>,
+    start: Option<Configuration>,
     options: &PathOptions,
 ) -> Result<(DrivenModel<'m>, Start), PathFailure> {
     let drawn = model.values(&model.start());
     let restarted = start.is_some();
-    let tension = start.and_then(|PathStart { coordinates, angles, tension }| {
-        model.set_angles(&angles);
-        let x = model.start_from(coordinates.clone());
+    let tension = start.and_then(|state| {
+        let Start { x, tension } = model.enter(&state);
         if !model.gauge_is_valid(&x) {
-            model.rebase_gauge(coordinates);
+            model.rebase_gauge(state.coordinates);
         }
-        tension.filter(|tension| tension.len() == model.compliance().len())
+        tension
     });
     let driven = DrivenModel::new(model, drive, drawn, restarted)?;
     let x = driven.model.start();
@@ -338,20 +337,17 @@ fn ended(branch: &Branch, mut points: Vec<PathPoint>) -> PathBranch {
     PathBranch { points, end }
 }
 
+impl PathPoint {
+    /// The state as one from which another analysis begins.
+    pub fn configuration(&self) -> Configuration {
+        let Self { state, angles, tension, .. } = self;
+        Configuration { coordinates: state.coordinates.clone(), angles: angles.clone(), tension: Some(tension.clone()) }
+    }
+}
+
 /// Values of all angles of a model, in the order of [`Model::set_angles`].
 fn angles_at(model: &Model, x: &[f64]) -> Vec<f64> {
     let all = model.coordinates(x);
     let hinges = model.soft().iter().chain(model.stiff()).filter(|term| term.is_angle());
     hinges.flat_map(|term| (0..term.len()).map(|k| term.value(k, model.domain(), &all))).collect()
-}
-
-/// The state in which a path begins, as an earlier study left it.
-#[derive(Clone, Debug)]
-pub struct PathStart {
-    /// All coordinates of the state.
-    pub coordinates: Vec<f64>,
-    /// Angles of the elements of the assembly's model without drive; see [`crate::model::Model::set_angles`].
-    pub angles: Vec<f64>,
-    /// Tensions of the stiff measures of the assembly's model without drive, if they are known.
-    pub tension: Option<Vec<f64>>,
 }

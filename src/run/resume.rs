@@ -8,6 +8,7 @@
 use super::RunError;
 use super::belongings::Belongings;
 use crate::math::Vec3;
+use crate::model::Configuration;
 use crate::numerics::larger;
 use crate::output::figure::surface::PathPoint;
 use crate::output::summary::StudySummary;
@@ -16,7 +17,6 @@ use crate::output::{OutputError, files};
 use crate::scene::SceneFile;
 use crate::scene::forms::StartSpec;
 use crate::scene::spec::{StudyKind, StudySpec};
-use crate::study::SavedState;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
@@ -50,7 +50,7 @@ impl PreviousRun {
         file: &SceneFile,
         (out, files): (&Path, &Belongings),
         study: &StudySpec,
-    ) -> Option<(StudySummary, Option<SavedState>)> {
+    ) -> Option<(StudySummary, Option<Configuration>)> {
         let name = &study.name.0;
         let mut readable =
             self.studies.iter().filter_map(|study| serde_json::from_str::<StudySummary>(study.get()).ok());
@@ -93,12 +93,12 @@ fn state_path(out: &Path, name: &str) -> PathBuf {
     out.join(format!("{name}.state.json"))
 }
 
-fn read_state(out: &Path, name: &str) -> Option<SavedState> {
+fn read_state(out: &Path, name: &str) -> Option<Configuration> {
     serde_json::from_str(&std::fs::read_to_string(state_path(out, name)).ok()?).ok()
 }
 
 /// Writes the final state of a study if a later one starts from it.
-pub(crate) fn write_state(file: &SceneFile, out: &Path, name: &str, state: &SavedState) -> Result<(), RunError> {
+pub(crate) fn write_state(file: &SceneFile, out: &Path, name: &str, state: &Configuration) -> Result<(), RunError> {
     if !is_start(file, name) {
         return Ok(());
     }
@@ -119,14 +119,14 @@ mod tests {
         let scene = "[sheet]\nmesh = \"a.fold\"\n[[study]]\nname = \"a\"\nkind = \"relax\"\n[[study]]\nname = \"b\"\n\
                      kind = \"relax\"\nstart = \"a\"\n";
         let file = crate::scene::parse(scene, "s.toml").unwrap();
-        let state = SavedState {
+        let state = Configuration {
             coordinates: vec![0.1 + 0.2, -0.0, 5e-324, 1e300 / 3.0],
             angles: vec![-std::f64::consts::PI],
             tension: Some(vec![1.0 / 3.0, -0.0]),
         };
         write_state(&file, folder.path(), "a", &state).unwrap();
         let back = read_state(folder.path(), "a").unwrap();
-        let bits = |state: &SavedState| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let bits = |state: &Configuration| state.coordinates.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         assert_eq!((bits(&back), &back.angles, &back.tension), (bits(&state), &state.angles, &state.tension));
         write_state(&file, folder.path(), "b", &state).unwrap();
         assert!(!state_path(folder.path(), "b").exists(), "nothing starts from it");

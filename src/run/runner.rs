@@ -6,7 +6,7 @@ use super::log::Log;
 use super::resume::{self, PreviousRun};
 use super::{RunError, RunOptions, RunReport, claim, inputs};
 use crate::analysis::shown_cells::ShownCells;
-use crate::model::Assembly;
+use crate::model::{Assembly, Configuration};
 use crate::output::claim::Claim;
 use crate::output::summary::{SheetSummary, StudySummary, Summary};
 use crate::output::{OutputError, files};
@@ -14,7 +14,7 @@ use crate::scene::build::notes;
 use crate::scene::spec::StudySpec;
 use crate::scene::{SceneFile, digest};
 use crate::sheet::Info;
-use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers, SavedState};
+use crate::study::{self, Answer, Checkpoints, Context, Observer, PreviousAnswers};
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -167,7 +167,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Keeps the final state of a study for the studies that start from it.
-    fn keep_state(&mut self, study: &StudySpec, state: SavedState) -> Result<(), RunError> {
+    fn keep_state(&mut self, study: &StudySpec, state: Configuration) -> Result<(), RunError> {
         if resume::is_start(self.file, &study.name.0) {
             self.path(format!("{}.state.json", study.name.0));
         }

@@ -46,6 +46,9 @@ const FURTHER_MOTIONS: usize = 24;
 /// Number of motions that one random force leads to, by solving again and again. Repeated eigenvalues, as symmetric sheets
 /// have, need several forces.
 const MOTIONS_PER_FORCE: usize = 8;
+/// Number of motions that are asked whether a state near one that is stable is stable too: next to a critical load the softest motion
+/// outweighs all others after two or three solves.
+const SOFTEST_MOTIONS: usize = 3;
 /// Number of random forces in a row that lead to no new motion after which all motions are taken to be found.
 const BARREN_FORCES: usize = 2;
 /// Relative residual to which the true system is solved.
@@ -145,6 +148,14 @@ pub(super) fn falling_motion(
     Ok(if motions.below(-zero - ZERO_IN_PROJECTION * hessian_size(at)) > 0 { motions.lowest() } else { None })
 }
 
+/// Whether the energy falls to second order on one of a few soft motions that meet the measures. The system may have been factored at
+/// another state near by.
+pub(super) fn softest_falls(system: &mut KktSystem, at: &Linearization, compliance: &[f64]) -> bool {
+    let mut motions = Motions::new(system, at, compliance, 0.0);
+    motions.answer(&mut ChaCha8Rng::seed_from_u64(SEED), SOFTEST_MOTIONS);
+    motions.below(-ZERO_IN_PROJECTION * hessian_size(at)) > 0
+}
+
 /// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a matrix. Measures of
 /// finite stiffness keep their tensions as unknowns, each of which adds one negative eigenvalue: no stiffness is so large that rounding
 /// errors of its multiples matter. Tensions are in units in which compliances are of the size of the Hessian, as far as that leaves the
@@ -211,12 +222,7 @@ impl<'a> Motions<'a> {
         let (mut random, mut negative, mut barren) = (ChaCha8Rng::seed_from_u64(SEED), 0, 0);
         while negative < most && self.found.len() < enough && barren < BARREN_FORCES {
             let before = self.found.len();
-            let mut force: Vec<f64> = (0..unknowns).map(|_| symmetric(&mut random)).collect();
-            for _ in 0..MOTIONS_PER_FORCE {
-                let Some(motion) = self.next_motion(&force) else { break };
-                force.clone_from(&motion.dx);
-                self.push(motion);
-            }
+            self.answer(&mut random, MOTIONS_PER_FORCE);
             if self.found.len() > before {
                 (negative, barren) = (self.below(0.0), 0);
             } else {
@@ -224,6 +230,16 @@ impl<'a> Motions<'a> {
             }
         }
         negative
+    }
+
+    /// Adds up to this many motions to which a random force leads, each as a force on the next: ever softer ones.
+    fn answer(&mut self, random: &mut ChaCha8Rng, count: usize) {
+        let mut force: Vec<f64> = (0..self.at.gradient.len()).map(|_| symmetric(random)).collect();
+        for _ in 0..count {
+            let Some(motion) = self.next_motion(&force) else { break };
+            force.clone_from(&motion.dx);
+            self.push(motion);
+        }
     }
 
     /// The motion that a force makes, without its parts along those already found; `None` where nothing is left of it, or

@@ -2,12 +2,11 @@
 
 use crate::analysis::restored::{self, Forces};
 use crate::analysis::state::State;
-use crate::model::{Assembly, Gauge};
+use crate::model::{Assembly, Configuration, Gauge};
 use crate::output::artifact::Artifact;
 use crate::output::figure::surface::PathPoint;
 use crate::output::summary::{StudyResult, StudySummary};
 use crate::scene::spec::StudySpec;
-use serde::{Deserialize, Serialize};
 
 /// The answer of a study, not yet written to files.
 #[derive(Debug)]
@@ -17,39 +16,25 @@ pub struct Answer {
     /// The study's files: names relative to the folder of the run, in the order in which they are to be written.
     pub files: Vec<(String, Artifact)>,
     /// The state in which the study ended, from which later studies can start.
-    pub state: Option<SavedState>,
+    pub state: Option<Configuration>,
     /// The trajectories that the study followed, in the space of lattice strains; later surface studies draw them.
     pub paths: Vec<Vec<PathPoint>>,
 }
 
-/// A state from which later studies can start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SavedState {
-    /// All coordinates of the state.
-    pub coordinates: Vec<f64>,
-    /// The angles from which later angles continue without jumps of `2 pi`; see [`crate::model::Model::angles`].
-    pub angles: Vec<f64>,
-    /// Tensions of the stiff elements; `None` if the study does not compute them.
-    #[serde(default)]
-    pub tension: Option<Vec<f64>>,
-}
-
-impl SavedState {
-    /// Returns the state with the quantities of every edge; angles of edges that are not hinges of the assembly are in
-    /// (-pi, pi]. `None` if the state is not one of this assembly.
-    pub fn state(&self, assembly: &Assembly) -> Option<State> {
-        let mut model = assembly.model(Gauge::Held);
-        let fits = self.coordinates.len() == assembly.drawn().coordinates.len();
-        if !(fits && self.angles.len() == model.angles().len()) {
-            return None;
-        }
-        model.set_angles(&self.angles);
-        let x = model.start_from(self.coordinates.clone());
-        let forces = self.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
-        let tension = restored::tensions(&model, &x, &forces);
-        let state = State { coordinates: self.coordinates.clone(), ..State::new(&model, &x, &tension) };
-        Some(state.with_angles(assembly.fold_angles_at(&self.coordinates)))
+/// Returns the state with the quantities of every edge; angles of edges that are not hinges of the assembly are in (-pi, pi]. `None` if
+/// the configuration is not one of this assembly.
+pub fn state_of(configuration: &Configuration, assembly: &Assembly) -> Option<State> {
+    let mut model = assembly.model(Gauge::Held);
+    let fits = configuration.coordinates.len() == assembly.drawn().coordinates.len();
+    if !(fits && configuration.angles.len() == model.angles().len()) {
+        return None;
     }
+    let x = model.enter(configuration).x;
+    let forces = configuration.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
+    let tension = restored::tensions(&model, &x, &forces);
+    let coordinates = configuration.coordinates.clone();
+    let angles = assembly.fold_angles_at(&coordinates);
+    Some(State { coordinates, ..State::new(&model, &x, &tension) }.with_angles(angles))
 }
 
 impl Answer {

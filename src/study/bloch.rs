@@ -1,6 +1,6 @@
 //! `kind = "bloch"`: spatially varying modes of the drawn state, or of a state that an earlier study found.
 
-use super::answer::{Answer, SavedState};
+use super::answer::Answer;
 use super::bands::{FoundBands, facet_stiffness};
 use super::context::Context;
 use super::error::StudyError;
@@ -13,7 +13,7 @@ use crate::analysis::bloch::{
 };
 use crate::analysis::state::cylinder;
 use crate::math::Vec3;
-use crate::model::{Assembly, Domain, Drawn, Stiffness};
+use crate::model::{Assembly, Configuration, Domain, Drawn, Stiffness};
 use crate::numerics::worst;
 use crate::output::Picture;
 use crate::output::artifact::Artifact;
@@ -90,7 +90,7 @@ fn ground(context: &Context<'_>, spec: &BlochSpec) -> Result<Option<Ground>, Blo
         return Ok(Some(Ground { rigidity: rigidity(context.file, assembly)?, folded: None }));
     };
     let (sheet, drawn) = (assembly.sheet(), assembly.drawn());
-    let fits = |saved: &&SavedState| saved.coordinates.len() == drawn.coordinates.len();
+    let fits = |saved: &&Configuration| saved.coordinates.len() == drawn.coordinates.len();
     let Some(saved) = context.earlier.states.get(name).filter(fits) else { return Ok(None) };
     let rigid = facets_are_rigid(context.file, assembly);
     let rigidity = Rigidity::of_state(sheet, rigid, &drawn.domain, &saved.coordinates)?;

@@ -1,9 +1,9 @@
 //! The input of a study: its scene and sheet, the answers of earlier studies, and the observer of the run.
 
-use super::answer::SavedState;
 use crate::analysis::intersections::SelfIntersection;
 use crate::analysis::shown_cells::ShownCells;
 use crate::model::Assembly;
+use crate::model::Configuration;
 use crate::output::OutputError;
 use crate::output::figure::Caption;
 use crate::output::figure::surface::PathPoint;
@@ -33,7 +33,7 @@ pub type Observer<'a> = &'a (dyn Fn(&Progress) -> ControlFlow<()> + Sync);
 #[derive(Clone, Debug, Default)]
 pub struct PreviousAnswers {
     /// The states in which the studies ended.
-    pub states: HashMap<String, SavedState>,
+    pub states: HashMap<String, Configuration>,
     /// The trajectories that the studies followed, in the space of lattice strains.
     pub paths: HashMap<String, Vec<Vec<PathPoint>>>,
 }

@@ -1,6 +1,6 @@
 //! `kind = "path"`: equilibria while a quantity is driven, through limit points, with branches on request.
 
-use super::answer::{Answer, SavedState};
+use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::path_plot::{Words, event_word, figure};
@@ -9,7 +9,7 @@ use super::{path_table, ratios, start};
 use crate::analysis::intersections::{Marks, STACKED_LAYERS_MARGIN};
 use crate::analysis::path::{
     BranchPoint, HalfBranches, PathBranch, PathCallbacks, PathEnd, PathEntry, PathEvent, PathOptions, PathPoint,
-    PathRecord, PathStart, PathStop, check_drive, resume_path,
+    PathRecord, PathStop, check_drive, resume_path,
 };
 use crate::model::{Assembly, Drive, DriveError, Driven, Gauge};
 use crate::numerics::{larger, worst};
@@ -54,11 +54,8 @@ pub(crate) fn compute(context: &Context<'_>, spec: &PathSpec) -> Result<Answer, 
     let Some(found) = start::initial_state(context, spec.start.as_ref(), &mut model)? else {
         return Ok(start::unavailable(context));
     };
-    let start = (!found.is_drawn).then(|| PathStart {
-        coordinates: model.coordinates(&found.x),
-        angles: model.angles(),
-        tension: found.tension_helps.then(|| found.tension.clone()),
-    });
+    let tension = || found.tension_helps.then(|| found.tension.clone());
+    let start = (!found.is_drawn).then(|| model.configuration(&found.x, tension()));
     let options = PathOptions { switch: spec.switch, stop, ..PathOptions::default() };
     let options = PathOptions {
         tolerance: spec.tolerance.as_ref().map_or(options.tolerance, |tolerance| tolerance.0),
@@ -183,7 +180,7 @@ fn answer(context: &Context<'_>, spec: &PathSpec, drive: &Drive, branches: &[Pat
     let interrupted = context.interrupted().then(|| "interrupted".to_owned());
     let reason = branches.first().map_or(Some("the path has no states".to_owned()), reason);
     answer.conclude(StudyResult::Path(result), error, reason.or(interrupted));
-    answer.state = branches.first().and_then(|branch| branch.points.last()).map(saved);
+    answer.state = branches.first().and_then(|branch| branch.points.last()).map(PathPoint::configuration);
     answer
 }
 
@@ -206,12 +203,6 @@ fn reason(branch: &PathBranch) -> Option<String> {
         }
         PathEnd::Interrupted => Some("interrupted".to_owned()),
     }
-}
-
-/// Returns a state for later studies.
-fn saved(point: &PathPoint) -> SavedState {
-    let PathPoint { state, angles, tension, .. } = point;
-    SavedState { coordinates: state.coordinates.clone(), angles: angles.clone(), tension: Some(tension.clone()) }
 }
 
 /// Returns the self-intersections of all states, branch by branch; `None` if the study does not ask for that check. An

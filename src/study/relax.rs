@@ -1,6 +1,6 @@
 //! `kind = "relax"`: the equilibrium that Newton's method reaches from a start.
 
-use super::answer::{Answer, SavedState};
+use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::reason::reason;
@@ -11,7 +11,7 @@ use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::relax::recorder::KeptState;
 use crate::analysis::relax::{Method, RelaxError, RelaxOptions, Relaxed, RouteTried, relax_from};
 use crate::analysis::state::State;
-use crate::model::{Gauge, Model};
+use crate::model::{Configuration, Gauge, Model};
 use crate::numerics::larger;
 use crate::output::figure::rounded;
 use crate::output::summary::{
@@ -80,7 +80,8 @@ fn found(context: &Context<'_>, spec: &RelaxSpec, model: &Model, first: &State, 
     let error = larger(result.residual_force, result.residual_length);
     answer.conclude(StudyResult::Relax(result), Some(error), None);
     let Relaxed { state, tension, .. } = relaxed;
-    answer.state = Some(SavedState { coordinates: state.coordinates, angles: model.angles(), tension: Some(tension) });
+    answer.state =
+        Some(Configuration { coordinates: state.coordinates, angles: model.angles(), tension: Some(tension) });
     answer
 }
 

@@ -5,12 +5,11 @@
 //! state of an earlier study or of a file comes with its tensions where they were kept, so that an equilibrium is one
 //! again.
 
-use super::answer::{Answer, SavedState};
+use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use crate::analysis::restored::{self, Forces};
-use crate::analysis::start_state::StartState;
-use crate::model::Model;
+use crate::model::{Configuration, Model};
 use crate::numerics::random::symmetric;
 use crate::output::vtk::{self, VtuMesh};
 use crate::scene::Located;
@@ -41,8 +40,8 @@ impl InitialState {
     }
 
     /// Returns the same state independent of the numbering of the unknowns, with all its tensions.
-    pub(crate) fn state(self, model: &Model) -> StartState {
-        StartState { coordinates: model.coordinates(&self.x), angles: model.angles(), tension: self.tension }
+    pub(crate) fn state(self, model: &Model) -> Configuration {
+        model.configuration(&self.x, Some(self.tension))
     }
 }
 
@@ -104,14 +103,13 @@ fn earlier(model: &Model, x: Vec<f64>, known: &Forces) -> InitialState {
 /// Returns the unknowns of the state in which an earlier study ended, and its forces; `None` if it ended in no state of
 /// this model.
 fn from_study(context: &Context<'_>, name: &str, model: &mut Model) -> Option<(Vec<f64>, Forces)> {
-    let fits = |saved: &&SavedState| {
+    let fits = |saved: &&Configuration| {
         saved.coordinates.len() == context.assembly.drawn().coordinates.len()
             && saved.angles.len() == model.angles().len()
     };
     let saved = context.earlier.states.get(name).filter(fits)?;
-    model.set_angles(&saved.angles);
     let forces = saved.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
-    Some((model.start_from(saved.coordinates.clone()), forces))
+    Some((model.enter(saved).x, forces))
 }
 
 /// Returns the unknowns of the state in a VTU file and the forces that the file contains. Angles continue from those of

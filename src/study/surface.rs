@@ -1,6 +1,6 @@
 //! `kind = "surface"`: the surface of folded states of one cell, or their curve.
 
-use super::answer::{Answer, SavedState};
+use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::supported;
@@ -11,7 +11,7 @@ use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
 use crate::analysis::state::State;
 use crate::analysis::surface::{Surface, SurfaceOptions, SurfacePoint, surface};
 use crate::math::Vec3;
-use crate::model::{Assembly, Boundary, Gauge, Terms};
+use crate::model::{Assembly, Boundary, Configuration, Gauge, Terms};
 use crate::numerics::{larger, worst};
 use crate::output::artifact::Artifact;
 use crate::output::figure::rounded;
@@ -165,7 +165,7 @@ fn add_files(
     if let Some((last, state)) = surface.points.iter().zip(&found.states).next_back() {
         add_mesh(answer, context, mesh(context.assembly, surface, &rows), max_curvature);
         let angles = hinge_angles(&context.assembly.model(Gauge::Held), &last.angles);
-        answer.state = Some(SavedState { coordinates: state.coordinates.clone(), angles, tension: None });
+        answer.state = Some(Configuration { coordinates: state.coordinates.clone(), angles, tension: None });
     }
 }
 

@@ -1,6 +1,6 @@
 //! `kind = "trace"`: trajectories of rigid folding from the drawn state, and relaxations at their states.
 
-use super::answer::{Answer, SavedState};
+use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::states::{self, Shown};
@@ -12,7 +12,7 @@ use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::State;
 use crate::analysis::trace::{Folded, Intersects, Stop, TraceError, TraceOptions, Traced, trace};
 use crate::math::Vec3;
-use crate::model::{Assembly, Boundary, Gauge, Model};
+use crate::model::{Assembly, Boundary, Configuration, Gauge, Model};
 use crate::numerics::{larger, worst};
 use crate::output::figure::surface::{self, PathPoint};
 use crate::output::strain_space::StrainSurface;
@@ -229,7 +229,7 @@ pub(crate) fn path_point(row: &StateRow) -> Option<PathPoint> {
 }
 
 /// Returns the last state of the first trajectory.
-fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option<SavedState> {
+fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option<Configuration> {
     let path = paths.first()?;
     let along = path.relaxed.and_then(|relaxed| relaxed.states.last());
     let (coordinates, angles) = match (along, path.traced.states.last()) {
@@ -237,7 +237,7 @@ fn saved_state(assembly: &Assembly, model: &Model, paths: &[Path<'_>]) -> Option
         (None, Some(folded)) => (coordinates_in(assembly.boundary(), folded), &folded.angles),
         (None, None) => return None,
     };
-    Some(SavedState { coordinates, angles: hinge_angles(model, angles), tension: None })
+    Some(Configuration { coordinates, angles: hinge_angles(model, angles), tension: None })
 }
 
 /// Returns a relaxed state with the fold angles of all edges.

@@ -65,7 +65,7 @@ fn barriers_at_the_own_stiffness() {
 fn pyramids_go_through() {
     let pins: String = (0..4).map(|vertex| format!("[[pin]]\nvertex = {vertex}\n")).collect();
     let energy = format!("bars = {{ stiffness = 1.0 }}\ncreases = {{ stiffness = 0.02 }}\n{pins}");
-    let (study, found, _) = wells("pyramid", "", &energy, "starts = 1000\nbarriers = [[0, 1], [0, 2], [0, 3]]");
+    let (study, found, _) = wells("high-pyramid", "", &energy, "starts = 1000\nbarriers = [[0, 1], [0, 2], [0, 3]]");
     assert!(study.converged, "{:?}", study.reason);
     assert!(found.barriers.iter().all(|barrier| barrier.confirmed && barrier.joins.is_some()), "{:?}", found.barriers);
     assert!(!found.wells[1].self_intersecting && found.wells[2].self_intersecting);
@@ -162,7 +162,7 @@ fn crumpled_states_need_no_digits() {
 /// creases leave directions of almost no stiffness.
 #[test]
 fn failed_starts_are_counted() {
-    let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1e-9), "starts = 10\nseed = 1");
+    let (study, found, _) = wells("folded-eggbox", "domain = \"screw\"", &eggbox(1e-9), "starts = 10\nseed = 2");
     let counted: usize = found.failures.iter().map(|one| one.starts).sum();
     assert!(2 * found.failed > found.starts && counted == found.failed && !study.converged, "{found:?}");
     let said = format!("{} of 10 starts failed", found.failed);

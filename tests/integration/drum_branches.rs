@@ -116,8 +116,7 @@ impl Drum {
 /// Null vectors of the whole stiffness at a branch point, as orthonormal rates of all coordinates, by dense eigenvectors.
 fn null_vectors(assembly: &Assembly, point: &PathPoint) -> DenseMatrix {
     let mut model = assembly.model(Gauge::Held);
-    model.set_angles(&point.angles);
-    let x = model.start_from(point.state.coordinates.clone());
+    let x = model.enter(&point.configuration()).x;
     let found = stressed_hessian(&model, &x, &point.tension).symmetric_eigen();
     let largest = found.eigenvalues.amax();
     let mut order: Vec<usize> = (0..found.eigenvalues.len()).collect();

@@ -7,10 +7,10 @@
 
 use crate::common::turned;
 use foldwell::analysis::path::{
-    HalfBranches, PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStart, PathStop, follow_path,
+    HalfBranches, PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStop, follow_path,
 };
 use foldwell::math::Vec3;
-use foldwell::model::{Drive, Driven, Gauge, TermKind};
+use foldwell::model::{Configuration, Drive, Driven, Gauge, TermKind};
 use foldwell::sheet::{Sheet, fold};
 use foldwell::{Assembly, RIGID, Rest, relax};
 use nalgebra::{Rotation3, Vector3};
@@ -259,7 +259,7 @@ fn a_stiffness_is_driven_from_a_relaxed_state() {
     assert!(relaxed.state.energy_bars > 1e-3, "bars are strained: {}", relaxed.state.energy_bars);
     let mut model = assembly.model(Gauge::Held);
     model.start_from(relaxed.state.coordinates.clone());
-    let start = PathStart {
+    let start = Configuration {
         coordinates: relaxed.state.coordinates.clone(),
         angles: model.angles(),
         tension: Some(relaxed.tension.clone()),

@@ -2,7 +2,7 @@
 //! the way that led to them, a relaxation finds them too, and a drum has the states of its closed form at every stiffness
 //! of its creases, and stiffer and stiffer bars lead to the rigid limit.
 
-use foldwell::analysis::path::{PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, PathStart, follow_path};
+use foldwell::analysis::path::{PathBranch, PathEnd, PathEvent, PathOptions, PathPoint, follow_path};
 use foldwell::analysis::relax::relax_from;
 use foldwell::kinematics::folding_modes;
 use foldwell::math::Vec3;
@@ -36,11 +36,7 @@ fn press(to: f64) -> Drive {
 }
 
 fn followed(assembly: &Assembly, drive: &Drive, start: Option<&PathPoint>) -> PathBranch {
-    let start = start.map(|point| PathStart {
-        coordinates: point.state.coordinates.clone(),
-        angles: point.angles.clone(),
-        tension: Some(point.tension.clone()),
-    });
+    let start = start.map(PathPoint::configuration);
     let branch = follow_path(assembly, drive, start, &PathOptions::default(), &mut |_, _| true).unwrap().remove(0);
     assert_eq!(branch.end, PathEnd::Arrived);
     branch

@@ -5,10 +5,10 @@
 //! PNAS 110, 3276 (2013)); relaxations with the lock held at another angle, which share neither tangents nor steps with a path.
 
 use crate::common::{mesh, turned};
-use foldwell::analysis::path::{PathOptions, PathPoint, PathStart, follow_path};
+use foldwell::analysis::path::{PathOptions, PathPoint, follow_path};
 use foldwell::analysis::relax::relax_from;
 use foldwell::math::Vec3;
-use foldwell::model::{Assembly, Drive, Driven, Gauge};
+use foldwell::model::{Assembly, Configuration, Drive, Driven, Gauge};
 use foldwell::output::summary::{PathSummary, StudyResult};
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::scene::{build, parse};
@@ -45,7 +45,7 @@ fn path_of_cylinder(to: f64) -> Vec<PathPoint> {
     let drawn = model.start();
     let relaxed = relax_from(&mut model, drawn, Options::default(), &mut |_| true).unwrap();
     let (coordinates, angles) = (relaxed.state.coordinates, model.angles());
-    let start = PathStart { coordinates, angles, tension: Some(relaxed.tension) };
+    let start = Configuration { coordinates, angles, tension: Some(relaxed.tension) };
     let drive = Drive { quantity: Driven::Lock(vec![0]), to };
     let mut branches = follow_path(&assembly, &drive, Some(start), &PathOptions::default(), &mut |_, _| true).unwrap();
     branches.remove(0).points
@@ -63,8 +63,7 @@ fn cylinder_along_a_lock() {
         let relaxed = |shift: f64| {
             let assembly = locked(point.drive + shift);
             let mut model = assembly.model(Gauge::Held);
-            model.set_angles(&point.angles);
-            let start = model.start_from(point.state.coordinates.clone());
+            let start = model.enter(&point.configuration().without_tension());
             relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap().state
         };
         let here = relaxed(0.0);
@@ -106,8 +105,7 @@ fn straight_cells_begin_to_bend() {
         assert!((turned / energy - 1.0).abs() < 1e-10, "{to}: {turned} for {energy}");
         assert!((stiff.state.total() / energy - 1.0).abs() < 1e-4, "{to}: {} for {energy}", stiff.state.total());
         let mut model = cell(0.0, RIGID, Some(to)).model(Gauge::Held);
-        model.set_angles(&rigid.angles);
-        let start = model.start_from(rigid.state.coordinates);
+        let start = model.enter(&rigid.configuration().without_tension());
         let relaxed = relax_from(&mut model, start, Options::default(), &mut |_| true).unwrap().state.total();
         assert!((relaxed / energy - 1.0).abs() < 1e-10, "{to}: {relaxed} for {energy}");
     }

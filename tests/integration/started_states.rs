@@ -4,11 +4,10 @@
 use crate::common::{self, Testing, eigenvalues, jacobian, linearized, on, patch};
 use approx::{abs_diff_eq, assert_relative_eq};
 use foldwell::analysis::modes::{DENSE_LIMIT, modes_at};
-use foldwell::analysis::start_state::StartState;
 use foldwell::analysis::wells::barrier::barrier;
 use foldwell::analysis::wells::merge::{Comparison, wells};
 use foldwell::analysis::wells::starts::{Outcome, Starts, relax_all, relax_around};
-use foldwell::model::{Assembly, Boundary, Gauge, Model, Terms};
+use foldwell::model::{Assembly, Boundary, Configuration, Gauge, Model, Terms};
 use foldwell::numerics::DenseMatrix;
 use foldwell::run::{RunOptions, run_scene};
 use foldwell::solver::{Options, Problem};
@@ -38,7 +37,7 @@ fn studies(folder: &Path, name: &str, scene: &str) -> Vec<Value> {
 }
 
 /// Returns the first minimum that a random start near the drawn state reaches.
-fn minimum(assembly: &Assembly) -> StartState {
+fn minimum(assembly: &Assembly) -> Configuration {
     let starts = Starts { count: 1, seed: 3, spread: 0.02, options: Options::default() };
     match relax_all(assembly, &starts, &|| true).remove(0) {
         Outcome::Well(settled) => settled.place,
@@ -47,16 +46,15 @@ fn minimum(assembly: &Assembly) -> StartState {
 }
 
 /// Returns the model of the whole energy in a state, and the unknowns of the state.
-fn model_at(assembly: &Assembly, state: &StartState) -> (Model, Vec<f64>) {
+fn model_at(assembly: &Assembly, state: &Configuration) -> (Model, Vec<f64>) {
     let mut model = assembly.model(Gauge::Free);
-    model.set_angles(&state.angles);
-    let x = model.start_from(state.coordinates.clone());
+    let x = model.enter(state).x;
     (model, x)
 }
 
 /// Returns the Hessian of the whole energy by central differences of its gradient, in which every bar pulls with its
 /// stiffness times its elongation: no tension and no second derivative takes part.
-fn hessian_by_differences(assembly: &Assembly, state: &StartState) -> DenseMatrix {
+fn hessian_by_differences(assembly: &Assembly, state: &Configuration) -> DenseMatrix {
     let (model, x) = model_at(assembly, state);
     let gradient = |x: &[f64]| {
         let at = linearized(&model, x, &vec![0.0; model.layout().stiff.len()]);
@@ -100,8 +98,7 @@ fn spectra_have_the_geometric_stiffness() {
     }
     assert_eq!((found.rigid_motions, found.zero_modes - found.self_stresses), (6, found.maxwell_count as usize));
     assert!(found.eigenvalues[..6].iter().all(|value| value.abs() < 1e-9) && found.eigenvalues[6] > 1e-3);
-    let without = StartState { tension: vec![0.0; state.tension.len()], ..state.clone() };
-    let without = modes_at(&case, &without, 12, &mut || true).unwrap();
+    let without = modes_at(&case, &state.without_tension(), 12, &mut || true).unwrap();
     let change = common::distance(&without.eigenvalues, &found.eigenvalues);
     assert!(change > 1e3 * allowed, "the tensions matter: {change:e}");
 }
@@ -137,13 +134,12 @@ fn one_negative_eigenvalue_at_a_rigid_pass() {
     });
     let wells = wells(minima, &Comparison::new(&case));
     let pass = barrier(&case, &wells, [0, 1], &mut || true).unwrap().pass;
-    let negative = |state: &StartState| {
+    let negative = |state: &Configuration| {
         let found = modes_at(&case, state, 8, &mut || true).unwrap().eigenvalues;
         found.iter().filter(|value| **value < -1e-6).count()
     };
     assert_eq!((negative(&pass.place), pass.negative_eigenvalues), (1, Some(1)));
-    let without = StartState { tension: vec![0.0; pass.place.tension.len()], ..pass.place.clone() };
-    assert_ne!(negative(&without), 1);
+    assert_ne!(negative(&pass.place.without_tension()), 1);
     assert!(wells[..2].iter().all(|well| negative(&well.settled.place) == 0));
 }
 

@@ -9,7 +9,7 @@ use foldwell::analysis::bloch::BlochError;
 use foldwell::analysis::bloch::bands::DynamicalMatrix;
 use foldwell::analysis::modes::modes_at;
 use foldwell::analysis::relax::{Relaxed, relax_from};
-use foldwell::analysis::start_state::StartState;
+use foldwell::model::Configuration;
 use foldwell::model::{Assembly, Builder, Elements, Gauge, Mass, Model};
 use foldwell::sheet::generate::Random;
 use foldwell::solver::Options;
@@ -35,7 +35,7 @@ fn cells() -> [Sheet; 2] {
 }
 
 /// Returns the state of several cells that are all in the state of one.
-fn repeated(one: &Assembly, many: &Assembly, coordinates: &[f64]) -> StartState {
+fn repeated(one: &Assembly, many: &Assembly, coordinates: &[f64]) -> Configuration {
     let drawn = &one.drawn().coordinates;
     let moved: Vec<f64> = coordinates.iter().zip(drawn).map(|(x, drawn)| x - drawn).collect();
     let coordinates: Vec<f64> =
@@ -46,9 +46,9 @@ fn repeated(one: &Assembly, many: &Assembly, coordinates: &[f64]) -> StartState 
         spring.stiffness * (term.value(k, model.domain(), &coordinates) - spring.rest)
     };
     let stiff = model.stiff().iter().flat_map(|term| (0..term.len()).map(move |k| (term.as_ref(), k)));
-    let tension = stiff.map(force).collect();
+    let tension = Some(stiff.map(force).collect());
     let angles = model.angles();
-    StartState { coordinates, angles, tension }
+    Configuration { coordinates, angles, tension }
 }
 
 /// Claim: the squared frequencies of waves in a relaxed, stressed state of a fixed torus of one cell are, at the wavenumbers of 2 x 3

@@ -7,7 +7,7 @@ use foldwell::analysis::bloch::Density;
 use foldwell::analysis::bloch::bands::{DynamicalMatrix, Stiffnesses};
 use foldwell::analysis::modes::{DENSE_LIMIT, Vibrations, modes, modes_at};
 use foldwell::analysis::restored;
-use foldwell::analysis::start_state::StartState;
+use foldwell::model::Configuration;
 use foldwell::model::{AssemblyError, Builder, Gauge, Mass};
 use foldwell::numerics::DenseMatrix;
 use foldwell::output::summary::{ModesSummary, StudyResult};
@@ -165,10 +165,10 @@ fn a_single_hinge() {
 }
 
 /// Returns a state of equilibrium, that of random rest angles, with its tensions.
-fn equilibrium(assembly: &Assembly) -> StartState {
+fn equilibrium(assembly: &Assembly) -> Configuration {
     let found = relax(assembly).unwrap();
     let angles = restored::angles(&assembly.model(Gauge::Held), &found.state.fold_angle);
-    StartState { coordinates: found.state.coordinates, angles, tension: found.tension }
+    Configuration { coordinates: found.state.coordinates, angles, tension: Some(found.tension) }
 }
 
 /// Claim: eigenvalues that are zero are found with at most a tenth of the bound below which they are called zero, and the

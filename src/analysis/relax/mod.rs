@@ -176,8 +176,8 @@ fn certain(run: &Run<'_>, found: Equilibrium) -> Ending {
 
 /// The answer of a relaxation that ended in an equilibrium.
 fn relaxed(run: Run<'_>, found: Equilibrium) -> Relaxed {
-    let Run { model, origin, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
-    let branch_choice = BranchChoice::of(model, &found.x, &origin.angles, !soft_steps.is_empty());
+    let Run { model, start, recorder, routes, soft_steps, intrinsic_failure, .. } = run;
+    let branch_choice = BranchChoice::of(model, &found.x, &start.angles, !soft_steps.is_empty());
     let found = straight_screw::counted(model, found);
     let settled = tension::settle(model, &found);
     let state = State::new(model, &found.x, &settled.tension);

@@ -2,7 +2,7 @@
 
 use super::recorder::Recorder;
 use crate::analysis::relax::options::{IntrinsicFailure, Method, RelaxOptions};
-use crate::model::Model;
+use crate::model::{Configuration, Model};
 use crate::solver::{Equilibrium, Failure, NewtonError, Options, Problem, Start, Step};
 use std::ops::Range;
 
@@ -39,22 +39,14 @@ pub(super) fn is_better(other: &Ending, before: &Ending) -> bool {
     }
 }
 
-/// The coordinates, the hinges' angles and the energy of a start.
-pub(super) struct Origin {
-    pub(super) coordinates: Vec<f64>,
-    pub(super) angles: Vec<f64>,
-    pub(super) energy: f64,
-}
-
 /// A relaxation on its way.
 pub(super) struct Run<'a> {
     pub(super) model: &'a mut Model,
     pub(super) options: Options,
     pub(super) method: Method,
     /// Where it began.
-    pub(super) origin: Origin,
-    /// Whether tensions were known there: it is then next to an equilibrium, and stays on its branch.
-    pub(super) restarted: bool,
+    pub(super) start: Configuration,
+    pub(super) start_energy: f64,
     pub(super) recorder: Recorder<'a>,
     /// The ways that were taken.
     pub(super) routes: Vec<RouteTried>,
@@ -71,13 +63,17 @@ impl<'a> Run<'a> {
         options: RelaxOptions,
         observe: &'a mut dyn FnMut(&Step) -> bool,
     ) -> Self {
-        let origin =
-            Origin { coordinates: model.coordinates(&start.x), angles: model.angles(), energy: model.energy(&start.x) };
+        let start_energy = model.energy(&start.x);
+        let start = model.configuration(&start.x, start.tension.clone());
         let RelaxOptions { newton: options, method, keep_every } = options;
         let recorder = Recorder::new(observe, keep_every);
-        let restarted = start.tension.is_some();
         let (routes, soft_steps) = (vec![], 0..0);
-        Self { model, options, method, origin, restarted, recorder, routes, soft_steps, intrinsic_failure: None }
+        Self { model, options, method, start, start_energy, recorder, routes, soft_steps, intrinsic_failure: None }
+    }
+
+    /// Whether tensions were known at the start: it is then next to an equilibrium, and the relaxation stays on its branch.
+    pub(super) fn is_restarted(&self) -> bool {
+        self.start.tension.is_some()
     }
 
     /// Notes a way that was taken, with the steps that it added after the first `steps` of the history. One that found nothing better than
@@ -103,11 +99,9 @@ impl<'a> Run<'a> {
         self.recorder.minimize(self.model, start, self.options)
     }
 
-    /// Makes these coordinates the ones from which the relaxation goes on, with angles that continue from those of the start. Returns the
-    /// unknowns.
-    pub(super) fn begin_anew(&mut self, coordinates: Vec<f64>) -> Vec<f64> {
-        self.model.set_angles(&self.origin.angles);
-        self.model.start_from(coordinates)
+    /// Goes back to the start. Returns its unknowns.
+    pub(super) fn begin_anew(&mut self) -> Vec<f64> {
+        self.model.enter(&self.start).x
     }
 
     /// Tries another way and takes its ending where it has one that is `better` than the one before; else the model and the history
@@ -130,6 +124,6 @@ impl<'a> Run<'a> {
 
     /// Whether anything but the tensions of a restarted state has changed.
     pub(super) fn has_moved(&self) -> bool {
-        !self.restarted || self.recorder.history().iter().any(|step| step.fraction > 0.0)
+        !self.is_restarted() || self.recorder.history().iter().any(|step| step.fraction > 0.0)
     }
 }

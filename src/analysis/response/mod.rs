@@ -53,8 +53,7 @@ pub use tensors::{NoRatio, TensorSpace};
 
 use super::modes::modes_at;
 use super::restored::{self, Forces};
-use super::start_state::StartState;
-use crate::model::{Assembly, Gauge, RIGID, Terms};
+use crate::model::{Assembly, Configuration, Gauge, RIGID, Terms};
 use cell::PeriodicCell;
 
 /// Computes the linear response of the drawn state; see [`response_at`].
@@ -90,7 +89,7 @@ pub fn response(assembly: &Assembly) -> Result<Response, ResponseError> {
 /// # Errors
 /// [`ResponseError`] for a patch, for a state of several cells that is not the drawn one, for a sheet with openings,
 /// and where the number of modes or the rank of the table is not clear.
-pub fn response_at(assembly: &Assembly, state: &StartState) -> Result<Response, ResponseError> {
+pub fn response_at(assembly: &Assembly, state: &Configuration) -> Result<Response, ResponseError> {
     let rigid = assembly.with_terms(rigid_terms(assembly));
     let cell = PeriodicCell::of_state(&rigid, &state.coordinates, rigid.model(Gauge::Free))?;
     let mut response = match cell {
@@ -132,7 +131,7 @@ pub fn ratios_at(assembly: &Assembly, coordinates: &[f64], bending: bool) -> Res
 ///
 /// # Errors
 /// [`ResponseError`] as [`response_at`], except that a sheet with openings may have moduli.
-pub fn moduli_at(assembly: &Assembly, state: &StartState) -> Result<ModuliOf, ResponseError> {
+pub fn moduli_at(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
     moduli::moduli_of(assembly, state)
 }
 
@@ -145,8 +144,8 @@ pub fn moduli(assembly: &Assembly) -> Result<ModuliOf, ResponseError> {
 }
 
 /// Returns the drawn state.
-fn drawn_state(assembly: &Assembly) -> StartState {
+fn drawn_state(assembly: &Assembly) -> Configuration {
     let model = assembly.model(Gauge::Free);
     let tension = restored::tensions(&model, &model.start(), &Forces::Unknown);
-    StartState { coordinates: assembly.drawn().coordinates.clone(), angles: model.angles(), tension }
+    Configuration { coordinates: assembly.drawn().coordinates.clone(), angles: model.angles(), tension: Some(tension) }
 }

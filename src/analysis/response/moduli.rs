@@ -10,8 +10,7 @@ use super::cell::{CellElement, PeriodicCell};
 use super::condensed::{Condensed, Springs};
 use super::error::ResponseError;
 use super::moduli_matrices::{ModuliMatrices, Principal};
-use crate::analysis::start_state::StartState;
-use crate::model::{Assembly, Gauge};
+use crate::model::{Assembly, Configuration, Gauge};
 
 /// Largest distance of a hinge from its rest angle in radians, and of a bar from its rest length relative to that length,
 /// in a state at rest.
@@ -72,7 +71,7 @@ impl ModuliOf {
 ///
 /// # Errors
 /// [`ResponseError`] where the cells differ, or a rank is not clear.
-pub(super) fn moduli_of(assembly: &Assembly, state: &StartState) -> Result<ModuliOf, ResponseError> {
+pub(super) fn moduli_of(assembly: &Assembly, state: &Configuration) -> Result<ModuliOf, ResponseError> {
     if assembly.terms().bars.is_none() {
         return Ok(ModuliOf::NoBars);
     }

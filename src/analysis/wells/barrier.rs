@@ -261,7 +261,9 @@ fn from_softness(
     let mut soft = Vec::new();
     for well in between {
         let place = &wells[well].settled.place;
-        soft.push(settler.free(place, false, OPTIONS, &mut |_| go_on()).map_err(|error| failed(error.failure))?);
+        soft.push(
+            settler.free(&place.without_tension(), OPTIONS, &mut |_| go_on()).map_err(|error| failed(error.failure))?,
+        );
     }
     let apart = |soft: &Settled, well: usize| string::distance(&settler, &soft.rho, &wells[well].settled.rho);
     // further from its well than half the way to the other, a state is likely to be a third one

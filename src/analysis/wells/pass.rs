@@ -8,9 +8,8 @@ use super::merge::SAME_WELL_ANGLE_RAD;
 use super::settle::{MinimumTracker, Settled};
 use super::string::STRENGTH;
 use super::work::Work;
-use crate::analysis::start_state::StartState;
 use crate::analysis::state::State;
-use crate::model::{Assembly, Gauge, Model};
+use crate::model::{Assembly, Configuration, Gauge, Model};
 use crate::solver::{Failure, Options, Start, StationaryPoint, stationary_point};
 
 /// Largest change of a fold angle in a step.
@@ -37,7 +36,7 @@ const AT_REST_RAD: f64 = 1e-4;
 #[derive(Clone, Debug)]
 pub struct Pass {
     /// Where it is.
-    pub place: StartState,
+    pub place: Configuration,
     /// What it looks like.
     pub state: State,
     /// Fold angles of the elastic hinges.
@@ -59,10 +58,10 @@ pub struct Pass {
 ///
 /// # Errors
 /// [`Failure`] where Newton's method does not converge, or its linear systems cannot be solved.
-pub(crate) fn equilibrium(assembly: &Assembly, from: &StartState, options: Options) -> Result<Pass, Failure> {
+pub(crate) fn equilibrium(assembly: &Assembly, from: &Configuration, options: Options) -> Result<Pass, Failure> {
     let mut model = assembly.model(Gauge::Held);
-    model.set_angles(&from.angles);
-    let start = Start { x: model.rebase_gauge(from.coordinates.clone()), tension: Some(from.tension.clone()) };
+    let tension = model.enter(from).tension;
+    let start = Start { x: model.rebase_gauge(from.coordinates.clone()), tension };
     let found = stationary_point(&mut model, start, LONGEST_ANGLE_STEP_RAD, options)?;
     Ok(pass(&model, found, &Work::new(assembly)))
 }
@@ -71,7 +70,7 @@ fn pass(model: &Model, found: StationaryPoint, work: &Work) -> Pass {
     let state = State::new(model, &found.x, &found.tension);
     let rho = model.hinge_angles(&found.x);
     Pass {
-        place: StartState { coordinates: state.coordinates.clone(), angles: model.angles(), tension: found.tension },
+        place: model.configuration(&found.x, Some(found.tension)),
         rho,
         energy: state.total() - work.to(&state.coordinates),
         state,
@@ -142,7 +141,7 @@ fn careful_descent(assembly: &Assembly, pass: &Pass, push: &[f64], options: Opti
         }
         settler = MinimumTracker::new(assembly, strength);
     }
-    settler.free(&place, false, options, &mut |_| true).map_err(|error| error.failure)
+    settler.free(&place.without_tension(), options, &mut |_| true).map_err(|error| error.failure)
 }
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
@@ -179,6 +178,6 @@ fn descent(
             weak += 1;
         }
     }
-    let end = settler.free(&place, false, options, &mut |_| true).map_err(|error| error.failure)?;
+    let end = settler.free(&place.without_tension(), options, &mut |_| true).map_err(|error| error.failure)?;
     Ok((end, to_its_side == Some(true)))
 }

@@ -7,16 +7,15 @@
 use super::work::Work;
 use crate::analysis::relax::{RelaxError, Relaxed, relax_from};
 use crate::analysis::restored;
-use crate::analysis::start_state::StartState;
 use crate::analysis::state::State;
-use crate::model::{Assembly, Gauge, Model};
-use crate::solver::{Options, Problem, Start, Step};
+use crate::model::{Assembly, Configuration, Gauge, Model};
+use crate::solver::{Options, Problem, Step};
 
 /// A settled state.
 #[derive(Clone, Debug)]
 pub struct Settled {
     /// Where it is.
-    pub place: StartState,
+    pub place: Configuration,
     /// Fold angles of the elastic hinges.
     pub rho: Vec<f64>,
     /// Elastic energy less the work of loads from the drawn state; what holds it near its target is left out.
@@ -54,15 +53,13 @@ impl MinimumTracker {
     }
 
     /// The drawn state.
-    pub(crate) fn drawn(&self) -> StartState {
-        let coordinates = self.free.coordinates(&self.free.start());
-        StartState { coordinates, angles: self.free.angles(), tension: vec![0.0; self.free.compliance().len()] }
+    pub(crate) fn drawn(&self) -> Configuration {
+        self.free.configuration(&self.free.start(), None)
     }
 
-    /// The state with these coordinates, whose angles continue from these fold angles of all edges; with no tensions.
-    pub(crate) fn at(&self, coordinates: Vec<f64>, fold_angle: &[f64]) -> StartState {
-        let tension = vec![0.0; self.free.compliance().len()];
-        StartState { coordinates, angles: restored::angles(&self.free, fold_angle), tension }
+    /// The state with these coordinates, whose angles continue from these fold angles of all edges.
+    pub(crate) fn at(&self, coordinates: Vec<f64>, fold_angle: &[f64]) -> Configuration {
+        Configuration { coordinates, angles: restored::angles(&self.free, fold_angle), tension: None }
     }
 
     /// Stiffness of the elastic hinges: the metric.
@@ -70,18 +67,18 @@ impl MinimumTracker {
         &self.stiffness
     }
 
-    /// Relaxes from a place, whose tensions are used where they are near the solution.
+    /// Relaxes from a place, next to its equilibrium where its tensions are known.
     ///
     /// # Errors
     /// [`RelaxError`] where the relaxation does not converge.
     pub(crate) fn free(
         &mut self,
-        from: &StartState,
-        warm: bool,
+        from: &Configuration,
         options: Options,
         observe: &mut dyn FnMut(&Step) -> bool,
     ) -> Result<Settled, Box<RelaxError>> {
-        let relaxed = relax_from_state(&mut self.free, from, warm, options, observe)?;
+        let start = self.free.enter(from);
+        let relaxed = relax_from(&mut self.free, start, options, observe)?;
         Ok(self.settled(relaxed, false))
     }
 
@@ -91,7 +88,7 @@ impl MinimumTracker {
     /// [`RelaxError`] where the relaxation does not converge.
     pub fn near(
         &mut self,
-        from: &StartState,
+        from: &Configuration,
         target: &[f64],
         options: Options,
         observe: &mut dyn FnMut(&Step) -> bool,
@@ -101,14 +98,14 @@ impl MinimumTracker {
             rests[*hinge] = (rest + self.strength * target) / (1.0 + self.strength);
         }
         self.held.set_rests(&rests, &rests, 1.0);
-        let relaxed = relax_from_state(&mut self.held, from, false, options, observe)?;
+        let start = self.held.enter(&from.without_tension());
+        let relaxed = relax_from(&mut self.held, start, options, observe)?;
         Ok(self.settled(relaxed, true))
     }
 
-    /// The place where the last free relaxation ended that did not converge; with no tensions.
-    pub(crate) fn ended(&self, state: &State) -> StartState {
-        let tension = vec![0.0; self.free.compliance().len()];
-        StartState { coordinates: state.coordinates.clone(), angles: self.free.angles(), tension }
+    /// The place where the last free relaxation ended that did not converge.
+    pub(crate) fn ended(&self, state: &State) -> Configuration {
+        Configuration { coordinates: state.coordinates.clone(), angles: self.free.angles(), tension: None }
     }
 
     fn settled(&self, relaxed: Relaxed, held: bool) -> Settled {
@@ -119,19 +116,7 @@ impl MinimumTracker {
         let others = others.map(|((t, c), _)| c * t * t);
         let elastic = 0.5 * (hinges.sum::<f64>() + others.sum::<f64>());
         let energy = elastic - self.work.to(&relaxed.state.coordinates);
-        let (coordinates, tension) = (relaxed.state.coordinates.clone(), relaxed.tension.clone());
-        Settled { place: StartState { coordinates, angles: model.angles(), tension }, rho, energy, relaxed }
+        let place = model.configuration(&relaxed.x, Some(relaxed.tension.clone()));
+        Settled { place, rho, energy, relaxed }
     }
-}
-
-fn relax_from_state(
-    model: &mut Model,
-    from: &StartState,
-    warm: bool,
-    options: Options,
-    observe: &mut dyn FnMut(&Step) -> bool,
-) -> Result<Relaxed, Box<RelaxError>> {
-    model.set_angles(&from.angles);
-    let x = model.start_from(from.coordinates.clone());
-    relax_from(model, Start { x, tension: warm.then(|| from.tension.clone()) }, options, observe)
 }

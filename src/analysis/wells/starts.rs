@@ -13,12 +13,11 @@
 
 use super::placement::holds_shape;
 use super::settle::{MinimumTracker, Settled};
-use crate::analysis::start_state::StartState;
 use crate::analysis::state::State;
-use crate::model::{Assembly, Boundary, Gauge};
+use crate::model::{Assembly, Boundary, Configuration, Gauge};
 use crate::numerics::parallel;
 use crate::numerics::random::symmetric;
-use crate::solver::{Failure, Options};
+use crate::solver::{Failure, Options, Problem};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
@@ -69,7 +68,7 @@ pub fn relax_all(assembly: &Assembly, starts: &Starts, go_on: &(dyn Fn() -> bool
 /// each and returns false to stop.
 pub fn relax_around(
     assembly: &Assembly,
-    state: Option<&StartState>,
+    state: Option<&Configuration>,
     starts: &Starts,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Outcome> {
@@ -119,23 +118,23 @@ fn reason_of(failure: &Failure) -> &'static str {
 
 /// The state around which starts are random.
 struct Centre<'a> {
-    state: &'a StartState,
+    state: &'a Configuration,
     /// Fold angle of every edge, continued through pi; NaN where there is no hinge.
     angles: Vec<f64>,
 }
 
 impl<'a> Centre<'a> {
-    fn new(assembly: &Assembly, state: &'a StartState) -> Self {
+    fn new(assembly: &Assembly, state: &'a Configuration) -> Self {
         let mut model = assembly.model(Gauge::Held);
-        model.set_angles(&state.angles);
-        let x = model.start_from(state.coordinates.clone());
-        Self { state, angles: State::new(&model, &x, &state.tension).fold_angle }
+        let x = model.enter(state).x;
+        let no_tension = vec![0.0; model.compliance().len()];
+        Self { state, angles: State::new(&model, &x, &no_tension).fold_angle }
     }
 }
 
 fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number: usize) -> Outcome {
     if let Some(Centre { state, .. }) = centre.filter(|_| number == 0) {
-        let found = released(assembly, state, true, starts.options);
+        let found = released(assembly, state, starts.options);
         if matches!(found, Outcome::Well(_)) {
             return found;
         }
@@ -151,7 +150,7 @@ fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number
     let mut last = Outcome::Saddle;
     for _ in 0..TRIES {
         last = match crumpled(&assembly, centre, (starts.spread, softness), &mut within) {
-            Ok(place) => released(&assembly, &place, false, starts.options),
+            Ok(place) => released(&assembly, &place.without_tension(), starts.options),
             Err(failure) => Outcome::Failed(failure),
         };
         if matches!(last, Outcome::Well(_)) {
@@ -161,10 +160,9 @@ fn one(assembly: &Assembly, centre: Option<&Centre<'_>>, starts: &Starts, number
     last
 }
 
-/// Relaxes the sheet with its own bars and rest angles from a state, and returns the outcome; the tensions of the state are used
-/// if `warm`.
-fn released(assembly: &Assembly, from: &StartState, warm: bool, options: Options) -> Outcome {
-    match MinimumTracker::new(assembly, 1.0).free(from, warm, options, &mut |_| true) {
+/// Relaxes the sheet with its own bars and rest angles from a state, and returns the outcome.
+fn released(assembly: &Assembly, from: &Configuration, options: Options) -> Outcome {
+    match MinimumTracker::new(assembly, 1.0).free(from, options, &mut |_| true) {
         Err(error) => Outcome::Failed(error.failure),
         Ok(found) if found.relaxed.negative_eigenvalues != Some(0) => Outcome::Saddle,
         Ok(found) => Outcome::Well(Box::new(found)),
@@ -177,7 +175,7 @@ fn crumpled(
     centre: Option<&Centre<'_>>,
     (spread, softness): (f64, f64),
     within: &mut dyn FnMut(f64) -> f64,
-) -> Result<StartState, Failure> {
+) -> Result<Configuration, Failure> {
     let angles = centre.map_or(assembly.drawn_angles(), |centre| &centre.angles);
     let mut terms = assembly.terms().clone();
     if let Some(creases) = &mut terms.creases {
@@ -198,7 +196,7 @@ fn crumpled(
         None => settler.drawn(),
     };
     shake(assembly, &mut from.coordinates, within);
-    match settler.free(&from, false, CRUMPLED, &mut |_| true) {
+    match settler.free(&from.without_tension(), CRUMPLED, &mut |_| true) {
         Ok(found) => Ok(found.place),
         Err(error) => match error.failure {
             Failure::Uncertain { .. } | Failure::Stuck { .. } | Failure::TooManySteps { .. }

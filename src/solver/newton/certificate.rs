@@ -12,8 +12,8 @@ use crate::solver::self_stress::self_stresses;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
-/// Scaled force below which the inertia of a state is that of the minimum next to it: loads within this of a critical one are not told apart.
-const FORCE_NEAR_MINIMUM: f64 = 1e-9;
+/// Scaled force below which the inertia of a state is that of the minimum next to it, but for eigenvalues near zero.
+const FORCE_NEAR_MINIMUM: f64 = 1e-4;
 /// Largest change of a measure of a soft element (an angle, in radians), and of an unknown in units of length, by one more step
 /// from a state at rest; and the relative residual to which that step is known.
 const AT_REST: f64 = 1e-7;
@@ -38,13 +38,15 @@ impl<P: Problem> Newton<'_, P> {
             && self.history.last().is_some_and(|step| step.fraction == 1.0)
     }
 
-    /// Number of negative eigenvalues of the full Hessian at the converged state; `None` where it is not known.
+    /// Number of negative eigenvalues of the full Hessian at the converged state; `None` where it is not known. Where the last
+    /// factorization was made near by and shows a minimum, its softest motions are asked whether they are still stable.
     pub(super) fn certify(&mut self) -> Result<Option<usize>, Failure> {
-        if self.near_certified_minimum() {
-            return Ok(Some(0));
-        }
+        let is_near = self.near_certified_minimum();
         self.kind = HessianKind::Full;
         self.linearize();
+        if is_near && !self.tangent.softest_falls() {
+            return Ok(Some(0));
+        }
         Ok(self.tangent.negative_eigenvalues()?)
     }
 

@@ -37,7 +37,7 @@ pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
                 if let Some(ending) = minimize_unless_damped(run, &start) {
                     return ending;
                 }
-                run.begin_anew(run.origin.coordinates.clone());
+                run.begin_anew();
             }
             match solved_and_confirmed(&intrinsic, run, &start) {
                 Ok(ending) => return ending,
@@ -52,14 +52,14 @@ pub(crate) fn begin(run: &mut Run<'_>, start: Start) -> Ending {
 
 /// Whether the method leaves the choice to try fold angles where positions failed, and they have not been tried.
 pub(super) fn may_help(run: &Run<'_>, ending: &Ending) -> bool {
-    let is_open = run.method == Method::Auto && run.intrinsic_failure.is_none() && !run.restarted;
+    let is_open = run.method == Method::Auto && run.intrinsic_failure.is_none() && !run.is_restarted();
     is_open && has_failed(run, ending) && run.model.is_free_patch()
 }
 
 /// The equilibrium that fold angles reach from the same start; the failure in positions where they reach none.
 pub(super) fn from_the_start(run: &mut Run<'_>, ending: Ending) -> Ending {
     let Ok(intrinsic) = IntrinsicModel::new(run.model) else { return ending };
-    let x = run.begin_anew(run.origin.coordinates.clone());
+    let x = run.begin_anew();
     solved_and_confirmed(&intrinsic, run, &Start { x, tension: None }).unwrap_or_else(|failure| {
         run.intrinsic_failure = Some(failure);
         ending
@@ -95,7 +95,7 @@ fn solved_and_confirmed(
             failure
         }
     };
-    run.begin_anew(run.origin.coordinates.clone());
+    run.begin_anew();
     Err(failure)
 }
 

@@ -56,7 +56,7 @@ fn followed(run: &mut Run<'_>) -> Option<Ending> {
 
 /// Follows the path of rest values from the start of the relaxation.
 fn along_rests(run: &mut Run<'_>) -> Option<Ending> {
-    let x = run.begin_anew(run.origin.coordinates.clone());
+    let x = run.begin_anew();
     let (own, targets) = (run.model.values(&x), run.model.rests());
     run.model.set_rests(&own, &targets, 0.0);
     let begun = run.minimize(x);

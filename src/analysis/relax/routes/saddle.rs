@@ -14,7 +14,7 @@ const MOST_SADDLES: usize = 20;
 /// Whether the equilibrium has negative eigenvalues. A start that knows its tensions asks for the equilibrium next to it, whatever its
 /// stability.
 pub(super) fn is_reached(run: &Run<'_>, ending: &Ending) -> bool {
-    !run.restarted && ending.as_ref().is_ok_and(is_saddle)
+    !run.is_restarted() && ending.as_ref().is_ok_and(is_saddle)
 }
 
 fn is_saddle(found: &Equilibrium) -> bool {

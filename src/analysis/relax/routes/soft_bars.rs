@@ -72,15 +72,15 @@ pub(super) fn is_singular(run: &Run<'_>, ending: &Ending) -> bool {
 /// a branch there that it saw to first order only; or rigid measures could not be met, which next to a flat state may be so at
 /// second order, to which bars that stretch find their way.
 pub(super) fn is_in_doubt(run: &Run<'_>, ending: &Ending) -> bool {
-    if run.restarted || !run.soft_steps.is_empty() || !run.model.has_rigid_bars() {
+    if run.is_restarted() || !run.soft_steps.is_empty() || !run.model.has_rigid_bars() {
         return false;
     }
     match ending {
-        Ok(found) => is_flat(&run.origin.angles) && hardly_relieved(run, found),
+        Ok(found) => is_flat(&run.start.angles) && hardly_relieved(run, found),
         Err(error) => match error.failure {
             Failure::Interrupted | Failure::SingularStart => false,
-            Failure::Infeasible { .. } => is_flat(&run.origin.angles) || !has_locks(run),
-            _ => is_flat(&run.origin.angles),
+            Failure::Infeasible { .. } => is_flat(&run.start.angles) || !has_locks(run),
+            _ => is_flat(&run.start.angles),
         },
     }
 }
@@ -97,7 +97,7 @@ pub(super) fn has_locks(run: &Run<'_>) -> bool {
 
 /// Whether an equilibrium keeps nearly all of the energy of the start, which has some.
 fn hardly_relieved(run: &Run<'_>, found: &Equilibrium) -> bool {
-    run.origin.energy > 0.0 && found.energy > DOUBTFUL_PART * run.origin.energy
+    run.start_energy > 0.0 && found.energy > DOUBTFUL_PART * run.start_energy
 }
 
 /// Leaves the start by soft bars, where that is better than the way with rigid ones.
@@ -125,8 +125,8 @@ pub(super) fn leave(run: &mut Run<'_>, _: Ending) -> Ending {
 
 /// Relaxes from the start with bars that stretch, then with rigid ones.
 fn from_the_start(run: &mut Run<'_>) -> Ending {
-    run.model.set_angles(&run.origin.angles);
-    let mut coordinates = run.origin.coordinates.clone();
+    let start = run.begin_anew();
+    let mut coordinates = run.model.coordinates(&start);
     let loose = Options { tolerance: INTERMEDIATE_TOLERANCE, ..run.options };
     for ratio in RATIOS {
         coordinates = match with_soft_bars(run, ratio, (&coordinates, None), loose) {
