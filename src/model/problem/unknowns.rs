@@ -109,8 +109,8 @@ impl Model {
     }
 
     /// Returns the generalised coordinates of each connected piece of the sheet, with the supports that act on them, which come
-    /// after all coordinates. Elements, rigid parts and supports connect points. Points without elements count as one, and the coordinates that all
-    /// points share are those of the first piece.
+    /// after all coordinates. Elements, rigid parts and supports connect points. Points without elements count as one piece, and the
+    /// coordinates that all points share are those of the first.
     fn pieces(&self) -> Vec<Vec<usize>> {
         let (points, count) = (self.points(), self.base.len() + self.supports.len());
         if self.terms().next().is_none() {

@@ -19,8 +19,8 @@ const SHIFT: f64 = 1e-9;
 const UNCORRECTED: f64 = f64::INFINITY;
 
 impl DrivenModel<'_> {
-    /// The unknowns of a state with these tensions whose axis is the one about which the drive bends a straight screw; the same where
-    /// the state is none.
+    /// The unknowns of a straight screw with these tensions, with the axis about which the drive bends it with the least work. A state that
+    /// is no straight screw stays as it is.
     pub(crate) fn about_best_axis(&self, x: Vec<f64>, tension: &[f64]) -> Vec<f64> {
         let model = &self.model;
         let Some(turns) = model.domain.turns(&model.coordinates(&x)) else { return x };
@@ -32,18 +32,18 @@ impl DrivenModel<'_> {
             model.domain.bend(&mut all[..model.points()], direction, turns.kappa);
             model.extracted(&all)
         };
-        let saved = |direction: f64| -self.second_order_work(&about(direction), tension).unwrap_or(f64::INFINITY);
+        let gain = |direction: f64| -self.second_order_work(&about(direction), tension).unwrap_or(f64::INFINITY);
         let step = PI / DIRECTIONS as f64;
-        let samples: Vec<f64> = (0..DIRECTIONS).map(|k| saved(step * k as f64)).collect();
+        let samples: Vec<f64> = (0..DIRECTIONS).map(|k| gain(step * k as f64)).collect();
         let is_peak = |k: &usize| {
             let [before, after] = [k + DIRECTIONS - 1, k + 1].map(|k| samples[k % DIRECTIONS]);
             samples[*k] > before && samples[*k] >= after
         };
         let peaks = (0..DIRECTIONS).filter(is_peak).map(|k| {
             let middle = step * k as f64;
-            maximum([middle - step, middle + step], saved)
+            maximum([middle - step, middle + step], gain)
         });
-        let best = peaks.max_by(|a, b| saved(*a).total_cmp(&saved(*b)));
+        let best = peaks.max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
         best.map_or(x.clone(), about)
     }
 
