@@ -121,9 +121,8 @@ fn from_mesh(context: &Context<'_>, model: &mut Model, coordinates: Vec<f64>, me
         None => vec![f64::NAN; edges],
     };
     let angles = restored::angles(model, &on_edges(&mesh.fold_angle));
-    model.set_angles(&angles);
     let forces = Forces::OfEdges { tension: on_edges(&mesh.tension), torque: on_edges(&mesh.torque) };
-    (model.start_from(coordinates), forces)
+    (model.enter(&Configuration { coordinates, angles, tension: None }).x, forces)
 }
 
 /// Returns the coordinates in the start file and the content of that file; `None` if the start is not a file.

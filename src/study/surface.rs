@@ -4,7 +4,7 @@ use super::answer::Answer;
 use super::context::Context;
 use super::error::StudyError;
 use super::supported;
-use super::trace::state_at;
+use super::trace::enter_folded;
 use super::{energies, states};
 use crate::analysis::chart::{hinge_angles, screw_coordinates};
 use crate::analysis::intersections::STACKED_LAYERS_MARGIN;
@@ -136,10 +136,7 @@ fn states_of(context: &Context<'_>, unlocked: &Assembly, surface: &mut Surface) 
         if k >= KEPT && surface.coverage == Coverage::Interrupted {
             break;
         }
-        let coordinates = screw_coordinates(&point.shape);
-        model.set_angles(&hinge_angles(&model, &point.angles));
-        model.start_from(coordinates.clone());
-        let state = state_at(&model, coordinates, &point.angles);
+        let state = enter_folded(&mut model, screw_coordinates(&point.shape), &point.angles);
         crossing
             .extend(finder.as_mut().map(|finder| finder.marks(unlocked.drawn(), &state, STACKED_LAYERS_MARGIN).any));
         states.push(state);

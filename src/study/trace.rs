@@ -127,8 +127,15 @@ fn follow(context: &Context<'_>, options: &TraceOptions) -> Result<Vec<Traced>, 
     trace(assembly, options, crosses, &mut observe)
 }
 
+/// Makes the state with these coordinates and fold angles of all edges the reference state of a model, and returns it.
+pub(crate) fn enter_folded(model: &mut Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
+    let folded = Configuration { coordinates, angles: hinge_angles(model, angles), tension: None };
+    model.enter(&folded);
+    state_at(model, folded.coordinates, angles)
+}
+
 /// Returns the state of a model at these coordinates, with the fold angles of all edges.
-pub(crate) fn state_at(model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
+fn state_at(model: &Model, coordinates: Vec<f64>, angles: &[f64]) -> State {
     let tension = vec![0.0; model.layout().stiff.len()];
     let state = State::new(model, &model.unknowns(&coordinates), &tension);
     State { coordinates, fold_angle: angles.to_vec(), ..state }
@@ -158,7 +165,7 @@ fn add_files(answer: &mut Answer, context: &Context<'_>, spec: &TraceSpec, paths
             if pause && !context.step_with_residual(rows.len(), None, 0.0) {
                 finder = None;
             }
-            let state = state_of(assembly, &mut model, folded);
+            let state = folded_state(assembly, &mut model, folded);
             let state = along.map_or(state, relaxed_state);
             let marks = finder.as_mut().map(|finder| finder.marks(assembly.drawn(), &state, STACKED_LAYERS_MARGIN));
             let row = row(assembly, (path, step), (folded, along), &state, marks.as_ref().map(|marks| marks.any));
@@ -188,7 +195,7 @@ fn closed_tubes(assembly: &Assembly, model: &mut Model, paths: &[Path<'_>]) -> V
     let mut rows = Vec::new();
     for path in paths {
         for folded in &path.traced.closed_tubes {
-            let state = state_of(assembly, model, folded);
+            let state = folded_state(assembly, model, folded);
             rows.push(StateRow { step: None, ..row(assembly, (path, 0), (folded, None), &state, None) });
         }
     }
@@ -196,11 +203,8 @@ fn closed_tubes(assembly: &Assembly, model: &mut Model, paths: &[Path<'_>]) -> V
 }
 
 /// Returns the state of a model with the fold angles of a state on a trajectory.
-fn state_of(assembly: &Assembly, model: &mut Model, folded: &Folded) -> State {
-    model.set_angles(&hinge_angles(model, &folded.angles));
-    let coordinates = coordinates_in(assembly.boundary(), folded);
-    model.start_from(coordinates.clone());
-    state_at(model, coordinates, &folded.angles)
+fn folded_state(assembly: &Assembly, model: &mut Model, folded: &Folded) -> State {
+    enter_folded(model, coordinates_in(assembly.boundary(), folded), &folded.angles)
 }
 
 /// Adds the trajectories in the space of lattice strains, as a picture and for later surface studies, which draw them.

@@ -14,6 +14,7 @@ mod tests;
 mod unsupported;
 mod word;
 
+use super::configuration::Configuration;
 use super::element::{Elements, TermKind};
 use super::problem::Model;
 use crate::numerics::sparse::FIXED;
@@ -153,7 +154,7 @@ impl IntrinsicModel {
     /// tensions that balance. Returns the start of a minimisation from there.
     pub fn hand_over(&self, model: &mut Model, z: &[f64], multipliers: &[f64]) -> Start {
         let FoldedUp { coordinates, angles, torques, forces, .. } = self.folded_up(model, z, multipliers);
-        let continued: Vec<f64> = terms(model)
+        let continued = terms(model)
             .filter(|term| !term.angles().is_empty())
             .flat_map(|term| (0..term.len()).map(|k| angles[term.edge(k)]).collect::<Vec<f64>>())
             .collect();
@@ -161,9 +162,8 @@ impl IntrinsicModel {
             let of_edges = if term.is_angle() { &torques } else { &forces };
             (0..term.len()).map(|k| of_edges[term.edge(k)]).collect::<Vec<f64>>()
         });
-        let tension = tension.collect();
-        model.set_angles(&continued);
-        Start { x: model.start_from(coordinates), tension: Some(tension) }
+        let tension = Some(tension.collect());
+        model.enter(&Configuration { coordinates, angles: continued, tension })
     }
 }
 
