@@ -4,10 +4,10 @@ use crate::arrays::{Array1, vector, view};
 use crate::errors::raise;
 use crate::state::State;
 use foldwell::Picture;
+use foldwell::analysis::restored;
 use foldwell::model::Configuration;
 use foldwell::output::{Artifact, Column, OutputError, Table};
 use foldwell::run::{Computed, RunError};
-use foldwell::study::state_of;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
@@ -90,7 +90,7 @@ impl Answer {
 
     /// Returns the final state; `None` if the study has none.
     fn state(&self) -> Option<State> {
-        let state = state_of(self.saved.as_ref()?, &self.assembly)?;
+        let state = restored::state(self.saved.as_ref()?, &self.assembly)?;
         Some(State { picture: Picture::new(&self.assembly, &state) })
     }
 

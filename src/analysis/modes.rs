@@ -15,7 +15,7 @@ use super::restored::{self, Forces};
 use crate::kinematics::closure::{Closure, HingedEdge};
 use crate::model::{Assembly, Bars, Boundary, Configuration, Domain, Drawn, Gauge, Model, Stiffness, Terms, gauge};
 use crate::sheet::{Corner, Site, Tiling, pieces};
-use crate::solver::Problem;
+use crate::solver::{Problem, Start};
 pub use error::{ModesError, SPARSE_EIGENVALUES};
 use rank::{rank_of, rigid_part};
 pub use seam::SeamMotions;
@@ -101,7 +101,8 @@ pub fn modes_at(
     let (mut spectrum, mut vibrations) = (Spectrum::default(), None);
     if eigenvalues > 0 {
         let mut model = assembly.model(Gauge::Free);
-        let tension = model.enter(state).tension.unwrap_or_else(|| vec![0.0; model.layout().stiff.len()]);
+        let Start { x, tension } = model.enter(state);
+        let tension = tension.unwrap_or_else(|| restored::tensions(&model, &x, &Forces::Unknown));
         let (at, wanted) = ((&model, &tension[..]), (eigenvalues, free));
         vibrations = Vibrations::lowest(assembly, at, wanted, observe)?;
         if free > 0 {

@@ -263,16 +263,17 @@ fn begin<'m>(
     });
     let driven = DrivenModel::new(model, drive, drawn, restarted)?;
     let x = driven.model.start();
-    if let Some(mut tension) = tension {
+    let (x, tension) = if let Some(mut tension) = tension {
         // an equilibrium of any stability: the path's own iteration finds what the new support carries
         tension.resize(driven.compliance().len(), 0.0);
-        let x = driven.about_best_axis(x, &tension);
-        return Ok((driven, Start { x, tension: Some(tension) }));
-    }
-    let newton = Options { tolerance: options.tolerance, ..Options::default() };
-    let relaxed = relax_from(driven.model, x, newton, &mut |_| true).map_err(|error| error.failure)?;
-    let x = driven.about_best_axis(relaxed.x, &relaxed.tension);
-    Ok((driven, Start { x, tension: Some(relaxed.tension) }))
+        (x, tension)
+    } else {
+        let newton = Options { tolerance: options.tolerance, ..Options::default() };
+        let relaxed = relax_from(driven.model, x, newton, &mut |_| true).map_err(|error| error.failure)?;
+        (relaxed.x, relaxed.tension)
+    };
+    let x = driven.about_best_axis(x, &tension);
+    Ok((driven, Start { x, tension: Some(tension) }))
 }
 
 fn point(driven: &DrivenModel<'_>, marked: &MarkedState, measures: usize) -> PathPoint {

@@ -3,7 +3,8 @@
 //! Where a state was kept with its tensions they are taken as they are. Where they are missing, or belong to another stiffness, those
 //! of finite stiffness follow from the geometry, and those of rigid measures from the balance of forces.
 
-use crate::model::{Elements, Model};
+use super::state::State;
+use crate::model::{Assembly, Configuration, Elements, Gauge, Model};
 use crate::solver::{HessianKind, Linearization, Problem, Residuals, Start, Tangent};
 
 /// Scaled disagreement of a measure and its tension up to which the tension is taken.
@@ -52,6 +53,22 @@ pub(crate) fn tensions(model: &Model, x: &[f64], known: &Forces) -> Vec<f64> {
             },
         )
         .collect()
+}
+
+/// Returns the state with the quantities of every edge; angles of edges that are not hinges of the assembly are in (-pi, pi]. `None` if
+/// the configuration is not one of this assembly.
+pub fn state(configuration: &Configuration, assembly: &Assembly) -> Option<State> {
+    let mut model = assembly.model(Gauge::Held);
+    let fits = configuration.coordinates.len() == assembly.drawn().coordinates.len();
+    if !(fits && configuration.angles.len() == model.angles().len()) {
+        return None;
+    }
+    let x = model.enter(configuration).x;
+    let forces = configuration.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
+    let tension = tensions(&model, &x, &forces);
+    let coordinates = configuration.coordinates.clone();
+    let angles = assembly.fold_angles_at(&coordinates);
+    Some(State { coordinates, ..State::new(&model, &x, &tension) }.with_angles(angles))
 }
 
 /// Where a relaxation starts that knows these tensions, completed by those of rigid measures: with them near an equilibrium, without them

@@ -13,7 +13,7 @@ use crate::solver::{HessianKind, Problem, Tangent};
 use std::f64::consts::PI;
 
 /// Number of directions that are tried, evenly spaced over half a turn.
-pub(crate) const DIRECTIONS: usize = 24;
+const DIRECTIONS: usize = 24;
 /// Shift of the Hessian, which keeps the Newton step finite along motions that cost no energy: `SHIFT` while
 /// directions are compared, `LEAST_SHIFT` in the search for the maximum.
 const SHIFT: f64 = 1e-2;
@@ -45,8 +45,22 @@ impl Assembly {
     }
 }
 
+/// Returns the direction of an axis with the largest gain, of the peaks next to all directions that are tried; `None` where there is no
+/// peak.
+pub(super) fn direction_of_highest_peak(gain: impl Fn(f64) -> f64) -> Option<f64> {
+    let step = PI / DIRECTIONS as f64;
+    let samples: Vec<f64> = (0..DIRECTIONS).map(|k| gain(step * k as f64)).collect();
+    let is_peak = |k: &usize| {
+        let [before, after] = [k + DIRECTIONS - 1, k + 1].map(|k| samples[k % DIRECTIONS]);
+        samples[*k] > before && samples[*k] >= after
+    };
+    let peak = |k: usize| maximum([step * (k as f64 - 1.0), step * (k as f64 + 1.0)], &gain);
+    let peaks = (0..DIRECTIONS).filter(is_peak).map(peak).map(|direction| (gain(direction), direction));
+    peaks.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, direction)| direction)
+}
+
 /// Returns the argument of the maximum of a function with one maximum in an interval, by golden-section search.
-pub(crate) fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let inner = |low: f64, high: f64| [high - golden * (high - low), low + golden * (high - low)];
     let mut places = inner(low, high);

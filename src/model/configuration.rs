@@ -4,7 +4,7 @@ use super::problem::Model;
 use crate::solver::{Problem, Start};
 use serde::{Deserialize, Serialize};
 
-/// What a state of a sheet is, independent of how a model numbers its unknowns.
+/// A state of a sheet, independent of how a model numbers its unknowns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Configuration {
     /// All coordinates: x, y and z of every vertex in the unit of length of the sheet, then those that all points share; see

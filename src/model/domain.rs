@@ -56,9 +56,9 @@ pub enum Domain {
     },
 }
 
-/// Least curvature, in units of the inverse of the unit length, that is used for the unit of the axis direction: near
-/// zero curvature the direction has no effect, and its unit would grow without bound.
-const STRAIGHT: f64 = 1e-8;
+/// Curvature times the unit length up to which a screw is straight: the direction of its axis has next to no effect there, and its unit
+/// would grow without bound.
+pub(super) const STRAIGHT: f64 = 1e-8;
 
 /// Derivatives of a point with respect to its vertex (`vertex`) and to the shared coordinates (`shared`).
 struct Placed {

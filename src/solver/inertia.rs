@@ -86,12 +86,13 @@ pub(super) fn negative_eigenvalues(
     if in_doubt <= MOST_CONFIRMED_BY_MOTIONS {
         let mut motions = Motions::new(system, at, compliance, -zero);
         if motions.negative(in_doubt) == in_doubt {
-            return Ok(Some(motions.below(-zero - ZERO_IN_PROJECTION * hessian_size(at))));
+            return Ok(Some(motions.falling()));
         }
         if at.gradient.len() <= MOST_PROJECTED {
             return Ok(negative_by_projection(at, compliance));
         }
     }
+    // too many may be zero, as of a mechanism, or the motions of a large sheet were not found: those that may be zero are left out
     let most = system.count_negative(at, compliance, [zero, 1.0])?;
     if most == 0 || system.weights_are_exact() {
         return Ok(Some(most));
@@ -145,7 +146,7 @@ pub(super) fn falling_motion(
     let in_doubt = system.count_negative(at, compliance, [-zero, 1.0])?;
     let mut motions = Motions::new(system, at, compliance, -zero);
     motions.negative(in_doubt.min(MOST_CONFIRMED_BY_MOTIONS));
-    Ok(if motions.below(-zero - ZERO_IN_PROJECTION * hessian_size(at)) > 0 { motions.lowest() } else { None })
+    Ok(if motions.falling() > 0 { motions.lowest() } else { None })
 }
 
 /// Whether the energy falls to second order on one of a few soft motions that meet the measures. The system may have been factored at
@@ -153,7 +154,7 @@ pub(super) fn falling_motion(
 pub(super) fn softest_falls(system: &mut KktSystem, at: &Linearization, compliance: &[f64]) -> bool {
     let mut motions = Motions::new(system, at, compliance, 0.0);
     motions.answer(&mut ChaCha8Rng::seed_from_u64(SEED), SOFTEST_MOTIONS);
-    motions.below(-ZERO_IN_PROJECTION * hessian_size(at)) > 0
+    motions.falling() > 0
 }
 
 /// Number of negative eigenvalues of the Hessian on the span of motions that rigid measures leave free, columns of a matrix. Measures of
@@ -319,6 +320,12 @@ impl<'a> Motions<'a> {
     fn energies_on_span(&self) -> DenseMatrix {
         let count = self.found.len();
         DenseMatrix::from_fn(count, count, |i, j| self.energies[i.max(j)][i.min(j)])
+    }
+
+    /// Number of independent motions of the span on which the energy itself, without the multiple of the identity, falls by more than
+    /// counts as zero.
+    fn falling(&self) -> usize {
+        self.below(self.zero - ZERO_IN_PROJECTION * hessian_size(self.at))
     }
 
     /// Number of eigenvalues of `dx H dx + dt C dt` on the span of the motions that are smaller than a value; 0 where they cannot be

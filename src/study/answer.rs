@@ -1,8 +1,6 @@
 //! The answer of a study: its part of the summary, its files, and the data that later studies start from or draw.
 
-use crate::analysis::restored::{self, Forces};
-use crate::analysis::state::State;
-use crate::model::{Assembly, Configuration, Gauge};
+use crate::model::Configuration;
 use crate::output::artifact::Artifact;
 use crate::output::figure::surface::PathPoint;
 use crate::output::summary::{StudyResult, StudySummary};
@@ -19,22 +17,6 @@ pub struct Answer {
     pub state: Option<Configuration>,
     /// The trajectories that the study followed, in the space of lattice strains; later surface studies draw them.
     pub paths: Vec<Vec<PathPoint>>,
-}
-
-/// Returns the state with the quantities of every edge; angles of edges that are not hinges of the assembly are in (-pi, pi]. `None` if
-/// the configuration is not one of this assembly.
-pub fn state_of(configuration: &Configuration, assembly: &Assembly) -> Option<State> {
-    let mut model = assembly.model(Gauge::Held);
-    let fits = configuration.coordinates.len() == assembly.drawn().coordinates.len();
-    if !(fits && configuration.angles.len() == model.angles().len()) {
-        return None;
-    }
-    let x = model.enter(configuration).x;
-    let forces = configuration.tension.clone().map_or(Forces::Unknown, Forces::OfMeasures);
-    let tension = restored::tensions(&model, &x, &forces);
-    let coordinates = configuration.coordinates.clone();
-    let angles = assembly.fold_angles_at(&coordinates);
-    Some(State { coordinates, ..State::new(&model, &x, &tension) }.with_angles(angles))
 }
 
 impl Answer {

@@ -45,7 +45,7 @@ mod vibrations;
 mod wells;
 
 use crate::scene::spec::StudyKind;
-pub use answer::{Answer, state_of};
+pub use answer::Answer;
 pub use context::{Checkpoints, Context, Observer, PreviousAnswers, Progress};
 pub use error::StudyError;
 pub use surface::left_out;

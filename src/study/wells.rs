@@ -10,7 +10,8 @@ use super::supported;
 use super::surface::{check_resolution, curvature_of_cell};
 use crate::analysis::intersections::{STACKED_LAYERS_MARGIN, SelfIntersection};
 use crate::analysis::state::State;
-use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier, rigid_limit};
+use crate::analysis::wells::barrier::{Barrier, BarrierError, barrier};
+use crate::analysis::wells::limit::{Height, rigid_limit};
 use crate::analysis::wells::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, wells};
 use crate::analysis::wells::placement::free_rigid_motions;
 use crate::analysis::wells::rigid::{RigidError, RigidLandscape, Sampling, landscape};
@@ -247,7 +248,7 @@ impl FoundWells {
         let extrapolated = || limit.map(|limit| limit.energy);
         let energy = if found.singular { found.flat.or_else(extrapolated) } else { Some(found.pass.energy) };
         let above = |energy: f64| found.joins.map(|well| energy - self.wells[well].settled.energy);
-        let height = |height: &crate::analysis::wells::barrier::Height| HeightSummary {
+        let height = |height: &Height| HeightSummary {
             bars: height.stiffness.is_finite().then_some(height.stiffness),
             energy: height.energy,
         };

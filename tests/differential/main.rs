@@ -122,8 +122,9 @@ fn two_ways_agree_for_unusual_sheets() {
     assert!(others.is_empty(), "{} disagreements: {others:#?}", others.len());
 }
 
-/// Claim: the number of negative eigenvalues that is reported for a state is never wrong, and seldom not known. Source: singular values and eigenvalues of dense matrices by another library. Tolerance: none; cases
-/// that rounding errors of the dense count decide are counted apart.
+/// Claim: the number of negative eigenvalues that is reported for a state is never wrong, and seldom not known. Source: singular values and
+/// eigenvalues of dense matrices by another library. Tolerance: none; cases that rounding errors of the dense count decide are counted
+/// apart.
 #[test]
 fn negative_eigenvalues_are_those_of_a_dense_null_space() {
     let (cases, first) = asked(USUAL_COUNTS);

@@ -4,7 +4,8 @@
 use crate::common::{self, Numbers, Testing, mesh, on, patch};
 use approx::assert_abs_diff_eq;
 use foldwell::analysis::relax::relax_from;
-use foldwell::analysis::wells::barrier::{Barrier, Height, barrier, rigid_limit};
+use foldwell::analysis::wells::barrier::{Barrier, barrier};
+use foldwell::analysis::wells::limit::{Height, rigid_limit};
 use foldwell::analysis::wells::merge::{Comparison, Translations, Well, wells};
 use foldwell::analysis::wells::rigid::{RigidLandscape, Sampling, landscape};
 use foldwell::analysis::wells::settle::MinimumTracker;

@@ -13,6 +13,7 @@
 //! A pass is accepted if its Hessian has exactly one negative eigenvalue, if its energy is above that of both wells, and if the
 //! descents to its two sides end in different wells. If these are other wells than the given two, they are reported.
 
+use super::limit::{Height, rigid_limit};
 use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
 use super::pass::{Pass, equilibrium, sides};
 use super::settle::{MinimumTracker, Settled};
@@ -25,7 +26,7 @@ use thiserror::Error;
 
 /// Stiffness of bars over that of creases at which a path is sought first, and the factor to the next.
 const SOFTEST: f64 = 1e2;
-const STIFFER: f64 = 10.0;
+pub(super) const STIFFER: f64 = 10.0;
 /// Stiffness over that of creases after which the next is the rigid limit.
 const ALMOST_RIGID: f64 = 1e12;
 /// Farthest fold angle, in radians, from the last pass before the rigid limit to that in the limit. A regular one is approached as
@@ -44,8 +45,6 @@ const OPTIONS: Options = Options { tolerance: 1e-11, iterations: 60 };
 const NEARLY_FLAT_RAD: f64 = 1e-2;
 /// How many estimated errors of a limit it may be off.
 const ERRORS_OF_LIMIT: f64 = 5.0;
-/// Differences of energies, relative, from which their law is read.
-const CLEAR: f64 = 1e-8;
 /// Least distance of two wells in soft bars, over that of the wells of the sheet.
 const APART: f64 = 1e-3;
 /// How often, at last, a path is held more strongly in the sheet's own bars, and by what factor.
@@ -125,15 +124,6 @@ pub enum BarrierError {
     /// The observer asked to stop before a path was tried, or there is no stiffness at which one could be.
     #[error("no path was tried")]
     NotTried,
-}
-
-/// A pass at one stiffness of the bars.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Height {
-    /// Stiffness of the bars.
-    pub stiffness: f64,
-    /// Energy of the pass.
-    pub energy: f64,
 }
 
 /// What was found between two wells.
@@ -379,37 +369,6 @@ fn followed(assembly: &Assembly, first: Pass, stiffness: f64) -> Result<Followed
 /// Whether a pass in rigid bars is regular: no fold angle is farther from the last pass before than that.
 fn near(found: &Pass, before: &Pass) -> bool {
     found.rho.iter().zip(&before.rho).all(|(a, b)| (a - b).abs() <= REGULAR)
-}
-
-/// How the energies of a pass tend to their rigid limit: `limit - constant * stiffness^-exponent`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RigidLimit {
-    /// The power of one over the stiffness.
-    pub exponent: f64,
-    /// The limit.
-    pub energy: f64,
-    /// Estimate of the limit's error: the difference to that of three energies before it, or, where there are none, to the last
-    /// energy.
-    pub error: f64,
-}
-
-/// The law through the last three energies, at stiffnesses ten times apart, that differ by more than rounding errors;
-/// `None` where there are none.
-pub fn rigid_limit(heights: &[Height]) -> Option<RigidLimit> {
-    let known: Vec<&Height> = heights.iter().filter(|height| height.stiffness.is_finite()).collect();
-    let mut laws = known.windows(3).rev().filter_map(law);
-    let last = laws.next()?;
-    Some(RigidLimit { error: laws.next().map_or(last.error, |before| (last.energy - before.energy).abs()), ..last })
-}
-
-fn law(three: &[&Height]) -> Option<RigidLimit> {
-    let even = three.windows(2).all(|pair| (pair[1].stiffness / pair[0].stiffness / STIFFER - 1.0).abs() <= 1e-9);
-    let [first, second] = [three[1].energy - three[0].energy, three[2].energy - three[1].energy];
-    let ratio = second / first;
-    let clear = second.abs() > CLEAR * three[2].energy.abs() && 0.0 < ratio && ratio < 1.0;
-    let left = second * ratio / (1.0 - ratio);
-    let law = RigidLimit { exponent: -ratio.log10(), energy: three[2].energy + left, error: left.abs() };
-    (even && clear).then_some(law)
 }
 
 /// The energy of the flat state of a sheet without loads, where a pass that is singular in rigid bars tends to it: the sheet

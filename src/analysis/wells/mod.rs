@@ -7,6 +7,7 @@
 //! on curves and on surfaces ([`rigid`]).
 
 pub mod barrier;
+pub mod limit;
 pub mod merge;
 pub(crate) mod pass;
 pub mod placement;

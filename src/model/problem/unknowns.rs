@@ -20,8 +20,8 @@ const LEAST_SEPARATION_RATIO: f64 = 1e-3;
 const WELL_HELD: f64 = 0.5;
 /// The same for a state from which a path goes on, whose states are compared with each other where the same is held.
 const STILL_HELD: f64 = 0.1;
-/// Largest change of a unit with which a path goes on: the direction of an axis turns points by as much as the sheet is curved, and
-/// in the unit of a straight sheet a curved one has stiffnesses of which others are rounding errors.
+/// Largest change of a unit with which a path goes on. Turning the axis moves points in proportion to the curvature: in the unit of a
+/// straight sheet, the stiffness of a curved one against it is so large that all others drown in its rounding errors.
 const MOST_CHANGED_UNIT: f64 = 4.0;
 /// Singular value of the rigid motions of the held coordinates, relative to motions of unit length, below which a motion is
 /// not held.
@@ -85,7 +85,7 @@ impl Model {
     /// Returns the coordinates to hold, in addition to those already `held`, so that no piece of the sheet has a rigid motion.
     pub(super) fn chosen_by_pieces(&self, motions: &[gauge::Motion], held: &[bool]) -> Vec<usize> {
         let of_piece = |(number, piece): (usize, &Vec<usize>)| {
-            let (motions, held) = self.of_piece((number, piece), motions, held);
+            let (motions, held) = self.motions_of_piece((number, piece), motions, held);
             gauge::choose(&motions, &held).into_iter().map(|k| piece[k]).collect::<Vec<_>>()
         };
         self.pieces().iter().enumerate().flat_map(of_piece).collect()
@@ -93,7 +93,7 @@ impl Model {
 
     /// The rigid motions of the coordinates of a piece, and which of them are held. Further cylinders about the axis of a screw move along
     /// it and about it, which are displacements in the plane of the chart, but not away from it.
-    fn of_piece(
+    fn motions_of_piece(
         &self,
         (number, piece): (usize, &[usize]),
         motions: &[gauge::Motion],
@@ -193,7 +193,7 @@ impl Model {
         let chosen = self.chosen(&motions);
         let quality = |(number, piece): (usize, &Vec<usize>)| {
             let [now, best] = [&held, &chosen].map(|held| {
-                let (motions, held) = self.of_piece((number, piece), &motions, held);
+                let (motions, held) = self.motions_of_piece((number, piece), &motions, held);
                 gauge::separation(&motions, &held)
             });
             if best > 0.0 { now / best } else { 1.0 }

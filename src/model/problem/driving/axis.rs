@@ -6,13 +6,11 @@
 //! a million times larger.
 
 use super::DrivenModel;
-use crate::model::axis::{DIRECTIONS, maximum};
+use crate::model::axis::direction_of_highest_peak;
+use crate::model::domain::STRAIGHT;
 use crate::solver::path::ParametrizedProblem;
 use crate::solver::{HessianKind, Tangent};
-use std::f64::consts::PI;
 
-/// Curvature times the mean length of edges below which a screw is straight.
-const STRAIGHT: f64 = 1e-8;
 /// Shift of the Hessian, which holds the direction of the axis and motions that cost no energy.
 const SHIFT: f64 = 1e-9;
 /// Tolerance of a solve without corrections: they would take the weights of rigid measures for what they are.
@@ -33,18 +31,7 @@ impl DrivenModel<'_> {
             model.extracted(&all)
         };
         let gain = |direction: f64| -self.second_order_work(&about(direction), tension).unwrap_or(f64::INFINITY);
-        let step = PI / DIRECTIONS as f64;
-        let samples: Vec<f64> = (0..DIRECTIONS).map(|k| gain(step * k as f64)).collect();
-        let is_peak = |k: &usize| {
-            let [before, after] = [k + DIRECTIONS - 1, k + 1].map(|k| samples[k % DIRECTIONS]);
-            samples[*k] > before && samples[*k] >= after
-        };
-        let peaks = (0..DIRECTIONS).filter(is_peak).map(|k| {
-            let middle = step * k as f64;
-            maximum([middle - step, middle + step], gain)
-        });
-        let best = peaks.max_by(|a, b| gain(*a).total_cmp(&gain(*b)));
-        best.map_or(x.clone(), about)
+        direction_of_highest_peak(gain).map_or(x.clone(), about)
     }
 
     /// Half the second derivative by the parameter of the least energy, by the factorization's weights of rigid measures; `None` where
