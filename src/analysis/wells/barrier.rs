@@ -13,7 +13,7 @@
 //! A pass is accepted if its Hessian has exactly one negative eigenvalue, if its energy is above that of both wells, and if the
 //! descents to its two sides end in different wells. If these are other wells than the given two, they are reported.
 
-use super::limit::{Height, rigid_limit};
+use super::limit::{Height, STIFFER, rigid_limit};
 use super::merge::{Comparison, SAME_WELL_ANGLE_RAD, Well, which};
 use super::pass::{Pass, equilibrium, sides};
 use super::settle::{MinimumTracker, Settled};
@@ -24,9 +24,8 @@ use crate::solver::inertia::in_words;
 use crate::solver::{Failure, Options};
 use thiserror::Error;
 
-/// Stiffness of bars over that of creases at which a path is sought first, and the factor to the next.
+/// Stiffness of bars over that of creases at which a path is sought first.
 const SOFTEST: f64 = 1e2;
-pub(super) const STIFFER: f64 = 10.0;
 /// Stiffness over that of creases after which the next is the rigid limit.
 const ALMOST_RIGID: f64 = 1e12;
 /// Farthest fold angle, in radians, from the last pass before the rigid limit to that in the limit. A regular one is approached as

@@ -1,6 +1,7 @@
 //! The energy to which a pass tends as its bars become rigid, from its energies at finite stiffness.
 
-use super::barrier::STIFFER;
+/// Factor from the stiffness of the bars of a pass to the next.
+pub(super) const STIFFER: f64 = 10.0;
 
 /// Differences of energies, relative, from which their law is read.
 const CLEAR: f64 = 1e-8;
