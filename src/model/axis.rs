@@ -22,6 +22,9 @@ const LEAST_SHIFT: f64 = 1e-9;
 /// 1e-8.
 const REDUCTIONS: usize = 36;
 
+/// Tolerance of a solve without corrections: they would take the weights of rigid measures for what they are.
+pub(super) const UNCORRECTED: f64 = f64::INFINITY;
+
 impl Assembly {
     /// Returns the same assembly with the axis of its screw motions in the direction that promises the largest
     /// decrease of the energy. Other boundary conditions are returned unchanged.
@@ -29,16 +32,16 @@ impl Assembly {
         if self.boundary() != Boundary::Screw {
             return self.clone();
         }
-        let fall = |angle: f64, shift: f64| promised_fall(&self.with_axis(angle), shift).unwrap_or(0.0);
+        let fall = |angle: f64, shift: f64| promised_fall(&self.with_axis(angle), shift).unwrap_or(f64::NEG_INFINITY);
         let step = PI / DIRECTIONS as f64;
         let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
         for angle in (0..DIRECTIONS).map(|k| step * k as f64) {
             let found = fall(angle, SHIFT);
-            if found > most * (1.0 + 1e-6) || angle == 0.0 {
+            if found > most + 1e-6 * most.abs() || angle == 0.0 {
                 (best, most) = (angle, found);
             }
         }
-        if !(most > 0.0) {
+        if most == 0.0 || !most.is_finite() {
             return self.with_axis(0.0);
         }
         self.with_axis(maximum([best - step, best + step], |angle| fall(angle, LEAST_SHIFT)))
@@ -79,14 +82,16 @@ fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 
     0.5 * (low + high)
 }
 
-/// Returns the decrease of the energy along the first Newton step, to second order; `None` if the Hessian cannot be
-/// factorized.
+/// Returns the decrease of the energy along the first Newton step, to second order; `None` if the Hessian cannot be factorized. Measures
+/// that are off their rest values, as a lock is that has to turn, are closed by the step; where no motion closes a rigid one, it resists
+/// by its weight in the factorization, and the energy rises a million times more than about other axes.
 fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
     let model = assembly.model(Gauge::Held);
     let tension = vec![0.0; model.layout().stiff.len()];
     let mut tangent = Tangent::at_state(&model, &model.start(), &tension, HessianKind::GaussNewton).ok()?;
     tangent.factor(shift).ok()?;
-    let force = tangent.at.force(&tension);
-    let step = tangent.solve(&force, &tension, 1e-8);
-    Some(force.iter().zip(&step.dx).map(|(f, d)| f * d).sum::<f64>() / 2.0)
+    let (force, open) = (tangent.at.force(&tension), tangent.at.missing(&tension, model.compliance()));
+    let step = tangent.solve(&force, &open, UNCORRECTED);
+    let along = |rates: &[f64], step: &[f64]| rates.iter().zip(step).map(|(rate, step)| rate * step).sum::<f64>();
+    Some(0.5 * (along(&force, &step.dx) + along(&open, &step.dt)))
 }

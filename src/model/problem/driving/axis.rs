@@ -6,15 +6,13 @@
 //! a million times larger.
 
 use super::DrivenModel;
-use crate::model::axis::direction_of_highest_peak;
+use crate::model::axis::{UNCORRECTED, direction_of_highest_peak};
 use crate::model::domain::STRAIGHT;
 use crate::solver::path::ParametrizedProblem;
 use crate::solver::{HessianKind, Tangent};
 
 /// Shift of the Hessian, which holds the direction of the axis and motions that cost no energy.
 const SHIFT: f64 = 1e-9;
-/// Tolerance of a solve without corrections: they would take the weights of rigid measures for what they are.
-const UNCORRECTED: f64 = f64::INFINITY;
 
 impl DrivenModel<'_> {
     /// The unknowns of a straight screw with these tensions, with the axis about which the drive bends it with the least work. A state that
