@@ -2,9 +2,10 @@
 //!
 //! At zero curvature the direction of the axis does not affect the shape: rotating it rotates the sheet. But folding
 //! starts about the axis that the chart has, and from a bad one Newton's method may end in a poor minimum. So the
-//! axis is put where the first Newton step promises the largest decrease of the energy: first the best of some
-//! directions, then the maximum next to it. Near zero curvature direction and curvature are polar coordinates, and
-//! Newton's method does not correct the direction there; it has to be right from the start.
+//! axis is put where the first Newton step promises the largest decrease of the energy, or the least increase where it
+//! turns a lock: first the best of some directions, then the maximum next to it. Near zero curvature direction and
+//! curvature are polar coordinates, and Newton's method does not correct the direction there; it has to be right from
+//! the start.
 
 use super::assembly::Assembly;
 use super::boundary::Boundary;
@@ -22,6 +23,13 @@ const LEAST_SHIFT: f64 = 1e-9;
 /// 1e-8.
 const REDUCTIONS: usize = 36;
 
+/// Decrease of an energy that is not known; and the part by which one must exceed another to be clearly more.
+const UNKNOWN: f64 = f64::MIN;
+const CLEARLY_MORE: f64 = 1e-6;
+/// Gap of a measure, over its natural size, up to which it is met but for rounding errors.
+const CLOSED: f64 = 1e-10;
+/// Relative residual of a step.
+const CORRECTED: f64 = 1e-8;
 /// Tolerance of a solve without corrections: they would take the weights of rigid measures for what they are.
 pub(super) const UNCORRECTED: f64 = f64::INFINITY;
 
@@ -32,16 +40,16 @@ impl Assembly {
         if self.boundary() != Boundary::Screw {
             return self.clone();
         }
-        let fall = |angle: f64, shift: f64| promised_fall(&self.with_axis(angle), shift).unwrap_or(f64::NEG_INFINITY);
+        let fall = |angle: f64, shift: f64| promised_fall(&self.with_axis(angle), shift).unwrap_or(UNKNOWN);
         let step = PI / DIRECTIONS as f64;
-        let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
-        for angle in (0..DIRECTIONS).map(|k| step * k as f64) {
+        let (mut best, mut most) = (0.0, fall(0.0, SHIFT));
+        for angle in (1..DIRECTIONS).map(|k| step * k as f64) {
             let found = fall(angle, SHIFT);
-            if found > most + 1e-6 * most.abs() || angle == 0.0 {
+            if found > most + CLEARLY_MORE * most.abs() {
                 (best, most) = (angle, found);
             }
         }
-        if most == 0.0 || !most.is_finite() {
+        if most == 0.0 || most == UNKNOWN {
             return self.with_axis(0.0);
         }
         self.with_axis(maximum([best - step, best + step], |angle| fall(angle, LEAST_SHIFT)))
@@ -82,16 +90,18 @@ fn maximum([mut low, mut high]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 
     0.5 * (low + high)
 }
 
-/// Returns the decrease of the energy along the first Newton step, to second order; `None` if the Hessian cannot be factorized. Measures
-/// that are off their rest values, as a lock is that has to turn, are closed by the step; where no motion closes a rigid one, it resists
-/// by its weight in the factorization, and the energy rises a million times more than about other axes.
+/// Returns the decrease of the energy along the first Newton step, to second order; `None` if the Hessian cannot be factorized. A step
+/// closes measures that are off their rest values, as a lock is that has to turn: where no motion closes a rigid one, it resists by its
+/// weight in the factorization, and the energy rises a million times more than about other axes.
 fn promised_fall(assembly: &Assembly, shift: f64) -> Option<f64> {
     let model = assembly.model(Gauge::Held);
     let tension = vec![0.0; model.layout().stiff.len()];
     let mut tangent = Tangent::at_state(&model, &model.start(), &tension, HessianKind::GaussNewton).ok()?;
     tangent.factor(shift).ok()?;
     let (force, open) = (tangent.at.force(&tension), tangent.at.missing(&tension, model.compliance()));
-    let step = tangent.solve(&force, &open, UNCORRECTED);
+    let is_open = open.iter().zip(model.gap_scale()).any(|(gap, scale)| gap.abs() > CLOSED * scale);
+    let (stretch, tolerance) = if is_open { (open, UNCORRECTED) } else { (tension, CORRECTED) };
+    let step = tangent.solve(&force, &stretch, tolerance);
     let along = |rates: &[f64], step: &[f64]| rates.iter().zip(step).map(|(rate, step)| rate * step).sum::<f64>();
-    Some(0.5 * (along(&force, &step.dx) + along(&open, &step.dt)))
+    Some(0.5 * (along(&force, &step.dx) + along(&stretch, &step.dt)))
 }
